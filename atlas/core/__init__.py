@@ -1,0 +1,1 @@
+"""The kernels, file by file in the paper's order; NumPy only."""

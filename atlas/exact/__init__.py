@@ -1,0 +1,1 @@
+"""The same quantities as balls with proven radii, from the exact inputs."""

@@ -1,0 +1,1 @@
+"""Claims about the paper's equations and their verdicts; an independent witness."""

@@ -1,0 +1,1 @@
+"""Two back ends for one scene: vector (Matplotlib) and shaded (PyVista)."""

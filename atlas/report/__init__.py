@@ -1,0 +1,1 @@
+"""Report definitions to HTML pages and to PDF."""

@@ -1,0 +1,143 @@
+"""A figure as data: what is in it and which role each part plays, never how it is drawn.
+
+A recipe in ``figures/`` returns a `Scene`; the two back ends in `atlas.render` draw it. Coordinates are those of the
+quantity shown (angular velocities in 1/time, unit vectors on the sphere). Text may hold TeX between dollar signs.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A polyline through ``points`` (N, 2) or (N, 3)."""
+
+    points: FloatArray
+    role: str
+    label: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Marked points (N, 2) or (N, 3)."""
+
+    points: FloatArray
+    role: str
+    label: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Arrow:
+    """A vector drawn from ``tail`` to ``tip``, with its name beside the tip, ``offset`` printer's points away."""
+
+    tail: FloatArray
+    tip: FloatArray
+    role: str
+    label: str = ""
+    offset: tuple[float, float] = (4.0, 4.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """Text at a place, ``offset`` printer's points away from it."""
+
+    at: FloatArray
+    text: str
+    role: str = "label"
+    offset: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A piece of a quadric: the points x with (x, 1) Q (x, 1) = 0 that lie in every half space ``n . x <= d``.
+
+    ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly what the
+    surface hides. ``grids`` are (M, N, 3) meshes of it for shading, ``wires`` curves (N, 3) on it, ``rims`` its edges.
+    """
+
+    quadric: FloatArray
+    clip: FloatArray
+    grids: tuple[FloatArray, ...]
+    wires: tuple[FloatArray, ...] = ()
+    rims: tuple[FloatArray, ...] = ()
+    role: str = "surface"
+    label: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A filled polygon (N, 2) in the plane."""
+
+    points: FloatArray
+    role: str
+    label: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Image:
+    """A map of ``values`` (len(y)-1, len(x)-1) over the cells between the edges ``x`` and ``y``."""
+
+    x: FloatArray
+    y: FloatArray
+    values: FloatArray
+    label: str
+    scale: Literal["linear", "log"] = "linear"
+    limits: tuple[float, float] | None = None
+
+
+Layer: TypeAlias = Curve | Points | Arrow | Label | Surface | Region | Image
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A panel with two axes."""
+
+    layers: tuple[Layer, ...]
+    x_label: str
+    y_label: str
+    x_limits: tuple[float, float] | None = None
+    y_limits: tuple[float, float] | None = None
+    x_scale: Literal["linear", "log", "symlog"] = "linear"
+    y_scale: Literal["linear", "log", "symlog"] = "linear"
+    equal: bool = False
+    legend: bool = False
+    title: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Space:
+    """A panel in three dimensions, seen in parallel projection from ``azimuth`` and ``elevation`` (degrees).
+
+    With azimuth 0 the eye looks along -e1: e2 points right and e3 up, as in the paper's figures.
+    """
+
+    layers: tuple[Layer, ...]
+    azimuth: float = 20.0
+    elevation: float = 15.0
+    title: str = ""
+
+
+Panel: TypeAlias = Plane | Space
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """One figure: its panels row by row, its size in millimetres, and the words that go with it.
+
+    ``caption`` and ``alt`` are complete sentences; ``alt`` has no TeX. ``parameters`` are those that the figure was
+    made with, in the order of the recipe.
+    """
+
+    title: str
+    caption: str
+    alt: str
+    panels: tuple[Panel, ...]
+    columns: int = 1
+    size: tuple[float, float] = (120.0, 100.0)
+    parameters: Mapping[str, Any] = field(default_factory=dict)

@@ -1,0 +1,1 @@
+"""Integrators as peers, work against precision, stress."""
