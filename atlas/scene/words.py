@@ -1,0 +1,59 @@
+"""The words of captions: numbers, vectors and bodies as text, with TeX for captions and without it for alt texts."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from atlas.core.body import moments
+
+DIGITS = 6
+MINUS = "\N{MINUS SIGN}"
+
+
+def tex(value: float) -> str:
+    r"""Return a number for a formula, six digits at most: -0.5, 1.5 \times 10^{-7}."""
+    mantissa, _, exponent = f"{value + 0.0:.{DIGITS}g}".partition("e")
+    if not exponent:
+        return mantissa
+    power = f"10^{{{int(exponent)}}}"
+    return power if mantissa == "1" else rf"{mantissa} \times {power}"
+
+
+def plain(value: float) -> str:
+    """Return a number for a sentence without TeX, with a true minus sign."""
+    return f"{value + 0.0:.{DIGITS}g}".replace("-", MINUS)
+
+
+def tex_vector(components: Iterable[float]) -> str:
+    """Return a vector for a formula: (0, 1, -2)."""
+    return "(" + ", ".join(map(tex, components)) + ")"
+
+
+def plain_vector(components: Iterable[float]) -> str:
+    """Return a vector for a sentence without TeX."""
+    return "(" + ", ".join(map(plain, components)) + ")"
+
+
+def listed(items: Sequence[str], last: str = "and") -> str:
+    """Return 'a', 'a and b', 'a, b and c'."""
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {last} {items[-1]}"
+
+
+def quotient(ratio: Any) -> float:
+    """Return I = I3/I2, mf41.1, of a number or a body, for a sentence and for nothing finer."""
+    I2, I3 = moments(ratio)
+    return float(I3 / I2)
+
+
+def body_name(ratio: Any) -> str:
+    """Return what the paper calls a body with this I = I3/I2, mf41.1; decided on I3 against I2 as given."""
+    I2, I3 = moments(ratio)
+    if I3 == 2 * I2:
+        return "loop"
+    if I3 == I2:
+        return "ball"
+    return "short solenoid" if I3 > I2 else "long solenoid"
+
+
+def per(unit: str) -> str:
+    """Return the unit of a rate: 1/time for 'time', 1/s for 's'."""
+    return f"1/{unit}"
