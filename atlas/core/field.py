@@ -1,0 +1,116 @@
+"""Constant fields as the user has them, and the laboratory frame of figure Lssc, in which the paper works."""
+
+from dataclasses import dataclass
+from dataclasses import field as attribute
+from typing import Any, Self
+
+import numpy as np
+
+from atlas.core import units
+from atlas.core.inputs import FloatArray, number, positive, real, vector
+from atlas.core.rational import combine, cross, dot, exact, root, unit
+from atlas.errors import AtlasError, DomainError
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Constant fields B and E that act on matter of charge-to-mass ratio mu, in any frame of the user.
+
+    `B`, `E` (3,); `mu` of either sign, or 0; `c` > 0, the speed of light where the units have it in the Lorentz force
+    mf1 (Gaussian), 1 where not (SI); see `atlas.core.units`.
+    """
+
+    B: FloatArray
+    E: FloatArray = (0.0, 0.0, 0.0)  # type: ignore[assignment]  # a sequence is made an array
+    mu: float = 1.0
+    c: float = 1.0
+    prime: FloatArray = attribute(init=False)
+    """B' = mu B/(2c), mf41, shape (3,), in 1/time: for mu < 0 opposite to B."""
+
+    def __post_init__(self) -> None:
+        """Check the numbers, and make B'."""
+        object.__setattr__(self, "B", vector(self.B, "B"))
+        object.__setattr__(self, "E", vector(self.E, "E"))
+        object.__setattr__(self, "mu", number(self.mu, "mu"))
+        object.__setattr__(self, "c", positive(self.c, "c"))
+        object.__setattr__(self, "prime", units.prime(self.mu, self.B, self.c))
+
+    @classmethod
+    def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+        """Fields in SI: B in T, E in V/m, mu in C/kg; B' in rad/s."""
+        return cls(B, E, mu, units.SI.c)
+
+    @classmethod
+    def gaussian(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+        """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' in rad/s."""
+        return cls(B, E, mu, units.GAUSSIAN.c)
+
+    def frame(self, axis: Any) -> "LaboratoryFrame":
+        """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0."""
+        return LaboratoryFrame(axis, self.prime)
+
+
+@dataclass(frozen=True, eq=False)
+class LaboratoryFrame:
+    """Frame of figure Lssc: e3 along the body's axis at t = 0, B' in the plane of e2 and e3 with B2 >= 0, mf41.
+
+    `axis` (3,), not zero; `B` (3,), the vector B' (for mu < 0 it is not B that has B2 >= 0, but B'), both in the
+    user's frame. Both are taken as exact, and whether they are parallel is decided exactly.
+
+    `alignment` names the case: `oblique`; `perpendicular` (B3 = 0); `parallel` and `antiparallel` (B2 = 0, B3 > 0 and
+    < 0) and `no field`, where the plane is not determined and e1 is taken from the user's axis farthest from e3.
+    """
+
+    axis: FloatArray
+    B: FloatArray
+    alignment: str = attribute(init=False)
+    field: tuple[float, float] = attribute(init=False)
+    """(B2, B3), each rounded once."""
+    matrix: FloatArray = attribute(init=False)
+    """(3, 3); the rows are e1, e2, e3 in the user's frame, each component rounded once."""
+
+    def __post_init__(self) -> None:
+        """Find the frame in exact fractions, where nearly parallel vectors lose no digits."""
+        axis, B = vector(self.axis, "The axis"), vector(self.B, "B")
+        n, b = exact(axis), exact(B)
+        n2, b2, along, across = dot(n, n), dot(b, b), dot(n, b), cross(b, n)
+        if not n2:
+            raise DomainError("The axis of the body must have a direction, but is the zero vector.")
+        oblique = bool(dot(across, across))
+        if oblique:
+            alignment = "oblique" if along else "perpendicular"
+            e2 = combine(n2, b, -along, n)
+        else:
+            alignment = "no field" if not b2 else "parallel" if along > 0 else "antiparallel"
+            e1 = exact(np.eye(3)[np.argmin(np.abs(axis))])
+            across, e2 = combine(n2, e1, -dot(n, e1), n), cross(n, e1)
+        object.__setattr__(self, "axis", axis)
+        object.__setattr__(self, "B", B)
+        object.__setattr__(self, "alignment", alignment)
+        object.__setattr__(
+            self, "field", (root(dot(across, across) / n2) if oblique else 0.0, root(along * along / n2, along))
+        )
+        object.__setattr__(self, "matrix", np.array([unit(across), unit(e2), unit(n)]))
+
+    def to_laboratory(self, vectors: Any) -> FloatArray:
+        """Components (..., 3) in the laboratory of vectors given in the user's frame."""
+        return _vectors(vectors) @ self.matrix.T
+
+    def to_user(self, vectors: Any) -> FloatArray:
+        """Components (..., 3) in the user's frame of vectors given in the laboratory."""
+        return _vectors(vectors) @ self.matrix
+
+    def rotation_to_user(self, R: Any) -> FloatArray:
+        """Rotations (..., 3, 3) that act on the user's components as R does on the laboratory's."""
+        rotations = real(R, "R")
+        if rotations.shape[-2:] != (3, 3):
+            raise AtlasError(f"R must be matrices (..., 3, 3), not of shape {rotations.shape}.")
+        return self.matrix.T @ rotations @ self.matrix
+
+
+def _vectors(value: Any) -> FloatArray:
+    """Return vectors (..., 3)."""
+    vectors = real(value, "A vector")
+    if vectors.shape[-1:] != (3,):
+        raise AtlasError(f"Vectors have three components last, shape (..., 3), not {vectors.shape}.")
+    return vectors
