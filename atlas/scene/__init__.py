@@ -1,4 +1,4 @@
-"""Figures as data: layers with roles, and the recipes that make them."""
+"""Figures as data: layers with roles, how the roles look, and the recipes that make them."""
 
 from atlas.scene.layers import (
     Arrow,

@@ -34,18 +34,21 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Arrow:
-    """A vector drawn from ``tail`` to ``tip``, with its name beside the tip, ``offset`` printer's points away."""
+    """A vector drawn from ``tail`` to ``tip``, with its name ``offset`` printer's points away from the tip.
+
+    Without an offset the name stands just beyond the tip. Where it would cover something it is moved a little.
+    """
 
     tail: FloatArray
     tip: FloatArray
     role: str
     label: str = ""
-    offset: tuple[float, float] = (4.0, 4.0)
+    offset: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """Text at a place, ``offset`` printer's points away from it."""
+    """Text at a place, ``offset`` printer's points away from it; with offset (0, 0) it is centred there and stays."""
 
     at: FloatArray
     text: str
@@ -58,7 +61,9 @@ class Surface:
     """A piece of a quadric: the points x with (x, 1) Q (x, 1) = 0 that lie in every half space ``n . x <= d``.
 
     ``quadric`` is the symmetric (4, 4) matrix Q, ``clip`` holds rows (n1, n2, n3, d); both decide exactly what the
-    surface hides. ``grids`` are (M, N, 3) meshes of it for shading, ``wires`` curves (N, 3) on it, ``rims`` its edges.
+    surface hides. A plane (no terms of second order) may also be cut out by quadrics ``within``, (x, 1) W (x, 1) <= 0:
+    a disk, for one. ``grids`` are (M, N, 3) meshes of it for shading, ``wires`` curves (N, 3) on it, ``rims`` its
+    edges.
     """
 
     quadric: FloatArray
@@ -66,6 +71,7 @@ class Surface:
     grids: tuple[FloatArray, ...]
     wires: tuple[FloatArray, ...] = ()
     rims: tuple[FloatArray, ...] = ()
+    within: tuple[FloatArray, ...] = ()
     role: str = "surface"
     label: str = ""
 

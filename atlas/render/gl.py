@@ -1,0 +1,165 @@
+"""Which GL library can draw off-screen here: EGL, OSMesa or none.
+
+Without one the first off-screen picture kills the process, so the question is put to a child, and a yes is remembered.
+
+``python -m atlas.render.gl`` prints the answer; with ``--install`` it first installs what is missing, where it may.
+"""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
+CHOICE = "ATLAS_GL"
+WINDOWS = {"egl": "vtkEGLRenderWindow", "osmesa": "vtkOSOpenGLRenderWindow"}
+PACKAGES = ("libegl1", "libgl1-mesa-dri")
+
+_TRIAL = """
+from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkRenderer
+import vtkmodules.vtkRenderingOpenGL2
+window = vtkRenderWindow()
+window.SetOffScreenRendering(1)
+window.SetSize(8, 8)
+window.AddRenderer(vtkRenderer())
+window.Render()
+print(window.GetClassName())
+"""
+_PATIENCE = 60.0
+_OLD = 7
+
+
+@cache
+def library() -> str | None:
+    """Return 'egl', 'osmesa', 'native' (not Linux) or None; the variable ATLAS_GL overrides what the trial finds."""
+    choice = os.environ.get(CHOICE, "").lower()
+    if choice:
+        return choice if choice in {*WINDOWS, "native"} else None
+    note = _note()
+    try:
+        known = json.loads(note.read_text(encoding="utf-8"))["library"]
+    except (OSError, ValueError, KeyError, TypeError):
+        known = None  # no note, or half a note: ask again
+    if known in {*WINDOWS, "native"}:
+        return str(known)
+    found = next((name for name in _candidates() if _draws(name)), None)
+    if found:
+        _remember(note, found)
+    return found
+
+
+def prepare() -> str | None:
+    """Tell VTK which window to open and return the library's name, or None when nothing can draw."""
+    found = library()
+    if found in WINDOWS:
+        os.environ[VARIABLE] = WINDOWS[found]
+    return found
+
+
+def advice() -> str:
+    """Return the line that says what is left out without GL, and which command brings it."""
+    return (
+        f"no GL library can draw off-screen: shaded plates are drawn by the vector renderer; to have them: {_remedy()}"
+    )
+
+
+def _remedy() -> str:
+    """The command that brings what is missing."""
+    if _vtk() is None:
+        return f"{sys.executable} -m pip install pyvista vtk"
+    return f"sudo apt-get install {' '.join(PACKAGES)}"
+
+
+def _vtk() -> str | None:
+    """The version of VTK, or None without VTK or PyVista."""
+    try:
+        return f"{version('vtk')}/{version('pyvista')}"
+    except PackageNotFoundError:
+        return None
+
+
+def _candidates() -> tuple[str, ...]:
+    """What to try, best first."""
+    if _vtk() is None:
+        return ()
+    return tuple(WINDOWS) if sys.platform.startswith("linux") else ("native",)
+
+
+def _draws(name: str) -> bool:
+    """Whether a child process can open an off-screen window with this library."""
+    environment = dict(os.environ)
+    if name in WINDOWS:
+        environment[VARIABLE] = WINDOWS[name]
+    try:
+        child = subprocess.run(  # noqa: S603  our own program, in our own interpreter
+            [sys.executable, "-c", _TRIAL],
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=_PATIENCE,
+            check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return child.returncode == 0 and (name not in WINDOWS or WINDOWS[name] in child.stdout)
+
+
+def _note() -> Path:
+    """Where a yes is remembered: a file named after all that the answer depends on."""
+    seen = [sys.prefix, sys.platform, str(_vtk()), *os.uname()[1:5:3]] if hasattr(os, "uname") else [sys.prefix]
+    seen += [f"{key}={os.environ.get(key, '')}" for key in ("LD_LIBRARY_PATH", "LIBGL_DRIVERS_PATH", "DISPLAY")]
+    for place in (Path("/etc/ld.so.cache"), *sorted(Path("/usr").glob("lib*/**/dri"))[:4], Path("/dev/dri")):
+        state = place.stat() if place.exists() else None
+        seen.append(f"{place} {(state.st_mtime_ns, state.st_size) if state else None}")
+    key = hashlib.sha256("\n".join(seen).encode()).hexdigest()[:20]
+    root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    return root / "atlas" / f"gl-{key}.json"
+
+
+def _remember(note: Path, found: str) -> None:
+    """Write the answer down, whole or not at all; a folder that cannot be written costs another trial next time."""
+    part = note.with_suffix(f".{os.getpid()}")
+    try:
+        note.parent.mkdir(parents=True, exist_ok=True)
+        part.write_text(json.dumps({"library": found}), encoding="utf-8")
+        part.replace(note)
+    except OSError:
+        return
+
+
+def _install() -> bool:
+    """Install the GL libraries where we may: as root, with apt-get. Return whether that was done."""
+    if not (sys.platform.startswith("linux") and os.geteuid() == 0 and Path("/usr/bin/apt-get").exists()):
+        return False
+    environment = dict(os.environ, DEBIAN_FRONTEND="noninteractive")
+    for words in (["update", "-qq"], ["install", "-y", "-qq", "--no-install-recommends", *PACKAGES]):
+        done = subprocess.run(  # noqa: S603  fixed words
+            ["/usr/bin/apt-get", *words], env=environment, capture_output=True, check=False
+        )
+        if done.returncode != 0 and words[0] == "install":
+            return False
+    return True
+
+
+def main(arguments: list[str]) -> int:
+    """Print in one line what can draw; with --install, bring it first where possible. Never fails."""
+    found = library()
+    if found is None and "--install" in arguments and _vtk() is not None and CHOICE not in os.environ and _install():
+        library.cache_clear()
+        found = library()
+        if found:
+            print(f"installed {' '.join(PACKAGES)} for the shaded plates ({found})")  # noqa: T201  the one line
+            return 0
+    if found is None:
+        print(advice())  # noqa: T201  the one line
+    elif "--install" not in arguments:
+        print(found)  # noqa: T201  the answer
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

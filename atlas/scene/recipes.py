@@ -1,0 +1,95 @@
+"""The recipes in figures/: what there is, what each takes, and the scene it makes."""
+
+import ast
+import inspect
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from functools import cache
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import Any
+
+from atlas.errors import AtlasError
+from atlas.places import folder
+from atlas.scene.layers import Scene
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A figure that can be made: its name, title, parameters with their defaults, and where it is written."""
+
+    name: str
+    title: str
+    parameters: Mapping[str, Any]
+    source: Path
+    make: Callable[..., Scene]
+
+    def scene(self, **parameters: Any) -> Scene:
+        """Make the scene with these parameters, the defaults for the rest, and note them all in it."""
+        for name in parameters:
+            if name not in self.parameters:
+                raise _unknown("parameter", name, self.parameters, f"the figure {self.name!r}")
+        used = {name: _like(parameters.get(name, default), default) for name, default in self.parameters.items()}
+        return replace(self.make(**used), parameters=used)
+
+
+def names() -> list[str]:
+    """Return the names of all recipes in alphabetical order."""
+    return sorted(path.stem for path in folder("figures").glob("*.py") if not path.stem.startswith("_"))
+
+
+def title(name: str) -> str:
+    """Return the title of a recipe, the first line of its docstring, without running it."""
+    docstring = ast.get_docstring(ast.parse(_source(name).read_text(encoding="utf-8")))
+    if not docstring:
+        raise AtlasError(f"figures/{name}.py has no docstring; its first line would be the title of the figure")
+    return docstring.splitlines()[0].rstrip(".")
+
+
+@cache
+def load(name: str) -> Recipe:
+    """Load a recipe by name."""
+    source = _source(name)
+    spec = spec_from_file_location(f"atlas_figures.{name}", source)
+    if spec is None or spec.loader is None:
+        raise AtlasError(f"{source} cannot be loaded as Python")
+    module = module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    make = getattr(module, "scene", None)
+    if make is None:
+        raise AtlasError(f"figures/{name}.py has no function scene(); a recipe is one that returns a Scene")
+    signature = inspect.signature(make)
+    defaults = {key: parameter.default for key, parameter in signature.parameters.items()}
+    for key, default in defaults.items():
+        if default is inspect.Parameter.empty:
+            raise AtlasError(f"the parameter {key!r} of figures/{name}.py has no default; every parameter needs one")
+    return Recipe(name, title(name), defaults, source, make)
+
+
+def _source(name: str) -> Path:
+    """Where a recipe is written."""
+    known = names()
+    if name not in known:
+        raise _unknown("figure", name, known, "figures/")
+    return folder("figures") / f"{name}.py"
+
+
+def _unknown(what: str, name: str, known: Iterable[str], where: str) -> AtlasError:
+    """Say which names there are, and which one is meant most likely."""
+    options = list(known)
+    near = get_close_matches(name, options, 1)
+    hint = f"; nearest is {near[0]!r}" if near else ""
+    return AtlasError(f"no {what} {name!r} in {where}{hint}; known: {', '.join(options) or 'none'}")
+
+
+def _like(value: Any, default: Any) -> Any:
+    """Give a value from a file or a command line the shape of the default: a tuple for a list, a float for an int."""
+    if isinstance(default, tuple) and isinstance(value, list | tuple):
+        inner = default[0] if default else None
+        return tuple(_like(item, inner) for item in value)
+    if isinstance(default, float) and isinstance(value, int) and not isinstance(value, bool):
+        return float(value)
+    return value

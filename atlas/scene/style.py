@@ -1,0 +1,124 @@
+"""How each role looks: one palette, one set of widths, read by both renderers.
+
+Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one panel,
+their dashes or widths differ too. Widths, marker sizes and tubes are in printer's points.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from types import MappingProxyType
+
+from atlas.errors import AtlasError
+
+INK = "#1a1a1a"
+NAVY = "#16325c"
+BLUE = "#2b6cb0"
+SKY = "#7fb3dc"
+CRIMSON = "#a3202f"
+VERMILION = "#d4552b"
+OCHRE = "#d9962b"
+GREEN = "#2c8a6b"
+PLUM = "#6a3d86"
+SLATE = "#5c6670"
+GREY = "#8b929a"
+PALE = "#c3c9d0"
+
+
+@dataclass(frozen=True)
+class Style:
+    """The look of a role.
+
+    ``dash`` is on, off, on, off, ... in points. ``fill`` is the opacity of areas and surfaces, ``back`` the colour of a
+    surface's inner side. ``hidden`` says whether parts behind a surface are drawn (dashed). ``tube`` is the diameter in
+    shaded pictures.
+    """
+
+    colour: str
+    width: float = 0.9
+    dash: tuple[float, ...] = ()
+    marker: str = ""
+    size: float = 4.0
+    fill: float = 0.0
+    back: str = ""
+    hidden: bool = True
+    tube: float = 2.0
+
+
+_THIN = 0.5
+
+STYLES: Mapping[str, Style] = MappingProxyType(
+    {
+        # text
+        "label": Style(INK),
+        "note": Style(SLATE),
+        # frames
+        "basis": Style(INK, 0.8, tube=1.8),
+        "axis": Style(SLATE, _THIN, tube=1.0),
+        "canonical": Style(PLUM, 0.7, tube=1.5),
+        "body_axis": Style(NAVY, 1.2, tube=2.6),
+        # vectors of the physics
+        "field": Style(CRIMSON, 1.3, tube=3.0),
+        "field_inverse": Style(OCHRE, 1.1, tube=2.6),
+        "electric": Style(BLUE, 1.2, tube=2.6),
+        "momentum": Style(GREEN, 1.2, tube=2.6),
+        "velocity": Style(BLUE, 1.2, tube=2.6),
+        "component": Style(SLATE, 0.8, tube=1.8),
+        "turn": Style(PLUM, 1.1, tube=2.4),
+        # curves of the paper
+        "hyperbola": Style(NAVY, 1.5, tube=3.2),
+        "branch": Style(NAVY, 1.1, tube=2.6),
+        "asymptote": Style(GREY, 0.6, (5.0, 2.5), tube=1.0),
+        "pole": Style(GREY, 0.6, (1.2, 1.8), tube=1.0),
+        "trajectory": Style(NAVY, 1.1, tube=2.6),
+        "trace": Style(CRIMSON, 1.2, tube=2.8),
+        "precession": Style(GREEN, 0.9, tube=2.0),
+        "unstable": Style(VERMILION, 1.5, tube=3.0),
+        "angle": Style(SLATE, 0.6, tube=1.2),
+        "construction": Style(GREY, _THIN, (3.0, 2.0), tube=1.0),
+        "guide": Style(PALE, _THIN, tube=0.8),
+        "rim": Style(INK, 0.7, tube=1.4),
+        "silhouette": Style(INK, 0.9, hidden=False, tube=0.0),
+        "wire": Style(GREY, 0.3, hidden=False, tube=0.5),
+        # plotted lines, in order of importance
+        "main": Style(NAVY, 1.2),
+        "second": Style(CRIMSON, 1.0, (5.0, 1.6)),
+        "third": Style(OCHRE, 1.1),
+        "fourth": Style(GREEN, 1.0, (5.0, 1.5, 1.2, 1.5)),
+        "fifth": Style(SKY, 1.1),
+        "sixth": Style(PLUM, 1.0, (1.6, 1.4)),
+        "seventh": Style(BLUE, 1.0, (8.0, 2.0)),
+        "eighth": Style(GREY, 1.0),
+        "reference": Style(GREY, 0.7, (3.0, 2.0)),
+        "limit": Style(INK, 0.7, (1.0, 1.5)),
+        # marked points
+        "point": Style(INK, marker="o", size=3.6, tube=4.4),
+        "origin": Style(INK, marker="o", size=3.4, tube=4.4),
+        "centre": Style(PLUM, marker="o", size=3.4, tube=4.4),
+        "special": Style(CRIMSON, marker="D", size=3.8, tube=4.6),
+        "rest": Style("#ffffff", marker="o", size=4.2, tube=4.8),
+        "start": Style(NAVY, marker="o", size=3.8, tube=4.6),
+        "sample": Style(SLATE, marker=".", size=2.6, tube=2.6),
+        # areas and surfaces
+        "surface": Style("#5d8fc4", fill=0.30, back="#d9a766"),
+        "surface_second": Style("#6aa58c", fill=0.30, back="#c9b3dd"),
+        "sphere": Style("#9fb6cf", fill=0.22, back="#c9d3de"),
+        "ball": Style("#e3b778", fill=0.45, back="#e3b778"),
+        "body": Style("#d8a45c", fill=0.55, back="#b07a35"),
+        "cone": Style("#6fae97", fill=0.25, back="#a5d0c1"),
+        "tangent_plane": Style("#b9a3cf", fill=0.22, back="#b9a3cf"),
+        "plane": Style("#b8c0c9", fill=0.20, back="#b8c0c9"),
+        "region": Style(SKY, fill=0.25),
+        "unstable_region": Style(VERMILION, fill=0.16),
+        "shade": Style(PALE, fill=0.35),
+    }
+)
+
+
+def style(role: str) -> Style:
+    """Return the look of a role, or say which roles there are."""
+    if role in STYLES:
+        return STYLES[role]
+    near = get_close_matches(role, STYLES, 1)
+    hint = f"; nearest is {near[0]!r}" if near else ""
+    raise AtlasError(f"no style for the role {role!r}{hint}; known: {', '.join(STYLES)}")
