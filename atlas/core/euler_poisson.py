@@ -10,8 +10,9 @@ turned about B, the canonical momentum along B,
 
     (K, I (Omega + K)) = (B', m + R I R^T B'),
 
-of which the (m, B') = const of the ball, mf33, and c5 of mf49 are special cases. A body with I1 = I2 has one more,
-c3 = Omega3 + K3, mf48; a ball all three components of Omega + K along a frame that turns with Larmor's frequency.
+which for the ball says (m, B') = const, mf33. A body with I1 = I2 also conserves I3 (Omega3 + K3), that is c3 of
+mf48, and c5 of mf49 is then (K, I (Omega + K))/I2 - K^2 + (1 - I3/I2) c3^2. The ball also conserves m^2, mf33. For a
+body without symmetry no fourth integral is known.
 """
 
 from typing import Any
@@ -22,7 +23,7 @@ from atlas.core.inputs import FloatArray
 
 
 def hat(omega: Any) -> FloatArray:
-    """Return the antisymmetric matrices (..., 3, 3) for which v @ hat(omega) = [v, omega]."""
+    """Antisymmetric matrices (..., 3, 3) of vectors omega: the row v times the matrix is [v, omega]."""
     omega = np.asarray(omega, dtype=np.float64)
     matrix = np.zeros((*omega.shape, 3))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
@@ -31,15 +32,20 @@ def hat(omega: Any) -> FloatArray:
     return matrix
 
 
+def bracket(a: Any, b: Any) -> FloatArray:
+    """Vector product [a, b]."""
+    return np.asarray(np.vecmat(np.asarray(a, dtype=np.float64), hat(b)))
+
+
 def mass_matrix(inertia: Any) -> FloatArray:
     """Mass matrix g = (tr I / 2) 1 - I of inertia tensors (..., 3, 3), unchecked; see mf21."""
     inertia = np.asarray(inertia, dtype=np.float64)
-    return np.trace(inertia, axis1=-2, axis2=-1)[..., None, None] / 2 * np.eye(3) - inertia
+    return np.asarray(np.trace(inertia, axis1=-2, axis2=-1)[..., None, None] / 2 * np.eye(3) - inertia)
 
 
 def field_in_body(R: Any, B: Any) -> FloatArray:
     """Field K = R^T B' as the body sees it, mf41."""
-    return np.vecmat(np.asarray(B, dtype=np.float64), np.asarray(R))
+    return np.asarray(np.vecmat(np.asarray(B, dtype=np.float64), R))
 
 
 def rotation_rate(R: Any, Omega: Any) -> FloatArray:
@@ -49,28 +55,23 @@ def rotation_rate(R: Any, Omega: Any) -> FloatArray:
 
 def field_rate(K: Any, Omega: Any) -> FloatArray:
     """Poisson equation of the field in the body, mf43: dK/dt = -[Omega, K]."""
-    return np.vecmat(K, hat(Omega))
+    return bracket(K, Omega)
 
 
 def angular_acceleration(inertia: Any, K: Any, Omega: Any) -> FloatArray:
     """Euler equations, mf27 and mf42: dOmega/dt = I^-1 [I Omega - 2 g K, Omega]."""
-    torque = body_momentum_rate(inertia, K, np.matvec(inertia, Omega))
-    return np.asarray(np.linalg.solve(inertia, torque[..., None])[..., 0])
+    return _solve(inertia, _torque(inertia, K, Omega))
 
 
 def body_momentum_rate(inertia: Any, K: Any, M: Any) -> FloatArray:
     """Rate of M = I Omega in the body, mf29: dM/dt = [M - 2 g K, I^-1 M]."""
-    M = np.asarray(M, dtype=np.float64)
-    Omega = np.linalg.solve(inertia, M[..., None])[..., 0]
-    return np.vecmat(M - 2 * np.matvec(mass_matrix(inertia), K), hat(Omega))
+    return _torque(inertia, K, _solve(inertia, M))
 
 
 def momentum_rate(inertia: Any, B: Any, R: Any, m: Any) -> FloatArray:
     """Rate of m = R I Omega in the laboratory, mf28: dm/dt = -2 [R g R^T B', R I^-1 R^T m]."""
-    R = np.asarray(R, dtype=np.float64)
-    K, M = field_in_body(R, B), field_in_body(R, m)
-    Omega = np.linalg.solve(inertia, M[..., None])[..., 0]
-    return np.vecmat(-2 * np.matvec(R, np.matvec(mass_matrix(inertia), K)), hat(np.matvec(R, Omega)))
+    omega = np.matvec(R, _solve(inertia, np.vecmat(m, R)))
+    return bracket(-2 * np.matvec(R, np.matvec(mass_matrix(inertia), field_in_body(R, B))), omega)
 
 
 def energy(inertia: Any, Omega: Any) -> FloatArray:
@@ -81,3 +82,13 @@ def energy(inertia: Any, Omega: Any) -> FloatArray:
 def momentum_along_field(inertia: Any, K: Any, Omega: Any) -> FloatArray:
     """Return (K, I (Omega + K)), |B'| times the canonical momentum along B: conserved for every body."""
     return np.asarray(np.vecdot(K, np.matvec(inertia, np.add(Omega, K))))
+
+
+def _torque(inertia: Any, K: Any, Omega: Any) -> FloatArray:
+    """Return [I Omega - 2 g K, Omega], what I dOmega/dt is in mf27."""
+    return bracket(np.matvec(inertia, Omega) - 2 * np.matvec(mass_matrix(inertia), K), Omega)
+
+
+def _solve(inertia: Any, M: Any) -> FloatArray:
+    """Return I^-1 M."""
+    return np.asarray(np.linalg.solve(inertia, np.asarray(M)[..., None])[..., 0])

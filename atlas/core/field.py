@@ -7,7 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from atlas.core import units
-from atlas.core.inputs import FloatArray, number, positive, real, vector
+from atlas.core.inputs import FloatArray, number, positive, real, vector, vectors
 from atlas.core.rational import combine, cross, dot, exact, root, unit
 from atlas.errors import AtlasError, DomainError
 
@@ -92,13 +92,13 @@ class LaboratoryFrame:
         )
         object.__setattr__(self, "matrix", np.array([unit(across), unit(e2), unit(n)]))
 
-    def to_laboratory(self, vectors: Any) -> FloatArray:
+    def to_laboratory(self, v: Any) -> FloatArray:
         """Components (..., 3) in the laboratory of vectors given in the user's frame."""
-        return _vectors(vectors) @ self.matrix.T
+        return vectors(v, "v") @ self.matrix.T
 
-    def to_user(self, vectors: Any) -> FloatArray:
+    def to_user(self, v: Any) -> FloatArray:
         """Components (..., 3) in the user's frame of vectors given in the laboratory."""
-        return _vectors(vectors) @ self.matrix
+        return vectors(v, "v") @ self.matrix
 
     def rotation_to_user(self, R: Any) -> FloatArray:
         """Rotations (..., 3, 3) that act on the user's components as R does on the laboratory's."""
@@ -106,11 +106,3 @@ class LaboratoryFrame:
         if rotations.shape[-2:] != (3, 3):
             raise AtlasError(f"R must be matrices (..., 3, 3), not of shape {rotations.shape}.")
         return self.matrix.T @ rotations @ self.matrix
-
-
-def _vectors(value: Any) -> FloatArray:
-    """Return vectors (..., 3)."""
-    vectors = real(value, "A vector")
-    if vectors.shape[-1:] != (3,):
-        raise AtlasError(f"Vectors have three components last, shape (..., 3), not {vectors.shape}.")
-    return vectors

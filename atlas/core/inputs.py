@@ -51,3 +51,16 @@ def vector(value: Any, name: str) -> FloatArray:
     if array.shape != (3,):
         raise AtlasError(f"{name} must have three components, not the shape {array.shape}.")
     return array
+
+
+def vectors(value: Any, name: str) -> FloatArray:
+    """Return `value` as finite vectors, shape (..., 3)."""
+    array = real(value, name)
+    if array.shape[-1:] != (3,):
+        raise AtlasError(f"{name} must have three components last, shape (..., 3), not {array.shape}.")
+    return array
+
+
+def plain(array: Any) -> Any:
+    """Return a Python float for an array without dimensions, any other array as it is."""
+    return array if np.ndim(array) else float(array)

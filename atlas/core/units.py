@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, number, positive, real
+from atlas.core.inputs import FloatArray, number, plain, positive, real
 from atlas.core.rational import rounded
 from atlas.errors import AtlasError, DomainError
 
@@ -88,8 +88,7 @@ def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
     `mu` and `B` (any shape) in the units of that system. |B'| is Larmor's frequency mf37; for mu < 0 the vector B' is
     opposite to B.
     """
-    result = prime(number(mu, "mu"), real(B, "B"), system(units).c)
-    return result if result.ndim else float(result)
+    return plain(prime(number(mu, "mu"), real(B, "B"), system(units).c))
 
 
 def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:

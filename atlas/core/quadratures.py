@@ -1,0 +1,64 @@
+"""From Omega3(t) to the rest of the motion, mf50 to mf53: K algebraically, Omega1 and Omega2 by one quadrature."""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray, plain, real, vectors
+from atlas.core.integrals import Integrals, shape_factors
+from atlas.errors import DomainError
+
+
+def transverse_square(ratio: Any, conserved: Integrals, u: Any) -> Any:
+    """Return Omega1^2 + Omega2^2 = E' - I u^2 at Omega3 = u, mf44.
+
+    Raises DomainError where it is not positive: there the body turns about its axis alone, and mf50 to mf53 are 0/0.
+    """
+    I, _, _ = shape_factors(ratio)
+    return _positive(conserved.E - I * real(u, "u") ** 2)
+
+
+def field_projection(ratio: Any, conserved: Integrals, u: Any) -> Any:
+    """Return Omega1 K1 + Omega2 K2 = u^2 - (2-I) c3 u + c5 at Omega3 = u, mf49."""
+    _, _, two_less = shape_factors(ratio)
+    u = real(u, "u")
+    return plain(u * (u - two_less * conserved.c3) + conserved.c5)
+
+
+def field_in_body(ratio: Any, conserved: Integrals, Omega: Any, rate: Any) -> FloatArray:
+    """Field K in the body, mf50, from Omega (..., 3) and `rate` = dOmega3/dt.
+
+    The denominator E' - I Omega3^2 is taken as what it is by mf44, Omega1^2 + Omega2^2, which cannot cancel.
+    """
+    u1, u2, u3 = np.moveaxis(vectors(Omega, "Omega"), -1, 0)
+    rate = real(rate, "dOmega3/dt")
+    D, P = _positive(u1 * u1 + u2 * u2), field_projection(ratio, conserved, u3)
+    components = (u1 * P - u2 * rate) / D, (u2 * P + u1 * rate) / D, conserved.c3 - u3
+    return np.stack(np.broadcast_arrays(*components), axis=-1)
+
+
+def frequency(ratio: Any, conserved: Integrals, u: Any) -> Any:
+    """Frequency phi = [(2-I) c3 E' - (E' + I c5) u]/(E' - I u^2) at Omega3 = u, mf52: Omega's turn about the axis."""
+    I, _, two_less = shape_factors(ratio)
+    D, u = transverse_square(ratio, conserved, u), real(u, "u")
+    return plain((two_less * conserved.c3 * conserved.E - (conserved.E + I * conserved.c5) * u) / D)
+
+
+def angular_velocity(ratio: Any, conserved: Integrals, u: Any, angle: Any) -> FloatArray:
+    """Angular velocity Omega (..., 3) in the body, mf53, at Omega3 = u.
+
+    `angle` is Phi + phi_0: the integral of `frequency` over time, plus the phase at t = 0, tan(phi_0) = omega1/omega2.
+    The constant f0 of the paper is not free: mf44 makes it 1.
+    """
+    length, angle, u = np.sqrt(transverse_square(ratio, conserved, u)), real(angle, "The angle"), real(u, "u")
+    return np.stack(np.broadcast_arrays(length * np.sin(angle), length * np.cos(angle), u), axis=-1)
+
+
+def _positive(D: Any) -> Any:
+    """Return D = Omega1^2 + Omega2^2 if it is positive everywhere."""
+    if (np.asarray(D) <= 0).any():
+        raise DomainError(
+            "mf50 to mf53 divide by Omega1^2 + Omega2^2 = E' - I Omega3^2, which must be positive "
+            f"but is {np.min(D)}: there the body turns about its axis alone."
+        )
+    return plain(D)
