@@ -1,0 +1,61 @@
+"""The charged ball (mf36 to mf40) as balls in the other sense of the word."""
+
+from typing import Any
+
+from flint import fmpq
+
+from atlas.errors import DomainError
+from atlas.exact.body import float_text
+from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
+
+
+class BallMotion:
+    """The ball with inertia I0, Larmor frequency alpha (mf37) and m(0) = (0, m2, m3), the field along e3."""
+
+    def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
+        self.inertia = rational(inertia, "the inertia")
+        self.larmor = rational(larmor, "the Larmor frequency")
+        self.m2, self.m3 = rationals(momentum, "the momentum (m2, m3)", 2)
+        if self.inertia <= 0:
+            raise DomainError(f"The inertia of a ball must be positive, not {float_text(self.inertia)}.")
+
+    @property
+    def gamma(self) -> Real:
+        """The frequency of the turn about k_hat, mf39."""
+        return self._size / self.inertia
+
+    @property
+    def k_hat(self) -> tuple[Real, Real]:
+        """The axis (k2, k3), mf39; (0, -1) where gamma = 0 and the paper's form is 0/0."""
+        size = self._size
+        if size == 0:
+            return fmpq(0), fmpq(-1)
+        return -self.m2 / size, -(self.m3 + self.larmor * self.inertia) / size
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t), mf38."""
+        t = rational(t, "the time")
+        k2, k3 = self.k_hat
+        s, c = sin_cos(self.gamma * t)
+        S, C = sin_cos(self.larmor * t)
+        v = 1 - c
+        first, second, third = (
+            [c, k3 * s, -k2 * s],
+            [-k3 * s, c + k2**2 * v, k2 * k3 * v],
+            [k2 * s, k2 * k3 * v, c + k3**2 * v],
+        )
+        return [
+            [C * a + S * b for a, b in zip(first, second, strict=True)],
+            [C * b - S * a for a, b in zip(first, second, strict=True)],
+            third,
+        ]
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m(t) in the laboratory frame, mf36."""
+        S, C = sin_cos(self.larmor * rational(t, "the time"))
+        return [self.m2 * S, self.m2 * C, self.m3]
+
+    @property
+    def _size(self) -> Real:
+        """The root of m2^2 + (alpha I0 + m3)^2."""
+        return root(self.m2**2 + (self.larmor * self.inertia + self.m3) ** 2)

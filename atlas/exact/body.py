@@ -1,0 +1,67 @@
+"""Moments of inertia as exact rationals: of a ratio, of a body, of a shape with its dimensions (1.32, mf41.1)."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from flint import fmpq
+
+from atlas.errors import AtlasError, DomainError
+from atlas.exact.inputs import rational
+
+
+def ratio_of(ratio: Any) -> fmpq:
+    """Return I = I3/I2, mf41.1, exactly: of a number, or the quotient of a body's two moments.
+
+    Domain: 0 < I <= 2. Raises DomainError outside.
+    """
+    if hasattr(ratio, "I2") and hasattr(ratio, "I3"):
+        I = rational(ratio.I3, "I3") / rational(ratio.I2, "I2")
+    else:
+        I = rational(ratio, "the ratio I = I3/I2")
+    if I <= 0:
+        raise DomainError(f"The ratio I = I3/I2 must lie in (0, 2], not {float_text(I)}: no turn is without inertia.")
+    if I > 2:
+        raise DomainError(
+            f"No body has I = I3/I2 = {float_text(I)}: I is at most 2, since g3 = (2 I2 - I3)/2 is a sum of m x^2."
+        )
+    return I
+
+
+def float_text(value: fmpq) -> str:
+    """Return a rational as the shortest text of the double nearest to it, for sentences."""
+    return repr(int(value.p) / int(value.q))
+
+
+def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:
+    """Return (I2, I3) of a homogeneous shape, 1.32, exactly, from its ``mass`` and its dimensions."""
+    if name not in SHAPES:
+        raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(SHAPES)}.")
+    names, formula = SHAPES[name]
+    if set(dimensions) != set(names):
+        raise AtlasError(
+            f"The shape {name} is given by {', '.join(names)}, not by {', '.join(dimensions) or 'nothing'}."
+        )
+    values = [rational(dimensions[key], key) for key in names]
+    for key, value in zip(names, values, strict=True):
+        if value < 0 or (value == 0 and key not in {"height", "polar"}):
+            raise DomainError(f"The {key} must be positive, not {float_text(value)}.")
+    return formula(*values)
+
+
+def mass_matrix(I2: Any, I3: Any) -> tuple[fmpq, fmpq, fmpq]:
+    """Return the diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix 1.32."""
+    I2, I3 = rational(I2, "I2"), rational(I3, "I3")
+    return I3 / 2, I3 / 2, I2 - I3 / 2
+
+
+SHAPES: Mapping[str, tuple[tuple[str, ...], Callable[..., tuple[fmpq, fmpq]]]] = {
+    "ring": (("mass", "radius"), lambda m, R: (m * R**2 / 2, m * R**2)),
+    "disk": (("mass", "radius"), lambda m, R: (m * R**2 / 4, m * R**2 / 2)),
+    "cylindrical_shell": (("mass", "radius", "height"), lambda m, R, h: (m * (6 * R**2 + h**2) / 12, m * R**2)),
+    "solid_cylinder": (("mass", "radius", "height"), lambda m, R, h: (m * (3 * R**2 + h**2) / 12, m * R**2 / 2)),
+    "thin_rod": (("mass", "length"), lambda m, l: (m * l**2 / 12, 0 * m)),
+    "sphere": (("mass", "radius"), lambda m, R: (2 * m * R**2 / 5, 2 * m * R**2 / 5)),
+    "spherical_shell": (("mass", "radius"), lambda m, R: (2 * m * R**2 / 3, 2 * m * R**2 / 3)),
+    "spheroid": (("mass", "equatorial", "polar"), lambda m, a, c: (m * (a**2 + c**2) / 5, 2 * m * a**2 / 5)),
+}
+"""Shapes by name: their dimensions and their two moments."""

@@ -1,0 +1,194 @@
+"""Text with proven digits only: the one place where a certified number becomes decimal.
+
+`certified` computes a quantity at rising precision until the digits asked for are proven, and returns their text.
+`proven` prints one value. A digit is proven when both ends of the ball round to it, half to even, so that every
+number inside does. A text that ends in `MARK` has fewer digits than asked for, all of them proven; `NOT_CERTIFIED`
+stands where not even the first is.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from atlas.errors import AtlasError
+from atlas.exact.inputs import Real
+
+Layout: TypeAlias = Literal["plain", "scientific", "fixed", "tex"]
+LAYOUTS = ("plain", "scientific", "fixed", "tex")
+MARK = "?"
+NOT_CERTIFIED = "not certified"
+BITS_A_DIGIT = 3.3220
+SPARE = 1 << 16  # bits of precision beyond those asked for at which the search for a proof ends
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A number as text, with the count of its digits and whether all that were asked for are proven."""
+
+    text: str
+    digits: int
+    complete: bool
+
+
+def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain") -> Any:
+    """Return what ``function`` returns, each certified number in it as text with ``digits`` proven digits.
+
+    ``function`` takes no argument and computes at the precision of the moment; it returns a number or lists, tuples
+    and dictionaries of them; whatever else it holds (names, None) stays as it is. ``digits`` counts significant
+    digits, in the layout ``fixed`` decimals. Zero is proven only where it is exact.
+    """
+    _check(digits, layout)
+
+    def complete(value: Any) -> bool:
+        return all(printed(x, digits, layout).complete for x in numbers(value))
+
+    value = _refined(function, int(digits * BITS_A_DIGIT) + 8, complete)
+    return _mapped(value, lambda x: printed(x, digits, layout).text)
+
+
+def enclosed(function: Callable[[], Any], bits: int) -> Any:
+    """Return what ``function`` returns, each ball with a relative radius below 2**-bits or as near as can be had."""
+
+    def accurate(value: Any) -> bool:
+        return all(isinstance(x, fmpq) or x.is_zero() or x.rel_accuracy_bits() >= bits for x in numbers(value))
+
+    return _refined(function, bits, accurate)
+
+
+def proven(value: Real | Fraction | float, digits: int, layout: Layout = "plain") -> str:
+    r"""Return one number as text with the digits that its ball proves, at most ``digits`` of them.
+
+    ``plain`` writes 0.00123 or 1.23e-07, ``scientific`` always the latter, ``fixed`` with ``digits`` decimals,
+    ``tex`` as ``plain`` with ``\times 10^{-7}``.
+    """
+    _check(digits, layout)
+    if isinstance(value, float | int | Fraction):
+        fraction = Fraction(value)
+        value = fmpq(fraction.numerator, fraction.denominator)
+    return printed(value, digits, layout).text
+
+
+def printed(value: Real, digits: int, layout: Layout) -> Printed:
+    """Return one number with as many of its digits as are proven."""
+    if isinstance(value, arb) and not value.is_finite():
+        return Printed(NOT_CERTIFIED, 0, complete=False)
+    lower, upper = _ends(value)
+    if layout == "fixed":
+        return _fixed(lower, upper, digits)
+    if lower == upper == 0:
+        return Printed("0", digits, complete=True)
+    for count in range(_most(lower, upper, digits), 0, -1):
+        low, high = _rounded(lower, count), _rounded(upper, count)
+        if low == high:
+            mark = "" if count == digits else MARK
+            return Printed(_written(*low, count, layout, mark), count, complete=count == digits)
+    return Printed(NOT_CERTIFIED, 0, complete=False)
+
+
+def numbers(value: Any) -> Iterator[Real]:
+    """Go through the certified numbers of a nested structure."""
+    if isinstance(value, arb | fmpq):
+        yield value
+    elif isinstance(value, dict):
+        for item in value.values():
+            yield from numbers(item)
+    elif isinstance(value, list | tuple):
+        for item in value:
+            yield from numbers(item)
+
+
+def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], bool]) -> Any:
+    """Raise the precision until ``enough`` holds (Ziv's strategy), or until it has become hopeless."""
+    precision = bits + 64
+    while True:
+        with ctx.workprec(precision):
+            value = function()
+        if precision > 4 * bits + SPARE or enough(value):
+            return value
+        precision *= 2
+
+
+def _mapped(value: Any, change: Callable[[Real], Any]) -> Any:
+    """Return a nested structure with every certified number changed."""
+    if isinstance(value, arb | fmpq):
+        return change(value)
+    if isinstance(value, dict):
+        return {name: _mapped(item, change) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return type(value)(_mapped(item, change) for item in value)
+    return value
+
+
+def _check(digits: int, layout: str) -> None:
+    if layout not in LAYOUTS:
+        raise AtlasError(f"There is no layout {layout!r} of a number; the layouts are {', '.join(LAYOUTS)}.")
+    if digits < (layout != "fixed"):
+        raise AtlasError(f"A number has at least one digit, not {digits}.")
+
+
+def _ends(value: Real) -> tuple[Fraction, Fraction]:
+    """Return the two ends of a ball, exactly."""
+    if isinstance(value, fmpq):
+        fraction = Fraction(int(value.p), int(value.q))
+        return fraction, fraction
+    middle, radius = _dyadic(value.mid()), _dyadic(value.rad())
+    return middle - radius, middle + radius
+
+
+def _dyadic(number: arb) -> Fraction:
+    mantissa, exponent = (int(part) for part in number.man_exp())
+    return Fraction(mantissa << exponent) if exponent >= 0 else Fraction(mantissa, 1 << -exponent)
+
+
+def _most(lower: Fraction, upper: Fraction, digits: int) -> int:
+    """Return a bound on the count of digits that both ends may share."""
+    if lower == upper:
+        return digits
+    if lower <= 0 <= upper:
+        return 0
+    return min(digits, _exponent(max(abs(lower), abs(upper))) - _exponent(upper - lower) + 1)
+
+
+def _exponent(x: Fraction) -> int:
+    """Return the e with 10^e <= x < 10^(e+1), for x > 0."""
+    e = int((x.numerator.bit_length() - x.denominator.bit_length()) / BITS_A_DIGIT) - 1
+    power = Fraction(10) ** (e + 1)
+    while x >= power:
+        e, power = e + 1, power * 10
+    while x * 10 < power:
+        e, power = e - 1, power / 10
+    return e
+
+
+def _rounded(x: Fraction, count: int) -> tuple[int, int]:
+    """Return (m, e) with m of ``count`` digits and x = m 10^(e+1-count) to half a unit, half to even."""
+    if x == 0:
+        return 0, 0
+    e = _exponent(abs(x))
+    m = round(x * Fraction(10) ** (count - 1 - e))
+    return (m, e) if abs(m) < 10**count else (m // 10, e + 1)
+
+
+def _fixed(lower: Fraction, upper: Fraction, decimals: int) -> Printed:
+    """Return the text with ``decimals`` decimals, or with as many as are proven."""
+    for count in range(decimals, -1, -1):
+        low, high = round(lower * 10**count), round(upper * 10**count)
+        if low == high:
+            whole, part = divmod(abs(low), 10**count)
+            text = f"{'-' * (low < 0)}{whole}" + (f".{part:0{count}d}" if count else "")
+            return Printed(text + MARK * (count < decimals), count, complete=count == decimals)
+    return Printed(NOT_CERTIFIED, 0, complete=False)
+
+
+def _written(m: int, e: int, count: int, layout: Layout, mark: str) -> str:
+    """Write m 10^(e+1-count), m of ``count`` digits."""
+    sign, text = "-" * (m < 0), str(abs(m))
+    if layout != "scientific" and -5 <= e < count:
+        text = "0" * -e + text if e < 0 else text
+        point = max(e, 0) + 1
+        return sign + text[:point] + ("." + text[point:] if text[point:] else "") + mark
+    mantissa = sign + text[0] + ("." + text[1:] if count > 1 else "") + mark
+    return f"{mantissa} \\times 10^{{{e}}}" if layout == "tex" else f"{mantissa}e{e:+03d}"

@@ -1,0 +1,137 @@
+"""The motions in elementary functions (mf76 to mf78, mf89 to mf93) as balls."""
+
+from typing import Any
+
+from flint import fmpq
+
+from atlas.errors import DomainError
+from atlas.exact.body import float_text, ratio_of
+from atlas.exact.hyperbola import Hyperbola
+from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
+
+
+class ElementaryMotion:
+    """The motion R(t) = R_axis(k t) R_z(phi t), mf90, that starts with Omega(0) = (0, omega2, omega3).
+
+    ``omega3`` is given where mf76 leaves it free: for B = 0, for B2 = 0 with omega2 = 0, and at the pole
+    omega2 = -B2 with B3 = 0 or I = 1. The axis is that of B, or of the angular momentum where there is no field.
+    Every value is computed anew at the precision of the moment, see `atlas.exact.digits`.
+    """
+
+    def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
+        self.I = ratio_of(ratio)
+        self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
+        self.omega2 = rational(omega2, "omega2")
+        given = None if omega3 is None else rational(omega3, "omega3")
+        self.case = self._case()
+        self.omega3: fmpq = self._omega3(given)
+
+    def _case(self) -> str:
+        if self.B2 == 0 and self.B3 == 0:
+            return "free body"
+        if self.B2 == 0:
+            if self.omega2 != 0:
+                raise DomainError(
+                    f"With B2 = 0 every elementary motion has omega2 = 0, not {float_text(self.omega2)}: "
+                    "mf72 reads B3 omega2^2 = 0."
+                )
+            return "spin along the field"
+        if self.omega2 + self.B2 == 0:
+            if self.B3 == 0:
+                return "transverse field, free spin"
+            if self.I == 1:
+                return "ball, free spin"
+            raise DomainError(
+                f"omega2 = -B2 = {float_text(self.omega2)} is the pole of omega3(omega2), mf76: "
+                "no elementary motion starts there unless B3 = 0 or I = 1."
+            )
+        return "at rest" if self.omega2 == 0 else "precession"
+
+    def _omega3(self, given: fmpq | None) -> fmpq:
+        if self.case in {"precession", "at rest"}:
+            value = Hyperbola(self.I, (self.B2, self.B3)).omega3(self.omega2)
+            if given is not None and given != value:
+                raise DomainError(
+                    f"omega3 follows from omega2 by mf76 and is {float_text(value)}, not {float_text(given)}: "
+                    "leave it out."
+                )
+            return value
+        if given is None:
+            raise DomainError(f"In the case {self.case!r} omega3 is free: give it.")
+        return given
+
+    @property
+    def axis(self) -> tuple[Real, Real]:
+        """Components 2 and 3 of the unit vector of the precession axis."""
+        x, y = (self.omega2, self.I * self.omega3) if self.case == "free body" else (self.B2, self.B3)
+        size = root(x**2 + y**2)
+        return (x / size, y / size) if size != 0 else (fmpq(0), fmpq(1))
+
+    @property
+    def k(self) -> Real:
+        """Frequency of precession: omega2/B2hat, mf84; of the free body |m|/I2, mf92."""
+        if self.case == "free body":
+            return root(self.omega2**2 + (self.I * self.omega3) ** 2)
+        if self.B2 == 0:
+            return fmpq(0)
+        return self.omega2 / self.B2 * root(self.B2**2 + self.B3**2)
+
+    @property
+    def phi(self) -> fmpq:
+        """Frequency of proper rotation: omega3 - B3 omega2/B2, mf77; of the free body (1-I) omega3, mf92."""
+        if self.case == "free body":
+            return (1 - self.I) * self.omega3
+        if self.B2 == 0:
+            return self.omega3
+        return self.omega3 - self.B3 * self.omega2 / self.B2
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t), mf89, as rows."""
+        A = self._precession(t)
+        S, C = sin_cos(self.phi * rational(t, "the time"))
+        return [[row[0] * C + row[1] * S, row[1] * C - row[0] * S, row[2]] for row in A]
+
+    def column(self, j: int, t: Any) -> list[Real]:
+        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        return [row[j - 1] for row in self.rotation(t)]
+
+    def third_axis(self, t: Any) -> list[Real]:
+        """Return the third column of R(t), mf89."""
+        return [row[2] for row in self._precession(t)]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame, mf78."""
+        S, C = sin_cos(self.phi * rational(t, "the time"))
+        return [self.omega2 * S, self.omega2 * C, self.omega3]
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B', mf41: the field turns about the third axis with frequency phi."""
+        S, C = sin_cos(self.phi * rational(t, "the time"))
+        return [self.B2 * S, self.B2 * C, self.B3]
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m(t)/I2 in the laboratory frame, mf93: it precesses about the axis with frequency k."""
+        return [row[1] * self.omega2 + row[2] * (self.I * self.omega3) for row in self._precession(t)]
+
+    @property
+    def invariants(self) -> dict[str, fmpq]:
+        """The constants E', K^2, c3, c5 of mf44 to mf49 and (m, B')/I2 of mf93."""
+        w2, w3, B2, B3, I = self.omega2, self.omega3, self.B2, self.B3, self.I
+        return {
+            "E'": w2**2 + I * w3**2,
+            "K^2": B2**2 + B3**2,
+            "c3": w3 + B3,
+            "c5": w2 * B2 - w3**2 + (2 - I) * (w3 + B3) * w3,
+            "(m,B')": w2 * B2 + I * w3 * B3,
+        }
+
+    def _precession(self, t: Any) -> list[list[Real]]:
+        """Return R_axis(k t), the first factor of mf90."""
+        n2, n3 = self.axis
+        s, c = sin_cos(self.k * rational(t, "the time"))
+        v = 1 - c
+        return [
+            [c, -n3 * s, n2 * s],
+            [n3 * s, c + n2**2 * v, n2 * n3 * v],
+            [-n2 * s, n2 * n3 * v, c + n3**2 * v],
+        ]

@@ -1,0 +1,59 @@
+"""The hyperbola of elementary motions (mf72 to mf77) and its stability: rational but for two square roots."""
+
+from typing import Any
+
+from flint import fmpq
+
+from atlas.errors import DomainError
+from atlas.exact.body import float_text, ratio_of
+from atlas.exact.inputs import Real, rational, rationals, root
+
+
+class Hyperbola:
+    """The curve mf72 in the plane omega1 = 0 for I = I3/I2 and the field (B2, B3)."""
+
+    def __init__(self, ratio: Any, field: Any) -> None:
+        self.I = ratio_of(ratio)
+        self.B2, self.B3 = rationals(field, "the field (B2, B3)", 2)
+
+    @property
+    def pole(self) -> fmpq:
+        """The value -B2 of omega2 that mf76 leaves out."""
+        return -self.B2
+
+    def omega3(self, omega2: Any) -> fmpq:
+        """Return the ordinate omega3 of mf76: B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2))."""
+        w2 = self._off_the_pole(omega2)
+        return self.B3 * w2 * (w2 + (2 - self.I) * self.B2) / (self.I * self.B2 * (w2 + self.B2))
+
+    def frequencies(self, omega2: Any) -> tuple[Real, fmpq]:
+        """Return k = omega2/B2hat of mf89 and phi of mf77."""
+        w2 = self._off_the_pole(omega2)
+        phi = self.B3 * w2 * (1 - self.I) * (w2 + 2 * self.B2) / (self.I * self.B2 * (w2 + self.B2))
+        return w2 / self.B2 * root(self.B2**2 + self.B3**2), phi
+
+    def stability(self, omega2: Any) -> fmpq:
+        """Return the nutation frequency squared -p'(omega3), with p the cubic of mf55; negative where unstable."""
+        x = self._off_the_pole(omega2) / self.B2 + 1
+        tau = self.B3 / self.B2
+        even = (1 + tau**2) * x**4 + (1 - self.I) * (2 * tau**2 - 1) * x**2 + tau**2 * (1 - self.I) ** 2
+        return self.B2**2 * even / x**2
+
+    @property
+    def unstable_band(self) -> tuple[Real, Real] | None:
+        """The unstable interval of ((omega2 + B2)/B2)^2, or None where the whole family is stable."""
+        if self.B2 == 0:
+            return None
+        tau2 = (self.B3 / self.B2) ** 2
+        if self.I >= 1 or 8 * tau2 >= 1:
+            return None
+        spread, factor = root(1 - 8 * tau2), (1 - self.I) / (2 * (1 + tau2))
+        return factor * (1 - 2 * tau2 - spread), factor * (1 - 2 * tau2 + spread)
+
+    def _off_the_pole(self, omega2: Any) -> fmpq:
+        w2 = rational(omega2, "omega2")
+        if self.B2 == 0:
+            raise DomainError("With B2 = 0 the hyperbola mf72 is the axis omega2 = 0, and omega3 is free on it.")
+        if w2 + self.B2 == 0:
+            raise DomainError(f"omega2 = -B2 = {float_text(w2)} is the pole of omega3(omega2), mf76.")
+        return w2

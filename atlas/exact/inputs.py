@@ -1,0 +1,57 @@
+"""What is given, as exact rationals: nothing is rounded before the first ball."""
+
+import math
+import operator
+from fractions import Fraction
+from typing import Any, TypeAlias
+
+from flint import arb, fmpq
+
+from atlas.errors import AtlasError, DomainError
+
+Real: TypeAlias = fmpq | arb
+"""A certified number: an exact rational, or a ball that is proven to hold the value."""
+
+
+def rational(value: Any, name: str) -> fmpq:
+    """Return a float, integer, fraction or decimal string as the rational number that it is.
+
+    A float is taken exactly, so that 0.1 is 3602879701896397/2**55; the string "0.1" is 1/10.
+    """
+    if isinstance(value, fmpq):
+        return value
+    if isinstance(value, bool):
+        raise AtlasError(f"{name} must be a real number, not {value}.")
+    try:
+        if hasattr(value, "__index__"):
+            value = operator.index(value)
+        fraction = Fraction(value if isinstance(value, str | Fraction | int) else float(value))
+    except OverflowError as error:
+        raise DomainError(f"{name} must be finite, not {value}.") from error
+    except (TypeError, ValueError, ZeroDivisionError) as error:
+        raise AtlasError(f"{name} must be a finite real number, not {value!r}.") from error
+    return fmpq(fraction.numerator, fraction.denominator)
+
+
+def rationals(values: Any, name: str, count: int) -> tuple[fmpq, ...]:
+    """Return ``count`` numbers as exact rationals."""
+    if isinstance(values, str) or not hasattr(values, "__len__"):
+        raise AtlasError(f"{name} must hold {count} numbers, not {values!r}.")
+    if len(values) != count:
+        raise AtlasError(f"{name} must hold {count} numbers, not {len(values)}.")
+    return tuple(rational(value, f"component {i + 1} of {name}") for i, value in enumerate(values))
+
+
+def root(square: fmpq) -> Real:
+    """Return the square root of a rational number, exactly where it is rational."""
+    numerator, denominator = int(square.p), int(square.q)
+    p, q = math.isqrt(numerator), math.isqrt(denominator)
+    if p * p == numerator and q * q == denominator:
+        return fmpq(p, q)
+    return arb(square).sqrt()
+
+
+def sin_cos(angle: Real) -> tuple[arb, arb]:
+    """Return sine and cosine as balls; those of an exact zero are exact."""
+    sine, cosine = arb(angle).sin_cos()
+    return sine, cosine
