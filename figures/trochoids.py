@@ -1,0 +1,102 @@
+"""Prolate trochoid, cycloid and curtate trochoid of a charged particle.
+
+The projection of the path on the plane orthogonal to B, mf10.1 and mf11: the guiding centre drifts along
+e1 = [E, B]/|[E, B]| with the speed v = c |E_perp|/|B|, and the particle turns round it with the speed a omega.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray, number, positive, vector
+from atlas.core.particle import ParticleMotion
+from atlas.errors import DomainError
+from atlas.scene import Curve, Plane, Points, Scene
+from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.words import listed, plain, plain_vector, tex, tex_vector, title
+
+WIDTH, MARGIN = 86.0, 15.0
+
+
+def scene(
+    *,
+    mu: float = 1.0,
+    E: tuple[float, float, float] = (0.0, 1.0, 0.0),
+    B: tuple[float, float, float] = (0.0, 0.0, 1.0),
+    c: float = 1.0,
+    speeds: tuple[float, ...] = (2.0, 1.0, 0.5),
+    turns: float = 3.0,
+    unit: str = "length",
+) -> Scene:
+    """Draw one panel for each of ``speeds``, the speeds a omega of the turning in units of the drift's."""
+    mu, c, turns = number(mu, "mu"), positive(c, "c"), positive(turns, "turns")
+    plane, v = drift(vector(E, "E"), vector(B, "B"), c)
+    if mu == 0:
+        raise DomainError("A particle with mu = 0 draws no trochoid; give it a charge.")
+    if not speeds or min(speeds) < 0:
+        raise DomainError(f"speeds must hold at least one number, and none below zero, not {speeds}.")
+    omega = abs(mu) * float(np.linalg.norm(B)) / c
+    period = 2 * np.pi / omega
+    span, height = turns * period * v, max(1.0, *speeds) * v / omega
+    panels = []
+    for row, speed in enumerate(speeds):
+        launch = v * (1 + np.copysign(speed, mu)) * plane[0]
+        particle = ParticleMotion(mu, E, B, speed * v / omega * plane[1], launch, c=c)
+
+        def path(t: FloatArray, particle: ParticleMotion = particle) -> FloatArray:
+            return np.asarray(particle.position(t) @ plane.T)
+
+        tolerance = quarter_pixel(1.12 * span, WIDTH - MARGIN)
+        points = curve(path, 0.0, turns * period, tolerance, pieces=max(8, round(8 * turns)))
+        panels.append(
+            Plane(
+                (
+                    Curve(np.array([[0.0, 0.0], [span, 0.0]]), "reference"),
+                    Curve(points, "trajectory"),
+                    Points(path(period * np.arange(1, int(turns) + 1)), "sample"),
+                    Points(points[:1], "start"),
+                ),
+                x_label=f"$x$ ({unit})" if row == len(speeds) - 1 else "",
+                y_label=f"$y$ ({unit})",
+                x_limits=(-0.06 * span, 1.06 * span),
+                y_limits=(-1.25 * height, 1.25 * height),
+                equal=True,
+                title=rf"{name(speed)}, $a\omega = {tex(speed)}\,v$",
+            )
+        )
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The path of a charged particle, mf10.1, with $\mu={tex(mu)}$ and $c={tex(c)}$ in the fields "
+            rf"$\mathbf{{E}}={tex_vector(E)}$ and $\mathbf{{B}}={tex_vector(B)}$, projected on the plane orthogonal to "
+            rf"$\mathbf{{B}}$; $x$ runs along $[\mathbf{{E}},\mathbf{{B}}]$ and $y$ along $\mathbf{{E}}_\perp$. "
+            rf"The guiding centre drifts along the dashed line with the speed "
+            rf"$v=c\lvert\mathbf{{E}}_\perp\rvert/\lvert\mathbf{{B}}\rvert={tex(v)}$, and the particle turns round it "
+            rf"with the frequency $\omega=\lvert\mu\mathbf{{B}}\rvert/c={tex(omega)}$ on a circle of radius $a$. "
+            r"It starts at the large dot; small dots mark whole turns. "
+            r"All panels have one scale."
+        ),
+        alt=(
+            f"The path of a charged particle across the fields E = {plain_vector(E)} and B = {plain_vector(B)}: "
+            + listed([f"a {name(s)} for a turning speed of {plain(s)} times the drift speed" for s in speeds])
+            + ". Each path runs to the right along a dashed straight line, the path of its guiding centre."
+        ),
+        panels=tuple(panels),
+        size=(WIDTH, len(speeds) * ((WIDTH - MARGIN) * 2.5 * height / (1.12 * span) + 9.0) + 8.0),
+    )
+
+
+def drift(E: FloatArray, B: FloatArray, c: float) -> tuple[FloatArray, float]:
+    """Rows e1 along [E, B] and e2 along E_perp of the plane in which the particle drifts, and the drift's speed."""
+    cross = np.cross(E, B)
+    if not B.any() or not cross.any():
+        raise DomainError(f"A trochoid needs a magnetic field and an electric one across it, not E = {E}, B = {B}.")
+    e1, e3 = cross / np.linalg.norm(cross), B / np.linalg.norm(B)
+    return np.stack([e1, np.cross(e3, e1)]), c * float(np.linalg.norm(cross) / (B @ B))
+
+
+def name(speed: float) -> str:
+    """Return the name of the curve that turns with ``speed`` times the drift's speed."""
+    if speed == 0:
+        return "straight line"
+    if speed == 1:
+        return "cycloid"
+    return "prolate trochoid" if speed > 1 else "curtate trochoid"
