@@ -1,0 +1,44 @@
+r"""The ledger: the labelled equations of the paper, the claims that it makes in words, and our own theorems.
+
+The paper: A. A. Deriglazov, *Rotation matrix of a charged symmetrical body: one-parameter family of solutions in
+elementary functions*, arXiv 2403.12089, Universe 2024, 10(6), 250. One file holds one topic, in the paper's order.
+Data only: what is true of it is decided in `atlas.proof`.
+
+The numbers are those that LaTeX prints: a row of `eqnarray` that ends in `\\` or closes the environment takes a number
+unless it says `\nonumber`; a row that ends in the primitive `\cr` takes none.
+"""
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from types import MappingProxyType
+
+from atlas.errors import AtlasError
+from atlas.paper import (
+    ball,
+    elementary,
+    euler_poisson,
+    hyperbola,
+    lagrangian,
+    particle,
+    pseudo_oscillator,
+    quadric,
+    theorems,
+)
+from atlas.paper.equation import Equation, Kind, Section
+
+__all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation"]
+
+_FILES = (lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle, theorems)
+
+EQUATIONS: Mapping[str, Equation] = MappingProxyType(
+    {entry.label: entry for file in _FILES for entry in file.EQUATIONS}
+)
+
+
+def equation(label: str) -> Equation:
+    """Return the equation with that label; AtlasError with the nearest label if there is none."""
+    found = EQUATIONS.get(label)
+    if found is None:
+        near = get_close_matches(label, EQUATIONS, n=1, cutoff=0.0)[0]
+        raise AtlasError(f"the paper has no equation with the label {label!r}; the nearest is {near!r}")
+    return found

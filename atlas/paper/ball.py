@@ -1,0 +1,189 @@
+"""Section III: the charged ball, mf30.0 to mf40."""
+
+from atlas.paper.equation import Equation
+
+EQUATIONS = (
+    Equation(
+        label="text-momentum",
+        number=None,
+        section="III",
+        kind="claim",
+        says=("Angular momentum of the rotating particles: m = sum of g_i [R_i, dR_i/dt] = R I R^T omega = R I Omega"),
+        tex=(
+            r"\mathbf{m}=\sum_Nm_N[\mathbf{x}_N,\dot{\mathbf{x}}_N]=\sum_ig_i[\mathbf{R}_i,\dot{\mathbf{R}}_i]="
+            r"RIR^T\boldsymbol{\omega}=RI\boldsymbol{\Omega}"
+        ),
+        assumptions=("R(t) is a rotation", "g is diagonal"),
+    ),
+    Equation(
+        label="mf30.0",
+        number=19,
+        section="III",
+        kind="definition",
+        says="A totally symmetric body: the ball",
+        tex=r"I_1=I_2=I_3\equiv I_0",
+    ),
+    Equation(
+        label="mf30",
+        number=20,
+        section="III",
+        kind="derivation step",
+        says="Poisson equations of the ball",
+        tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf31",
+        number=21,
+        section="III",
+        kind="derivation step",
+        says="Euler equations of the ball",
+        tex=r"\dot{\boldsymbol{\Omega}}=-\frac{\mu}{2c}[R^T\mathbf{B}, \boldsymbol{\Omega}]",
+        assumptions=("I1 = I2 = I3",),
+    ),
+    Equation(
+        label="mf32",
+        number=22,
+        section="III",
+        kind="derivation step",
+        says="The angular momentum of the ball precesses about B",
+        tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
+        assumptions=("I1 = I2 = I3",),
+    ),
+    Equation(
+        label="mf33",
+        number=23,
+        section="III",
+        kind="derivation step",
+        says="Length of the angular momentum and its projection on B are conserved",
+        tex=r"\mathbf{m}^2=\text{const}, \qquad (\mathbf{m}, \mathbf{B})=\text{const}",
+        assumptions=("I1 = I2 = I3",),
+    ),
+    Equation(
+        label="text-linear-poisson",
+        number=None,
+        section="III",
+        kind="claim",
+        says=("Within the rotations the Poisson equations, not linear once m is known, may be replaced by linear ones"),
+        tex=r"-\frac{1}{I_0}\epsilon_{jab}(R^T\mathbf{m})_aR_{ib}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj}",
+        assumptions=("I1 = I2 = I3", "R(t) is a rotation"),
+    ),
+    Equation(
+        label="mf34",
+        number=24,
+        section="III",
+        kind="derivation step",
+        says="Poisson equations of the ball, linear in R",
+        tex=(
+            r"\dot R_{ij}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj},\qquad\text{or, equivalently}\quad\dot{\mathbf{R}"
+            r"}_j=\frac{1}{I_0}[\mathbf{m},\mathbf{R}_j]"
+        ),
+        assumptions=("I1 = I2 = I3", "R(t) is a rotation"),
+    ),
+    Equation(
+        label="mf35",
+        number=25,
+        section="III",
+        kind="derivation step",
+        says="Rate of the angular momentum of the ball",
+        tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
+        assumptions=("I1 = I2 = I3",),
+    ),
+    Equation(
+        label="mf36",
+        number=26,
+        section="III",
+        kind="claim",
+        says="Angular momentum of the ball at any time",
+        tex=(
+            r"\mathbf{m}(t)=\begin{pmatrix} \cos\alpha t & \sin\alpha t & 0 \\ -\sin\alpha t & \cos\alpha t & 0 "
+            r"\\ 0 & 0 & 1 \end{pmatrix}\begin{pmatrix} 0 \\ m_2 \\ m_3 \end{pmatrix}=\begin{pmatrix} m_2\sin"
+            r"\alpha t \\ m_2\cos\alpha t \\ m_3 \end{pmatrix}"
+        ),
+        assumptions=("I1 = I2 = I3", "B along e3, m(0) in the plane (e2, e3)"),
+    ),
+    Equation(
+        label="mf37",
+        number=27,
+        section="III",
+        kind="definition",
+        says="Larmor frequency",
+        tex=r"\alpha=\frac{\mu\lvert \mathbf{B}\rvert}{2c}",
+    ),
+    Equation(
+        label="text-ball-ansatz",
+        number=None,
+        section="III",
+        kind="claim",
+        says="At t = 0 the ansatz mf38 fixes k and gamma",
+        tex=(
+            r"\hat{k}_2=-\frac{m_2}{\gamma I_0},\qquad\hat{k}_3=-\frac{\alpha I_0+m_3}{\gamma I_0},\qquad I_0^2"
+            r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2"
+        ),
+        assumptions=("I1 = I2 = I3",),
+    ),
+    Equation(
+        label="mf38",
+        number=28,
+        section="III",
+        kind="claim",
+        says="Rotation matrix of the ball: two rotations",
+        tex=(
+            r"\begin{aligned} "
+            r"&\begin{pmatrix}\cos\gamma t\cos\alpha t-\hat{k}_3\sin\gamma t\sin\alpha t&\hat{k}_3\sin\gamma t"
+            r"\cos\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\sin\alpha t&-\hat{k}_2\sin\gamma t\cos\alpha t+"
+            r"\hat{k}_2\hat{k}_3(1-\cos\gamma t)\sin\alpha t\\-\cos\gamma t\sin\alpha t-\hat{k}_3\sin\gamma t"
+            r"\cos\alpha t&-\hat{k}_3\sin\gamma t\sin\alpha t+(\hat{k}_2^2+\hat{k}_3^2\cos\gamma t)\cos\alpha t&"
+            r"\hat{k}_2\sin\gamma t\sin\alpha t+\hat{k}_2\hat{k}_3(1-\cos\gamma t)\cos\alpha t\\\hat{k}_2\sin"
+            r"\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix}\\ &"
+            r"\equiv\begin{pmatrix}\cos\alpha t&\sin\alpha t&0\\-\sin\alpha t&\cos\alpha t&0\\0&0&1\end{pmatrix}"
+            r"\times\begin{pmatrix}\cos\gamma t&\hat{k}_3\sin\gamma t&-\hat{k}_2\sin\gamma t\\-\hat{k}_3\sin"
+            r"\gamma t&\hat{k}_2^2+\hat{k}_3^2\cos\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)\\\hat{k}_2\sin"
+            r"\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix} "
+            r"\end{aligned}"
+        ),
+        assumptions=("I1 = I2 = I3", "B along e3, m(0) in the plane (e2, e3)", "k and gamma of mf39"),
+    ),
+    Equation(
+        label="mf39",
+        number=29,
+        section="III",
+        kind="claim",
+        says="Axis and frequency of the second rotation of the ball",
+        tex=(
+            r"\hat{k}_2=-\frac{m_2}{\sqrt{m_2^2+(\alpha I_0+m_3)^2}},\quad\hat{k}_3=-\frac{m_3+\alpha I_0}{\sqrt"
+            r"{m_2^2+(\alpha I_0+m_3)^2}},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}"
+        ),
+        assumptions=("I1 = I2 = I3",),
+    ),
+    Equation(
+        label="text-ball-two-rotations",
+        number=None,
+        section="III",
+        kind="claim",
+        says="The motion of the ball is a rotation about k by -gamma t, then one about B by -alpha t",
+        tex=r"R(t)=R_{\hat{\mathbf{B}}}(-\alpha t)\,R_{\hat{\mathbf{k}}}(-\gamma t)",
+        assumptions=("I1 = I2 = I3",),
+    ),
+    Equation(
+        label="text-ball-parallel",
+        number=None,
+        section="III",
+        kind="claim",
+        says="A ball launched along B: k = (0, 0, -1) and gamma = alpha + m3/I0",
+        tex=r"\hat{\mathbf{k}}=(0,0,-1)^T,\qquad\gamma=\alpha+\frac{m_3}{I_0}",
+        assumptions=("I1 = I2 = I3", "m(0) along B"),
+    ),
+    Equation(
+        label="mf40",
+        number=30,
+        section="III",
+        kind="claim",
+        says="A ball launched along B turns about B steadily",
+        tex=(
+            r"R=\begin{pmatrix} \cos \frac{m_3}{I_0} t & -\sin \frac{m_3}{I_0} t & 0 \\ \sin \frac{m_3}"
+            r"{I_0} t & \cos \frac{m_3}{I_0} t & 0 \\ 0 & 0 & 1 \end{pmatrix}"
+        ),
+        assumptions=("I1 = I2 = I3", "m(0) along B"),
+    ),
+)

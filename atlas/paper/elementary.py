@@ -1,0 +1,288 @@
+"""Section V, second half: the elementary motion, mf78 to mf93."""
+
+from atlas.paper.equation import Equation
+
+EQUATIONS = (
+    Equation(
+        label="mf78",
+        number=73,
+        section="V",
+        kind="claim",
+        says="Angular velocity of the elementary motion",
+        tex=(
+            r"\boldsymbol{\Omega}(t)=\begin{pmatrix} \omega_2\sin\phi t \\ \omega_2\cos\phi t \\ \omega_3(\omega"
+            r"_2) \end{pmatrix}, \qquad \text{then} \quad \boldsymbol{\Omega}(0)=\begin{pmatrix} 0 \\ \omega_2 "
+            r"\\ \omega_3(\omega_2) \end{pmatrix}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+    Equation(
+        label="mf79",
+        number=74,
+        section="V",
+        kind="derivation step",
+        says="Poisson equations for a row of R",
+        tex=r"\dot{\boldsymbol{\gamma}}=[\boldsymbol{\gamma}, \boldsymbol{\Omega}(t)]",
+    ),
+    Equation(
+        label="mf80",
+        number=75,
+        section="V",
+        kind="derivation step",
+        says="Poisson equations for a row of R in components",
+        tex=(
+            r"\begin{aligned} "
+            r"\dot\gamma_1&=\gamma_2\omega_3-\gamma_3\Omega_2(t),\\ "
+            r"\dot\gamma_2&=\gamma_3\Omega_1(t)-\gamma_1\omega_3,\\ "
+            r"\dot\gamma_3&=\gamma_1\Omega_2(t)-\gamma_2\Omega_1(t) "
+            r"\end{aligned}"
+        ),
+    ),
+    Equation(
+        label="mf81",
+        number=76,
+        section="V",
+        kind="derivation step",
+        says="An integral of the rows",
+        tex=r"\Omega_1\gamma_1+\Omega_2\gamma_2+\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3=c",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+    Equation(
+        label="mf82",
+        number=77,
+        section="V",
+        kind="derivation step",
+        says="One ratio of the components of the field",
+        tex=r"\frac{B'_3}{B'_2}=\frac{B_3}{B_2}=\frac{\hat{B}_3}{\hat{B}_2}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="text-row-constants",
+        number=None,
+        section="V",
+        kind="claim",
+        says="The constants c of the three rows",
+        tex=r"c=0,\qquad c=\omega_2,\qquad c=\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="mf83",
+        number=78,
+        section="V",
+        kind="derivation step",
+        says="First two entries of a row through the third",
+        tex=(
+            r"\gamma_1=\frac{1}{\omega_2^2}\Bigl[\Omega_1\Bigl(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3"
+            r"\Bigr)+\Omega_2\dot\gamma_3\Bigr],\qquad\gamma_2=\frac{1}{\omega_2^2}\Bigl[\Omega_2\Bigl(c-\frac{"
+            r"\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3\Bigr)-\Omega_1\dot\gamma_3\Bigr]"
+        ),
+        assumptions=("omega2 differs from 0",),
+    ),
+    Equation(
+        label="mf84",
+        number=79,
+        section="V",
+        kind="derivation step",
+        says="The third entry of a row is a harmonic oscillator with frequency k",
+        tex=(
+            r"\ddot\gamma_3+k^2\gamma_3=c\frac{\hat{B}_3\omega_2}{\hat{B}_2}, \qquad \text{where} \quad k=\frac{"
+            r"\omega_2}{\hat{B}_2}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+    Equation(
+        label="mf85",
+        number=80,
+        section="V",
+        kind="derivation step",
+        says="General solution for the third entry of a row",
+        tex=r"\gamma_3(t)=b\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2 k^2}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from 0"),
+    ),
+    Equation(
+        label="mf86",
+        number=81,
+        section="V",
+        kind="derivation step",
+        says="First two entries of a row at any time",
+        tex=(
+            r"\begin{aligned} "
+            r"\gamma_1(t)&=\frac{1}{\omega_2}\Bigl[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}"
+            r"_3^2\Bigr]\sin\phi t-\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ "
+            r"\gamma_2(t)&=\frac{1}{\omega_2}\Bigl[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}"
+            r"_3^2\Bigr]\cos\phi t+\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t "
+            r"\end{aligned}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from 0"),
+    ),
+    Equation(
+        label="mf87",
+        number=82,
+        section="V",
+        kind="derivation step",
+        says="A row at t = 0",
+        tex=(
+            r"\begin{aligned} "
+            r"\gamma_1(0)&=-\frac{b}{\hat{B}_2}\sin k_0,\\ "
+            r"\gamma_2(0)&=\frac{1}{\omega_2}[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos k_0- c\hat{B}_3^2],\\ "
+            r"\gamma_3(0)&=b\cos k_0+c\frac{\hat{B}_2\hat{B}_3}{\omega_2} "
+            r"\end{aligned}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from 0"),
+    ),
+    Equation(
+        label="mf88",
+        number=83,
+        section="V",
+        kind="derivation step",
+        says="The constants of the three rows",
+        tex=(
+            r"\begin{aligned} "
+            r"c&=0,&b&=-\hat{B}_2,&k_0&=\frac{\pi}{2};\\ "
+            r"c&=\omega_2,&b&=-\hat{B}_2\hat{B}_3,&k_0&=0;\\ "
+            r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=1-\hat{B}_3^2=\hat{B}_2^2,&k_0&=0 "
+            r"\end{aligned}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="mf89",
+        number=84,
+        section="V",
+        kind="claim",
+        says="Rotation matrix of the elementary motion",
+        tex=(
+            r"\begin{pmatrix} \cos kt\cos\phi t-\hat{B}_3\sin kt\sin\phi t & -\cos kt\sin\phi t-\hat{B}_3\sin kt"
+            r"\cos\phi t & \hat{B}_2\sin kt \\ \hat{B}_3 \sin kt\cos\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\sin"
+            r"\phi t & -\hat{B}_3 \sin kt\sin\phi t+(\hat{B}_2^2 +\hat{B}_3^2\cos kt)\cos\phi t & \hat{B}_2"
+            r"\hat{B}_3(1-\cos kt) \\ -\hat{B}_2 \sin kt\cos\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\sin\phi t & "
+            r"\hat{B}_2 \sin kt\sin\phi t+\hat{B}_2 \hat{B}_3(1-\cos kt)\cos\phi t & \hat{B}_3^2 +\hat{B}_2^2"
+            r"\cos kt \end{pmatrix}"
+        ),
+        assumptions=(
+            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            "omega2 differs from -B'2",
+            "k = omega2/hat B2, phi of mf77",
+        ),
+    ),
+    Equation(
+        label="mf90",
+        number=85,
+        section="V",
+        kind="claim",
+        says="The rotation matrix is a proper rotation followed by a precession about B",
+        tex=(
+            r"R(t)=R_{\hat{\mathbf{B}}}(t,k)\times R_{OZ}(t,\phi)=\begin{pmatrix}\cos kt&-\hat{B}_3\sin kt&"
+            r"\hat{B}_2\sin kt\\\hat{B}_3\sin kt&\hat{B}_2^2+\hat{B}_3^2\cos kt&\hat{B}_2\hat{B}_3(1-\cos kt)\\-"
+            r"\hat{B}_2\sin kt&\hat{B}_2\hat{B}_3(1-\cos kt)&\hat{B}_3^2+\hat{B}_2^2\cos kt\end{pmatrix}\times"
+            r"\begin{pmatrix}\cos\phi t&-\sin\phi t&0\\\sin\phi t&\cos\phi t&0\\0&0&1\end{pmatrix}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="text-precession",
+        number=None,
+        section="V",
+        kind="claim",
+        says="The two factors of mf90 turn about B by kt and about OZ by phi t",
+        tex=(
+            r"R_{\hat{\mathbf{B}}}(t,k)=\cos kt\,\mathbf{1}+(1-\cos kt)\,\hat{\mathbf{B}}\hat{\mathbf{B}}^T+"
+            r"\sin kt\,[\hat{\mathbf{B}},\cdot\,]"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="text-ball-limit",
+        number=None,
+        section="V",
+        kind="claim",
+        says="For I2 = I3 there is no proper rotation: phi = 0",
+        tex=r"I_2=I_3\implies\phi=0",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+    Equation(
+        label="mf91",
+        number=86,
+        section="V",
+        kind="claim",
+        says="Relation between the two frequencies",
+        tex=(
+            r"\phi_B=\frac{(I_2-I_3)\hat{B}_3(2\lvert \mathbf{B}'\rvert+k_B)}{I_3(\lvert \mathbf{B}'\rvert+"
+            "k_B)}k_B"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+    Equation(
+        label="mf92",
+        number=87,
+        section="V",
+        kind="claim",
+        says="Proper rotation of the free body beside it",
+        tex=r"\phi=\frac{I_2-I_3}{I_3}\hat{B}_3k_B",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
+    ),
+    Equation(
+        label="text-affirmation-free",
+        number=None,
+        section="V",
+        kind="claim",
+        says=(
+            "Affirmation: the matrix mf89 with the frequency mf92 is the motion of the free body launched "
+            "with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2))"
+        ),
+        tex=(
+            r"\boldsymbol{\Omega}(0)=\Bigl(0,\omega_2,\frac{I_2\omega_2B_3}{I_3B_2}\Bigr)^T,\qquad\mathbf{m}="
+            r"\frac{I_2\omega_2}{B_2}\mathbf{B}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
+    ),
+    Equation(
+        label="text-free-frequency",
+        number=None,
+        section="V",
+        kind="claim",
+        says="The free body precesses with k = |m|/I2 = omega2/hat B2",
+        tex=r"k=\frac{\lvert\mathbf{m}\rvert}{I_2}=\frac{\omega_2}{\hat{B}_2}=k_B",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
+    ),
+    Equation(
+        label="text-momentum-moves",
+        number=None,
+        section="V",
+        kind="claim",
+        says="The components of angular momentum are not conserved in the elementary motion",
+        tex=r"\dot{\mathbf{m}}\ne0",
+        assumptions=(
+            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            "omega2 differs from -B'2",
+            "I differs from 1, omega2 from 0",
+        ),
+    ),
+    Equation(
+        label="text-constant-omega3",
+        number=None,
+        section="V",
+        kind="claim",
+        says="In the elementary motion Omega3(t) = omega2 = const",
+        tex=r"\Omega_3(t)=\omega_2=\text{const}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+    Equation(
+        label="mf93",
+        number=88,
+        section="V",
+        kind="claim",
+        says="The projection of the angular momentum on B is conserved in the elementary motion",
+        tex=r"(\mathbf{m}(t), \mathbf{B})=\text{const}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+    Equation(
+        label="text-momentum-plane",
+        number=None,
+        section="V",
+        kind="claim",
+        says="The angular momentum always lies in the plane orthogonal to B",
+        tex=r"(\mathbf{m}(t),\mathbf{B})=0",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+)

@@ -1,0 +1,174 @@
+"""Section II, second half: the Euler-Poisson equations, The.1 to mf29."""
+
+from atlas.paper.equation import Equation
+
+EQUATIONS = (
+    Equation(
+        label="The.1",
+        number=10,
+        section="II",
+        kind="definition",
+        says="Second-order system for R and the multipliers with a given matrix A",
+        tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}-A_{ik}g_{kj}, \qquad R^TR=\mathbf{1}",
+        assumptions=("g is symmetric and non-degenerate", "lambda is symmetric", "A is a given matrix"),
+    ),
+    Equation(
+        label="Aff100",
+        number=None,
+        section="II",
+        kind="claim",
+        says="Affirmation: the second-order system The.1 is equivalent to the first-order system mf22, mf21",
+        tex=r"\text{(10)}\iff\text{(11), (12)}",
+        assumptions=("R is a rotation", "the inertia tensor is invertible"),
+    ),
+    Equation(
+        label="mf22",
+        number=11,
+        section="II",
+        kind="derivation step",
+        says="Euler equations for a given matrix A",
+        tex=(
+            r"I_{ka}\dot\Omega_a=[I\boldsymbol{\Omega},\boldsymbol{\Omega}]_k+\frac12 \epsilon_{kij}\left"
+            r"[(AI)_{ai}R_{aj}+(RI)_{ai}A_{aj}\right]-\frac12 I_{ka}\epsilon_{aij}A_{bi}R_{bj}"
+        ),
+        assumptions=("R is a rotation", "A is any matrix"),
+    ),
+    Equation(
+        label="mf21",
+        number=12,
+        section="II",
+        kind="derivation step",
+        says="Poisson equations: the components of angular velocity in the body-fixed frame drive R",
+        tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="text-inertia-tensor",
+        number=None,
+        section="II",
+        kind="claim",
+        says="The inertia tensor is tr(g) - g: it gives the kinetic energy of the rotating particles",
+        tex=r"I_{ij}=\Bigl(\sum_a g_{aa}\Bigr)\delta_{ij}-g_{ij}",
+    ),
+    Equation(
+        label="text-mass-moments",
+        number=None,
+        section="II",
+        kind="claim",
+        says="Moments of mass and of inertia: 2 g1 = I2 + I3 - I1, and so on",
+        tex=r"2g_1=I_2+I_3-I_1,\qquad 2g_2=I_3+I_1-I_2,\qquad 2g_3=I_1+I_2-I_3",
+    ),
+    Equation(
+        label="text-orthogonal",
+        number=None,
+        section="II",
+        kind="claim",
+        says="Poisson equations keep R orthogonal: R^T R stays what it is at t = 0",
+        tex=r"\frac{d}{dt}(RR^T)=0",
+    ),
+    Equation(
+        label="mf23",
+        number=None,
+        section="II",
+        kind="derivation step",
+        says="The matrix A of the magnetic force written through R and Omega, step by step",
+        tex=(
+            r"\begin{aligned} "
+            r"\epsilon_{ijk}B_j\dot R_{ka}&=\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}=\epsilon_{ijk}\epsilon"
+            r"_{\alpha\beta\gamma}R_{\alpha a}R_{\beta b}R_{\gamma c}B_j\Omega_bR_{kc}\\ "
+            r"&=\epsilon_{ijk}\epsilon_{\alpha\beta\gamma}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta(RR^T)_{"
+            r"\gamma k}=\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta\\ "
+            r"&=R_{ia}(\mathbf{B}R\boldsymbol{\Omega})-(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a "
+            r"\end{aligned}"
+        ),
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf24",
+        number=13,
+        section="II",
+        kind="derivation step",
+        says="The matrix A of the magnetic force through R and Omega",
+        tex=(
+            r"\begin{aligned} "
+            r"A_{ia}&=-\frac{\mu}{c}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_b R_{kc}=\frac{\mu}{c}\left[(R"
+            r"\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})\right] "
+            r"\end{aligned}"
+        ),
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf25",
+        number=14,
+        section="II",
+        kind="derivation step",
+        says="Euler equations with the magnetic torque, through the inertia tensor",
+        tex=(
+            r"\begin{aligned} "
+            r"I\dot{\boldsymbol{\Omega}}&=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{2c}\left\{I[R^T"
+            r"\mathbf{B}, \boldsymbol{\Omega}]-[IR^T\mathbf{B}, \boldsymbol{\Omega}]+[R^T\mathbf{B}, I"
+            r"\boldsymbol{\Omega}]\right\} "
+            r"\end{aligned}"
+        ),
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf26",
+        number=15,
+        section="II",
+        kind="derivation step",
+        says="First component of the magnetic torque, through the mass matrix",
+        tex=(
+            r"\begin{aligned} "
+            r"&(I[R^T\mathbf{B},\boldsymbol{\Omega}])_1-[IR^T\mathbf{B},\boldsymbol{\Omega}]_1+[R^T\mathbf{B},I"
+            r"\boldsymbol{\Omega}]_1\\ "
+            r"&\quad=(I_1-I_2+I_3)(R^T\mathbf{B})_2\Omega_3-(I_1-I_3+I_2)(R^T\mathbf{B})_3\Omega_2\\ "
+            r"&\quad=2g_2(R^T\mathbf{B})_2\Omega_3-2g_3(R^T\mathbf{B})_3\Omega_2=2[gR^T\mathbf{B},\boldsymbol{"
+            r"\Omega}]_1 "
+            r"\end{aligned}"
+        ),
+        assumptions=("I and g are diagonal",),
+    ),
+    Equation(
+        label="mf27",
+        number=16,
+        section="II",
+        kind="derivation step",
+        says="Euler equations of the charged body in the magnetic field",
+        tex=(
+            r"I\dot{\boldsymbol{\Omega}}=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{c}[gR^T"
+            r"\mathbf{B}, \boldsymbol{\Omega}]"
+        ),
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf28",
+        number=17,
+        section="II",
+        kind="derivation step",
+        says="Rate of the angular momentum in the laboratory frame",
+        tex=r"\dot{\mathbf{m}}=-\frac{\mu}{c}[RgR^T\mathbf{B}, RI^{-1}R^T\mathbf{m}]",
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf29",
+        number=18,
+        section="II",
+        kind="derivation step",
+        says="Rate of the angular momentum in the body-fixed frame",
+        tex=r"\dot{\mathbf{M}}=[\mathbf{M}, I^{-1}\mathbf{M}]-\frac{\mu}{c}[gR^T\mathbf{B}, I^{-1}\mathbf{M}]",
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="text-grioli",
+        number=None,
+        section="II",
+        kind="claim",
+        says="With e3 along B the magnetic torque holds the third row of R: the form deduced by Grioli",
+        tex=(
+            r"I'\dot{\boldsymbol{\Omega}}=[I'\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu\lvert\mathbf{B}"
+            r"\rvert}{c}[g'\mathbf{G}_3,\boldsymbol{\Omega}]"
+        ),
+        assumptions=("B along e3",),
+    ),
+)

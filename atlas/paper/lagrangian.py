@@ -1,0 +1,144 @@
+"""Section II, first half: from the action of the particles to the equations for the rotation matrix, 1.6 to 1.38."""
+
+from atlas.paper.equation import Equation
+
+EQUATIONS = (
+    Equation(
+        label="1.6",
+        number=1,
+        section="II",
+        kind="definition",
+        says="Action of n free particles held together by Lagrange multipliers",
+        tex=(
+            r"\begin{aligned} "
+            r"S=\int dt\,&\frac12\sum_{N=1}^{n}m_N\dot{\mathbf{y}}_N^2+\frac12\sum_{A,B=2}^{4}\lambda_{AB}\left"
+            r"[(\mathbf{y}_A-\mathbf{y}_1,\mathbf{y}_B-\mathbf{y}_1)-a_{AB}\right]\\ "
+            r"&+\frac12\sum_{A=2}^{4}\sum_{\beta=5}^{n}\lambda_{A\beta}\left[(\mathbf{y}_A-\mathbf{y}_1,"
+            r"\mathbf{y}_\beta-\mathbf{y}_1)-a_{A\beta}\right] "
+            r"\end{aligned}"
+        ),
+        assumptions=("lambda_AB is symmetric",),
+    ),
+    Equation(
+        label="mf15",
+        number=2,
+        section="II",
+        kind="definition",
+        says="Potential energy of the body: the sum over its particles of mf13",
+        tex=r"-U=\sum_{N=1}^n e_NA_0(\mathbf{y}_N)+\frac{e_N}{c}(\mathbf{A}(\mathbf{y}_N), \dot{\mathbf{y}}_N)",
+    ),
+    Equation(
+        label="mf16",
+        number=3,
+        section="II",
+        kind="derivation step",
+        says="Equations of motion of the constrained particles, varied from the action",
+        tex=(
+            r"\begin{aligned} "
+            r"m_1\ddot{\mathbf{y}}_1&=-\sum_{AB}\lambda_{AB}[\mathbf{y}_B-\mathbf{y}_1]-\frac12\sum_{A\alpha}"
+            r"\lambda_{A\alpha}[\mathbf{y}_A+\mathbf{y}_\alpha-2\mathbf{y}_1]+\mu m_1\mathbf{E}+\frac{\mu"
+            r"}{c}m_1[\dot{\mathbf{y}}_1,\mathbf{B}],\\ "
+            r"m_A\ddot{\mathbf{y}}_A&=\sum_{B}\lambda_{AB}[\mathbf{y}_B-\mathbf{y}_1]+\frac12\sum_{\alpha}"
+            r"\lambda_{A\alpha}[\mathbf{y}_\alpha-\mathbf{y}_1]+\mu m_A\mathbf{E}+\frac{\mu}{c}m_A[\dot{"
+            r"\mathbf{y}}_A,\mathbf{B}],\\ "
+            r"m_\alpha\ddot{\mathbf{y}}_\alpha&=\frac12\sum_{A}\lambda_{A\alpha}[\mathbf{y}_A-\mathbf{y}_1]+\mu "
+            r"m_\alpha\mathbf{E}+\frac{\mu}{c}m_\alpha[\dot{\mathbf{y}}_\alpha,\mathbf{B}] "
+            r"\end{aligned}"
+        ),
+        assumptions=("lambda_AB is symmetric", "all particles have the same charge-to-mass ratio mu"),
+    ),
+    Equation(
+        label="mf17",
+        number=4,
+        section="II",
+        kind="derivation step",
+        says="The centre of mass moves as one charged point particle",
+        tex=r"\ddot{\mathbf{y}}_0=\mu\mathbf{E}+\frac{\mu}{c}[\dot{\mathbf{y}}_0, \mathbf{B}]",
+        assumptions=("all particles have the same charge-to-mass ratio mu",),
+    ),
+    Equation(
+        label="text-rigid",
+        number=None,
+        section="II",
+        kind="claim",
+        says=(
+            "The constraints keep all distances and angles, so that every solution is x_N(t) = R(t) x_N(0) "
+            "with an orthogonal R"
+        ),
+        tex=r"\mathbf{x}_N(t)=R(t)\,\mathbf{x}_N(0),\qquad R^TR=\mathbf{1}",
+        assumptions=("the vectors from particle 1 to particles 2, 3, 4 are independent",),
+    ),
+    Equation(
+        label="mf18",
+        number=5,
+        section="II",
+        kind="derivation step",
+        says="Equations of motion of the particles about the centre of mass",
+        tex=(
+            r"\begin{aligned} "
+            r"m_1\ddot x_1^i&=-\sum_{A,B=2}^4\lambda_{AB}[x_B^i-x_1^i]-\frac12\sum_{A\alpha}\lambda_{A\alpha"
+            r"}[x_A^i+x_\alpha^i-2x_1^i]+m_1\lambda^i+\mu m_1\mathbf{E}+\frac{\mu}{c}m_1[\dot{\mathbf{x}}_1,"
+            r"\mathbf{B}],\\ "
+            r"m_A\ddot x_A^i&=\sum_{B=2}^4\lambda_{AB}[x_B^i-x^i_1]+\frac12\sum_{\alpha=5}^n\lambda_{A\alpha}[x_"
+            r"\alpha^i-x_1^i]+m_A\lambda^i+\mu m_A\mathbf{E}+\frac{\mu}{c}m_A[\dot{\mathbf{x}}_A,\mathbf{B}],\\ "
+            r"m_\alpha\ddot x_\alpha^i&=\frac12\sum_{A=2}^4\lambda_{A\alpha}[x_A^i-x_1^i]+m_\alpha\lambda^i+\mu "
+            r"m_\alpha\mathbf{E}+\frac{\mu}{c}m_\alpha[\dot{\mathbf{x}}_\alpha,\mathbf{B}] "
+            r"\end{aligned}"
+        ),
+        assumptions=("mf16 and mf17", "all particles have the same charge-to-mass ratio mu"),
+    ),
+    Equation(
+        label="mf19",
+        number=6,
+        section="II",
+        kind="derivation step",
+        says="Second-order equations for the rotation matrix",
+        tex=(
+            r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i(\sum m_N\mathbf{x}_N)-A_{ia}g_{aj}, \qquad R^TR="
+            r"\mathbf{1}, \qquad R(0)=\mathbf{1}"
+        ),
+        assumptions=("x_N(t) = R(t) x_N(0)", "the particles obey mf18"),
+    ),
+    Equation(
+        label="mf20",
+        number=7,
+        section="II",
+        kind="definition",
+        says="The magnetic force on the rotating body as a matrix",
+        tex=r"A_{ia}=\frac{\mu}{c}\epsilon_{inp}B_n\dot R_{pa}",
+    ),
+    Equation(
+        label="1.32",
+        number=8,
+        section="II",
+        kind="definition",
+        says="Mass matrix of the body",
+        tex=r"g_{ij}\equiv\sum_{N=1}^{n}m_Nx_N^i(0)x_N^j(0)",
+    ),
+    Equation(
+        label="1.38",
+        number=9,
+        section="II",
+        kind="derivation step",
+        says="The symmetric matrix of the constraint forces",
+        tex=(
+            r"\begin{aligned} "
+            r"\lambda_{jk}=&-\sum_{AB}\lambda_{AB}\left[x_1^jx_1^k+x_A^jx_B^k-x_B^{(j}x_1^{k)}\right]\\ "
+            r"&-\frac12\sum_{A\alpha}\lambda_{A\alpha}\left[x_\alpha^{(j}x_A^{k)}-x_\alpha^{(j}x_1^{k)}-"
+            r"x_A^{(j}x_1^{k)}-2x_1^{j}x_1^{k}\right] "
+            r"\end{aligned}"
+        ),
+        assumptions=("lambda_AB is symmetric", "round brackets on indices: sum of both orders, no factor 1/2"),
+    ),
+    Equation(
+        label="text-electric-field",
+        number=None,
+        section="II",
+        kind="claim",
+        says=(
+            "The electric field drops out of the rotation: the second term of mf19 vanishes about the centre of mass"
+        ),
+        tex=r"\mu E_i\sum m_Nx_N^j=0",
+        assumptions=("the sum of m_N x_N is zero",),
+    ),
+)

@@ -1,0 +1,287 @@
+"""Appendix: a point particle in constant fields, mf1 to mf14."""
+
+from atlas.paper.equation import Equation
+
+EQUATIONS = (
+    Equation(
+        label="mf1",
+        number=89,
+        section="VII",
+        kind="derivation step",
+        says="Lorentz force: the equation of motion of a charged particle",
+        tex=(
+            r"\begin{aligned} "
+            r"m\ddot{\mathbf{y}}&=e\mathbf{E}+\frac{e}{c}[\dot{\mathbf{y}}, \mathbf{B}],\\ "
+            r"\text{or}\quad \ddot{\mathbf{y}}&=\mu\mathbf{E}+\frac{\mu}{c}[\dot{\mathbf{y}}, \mathbf{B}] "
+            r"\end{aligned}"
+        ),
+    ),
+    Equation(
+        label="mf2",
+        number=90,
+        section="VII",
+        kind="derivation step",
+        says="The equation of motion integrated once",
+        tex=r"\dot{\mathbf{y}}=\mu\mathbf{E}t+\frac{\mu}{c}[\mathbf{y}, \mathbf{B}]+\mathbf{C}",
+    ),
+    Equation(
+        label="text-no-magnetic-field",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="Without a magnetic field the particle falls along E",
+        tex=r"\mathbf{y}(t)=\mathbf{y}_0+\mathbf{C}t+\frac12 \mu\mathbf{E}t^2",
+        assumptions=("B = 0",),
+    ),
+    Equation(
+        label="text-helix",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="Without an electric field the particle moves on a helix about an axis along B",
+        tex=r"\frac{d}{dt}\lvert\mathbf{y}_2\rvert^2=0,\qquad\ddot{\mathbf{y}}_{\Vert}=0",
+        assumptions=("E = 0",),
+    ),
+    Equation(
+        label="mf3",
+        number=91,
+        section="VII",
+        kind="derivation step",
+        says="Motion along B, integrated once",
+        tex=r"\dot{\mathbf{y}}_{\Vert}=\mathbf{C}_{\Vert}+\mu\mathbf{E}_{\Vert}t",
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf4",
+        number=92,
+        section="VII",
+        kind="derivation step",
+        says="Motion across B, integrated once",
+        tex=(
+            r"\dot{\mathbf{y}}_{\bot}=\frac{\mu}{c}[\mathbf{y}_{\bot}, \mathbf{B}]+\mathbf{C}_{\bot}+\mu"
+            r"\mathbf{E}_{\bot}t"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf5",
+        number=93,
+        section="VII",
+        kind="derivation step",
+        says="Motion along B",
+        tex=r"\mathbf{y}_{\Vert}(t)=\mathbf{y}_{\Vert 0}+\mathbf{C}_{\Vert}t+\frac12 \mu\mathbf{E}_{\Vert}t^2",
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="text-parallel-acceleration",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="Along B the particle moves with the acceleration |mu E_perp|",
+        tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\bot}\rvert",
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="text-double-product",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="A vector orthogonal to B is minus its double product with B over B^2",
+        tex=r"\mathbf{E}_{\bot}=-[[\mathbf{E}_{\bot},\mathbf{B}],\mathbf{B}]/\mathbf{B}^2",
+        assumptions=("(E_perp, B) = 0",),
+    ),
+    Equation(
+        label="mf6",
+        number=94,
+        section="VII",
+        kind="derivation step",
+        says="The electric field across B absorbed by a uniform motion",
+        tex=(
+            r"\begin{aligned} "
+            r"\dot{\mathbf{y}}_{\bot}&=\frac{\mu}{c}[\mathbf{y}_{\bot}-\frac{c t[\mathbf{E}_{\bot}, \mathbf{B}"
+            r"]}{\lvert \mathbf{B}\rvert^2}, \mathbf{B}]+\mathbf{C}_{\bot} "
+            r"\end{aligned}"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf7",
+        number=95,
+        section="VII",
+        kind="derivation step",
+        says="Equation for the first shifted variable",
+        tex=(
+            r"\dot{\mathbf{y}}_1=\frac{\mu}{c}[\mathbf{y}_1,\mathbf{B}]+\mathbf{C}_{\bot}-\frac{c[\mathbf{E}_{"
+            r"\bot},\mathbf{B}]}{\mathbf{B}^2},\quad\text{or}\quad\dot{\mathbf{y}}_1=\frac{\mu}{c}\Bigl["
+            r"\mathbf{y}_1-\frac{c[\mathbf{C}_{\bot},\mathbf{B}]+c^2\mathbf{E}_{\bot}}{\mu\mathbf{B}^2},"
+            r"\mathbf{B}\Bigr]"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf8",
+        number=96,
+        section="VII",
+        kind="derivation step",
+        says="The twice shifted variable precesses about B",
+        tex=r"\dot{\mathbf{y}}_2=-\frac{\mu}{c}[\mathbf{B}, \mathbf{y}_2]",
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf9",
+        number=97,
+        section="VII",
+        kind="derivation step",
+        says="General solution for the twice shifted variable",
+        tex=(
+            r"\begin{aligned} "
+            r"\mathbf{y}_2(t)&=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)"
+            r"\right\},\\ "
+            r"\omega&=\frac{\lvert \mu\mathbf{B}\rvert}{c} "
+            r"\end{aligned}"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="text-drift-direction",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="[E_perp, B] points along e1",
+        tex=r"[\mathbf{E}_{\bot},\mathbf{B}]=\lvert\mathbf{E}_{\bot}\rvert\lvert\mathbf{B}\rvert\mathbf{e}_1",
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf10",
+        number=98,
+        section="VII",
+        kind="derivation step",
+        says="General solution across B",
+        tex=(
+            r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert"
+            r"\mathbf{B}\rvert}+\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+a\left\{\mathbf{e}"
+            r"_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="text-first-two-terms",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="With C_perp = c [E_perp, B]/B^2 the first two terms of mf10 vanish",
+        tex=(
+            r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies\frac{[\mathbf{C}_{"
+            r"\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}+\frac{\mu\lvert\mathbf{E}_{"
+            r"\bot}\rvert}{\omega}t\mathbf{e}_1=0"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="text-initial-position",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="That choice puts the particle at y_perp(0) = a e2",
+        tex=r"\mathbf{y}_{\bot}(0)=a\mathbf{e}_2",
+        assumptions=("B along e3, E in the plane (e2, e3)", "omega0 = 0"),
+    ),
+    Equation(
+        label="mf11",
+        number=99,
+        section="VII",
+        kind="claim",
+        says="The trochoid: a uniform drift plus a rotation",
+        tex=(
+            r"\begin{aligned} "
+            r"\mathbf{y}_{\bot}(t)&=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+ a\left\{"
+            r"\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}\equiv \mathbf{O}(t)+\mathbf{P}(t) "
+            r"\end{aligned}"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="text-drift",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="The guiding centre moves along e1 with the speed mu |E_perp|/omega",
+        tex=r"\dot{\mathbf{O}}=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}\mathbf{e}_1",
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="text-trochoid-constant",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="C_perp = c [E_perp, B]/B^2 - mu |E_perp| e1 is a constant of mf2: a velocity",
+        tex=(
+            r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}-\mu\lvert\mathbf{E}_{\bot}"
+            r"\rvert\mathbf{e}_1"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf10.1",
+        number=100,
+        section="VII",
+        kind="claim",
+        says="The trochoid in components",
+        tex=(
+            r"x(t)=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t, \qquad y(t)=\frac{\mu "
+            r"\lvert \mathbf{E}_{\bot}\rvert}{\omega}+a\cos\omega t"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf10.2",
+        number=101,
+        section="VII",
+        kind="derivation step",
+        says="The trajectory: motion along B plus motion across B",
+        tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t)",
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="mf12",
+        number=102,
+        section="VII",
+        kind="definition",
+        says="Scalar and vector potentials of constant fields",
+        tex=(
+            r"A_0(\mathbf{y})=(\mathbf{y}, \mathbf{E}), \qquad \mathbf{A}(\mathbf{y})=\frac12 [\mathbf{B}, "
+            r"\mathbf{y}]=\frac12 \begin{pmatrix} B_2 y_3-B_3 y_2 \\ B_3y_1-b_1 y_3 \\ B_1 y_2-B_2 y_1 "
+            r"\end{pmatrix}"
+        ),
+    ),
+    Equation(
+        label="text-potentials",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="The fields that these potentials give",
+        tex=(
+            r"\mathbf{E}=-\frac1c\frac{\partial\mathbf{A}}{\partial t}+\nabla A_0,\qquad\mathbf{B}=[\nabla,"
+            r"\mathbf{A}]"
+        ),
+    ),
+    Equation(
+        label="mf13",
+        number=103,
+        section="VII",
+        kind="definition",
+        says="Potential energy of a charged particle",
+        tex=r"-U=eA_0+\frac{e}{c}(\mathbf{A}, \dot{\mathbf{y}})",
+    ),
+    Equation(
+        label="mf14",
+        number=104,
+        section="VII",
+        kind="claim",
+        says="Lagrangian of a charged particle; it implies mf1",
+        tex=(
+            r"L=K-U=\frac{m}{2}\dot{\mathbf{y}}^2+eA_0+\frac{e}{c}(\mathbf{A},\dot{\mathbf{y}})=\frac{m}{2}\dot{"
+            r"\mathbf{y}}^2+e(\mathbf{y},\mathbf{E})+\frac{e}{2c}([\mathbf{y},\dot{\mathbf{y}}],\mathbf{B})"
+        ),
+    ),
+)

@@ -1,0 +1,251 @@
+"""Section IV, first half: the symmetric body and the cubic pseudo-oscillator, mf41.0 to mf57."""
+
+from atlas.paper.equation import Equation
+
+EQUATIONS = (
+    Equation(
+        label="text-mass-matrix",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="Mass matrix of the symmetric body",
+        tex=r"g=\frac12 \,\mathrm{diag}(I_3,I_3,2I_2-I_3)",
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf41.0",
+        number=31,
+        section="IV",
+        kind="definition",
+        says="Initial angular velocity: the same components in both frames",
+        tex=r"\boldsymbol{\Omega}(0)=\boldsymbol{\omega}(0)=(\omega_1, \omega_2, \omega_3)^T",
+    ),
+    Equation(
+        label="mf41",
+        number=32,
+        section="IV",
+        kind="definition",
+        says="The field in units of a frequency, B', and its components K in the body-fixed frame",
+        tex=(
+            r"\mathbf{B}'\equiv\frac{\mu}{2c}\mathbf{B}= \begin{pmatrix} 0\\ B'_2>0 \\ B'_3>0 \end{pmatrix}, "
+            r"\qquad \mathbf{K}(t)\equiv\frac{\mu}{2c}\mathbf{B}R(t)=\begin{pmatrix} (\mathbf{B}'R)_1 \\ ("
+            r"\mathbf{B}'R)_2 \\ (\mathbf{B}'R)_3 \end{pmatrix}, \qquad \text{then} \quad \mathbf{K}(0)="
+            r"\mathbf{B}'"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="mf41.1",
+        number=33,
+        section="IV",
+        kind="definition",
+        says="The ratio of moments I and the energy E'",
+        tex=r"I\equiv\frac{I_3}{I_2}, \qquad E'\equiv\frac{2E}{I_2}",
+    ),
+    Equation(
+        label="mf42",
+        number=34,
+        section="IV",
+        kind="derivation step",
+        says="Euler equations through K",
+        tex=(
+            r"\mathbb{I}\dot{\boldsymbol{\Omega}}=[\mathbb{I}\boldsymbol{\Omega}, \boldsymbol{\Omega}]-2["
+            r"\mathbf{K}g, \boldsymbol{\Omega}]"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf43",
+        number=35,
+        section="IV",
+        kind="derivation step",
+        says="Rate of the field seen from the body",
+        tex=r"\dot{\mathbf{K}}=-[\boldsymbol{\Omega}, \mathbf{K}]",
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf44",
+        number=36,
+        section="IV",
+        kind="derivation step",
+        says="First integral: energy",
+        tex=r"\Omega_1^2+\Omega_2^2+I\Omega_3^2=E'=\omega_1^2+\omega_2^2+I\omega_3^2",
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf45",
+        number=37,
+        section="IV",
+        kind="derivation step",
+        says="Second integral: length of the field",
+        tex=r"\mathbf{K}^2={B'_2}^2+{B'_3}^2",
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf46",
+        number=38,
+        section="IV",
+        kind="derivation step",
+        says="Euler equations of the symmetric body in components",
+        tex=(
+            r"\begin{aligned} "
+            r"\dot\Omega_1&=(1-I)\Omega_3\Omega_2-I\Omega_3 K_2+(2-I)\Omega_2 K_3,\\ "
+            r"\dot\Omega_2&=-(1-I)\Omega_3\Omega_1+I\Omega_3 K_1-(2-I)\Omega_1 K_3,\\ "
+            r"\dot\Omega_3&=\Omega_1 K_2-\Omega_2 K_1 "
+            r"\end{aligned}"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf47",
+        number=39,
+        section="IV",
+        kind="derivation step",
+        says="Rate of the field seen from the body in components",
+        tex=(
+            r"\begin{aligned} "
+            r"\dot K_1&=\Omega_3 K_2-\Omega_2 K_3,\\ "
+            r"\dot K_2&=-\Omega_3 K_1+\Omega_1 K_3,\\ "
+            r"\dot K_3&=-(\Omega_1 K_2-\Omega_2 K_1) "
+            r"\end{aligned}"
+        ),
+        assumptions=("R(t) is a rotation",),
+    ),
+    Equation(
+        label="mf48",
+        number=40,
+        section="IV",
+        kind="derivation step",
+        says="Third integral c3",
+        tex=r"K_3+\Omega_3=c_3=\omega_3+B'_3",
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf49",
+        number=41,
+        section="IV",
+        kind="derivation step",
+        says="Fourth integral c5",
+        tex=(
+            r"\Omega_1 K_1+\Omega_2 K_2-\Omega_3^2+(2-I)c_3\Omega_3=c_5=\omega_2 B'_2-\omega_3^2+(2-I)(\omega_3+"
+            r"B'_3)\omega_3"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="text-four-integrals",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="The four integrals mf44, mf45, mf48, mf49 are independent",
+        tex=(
+            r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}="
+            "4"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf50",
+        number=42,
+        section="IV",
+        kind="derivation step",
+        says="The field in the body-fixed frame through the angular velocity",
+        tex=(
+            r"\begin{aligned} "
+            r"K_1&=\frac{\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot\Omega_3}{E'-I\Omega_3^2},\\ "
+            r"K_2&=\frac{\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3}{E'-I\Omega_3^2},\\ "
+            r"K_3&=-\Omega_3+c_3 "
+            r"\end{aligned}"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "E' - I Omega3^2 differs from 0"),
+    ),
+    Equation(
+        label="mf51",
+        number=43,
+        section="IV",
+        kind="derivation step",
+        says="Linear equations for Omega1, Omega2 when Omega3 is known",
+        tex=(
+            r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)"
+            r"\Omega_2"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf52",
+        number=44,
+        section="IV",
+        kind="derivation step",
+        says="Coefficients of these linear equations",
+        tex=(
+            r"\phi(t)\equiv\frac{(2-I)c_3E'-(E'+Ic_5)\Omega_3(t)}{E'-I\Omega_3^2(t)}, \qquad f(t)=\ln\sqrt{E'-I"
+            r"\Omega_3^2(t)}"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "f is meant up to a constant"),
+    ),
+    Equation(
+        label="mf53",
+        number=45,
+        section="IV",
+        kind="derivation step",
+        says="Omega1, Omega2 by quadratures",
+        tex=(
+            r"\Omega_1(t)=f_0\sqrt{E'-I\Omega_3^2(t)}\sin(\Phi(t)+\phi_0), \qquad \Omega_2(t)=f_0\sqrt{E'-I"
+            r"\Omega_3^2(t)}\cos(\Phi(t)+\phi_0)"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf54",
+        number=46,
+        section="IV",
+        kind="derivation step",
+        says="Second derivative of Omega3",
+        tex=(
+            r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1 K_1+\Omega_2 k_2)-I\Omega_3(K_1^2+K_2^2)+[c_3-\Omega"
+            r"_3](\Omega_1^2+\Omega_2^2)"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf55",
+        number=47,
+        section="IV",
+        kind="claim",
+        says="Omega3 of any motion obeys a cubic pseudo-oscillator",
+        tex=r"\ddot\Omega_3=a_0+a_1\Omega_3+a_2\Omega_3^2+a_3\Omega_3^3",
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf56",
+        number=48,
+        section="IV",
+        kind="derivation step",
+        says="Coefficients of the cubic",
+        tex=(
+            r"\begin{aligned} "
+            r"a_0(\boldsymbol{\omega}, \mathbf{B}')&=[(2-I)c_5+ E']c_3,\\ "
+            r"a_1(\boldsymbol{\omega}, \mathbf{B}')&=-2c_5+[I-(2-1)^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ "
+            r"a_2(\boldsymbol{\omega}, \mathbf{B}')&=6(1-I)c_3,\\ "
+            "a_3&=-2(1-I) "
+            r"\end{aligned}"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="mf57",
+        number=49,
+        section="IV",
+        kind="derivation step",
+        says="The cubic through the initial data",
+        tex=(
+            r"\begin{aligned} "
+            r"\ddot\Omega_3=&[(2-I)B'_3-I\omega_3+2(\omega_3-\Omega_3)][\omega_2B'_2-(\omega_3^2-\Omega_3^2)+(2-"
+            r"I)(B'_3+\omega_3)(\omega_3-\Omega_3)]\\ "
+            r"&-I\Omega_3[{\mathbf{B}'}^2-(B'_3+(\omega_3-\Omega_3))^2]+[B'_3+(\omega_3-\Omega_3)][\omega_1^2+"
+            r"\omega_2^2+I(\omega_3^2-\Omega_3^2)] "
+            r"\end{aligned}"
+        ),
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+)

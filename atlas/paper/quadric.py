@@ -1,0 +1,185 @@
+"""Section IV, second half: the quadric of constant solutions, mf58.1 to mf63."""
+
+from atlas.paper.equation import Equation
+
+EQUATIONS = (
+    Equation(
+        label="mf58.1",
+        number=50,
+        section="IV",
+        kind="derivation step",
+        says="Condition on the initial data for a constant Omega3",
+        tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0"),
+    ),
+    Equation(
+        label="mf58",
+        number=51,
+        section="IV",
+        kind="derivation step",
+        says="The same condition: a surface of second order",
+        tex=r"\omega_1^2+(\omega_2+B'_2)^2-\frac{IB'_2}{B'_3}(\omega_2+B'_2)(\omega_3+B'_3)=(1-I){B'_2}^2",
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0"),
+    ),
+    Equation(
+        label="text-quadric-origin",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="The surface passes through the origin",
+        tex=r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="mf59",
+        number=52,
+        section="IV",
+        kind="derivation step",
+        says="The condition resolved for omega3: all constant solutions",
+        tex=(
+            r"\begin{aligned} "
+            r"\Omega_3(t)&=\omega_3(\omega_1, \omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega"
+            r"_2]}{IB'_2(\omega_2+B'_2)},\\ "
+            r"\omega_1&\in\mathbb{R},\\ "
+            r"\omega_2&\in\mathbb{R}\setminus \{-B'_2\} "
+            r"\end{aligned}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="mf61a",
+        number=53,
+        section="IV",
+        kind="definition",
+        says="Canonical coordinates of the quadric",
+        tex=(
+            r"\begin{aligned} "
+            r"\omega'_1&=\omega_1,\\ "
+            r"\omega'_2&=(\omega_2+B'_2)\cos\left(\frac{\beta}{2}+\frac{\pi}{4}\right)+(\omega_3+B'_3)\sin\left("
+            r"\frac{\beta}{2}+\frac{\pi}{4}\right),\\ "
+            r"\omega'_3&=-(\omega_2+B'_2)\sin\left(\frac{\beta}{2}+\frac{\pi}{4}\right)+(\omega_3+B'_3)\cos\left"
+            r"(\frac{\beta}{2}+\frac{\pi}{4}\right) "
+            r"\end{aligned}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "tan(beta) = B'3/(I B'2)"),
+    ),
+    Equation(
+        label="text-beta",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="beta, the angle between e2 and I^-1 B', has tan(beta) = B'3/(I B'2)",
+        tex=r"\tan\beta=\frac{B'_3}{IB'_2}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="text-beta-range",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="The canonical axes are turned by more than pi/4 and less than pi/2",
+        tex=r"\frac{\pi}{4}<\frac{\beta}{2}+\frac{\pi}{4}<\frac{\pi}{2}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="mf60",
+        number=54,
+        section="IV",
+        kind="derivation step",
+        says="The quadric in canonical form",
+        tex=(
+            r"\begin{aligned} "
+            r"{\omega'_1}^2-\frac{{\omega'_2}^2}{a_2}+\frac{{\omega'_3}^2}{a_3}&=(1-I){B'_2}^2,\\ "
+            r"\text{where}\quad a_2&\equiv\frac{2\sin\beta}{1-\sin\beta},\\ "
+            r"a_3&\equiv\frac{2\sin\beta}{1+\sin\beta} "
+            r"\end{aligned}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+    Equation(
+        label="mf61b",
+        number=55,
+        section="IV",
+        kind="claim",
+        says="I > 1: a hyperboloid of two sheets",
+        tex=(
+            r"\begin{aligned} "
+            r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=-1,\\ "
+            r"\text{where}\quad C_1^2&\equiv(I-1){B'_2}^2,\\ "
+            r"C_2^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+            r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} "
+            r"\end{aligned}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "1 < I <= 2"),
+    ),
+    Equation(
+        label="text-short-cylinder",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="A sufficiently short cylindrical surface has 1 < I < 2, a long one 0 < I < 1",
+        tex=r"I=\frac{12r^2}{6r^2+h^2}>1\iff h<\sqrt6\,r",
+        assumptions=("shell of radius r and height h: I3 = m r^2, I2 = m r^2/2 + m h^2/12",),
+    ),
+    Equation(
+        label="text-plane-body",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="I = 2 is a plane body",
+        tex=r"I=2\iff g_3=0",
+        assumptions=("I1 = I2",),
+    ),
+    Equation(
+        label="text-tangent-planes",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="I = 2: the two sheets touch the planes omega3 = 0 and omega3 = -2 B'3",
+        tex=r"I=2:\quad\omega_3\ge0\ \text{or}\ \omega_3\le-2B'_3",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 2"),
+    ),
+    Equation(
+        label="mf62",
+        number=56,
+        section="IV",
+        kind="claim",
+        says="I = 1: a cone",
+        tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3}=\frac{{\omega'_2}^2}{a_2}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 1"),
+    ),
+    Equation(
+        label="text-cone-semi-axes",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="The cone mf62 has the semi-axes a2 and a3 of mf60",
+        tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3^2}=\frac{{\omega'_2}^2}{a_2^2}",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 1"),
+    ),
+    Equation(
+        label="mf63",
+        number=57,
+        section="IV",
+        kind="claim",
+        says="I < 1: a hyperboloid of one sheet",
+        tex=(
+            r"\begin{aligned} "
+            r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
+            r"\text{where}\quad C_1^2&\equiv(1-I){B'_2}^2,\\ "
+            r"C_2^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1-\sin\beta},\\ "
+            r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} "
+            r"\end{aligned}"
+        ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "0 < I < 1"),
+    ),
+    Equation(
+        label="text-not-all",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="Not all constant solutions of the pseudo-oscillator are motions of the body",
+        tex=r"\omega_1B'_2\ne0\implies\dot\Omega_3(0)\ne0",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+    ),
+)

@@ -1,0 +1,102 @@
+"""The ledger holds every equation of the paper, under the label and the number that it has there."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pypandoc
+import pytest
+
+from atlas.errors import AtlasError
+from atlas.paper import EQUATIONS, equation
+from atlas.places import folder
+
+# Every equation label of the paper, in the paper's order; mf61 occurs twice there, mf47 twice in one equation.
+LABELS = """
+1.6 mf15 mf16 mf17 mf18 mf19 mf20 1.32 1.38 The.1 mf22 mf21 mf23 mf24 mf25 mf26 mf27 mf28 mf29
+mf30.0 mf30 mf31 mf32 mf33 mf34 mf35 mf36 mf37 mf38 mf39 mf40
+mf41.0 mf41 mf41.1 mf42 mf43 mf44 mf45 mf46 mf47 mf48 mf49 mf50 mf51 mf52 mf53 mf54 mf55 mf56 mf57 mf58.1 mf58 mf59
+mf61a mf60 mf61b mf62 mf63
+mf64 mf65 mf66 mf67 mf68 mf69 mf70 mf71 mf71.1 mf72 mf73 mf74 mf75 mf76 mf77 mf78 mf79 mf80 mf81 mf82 mf83 mf84 mf85
+mf86 mf87 mf88 mf89 mf90 mf91 mf92 mf93
+mf1 mf2 mf3 mf4 mf5 mf6 mf7 mf8 mf9 mf10 mf11 mf10.1 mf10.2 mf12 mf13 mf14
+""".split()  # noqa: SIM905  a hundred labels read best as they stand
+
+CITED = re.compile(r"\bmf\d+(?:\.\d+)?[ab]?\b|\bThe\.1\b|\bAff100\b|\btext-[a-z0-9-]+|\btheorem-[a-z-]+")
+
+
+def test_every_labelled_equation_of_the_paper_is_in_the_ledger() -> None:
+    """No label is missing, and the only others are the first affirmation, claims in words and theorems of our own."""
+    ours = {label for label in EQUATIONS if label == "Aff100" or label.startswith(("text-", "theorem-"))}
+    assert set(EQUATIONS) == set(LABELS) | ours
+    assert not set(LABELS) & ours
+
+
+def test_the_numbers_are_those_in_print() -> None:
+    r"""The numbered equations run from 1 to 104 in the paper's order; mf23 ends in \nonumber."""
+    assert [EQUATIONS[label].number for label in LABELS if label != "mf23"] == list(range(1, 105))
+    assert EQUATIONS["mf23"].number is None
+    assert all(entry.number is None for label, entry in EQUATIONS.items() if label not in LABELS)
+
+
+@pytest.mark.parametrize("label", EQUATIONS)
+def test_an_entry_says_what_it_is_in_one_line(label: str) -> None:
+    """Every field is filled, no sentence runs over a line, none ends in a stop."""
+    entry = equation(label)
+    assert entry.label == label
+    assert entry.kind in {"definition", "derivation step", "claim", "theorem"}
+    assert entry.section in {"II", "III", "IV", "V", "VII", "Atlas"}
+    assert (entry.kind == "theorem") == (entry.section == "Atlas") == label.startswith("theorem-")
+    for words in (entry.says, *entry.assumptions):
+        assert words
+        assert "\n" not in words
+        assert not words.endswith(".")
+    assert entry.title.endswith(label)
+
+
+def test_a_misspelt_label_is_told_its_neighbour() -> None:
+    """An unknown label is an error that names the nearest one."""
+    with pytest.raises(AtlasError, match="'mf77x'; the nearest is 'mf77'"):
+        equation("mf77x")
+
+
+@pytest.mark.parametrize("target", [["html", "--mathml"], ["typst"]])
+def test_every_formula_can_be_typeset(target: list[str]) -> None:
+    """All formulas turn into MathML and Typst without a warning and without TeX left behind."""
+    source = "\n\n".join(f"$${entry.tex}$$" for entry in EQUATIONS.values())
+    command = [pypandoc.get_pandoc_path(), "-f", "markdown", "-t", *target]
+    done = subprocess.run(command, input=source, capture_output=True, encoding="utf-8", check=True)
+    assert not done.stderr
+    if target[0] == "html":
+        without_source = re.sub(r"<annotation.*?</annotation>", "", done.stdout, flags=re.DOTALL)
+        assert without_source.count("<math") == len(EQUATIONS)
+        assert not re.search(r"\\[A-Za-z]", without_source)
+    else:
+        assert done.stdout.count("$") == 2 * len(EQUATIONS)
+
+
+def test_no_formula_uses_old_font_switches() -> None:
+    r"""The TeX is modern: no {\bf B}, no eqnarray, no \mbox, no bare bars."""
+    for entry in EQUATIONS.values():
+        assert not re.search(r"\\bf\b|eqnarray|\\mbox|\\cr\b|\\nonumber|\\label|\|", entry.tex), entry.label
+
+
+def _docstrings() -> list[tuple[Path, str]]:
+    sources = [*folder("figures").parent.joinpath("atlas").rglob("*.py"), *folder("figures").rglob("*.py")]
+    return [
+        (path, text) for path in sources for text in re.findall(r'r?"""(.*?)"""', path.read_text("utf-8"), re.DOTALL)
+    ]
+
+
+def test_every_label_cited_in_a_docstring_exists() -> None:
+    """What a docstring of the package or of a recipe cites is in the ledger."""
+    cited = [(path, label) for path, text in _docstrings() for label in CITED.findall(text)]
+    assert len(cited) > 50
+    assert [(path.name, label) for path, label in cited if label not in EQUATIONS] == []
+
+
+def test_the_ledger_loads_nothing_heavy() -> None:
+    """Data only: neither NumPy nor SymPy is loaded."""
+    script = "import sys, atlas.paper; print([name for name in ('numpy', 'sympy', 'mpmath') if name in sys.modules])"
+    assert subprocess.check_output([sys.executable, "-c", script], text=True).strip() == "[]"
