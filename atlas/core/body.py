@@ -6,45 +6,19 @@ from typing import Any, Self
 
 import numpy as np
 
+from atlas.core.inertia import (
+    ROUNDING,
+    diagonal_or_matrices,
+    inertia_from_mass_matrix,
+    mass_matrix_from_inertia,
+    mass_matrix_of_points,
+)
 from atlas.core.inputs import FloatArray, number, positive, real
 from atlas.errors import AtlasError, DomainError
 
-ROUNDING = 16 * float(np.finfo(float).eps)
-"""An eigenvalue of a mass matrix below this part of the largest one is zero, rounded."""
+__all__ = ["SHAPES", "SymmetricBody", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia", "moments"]
 
 NO_SUCH_BODY = "since the mass matrix element g3 = (2 I2 - I3)/2 is a sum of m x^2 and so cannot be negative"
-
-
-def mass_matrix_from_inertia(inertia: Any) -> FloatArray:
-    """Mass matrix g = (tr I / 2) 1 - I of an inertia tensor: 2 g1 = I2 + I3 - I1, and so on; see mf22.
-
-    `inertia` is a diagonal of shape (3,) or tensors of shape (..., 3, 3); the result has the same shape.
-    """
-    tensor, trace = _tensor(inertia, "the inertia tensor")
-    return trace / 2 - tensor if tensor.ndim == 1 else trace / 2 * np.eye(3) - tensor
-
-
-def inertia_from_mass_matrix(mass_matrix: Any) -> FloatArray:
-    """Inertia tensor I = (tr g) 1 - g of a mass matrix 1.32, as defined below mf21.
-
-    `mass_matrix` is a diagonal of shape (3,) or matrices of shape (..., 3, 3); the result has the same shape.
-    """
-    matrix, trace = _tensor(mass_matrix, "the mass matrix")
-    return trace - matrix if matrix.ndim == 1 else trace * np.eye(3) - matrix
-
-
-def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
-    """Mass matrix g_ij = sum m_N x_N^i x_N^j, 1.32, of points counted from their centre of mass.
-
-    `masses` (N,), all positive; `positions` (N, 3) in any frame and from any origin. Returns (3, 3).
-    """
-    m, x = real(masses, "the masses"), real(positions, "the positions")
-    if m.ndim != 1 or x.shape != (m.size, 3) or not m.size:
-        raise AtlasError(f"Point masses need masses (N,) and positions (N, 3), not {m.shape} and {x.shape}.")
-    if m.min() <= 0:
-        raise DomainError(f"Every mass must be positive, but one is {m.min()}.")
-    x = x - (m @ x) / m.sum()
-    return np.asarray((m[:, None] * x).T @ x)
 
 
 def moments(ratio: Any) -> tuple[float, Any]:
@@ -170,7 +144,7 @@ class SymmetricBody:
 
         Raises DomainError if no two are equal, or one is negative beyond rounding.
         """
-        matrix, _ = _tensor(mass_matrix, "the mass matrix")
+        matrix, _ = diagonal_or_matrices(mass_matrix, "the mass matrix")
         if matrix.ndim > 2:
             raise AtlasError(f"A body has one mass matrix (3, 3) or diagonal (3,), not the shape {matrix.shape}.")
         g, vectors = np.linalg.eigh(np.diag(matrix) if matrix.ndim == 1 else matrix)
@@ -223,19 +197,6 @@ def _square(length: Any, name: str, *, zero: bool = False) -> float:
     if zero and number(length, name) == 0:
         return 0.0
     return positive(length, name) * float(length)
-
-
-def _tensor(value: Any, name: str) -> tuple[FloatArray, FloatArray]:
-    """Return diagonals (3,) or symmetric matrices (..., 3, 3) and their trace, shaped to broadcast."""
-    tensor = real(value, name)
-    if tensor.shape == (3,):
-        return tensor, tensor.sum()
-    if tensor.shape[-2:] != (3, 3):
-        raise AtlasError(f"{name} must be a diagonal (3,) or matrices (..., 3, 3), not of shape {tensor.shape}.")
-    size = np.abs(tensor).max(axis=(-2, -1), initial=0.0)
-    if (np.abs(tensor - tensor.swapaxes(-2, -1)).max(axis=(-2, -1)) > ROUNDING * size).any():
-        raise AtlasError(f"{name} must be symmetric.")
-    return tensor, np.trace(tensor, axis1=-2, axis2=-1)[..., None, None]
 
 
 def _frame(axis: FloatArray) -> FloatArray:

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.inertia import mass_matrix
 from atlas.core.inputs import FloatArray
 
 
@@ -35,12 +36,6 @@ def hat(omega: Any) -> FloatArray:
 def bracket(a: Any, b: Any) -> FloatArray:
     """Vector product [a, b]."""
     return np.asarray(np.vecmat(np.asarray(a, dtype=np.float64), hat(b)))
-
-
-def mass_matrix(inertia: Any) -> FloatArray:
-    """Mass matrix g = (tr I / 2) 1 - I of inertia tensors (..., 3, 3), unchecked; see mf21."""
-    inertia = np.asarray(inertia, dtype=np.float64)
-    return np.asarray(np.trace(inertia, axis1=-2, axis2=-1)[..., None, None] / 2 * np.eye(3) - inertia)
 
 
 def field_in_body(R: Any, B: Any) -> FloatArray:

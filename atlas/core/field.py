@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.core import units
 from atlas.core.inputs import FloatArray, number, positive, real, vector, vectors
-from atlas.core.rational import combine, cross, dot, exact, root, unit
+from atlas.core.rational import cross, dot, exact, minus, root, times, unit
 from atlas.errors import AtlasError, DomainError
 
 
@@ -79,11 +79,11 @@ class LaboratoryFrame:
         oblique = bool(dot(across, across))
         if oblique:
             alignment = "oblique" if along else "perpendicular"
-            e2 = combine(n2, b, -along, n)
+            e2 = minus(times(n2, b), times(along, n))
         else:
             alignment = "no field" if not b2 else "parallel" if along > 0 else "antiparallel"
             e1 = exact(np.eye(3)[np.argmin(np.abs(axis))])
-            across, e2 = combine(n2, e1, -dot(n, e1), n), cross(n, e1)
+            across, e2 = minus(times(n2, e1), times(dot(n, e1), n)), cross(n, e1)
         object.__setattr__(self, "axis", axis)
         object.__setattr__(self, "B", B)
         object.__setattr__(self, "alignment", alignment)

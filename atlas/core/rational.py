@@ -28,9 +28,19 @@ def cross(a: Vector, b: Vector) -> Vector:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-def combine(p: Fraction, a: Vector, q: Fraction, b: Vector) -> Vector:
-    """Return p a + q b."""
-    return p * a[0] + q * b[0], p * a[1] + q * b[1], p * a[2] + q * b[2]
+def times(factor: Fraction | int, a: Vector) -> Vector:
+    """Multiple of a vector."""
+    return factor * a[0], factor * a[1], factor * a[2]
+
+
+def plus(a: Vector, b: Vector) -> Vector:
+    """Sum a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def minus(a: Vector, b: Vector) -> Vector:
+    """Difference a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 def root(q: Fraction, sign: Fraction | int = 1) -> float:

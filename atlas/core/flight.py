@@ -1,0 +1,52 @@
+"""Flight of a point of the body: its centre of mass, mf17, and the rotation about it, y_N = y_0 + R x_N(0)."""
+
+from typing import Any, Protocol
+
+import numpy as np
+
+from atlas.core.euler_poisson import bracket
+from atlas.core.field import LaboratoryFrame
+from atlas.core.inputs import FloatArray, vector
+from atlas.core.particle import ParticleMotion
+
+
+class Rotation(Protocol):
+    """What a flight asks of a motion of the body about its centre of mass."""
+
+    def rotation(self, t: Any) -> FloatArray:
+        """R(t), shape (..., 3, 3), in the laboratory axes."""
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Omega(t), shape (..., 3), in the body."""
+
+
+class Flight:
+    """Path of the point N of a body, y_N(t) = y_0(t) + R(t) x_N(0), as below mf29, in the user's frame.
+
+    `particle` moves as the centre of mass, in the user's frame. `motion` is the body's rotation, in the laboratory
+    `frame`; without one the user's frame is the laboratory. `point` (3,) is x_N(0), from the centre of mass to the
+    point at t = 0, in the user's frame.
+
+    Both motions must be those of one field: with a `Field`, make the particle by `ParticleMotion.in_field` and the
+    frame by `Field.frame`, and give `frame.field` to the motion.
+    """
+
+    def __init__(
+        self, particle: ParticleMotion, motion: Rotation, point: Any, frame: LaboratoryFrame | None = None
+    ) -> None:
+        self.particle, self.motion, self.point = particle, motion, vector(point, "The point")
+        self._to_user = np.eye(3) if frame is None else frame.matrix.T
+        self._arm = self._to_user.T @ self.point
+
+    def arm(self, t: Any) -> FloatArray:
+        """Vector x_N(t) = R(t) x_N(0) from the centre of mass to the point, shape (..., 3)."""
+        return np.asarray(np.matvec(self._to_user, np.matvec(self.motion.rotation(t), self._arm)))
+
+    def position(self, t: Any) -> FloatArray:
+        """Position y_N(t), shape (..., 3) for times of any shape."""
+        return self.particle.position(t) + self.arm(t)
+
+    def velocity(self, t: Any) -> FloatArray:
+        """Velocity dy_N/dt = dy_0/dt + R [Omega, x_N(0)], by mf21; shape (..., 3)."""
+        turning = np.matvec(self.motion.rotation(t), bracket(self.motion.angular_velocity(t), self._arm))
+        return np.asarray(self.particle.velocity(t) + np.matvec(self._to_user, turning))

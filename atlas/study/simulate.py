@@ -1,0 +1,120 @@
+"""The Euler–Poisson equations, mf21 and mf27, by one of SciPy's integrators: a peer of the closed forms."""
+
+import warnings
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from atlas.core.body import SymmetricBody, moments
+from atlas.core.euler_poisson import hat
+from atlas.core.inertia import inertia_tensor, mass_matrix
+from atlas.core.inputs import FloatArray, positive, real, vector
+from atlas.errors import AtlasError, DomainError
+
+SMALLEST_RTOL = 100 * float(np.finfo(float).eps)
+METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation:
+    """A simulated motion: `R` (N, 3, 3) in the laboratory and `Omega` (N, 3) in the body at the times `t` (N,)."""
+
+    t: FloatArray
+    R: FloatArray
+    Omega: FloatArray
+    method: str
+    rtol: float
+    atol: float
+    evaluations: int
+    """How often the right-hand side was evaluated."""
+    seconds: float
+
+
+def simulate(
+    inertia: Any,
+    field: Any,
+    omega: Any,
+    times: Any,
+    *,
+    method: str = "DOP853",
+    rtol: float = 1e-10,
+    atol: float = 1e-12,
+) -> Simulation:
+    """Integrate the Euler–Poisson equations mf21, mf27 from R = 1 at t = 0.
+
+    `inertia` is a SymmetricBody, a ratio I = I3/I2, principal moments (3,) or any inertia tensor (3, 3) of a body, in
+    the laboratory axes; `field` is B' (3,) or (B2, B3); `omega` (3,) the initial angular velocity, in the same unit
+    1/time; `times` (N,), sorted away from 0, all before it or all after. `method` is a name that
+    `scipy.integrate.solve_ivp` knows; `rtol` and `atol` (for R, and for Omega in units of the largest frequency) are
+    its tolerances.
+
+    The result carries the integrator's error: R is not made orthogonal afterwards. Raises AtlasError, with the
+    integrator's own words, if it fails.
+    """
+    from scipy.integrate import solve_ivp
+
+    tensor, B, start, t = _tensor(inertia), _field(field), vector(omega, "omega"), _times(times)
+    if method not in METHODS:
+        raise AtlasError(f"The method must be one of {', '.join(METHODS)}, not {method!r}.")
+    rtol, atol = positive(rtol, "rtol"), positive(atol, "atol")
+    if rtol < SMALLEST_RTOL:
+        raise DomainError(f"rtol must be at least {SMALLEST_RTOL:.3g}, 100 eps, not {rtol:g}: SciPy goes no lower.")
+    # In units of the largest frequency, so that one atol serves R and Omega, whatever the unit of time.
+    unit = float(max(np.abs(B).max(), np.abs(start).max())) or 1.0
+    inverse, twice_mass, larmor = np.linalg.inv(tensor), 2 * mass_matrix(tensor), B / unit
+
+    def rates(_: float, state: FloatArray) -> FloatArray:
+        R, Omega = state[:9].reshape(3, 3), state[9:]
+        turn = hat(Omega)
+        torque = (tensor @ Omega - twice_mass @ (larmor @ R)) @ turn
+        return np.concatenate([(R @ turn).ravel(), inverse @ torque])
+
+    began = perf_counter()
+    state = np.concatenate([np.eye(3).ravel(), start / unit])
+    # The integrator wants its times distinct, and at least one away from the start.
+    distinct, place = np.unique(np.abs(t) * unit, return_inverse=True)
+    direction = -1.0 if t.min() < 0 else 1.0
+    states, evaluations = state[None], 0
+    if distinct[-1] > 0:
+        with warnings.catch_warnings(record=True) as notes:
+            warnings.simplefilter("always")
+            solution = solve_ivp(
+                rates, (0.0, direction * distinct[-1]), state, method, direction * distinct, rtol=rtol, atol=atol
+            )
+        if not solution.success or notes:
+            words = "; ".join([str(solution.message), *(str(note.message) for note in notes)])
+            raise AtlasError(f"{method} did not reach t = {t[-1]:g}: {words}")
+        states, evaluations = solution.y.T, int(solution.nfev)
+    R, Omega = states[place, :9].reshape(-1, 3, 3), states[place, 9:] * unit
+    return Simulation(t, R, Omega, method, rtol, atol, evaluations, perf_counter() - began)
+
+
+def _tensor(inertia: Any) -> FloatArray:
+    """Return the inertia tensor in units of its largest element."""
+    if isinstance(inertia, SymmetricBody) or np.ndim(inertia) == 0:
+        I2, I3 = moments(inertia)
+        inertia = (I2, I2, I3)
+    tensor = inertia_tensor(inertia)
+    return np.asarray(tensor / np.abs(tensor).max())
+
+
+def _field(field: Any) -> FloatArray:
+    """Return B' (3,) from itself or from (B2, B3)."""
+    B = real(field, "The field")
+    if B.shape not in {(2,), (3,)}:
+        raise AtlasError(f"The field must be B' (3,) or (B2, B3), not of shape {B.shape}.")
+    return B if B.shape == (3,) else np.array([0.0, *B])
+
+
+def _times(times: Any) -> FloatArray:
+    """Return the times (N,), sorted away from 0."""
+    t = np.atleast_1d(real(times, "The times"))
+    if t.ndim != 1 or not t.size:
+        raise AtlasError(f"The times must be one list, not of shape {t.shape}.")
+    if (np.diff(np.abs(t)) < 0).any() or (t.min() < 0 < t.max()):
+        raise AtlasError(
+            "The times must be sorted away from t = 0, all on one side of it, since the integrator starts there."
+        )
+    return t
