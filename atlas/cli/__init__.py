@@ -1,1 +1,5 @@
-"""The command line."""
+"""The command line. Commands import what they need when they run, so that ``--help`` is there at once."""
+
+from atlas.cli.app import main
+
+__all__ = ["main"]

@@ -1,0 +1,6 @@
+import click
+
+
+@click.command("figure")
+def command():
+    """Later."""

@@ -1,0 +1,83 @@
+"""``atlas hyperbola``: points of the hyperbola of elementary motions, with frequencies and stability."""
+
+from typing import Any
+
+import click
+
+from atlas.cli.numbers import along, answer, body_parameters, certificate
+from atlas.cli.options import (
+    REAL,
+    Command,
+    Many,
+    body_options,
+    chosen_body,
+    chosen_field,
+    exact_body,
+    exact_field,
+    exactly,
+    examples,
+    field_options,
+    output_options,
+)
+from atlas.cli.present import Line, Sheet, show
+
+COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
+
+
+@click.command(
+    "hyperbola",
+    cls=Command,
+    short_help="Sample the hyperbola mf72.",
+    epilog=examples(
+        "atlas hyperbola --ratio 0.5 --field 1 0.1 --count 20",
+        "atlas hyperbola --ratio 1.5 --field 1 2 --omega2 -2 -0.5 0.7 --json",
+    ),
+)
+@body_options
+@field_options
+@click.option("--omega2", cls=Many, type=REAL, metavar="W [W ...]", help="Points at these omega2.")
+@click.option(
+    "--count", type=click.IntRange(2, 100_000), default=12, show_default=True, help="Else so many, on both branches."
+)
+@output_options
+def command(**options: Any) -> None:
+    """Sample the hyperbola mf72: omega3, the frequencies k and phi, and the nutation frequency squared."""
+    from atlas.core.hyperbola import Hyperbola
+
+    curve = Hyperbola(chosen_body(options), chosen_field(options))
+    points = list(options["omega2"]) or [float(x) for x in curve.sample(options["count"])[0]]
+
+    def floats() -> dict[str, Any]:
+        k, phi = along(curve.frequencies, points)
+        return described(curve, points, along(curve.omega3, points), k, phi, along(curve.stability, points))
+
+    def balls() -> dict[str, Any]:
+        from atlas.exact.hyperbola import Hyperbola as CertifiedHyperbola
+
+        exact = CertifiedHyperbola(exact_body(options), exact_field(options))
+        at = [exactly(x, options) for x in points]
+        pairs = [exact.frequencies(x) for x in at]
+        columns = ([p[0] for p in pairs], [p[1] for p in pairs], [exact.stability(x) for x in at])
+        return described(exact, points, [exact.omega3(x) for x in at], *columns)
+
+    texts = answer(options, body_parameters(options), floats, balls)
+    if texts is not None:
+        show(sheet(texts, options))
+
+
+def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
+    """Return the pole, the unstable band and the points."""
+    rows = [dict(zip(COLUMNS, row, strict=True)) for row in zip(points, *columns, strict=True)]
+    return {"pole": curve.pole, "unstable_band": curve.unstable_band, "points": rows}
+
+
+def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
+    """Lay the certified texts out, a row a point."""
+    band = texts["unstable_band"]
+    lines = [
+        Line("-B2", "pole of omega3(omega2)", texts["pole"], "1/time", "mf76"),
+        Line("y", "unstable where ((omega2 + B2)/B2)^2 is in", f"({band[0]}, {band[1]})" if band else "nowhere"),
+    ]
+    heading = [f"{name} [1/time]" for name in COLUMNS[:-1]] + ["nutation^2 [1/time^2]"]
+    rows = [[f"{float(row['omega2'])!r}", *(row[name] for name in COLUMNS[1:])] for row in texts["points"]]
+    return Sheet("hyperbola of elementary motions, mf72", lines, heading, rows, [certificate(options)])

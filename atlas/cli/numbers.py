@@ -1,0 +1,57 @@
+"""What the number commands share: one description of the quantities, answered by floats or by certified digits."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import click
+
+from atlas.cli.present import dump
+
+TABLE_DIGITS = 10
+"""Significant digits of a table when --digits does not say otherwise."""
+
+
+def answer(
+    options: dict[str, Any],
+    parameters: dict[str, Any],
+    floats: Callable[[], dict[str, Any]],
+    balls: Callable[[], dict[str, Any]],
+) -> dict[str, Any] | None:
+    """Print the JSON that was asked for and return None, or return the quantities as certified texts for a table.
+
+    ``floats`` computes the quantities with the kernels, ``balls`` with proven radii; they have the same keys.
+    """
+    if options["as_json"] and options["digits"] is None:
+        if options["decimal"]:
+            raise click.UsageError("--decimal needs --digits: floats in JSON are made from doubles.")
+        dump({"parameters": parameters, **floats()})
+        return None
+    from atlas.exact.digits import certified
+
+    texts: dict[str, Any] = certified(balls, options["digits"] or TABLE_DIGITS)
+    if not options["as_json"]:
+        return texts
+    taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
+    dump({"parameters": parameters, "certified_digits": options["digits"], "inputs": taken, **texts})
+    return None
+
+
+def certificate(options: dict[str, Any]) -> str:
+    """Return the sentence under a table that says what its digits are worth."""
+    taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"
+    return f"All digits printed are proven; inputs: {taken}."
+
+
+def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
+    """Evaluate a method of a kernel at all times at once."""
+    import numpy as np
+
+    return method(np.array([float(t) for t in times]))
+
+
+def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the options that describe the body and the field, as they were given."""
+    names = ("ratio", "inertia", "shape", "radius", "height", "length", "equatorial", "polar")
+    names += ("field", "magnetic", "mu")
+    given = {name: options[name] for name in names if options.get(name) is not None}
+    return given | ({"units": options["units"]} if options["magnetic"] is not None else {})

@@ -1,0 +1,216 @@
+"""Options that several commands share: the body, the field, the times, the form of the output."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from typing import Any, Self, TypeVar
+
+import click
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+class Typed(float):
+    """A double that remembers the decimal it was typed as."""
+
+    text: str
+
+    def __new__(cls, text: str) -> Self:
+        """Read a decimal, a fraction such as 2/3 or a hexadecimal float such as 0x1.8p0."""
+        value = float.fromhex(text) if "0x" in text.lower() else float(Fraction(text) if "/" in text else text)
+        number = super().__new__(cls, value)
+        number.text = text
+        return number
+
+    def exactly(self) -> Fraction:
+        """Return the number that was typed, not the double nearest to it."""
+        return Fraction(float(self)) if "0x" in self.text.lower() else Fraction(self.text)
+
+
+class Real(click.ParamType):
+    """A finite real number."""
+
+    name = "number"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
+        """Turn what was typed into a number, or say what is wrong with it."""
+        try:
+            number = Typed(str(value))
+        except (ValueError, ZeroDivisionError, OverflowError):
+            self.fail(f"{value!r} is not a number; write 1.5, 3/2 or 1e-3.", param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"{value!r} is not finite.", param, ctx)
+        return number
+
+
+REAL = Real()
+
+
+class Many(click.Option):
+    """An option that takes as many values as follow it: ``--times 0 1 2.5``."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, multiple=True, **kwargs)
+
+
+class Command(click.Command):
+    """A command whose `Many` options may be followed by several values."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Repeat the option's name before each of its values, which is what click understands."""
+        many = {name for param in self.params if isinstance(param, Many) for name in param.opts}
+        return super().parse_args(ctx, list(_spread(args, many)))
+
+
+def _spread(args: Sequence[str], many: set[str]) -> Iterator[str]:
+    option, given = "", True
+    for word in args:
+        if not option or word.startswith("--"):
+            if not given:
+                yield option  # no value came: click says so
+            option, given = (word, False) if word in many else ("", True)
+            if not option:
+                yield word
+        else:
+            yield from (option, word)
+            given = True
+    if not given:
+        yield option
+
+
+def examples(*commands: str) -> str:
+    """Return the end of a help text: commands to copy, one a line."""
+    return "\n".join(["\b", "Examples:", *(f"  {command}" for command in commands)])
+
+
+def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
+    """Apply several decorators, the first one outermost."""
+
+    def apply(function: F) -> F:
+        for decorator in reversed(decorators):
+            function = decorator(function)
+        return function
+
+    return apply
+
+
+body_options: Callable[[F], F] = stack(
+    click.option("--ratio", type=REAL, help="I = I3/I2, in (0, 2]."),
+    click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
+    click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, cylindrical-shell, ..."),
+    click.option("--radius", type=REAL, help="Radius of the shape."),
+    click.option("--height", type=REAL, help="Height of a cylinder or cylindrical shell."),
+    click.option("--length", type=REAL, help="Length of a rod."),
+    click.option("--equatorial", type=REAL, help="Equatorial semi-axis of a spheroid."),
+    click.option("--polar", type=REAL, help="Polar semi-axis of a spheroid."),
+)
+
+field_options: Callable[[F], F] = stack(
+    click.option("--field", type=REAL, nargs=2, metavar="B2 B3", help="Components of B' = mu B/(2c), in 1/time."),
+    click.option("--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="Components of B itself; needs --mu."),
+    click.option("--mu", type=REAL, help="Charge-to-mass ratio mu = e/m, either sign; with --magnetic."),
+    click.option(
+        "--units",
+        type=click.Choice(["natural", "gaussian", "si"]),
+        default="natural",
+        show_default=True,
+        help="Of --magnetic and --mu: c = 1; gauss and esu/g; tesla and C/kg (no factor c).",
+    ),
+)
+
+output_options: Callable[[F], F] = stack(
+    click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."),
+    click.option(
+        "--digits",
+        type=click.IntRange(1, 1000),
+        help="So many certified significant digits; in JSON they come as strings.",
+    ),
+    click.option("--decimal", is_flag=True, help="Take typed decimals exactly: 0.1 is 1/10, not the nearest double."),
+)
+
+times_options: Callable[[F], F] = stack(
+    click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, as many as you like."),
+    click.option("--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="A uniform grid of times instead."),
+)
+
+
+def chosen_body(options: dict[str, Any]) -> Any:
+    """Return the ratio, or the body that --inertia or --shape describes; one of the three is needed.
+
+    Raises click.UsageError when none or several are given, or when a dimension is missing or out of place.
+    """
+    given = [name for name in ("ratio", "inertia", "shape") if options[name] is not None]
+    if len(given) != 1:
+        found = " and ".join(f"--{name}" for name in given) or "none"
+        raise click.UsageError(f"the body is one of --ratio, --inertia, --shape; found {found}.")
+    sizes = {name: options[name] for name in ("radius", "height", "length", "equatorial", "polar")}
+    sizes = {name: size for name, size in sizes.items() if size is not None}
+    if sizes and options["shape"] is None:
+        raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
+    if options["ratio"] is not None:
+        return options["ratio"]
+    from atlas.core.body import SymmetricBody, from_shape
+
+    if options["inertia"] is not None:
+        return SymmetricBody(*options["inertia"])
+    return from_shape(options["shape"].replace("-", "_"), mass=1.0, **sizes)
+
+
+def exact_body(options: dict[str, Any]) -> Any:
+    """Return the body of `chosen_body` for the certified floor: what was typed, nothing rounded."""
+    body = chosen_body(options)
+    if not options["decimal"]:
+        return body
+    if options["shape"] is not None:
+        raise click.UsageError("--decimal goes with --ratio or --inertia, not with --shape.")
+    if options["ratio"] is not None:
+        return options["ratio"].exactly()
+    I2, I3 = (moment.exactly() for moment in options["inertia"])
+    return I3 / I2
+
+
+def chosen_field(options: dict[str, Any]) -> tuple[float, float]:
+    """Return (B2, B3) of B' in 1/time, from --field or from --magnetic and --mu.
+
+    Raises click.UsageError when neither or both are given.
+    """
+    if (options["field"] is None) == (options["magnetic"] is None):
+        raise click.UsageError("the field is one of --field (components of B') and --magnetic with --mu.")
+    if options["field"] is not None:
+        return tuple(options["field"])
+    if options["mu"] is None:
+        raise click.UsageError("--magnetic needs --mu, the charge-to-mass ratio.")
+    from atlas.core.field import Field
+
+    maker = {"natural": Field, "gaussian": Field.gaussian, "si": Field.si}[options["units"]]
+    prime = maker(B=(0.0, *options["magnetic"]), mu=options["mu"]).prime
+    return (float(prime[1]), float(prime[2]))
+
+
+def exact_field(options: dict[str, Any]) -> Any:
+    """Return the field of `chosen_field` for the certified floor."""
+    if options["decimal"] and options["field"] is None:
+        raise click.UsageError("--decimal goes with --field, not with --magnetic.")
+    return exactly(chosen_field(options), options)
+
+
+def exactly(value: Any, options: dict[str, Any]) -> Any:
+    """Return a typed number, or several, as the certified floor takes them: doubles, or decimals with --decimal."""
+    if isinstance(value, tuple | list):
+        return [exactly(item, options) for item in value]
+    return value.exactly() if options["decimal"] and isinstance(value, Typed) else value
+
+
+def chosen_times(options: dict[str, Any]) -> list[float]:
+    """Return the times of --times or --grid, none when neither is given.
+
+    Raises click.UsageError when both are given or the count is not a natural number.
+    """
+    if options["grid"] is None:
+        return list(options["times"] or ())
+    if options["times"]:
+        raise click.UsageError("give --times or --grid, not both.")
+    start, step, count = options["grid"]
+    if count != int(count) or not 0 < count <= 1e6:
+        raise click.UsageError(f"the count of --grid is a whole number from 1 to 1000000, not {count.text}.")
+    return [start + step * index for index in range(int(count))]

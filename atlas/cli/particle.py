@@ -1,0 +1,92 @@
+"""``atlas particle``: a point charge in constant fields, and the body's centre of mass."""
+
+from typing import Any
+
+import click
+
+from atlas.cli.numbers import along, answer, certificate
+from atlas.cli.options import REAL, Command, chosen_times, exactly, examples, output_options, times_options
+from atlas.cli.present import Line, Sheet, show
+
+VECTORS = ("electric", "magnetic", "position", "velocity")
+
+
+def _vector(name: str, default: str | None, text: str) -> Any:
+    standing: dict[str, Any] = {"required": True} if default is None else {"default": (default,) * 3}
+    return click.option(name, type=REAL, nargs=3, metavar="X Y Z", help=text, **standing)
+
+
+@click.command(
+    "particle",
+    cls=Command,
+    short_help="Move a point charge.",
+    epilog=examples(
+        "atlas particle --mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1 2",
+    ),
+)
+@click.option("--mu", type=REAL, required=True, help="Charge-to-mass ratio, either sign.")
+@_vector("--electric", "0", "Electric field E; zero when left out.")
+@_vector("--magnetic", "0", "Magnetic field B; zero when left out.")
+@_vector("--position", "0", "Position at t = 0; the origin when left out.")
+@_vector("--velocity", None, "Velocity at t = 0.")
+@click.option(
+    "--units",
+    type=click.Choice(["natural", "gaussian", "si"]),
+    default="natural",
+    show_default=True,
+    help="c = 1; statvolt/cm, gauss, cm; volt/m, tesla, m (no factor c).",
+)
+@times_options
+@output_options
+def command(**options: Any) -> None:
+    """Position and velocity of a point charge in any constant E and B (mf5 to mf11)."""
+    from atlas.core.units import system
+
+    times = chosen_times(options)
+    c = 1.0 if options["units"] == "natural" else system(options["units"]).c
+
+    def floats() -> dict[str, Any]:
+        from atlas.core.particle import ParticleMotion
+
+        motion = ParticleMotion(options["mu"], *(tuple(options[name]) for name in VECTORS), c=c)
+        return described(motion, times, along(motion.position, times), along(motion.velocity, times))
+
+    def balls() -> dict[str, Any]:
+        from atlas.exact.particle import ParticleMotion
+
+        motion = ParticleMotion(*(exactly(options[name], options) for name in ("mu", *VECTORS)), c=c)
+        at = [exactly(t, options) for t in times]
+        return described(motion, times, [motion.position(t) for t in at], [motion.velocity(t) for t in at])
+
+    parameters = {name: options[name] for name in ("mu", *VECTORS, "units")}
+    texts = answer(options, parameters, floats, balls)
+    if texts is not None:
+        show(sheet(texts, options))
+
+
+def described(motion: Any, times: list[float], y: Any, v: Any) -> dict[str, Any]:
+    """Return the quantities of a particle's motion and its samples; without B there is no drift."""
+    drift = motion.drift if motion.cyclotron_frequency != 0 else None
+    samples = [{"t": t, "position": a, "velocity": b} for t, a, b in zip(times, y, v, strict=True)]
+    return {"cyclotron_frequency": motion.cyclotron_frequency, "drift": drift, "samples": samples}
+
+
+def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
+    """Lay the certified texts out, three rows a time."""
+    time, speed, length = {
+        "natural": ("1/time", "length/time", "length"),
+        "gaussian": ("rad/s", "cm/s", "cm"),
+        "si": ("rad/s", "m/s", "m"),
+    }[options["units"]]
+    drift = f"({', '.join(texts['drift'])})" if texts["drift"] else "-"
+    lines = [
+        Line("omega", "cyclotron frequency |mu B|/c", texts["cyclotron_frequency"], time, "mf9"),
+        Line("drift", "c [E, B]/B^2", drift, speed if texts["drift"] else "", "mf6"),
+    ]
+    rows = [
+        [f"{float(sample['t'])!r}" if i == 0 else "", sample["position"][i], sample["velocity"][i]]
+        for sample in texts["samples"]
+        for i in range(3)
+    ]
+    heading = ("t", f"y_i [{length}]", f"v_i [{speed}]") if rows else ()
+    return Sheet("point charge in constant fields", lines, heading, rows, [certificate(options)])

@@ -1,0 +1,77 @@
+"""Numbers on standard output: a readable table or JSON, never both."""
+
+import json
+import math
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import click
+
+
+@dataclass(frozen=True)
+class Line:
+    """One quantity: its symbol, what it is, its value as text, its unit, the equation it comes from."""
+
+    symbol: str
+    says: str
+    value: str
+    unit: str = ""
+    label: str = ""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """What a command prints: single quantities, then one table with a unit in each heading."""
+
+    title: str
+    lines: Sequence[Line] = ()
+    heading: Sequence[str] = ()
+    rows: Sequence[Sequence[str]] = ()
+    notes: Sequence[str] = field(default_factory=tuple)
+
+
+def show(sheet: Sheet) -> None:
+    """Print a sheet, as wide as the terminal, or as wide as it needs when the output is a file or a pipe."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    console = Console(width=None if sys.stdout.isatty() else 250, highlight=False, soft_wrap=True)
+    console.print(sheet.title, style="bold", markup=False)
+    if sheet.lines:
+        table = Table(box=None, show_header=False, pad_edge=False)
+        for line in sheet.lines:
+            table.add_row(*(Text(cell) for cell in (line.symbol, line.value, line.unit, line.says, line.label)))
+        console.print(table)
+    if sheet.heading:
+        table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+        for name in sheet.heading:
+            table.add_column(Text(name), justify="right", no_wrap=True)
+        for row in sheet.rows:
+            table.add_row(*(Text(cell) for cell in row))
+        console.print(table)
+    for note in sheet.notes:
+        console.print(note, style="dim", markup=False)
+
+
+def dump(record: Any) -> None:
+    """Print JSON: floats with the shortest digits that read back the same; no NaN, no infinity (they become null)."""
+    click.echo(json.dumps(plain(record), ensure_ascii=False, allow_nan=False, indent=None))
+
+
+def plain(value: Any) -> Any:
+    """Return the value in lists, dictionaries, strings and Python numbers."""
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, bool) or value is None or isinstance(value, str | int):
+        return value
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, Iterable):
+        return [plain(item) for item in value]
+    raise TypeError(f"no JSON for {type(value).__name__}")

@@ -1,0 +1,152 @@
+"""The command line as a physicist types it."""
+
+import json
+import subprocess
+import sys
+from fractions import Fraction
+
+import mpmath
+import pytest
+from click.testing import CliRunner
+
+from atlas.cli.app import atlas as command
+from atlas.cli.options import Typed
+
+ATLAS = [sys.executable, "-m", "atlas"]
+EPS = 2.0**-52
+
+
+def run(*words: str) -> subprocess.CompletedProcess[str]:
+    """Run the program as a process of its own."""
+    return subprocess.run([*ATLAS, *words], capture_output=True, text=True, check=False)
+
+
+def record(*words: str) -> dict:  # type: ignore[type-arg]
+    """Run a command with --json inside this process and read what it prints."""
+    result = CliRunner().invoke(command, [*words, "--json"], catch_exceptions=False)
+    assert result.exit_code == 0, result.output
+    return json.loads(result.stdout)
+
+
+@pytest.mark.parametrize(
+    ("words", "kind"),
+    [
+        (("--ratio", "1.5", "--field", "1", "2"), "two-sheet hyperboloid"),
+        (("--ratio", "2", "--field", "1", "2"), "two-sheet hyperboloid"),
+        (("--ratio", "1", "--field", "1", "2"), "cone"),
+        (("--inertia", "3", "3", "--field", "-1", "2"), "cone"),
+        (("--ratio", "0.5", "--field", "1", "-2"), "one-sheet hyperboloid"),
+        (("--shape", "ring", "--radius", "2", "--field", "1", "2"), "two-sheet hyperboloid"),
+        (("--ratio", "1.5", "--field", "1", "0"), "plane pair"),
+        (("--ratio", "1.5", "--field", "0", "1"), "line"),
+        (("--ratio", "1.5", "--field", "0", "0"), "all space"),
+        (("--ratio", "1.5", "--magnetic", "1", "2", "--mu", "-3"), "two-sheet hyperboloid"),
+    ],
+)
+def test_classify_names_the_quadric(words: tuple[str, ...], kind: str) -> None:
+    """Each of the six kinds is named, from any way of giving the body and the field."""
+    assert record("classify", *words)["kind"] == kind
+
+
+def test_motion_agrees_with_fifty_digits() -> None:
+    """The motion of the README agrees with the closed form at 50 digits to 1e-14."""
+    out = record("motion", *"--ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 2.5".split())
+    with mpmath.workdps(50):
+        I, B2, B3, omega2 = (mpmath.mpf(x) for x in (1.5, 1, 2, 0.7))
+        b = mpmath.sqrt(B2**2 + B3**2)
+        s, c = B2 / b, B3 / b
+        omega3 = B3 * omega2 * (omega2 + (2 - I) * B2) / (I * B2 * (omega2 + B2))
+        k, phi = omega2 / s, omega3 - B3 / B2 * omega2
+        for name, value in (("omega3", omega3), ("k", k), ("phi", phi)):
+            assert abs(out[name] - value) <= 4 * EPS * abs(value)
+        assert [sample["t"] for sample in out["samples"]] == [0, 1, 2.5]
+        for sample in out["samples"]:
+            ck, sk = mpmath.cos(k * sample["t"]), mpmath.sin(k * sample["t"])
+            cp, sp = mpmath.cos(phi * sample["t"]), mpmath.sin(phi * sample["t"])
+            first = mpmath.matrix(
+                [
+                    [ck, -c * sk, s * sk],
+                    [c * sk, s * s + c * c * ck, s * c * (1 - ck)],
+                    [-s * sk, s * c * (1 - ck), c * c + s * s * ck],
+                ]
+            )
+            R = first * mpmath.matrix([[cp, -sp, 0], [sp, cp, 0], [0, 0, 1]])
+            assert max(abs(R[i, j] - sample["R"][i][j]) for i in range(3) for j in range(3)) <= 4 * EPS
+            Omega = (omega2 * sp, omega2 * cp, omega3)
+            assert max(abs(a - b) for a, b in zip(Omega, sample["Omega"], strict=True)) <= 8 * EPS * 2
+
+
+def test_json_is_alone_on_standard_output() -> None:
+    """With --json, standard output is one JSON document and standard error is silent."""
+    result = run(*"ball --inertia 2 --larmor 0.5 --momentum 0.3 -0.7 --times 0 1e-3 --json".split())
+    assert result.returncode == 0
+    assert result.stderr == ""
+    assert set(json.loads(result.stdout)) >= {"gamma", "k_hat", "samples"}
+
+
+def test_floats_in_json_read_back_the_same() -> None:
+    """A parameter typed as a decimal comes back as the same double."""
+    out = record("motion", *"--ratio 0.1 --field 0.3 1e-5 --omega2 -7e-5 --times 1e3".split())
+    assert out["parameters"]["ratio"] == 0.1
+    assert out["parameters"]["field"] == [0.3, 1e-5]
+    assert out["samples"][0]["t"] == 1000.0
+
+
+@pytest.mark.parametrize(
+    ("words", "tells"),
+    [
+        ("classify --ratio 2.5 --field 1 2", "2.5"),
+        ("classify --ratio 0 --field 1 2", "0"),
+        ("classify --ratio -1 --field 1 2", "-1"),
+        ("classify --field 1 2", "--ratio"),
+        ("classify --ratio 1 --inertia 1 1 --field 1 2", "--inertia"),
+        ("classify --ratio 1", "--field"),
+        ("classify --ratio nan --field 1 2", "nan"),
+        ("classify --ratio one --field 1 2", "one"),
+        ("classify --ratio 1 --field 1", "--field"),
+        ("classify --shape banana --field 1 2", "banana"),
+        ("classify --shape ring --field 1 2", "radius"),
+        ("motion --ratio 1.5 --field 1 2 --omega2 -1 --times 0", "-1"),
+        ("motion --ratio 1.5 --field 1 2 --omega2 1 --times", "--times"),
+        ("motion --ratio 1.5 --field 1 2 --omega2 1 --times 0 --grid 0 1 5", "--grid"),
+        ("motion --ratio 1.5 --field 1 2 --omega2 1 --grid 0 1 2.5", "2.5"),
+        ("motion --ratio 1.5 --field 1 2 --omega2 1e3 --times 1e30", "2^50"),
+        ("figure nosuchfigure", "nosuchfigure"),
+        ("report nosuchreport", "nosuchreport"),
+        ("clasify --ratio 1", "clasify"),
+        ("classify --rato 1", "--rato"),
+    ],
+)
+def test_a_wrong_input_gets_one_line_and_status_two(words: str, tells: str) -> None:
+    """What was wrong stands in one line on standard error, without a traceback."""
+    result = run(*words.split())
+    assert result.returncode == 2
+    assert result.stdout == ""
+    assert result.stderr.count("\n") == 1
+    assert tells in result.stderr
+
+
+def test_negative_numbers_are_numbers() -> None:
+    """Negative values, also in exponent notation, are values and not options."""
+    out = record("motion", *"--ratio 1.5 --field -1 -2e0 --omega2 -7e-1 --times -1e-5 -2 3".split())
+    assert [sample["t"] for sample in out["samples"]] == [-1e-5, -2.0, 3.0]
+
+
+@pytest.mark.parametrize("text", ["0.1", "1/3", "1e-3", "-2.5", "0x1.8p1"])
+def test_a_typed_number_remembers_what_was_typed(text: str) -> None:
+    """The double is the nearest one, and the exact number is kept."""
+    number = Typed(text)
+    exact = number.exactly()
+    assert isinstance(exact, Fraction)
+    assert float(exact) == float(number)
+
+
+def test_the_reader_of_a_pipe_may_leave() -> None:
+    """A closed pipe ends the program quietly."""
+    words = "motion --ratio 1.5 --field 1 2 --omega2 1 --grid 0 1 20000 --json".split()
+    with subprocess.Popen([*ATLAS, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.read(10)
+        process.stdout.close()
+        assert process.stderr.read() == b""
