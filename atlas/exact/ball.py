@@ -33,8 +33,12 @@ class BallMotion:
         return -self.m2 / size, -(self.m3 + self.larmor * self.inertia) / size
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t), mf38."""
+        """Return R(t), mf38; for a momentum along the field mf40, in which the two turns are one."""
         t = rational(t, "the time")
+        if self.m2 == 0:
+            s, c = sin_cos(self.m3 / self.inertia * t)
+            zero, one = fmpq(0), fmpq(1)
+            return [[c, -s, zero], [s, c, zero], [zero, zero, one]]
         k2, k3 = self.k_hat
         s, c = sin_cos(self.gamma * t)
         S, C = sin_cos(self.larmor * t)

@@ -190,5 +190,5 @@ def _written(m: int, e: int, count: int, layout: Layout, mark: str) -> str:
         text = "0" * -e + text if e < 0 else text
         point = max(e, 0) + 1
         return sign + text[:point] + ("." + text[point:] if text[point:] else "") + mark
-    mantissa = sign + text[0] + ("." + text[1:] if count > 1 else "") + mark
-    return f"{mantissa} \\times 10^{{{e}}}" if layout == "tex" else f"{mantissa}e{e:+03d}"
+    mantissa = sign + text[0] + ("." + text[1:] if count > 1 else "")
+    return (f"{mantissa} \\times 10^{{{e}}}" if layout == "tex" else f"{mantissa}e{e:+03d}") + mark

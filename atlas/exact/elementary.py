@@ -63,9 +63,18 @@ class ElementaryMotion:
     @property
     def axis(self) -> tuple[Real, Real]:
         """Components 2 and 3 of the unit vector of the precession axis."""
-        x, y = (self.omega2, self.I * self.omega3) if self.case == "free body" else (self.B2, self.B3)
+        x, y = self._direction
         size = root(x**2 + y**2)
-        return (x / size, y / size) if size != 0 else (fmpq(0), fmpq(1))
+        return x / size, y / size
+
+    @property
+    def _direction(self) -> tuple[fmpq, fmpq]:
+        """Components 2 and 3 of a vector along the axis: B', the angular momentum, or e3 where both are zero."""
+        if self.case != "free body":
+            return self.B2, self.B3
+        if self.omega2 == 0 and self.omega3 == 0:
+            return fmpq(0), fmpq(1)
+        return self.omega2, self.I * self.omega3
 
     @property
     def k(self) -> Real:
@@ -110,8 +119,20 @@ class ElementaryMotion:
         return [self.B2 * S, self.B2 * C, self.B3]
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m(t)/I2 in the laboratory frame, mf93: it precesses about the axis with frequency k."""
-        return [row[1] * self.omega2 + row[2] * (self.I * self.omega3) for row in self._precession(t)]
+        """Return m(t)/I2 in the laboratory frame, mf93: it precesses about the axis with frequency k.
+
+        Its parts along the axis and across it are rational but for one square root, and zero exactly where they are.
+        """
+        s, c = sin_cos(self.k * rational(t, "the time"))
+        m2, m3 = self.omega2, self.I * self.omega3
+        x, y = self._direction
+        square = x**2 + y**2
+        along, across = m2 * x + m3 * y, m3 * x - m2 * y
+        return [
+            across * s / root(square),
+            (along * x - across * y * c) / square,
+            (along * y + across * x * c) / square,
+        ]
 
     @property
     def invariants(self) -> dict[str, fmpq]:
@@ -127,11 +148,11 @@ class ElementaryMotion:
 
     def _precession(self, t: Any) -> list[list[Real]]:
         """Return R_axis(k t), the first factor of mf90."""
-        n2, n3 = self.axis
+        (x, y), (n2, n3) = self._direction, self.axis
         s, c = sin_cos(self.k * rational(t, "the time"))
-        v = 1 - c
+        v = (1 - c) / (x**2 + y**2)
         return [
             [c, -n3 * s, n2 * s],
-            [n3 * s, c + n2**2 * v, n2 * n3 * v],
-            [-n2 * s, n2 * n3 * v, c + n3**2 * v],
+            [n3 * s, c + x**2 * v, x * y * v],
+            [-n2 * s, x * y * v, c + y**2 * v],
         ]

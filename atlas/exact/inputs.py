@@ -51,7 +51,13 @@ def root(square: fmpq) -> Real:
     return arb(square).sqrt()
 
 
-def sin_cos(angle: Real) -> tuple[arb, arb]:
-    """Return sine and cosine as balls; those of an exact zero are exact."""
+def sin_cos(angle: Real) -> tuple[Real, Real]:
+    """Return sine and cosine as balls, and those of zero as the rationals 0 and 1.
+
+    The sine and the cosine of any other algebraic angle are transcendental (Lindemann). So a sum of them with rational
+    coefficients, collected term by term, is zero only where every coefficient is, and then it is an exact zero here.
+    """
+    if angle == 0:
+        return fmpq(0), fmpq(1)
     sine, cosine = arb(angle).sin_cos()
     return sine, cosine

@@ -21,11 +21,12 @@ class ParticleMotion:
         self.start, self.launch = rationals(position, "the position", 3), rationals(velocity, "the velocity", 3)
         self._a = tuple(self.mu * x for x in self.E)
         self._w = tuple(self.mu * x / self.c for x in self.B)
+        self._w2 = _dot(self._w, self._w)
 
     @property
     def cyclotron_frequency(self) -> Real:
         """The frequency omega = |mu B|/c of mf9."""
-        return root(_dot(self._w, self._w))
+        return root(self._w2)
 
     @property
     def drift(self) -> Vector:
@@ -35,35 +36,43 @@ class ParticleMotion:
             raise DomainError("Without a magnetic field there is no drift: the particle is accelerated along E.")
         return tuple(self.c * x / B2 for x in _cross(self.E, self.B))
 
-    def velocity(self, t: Any) -> list[Real]:
-        """Return v(t), the derivative of mf10."""
-        t = rational(t, "the time")
-        f = self._integrals(t)
-        turned = self._turn(self.launch, 1 + 0 * t, f[0], f[1])
-        return [x + y for x, y in zip(turned, self._turn(self._a, t, f[1], f[2]), strict=True)]
-
     def position(self, t: Any) -> list[Real]:
-        """Return y(t), mf10 with the constants of the given start."""
+        """Return y(t), mf10 with the constants of the given start: y0 + d t + p t^2/2 + (c - 1) r + s q.
+
+        Here w = mu B/c, s = sin(|w| t)/|w| and c = cos(|w| t); the vectors are rational, so that what vanishes (a
+        drift at the right speed, say) does so exactly. Without a field it is the parabola that mf2 gives.
+        """
         t = rational(t, "the time")
-        f = self._integrals(t)
-        flown = self._turn(self.launch, t, f[1], f[2])
-        pushed = self._turn(self._a, t**2 / 2, f[2], f[3])
-        return [x + y + z for x, y, z in zip(self.start, flown, pushed, strict=True)]
+        if self._w2 == 0:
+            return [y + v * t + a * t**2 / 2 for y, v, a in zip(self.start, self.launch, self._a, strict=True)]
+        s, c = self._circle(t)
+        terms = zip(self.start, *self._vectors(), strict=True)
+        return [y + d * t + p * t**2 / 2 + (c - 1) * r + s * q for y, d, p, r, q in terms]
 
-    def _integrals(self, t: fmpq) -> tuple[Real, ...]:
-        """Return sin(wt)/w and its first three integrals over t from 0; the powers of t where w = 0."""
+    def velocity(self, t: Any) -> list[Real]:
+        """Return v(t), the derivative of mf10: d + p t - w^2 s r + c q in the letters of `position`."""
+        t = rational(t, "the time")
+        if self._w2 == 0:
+            return [v + a * t for v, a in zip(self.launch, self._a, strict=True)]
+        s, c = self._circle(t)
+        return [d + p * t - self._w2 * s * r + c * q for d, p, r, q in zip(*self._vectors(), strict=True)]
+
+    def _vectors(self) -> tuple[Vector, Vector, Vector, Vector]:
+        """Return d (steady velocity), p (acceleration along B), r and q (the two radii of the circle), all rational."""
+        w2, v, a = self._w2, self.launch, self._a
+        wv, wa = _cross(self._w, v), _cross(self._w, a)
+        wwv, wwa = _cross(self._w, wv), _cross(self._w, wa)
+        q = tuple((x - y) / w2 for x, y in zip(wa, wwv, strict=True))
+        d = tuple(x - y for x, y in zip(v, q, strict=True))
+        p = tuple(x + y / w2 for x, y in zip(a, wwa, strict=True))
+        r = tuple((x + y / w2) / w2 for x, y in zip(wv, wwa, strict=True))
+        return d, p, r, q
+
+    def _circle(self, t: fmpq) -> tuple[Real, Real]:
+        """Return sin(|w| t)/|w| and cos(|w| t)."""
         w = self.cyclotron_frequency
-        if w == 0 or t == 0:
-            return t, t**2 / 2, t**3 / 6, t**4 / 24
         sine, cosine = sin_cos(w * t)
-        w2 = _dot(self._w, self._w)
-        return sine / w, (1 - cosine) / w2, (t - sine / w) / w2, (t**2 / 2 - (1 - cosine) / w2) / w2
-
-    def _turn(self, x: Vector, one: Real, sine: Real, versine: Real) -> Vector:
-        """Return ``one x - sine [w, x] + versine [w, [w, x]]``: the turn exp(-[w] t) x, or an integral of it."""
-        first = _cross(self._w, x)
-        second = _cross(self._w, first)
-        return tuple(one * a - sine * b + versine * d for a, b, d in zip(x, first, second, strict=True))
+        return sine / w, cosine
 
 
 def _dot(a: Vector, b: Vector) -> Real:

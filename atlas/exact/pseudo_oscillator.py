@@ -18,12 +18,12 @@ class PseudoOscillator:
 
     @property
     def integrals(self) -> dict[str, fmpq]:
-        """E' (mf44), K^2 (mf45), c3 (mf48) and c5 (mf49)."""
+        """The integrals E' (mf44), K^2 (mf45), c3 (mf48) and c5 (mf49)."""
         w1, w2, w3 = self.omega
         c3 = w3 + self.B3
         return {
-            "E'": w1**2 + w2**2 + self.I * w3**2,
-            "K^2": self.B2**2 + self.B3**2,
+            "E": w1**2 + w2**2 + self.I * w3**2,
+            "K2": self.B2**2 + self.B3**2,
             "c3": c3,
             "c5": w2 * self.B2 - w3**2 + (2 - self.I) * c3 * w3,
         }
@@ -45,6 +45,19 @@ class PseudoOscillator:
         u = rational(u, "Omega3")
         a0, a1, a2, a3 = self.coefficients
         return a0 + u * (a1 + u * (a2 + u * a3))
+
+    @property
+    def quartic_coefficients(self) -> tuple[fmpq, ...]:
+        """Coefficients (q0, ..., q4) of `quartic`, its powers of u multiplied out."""
+        I = self.I
+        E, b2, c3, c5 = self.integrals.values()
+        return (
+            E * (b2 - c3**2) - c5**2,
+            2 * E * c3 + 2 * (2 - I) * c3 * c5,
+            -E - I * (b2 - c3**2) - (2 - I) ** 2 * c3**2 - 2 * c5,
+            2 * (1 - I) * c3 * 2,
+            I - 1,
+        )
 
     def quartic(self, u: Any) -> fmpq:
         """Return (dOmega3/dt)^2 where Omega3 = u: the first integral of mf55."""

@@ -155,15 +155,13 @@ def _power_of_two(x: Fraction) -> Fraction:
 
 
 def _step(series: list[list[int]]) -> Fraction:
-    """Return the step at which the last two terms of every series are below one unit."""
+    """Return the step, at most 1, at which the last two terms of every series are below one unit."""
     order = len(series[0]) - 1
-    exponent = float("inf")
+    exponent = 0.0  # beyond 1 the roundings of the coefficients would grow
     for n in (order - 1, order):
         largest = max(abs(coefficients[n]) for coefficients in series)
         if largest:
             exponent = min(exponent, -largest.bit_length() / n)
-    if exponent == float("inf"):
-        return Fraction(1 << 60)  # nothing moves
     return Fraction(round(2 ** (exponent + 20)), 1 << 20)
 
 

@@ -1,0 +1,74 @@
+"""Moments of inertia as exact rationals."""
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpq
+
+from atlas.core.body import SHAPES as CORE_SHAPES
+from atlas.core.body import SymmetricBody, from_shape
+from atlas.errors import AtlasError, DomainError
+from atlas.exact.body import SHAPES, mass_matrix, ratio_of, shape_moments
+from atlas.exact.inputs import rational, rationals, root
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_the_moments_in_floats_are_those_of_the_shape(name: str) -> None:
+    """Each shape's floats lie within 2 ulp of the exact moments, for the same dimensions."""
+    assert set(SHAPES) == set(CORE_SHAPES)
+    sizes = dict(zip(SHAPES[name][0], (1.7, 0.3, 1.1), strict=False))
+    body = from_shape(name, **sizes)
+    for found, moment in zip((body.I2, body.I3), shape_moments(name, **sizes), strict=True):
+        exact = Fraction(int(moment.p), int(moment.q))
+        assert abs(Fraction(found) - exact) <= 2 * Fraction(2) ** -52 * exact
+
+
+def test_the_shell_of_height_root_six_is_a_ball_in_disguise() -> None:
+    """I = 1 at h = R sqrt(6), between two neighbouring doubles."""
+    below, above = (shape_moments("cylindrical_shell", mass=1, radius=1, height=h) for h in (2.449489742783178, 2.45))
+    assert below[1] / below[0] > fmpq(1) > above[1] / above[0]
+
+
+def test_decimal_text_is_taken_exactly() -> None:
+    """The string "0.1" is 1/10 and the float 0.1 is not."""
+    assert rational("0.1", "x") == fmpq(1, 10)
+    assert rational(0.1, "x") == fmpq(3602879701896397, 2**55)
+    assert rational(Fraction(1, 3), "x") == fmpq(1, 3)
+    assert rational(-0.0, "x") == 0
+
+
+def test_the_quotient_of_a_body_is_exact() -> None:
+    """A body of moments 3 and 1 has I = 1/3, which no float is."""
+    assert ratio_of(SymmetricBody(3.0, 1.0)) == fmpq(1, 3)
+    assert mass_matrix(3.0, 1.0) == (fmpq(1, 2), fmpq(1, 2), fmpq(5, 2))
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [("two", "finite real number"), (float("nan"), "finite"), (float("inf"), "finite"), (True, "real"), (1j, "real")],
+)
+def test_what_is_no_number_is_refused(value: object, words: str) -> None:
+    """The sentence names the argument."""
+    with pytest.raises(AtlasError, match=f"x must be a?.*{words}"):
+        rational(value, "x")
+
+
+def test_wrong_shapes_are_refused() -> None:
+    """Unknown shapes, missing and negative dimensions, and vectors of the wrong length are errors."""
+    with pytest.raises(AtlasError, match="There is no shape"):
+        shape_moments("cube", mass=1)
+    with pytest.raises(AtlasError, match="is given by mass, radius"):
+        shape_moments("ring", mass=1)
+    with pytest.raises(DomainError, match="radius must be positive"):
+        shape_moments("ring", mass=1, radius=-1)
+    with pytest.raises(AtlasError, match="must hold 2 numbers, not 3"):
+        rationals((1, 2, 3), "the field", 2)
+    with pytest.raises(DomainError, match="I is at most 2"):
+        ratio_of("2.0000000001")
+
+
+def test_the_root_of_a_square_is_rational() -> None:
+    """Exact squares keep exact roots, so that zeros stay recognisable."""
+    assert root(fmpq(25, 9)) == fmpq(5, 3)
+    assert root(fmpq(0)) == 0
+    assert (root(fmpq(2)) ** 2).contains(2)
