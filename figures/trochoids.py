@@ -6,7 +6,7 @@ e1 = [E, B]/|[E, B]| with the speed v = c |E_perp|/|B|, and the particle turns r
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, number, positive, vector
+from atlas.core.inputs import FloatArray, positive
 from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Plane, Points, Scene
@@ -27,41 +27,43 @@ def scene(
     unit: str = "length",
 ) -> Scene:
     """Draw one panel for each of ``speeds``, the speeds a omega of the turning in units of the drift's."""
-    mu, c, turns = number(mu, "mu"), positive(c, "c"), positive(turns, "turns")
-    plane, v = drift(vector(E, "E"), vector(B, "B"), c)
-    if mu == 0:
-        raise DomainError("A particle with mu = 0 draws no trochoid; give it a charge.")
+    still = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), c)
+    plane, v, omega = still.axes[:2], float(np.linalg.norm(still.drift)), abs(still.cyclotron_frequency)
+    turns = positive(turns, "turns")
     if not speeds or min(speeds) < 0:
         raise DomainError(f"speeds must hold at least one number, and none below zero, not {speeds}.")
-    omega = abs(mu) * float(np.linalg.norm(B)) / c
-    period = 2 * np.pi / omega
+    period = still.period
     span, height = turns * period * v, max(1.0, *speeds) * v / omega
-    panels = []
-    for row, speed in enumerate(speeds):
-        launch = v * (1 + np.copysign(speed, mu)) * plane[0]
-        particle = ParticleMotion(mu, E, B, speed * v / omega * plane[1], launch, c=c)
+    paths = []
+    for speed in speeds:
+        particle = ParticleMotion.trochoid(mu, E, B, speed * v / omega, c)
 
         def path(t: FloatArray, particle: ParticleMotion = particle) -> FloatArray:
             return np.asarray(particle.position(t) @ plane.T)
 
         tolerance = quarter_pixel(1.12 * span, WIDTH - MARGIN)
         points = curve(path, 0.0, turns * period, tolerance, pieces=max(8, round(8 * turns)))
-        panels.append(
-            Plane(
-                (
-                    Curve(np.array([[0.0, 0.0], [span, 0.0]]), "reference"),
-                    Curve(points, "trajectory"),
-                    Points(path(period * np.arange(1, int(turns) + 1)), "sample"),
-                    Points(points[:1], "start"),
-                ),
-                x_label=f"$x$ ({unit})" if row == len(speeds) - 1 else "",
-                y_label=f"$y$ ({unit})",
-                x_limits=(-0.06 * span, 1.06 * span),
-                y_limits=(-1.25 * height, 1.25 * height),
-                equal=True,
-                title=rf"{name(speed)}, $a\omega = {tex(speed)}\,v$",
-            )
+        paths.append((speed, points, path(period * np.arange(1, int(turns) + 1))))
+    left = min(0.0, *(float(points[:, 0].min()) for _, points, _ in paths))
+    right = max(span, *(float(points[:, 0].max()) for _, points, _ in paths))
+    limits = (left - 0.05 * (right - left), right + 0.05 * (right - left))
+    panels = tuple(
+        Plane(
+            (
+                Curve(np.array([[0.0, 0.0], [span, 0.0]]), "reference"),
+                Curve(points, "trajectory"),
+                Points(whole, "sample"),
+                Points(points[:1], "start"),
+            ),
+            x_label=f"$x$ ({unit})" if row == len(paths) - 1 else "",
+            y_label=f"$y$ ({unit})",
+            x_limits=limits,
+            y_limits=(-1.25 * height, 1.25 * height),
+            equal=True,
+            title=f"({chr(ord('a') + row)}) {name(speed)}, {turning(speed)}",
         )
+        for row, (speed, points, whole) in enumerate(paths)
+    )
     return Scene(
         title=title(__doc__),
         caption=(
@@ -79,18 +81,9 @@ def scene(
             + listed([f"a {name(s)} for a turning speed of {plain(s)} times the drift speed" for s in speeds])
             + ". Each path runs to the right along a dashed straight line, the path of its guiding centre."
         ),
-        panels=tuple(panels),
-        size=(WIDTH, len(speeds) * ((WIDTH - MARGIN) * 2.5 * height / (1.12 * span) + 9.0) + 8.0),
+        panels=panels,
+        size=(WIDTH, len(speeds) * ((WIDTH - MARGIN) * 2.5 * height / (limits[1] - limits[0]) + 9.0) + 8.0),
     )
-
-
-def drift(E: FloatArray, B: FloatArray, c: float) -> tuple[FloatArray, float]:
-    """Rows e1 along [E, B] and e2 along E_perp of the plane in which the particle drifts, and the drift's speed."""
-    cross = np.cross(E, B)
-    if not B.any() or not cross.any():
-        raise DomainError(f"A trochoid needs a magnetic field and an electric one across it, not E = {E}, B = {B}.")
-    e1, e3 = cross / np.linalg.norm(cross), B / np.linalg.norm(B)
-    return np.stack([e1, np.cross(e3, e1)]), c * float(np.linalg.norm(cross) / (B @ B))
 
 
 def name(speed: float) -> str:
@@ -100,3 +93,8 @@ def name(speed: float) -> str:
     if speed == 1:
         return "cycloid"
     return "prolate trochoid" if speed > 1 else "curtate trochoid"
+
+
+def turning(speed: float) -> str:
+    """Return the equation between the speeds of turning and of drift."""
+    return r"$a\omega = v$" if speed == 1 else rf"$a\omega = {tex(speed)}\,v$"

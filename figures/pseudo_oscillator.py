@@ -1,0 +1,149 @@
+"""Quartic and potential of the cubic pseudo-oscillator.
+
+For any initial angular velocity u = Omega3 moves by mf55 as a particle of unit mass with the potential
+V(u) = -a0 u - a1 u^2/2 - a2 u^3/3 - a3 u^4/4, and (du/dt)^2 = Q(u) with a quartic Q; both with the coefficients mf56.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
+from atlas.scene.libration import Libration
+from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.words import body_name, plain, plain_vector, quotient, tex, tex_vector, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 16.0
+
+
+def scene(
+    *,
+    ratio: float = 1.5,
+    field: tuple[float, float] = (1.0, 2.0),
+    omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
+    turns: float = 2.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw Q, V and Omega3(t), over ``turns`` oscillations, for the initial angular velocity ``omega``."""
+    oscillator = PseudoOscillator(ratio, field, omega)
+    libration = Libration(oscillator)
+    low, high = libration.range
+    rest = high == low
+    span = (high - low) or max(np.abs((*omega, *field))) or 1.0
+    view = window(oscillator, (low, high), span)
+    allowed = rf"{tex(low)}\le\Omega_3\le {tex(high)}"
+    body = f"a {body_name(ratio)} with $I={tex(quotient(ratio))}$"
+    still = "The motion is at equilibrium: $\\Omega_3$ is constant. "
+    period = rf"It oscillates in ${allowed}$ with the period ${tex(libration.period)}$. "
+    spoken = "Omega 3 stays where it is" if rest else f"Omega 3 oscillates between {plain(low)} and {plain(high)}"
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The third component $\Omega_3$ of the angular velocity of {body} in the field "
+            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$, started with $\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic $Q$ in its first integral $\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential "
+            r"$V$ of mf55, $\ddot\Omega_3=-V'(\Omega_3)$, and the level of the motion. The shaded interval is the "
+            rf"allowed one, the dot the start. (c) $\Omega_3(t)$. {still if rest else period}"
+        ).rstrip(),
+        alt=(
+            f"Three panels for a {body_name(ratio)} with I = {plain(quotient(ratio))} in the field "
+            f"{plain_vector((0.0, *field))}, started with the angular velocity {plain_vector(omega)}: the quartic Q over "
+            "Omega 3 with the interval where the motion goes on; the potential with a level line over the same "
+            f"interval; Omega 3 over time. {spoken}."
+        ),
+        panels=(
+            quartic(oscillator, libration, view, unit),
+            potential(oscillator, libration, view, unit),
+            course(libration, turns, view, unit),
+        ),
+        columns=3,
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def window(oscillator: PseudoOscillator, allowed: tuple[float, float], span: float) -> tuple[float, float]:
+    """The interval of Omega3 to show: the allowed one, and the extrema of Q near it that are of its size."""
+    slope = np.polynomial.Polynomial(oscillator.coefficients).trim()
+    extrema = slope.roots() if slope.degree() else np.empty(0)
+    real = np.sort(extrema[np.isreal(extrema)].real)
+    inside = real[(real >= allowed[0]) & (real <= allowed[1])]
+    top = np.max(oscillator.quartic(inside), initial=0.0) or np.inf
+    near = [u for u in real if abs(u - sum(allowed) / 2) < 3 * span and abs(oscillator.quartic(u)) <= 3 * top]
+    low, high = min(allowed[0], *near, allowed[0]), max(allowed[1], *near, allowed[1])
+    pad = max(0.5 * span, 0.25 * (high - low))
+    return low - pad, high + pad
+
+
+def quartic(oscillator: PseudoOscillator, libration: Libration, view: tuple[float, float], unit: str) -> Plane:
+    """Panel (a): the quartic, its zeros and the allowed interval."""
+    inner = oscillator.quartic(np.linspace(*libration.range, 65))
+    top = float(max(inner.max(), 0.02 * np.abs(oscillator.quartic(np.array(view))).max())) or 1.0
+    limits = (-1.1 * top, 1.6 * top)
+    layers: list[Layer] = [
+        Region(band(libration.range, limits), "region"),
+        Curve(np.array([[view[0], 0.0], [view[1], 0.0]]), "guide"),
+        Curve(graph(oscillator.quartic, view, limits), "main"),
+        Points(np.stack([libration.range, np.zeros(2)], axis=1), "rest"),
+        Points(np.array([[libration.start, libration.speed**2]]), "start"),
+    ]
+    return Plane(
+        tuple(layers), r"$\Omega_3$" + f" (1/{unit})", rf"$Q$ (1/{unit}$^4$)", view, limits, title="(a) first integral"
+    )
+
+
+def potential(oscillator: PseudoOscillator, libration: Libration, view: tuple[float, float], unit: str) -> Plane:
+    """Panel (b): the potential, counted from its value at the start, and the level of the motion."""
+    a0, a1, a2, a3 = oscillator.coefficients
+    powers = np.polynomial.Polynomial([0.0, -a0, -a1 / 2, -a2 / 3, -a3 / 4])
+
+    def V(u: FloatArray) -> FloatArray:
+        return np.asarray(powers(u) - powers(libration.start))
+
+    level = libration.speed**2 / 2
+    inner = V(np.linspace(*libration.range, 65))
+    depth = float(max(level - inner.min(), 0.02 * np.abs(V(np.array(view))).max())) or 1.0
+    limits = (level - 1.4 * depth, level + 1.2 * depth)
+    across = np.array([[libration.range[0], level], [libration.range[1], level]])
+    layers = (
+        Region(band(libration.range, limits), "region"),
+        Curve(graph(V, view, limits), "main"),
+        Curve(across, "second"),
+        Points(across, "rest"),
+        Points(np.array([[libration.start, level]]), "start"),
+    )
+    return Plane(layers, r"$\Omega_3$" + f" (1/{unit})", rf"$V$ (1/{unit}$^4$)", view, limits, title="(b) potential")
+
+
+def course(libration: Libration, turns: float, view: tuple[float, float], unit: str) -> Plane:
+    """Panel (c): Omega3 over time."""
+    low, high = libration.range
+    pad = 0.15 * (view[1] - view[0])
+    limits = (low - pad, high + pad)
+    if high == low:
+        line = np.array([[0.0, low], [1.0, low]])
+    else:
+        size = quarter_pixel(limits[1] - limits[0], HEIGHT - MARGIN)
+        stretch = (limits[1] - limits[0]) / (turns * libration.period)
+        scaled = curve(lambda s: libration.path(s) * [stretch, 1.0], 0.0, turns, size, pieces=max(8, round(8 * turns)))
+        line = scaled / [stretch, 1.0]
+    ends = (float(line[0, 0]), float(line[-1, 0]))
+    layers = (
+        *(Curve(np.array([[ends[0], u], [ends[1], u]]), "reference") for u in dict.fromkeys(libration.range)),
+        Curve(line, "main"),
+        Points(line[:1], "start"),
+    )
+    return Plane(layers, f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", ends, limits, title="(c) course")
+
+
+def band(interval: tuple[float, float], limits: tuple[float, float]) -> FloatArray:
+    """Corners of the upright band over an interval."""
+    (a, b), (low, high) = interval, limits
+    return np.array([[a, low], [b, low], [b, high], [a, high]])
+
+
+def graph(function: object, view: tuple[float, float], limits: tuple[float, float]) -> FloatArray:
+    """The graph of a function inside a window."""
+    scale = np.array([1.0, (view[1] - view[0]) / (limits[1] - limits[0])])
+    box = (np.array([view[0], limits[0]]) * scale, np.array([view[1], limits[1]]) * scale)
+    tolerance = quarter_pixel(view[1] - view[0], WIDTH / 3 - MARGIN)
+    points = curve(lambda u: np.stack([u, function(u)], axis=1) * scale, *view, tolerance, pieces=32, box=box)
+    return points / scale

@@ -1,0 +1,154 @@
+"""How fast the points of the quadric off its hyperbola are left.
+
+Every point of the quadric mf58 solves the equation mf55 of Omega3 with a constant, but the body starts from it with
+dOmega3/dt = omega1 B2, by mf46: only the points with omega1 = 0, the hyperbola mf72, are motions with constant Omega3.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray, number
+from atlas.core.integrals import shape_factors
+from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.libration import Libration
+from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.words import body_name, listed, plain, plain_vector, quotient, tex, tex_vector, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 16.0
+ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
+
+
+def scene(
+    *,
+    ratio: float = 1.5,
+    field: tuple[float, float] = (1.0, 2.0),
+    omega2: float = 0.7,
+    omega1: tuple[float, ...] = (0.8, 0.4, 0.2),
+    turns: float = 1.5,
+    unit: str = "time",
+) -> Scene:
+    """Draw Omega3(t) from the points of the quadric with this omega2 and each of ``omega1``."""
+    if not 0 < len(omega1) <= len(ROLES) or not all(omega1):
+        raise DomainError(f"omega1 must hold one to {len(ROLES)} numbers, none of them zero, not {omega1}.")
+    still = start(ratio, field, 0.0, omega2)
+    nu2 = -still.stiffness(still.omega3)
+    librations = [Libration(start(ratio, field, number(value, "omega1"), omega2)) for value in omega1]
+    law = (
+        rf"dashed: the law $\lvert\omega_1B_2\rvert/\nu$ near the hyperbola, where nutation has the frequency "
+        rf"$\nu={tex(float(np.sqrt(nu2)))}$."
+        if nu2 > 0
+        else r"it does not shrink with $\omega_1$, for the point of the hyperbola with this $\omega_2$ is unstable."
+    )
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"A {body_name(ratio)}, $I={tex(quotient(ratio))}$, in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$, "
+            rf"started from points of the quadric mf58 with $\omega_2={tex(omega2)}$ and with $\omega_1$ equal to "
+            rf"{listed([f'${tex(value)}$' for value in omega1])}. A constant $\Omega_3$ would solve mf55, but the body "
+            r"leaves the quadric at the rate $\dot\Omega_3(0)=\omega_1B_2$, and only $\omega_1=0$ stays. "
+            r"(a) The motion of $\Omega_3$; dashed: the rate at the start. (b) The largest departure from the start, with "
+            rf"dots for the motions of (a); {law}"
+        ),
+        alt=(
+            f"Two panels for a {body_name(ratio)} with I = {plain(quotient(ratio))} in the field "
+            f"{plain_vector((0.0, *field))}: the change of Omega 3 over time from starts with omega 1 equal to "
+            f"{listed([plain(value) for value in omega1])}, each an oscillation that begins with the slope "
+            "omega 1 times B 2; and the largest change over omega 1 on logarithmic axes, "
+            + ("which falls in proportion to omega 1." if nu2 > 0 else "which does not fall to zero with omega 1.")
+        ),
+        panels=(
+            courses(librations, omega1, turns, unit),
+            departures((ratio, field, omega2), librations, omega1, nu2, unit),
+        ),
+        columns=2,
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def start(ratio: Any, field: tuple[float, float], omega1: float, omega2: float) -> PseudoOscillator:
+    """Return the pseudo-oscillator from the point of the quadric over (omega1, omega2), mf59."""
+    I, _, two_less = shape_factors(ratio)
+    B2, B3 = (number(component, "field") for component in field)
+    omega2 = number(omega2, "omega2")
+    if B2 == 0:
+        raise DomainError("With B2 = 0 the quadric is a line and no point of it is left; give a field across the axis.")
+    if omega2 == -B2:
+        raise DomainError(f"omega2 = -B2 = {-B2} is the pole of mf59, where no omega3 belongs to omega2.")
+    omega3 = B3 * (omega1**2 + omega2 * (omega2 + two_less * B2)) / (I * B2 * (omega2 + B2))
+    return PseudoOscillator(ratio, (B2, B3), (omega1, omega2, omega3))
+
+
+def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: float, unit: str) -> Plane:
+    """Panel (a): the departure of Omega3 over time, and the slopes omega1 B2."""
+    stop = turns * max(libration.period for libration in librations)
+    reach = 1.35 * max(max(-libration.below, libration.above) for libration in librations)
+    lowest, highest = min(0.0, *(x.below for x in librations)), max(0.0, *(x.above for x in librations))
+    pad = 0.16 * (highest - lowest)
+    limits = (lowest - pad, highest + pad)
+    scale = np.array([(highest - lowest) / stop, 1.0])
+    size = quarter_pixel(highest - lowest, HEIGHT - MARGIN)
+    layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
+    for libration, value, role in zip(librations, omega1, ROLES, strict=False):
+        whole = stop / libration.period
+
+        def path(s: FloatArray, libration: Libration = libration) -> FloatArray:
+            return (libration.path(s) - [0.0, libration.start]) * scale
+
+        line = curve(path, 0.0, 1.05 * whole, size, pieces=max(8, round(10 * whole))) / scale
+        far = int(np.argmax(np.abs(line[line[:, 0] < 0.9 * stop, 1])))
+        side = float(np.sign(line[far, 1]))
+        tangent = np.array([[0.0, 0.0], [1.0, libration.speed]]) * min(stop, reach / abs(libration.speed)) * 0.5
+        layers += [
+            Curve(tangent, "reference"),
+            Curve(line, role),
+            Label(line[far], rf"$\omega_1={tex(value)}$", role, (0.0, 4.0 * side)),
+        ]
+    return Plane(
+        tuple(layers),
+        f"$t$ ({unit})",
+        rf"$\Omega_3-\omega_3$ (1/{unit})",
+        (0.0, stop),
+        limits,
+        title="(a) departure from the quadric",
+    )
+
+
+def departures(
+    point: tuple[Any, tuple[float, float], float],
+    librations: Sequence[Libration],
+    omega1: Sequence[float],
+    nu2: float,
+    unit: str,
+) -> Plane:
+    """Panel (b): the largest departure against omega1, on logarithmic axes."""
+    ratio, field, omega2 = point
+    size = np.abs(omega1)
+    ends = (float(size.min()) / 30, float(size.max()) * 10)
+
+    def departure(logarithm: FloatArray) -> FloatArray:
+        moved = [Libration(start(ratio, field, float(value), omega2)) for value in 10.0**logarithm]
+        return np.stack([logarithm, [np.log10(max(x.above, -x.below)) for x in moved]], axis=1)
+
+    span = float(np.log10(ends[1] / ends[0]))
+    line = 10.0 ** curve(departure, *np.log10(ends), quarter_pixel(span, WIDTH / 2 - MARGIN), pieces=6)
+    dots = np.array([[a, max(x.above, -x.below)] for a, x in zip(size, librations, strict=True)])
+    layers: list[Layer] = [Curve(line, "main"), Points(dots, "start")]
+    top = float(line[:, 1].max())
+    limits = (min(0.5 * float(line[:, 1].min()), 0.02 * top), 3.0 * top)
+    if nu2 > 0:
+        law = np.abs(np.array(ends) * field[0]) / np.sqrt(nu2)
+        layers.insert(0, Curve(np.stack([ends, law], axis=1), "reference", r"$|\omega_1B_2|/\nu$"))
+    return Plane(
+        tuple(layers),
+        rf"$|\omega_1|$ (1/{unit})",
+        rf"$\max\,|\Omega_3-\omega_3|$ (1/{unit})",
+        ends,
+        limits,
+        x_scale="log",
+        y_scale="log",
+        title="(b) how far it goes",
+    )
