@@ -1,0 +1,105 @@
+"""The charged ball by every road there is.
+
+The question: what does R(t), mf38, cost, and how true is it?
+
+Inertia 0.5, Larmor frequency 1.3, m(0) = (0, 0.45, 0.65): the turn about k_hat has the frequency 2.75.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from atlas.core.ball import BallMotion
+from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross
+from atlas.study.bench.peers import Turn, composed, lambdified
+
+PARAMETERS: Parameters = {"inertia": 0.5, "larmor": 1.3, "momentum": (0.45, 0.65)}
+
+
+def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
+    """Rates of the columns of R, mf34, and of m, mf35, with the field along e3."""
+    alpha, m = p["larmor"], state[9:12]
+    omega = [x / p["inertia"] for x in m]
+    columns = [cross(omega, [state[j], state[3 + j], state[6 + j]]) for j in range(3)]
+    return [*(columns[j][i] for i in range(3) for j in range(3)), alpha * m[1], -alpha * m[0], 0 * m[2]]
+
+
+def frequencies() -> tuple[float, float, float, float]:
+    """Return k2hat, k3hat, gamma (mf39) and alpha as anyone would compute them."""
+    I0, alpha, (m2, m3) = PARAMETERS["inertia"], PARAMETERS["larmor"], PARAMETERS["momentum"]
+    size = math.hypot(m2, m3 + alpha * I0)
+    return -m2 / size, -(m3 + alpha * I0) / size, size / I0, alpha
+
+
+def formula(constants: Sequence[float], t: FloatArray) -> FloatArray:
+    """Evaluate mf38 in NumPy as anyone would write it, from k2hat, k3hat, gamma and alpha."""
+    k2, k3, gamma, alpha = constants
+    c, s, C, S = np.cos(gamma * t), np.sin(gamma * t), np.cos(alpha * t), np.sin(alpha * t)
+    R = np.empty((*t.shape, 3, 3))
+    m = k2**2 + k3**2 * c
+    v = k2 * k3 * (1 - c)
+    R[..., 0, 0] = c * C - k3 * s * S
+    R[..., 0, 1] = k3 * s * C + m * S
+    R[..., 0, 2] = -k2 * s * C + v * S
+    R[..., 1, 0] = -c * S - k3 * s * C
+    R[..., 1, 1] = -k3 * s * S + m * C
+    R[..., 1, 2] = k2 * s * S + v * C
+    R[..., 2, 0] = k2 * s
+    R[..., 2, 1] = v
+    R[..., 2, 2] = k3**2 + k2**2 * c
+    return R
+
+
+def turns() -> tuple[Turn, Turn]:
+    """Return the two turns of mf38: by -alpha t about the field, by -gamma t about k_hat."""
+    k2, k3, gamma, alpha = frequencies()
+    return ((0.0, 0.0, 1.0), -alpha), ((0.0, k2, k3), -gamma)
+
+
+def plain() -> Solve:
+    """Evaluate the plain formula."""
+    constants = frequencies()
+    return lambda grid: formula(constants, grid.times)
+
+
+def motion() -> BallMotion:
+    """Make the motion."""
+    return BallMotion(PARAMETERS["inertia"], PARAMETERS["larmor"], momentum=PARAMETERS["momentum"])
+
+
+def ours() -> Solve:
+    """Evaluate `BallMotion.rotation` at any times."""
+    made = motion()
+    return lambda grid: made.rotation(grid.times)
+
+
+def ours_on_grid() -> Solve:
+    """Evaluate `BallMotion.rotation_grid`."""
+    made = motion()
+    return lambda grid: made.rotation_grid(grid.start, grid.step, grid.count)
+
+
+def case() -> Case:
+    """Return the case; its true values are those of `atlas.exact`."""
+    from atlas.exact.ball import BallMotion as Exact
+
+    exact = Exact(PARAMETERS["inertia"], PARAMETERS["larmor"], PARAMETERS["momentum"])
+    return Case(
+        name="ball",
+        title="Charged ball",
+        parameters=PARAMETERS,
+        shape=(3, 3),
+        rates=rates,
+        initial=lambda: [1, 0, 0, 0, 1, 0, 0, 0, 1, *exact.angular_momentum(0)],
+        exact=lambda t: [x for row in exact.rotation(t) for x in row],
+        scale=lambda values: np.ones((len(values), 1, 1)),
+        closed=(
+            Method("plain", plain),
+            Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
+            Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
+            Method("ours", ours),
+            Method("ours_grid", ours_on_grid),
+        ),
+    )

@@ -1,0 +1,79 @@
+"""What is measured: a motion with its exact parameters, its equations, its true values and its closed forms."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray: TypeAlias = NDArray[np.float64]
+Parameters: TypeAlias = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The times ``start + i step``, i = 0 ... count - 1, at which every method is asked."""
+
+    start: float
+    step: float
+    count: int
+
+    @cached_property
+    def times(self) -> FloatArray:
+        """The times themselves; the benchmark chooses start and step so that each is a float exactly."""
+        return np.asarray(self.start + self.step * np.arange(self.count), dtype=np.float64)
+
+
+def grid(horizon: float, count: int) -> Grid:
+    """Return ``count`` times from 0 up to, but without, ``horizon``; with a power of two no time is rounded."""
+    return Grid(0.0, horizon / count, count)
+
+
+Solve: TypeAlias = Callable[[Grid], FloatArray]
+"""Values at the times of a grid: (N, 3, 3) for a rotation, (N, 6) for position and velocity."""
+
+
+@dataclass(frozen=True)
+class Method:
+    """A closed form: ``prepare`` does once what does not depend on the times, with ``modules`` loaded before."""
+
+    name: str
+    prepare: Callable[[], Solve]
+    modules: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Case:
+    """A motion. Its parameters are floats and taken as exact.
+
+    ``rates(state, parameters)`` are the equations of motion in any arithmetic that adds and multiplies: Python
+    floats for SciPy, expressions for heyoka, power series of balls for the check of the reference. ``initial()`` is the
+    state at t = 0 and ``exact(t)`` the value at t, certified numbers both; the values come first in the state.
+    ``scale(values)`` is the size to which an error at each sample is compared.
+    """
+
+    name: str
+    title: str
+    parameters: Parameters
+    shape: tuple[int, ...]
+    rates: Callable[[Sequence[Any], Parameters], list[Any]]
+    initial: Callable[[], list[Any]]
+    exact: Callable[[float], list[Any]]
+    scale: Callable[[FloatArray], FloatArray]
+    closed: tuple[Method, ...]
+
+    @property
+    def size(self) -> int:
+        """How many numbers a value has."""
+        return int(np.prod(self.shape))
+
+    def values(self, states: FloatArray) -> FloatArray:
+        """Return the values in states (N, ...)."""
+        return states[:, : self.size].reshape(-1, *self.shape)
+
+
+def cross(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
+    """Vector product [a, b] of triples of anything."""
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]

@@ -1,0 +1,62 @@
+"""How long? Jobs timed by turns within one run, so that whatever else the machine does meets all of them alike.
+
+Only medians and ratios within a round are used: an absolute time on a busy machine says little.
+"""
+
+import gc
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from statistics import median
+from time import perf_counter
+from typing import Any, TypeAlias
+
+Job: TypeAlias = Callable[[], Any]
+
+
+@contextmanager
+def no_collection() -> Iterator[None]:
+    """Keep the garbage collector out of what is timed."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
+def once(job: Job) -> tuple[float, Any]:
+    """Return the seconds of one call and what it gave."""
+    start = perf_counter()
+    result = job()
+    return perf_counter() - start, result
+
+
+def interleave(jobs: Mapping[str, Job], rounds: int, least: float = 1e-3) -> dict[str, list[float]]:
+    """Time every job once a round, in turns and every second round backwards; return seconds a call, by round.
+
+    A job shorter than ``least`` seconds is called in a loop that lasts about that long.
+    """
+    loops: dict[str, int] = {}
+    for name, job in jobs.items():
+        seconds, _ = once(job)
+        loops[name] = max(1, round(least / max(seconds, 1e-9)))
+    times: dict[str, list[float]] = {name: [] for name in jobs}
+    with no_collection():
+        for turn in range(rounds):
+            for name in list(jobs)[:: 1 if turn % 2 == 0 else -1]:
+                times[name].append(_loop(jobs[name], loops[name]))
+    return times
+
+
+def ratio(times: Sequence[float], base: Sequence[float]) -> float:
+    """Return the median over the rounds of one job's time over another's in the same round."""
+    return median(a / b for a, b in zip(times, base, strict=True))
+
+
+def _loop(job: Job, count: int) -> float:
+    """Return seconds a call, the mean over ``count`` calls."""
+    start = perf_counter()
+    for _ in range(count):
+        job()
+    return (perf_counter() - start) / count

@@ -1,0 +1,112 @@
+"""The elementary motion by every road there is.
+
+The question: what does R(t), mf89, cost, and how true is it?
+
+A short solenoid, I = 1.5, in an oblique field B' = (1, 2), launched with omega2 = 0.7; frequencies 1.565 and -0.741.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from atlas.core.elementary import ElementaryMotion
+from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross
+from atlas.study.bench.peers import Turn, composed, lambdified
+
+PARAMETERS: Parameters = {"I": 1.5, "B": (1.0, 2.0), "omega2": 0.7}
+
+
+def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
+    """Rates of the rows of R, mf21, and of Omega, mf46, with K = R^T B'."""
+    I, (B2, B3) = p["I"], p["B"]
+    rows, Omega = (state[0:3], state[3:6], state[6:9]), state[9:12]
+    K = [B2 * rows[1][j] + B3 * rows[2][j] for j in range(3)]
+    turn = (1 - I) * Omega[2] + (2 - I) * K[2]
+    return [
+        *(rate for row in rows for rate in cross(row, Omega)),
+        turn * Omega[1] - I * Omega[2] * K[1],
+        I * Omega[2] * K[0] - turn * Omega[0],
+        Omega[0] * K[1] - Omega[1] * K[0],
+    ]
+
+
+def frequencies() -> tuple[float, float, float, float]:
+    """Return B2hat, B3hat, k and phi, mf84 and mf77, as anyone would compute them."""
+    I, (B2, B3), omega2 = PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"]
+    b = math.hypot(B2, B3)
+    phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
+    return B2 / b, B3 / b, omega2 * b / B2, phi
+
+
+def formula(constants: Sequence[float], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
+    """Evaluate mf89 in NumPy as anyone would write it, from B2hat, B3hat, k and phi."""
+    h2, h3, k, phi = constants
+    c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)
+    R = np.empty((*t.shape, 3, 3)) if out is None else out
+    m = h2**2 + h3**2 * c
+    v = h2 * h3 * (1 - c)
+    R[..., 0, 0] = c * C - h3 * s * S
+    R[..., 0, 1] = -c * S - h3 * s * C
+    R[..., 0, 2] = h2 * s
+    R[..., 1, 0] = h3 * s * C + m * S
+    R[..., 1, 1] = -h3 * s * S + m * C
+    R[..., 1, 2] = v
+    R[..., 2, 0] = -h2 * s * C + v * S
+    R[..., 2, 1] = h2 * s * S + v * C
+    R[..., 2, 2] = h3**2 + h2**2 * c
+    return R
+
+
+def turns() -> tuple[Turn, Turn]:
+    """Return the two turns of mf90."""
+    h2, h3, k, phi = frequencies()
+    return ((0.0, h2, h3), k), ((0.0, 0.0, 1.0), phi)
+
+
+def plain() -> Solve:
+    """Evaluate the plain formula."""
+    constants = frequencies()
+    return lambda grid: formula(constants, grid.times)
+
+
+def motion() -> ElementaryMotion:
+    """Make the motion."""
+    return ElementaryMotion(PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"])
+
+
+def ours() -> Solve:
+    """Evaluate `ElementaryMotion.rotation` at any times."""
+    made = motion()
+    return lambda grid: made.rotation(grid.times)
+
+
+def ours_on_grid() -> Solve:
+    """Evaluate `ElementaryMotion.rotation_grid`."""
+    made = motion()
+    return lambda grid: made.rotation_grid(grid.start, grid.step, grid.count)
+
+
+def case() -> Case:
+    """Return the case; its true values are those of `atlas.exact`."""
+    from atlas.exact.elementary import ElementaryMotion as Exact
+
+    exact = Exact(PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"])
+    return Case(
+        name="elementary",
+        title="Elementary motion",
+        parameters=PARAMETERS,
+        shape=(3, 3),
+        rates=rates,
+        initial=lambda: [1, 0, 0, 0, 1, 0, 0, 0, 1, *exact.angular_velocity(0)],
+        exact=lambda t: [x for row in exact.rotation(t) for x in row],
+        scale=lambda values: np.ones((len(values), 1, 1)),
+        closed=(
+            Method("plain", plain),
+            Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
+            Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
+            Method("ours", ours),
+            Method("ours_grid", ours_on_grid),
+        ),
+    )

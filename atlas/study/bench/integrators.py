@@ -1,0 +1,130 @@
+"""The peers that step in time.
+
+The question: what do R(t) and y(t) cost without the closed form?
+
+SciPy's RK45, DOP853, LSODA and Radau, used as their documentation shows (rtol = atol = the tolerance, `t_eval` for the
+samples), and heyoka's Taylor integrator. All start from the same state, rounded once to floats.
+"""
+
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.util import find_spec
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from atlas.study.bench.case import Case, FloatArray, Grid, Solve
+
+LEAST_RTOL = 100 * float(np.finfo(float).eps)
+"""SciPy takes no smaller rtol: where less is asked for, this is used, and the record says so."""
+
+
+class TimedOutError(Exception):
+    """The integrator was stopped at its time limit."""
+
+
+class FailedError(Exception):
+    """The integrator gave up, and says why."""
+
+
+@dataclass(frozen=True)
+class Integrator:
+    """A method that steps in time: ``prepare(case, tolerance, limit)`` builds it, ``limit`` in seconds a solution."""
+
+    name: str
+    prepare: Callable[[Case, float, float], Solve]
+    module: str = "scipy.integrate"
+
+    @property
+    def present(self) -> bool:
+        """Whether the library is installed."""
+        return find_spec(self.module) is not None
+
+    def note(self, tolerance: float) -> str:
+        """Say where the tolerance used is not the one asked for."""
+        held = self.module == "scipy.integrate" and tolerance < LEAST_RTOL
+        return f"rtol held at {LEAST_RTOL:.2g}, the least that SciPy takes" if held else ""
+
+
+def integrators() -> tuple[Integrator, ...]:
+    """Return all of them, installed or not."""
+    scipy = (Integrator(name, _scipy(name)) for name in ("RK45", "DOP853", "LSODA", "Radau"))
+    return (*scipy, Integrator("heyoka", _heyoka, "heyoka"))
+
+
+def start(case: Case) -> list[float]:
+    """Return the initial state, each number rounded once."""
+    from flint import arb, ctx
+
+    with ctx.workprec(256):
+        return [float(arb(x).mid()) for x in case.initial()]
+
+
+def _scipy(name: str) -> Callable[[Case, float, float], Solve]:
+    def prepare(case: Case, tolerance: float, limit: float) -> Solve:
+        from scipy.integrate import solve_ivp
+
+        initial, parameters, rates = start(case), case.parameters, case.rates
+
+        def solve(grid: Grid) -> FloatArray:
+            deadline = perf_counter() + limit
+
+            def right(_t: float, state: FloatArray) -> list[float]:
+                if perf_counter() > deadline:
+                    raise TimedOutError
+                return rates(state.tolist(), parameters)
+
+            times = grid.times
+            with warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("always")
+                solution = solve_ivp(
+                    right,
+                    (times[0], times[-1]),
+                    initial,
+                    method=name,
+                    t_eval=times,
+                    rtol=max(tolerance, LEAST_RTOL),
+                    atol=tolerance,
+                )
+            if not solution.success:
+                raise FailedError("; ".join([solution.message, *(str(warning.message) for warning in said)]))
+            return case.values(solution.y.T)
+
+        return solve
+
+    return prepare
+
+
+def _heyoka(case: Case, tolerance: float, _limit: float) -> Solve:
+    import heyoka
+
+    initial = start(case)
+    unknowns = heyoka.make_vars(*(f"x{i}" for i in range(len(initial))))
+    rates = case.rates(unknowns, case.parameters)
+    with _compiling(heyoka.llvm_state):
+        integrator = heyoka.taylor_adaptive(list(zip(unknowns, rates, strict=True)), initial, tol=tolerance)
+
+    def solve(grid: Grid) -> FloatArray:
+        integrator.time = float(grid.times[0])
+        integrator.state[:] = initial
+        outcome, *_, states = integrator.propagate_grid(grid.times)
+        if outcome != heyoka.taylor_outcome.time_limit:
+            raise FailedError(f"heyoka stopped early: {outcome.name}")
+        return case.values(np.asarray(states))
+
+    return solve
+
+
+@contextmanager
+def _compiling(state: Any) -> Iterator[None]:
+    """Have heyoka compile anew, where it would take the code of an earlier run from its caches."""
+    cached = state.get_diskcache_enabled()
+    state.set_diskcache_enabled(False)
+    state.clear_memcache()
+    try:
+        yield
+    finally:
+        state.set_diskcache_enabled(cached)

@@ -1,0 +1,123 @@
+"""The charged particle by every road there is.
+
+The question: what do y(t) and v(t), mf10, cost, and how true are they?
+
+E is orthogonal to B, so that the particle drifts but is not accelerated without end, and nothing hides the turning.
+The error of the position is compared to its distance from the origin (at least one radius of the turning), that of
+the velocity to the speed.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from atlas.core.particle import ParticleMotion
+from atlas.study.bench.case import Case, FloatArray, Grid, Method, Parameters, Solve, cross
+
+PARAMETERS: Parameters = {
+    "mu": 1.0,
+    "E": (1.0, 1.0, -1.0),
+    "B": (0.5, 1.5, 2.0),
+    "position": (1.0, -0.5, 0.25),
+    "velocity": (0.3, 1.1, -0.4),
+}
+
+
+def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
+    """Rates of y and v: the Lorentz force, mf1, with c = 1."""
+    force = cross(state[3:6], p["B"])
+    return [*state[3:6], *(p["mu"] * (p["E"][i] + force[i]) for i in range(3))]
+
+
+def constants() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, float]:
+    """Return the start, the steady velocity, the turning velocity u, [u, b] for the direction b of B, and omega."""
+    E, B, start, launch = (np.array(PARAMETERS[name]) for name in ("E", "B", "position", "velocity"))
+    strength = float(np.linalg.norm(B))
+    b = B / strength
+    steady = np.cross(E, B) / strength**2 + (launch @ b) * b
+    return start, steady, launch - steady, np.cross(launch - steady, b), float(PARAMETERS["mu"]) * strength
+
+
+def plain() -> Solve:
+    """Evaluate the trochoid, mf10, in NumPy as anyone would write it."""
+    start, steady, u, across, omega = constants()
+
+    def solve(grid: Grid) -> FloatArray:
+        t = grid.times[:, None]
+        c, s = np.cos(omega * t), np.sin(omega * t)
+        position = start + steady * t + (u * s + across * (1 - c)) / omega
+        return np.concatenate([position, steady + u * c + across * s], axis=1)
+
+    return solve
+
+
+def lambdified() -> Solve:
+    """Compile the same from SymPy, with common subexpressions taken out."""
+    import sympy
+
+    start, steady, u, across, omega = constants()
+    t = sympy.symbols("t", real=True)
+    c, s = sympy.cos(omega * t), sympy.sin(omega * t)
+    y = [start[i] + steady[i] * t + (u[i] * s + across[i] * (1 - c)) / omega for i in range(3)]
+    entries = sympy.lambdify(t, y + [sympy.diff(x, t) for x in y], "numpy", cse=True)
+    return lambda grid: np.stack(np.broadcast_arrays(*entries(grid.times)), axis=-1)
+
+
+def rotations() -> Solve:
+    """Turn u and [u, b] by SciPy's rotations about B."""
+    from scipy.spatial.transform import Rotation
+
+    start, steady, u, across, omega = constants()
+    axis = -omega * np.array(PARAMETERS["B"]) / np.linalg.norm(PARAMETERS["B"])
+
+    def solve(grid: Grid) -> FloatArray:
+        t = grid.times[:, None]
+        turn = Rotation.from_rotvec(t * axis)
+        position = start + steady * t + (across - turn.apply(across)) / omega
+        return np.concatenate([position, steady + turn.apply(u)], axis=1)
+
+    return solve
+
+
+def motion() -> ParticleMotion:
+    """Make the motion."""
+    p = PARAMETERS
+    return ParticleMotion(p["mu"], p["E"], p["B"], p["position"], p["velocity"])
+
+
+def ours() -> Solve:
+    """Evaluate `ParticleMotion.position` and `.velocity`."""
+    made = motion()
+    return lambda grid: np.concatenate([made.position(grid.times), made.velocity(grid.times)], axis=1)
+
+
+def scale(values: FloatArray) -> FloatArray:
+    """Return the sizes to which errors are compared, (N, 6)."""
+    _, _, u, _, omega = constants()
+    distance = np.maximum(np.linalg.norm(values[:, :3], axis=1), np.linalg.norm(u) / omega)
+    return np.repeat(np.stack([distance, np.linalg.norm(values[:, 3:], axis=1)], axis=1), 3, axis=1)
+
+
+def case() -> Case:
+    """Return the case; its true values are those of `atlas.exact`."""
+    from atlas.exact.particle import ParticleMotion as Exact
+
+    p = PARAMETERS
+    exact = Exact(p["mu"], p["E"], p["B"], p["position"], p["velocity"])
+    return Case(
+        name="particle",
+        title="Charged particle",
+        parameters=PARAMETERS,
+        shape=(6,),
+        rates=rates,
+        initial=lambda: [*p["position"], *p["velocity"]],
+        exact=lambda t: [*exact.position(t), *exact.velocity(t)],
+        scale=scale,
+        closed=(
+            Method("plain", plain),
+            Method("lambdify", lambdified, ("sympy",)),
+            Method("rotation", rotations, ("scipy.spatial.transform",)),
+            Method("ours", ours),
+        ),
+    )

@@ -1,0 +1,44 @@
+"""Closed forms as other libraries have them: a product of turns about fixed axes, mf90 and mf38."""
+
+from collections.abc import Sequence
+from functools import reduce
+from operator import mul
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from atlas.study.bench.case import FloatArray, Grid, Solve
+
+Turn: TypeAlias = tuple[tuple[float, float, float], float]
+"""A unit vector and the frequency of the turn about it."""
+
+
+def lambdified(turns: Sequence[Turn]) -> Solve:
+    """Compile the product from SymPy, with common subexpressions taken out."""
+    import sympy
+
+    t = sympy.symbols("t", real=True)
+    product = reduce(mul, (_symbolic(sympy, axis, frequency * t) for axis, frequency in turns))
+    entries = sympy.lambdify(t, list(product), "numpy", cse=True)
+    return lambda grid: np.stack(entries(grid.times), axis=-1).reshape(-1, 3, 3)
+
+
+def composed(turns: Sequence[Turn]) -> Solve:
+    """Compose SciPy's rotations."""
+    from scipy.spatial.transform import Rotation
+
+    rates = [frequency * np.array(axis) for axis, frequency in turns]
+
+    def solve(grid: Grid) -> FloatArray:
+        t = grid.times[:, None]
+        return np.asarray(reduce(mul, (Rotation.from_rotvec(t * rate) for rate in rates)).as_matrix())
+
+    return solve
+
+
+def _symbolic(sympy: Any, axis: tuple[float, float, float], angle: Any) -> Any:
+    """Return the matrix of a turn, by Rodrigues' formula."""
+    x, y, z = axis
+    n = sympy.Matrix(axis)
+    hat = sympy.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return sympy.cos(angle) * sympy.eye(3) + sympy.sin(angle) * hat + (1 - sympy.cos(angle)) * n * n.T

@@ -1,0 +1,145 @@
+"""Error against time: every method on every case, up to every horizon, at every tolerance; failures are kept."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+from statistics import median
+
+from msgspec.structs import replace
+
+from atlas.study.bench.case import Case, FloatArray, Grid, Solve, grid
+from atlas.study.bench.clock import interleave, once, ratio
+from atlas.study.bench.integrators import Integrator, TimedOutError
+from atlas.study.bench.record import Run, Setup, Status
+from atlas.study.bench.reference import Reference, reference
+
+SHORT = 0.1
+"""A solution that takes longer than this many seconds is timed once, a shorter one several times."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How far a run goes: horizons, tolerances, samples a horizon, rounds, and seconds for one integration."""
+
+    horizons: tuple[float, ...]
+    tolerances: tuple[float, ...]
+    samples: int
+    rounds: int
+    limit: float
+
+
+@dataclass(frozen=True)
+class Bench:
+    """One case, ready: the grids up to each horizon, the true values there, and the plain formula to compare with."""
+
+    case: Case
+    plan: Plan
+    grids: dict[float, Grid]
+    truths: dict[float, Reference]
+    plain: Solve
+
+    @classmethod
+    def of(cls, case: Case, plan: Plan) -> "Bench":
+        """Compute what all methods share."""
+        grids = {horizon: grid(horizon, plan.samples) for horizon in plan.horizons}
+        truths = {horizon: reference(case, g) for horizon, g in grids.items()}
+        plain = next(method for method in case.closed if method.name == "plain")
+        return cls(case, plan, grids, truths, plain.prepare())
+
+
+def closed(bench: Bench) -> Iterator[Setup | Run]:
+    """Yield set-up, and error and time up to each horizon, of the closed forms of a case."""
+    case, ready = bench.case, dict[str, Solve]()
+    for method in case.closed:
+        try:
+            for module in method.modules:
+                import_module(module)
+            seconds, ready[method.name] = once(method.prepare)
+            again = median(interleave({"setup": method.prepare}, bench.plan.rounds)["setup"])
+            yield Setup(case.name, method.name, "done", seconds=seconds, again=again)
+        except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
+            yield Setup(case.name, method.name, "failed", note=_said(raised))
+    for horizon, g in bench.grids.items():
+        errors: dict[str, float] = {}
+        for name, solve in ready.items():
+            try:
+                errors[name] = bench.truths[horizon].error(solve(g))
+            except Exception as raised:  # noqa: BLE001  the same
+                yield Run(case.name, name, horizon, g.count, "failed", note=_said(raised))
+        jobs = {name: _job(ready[name], g) for name in errors}
+        times = interleave({"base": _job(bench.plain, g)} | jobs, bench.plan.rounds)
+        for name, error in errors.items():
+            yield _measured(Run(case.name, name, horizon, g.count, "done"), error, times[name], times["base"])
+
+
+def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
+    """Yield the same for an integrator at each tolerance, up to the first horizon that it cannot reach in time."""
+    case, plan = bench.case, bench.plan
+    if not integrator.present:
+        yield Setup(case.name, integrator.name, "skipped", note=f"{integrator.module} is not installed")
+        return
+    import_module(integrator.module)
+    beaten: dict[float, float] = {}  # by horizon: the loosest tolerance that ran out of time
+    for tolerance in plan.tolerances:
+        try:
+            setup, solve = once(partial(integrator.prepare, case, tolerance, plan.limit))
+        except Exception as raised:  # noqa: BLE001  the same
+            yield Setup(case.name, integrator.name, "failed", tolerance, note=_said(raised))
+            continue
+        yield Setup(case.name, integrator.name, "done", tolerance, setup)
+        pace = 0.0
+        for horizon in plan.horizons:
+            run = Run(case.name, integrator.name, horizon, plan.samples, "done", tolerance)
+            if horizon in beaten:
+                yield _unmeasured(
+                    run, "skipped", f"out of time at {beaten[horizon]:.0e} already, so at longer horizons"
+                )
+                break
+            if pace * horizon > plan.limit:
+                yield _unmeasured(run, "skipped", f"would take about {pace * horizon:.2g} s, so at longer horizons")
+                break
+            run = _timed(bench, run, solve, integrator.note(tolerance))
+            yield run
+            if run.status == "timed out":
+                beaten[horizon] = tolerance
+            if run.seconds is None:
+                break
+            pace = run.seconds / horizon
+
+
+def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
+    """Solve, grade and time one run beside the plain formula."""
+    g = bench.grids[run.horizon]
+    try:
+        seconds, values = once(_job(solve, g))
+        error = bench.truths[run.horizon].error(values)
+    except TimedOutError:
+        return _unmeasured(run, "timed out", f"stopped after {bench.plan.limit:g} s, so at longer horizons")
+    except Exception as raised:  # noqa: BLE001  the same
+        return _unmeasured(run, "failed", _said(raised))
+    jobs = {"base": _job(bench.plain, g)} | ({"peer": _job(solve, g)} if seconds < SHORT else {})
+    times = interleave(jobs, min(3, bench.plan.rounds))
+    peer = times.get("peer", [seconds] * len(times["base"]))
+    return _measured(run, error, peer, times["base"], note)
+
+
+def _job(solve: Solve, g: Grid) -> Callable[[], FloatArray]:
+    return lambda: solve(g)
+
+
+def _measured(run: Run, error: float, times: Sequence[float], base: Sequence[float], note: str = "") -> Run:
+    """Fill in error and time, always both; a method whose values are not numbers has failed."""
+    if error == float("inf"):
+        return _unmeasured(run, "failed", "a value is not finite")
+    return replace(run, error=error, seconds=median(times), to_plain=ratio(times, base), note=note)
+
+
+def _unmeasured(run: Run, status: Status, note: str) -> Run:
+    """Keep a run that has no error and no time, with the reason."""
+    return replace(run, status=status, note=note)
+
+
+def _said(error: Exception) -> str:
+    """Return what a peer raised, in one line."""
+    return " ".join(f"{type(error).__name__}: {error}".split())

@@ -1,0 +1,92 @@
+"""The true values as balls from the exact inputs, and a Taylor integration that checks them.
+
+The question: is the reference right, and far beyond what it has to judge?
+
+The values are those of `atlas.exact`, which shares no code with the kernels, rounded to two words each (32 digits), so
+that errors far below one ulp can be measured. `check` integrates the equations of motion themselves.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from flint import arb, arb_poly, arb_series, ctx
+
+from atlas.study.bench.case import Case, FloatArray, Grid
+
+BITS = 256
+ORDER = 40
+STEP = 0.25
+
+
+@dataclass(frozen=True)
+class Reference:
+    """True values ``high + low`` at the times of a grid, and the scale of the errors there."""
+
+    high: FloatArray
+    low: FloatArray
+    scale: FloatArray
+
+    def error(self, values: FloatArray) -> float:
+        """Return the largest error of any entry; infinite where a value is none."""
+        if values.shape != self.high.shape:
+            raise ValueError(f"values of shape {values.shape} where {self.high.shape} was asked for")
+        difference = np.abs((values - self.high) - self.low) / self.scale
+        return float(difference.max()) if np.isfinite(difference).all() else float("inf")
+
+
+def reference(case: Case, grid: Grid) -> Reference:
+    """Return the true values of a case."""
+    with ctx.workprec(BITS):
+        words = [_two_words(x) for t in grid.times.tolist() for x in case.exact(t)]
+    high, low = np.array(words).T.reshape(2, grid.count, *case.shape)
+    return Reference(high, low, case.scale(high))
+
+
+def check(case: Case, until: float) -> float:
+    """Return the largest distance of the reference from a Taylor integration of the equations of motion to ``until``.
+
+    Every step sums ``ORDER`` terms; the series come from Picard's iteration, which gains one term each time.
+    """
+    with ctx.workprec(BITS), _series(ORDER):
+        parameters = {name: _balls(value) for name, value in case.parameters.items()}
+        state, now = [arb(x) for x in case.initial()], 0.0
+        distance = 0.0
+        while now < until:
+            state = [arb_poly(series.coeffs())(arb(STEP)) for series in _picard(case, state, parameters)]
+            now += STEP
+            truth = case.exact(now)
+            distance = max(distance, *(float(abs(a - b).upper()) for a, b in zip(state, truth, strict=False)))
+    return distance
+
+
+def _picard(case: Case, state: Sequence[Any], parameters: dict[str, Any]) -> list[Any]:
+    """Return the power series in time that start at ``state`` and obey the equations."""
+    start = [arb_series([x], ORDER) for x in state]
+    series = start
+    for _ in range(ORDER):
+        series = [x + rate.integral() for x, rate in zip(start, case.rates(series, parameters), strict=True)]
+    return series
+
+
+@contextmanager
+def _series(order: int) -> Iterator[None]:
+    """Let power series keep ``order`` terms."""
+    before, ctx.cap = ctx.cap, order
+    try:
+        yield
+    finally:
+        ctx.cap = before
+
+
+def _balls(value: Any) -> Any:
+    return tuple(arb(x) for x in value) if isinstance(value, tuple) else arb(value)
+
+
+def _two_words(value: Any) -> tuple[float, float]:
+    """Round a certified number to the sum of two floats."""
+    ball = arb(value).mid()
+    high = float(ball)
+    return high, float(ball - high)

@@ -1,0 +1,135 @@
+"""The whole benchmark in one call: error against time, set-up, cost against the count and the memory limit."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TypeAlias, TypeVar
+
+from msgspec import to_builtins
+from msgspec.structs import replace
+
+from atlas.errors import AtlasError
+from atlas.study.bench import ball, elementary, particle
+from atlas.study.bench.case import Case
+from atlas.study.bench.cost import costs
+from atlas.study.bench.integrators import Integrator, integrators
+from atlas.study.bench.precision import Bench, Plan, closed, stepping
+from atlas.study.bench.record import FORMAT, Check, Cost, Record, Run, Setup, machine, today, versions
+from atlas.study.bench.reference import check
+
+CASES = {"elementary": elementary.case, "ball": ball.case, "particle": particle.case}
+
+Row = TypeVar("Row", Check, Run, Setup, Cost)
+
+Progress: TypeAlias = Callable[[int, int, str], None]
+"""Called with the number of steps done, of all steps, and what comes next."""
+
+
+@dataclass(frozen=True)
+class Scope:
+    """What a run covers: the plan of the cases, how far the reference is checked, the counts and their rounds."""
+
+    plan: Plan
+    check_until: float
+    counts: tuple[int, ...]
+    most_rounds: int
+    cost_limit: float
+
+    def rounds(self, count: int) -> int:
+        """Fewer rounds where one takes long, but at least three."""
+        return max(3, min(self.most_rounds, 20_000_000 // count))
+
+
+FULL = Scope(
+    Plan(
+        horizons=(1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8),
+        tolerances=tuple(float(f"1e-{n}") for n in range(3, 15)),
+        samples=1024,
+        rounds=9,
+        limit=2.5,
+    ),
+    check_until=20.0,
+    counts=(1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000),
+    most_rounds=11,
+    cost_limit=4.0,
+)
+QUICK = Scope(
+    Plan(horizons=(1e2, 1e4, 1e8), tolerances=(1e-3, 1e-8, 1e-14), samples=256, rounds=3, limit=0.3),
+    check_until=2.0,
+    counts=(1, 1_000, 100_000),
+    most_rounds=5,
+    cost_limit=0.2,
+)
+
+
+def run(
+    cases: Sequence[str | Case] | None = None,
+    quick: bool = False,
+    progress: Progress | None = None,
+    *,
+    command: str = "atlas bench",
+    scope: Scope | None = None,
+    peers: Sequence[Integrator] | None = None,
+) -> Record:
+    """Run the benchmark and return its record.
+
+    `cases` are names of `CASES` (all by default) or cases of one's own; the cost against the count is that of the
+    elementary motion and is measured when it is among them. `quick` covers less, in under 20 seconds. Raises
+    AtlasError for an unknown name.
+    """
+    began = perf_counter()
+    chosen = [_case(item) for item in (CASES if cases is None else cases)]
+    scope = scope or (QUICK if quick else FULL)
+    peers = integrators() if peers is None else peers
+    counts = scope.counts if any(case.name == "elementary" for case in chosen) else ()
+    total, done = len(chosen) * (len(peers) + 2) + len(counts), 0
+
+    def say(what: str) -> None:
+        nonlocal done
+        if progress is not None:
+            progress(done, total, what)
+        done += 1
+
+    checks, rows, prices = list[Check](), list[Setup | Run](), list[Cost]()
+    for case in chosen:
+        say(f"{case.title}: the reference")
+        checks.append(Check(case.name, scope.check_until, check(case, scope.check_until)))
+        bench = Bench.of(case, scope.plan)
+        say(f"{case.title}: closed forms")
+        rows.extend(closed(bench))
+        for peer in peers:
+            say(f"{case.title}: {peer.name}")
+            rows.extend(stepping(bench, peer))
+    for count in counts:
+        say(f"the cost of {count} matrices")
+        prices.extend(costs(count, scope.rounds(count), scope.cost_limit, prices))
+    if progress is not None:
+        progress(total, total, "done")
+    return Record(
+        format=FORMAT,
+        command=command,
+        date=today(),
+        quick=quick,
+        elapsed=round(perf_counter() - began, 1),
+        machine=machine(),
+        versions=versions(),
+        parameters={case.name: to_builtins(dict(case.parameters)) for case in chosen},
+        checks=[_short(item) for item in checks],
+        runs=[_short(row) for row in rows if isinstance(row, Run)],
+        setups=[_short(row) for row in rows if isinstance(row, Setup)],
+        costs=[_short(price) for price in prices],
+    )
+
+
+def _case(item: str | Case) -> Case:
+    if isinstance(item, Case):
+        return item
+    if item not in CASES:
+        raise AtlasError(f"There is no benchmark case {item!r}; the cases are {', '.join(CASES)}.")
+    return CASES[item]()
+
+
+def _short(item: Row) -> Row:
+    """Round what was measured to four digits: more would say nothing."""
+    measured = ((name, getattr(item, name)) for name in item.__struct_fields__)
+    return replace(item, **{name: float(f"{value:.4g}") for name, value in measured if isinstance(value, float)})

@@ -1,0 +1,173 @@
+"""The record as tables: what was wanted and what was found, error and time side by side, and what failed."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from atlas.study.bench.record import Cost, Record, Run, Setup
+from atlas.study.bench.targets import targets
+
+NONE = "–"
+TITLES = {
+    "plain": "plain NumPy",
+    "lambdify": "sympy lambdify",
+    "rotation": "SciPy Rotation",
+    "ours": "atlas",
+    "ours_grid": "atlas, grid",
+    "fill": "filling the memory",
+    "plain_out": "plain NumPy, out=",
+    "plain_out_far": "plain NumPy, out=, far",
+    "ours_out": "atlas, out=",
+    "ours_out_far": "atlas, out=, far",
+    "grid": "atlas, grid",
+    "grid_out": "atlas, grid, out=",
+    "third_axis": "atlas, third axis alone",
+    "omega": "atlas, Omega alone",
+}
+"""Names of methods in words; one that is not here is shown by its own."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table as text, ready to be shown by any presenter."""
+
+    title: str
+    heading: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    notes: tuple[str, ...] = ()
+
+
+def tables(record: Record) -> list[Table]:
+    """Return all tables of a record, the most important first; those that would be empty are left out."""
+    every = [
+        _targets(record),
+        *_horizons(record),
+        *_precision(record),
+        _setups(record),
+        *_costs(record),
+        _failures(record),
+    ]
+    return [table for table in every if table.rows]
+
+
+def machine_line(record: Record) -> str:
+    """Say in one line where, when and with what it was measured."""
+    here = record.machine
+    vector = "with" if here.avx512 else "without"
+    found = ", ".join(f"{name} {number}" for name, number in record.versions.items())
+    machine = f"{here.processor}, {here.cores} cores, {vector} AVX-512, {here.system}"
+    return f"{machine}; {found}; {record.command}, {record.date}"
+
+
+def _targets(record: Record) -> Table:
+    rows = [(item.says, item.wanted, number(item.found), item.verdict) for item in targets(record)]
+    return Table("Limits of speed", ("what", "wanted", "found", "verdict"), tuple(rows), (machine_line(record),))
+
+
+def _horizons(record: Record) -> Iterable[Table]:
+    """Error by method and horizon; of an integrator the smallest over its tolerances."""
+    for case in _cases(record):
+        runs = [run for run in record.runs if run.case == case]
+        horizons = sorted({run.horizon for run in runs})
+        rows = []
+        for method in _methods(runs):
+            best = [_best([run for run in runs if run.method == method and run.horizon == T]) for T in horizons]
+            rows.append((TITLES.get(method, method), *(number(run.error) if run else NONE for run in best)))
+        heading = ("largest error to t =", *(f"{T:.0e}" for T in horizons))
+        note = "Of an integrator the best tolerance that came through in time."
+        yield Table(f"Error against horizon: {case}", heading, tuple(rows), (note,))
+
+
+def _precision(record: Record) -> Iterable[Table]:
+    """Error and time of every method at every tolerance, to the first horizon."""
+    for case in _cases(record):
+        runs = [run for run in record.runs if run.case == case]
+        first = min(run.horizon for run in runs)
+        rows = [
+            (
+                TITLES.get(run.method, run.method),
+                f"{run.tolerance:.0e}" if run.tolerance else NONE,
+                number(run.error),
+                number(None if run.seconds is None else run.seconds / run.samples * 1e6),
+                number(run.to_plain),
+                run.note if run.error is not None else f"{run.status}: {run.note}",
+            )
+            for run in runs
+            if run.horizon == first
+        ]
+        heading = ("method", "tolerance", "largest error", "time (us a sample)", "over plain NumPy", "remark")
+        yield Table(f"Error and time to t = {first:.0e}: {case}", heading, tuple(rows))
+
+
+def _setups(record: Record) -> Table:
+    """Show set-up by method and case; of an integrator at its tightest tolerance."""
+    rows = {
+        (item.case, item.method): (
+            item.case,
+            TITLES.get(item.method, item.method),
+            number(None if item.seconds is None else item.seconds * 1e3),
+            number(None if item.again is None else item.again * 1e3),
+            item.note or ("" if item.status == "done" else item.status),
+        )
+        for item in record.setups
+    }
+    return Table("Set-up", ("case", "method", "first (ms)", "again (ms)", "remark"), tuple(rows.values()))
+
+
+def _costs(record: Record) -> Iterable[Table]:
+    """Nanoseconds a matrix, and its multiples of filling the memory and of the plain formula, by count."""
+    counts = sorted({cost.count for cost in record.costs})
+    heading = ("method", "threads", *(f"{count:.0e}" for count in counts))
+    for title, field in (
+        ("Nanoseconds a matrix", "nanoseconds"),
+        ("Time over filling the same memory, one thread", "to_fill"),
+        ("Time over the plain formula with out=, one thread", "to_plain"),
+    ):
+        rows: dict[tuple[str, int], list[str]] = {}
+        for cost in record.costs:
+            row = rows.setdefault((cost.method, cost.threads), [NONE] * len(counts))
+            row[counts.index(cost.count)] = number(getattr(cost, field))
+        shown = tuple((TITLES.get(name, name), str(threads), *row) for (name, threads), row in rows.items())
+        yield Table(f"{title}, against their number", heading, shown)
+
+
+def _failures(record: Record) -> Table:
+    """Whatever has no number, with the reason."""
+    items: list[Run | Setup | Cost] = [*record.runs, *record.setups, *record.costs]
+    rows = [
+        (
+            "cost" if isinstance(item, Cost) else item.case,
+            TITLES.get(item.method, item.method),
+            _where(item),
+            item.status,
+            item.note,
+        )
+        for item in items
+        if item.status != "done"
+    ]
+    return Table("Not measured", ("case", "method", "where", "status", "reason"), tuple(rows))
+
+
+def number(value: float | None) -> str:
+    """Return three digits of a number, or a dash for none."""
+    return NONE if value is None else f"{value:.3g}"
+
+
+def _where(item: Run | Setup | Cost) -> str:
+    if isinstance(item, Cost):
+        return f"{item.count} on {item.threads} threads"
+    tolerance = () if item.tolerance is None else (f"tolerance {item.tolerance:.0e}",)
+    return ", ".join(((f"t to {item.horizon:.0e}",) if isinstance(item, Run) else ()) + tolerance)
+
+
+def _cases(record: Record) -> list[str]:
+    return list(dict.fromkeys(run.case for run in record.runs))
+
+
+def _methods(runs: Sequence[Run]) -> list[str]:
+    return list(dict.fromkeys(run.method for run in runs))
+
+
+def _best(runs: Sequence[Run]) -> Run | None:
+    """Return the run with the smallest error, if any has one."""
+    done = [run for run in runs if run.error is not None]
+    return min(done, key=lambda run: run.error or 0.0, default=None)

@@ -1,0 +1,78 @@
+"""Is it as fast as it should be? The limits of speed, as ratios within one run, against what a record holds."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from atlas.study.bench.record import Record
+
+Verdict: TypeAlias = Literal["met", "missed", "not measured"]
+
+
+@dataclass(frozen=True)
+class Target:
+    """A limit: what it says, the limit in words, what was found, and the verdict."""
+
+    says: str
+    wanted: str
+    found: float | None
+    verdict: Verdict
+
+
+def targets(record: Record) -> list[Target]:
+    """Return every limit with its verdict; what the record does not hold is not measured."""
+    if not record.costs:
+        return []
+    return [*_speed(record), *_never_slower(record), *_latency(record)]
+
+
+def _speed(record: Record) -> Iterator[Target]:
+    count = 1_000_000
+    yield _below("uniform grid of 1e6, over filling the memory", _ratio(record, "grid_out", count, "to_fill"), 2.2)
+    wide = record.machine.avx512
+    for says, method, factor in (
+        ("1e6 arbitrary times, plain formula over ours", "ours_out_far", 3.0 if wide else 2.0),
+        ("1e6 times below 1e8, plain formula over ours", "ours_out", 4.0 if wide else 2.0),
+    ):
+        slower = _ratio(record, method, count, "to_plain")
+        yield _above(says, 1 / slower if slower else None, factor)
+
+
+def _never_slower(record: Record) -> Iterator[Target]:
+    """Ours over the plain formula: at most 1 from a thousand times up, at most 1.5 below."""
+    for least, most, limit in ((1_000, 10**9, 1.0), (1, 999, 1.5)):
+        found = [
+            cost.to_plain
+            for cost in record.costs
+            if cost.method in {"ours_out", "ours_out_far"} and least <= cost.count <= most and cost.threads == 1
+        ]
+        measured = [ratio for ratio in found if ratio is not None]
+        where = f"from N = {least} up" if limit == 1.0 else "below N = 1000"
+        yield _below(f"ours over the plain formula, {where}, at worst", max(measured, default=None), limit)
+
+
+def _latency(record: Record) -> Iterator[Target]:
+    single = _ratio(record, "ours", 1, "nanoseconds")
+    yield _below("one single time (us)", None if single is None else single / 1e3, 50.0)
+    made = [item.again for item in record.setups if item.case == "elementary" and item.method == "ours" and item.again]
+    yield _below("a motion made (ms)", made[0] * 1e3 if made else None, 1.0)
+
+
+def _ratio(record: Record, method: str, count: int, field: str) -> float | None:
+    """Return a number of one row on one thread, if it was measured."""
+    rows = (cost for cost in record.costs if (cost.method, cost.count, cost.threads) == (method, count, 1))
+    return next((getattr(cost, field) for cost in rows), None)
+
+
+def _below(says: str, found: float | None, limit: float) -> Target:
+    return Target(says, f"at most {limit:g}", found, _verdict(found, met=found is not None and found <= limit))
+
+
+def _above(says: str, found: float | None, limit: float) -> Target:
+    return Target(says, f"at least {limit:g}", found, _verdict(found, met=found is not None and found >= limit))
+
+
+def _verdict(found: float | None, met: bool) -> Verdict:
+    if found is None:
+        return "not measured"
+    return "met" if met else "missed"
