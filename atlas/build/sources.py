@@ -1,0 +1,117 @@
+"""What a figure or a page is made from: a digest of the code that it reaches, comments and formatting aside.
+
+A Python file is reached when it is named or imported, at any depth and also inside a function, from a file that is
+reached. Its digest is that of its syntax tree, so that a comment or a line break changes nothing, and a changed
+docstring does (the title of a figure is one). Any other file is digested byte by byte.
+"""
+
+import ast
+import hashlib
+import json
+import os
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import atlas
+
+PACKAGE = Path(atlas.__file__).resolve().parent
+
+
+def digest(*parts: Any) -> str:
+    """Return the digest of values that JSON can write, the same on every machine."""
+    text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+class Sources:
+    """Digests of files and of all that they reach, remembered between runs by the files' times and sizes."""
+
+    def __init__(self, memory: Path | None = None) -> None:
+        self._memory = memory
+        self._known: dict[str, dict[str, Any]] = {}
+        self._changed = False
+        if memory is not None:
+            try:
+                self._known = json.loads(memory.read_text())
+            except (OSError, ValueError):
+                self._known = {}  # nothing remembered, or not readable: everything is digested anew
+
+    def reached(self, roots: Iterable[Path]) -> tuple[Path, ...]:
+        """Return the files and every module of ours that they import, sorted."""
+        found: set[Path] = set()
+        waiting = [Path(root).resolve() for root in roots]
+        while waiting:
+            path = waiting.pop()
+            if path not in found:
+                found.add(path)
+                waiting.extend(Path(name) for name in self._facts(path)["imports"])
+        return tuple(sorted(found))
+
+    def closure(self, roots: Iterable[Path]) -> str:
+        """Return one digest of the files and of every module of ours that they import.
+
+        It does not depend on where the checkout is.
+        """
+        return digest([[_place(path), self._facts(path)["digest"]] for path in self.reached(roots)])
+
+    def save(self) -> None:
+        """Remember the digests for the next run."""
+        if self._memory is not None and self._changed:
+            self._memory.parent.mkdir(parents=True, exist_ok=True)
+            beside = self._memory.with_name(f"{self._memory.name}.{os.getpid()}")
+            beside.write_text(json.dumps(self._known))
+            beside.replace(self._memory)
+
+    def _facts(self, path: Path) -> dict[str, Any]:
+        """Return the digest of one file and what it imports."""
+        state = path.stat()
+        stamp = [state.st_mtime_ns, state.st_size]
+        known = self._known.get(str(path))
+        if known is None or known["stamp"] != stamp:
+            known = {"stamp": stamp, **_read(path)}
+            self._known[str(path)] = known
+            self._changed = True
+        return known
+
+
+def _read(path: Path) -> dict[str, Any]:
+    if path.suffix != ".py":
+        return {"digest": hashlib.sha256(path.read_bytes()).hexdigest(), "imports": []}
+    tree = ast.parse(path.read_bytes(), filename=str(path))
+    imports = sorted({str(module) for name in _names(tree) for module in _files(name)})
+    return {"digest": hashlib.sha256(ast.dump(tree).encode()).hexdigest(), "imports": imports}
+
+
+def _names(tree: ast.AST) -> Iterator[str]:
+    """Go through the dotted names of ours that a module imports, anywhere in it."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name.split(".")[0] == "atlas")
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "atlas":
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+@lru_cache(maxsize=4096)
+def _files(name: str) -> tuple[Path, ...]:
+    """Return the files that importing a dotted name runs: each package on the way and the module itself."""
+    files, here = [PACKAGE / "__init__.py"], PACKAGE
+    for part in name.split(".")[1:]:
+        package, module = here / part / "__init__.py", here / f"{part}.py"
+        if package.is_file():
+            files.append(package)
+            here /= part
+        else:
+            if module.is_file():
+                files.append(module)
+            break  # what follows is a name inside the module or the package
+    return tuple(files)
+
+
+def _place(path: Path) -> str:
+    """Return the path from the folder that holds the package, whatever it is called here."""
+    for base in (PACKAGE / "_data", PACKAGE.parent):
+        if path.is_relative_to(base):
+            return path.relative_to(base).as_posix()
+    return path.name

@@ -1,0 +1,109 @@
+"""A store of what was built, each thing under a digest of everything it depends on.
+
+An entry is a folder of files, written beside and renamed, so that it is there whole or not at all; two builds that make
+the same entry at once do no harm. An entry is checked when it is taken: a file that is not the one that was put there
+is made again.
+"""
+
+import hashlib
+import json
+import os
+import shutil
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+CONTENTS = "contents.json"
+STALE = 24 * 3600.0  # seconds after which a half-written entry belongs to a build that was killed
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What is stored under a key: a folder of files and the facts that were noted when it was made."""
+
+    folder: Path
+    facts: dict[str, Any]
+    new: bool
+
+    def file(self, name: str) -> Path:
+        """Return the path of one of its files."""
+        return self.folder / name
+
+
+class Store:
+    """A folder of entries by key."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+
+    def take(self, key: str) -> Entry | None:
+        """Return the entry of that key if it is there and whole."""
+        folder = self._folder(key)
+        try:
+            contents = json.loads((folder / CONTENTS).read_text())
+            whole = all(_digest(folder / name) == value for name, value in contents["files"].items())
+        except (OSError, ValueError, KeyError):
+            return None
+        return Entry(folder, contents["facts"], new=False) if whole else None
+
+    def make(self, key: str, maker: Callable[[Path], dict[str, Any]]) -> Entry:
+        """Make the entry of that key: ``maker`` writes files into an empty folder and returns facts to note."""
+        waiting = self.root / "unfinished"
+        waiting.mkdir(parents=True, exist_ok=True)
+        beside = Path(tempfile.mkdtemp(dir=waiting, prefix=key[:12] + "-"))
+        try:
+            facts = maker(beside)
+            files = {path.name: _digest(path) for path in sorted(beside.iterdir())}
+            (beside / CONTENTS).write_text(json.dumps({"files": files, "facts": facts}))
+            folder = self._folder(key)
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            self._settle(beside, folder)
+        finally:
+            shutil.rmtree(beside, ignore_errors=True)
+        return Entry(folder, facts, new=True)
+
+    def sweep(self) -> None:
+        """Remove what killed builds left half-written."""
+        for left in (self.root / "unfinished").glob("*"):
+            if time.time() - left.stat().st_mtime > STALE:
+                shutil.rmtree(left, ignore_errors=True)
+
+    def _settle(self, beside: Path, folder: Path) -> None:
+        """Rename a finished folder to its place; a broken entry there makes way, a whole one is as good."""
+        for _ in range(3):
+            try:
+                beside.rename(folder)
+            except OSError:
+                if self.take(folder.name) is not None:
+                    return
+                broken = beside.with_name(beside.name + ".broken")
+                if folder.exists():
+                    folder.rename(broken)
+                    shutil.rmtree(broken, ignore_errors=True)
+            else:
+                return
+        raise OSError(f"the store could not write {folder}")
+
+    def _folder(self, key: str) -> Path:
+        return self.root / key[:2] / key
+
+
+def place(source: Path, target: Path) -> bool:
+    """Put a copy of a file at ``target``, whole or not at all; return whether anything had to be written."""
+    if target.is_file() and target.stat().st_size == source.stat().st_size and _digest(target) == _digest(source):
+        return False
+    target.parent.mkdir(parents=True, exist_ok=True)
+    beside = target.with_name(f".{target.name}.{os.getpid()}")
+    try:
+        shutil.copyfile(source, beside)
+        beside.replace(target)
+    finally:
+        beside.unlink(missing_ok=True)
+    return True
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()

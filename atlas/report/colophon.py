@@ -1,0 +1,73 @@
+"""What a report says about its own making: versions and parameters, never a date or a machine."""
+
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+
+import atlas
+from atlas.report import records
+from atlas.report.numbers import plain
+
+LIBRARIES = ("numpy", "python-flint", "matplotlib", "pyvista", "vtk", "typst", "pypandoc_binary", "fonttools")
+
+
+@dataclass(frozen=True)
+class Colophon:
+    """Versions by name, and each body and field in a line."""
+
+    versions: tuple[tuple[str, str], ...]
+    bodies: tuple[tuple[str, str], ...]
+    fields: tuple[tuple[str, str], ...]
+
+
+def colophon(report: records.Report) -> Colophon:
+    """Describe a report's making."""
+    versions = [("atlas", atlas.__version__)]
+    for name in LIBRARIES:
+        try:
+            versions.append((name, version(name)))
+        except PackageNotFoundError:
+            continue
+    bodies = tuple((body.title, _given(body)) for body in report.parameters.bodies.values())
+    fields = tuple((field.title, _given(field)) for field in report.parameters.fields.values())
+    return Colophon(tuple(versions), bodies, fields)
+
+
+_UNITS = {
+    "SI": {
+        "mass": "kg",
+        "charge": "C",
+        "B": "T",
+        "E": "V/m",
+        "charge_to_mass": "C/kg",
+        "prime": "1/s",
+        **dict.fromkeys(("radius", "height", "length", "equatorial", "polar"), "m"),
+    },
+    "Gaussian": {"B": "G", "E": "statV/cm", "charge_to_mass": "statC/g", "prime": "1/s"},
+}
+_NAMES = {"prime": "B\u2032", "charge_to_mass": "e/m", "ratio": "I", "inertia": "(I2, I3)"}
+
+
+def _given(record: records.Body | records.Field) -> str:
+    """Write out what a record was given, with units."""
+    units = _UNITS[getattr(record, "system", "SI")]
+    parts = []
+    for key in record.__struct_fields__:
+        value = getattr(record, key)
+        if key in {"title", "system"} or value is None or (key in {"E", "axis"} and _is_default(record, key)):
+            continue
+        shown = value.replace("_", " ") if isinstance(value, str) else _numbers(value)
+        unit = f"\u202f{units[key]}" if key in units else ""
+        parts.append(shown if key == "shape" else f"{_NAMES.get(key, key)} = {shown}{unit}")
+    return ", ".join(parts)
+
+
+def _is_default(record: records.Body | records.Field, key: str) -> bool:
+    """Whether a key has the value that it has when it is not given."""
+    return bool(getattr(record, key) == getattr(type(record)(title=""), key))
+
+
+def _numbers(value: float | tuple[float, ...]) -> str:
+    """Write a number or a vector."""
+    if isinstance(value, tuple):
+        return f"({', '.join(map(plain, value))})"
+    return plain(value)

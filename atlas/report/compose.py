@@ -1,0 +1,242 @@
+"""From the records of a report to what the templates see: numbers given, citations resolved, texts collected."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from atlas.errors import AtlasError
+from atlas.report import records, views
+from atlas.report.formulas import Manuscript, Target
+from atlas.report.load import nearest
+from atlas.report.numbers import Number, plain, room
+from atlas.report.settings import Setting, setting
+from atlas.report.tables import compute
+from atlas.report.tables.model import Column, Data, Request
+
+
+@dataclass
+class Document:
+    """A report ready to be set: its pages, plates, texts, and where each citation leads."""
+
+    report: records.Report
+    manuscript: Manuscript = field(default_factory=Manuscript)
+    pages: list[views.PageView] = field(default_factory=list)
+    plates: dict[str, views.Plate] = field(default_factory=dict)
+    targets: dict[str, tuple[str, str, str]] = field(default_factory=dict)
+    abstract: int = 0
+    equations: dict[str, str] = field(default_factory=dict)
+
+    def cite(self, target: Target) -> Callable[[str, str], str]:
+        """Return the function that puts a link in the place of a citation."""
+
+        def link(name: str, where: str) -> str:
+            if name in self.targets:
+                file, anchor, words = self.targets[name]
+                return f"[{words}]({file if target == 'html' else ''}#{anchor})"
+            if ":" not in name and name in _ledger():
+                return f"({name})"
+            raise AtlasError(f"{where}: @{name} is cited{nearest(name, [*self.targets, *_ledger()])}, but not there.")
+
+        return link
+
+
+def compose(report: records.Report) -> Document:
+    """Count the blocks of a report, compute its tables and the scenes of its figures, and collect its texts.
+
+    A figure whose scene fails keeps its place with the reason; anything else that is wrong raises AtlasError.
+    """
+    document = Document(report)
+    document.abstract = document.manuscript.add(report.abstract, "the abstract")
+    composer = _Composer(document)
+    for number, page in enumerate(report.pages, 1):
+        composer.page = page
+        blocks = []
+        for place, block in enumerate(page.blocks, 1):
+            composer.where = f"page {page.slug!r}, block {place} ({block.__struct_config__.tag})"
+            try:
+                blocks.append(composer.view(block))
+            except AtlasError as error:
+                raise AtlasError(f"{composer.where}: {error}") from error
+        document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
+        document.pages.append(views.PageView(number, page.slug, page.title, page.summary, tuple(blocks)))
+    return document
+
+
+class _Composer:
+    """Goes through the blocks in order and counts."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.page: records.Page = document.report.pages[0]
+        self.where = ""
+        self.figures = self.tables = self.own = 0
+
+    def text(self, markdown: str, *, inline: bool = False) -> int:
+        """Take a text into the manuscript."""
+        return self.document.manuscript.add(markdown, self.where, inline=inline)
+
+    def target(self, name: str, anchor: str, words: str) -> bool:
+        """Let a name lead to an anchor of this page; return whether it is the first to do so."""
+        first = name not in self.document.targets
+        if first:
+            self.document.targets[name] = (f"{self.page.slug}.html", anchor, words)
+        return first
+
+    def view(self, block: records.Block) -> views.View:
+        """Turn a record into its view."""
+        match block:
+            case records.Prose():
+                return views.ProseView(self.text(block.text))
+            case records.Note():
+                return views.NoteView(self.text(block.title, inline=True), self.text(block.text))
+            case records.Equation():
+                return self.equation(block)
+            case records.Figure():
+                return self.figure(block)
+            case records.Table():
+                request = Request(self.settings(block), block.parameters, block.digits)
+                return self.table(block, compute(block.table, request), block.table)
+            case records.Listing():
+                for row in block.rows:
+                    if len(row) != len(block.columns):
+                        raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
+                columns = tuple(Column(head) for head in block.columns)
+                return self.table(block, Data(columns, block.rows, block.caption), "")
+
+    def equation(self, block: records.Equation) -> views.EquationView:
+        """Take an equation from the ledger, or number one of the report's own."""
+        if (block.label is None) == (block.tex is None) or (block.tex is None) != (block.name is None):
+            raise AtlasError("an equation has either a label of the ledger, or a name and tex of its own.")
+        if block.label is not None:
+            if block.label not in _ledger():
+                raise AtlasError(f"there is no equation {block.label!r}{nearest(block.label, list(_ledger()))}.")
+            entry = _ledger()[block.label]
+            label, tex = block.label, entry.tex
+            number = f"({entry.number})" if entry.number is not None else ""
+        else:
+            label, number, tex = str(block.name), "", str(block.tex)
+        words = f"({label})" if number else self.document.equations.get(label, "")
+        if not words:
+            self.own += 1
+            words = f"(A{self.own})"
+        number = number or words
+        first = self.target(label, f"eq-{label}", words)
+        self.document.equations.setdefault(label, number)
+        return views.EquationView(label, number, self.text(f"$${tex.strip()}$$"), block.scale, first)
+
+    def figure(self, block: records.Figure) -> views.FigureView:
+        """Make the scene of a figure, or note why it can't be made."""
+        self.figures += 1
+        plate = self.plate(block)
+        scene = plate.scene
+        caption = block.caption or (scene.caption if scene else f"The recipe {block.recipe} failed.")
+        width, height = scene.size if scene else (120.0, 30.0)
+        shown = block.width or width
+        name = block.id or f"{self.figures}"
+        self.target(f"fig:{name}", f"fig-{name}", f"Figure {self.figures}")
+        settings = ", ".join(f"{key} = {_shown(value)}" for key, value in plate.parameters.items())
+        return views.FigureView(
+            self.figures,
+            f"fig-{name}",
+            plate,
+            self.text(caption, inline=True),
+            scene.alt if scene else plate.failure,
+            shown,
+            height * shown / width,
+            settings,
+        )
+
+    def plate(self, block: records.Figure) -> views.Plate:
+        """Return the plate of a figure block, the same one for the same recipe, parameters and renderer."""
+        parameters = self.parameters(block) | block.parameters
+        key = f"{block.recipe} {sorted(parameters.items())} {block.renderer}"
+        plates = self.document.plates
+        if key not in plates:
+            stem = f"{len(plates) + 1:02d}-{block.recipe.replace('_', '-')}"
+            plates[key] = views.Plate(stem, block.recipe, block.renderer, parameters)
+            _stage(plates[key])
+        return plates[key]
+
+    def parameters(self, block: records.Figure) -> dict[str, Any]:
+        """Turn the named bodies and fields of a figure into the parameters ratio, ratios and field."""
+        settings = self.settings(block)
+        parameters: dict[str, Any] = {}
+        if block.body:
+            parameters["ratio"] = settings[0].ratio
+        if block.bodies:
+            parameters["ratios"] = tuple(one.ratio for one in settings)
+        if block.field:
+            parameters["field"] = settings[0].field
+        return parameters
+
+    def settings(self, block: records.Figure | records.Table) -> tuple[Setting, ...]:
+        """Return the bodies of a block, each in its field."""
+        known = self.document.report.parameters
+        chosen = known.fields[block.field] if block.field else None
+        bodies = block.bodies or ((block.body,) if block.body else (None,))
+        return tuple(setting(known.bodies[name] if name else None, chosen) for name in bodies)
+
+    def table(self, block: records.Table | records.Listing, data: Data, name: str) -> views.TableView:
+        """Set a table out in columns, aligned on the decimal point."""
+        self.tables += 1
+        shown = block.id or f"{self.tables}"
+        self.target(f"tab:{shown}", f"tab-{shown}", f"Table {self.tables}")
+        columns = []
+        for place, column in enumerate(data.columns):
+            numbers = [row[place].parts() for row in data.rows if isinstance(row[place], Number)]  # type: ignore[union-attr]
+            columns.append(
+                views.ColumnView(
+                    self.text(column.head, inline=True),
+                    self.text(column.unit, inline=True) if column.unit else None,
+                    bool(numbers),
+                    max((room(whole) for whole, _, _ in numbers), default=0.0),
+                    max((room(fraction) for _, fraction, _ in numbers), default=0.0),
+                    any(power for _, _, power in numbers),
+                )
+            )
+        rows = tuple(tuple(self.cell(value) for value in row) for row in data.rows)
+        note = self.text(data.note, inline=True) if data.note else None
+        caption = self.text(block.caption or data.caption, inline=True)
+        return views.TableView(self.tables, f"tab-{shown}", tuple(columns), rows, caption, note, name)
+
+    def cell(self, value: str | Number) -> views.Cell:
+        """Cut a number at its point, or take in the words."""
+        if isinstance(value, Number):
+            return views.Cell(None, *value.parts(), value.proven)
+        return views.Cell(self.text(value, inline=True)) if value else views.Cell()
+
+
+def _stage(plate: views.Plate) -> None:
+    """Make the scene of a plate, or note why it can't be made; a misspelt recipe or parameter is an error."""
+    from atlas.scene import recipes
+
+    if plate.recipe not in recipes.names():
+        raise AtlasError(f"there is no recipe {plate.recipe!r}{nearest(plate.recipe, recipes.names())} in figures/.")
+    try:
+        recipe = recipes.load(plate.recipe)
+        unknown = [name for name in plate.parameters if name not in recipe.parameters]
+        if not unknown:
+            plate.scene = recipe.scene(**plate.parameters)
+            plate.parameters = plate.scene.parameters
+    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
+        plate.failure = f"{type(error).__name__}: {error}"
+        return
+    if unknown:
+        guess = nearest(unknown[0], list(recipe.parameters))
+        raise AtlasError(f"the recipe {plate.recipe!r} has no parameter {unknown[0]!r}{guess}.")
+
+
+def _shown(value: Any) -> str:
+    """Write a parameter as it was given."""
+    if isinstance(value, float | int) and not isinstance(value, bool):
+        return plain(value)
+    if isinstance(value, tuple | list):
+        return f"({', '.join(_shown(part) for part in value)})"
+    return str(value)
+
+
+def _ledger() -> Mapping[str, Any]:
+    """Return the ledger of the paper's equations."""
+    from atlas.paper import EQUATIONS
+
+    return EQUATIONS

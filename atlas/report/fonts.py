@@ -1,0 +1,105 @@
+"""The typefaces of a page: subsets of STIX cut at build time from locked packages, so that a page needs no network.
+
+Formulas are set in STIX Two Math, which the package ``ziamath`` carries; its MATH table is kept, and with it the glyphs
+that radicals, brackets and accents grow to. Text is set in STIXGeneral, the face of the figures, from Matplotlib.
+"""
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from html import unescape
+from importlib.util import find_spec
+from pathlib import Path
+from types import MappingProxyType
+
+from atlas.errors import AtlasError
+
+ALWAYS = "".join(map(chr, range(0x20, 0x7F))) + "\u00a0\u2009\u202f\u2212\u2013\u2014\u2018\u2019\u201c\u201d\u2026"
+GROWING = "\u221a()[]{}|\u2016\u27e8\u27e9\u02c6\u02dc\u02d9\u00a8\u00af\u2032\u2033\u2044/"
+"""What a formula may hold although no character of the page shows it: the radical, above all."""
+
+
+@dataclass(frozen=True)
+class Face:
+    """A file of a font, the package that carries it, and the CSS family, weight and style that it serves."""
+
+    package: str
+    file: str
+    family: str
+    weight: int = 400
+    style: str = "normal"
+
+
+FACES: Mapping[str, Face] = MappingProxyType(
+    {
+        "math": Face("ziamath", "fonts/STIXTwoMath-Regular.ttf", "Atlas Math"),
+        "roman": Face("matplotlib", "mpl-data/fonts/ttf/STIXGeneral.ttf", "Atlas Text"),
+        "italic": Face("matplotlib", "mpl-data/fonts/ttf/STIXGeneralItalic.ttf", "Atlas Text", style="italic"),
+        "bold": Face("matplotlib", "mpl-data/fonts/ttf/STIXGeneralBol.ttf", "Atlas Text", weight=700),
+    }
+)
+
+
+def source(face: Face) -> Path:
+    """Return the file of a face, found without importing the package that carries it."""
+    spec = find_spec(face.package)
+    folder = next(iter(spec.submodule_search_locations or ()), None) if spec else None
+    path = Path(folder or "") / face.file
+    if folder is None or not path.is_file():
+        raise AtlasError(f"the package {face.package} has no font {face.file}: install the locked dependencies.")
+    return path
+
+
+def characters(pages: Iterable[str]) -> tuple[str, str]:
+    """Return the characters that the pages show outside and inside formulas."""
+    text: set[str] = set()
+    formulas: set[str] = set()
+    for page in pages:
+        inside = re.findall(r"<math.*?</math>", page, re.DOTALL)
+        outside = re.sub(r"<math.*?</math>", "", page, flags=re.DOTALL)
+        text.update(unescape(re.sub(r"<[^>]+>", "", outside)))
+        formulas.update(unescape(re.sub(r"<[^>]+>", "", "".join(inside))))
+        formulas.update(map(_italic, re.findall(r"<mi>(.)</mi>", page)))
+    return "".join(sorted(text - {"\n"})), "".join(sorted(formulas - {"\n"}))
+
+
+def _italic(letter: str) -> str:
+    """Return the mathematical italic of a letter, in which a browser shows a variable."""
+    if letter == "h":
+        return "\N{PLANCK CONSTANT}"
+    for first, last, italic in (("A", "Z", 0x1D434), ("a", "z", 0x1D44E), ("Α", "Ω", 0x1D6E2), ("α", "ω", 0x1D6FC)):
+        if first <= letter <= last:
+            return chr(italic + ord(letter) - ord(first))
+    return {"ϕ": "\U0001d719", "ϵ": "\U0001d716", "∂": "\U0001d715", "ϑ": "\U0001d717"}.get(letter, letter)
+
+
+def subset(face: Face, wanted: str) -> bytes:
+    """Cut a face down to some characters, as WOFF2; the same characters give the same bytes."""
+    from io import BytesIO
+
+    from fontTools.subset import Options, Subsetter, load_font, save_font
+
+    options = Options(
+        flavor="woff2",
+        layout_features=["*"],
+        notdef_outline=True,
+        name_IDs=[0, 1, 2, 13, 14],
+        recalc_timestamp=False,
+        drop_tables=["FFTM", "DSIG"],
+    )
+    font = load_font(str(source(face)), options)
+    subsetter = Subsetter(options)
+    subsetter.populate(text=wanted)
+    subsetter.subset(font)
+    out = BytesIO()
+    save_font(font, out, options)
+    return out.getvalue()
+
+
+def all_subsets(pages: Iterable[str]) -> dict[str, bytes]:
+    """Cut every face for some pages; the keys are file names."""
+    text, formulas = characters(pages)
+    return {
+        f"{name}.woff2": subset(face, ALWAYS + (formulas + GROWING if name == "math" else text))
+        for name, face in FACES.items()
+    }

@@ -1,0 +1,125 @@
+"""Prose with TeX to HTML with MathML and to Typst: all texts of a report in one pandoc call for each target.
+
+pandoc leaves a formula that it can't read behind as raw TeX, with a warning: here that is an error which names the
+formula and its place. Its output is mended where it is known to differ from TeX; each mend says what it mends.
+"""
+
+import json
+import re
+import subprocess
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Literal, TypeAlias
+
+from atlas.errors import AtlasError
+from atlas.report.mathml import mend_all
+
+Target: TypeAlias = Literal["html", "typst"]
+
+_READ = "markdown+smart-implicit_figures-auto_identifiers-citations-raw_tex-yaml_metadata_block"
+_WRITE = {"html": ["-t", "html5", "--mathml"], "typst": ["-t", "typst"]}
+_MARK = {"html": "<!--text {}-->", "typst": "// text {}\n"}
+_TEX = re.compile(r"\$\$(.+?)\$\$|(?<![\\$])\$([^$]+?)\$", re.DOTALL)
+_CODE = re.compile(r"`[^`]*`")
+
+
+@dataclass(frozen=True)
+class Text:
+    """A piece of Markdown, where it stands in the report, and whether it is less than a paragraph."""
+
+    markdown: str
+    where: str
+    inline: bool
+
+
+@dataclass
+class Manuscript:
+    """The texts of one report, collected so that they are set together."""
+
+    texts: list[Text] = field(default_factory=list)
+
+    def add(self, markdown: str, where: str, *, inline: bool = False) -> int:
+        """Take in a text and return its number."""
+        self.texts.append(Text(markdown, where, inline))
+        return len(self.texts) - 1
+
+    def set(self, target: Target, cite: Callable[[str, str], str]) -> list[str]:
+        """Set all texts for a target, in their order.
+
+        `cite` (citation, place) gives the Markdown of a citation such as ``@mf72``. Raises AtlasError for a formula
+        that pandoc can't read.
+        """
+        mark = "\n\n```{{={0}}}\n{1}\n```\n\n"
+        source = "".join(
+            mark.format(target, _MARK[target].format(number).rstrip()) + _prepared(text, target, cite)
+            for number, text in enumerate(self.texts)
+        )
+        output = _pandoc(source, target, self.texts)
+        pieces = re.split(re.escape(_MARK[target]).replace(r"\{\}", r"\d+").rstrip("\n\\") + r"\s*", output)[1:]
+        tidy = mend_all if target == "html" else _tidy_typst
+        return [
+            _bare(tidy(piece.strip()), target) if text.inline else tidy(piece.strip())
+            for piece, text in zip(pieces, self.texts, strict=True)
+        ]
+
+
+def _prepared(text: Text, target: Target, cite: Callable[[str, str], str]) -> str:
+    """Resolve the citations outside code and formulas, and write TeX as pandoc reads it best."""
+    parts: list[str] = []
+    end = 0
+    keep = sorted((m.span() for p in (_TEX, _CODE) for m in p.finditer(text.markdown)), key=lambda span: span[0])
+    for start, stop in keep:
+        if start < end:
+            continue
+        parts += [_cited(text.markdown[end:start], text.where, cite), _tex(text.markdown[start:stop], target)]
+        end = stop
+    return "".join([*parts, _cited(text.markdown[end:], text.where, cite)])
+
+
+def _cited(markdown: str, where: str, cite: Callable[[str, str], str]) -> str:
+    """Put links in the place of citations."""
+    return re.sub(r"(?<![\w\\])@([a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", lambda match: cite(match[1], where), markdown)
+
+
+def _tex(tex: str, target: Target) -> str:
+    r"""Avoid what pandoc gets wrong: words in ``\mathrm`` are spaced out, a small fraction below a fraction is lost."""
+    tex = re.sub(r"\\mathrm\{([A-Za-z]{2,})\}", r"\\text{\1}", tex)
+    return re.sub(r"\\[td]frac\b", r"\\frac", tex) if target == "typst" else tex
+
+
+def _pandoc(source: str, target: Target, texts: Sequence[Text]) -> str:
+    """Run pandoc once; turn its first warning into an error."""
+    import pypandoc
+
+    with TemporaryDirectory() as folder:
+        log = Path(folder) / "log.json"
+        command = [pypandoc.get_pandoc_path(), "-f", _READ, *_WRITE[target], "--wrap=none", f"--log={log}"]
+        run = subprocess.run(  # noqa: S603  the program is the one inside our own locked package
+            command, input=source, capture_output=True, text=True, encoding="utf-8", check=False
+        )
+        if run.returncode:
+            raise AtlasError(f"pandoc could not set the text of the report: {run.stderr.strip().splitlines()[-1]}.")
+        warnings = [entry for entry in json.loads(log.read_text("utf-8")) if entry.get("verbosity") == "WARNING"]
+    for warning in warnings:
+        if warning["type"] == "CouldNotConvertTeXMath":
+            tex = warning["contents"]
+            place = next((text.where for text in texts if tex.strip() in text.markdown), "somewhere")
+            reason = " ".join(warning["message"].split()[:2] and warning["message"].splitlines()[-2:]).strip()
+            raise AtlasError(f"{place}: the formula ${tex.strip()}$ can't be read: {' '.join(reason.split())}.")
+        raise AtlasError(f"pandoc warns of {warning['type']}: {json.dumps(warning, ensure_ascii=False)}.")
+    return run.stdout
+
+
+def _tidy_typst(typst: str) -> str:
+    r"""Give ``\;`` and ``\!`` their widths, which pandoc rounds to whole ems, and bars their role as delimiters."""
+    typst = typst.replace("#h(0em)", "#h(0.278em)").replace("#h(-1em)", "#h(-0.167em)")
+    return typst.replace("\\|", "|")
+
+
+def _bare(markup: str, target: Target) -> str:
+    """Take a text out of its paragraph."""
+    if target == "html":
+        return markup.removeprefix("<p>").removesuffix("</p>")
+    return markup.strip()

@@ -1,0 +1,38 @@
+"""The pages: plain HTML with MathML, one stylesheet, embedded fonts; no script, nothing from the network."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from atlas.places import folder
+from atlas.report.colophon import Colophon
+from atlas.report.compose import Document
+from atlas.report.fonts import FACES, all_subsets
+
+
+def pages(document: Document, colophon: Colophon) -> dict[str, str | bytes]:
+    """Set a document as pages; the keys are file names, the stylesheet and the fonts among them."""
+    environment = Environment(
+        loader=FileSystemLoader(folder("templates") / "html"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    texts = [Markup(text) for text in document.manuscript.set("html", document.cite("html"))]  # noqa: S704  from pandoc
+    template = environment.get_template("page.html")
+    common: dict[str, Any] = {"document": document, "texts": texts, "colophon": colophon, "report": document.report}
+    set_pages = {
+        page.file: template.render(page=page, before=before, after=after, **common)
+        for before, page, after in _neighbours(document.pages)
+    }
+    style = environment.get_template("style.css").render(faces=FACES)
+    fonts = {f"fonts/{name}": content for name, content in all_subsets(set_pages.values()).items()}
+    return {**fonts, "style.css": style, **set_pages}
+
+
+def _neighbours(pages: Sequence[Any]) -> list[tuple[Any, Any, Any]]:
+    """Pair each page with the one before and the one after it."""
+    return list(zip([None, *pages[:-1]], pages, [*pages[1:], None], strict=True))

@@ -1,0 +1,72 @@
+"""The PDF: Typst source from templates, compiled without system fonts and without a date, so that bytes repeat."""
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from atlas.errors import AtlasError
+from atlas.places import folder
+from atlas.report.colophon import Colophon
+from atlas.report.compose import Document
+
+TEXT_FONT = "New Computer Modern"
+MATH_FONT = "New Computer Modern Math"
+
+
+def source(document: Document, colophon: Colophon) -> str:
+    """Write the Typst source of a document."""
+    environment = Environment(
+        loader=FileSystemLoader(folder("templates") / "typst"),
+        autoescape=False,  # noqa: S701  the filters below escape for Typst
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        variable_start_string="<$",
+        variable_end_string="$>",
+        block_start_string="<%",
+        block_end_string="%>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+    )
+    environment.filters["string"] = _string
+    environment.filters["content"] = _content
+    texts = document.manuscript.set("typst", document.cite("typst"))
+    return environment.get_template("report.typ").render(
+        document=document, report=document.report, texts=texts, colophon=colophon, family=TEXT_FONT, math=MATH_FONT
+    )
+
+
+def compile_pdf(typst_source: str, where: Path) -> bytes:
+    """Compile Typst source, with its figures under the folder `where`. Raises AtlasError with Typst's reason."""
+    import typst
+
+    file = where / "report.typ"
+    file.write_text(typst_source, encoding="utf-8")
+    try:
+        pdf, warnings = typst.compile_with_warnings(str(file), root=str(where), ignore_system_fonts=True, format="pdf")
+    except typst.TypstError as error:
+        raise AtlasError(f"the PDF could not be set: {_reason(error)}.") from error
+    if warnings:
+        raise AtlasError(f"Typst warns about the PDF: {_reason(warnings[0])}.")
+    return bytes(pdf)
+
+
+def _reason(error: Any) -> str:
+    """Return Typst's message, the line of the source and its text, in one line."""
+    message = str(error.message).removeprefix("error: ").strip()
+    place = re.search(r"\.typ:(\d+):\d+", error.diagnostic or "")
+    shown = re.search(r"^\s*\d+\s*[│|]\s?(.*)$", error.diagnostic or "", re.MULTILINE)
+    where = f" at line {place[1]} of its source" if place else ""
+    return " ".join(f"{message}{where}{f': {shown[1].strip()[:160]}' if shown else ''}".split())
+
+
+def _string(text: str) -> str:
+    """Write a Typst string."""
+    return json.dumps(str(text), ensure_ascii=False)
+
+
+def _content(text: str) -> str:
+    """Escape plain text for Typst's markup."""
+    return re.sub(r"([\\#$*_`<>@\[\]~/=+-])", r"\\\1", str(text))

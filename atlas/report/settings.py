@@ -1,0 +1,125 @@
+"""The bodies and fields of a report, from their natural form to what the kernels take."""
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.core.body import SHAPES, SymmetricBody
+from atlas.core.field import Field as PhysicalField
+from atlas.core.field import LaboratoryFrame
+from atlas.core.units import System, charge_to_mass, system
+from atlas.errors import AtlasError
+from atlas.exact.body import shape_moments
+from atlas.report import records
+from atlas.report.load import nearest
+
+
+class Moments(NamedTuple):
+    """I2 and I3, as `atlas.exact` takes them in the place of a ratio."""
+
+    I2: Any
+    I3: Any
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A body in a field: `ratio` and `field` as every class of the atlas takes them, and where they come from.
+
+    `body` and `record` are the body and its record; `field` = (B2, B3), components of B' in 1/s. `physical`, `frame`
+    and `units` are there if the field was given as B.
+    """
+
+    body: SymmetricBody | None = None
+    body_record: records.Body | None = None
+    field: tuple[float, float] | None = None
+    field_record: records.Field | None = None
+    physical: PhysicalField | None = None
+    frame: LaboratoryFrame | None = None
+    units: System | None = None
+
+    @property
+    def exact(self) -> "Moments":
+        """The moments without rounding: of a shape, from its dimensions."""
+        record = self.body_record
+        if self.body is None or record is None:
+            raise AtlasError("this needs a body: name one with the key 'body'.")
+        if record.shape is None:
+            return Moments(self.body.I2, self.body.I3)
+        return Moments(*shape_moments(record.shape, **dimensions(record)))
+
+    @property
+    def components(self) -> tuple[float, float]:
+        """(B2, B3), where there must be a field."""
+        if self.field is None:
+            raise AtlasError("this needs a field: name one with the key 'field'.")
+        return self.field
+
+    @property
+    def ratio(self) -> float:
+        """I = I3/I2 as a float, for figures."""
+        if self.body is None:
+            raise AtlasError("this needs a body: name one with the key 'body'.")
+        return self.body.ratio
+
+
+def body(record: records.Body) -> SymmetricBody:
+    """Return the body of a record: by its ratio, its moments, or its shape and dimensions."""
+    given = [key for key in ("ratio", "inertia", "shape") if getattr(record, key) is not None]
+    if len(given) != 1:
+        raise AtlasError(
+            f"the body {record.title!r} must have exactly one of ratio, inertia and shape, not {given or 'none'}."
+        )
+    sizes = dimensions(record)
+    if record.shape is None:
+        if set(sizes) - {"mass"}:
+            raise AtlasError(f"the body {record.title!r} has dimensions, {', '.join(sizes)}, but no shape.")
+        return SymmetricBody(1.0, record.ratio) if record.ratio is not None else SymmetricBody(*(record.inertia or ()))
+    if record.shape not in SHAPES:
+        raise AtlasError(
+            f"the body {record.title!r}: there is no shape {record.shape!r}{nearest(record.shape, list(SHAPES))}; "
+            f"the shapes are {', '.join(SHAPES)}."
+        )
+    make, needed = SHAPES[record.shape]
+    if set(needed) != set(sizes):
+        raise AtlasError(
+            f"the body {record.title!r}: the shape {record.shape!r} takes {', '.join(needed)}, "
+            f"not {', '.join(sizes) or 'nothing'}."
+        )
+    made: SymmetricBody = make(**sizes)
+    return made
+
+
+def dimensions(record: records.Body) -> dict[str, float]:
+    """Return the dimensions that a body was given, and its mass."""
+    keys = ("mass", "radius", "height", "length", "equatorial", "polar")
+    return {key: getattr(record, key) for key in keys if getattr(record, key) is not None}
+
+
+def setting(body_record: records.Body | None, field_record: records.Field | None) -> Setting:
+    """Return a body in a field; either may be missing."""
+    made = body(body_record) if body_record else None
+    if field_record is None:
+        return Setting(made, body_record)
+    if (field_record.prime is None) == (field_record.B is None):
+        raise AtlasError(f"the field {field_record.title!r} must have exactly one of prime and B.")
+    if field_record.prime is not None:
+        if field_record.charge_to_mass is not None:
+            raise AtlasError(
+                f"the field {field_record.title!r} is given by B', which has the charge-to-mass ratio in it."
+            )
+        return Setting(made, body_record, field_record.prime, field_record)
+    units = system(field_record.system)
+    mu = _charge_to_mass(body_record, field_record)
+    physical = PhysicalField(np.array(field_record.B), np.array(field_record.E), mu, units.c)
+    frame = physical.frame(field_record.axis)
+    return Setting(made, body_record, frame.field, field_record, physical, frame, units)
+
+
+def _charge_to_mass(body_record: records.Body | None, field_record: records.Field) -> float:
+    """Return the field's charge-to-mass ratio, or that of the body."""
+    if field_record.charge_to_mass is not None:
+        return field_record.charge_to_mass
+    if body_record is None or body_record.charge is None or body_record.mass is None:
+        raise AtlasError(f"the field {field_record.title!r} needs charge_to_mass, or a body with a charge and a mass.")
+    return charge_to_mass(body_record.charge, body_record.mass)

@@ -1,0 +1,29 @@
+"""The charged ball: the two frequencies of its general motion and the axis of the faster turn, mf36 to mf39."""
+
+from atlas.errors import AtlasError
+from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, quantity
+
+
+def ball(request: Request) -> Data:
+    """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
+    from atlas.exact.ball import BallMotion
+
+    omega2, omega3, larmor = request.take(omega2=None, omega3=None, larmor=None)
+    if larmor == 0:
+        raise AtlasError("the ball's table is about a ball in a field: larmor must not be zero.")
+    made = BallMotion(1, larmor, (omega2, omega3))
+    gamma, k_hat = certified(lambda: (made.gamma, made.k_hat), request.digits)
+    rows = (
+        ("initial angular velocity", r"$m_2/I_0$", made.m2, RATE),
+        ("", r"$m_3/I_0$", made.m3, RATE),
+        ("Larmor's frequency @mf37", r"$\alpha$", made.larmor, RATE),
+        ("frequency of the turn about $\\hat{\\mathbf{k}}$, @mf39", r"$\gamma$", gamma, RATE),
+        ("axis of that turn, @mf39", r"$\hat k_2$", k_hat[0], "1"),
+        ("", r"$\hat k_3$", k_hat[1], "1"),
+    )
+    return Data(
+        (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
+        tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
+        r"The general motion of the ball, @mf38, in a field along $\mathbf{e}_3$.",
+        CERTIFIED,
+    )

@@ -1,0 +1,52 @@
+"""One elementary motion: its constants, and the body's state at some times."""
+
+from atlas.report.numbers import plain
+from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, column, quantity
+
+
+def motion(request: Request) -> Data:
+    """List initial data, frequencies and integrals mf44 to mf49, mf93 of the motion that starts with `omega2`."""
+    from atlas.exact.elementary import ElementaryMotion
+
+    omega2, omega3 = request.take(omega2=None, omega3=())
+    made = ElementaryMotion(request.setting.exact, request.setting.components, omega2, omega3 or None)
+    k, invariants = certified(lambda: (made.k, made.invariants), request.digits)
+    squared = r"s$^{-2}$"
+    rows = (
+        ("initial angular velocity", r"$\omega_2$", made.omega2, RATE),
+        ("", r"$\omega_3$", made.omega3, RATE),
+        ("frequency of precession", "$k$", k, RATE),
+        ("frequency of proper rotation", r"$\phi$", made.phi, RATE),
+        ("energy @mf44", "$E'=2E/I_2$", invariants["E'"], squared),
+        ("field in the body @mf45", r"$\mathbf{K}^2$", invariants["K^2"], squared),
+        ("integral @mf48", "$c_3$", invariants["c3"], RATE),
+        ("integral @mf49", "$c_5$", invariants["c5"], squared),
+        ("momentum along the field @mf93", r"$(\mathbf{m},\mathbf{B}')/I_2$", invariants["(m,B')"], squared),
+    )
+    return Data(
+        (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
+        tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
+        rf"The motion with $\omega_2={plain(omega2)}$ s$^{{-1}}$: initial data, frequencies and integrals.",
+        CERTIFIED,
+    )
+
+
+def samples(request: Request) -> Data:
+    """Omega(t), mf78, and the third axis of the body R_3(t), mf89, at some `times`."""
+    from atlas.exact.elementary import ElementaryMotion
+
+    omega2, times, omega3 = request.take(omega2=None, times=None, omega3=())
+    made = ElementaryMotion(request.setting.exact, request.setting.components, omega2, omega3 or None)
+    values = certified(lambda: [(*made.angular_velocity(t), *made.third_axis(t)) for t in times], request.digits)
+    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    return Data(
+        (
+            Column("$t$", "s"),
+            *(Column(rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)),
+            *(Column(rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3)),
+        ),
+        tuple(zip(column([plain(t) for t in times], request.digits), *columns, strict=True)),
+        rf"The motion with $\omega_2={plain(omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, @mf78, "
+        r"and the body's axis in the laboratory, the third column of @mf89.",
+        CERTIFIED,
+    )

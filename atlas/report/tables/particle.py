@@ -1,0 +1,38 @@
+"""A charged particle in constant fields: its frequency, its drift, and where it is at some times."""
+
+from typing import Any
+
+from atlas.errors import AtlasError
+from atlas.report.numbers import plain
+from atlas.report.settings import Setting
+from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, column
+
+
+def exact_particle(setting: Setting, position: Any, velocity: Any) -> Any:
+    """Return the centre of mass of a body in a field that was given as B and E, as a certified motion, mf10.2."""
+    from atlas.exact.particle import ParticleMotion
+
+    if setting.physical is None:
+        raise AtlasError("this needs a field that is given as B (and E), not as B'.")
+    p = setting.physical
+    return ParticleMotion(p.mu, tuple(p.E), tuple(p.B), position, velocity, p.c)
+
+
+def particle(request: Request) -> Data:
+    """Position at some `times` of a particle with this `position` and `velocity` at t = 0, mf5 and mf10."""
+    times, position, velocity = request.take(times=None, position=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0))
+    setting = request.setting
+    made = exact_particle(setting, position, velocity)
+    unit = setting.units.length_unit if setting.units else ""
+    values = certified(lambda: [made.position(t) for t in times], request.digits)
+    omega, drift = certified(lambda: (made.cyclotron_frequency, list(made.drift)), request.digits)
+    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    (frequency,) = column([omega], request.digits)
+    drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
+    return Data(
+        (Column("$t$", "s"), *(Column(f"$y_{j}$", unit) for j in (1, 2, 3))),
+        tuple(zip(column([plain(t) for t in times], request.digits), *columns, strict=True)),
+        "The path of the particle, @mf10.2, in the user's frame.",
+        rf"Cyclotron frequency $\omega=${frequency.tex()} s$^{{-1}}$, drift "
+        rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {unit} s$^{{-1}}$. {CERTIFIED}",
+    )

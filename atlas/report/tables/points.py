@@ -1,0 +1,63 @@
+"""Named points of the hyperbola, the two frequencies there, and whether the motion is stable."""
+
+from fractions import Fraction
+from typing import Any
+
+from atlas.report.numbers import plain
+from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, column
+
+
+def points(request: Request) -> Data:
+    """Points (omega2, omega3) of mf72 with k, phi of mf77 and the nutation frequency squared; `omega2` adds more."""
+    from atlas.exact.hyperbola import Hyperbola
+
+    (more,) = request.take(omega2=())
+    h = Hyperbola(request.setting.exact, request.setting.components)
+    B2 = Fraction(request.setting.components[0])
+    I = Fraction(int(h.I.p), int(h.I.q))
+    chosen: dict[Any, list[str]] = {}
+    for name, omega2 in (
+        ("at rest", Fraction(0)),
+        (r"$\phi=0$", -2 * B2),
+        (r"$\omega_3=0$", -(2 - I) * B2),
+        *(("", value) for value in more),
+    ):
+        if omega2 + B2 != 0:
+            chosen.setdefault(Fraction(omega2), []).append(name)
+    order = sorted(chosen)
+    values = certified(
+        lambda: [(_exact(x), h.omega3(_exact(x)), *h.frequencies(_exact(x)), h.stability(_exact(x))) for x in order],
+        request.digits,
+    )
+    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    columns[0] = column([plain(float(x)) if Fraction(float(x)) == x else _exact(x) for x in order], request.digits)
+    rows = tuple(
+        (
+            ", ".join(filter(None, chosen[x])),
+            *numbers,
+            "stable" if value[4] > 0 else "unstable" if value[4] < 0 else "marginal",
+        )
+        for x, value, *numbers in zip(order, values, *columns, strict=True)
+    )
+    return Data(
+        (
+            Column("Point"),
+            Column(r"$\omega_2$", RATE),
+            Column(r"$\omega_3$", RATE),
+            Column("$k$", RATE),
+            Column(r"$\phi$", RATE),
+            Column(r"$\nu^2$", r"s$^{-2}$"),
+            Column("Nutation"),
+        ),
+        rows,
+        r"Points of the hyperbola @mf72, frequencies of precession $k$ and of proper rotation $\phi$, @mf77, and the "
+        r"square of the frequency of nutation $\nu$.",
+        CERTIFIED,
+    )
+
+
+def _exact(x: Fraction) -> Any:
+    """Return a fraction as the certified floor has it."""
+    from atlas.exact.inputs import rational
+
+    return rational(x, "omega2")

@@ -1,0 +1,121 @@
+"""What the templates see: the blocks of a report with their numbers, the texts as places in the manuscript."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, TypeAlias
+
+from atlas.scene import Scene
+
+
+@dataclass(frozen=True)
+class ProseView:
+    """Paragraphs."""
+
+    kind: ClassVar[str] = "prose"
+    text: int
+
+
+@dataclass(frozen=True)
+class NoteView:
+    """A remark with its heading."""
+
+    kind: ClassVar[str] = "note"
+    title: int
+    text: int
+
+
+@dataclass(frozen=True)
+class EquationView:
+    """A displayed equation; only the first display of a label is the one that links lead to."""
+
+    kind: ClassVar[str] = "equation"
+    label: str
+    number: str
+    text: int
+    scale: float
+    anchor: bool
+
+
+@dataclass
+class Plate:
+    """A figure to draw, once for all the blocks that show it; `files` by format, or why there are none."""
+
+    stem: str
+    recipe: str
+    renderer: str
+    parameters: Mapping[str, Any]
+    scene: Scene | None = None
+    files: dict[str, str] = field(default_factory=dict)
+    failure: str = ""
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class FigureView:
+    """A numbered figure."""
+
+    kind: ClassVar[str] = "figure"
+    number: int
+    id: str
+    plate: Plate
+    caption: int
+    alt: str
+    width: float
+    height: float
+    settings: str
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell: words (a place in the manuscript), or a number cut at its decimal point."""
+
+    text: int | None = None
+    whole: str = ""
+    fraction: str = ""
+    power: str = ""
+    proven: bool = True
+
+
+@dataclass(frozen=True)
+class ColumnView:
+    """A column's head, unit, and the room in digits' widths that its numbers take before and after the point."""
+
+    head: int
+    unit: int | None
+    numeric: bool = False
+    before: float = 0.0
+    after: float = 0.0
+    powers: bool = False
+
+
+@dataclass(frozen=True)
+class TableView:
+    """A numbered table, of numbers or of words."""
+
+    kind: ClassVar[str] = "table"
+    number: int
+    id: str
+    columns: tuple[ColumnView, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    caption: int
+    note: int | None
+    name: str
+
+
+View: TypeAlias = ProseView | NoteView | EquationView | FigureView | TableView
+
+
+@dataclass(frozen=True)
+class PageView:
+    """A page: its place in the contents, its blocks."""
+
+    number: int
+    slug: str
+    title: str
+    summary: str
+    blocks: tuple[View, ...]
+
+    @property
+    def file(self) -> str:
+        """The name of its file."""
+        return f"{self.slug}.html"
