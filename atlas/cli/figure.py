@@ -1,6 +1,106 @@
+"""``atlas figure``: figures in the formats asked for."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
 import click
 
+from atlas.cli.options import Command, Many, examples, out_option
+from atlas.cli.progress import bar
+from atlas.errors import AtlasError
 
-@click.command("figure")
-def command():
-    """Later."""
+
+@click.command(
+    "figure",
+    cls=Command,
+    short_help="Draw figures.",
+    epilog=examples(
+        "atlas figure hyp_a hyp_b",
+        "atlas figure quadric --set ratio=0.5 field=1,0.1 --format pdf --out plots",
+        "atlas figure quadric --renderer shaded",
+    ),
+)
+@click.argument("names", nargs=-1, metavar="NAME...")
+@click.option("--all", "everything", is_flag=True, help="Every recipe in figures/.")
+@click.option("--set", "settings", cls=Many, metavar="KEY=VALUE [...]", help="Parameters; a list is a,b,c.")
+@click.option(
+    "--format",
+    "formats",
+    cls=Many,
+    type=click.Choice(["svg", "pdf", "png"]),
+    help="svg, pdf, png; all three when left out.",
+)
+@click.option(
+    "--renderer",
+    type=click.Choice(["vector", "shaded"]),
+    default="vector",
+    show_default=True,
+    help="On paper with hidden lines, or shaded (PNG).",
+)
+@click.option(
+    "--out", type=click.Path(file_okay=False, path_type=Path), default=None, help="Folder; else build/figures."
+)
+def command(
+    names: tuple[str, ...],
+    everything: bool,
+    settings: tuple[str, ...],
+    formats: tuple[str, ...],
+    renderer: Any,
+    out: Path,
+) -> int:
+    """Draw figures as SVG, PDF and PNG, each written whole or not at all; `atlas list` names them.
+
+    A figure that fails does not stop the others; then the exit status is 1.
+    """
+    from atlas.build.figure import build_figure
+    from atlas.scene import recipes
+
+    if everything == bool(names):
+        raise click.UsageError("name the figures, or say --all; `atlas list` names them.")
+    wanted = recipes.names() if everything else list(dict.fromkeys(names))
+    parameters = dict(setting(text) for text in settings)
+    for name in wanted:
+        recipes.load(name)
+    kinds = formats or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
+    failed = 0
+    with bar("figures") as tell:
+        for done, name in enumerate(wanted):
+            tell(done, len(wanted), name)
+            try:
+                for path in build_figure(name, kinds, out, renderer=renderer, **parameters):
+                    click.echo(path)
+            except AtlasError as error:
+                if len(wanted) == 1:
+                    raise
+                click.echo(f"atlas: figure {name}: {error}", err=True)
+                failed = 1
+        tell(len(wanted), len(wanted), "")
+    sys.stdout.flush()
+    return failed
+
+
+def setting(text: str) -> tuple[str, Any]:
+    """Read KEY=VALUE: a number, a list of numbers a,b,c, true or false, or a word.
+
+    Raises click.UsageError when there is no "=".
+    """
+    key, equals, value = text.partition("=")
+    if not equals or not key:
+        raise click.UsageError(f"--set takes KEY=VALUE, not {text!r}.")
+    if "," in value or value.startswith("["):
+        return key, tuple(_word(item.strip()) for item in value.strip("[]()").split(",") if item.strip())
+    return key, _word(value)
+
+
+def _word(text: str) -> Any:
+    if text in {"true", "false"}:
+        return text == "true"
+    try:
+        return int(text)
+    except ValueError:
+        pass  # not a whole number: perhaps a float
+    try:
+        return float(text)
+    except ValueError:
+        return text

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from pathlib import Path
 from typing import Any, Self, TypeVar
 
 import click
@@ -127,6 +128,13 @@ output_options: Callable[[F], F] = stack(
     ),
     click.option("--decimal", is_flag=True, help="Take typed decimals exactly: 0.1 is 1/10, not the nearest double."),
 )
+
+
+def out_option(standard: str) -> Callable[[F], F]:
+    """Return the option for the folder that files go to."""
+    kind = click.Path(file_okay=False, path_type=Path)
+    return click.option("--out", type=kind, default=standard, show_default=True, help="Folder for the files.")
+
 
 times_options: Callable[[F], F] = stack(
     click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, as many as you like."),

@@ -4,8 +4,8 @@ import json
 import math
 import sys
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Literal
 
 import click
 
@@ -29,7 +29,8 @@ class Sheet:
     lines: Sequence[Line] = ()
     heading: Sequence[str] = ()
     rows: Sequence[Sequence[str]] = ()
-    notes: Sequence[str] = field(default_factory=tuple)
+    notes: Sequence[str] = ()
+    justify: Literal["left", "right"] = "right"
 
 
 def show(sheet: Sheet) -> None:
@@ -40,7 +41,8 @@ def show(sheet: Sheet) -> None:
     from rich.text import Text
 
     console = Console(width=None if sys.stdout.isatty() else 250, highlight=False, soft_wrap=True)
-    console.print(sheet.title, style="bold", markup=False)
+    if sheet.title:
+        console.print(sheet.title, style="bold", markup=False)
     if sheet.lines:
         table = Table(box=None, show_header=False, pad_edge=False)
         for line in sheet.lines:
@@ -49,7 +51,7 @@ def show(sheet: Sheet) -> None:
     if sheet.heading:
         table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
         for name in sheet.heading:
-            table.add_column(Text(name), justify="right", no_wrap=True)
+            table.add_column(Text(name), justify=sheet.justify, no_wrap=True)
         for row in sheet.rows:
             table.add_row(*(Text(cell) for cell in row))
         console.print(table)
