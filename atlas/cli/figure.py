@@ -38,9 +38,7 @@ from atlas.errors import AtlasError
     show_default=True,
     help="On paper with hidden lines, or shaded (PNG).",
 )
-@click.option(
-    "--out", type=click.Path(file_okay=False, path_type=Path), default=None, help="Folder; else build/figures."
-)
+@out_option("build/figures")
 def command(
     names: tuple[str, ...],
     everything: bool,

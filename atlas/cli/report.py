@@ -15,9 +15,7 @@ from atlas.cli.progress import bar
     epilog=examples("atlas report", "atlas report short_solenoid", "atlas report my_paper.toml --out paper"),
 )
 @click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
-@click.option(
-    "--out", type=click.Path(file_okay=False, path_type=Path), default=None, help="Folder; else build/report."
-)
+@out_option("build/report")
 def command(name: str, out: Path) -> int:
     """Build a report: HTML pages that open from disk, and a PDF with the same content.
 
