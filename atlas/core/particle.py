@@ -20,7 +20,9 @@ import numpy as np
 from atlas.core.field import Field
 from atlas.core.gyration import Gyration, gyration
 from atlas.core.inputs import FloatArray, number, positive, real, vector
+from atlas.core.phase import Phases
 from atlas.core.rational import cross, dot, exact, minus, plus, root, rounded, scaled, times, unit
+from atlas.core.wide import Wide
 from atlas.errors import DomainError
 
 
@@ -147,11 +149,20 @@ class ParticleMotion:
         across = minus(v, times(dot(w, v) / w2, w))
         return minus(across, times(1 / w2, cross(w, a)))
 
+    @cached_property
+    def _phases(self) -> Phases:
+        """The phase |w| t, with |w| in two words."""
+        _, w2, _, _ = self._exact
+        return Phases([(Wide(w2.numerator) / Wide(w2.denominator)).sqrt()])
+
     def _at(self, t: Any) -> tuple[FloatArray, Gyration]:
-        """Return the times and the functions of x = |w| t."""
+        """Return the times and the functions of x = |w| t; AtlasError if x is beyond 2^50."""
         t = real(t, "t")
-        x = self._rate * t
-        return t, gyration(x, np.sin(x / 2), np.cos(x / 2))
+        if not self._rate or not t.size:
+            return t, gyration(t * 0, 0.0, 1.0)
+        half, rest = (h.reshape(t.shape) for h in self._phases.angles(t.ravel(), np.empty((5, 1, t.size))))
+        sine, cosine = np.sin(half), np.cos(half)
+        return t, gyration(self._rate * t, sine + rest / 2 * cosine, cosine - rest / 2 * sine)
 
     def _needs_field(self, what: str) -> None:
         """Raise DomainError where there is no magnetic force."""

@@ -1,0 +1,225 @@
+from collections.abc import Callable
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from mpmath import mp
+
+from atlas.core.particle import ParticleMotion
+from atlas.errors import AtlasError, DomainError
+
+EPS = float(np.finfo(float).eps)
+vectors = arrays(np.float64, 3, elements=st.one_of(st.floats(-3, 3), st.just(0.0)))
+charges = st.one_of(st.floats(-2, 2), st.sampled_from([1.0, -1.0, 0.0]))
+ORIGIN = np.zeros(3)
+
+
+def by_series(p: ParticleMotion, t: float) -> tuple[list[mpmath.mpf], list[mpmath.mpf]]:
+    """Solve mf1 by its Taylor series in t, summed until a term no longer counts; the working precision covers it."""
+    mu, c, t = mp.mpf(p.mu), mp.mpf(p.c), mp.mpf(float(t))
+    b = [mp.mpf(float(x)) * mu / c for x in p.B]
+    y, v = ([mp.mpf(float(x)) for x in start] for start in (p.y0, p.v0))
+    term, n = list(v), 0
+    while n < 2 or max(map(abs, term)) > mp.eps * max(map(abs, v)):
+        y = [s + x * t / (n + 1) for s, x in zip(y, term, strict=True)]
+        force = [term[1] * b[2] - term[2] * b[1], term[2] * b[0] - term[0] * b[2], term[0] * b[1] - term[1] * b[0]]
+        if n == 0:
+            force = [f + mu * mp.mpf(float(e)) for f, e in zip(force, p.E, strict=True)]
+        n += 1
+        term = [f * t / n for f in force]
+        v = [s + x for s, x in zip(v, term, strict=True)]
+    return y, v
+
+
+def sizes(p: ParticleMotion, t: float) -> tuple[float, float]:
+    """Return the sizes of the terms of y(t) and y'(t)."""
+    x, a, v = abs(p.cyclotron_frequency * t), np.hypot.reduce(p.mu * p.E), np.hypot.reduce(p.v0)
+    direction = p.B / np.abs(p.B).max() if p.B.any() else p.B
+    along = abs(p.mu * p.E @ direction) / np.hypot.reduce(direction) if p.B.any() else a
+    drift = min(abs(t) * a, a / abs(p.cyclotron_frequency)) if x else abs(t) * a
+    return np.hypot.reduce(p.y0) + abs(t) * (v + drift + along * abs(t) / 2), v + drift + along * abs(t)
+
+
+@given(charges, vectors, vectors, vectors, vectors, st.floats(0.5, 2), st.floats(-9, 9))
+@example(1.0, np.array([0, 1.0, 0]), np.array([0, 0, 1.0]), ORIGIN, ORIGIN, 1.0, 6.283185307179586)
+@example(-1.0, np.array([0, 1.0, 1e-9]), np.array([0, 0, 1e-9]), ORIGIN, np.array([1.0, 0, 0]), 1.0, 5.0)
+@settings(max_examples=60, deadline=None)
+def test_position_and_velocity_solve_the_equation(
+    mu: float, E: Any, B: Any, y0: Any, v0: Any, c: float, t: float
+) -> None:
+    """The motion agrees with the Taylor series of mf1, to 50 digits, to a few ulp of the size of its terms."""
+    p = ParticleMotion(mu, E, B, y0, v0, c)
+    with mp.workdps(50 + int(abs(p.cyclotron_frequency * t))):
+        y, v = by_series(p, t)
+        for got, true, size in zip((p.position(t), p.velocity(t)), (y, v), sizes(p, t), strict=True):
+            assert max(abs(float(g) - w) for g, w in zip(got, true, strict=True)) <= 8 * EPS * size + 1e-300
+
+
+@given(vectors, vectors, st.sampled_from([1.0, -1.0]), st.integers(-1000, 0))
+def test_the_field_can_go_to_zero(E: Any, B: Any, mu: float, power: int) -> None:
+    """As B -> 0 by powers of two, the path goes over to the parabola of mf2, with no loss on the way."""
+    y0, v0, t = np.array([0.3, -0.2, 0.1]), np.array([1.0, 2.0, -0.5]), 1.5
+    weak = ParticleMotion(mu, E, B * 2.0**power, y0, v0).position(t)
+    parabola = ParticleMotion(mu, E, ORIGIN, y0, v0).position(t)
+    assert np.abs(parabola - (y0 + v0 * t + mu * E * t**2 / 2)).max() <= 4 * EPS * 20
+    bend = 2.0**power * np.linalg.norm(B) * t * (np.linalg.norm(v0) * t + np.linalg.norm(E) * t**2)
+    assert np.abs(weak - parabola).max() <= bend + 16 * EPS * 20
+
+
+def test_at_rest_without_force() -> None:
+    """Without charge, or without fields, the particle keeps its velocity; at t = 0 it is where it was put."""
+    y0, v0 = np.array([1.0, 2.0, 3.0]), np.array([0.5, 0.25, -1.0])
+    for p in (ParticleMotion(0, [1, 2, 3], [3, 2, 1], y0, v0), ParticleMotion(1, ORIGIN, ORIGIN, y0, v0)):
+        assert p.case == "no force"
+        assert np.array_equal(p.position([0, 2, 4]), y0 + np.outer([0, 2, 4], v0))
+        assert np.array_equal(p.velocity(7.0), v0)
+    p = ParticleMotion(-1.3, [1, 2, 3], [3, 2, 1], y0, v0)
+    assert np.array_equal(p.position(0), y0)
+    assert np.array_equal(p.position(-0.0), y0)
+    assert np.abs(p.velocity(0) - v0).max() <= EPS
+
+
+def test_the_drift_is_the_same_for_both_charges() -> None:
+    """After whole turns the particle has moved by c [E, B]/B^2 a period, whatever the sign of mu."""
+    E, B, c = np.array([0.3, 0.4, 0.0]), np.array([0.0, 0.0, 2.0]), 3.0
+    for mu in (0.7, -0.7):
+        p = ParticleMotion(mu, E, B, ORIGIN, [1.0, 0.2, 0.0], c)
+        assert np.abs(p.drift - c * np.cross(E, B) / (B @ B)).max() < 2 * EPS
+        assert np.abs(p.position(5 * p.period) - 5 * p.period * p.drift).max() < 1e-13
+        assert p.cyclotron_frequency == pytest.approx(mu * 2 / c, rel=EPS)
+
+
+def test_the_two_charges_turn_opposite_ways() -> None:
+    """The helix about B is left-handed in time for mu > 0: mf9, sin and cos on e1 and e2, and mirrored for mu < 0."""
+    t = np.linspace(0, 3, 7)
+    plus, minus = (ParticleMotion(mu, ORIGIN, [0, 0, 1], [0, 1, 0], [mu, 0, 0.5]).position(t) for mu in (1.0, -1.0))
+    assert np.abs(plus - np.stack([np.sin(t), np.cos(t), t / 2], axis=-1)).max() < 4 * EPS
+    assert np.abs(minus - plus * [-1, 1, 1]).max() == 0
+
+
+@pytest.mark.parametrize("mu", [1.0, -1.0, 2.5, -0.3])
+@pytest.mark.parametrize(("radius", "kind"), [(0.5, "curtate trochoid"), (1.0, "cycloid"), (2.0, "prolate trochoid")])
+def test_the_trochoid_of_the_paper(mu: float, radius: float, kind: str) -> None:
+    """From the special data, y_perp = V t e1 + a {e1 sin(omega t) + e2 cos(omega t)}, mf11, for both charges."""
+    E, B, c = np.array([0.0, 2.0, 1.5]), np.array([0.0, 0.0, 4.0]), 3.0
+    V, omega = c * 2 / 4, mu * 4 / c
+    p = ParticleMotion.trochoid(mu, E, B, radius * V / omega, c)
+    t = np.linspace(-5, 5, 41)
+    a = radius * V / omega
+    path = np.stack([V * t + a * np.sin(omega * t), a * np.cos(omega * t), mu * 1.5 * t**2 / 2], axis=-1)
+    assert np.abs(p.position(t) - path @ p.axes).max() < 1e-13
+    assert p.radius == pytest.approx(abs(a), rel=8 * EPS)
+    if radius != 1 or (mu, c) == (1.0, 1.0):  # a cycloid is met only where nothing rounds
+        assert p.kind == kind
+
+
+@pytest.mark.parametrize(
+    ("E", "B", "v", "kind", "case"),
+    [
+        ([0, 1, 0], [0, 0, 1], [0, 0, 0], "cycloid", "crossed fields"),
+        ([0, 1, 5], [0, 0, 1], [0, 0, 7], "cycloid", "oblique fields"),
+        ([0, 1, 0], [0, 0, 1], [1, 0, 0], "straight line", "crossed fields"),
+        ([0, 1, 0], [0, 0, 1], [0.5, 0, 0], "curtate trochoid", "crossed fields"),
+        ([0, 1, 0], [0, 0, 1], [-0.5, 0, 0], "prolate trochoid", "crossed fields"),
+        ([0, 0, 0], [0, 0, 1], [1, 0, 3], "circle", "magnetic field alone"),
+        ([0, 0, 2], [0, 0, 1], [1, 0, 3], "circle", "parallel fields"),
+        ([0, 0, 2], [0, 0, -1], [0, 0, 3], "point", "parallel fields"),
+        ([0, 1, 0], [0, 0, 0], [1, 0, 0], "parabola", "electric field alone"),
+        ([0, 1, 0], [0, 0, 0], [0, 1, 0], "straight line", "electric field alone"),
+        ([0, 0, 0], [0, 0, 0], [0, 0, 0], "point", "no force"),
+    ],
+)
+def test_each_path_and_field_has_its_name(E: Any, B: Any, v: Any, kind: str, case: str) -> None:
+    """Kinds and cases are decided exactly on the inputs."""
+    p = ParticleMotion(1, E, B, ORIGIN, v)
+    assert (p.kind, p.case) == (kind, case)
+
+
+@given(vectors, vectors.filter(lambda B: np.linalg.norm(B) > 0.1), vectors, charges.filter(lambda mu: abs(mu) > 0.1))
+@settings(max_examples=50)
+def test_the_particle_circles_its_guiding_centre(E: Any, B: Any, v: Any, mu: float) -> None:
+    """The distance to O(t) is the radius at all times, and at right angles to B."""
+    p = ParticleMotion(mu, E, B, [1.0, 2.0, 3.0], v)
+    t = np.linspace(-3, 9, 13)
+    arm = p.position(t) - p.guiding_centre(t)
+    size = np.abs(p.position(t)).max() + np.abs(p.guiding_centre(t)).max()
+    assert np.abs(np.linalg.norm(arm, axis=1) - p.radius).max() <= 32 * EPS * size
+    assert np.abs(arm @ B).max() <= 32 * EPS * size * np.linalg.norm(B)
+
+
+def test_the_phase_is_exact_over_many_turns() -> None:
+    """After 1e14 radians the position on the circle still has all its digits."""
+    B, mu, c = np.array([0.1, -0.7, 1.3]), -1.7, 0.9
+    p = ParticleMotion(mu, ORIGIN, B, ORIGIN, [1.0, 0.5, 0.25], c)
+    t = 1e14 / abs(p.cyclotron_frequency)
+    with mp.workdps(60):
+        b = mpmath.matrix([mp.mpf(float(x)) for x in B])
+        omega, n, v = mp.mpf(mu) / mp.mpf(c) * mp.norm(b), b / mp.norm(b), mpmath.matrix([1, 0.5, 0.25])
+        along = (n.T * v)[0] * n
+        turned = mpmath.matrix([n[1] * v[2] - n[2] * v[1], n[2] * v[0] - n[0] * v[2], n[0] * v[1] - n[1] * v[0]])
+        true = along + mp.cos(omega * t) * (v - along) - mp.sin(omega * t) * turned
+        assert max(abs(float(g) - w) for g, w in zip(p.velocity(t), true, strict=True)) < 4 * EPS
+
+
+def test_a_phase_beyond_reach_is_an_error() -> None:
+    """Beyond 2^50 radians there is no digit to give."""
+    with pytest.raises(AtlasError, match=r"2\^50"):
+        ParticleMotion(1, ORIGIN, [0, 0, 1], ORIGIN, [1, 0, 0]).position(2.0**51)
+
+
+def test_times_of_any_shape() -> None:
+    """A time gives a vector, an array of times an array of them, none of them none."""
+    p = ParticleMotion(1, [1, 0, 0], [0, 0, 1], ORIGIN, ORIGIN)
+    t = np.linspace(0, 1, 6).reshape(2, 3)
+    assert p.position(1.0).shape == (3,)
+    assert p.position(t).shape == p.velocity(t).shape == p.guiding_centre(t).shape == (2, 3, 3)
+    assert p.position([]).shape == (0, 3)
+    assert np.array_equal(p.position(t)[1, 2], p.position(1.0))
+
+
+@given(st.integers(-130, 130))
+def test_the_unit_of_time_changes_no_bit(power: int) -> None:
+    """Scaling the fields and the velocity by powers of two, and the time back, leaves the path as it is."""
+    E, B, v, t, scale = (
+        np.array([0.3, 0.7, -0.1]),
+        np.array([1.1, -0.2, 0.4]),
+        np.array([0.1, 0.2, 0.3]),
+        2.7,
+        2.0**power,
+    )
+    one = ParticleMotion(-1.1, E, B, ORIGIN, v).position(t)
+    other = ParticleMotion(-1.1, E * scale**2, B * scale, ORIGIN, v * scale).position(t / scale)
+    assert np.array_equal(one, other)
+
+
+@pytest.mark.parametrize("name", ["drift", "period", "radius", "axes"])
+def test_what_needs_a_magnetic_force_says_so(name: str) -> None:
+    """Without B there is no drift, period, radius or frame: an error, not a NaN."""
+    p = ParticleMotion(1, [1, 0, 0], ORIGIN, ORIGIN, ORIGIN)
+    assert p.cyclotron_frequency == 0
+    with pytest.raises(DomainError, match="Without a magnetic force"):
+        getattr(p, name)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: ParticleMotion("e", ORIGIN, ORIGIN, ORIGIN, ORIGIN),
+        lambda: ParticleMotion(1, [1, 2], ORIGIN, ORIGIN, ORIGIN),
+        lambda: ParticleMotion(1, ORIGIN, ORIGIN, ORIGIN, [0, 0, np.nan]),
+        lambda: ParticleMotion(1, ORIGIN, ORIGIN, ORIGIN, ORIGIN, c=-1),
+        lambda: ParticleMotion(1e200, [1e200, 0, 0], ORIGIN, ORIGIN, ORIGIN),
+        lambda: ParticleMotion(1, [0, 0, 1], [0, 0, 1], ORIGIN, ORIGIN).axes,
+        lambda: ParticleMotion(1, [0, 0, 1], [0, 0, 1], ORIGIN, ORIGIN).position(np.nan),
+        lambda: ParticleMotion(1, [0, 1, 0], [0, 0, 0], ORIGIN, ORIGIN).guiding_centre(1),
+        lambda: ParticleMotion(1, [0, 1e200, 0], [0, 0, 1e-200], ORIGIN, ORIGIN).drift,
+    ],
+)
+def test_what_is_no_motion_is_one_sentence(make: Callable[[], object]) -> None:
+    """Wrong shapes, text, NaN and overflows raise one sentence."""
+    with pytest.raises(AtlasError, match=r"^[^\n]*\.$"):
+        make()
