@@ -51,7 +51,7 @@ def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that describe the body and the field, as they were given."""
-    names = ("ratio", "inertia", "shape", "radius", "height", "length", "equatorial", "polar")
-    names += ("field", "magnetic", "mu")
+    body = ("ratio", "inertia", "shape", "radius", "height", "length", "equatorial", "polar")
+    names = (*body, "field", "magnetic", "mu")
     given = {name: options[name] for name in names if options.get(name) is not None}
     return given | ({"units": options["units"]} if options["magnetic"] is not None else {})

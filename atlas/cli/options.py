@@ -28,7 +28,7 @@ class Typed(float):
         return Fraction(float(self)) if "0x" in self.text.lower() else Fraction(self.text)
 
 
-class Real(click.ParamType):
+class Real(click.ParamType[Typed]):
     """A finite real number."""
 
     name = "number"
@@ -50,8 +50,8 @@ REAL = Real()
 class Many(click.Option):
     """An option that takes as many values as follow it: ``--times 0 1 2.5``."""
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, multiple=True, **kwargs)
+    def __init__(self, names: Sequence[str], **kwargs: Any) -> None:
+        super().__init__(names, **(kwargs | {"multiple": True}))
 
 
 class Command(click.Command):

@@ -1,19 +1,20 @@
 """``atlas particle``: a point charge in constant fields, and the body's centre of mass."""
 
+from collections.abc import Callable
 from typing import Any
 
 import click
 
 from atlas.cli.numbers import along, answer, certificate
-from atlas.cli.options import REAL, Command, chosen_times, exactly, examples, output_options, times_options
+from atlas.cli.options import REAL, Command, F, chosen_times, exactly, examples, output_options, times_options
 from atlas.cli.present import Line, Sheet, show
 
+ZERO = ("0",) * 3
 VECTORS = ("electric", "magnetic", "position", "velocity")
 
 
-def _vector(name: str, default: str | None, text: str) -> Any:
-    standing: dict[str, Any] = {"required": True} if default is None else {"default": (default,) * 3}
-    return click.option(name, type=REAL, nargs=3, metavar="X Y Z", help=text, **standing)
+def _vector(name: str, text: str, **more: Any) -> Callable[[F], F]:
+    return click.option(name, type=REAL, nargs=3, metavar="X Y Z", help=text, **more)
 
 
 @click.command(
@@ -25,10 +26,10 @@ def _vector(name: str, default: str | None, text: str) -> Any:
     ),
 )
 @click.option("--mu", type=REAL, required=True, help="Charge-to-mass ratio, either sign.")
-@_vector("--electric", "0", "Electric field E; zero when left out.")
-@_vector("--magnetic", "0", "Magnetic field B; zero when left out.")
-@_vector("--position", "0", "Position at t = 0; the origin when left out.")
-@_vector("--velocity", None, "Velocity at t = 0.")
+@_vector("--electric", "Electric field E; zero when left out.", default=ZERO)
+@_vector("--magnetic", "Magnetic field B; zero when left out.", default=ZERO)
+@_vector("--position", "Position at t = 0; the origin when left out.", default=ZERO)
+@_vector("--velocity", "Velocity at t = 0.", required=True)
 @click.option(
     "--units",
     type=click.Choice(["natural", "gaussian", "si"]),
@@ -48,13 +49,15 @@ def command(**options: Any) -> None:
     def floats() -> dict[str, Any]:
         from atlas.core.particle import ParticleMotion
 
-        motion = ParticleMotion(options["mu"], *(tuple(options[name]) for name in VECTORS), c=c)
+        E, B, position, velocity = (tuple(options[name]) for name in VECTORS)
+        motion = ParticleMotion(options["mu"], E, B, position, velocity, c=c)
         return described(motion, times, along(motion.position, times), along(motion.velocity, times))
 
     def balls() -> dict[str, Any]:
         from atlas.exact.particle import ParticleMotion
 
-        motion = ParticleMotion(*(exactly(options[name], options) for name in ("mu", *VECTORS)), c=c)
+        mu, E, B, position, velocity = (exactly(options[name], options) for name in ("mu", *VECTORS))
+        motion = ParticleMotion(mu, E, B, position, velocity, c=c)
         at = [exactly(t, options) for t in times]
         return described(motion, times, [motion.position(t) for t in at], [motion.velocity(t) for t in at])
 
