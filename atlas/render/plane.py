@@ -7,6 +7,7 @@ import numpy as np
 from atlas.errors import AtlasError
 from atlas.render.house import SMALL_SIZE, TEXT_SIZE
 from atlas.render.labels import Tag, along, place
+from atlas.render.text import extent, typeset, write
 from atlas.scene.layers import Arrow, Curve, Image, Label, Plane, Points, Region
 from atlas.scene.style import INK, style
 
@@ -23,7 +24,7 @@ def draw_plane(axes: "Axes", panel: Plane) -> None:
         zorder = 2.0 + 1e-3 * order
         if isinstance(layer, Curve):
             look = style(layer.role)
-            name = layer.label if panel.legend else ""
+            name = typeset(layer.label) if panel.legend else ""
             (line,) = axes.plot(*layer.points.T, color=look.colour, linewidth=look.width, zorder=zorder)
             if look.dash:
                 line.set_dashes(look.dash)
@@ -33,10 +34,12 @@ def draw_plane(axes: "Axes", panel: Plane) -> None:
             edge = INK if look.colour == "#ffffff" else look.colour
             (marks,) = axes.plot(*np.atleast_2d(layer.points).T, linestyle="none", zorder=zorder + 1.0)
             marks.set(marker=look.marker or "o", markersize=look.size, markerfacecolor=look.colour)
-            marks.set(markeredgecolor=edge, markeredgewidth=0.7, label=(layer.label if panel.legend else "") or "_")
+            marks.set(
+                markeredgecolor=edge, markeredgewidth=0.7, label=(typeset(layer.label) if panel.legend else "") or "_"
+            )
         elif isinstance(layer, Region):
             look = style(layer.role)
-            name = layer.label if panel.legend else ""
+            name = typeset(layer.label) if panel.legend else ""
             axes.fill(*layer.points.T, color=look.colour, alpha=look.fill, linewidth=0.0, zorder=1.0, label=name or "_")
         elif isinstance(layer, Arrow):
             look = style(layer.role)
@@ -47,15 +50,17 @@ def draw_plane(axes: "Axes", panel: Plane) -> None:
             _image(axes, layer)
         elif not isinstance(layer, Label):
             raise AtlasError(f"a plane panel cannot hold a {type(layer).__name__}; put it in a Space")
-    axes.set_xlabel(panel.x_label)
-    axes.set_ylabel(panel.y_label)
+    axes.set_xlabel(typeset(panel.x_label))
+    axes.set_ylabel(typeset(panel.y_label))
     if panel.title:
-        axes.set_title(panel.title)
+        axes.set_title(typeset(panel.title))
     if panel.x_limits is not None:
         axes.set_xlim(*panel.x_limits)
     if panel.y_limits is not None:
         axes.set_ylim(*panel.y_limits)
-    if panel.legend:
+    if panel.legend == "beside":
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
+    elif panel.legend:
         axes.legend(loc="best")
 
 
@@ -75,8 +80,8 @@ def label_plane(axes: "Axes", panel: Plane) -> None:
     for text, at, offset, role in requests:
         size = SMALL_SIZE if role == "note" else TEXT_SIZE
         anchor = to_points.transform(np.asarray(at, dtype=float))
-        extent = text_extent(figure, text, size)
-        tags.append(Tag(text, (float(anchor[0]), float(anchor[1])), offset, extent, style(role).colour, size))
+        box_size = extent(figure, text, size)
+        tags.append(Tag(text, (float(anchor[0]), float(anchor[1])), offset, box_size, style(role).colour, size))
     write(figure, tags, place(tags, ink, weights, tuple(box)))
 
 
@@ -148,26 +153,5 @@ def _image(axes, layer):
     norm = LogNorm(low, high) if layer.scale == "log" else Normalize(low, high)
     mesh = axes.pcolormesh(layer.x, layer.y, layer.values, norm=norm, cmap="cividis", rasterized=True, zorder=0.5)
     bar = axes.figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30)
-    bar.set_label(layer.label)
+    bar.set_label(typeset(layer.label))
     bar.outline.set_linewidth(0.5)
-
-
-def text_extent(figure, text, size):
-    """Width and height of a text in printer's points."""
-    from matplotlib.text import Text
-
-    probe = Text(0.0, 0.0, text, fontsize=size, figure=figure)
-    box = probe.get_window_extent(figure.canvas.get_renderer())
-    return (box.width * 72.0 / figure.dpi, box.height * 72.0 / figure.dpi)
-
-
-def write(figure, tags, centres):
-    """Write the texts with a white halo, at places in printer's points from the lower left corner of the figure."""
-    from matplotlib.patheffects import withStroke
-    from matplotlib.transforms import Affine2D
-
-    points = Affine2D().scale(1.0 / 72.0) + figure.dpi_scale_trans
-    for tag, (x, y) in zip(tags, centres, strict=True):
-        text = figure.text(x, y, tag.text, fontsize=tag.size, color=tag.colour, ha="center", va="center")
-        text.set(transform=points, zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground="white")])
-        text.set_in_layout(False)

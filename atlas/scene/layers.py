@@ -102,7 +102,11 @@ Layer: TypeAlias = Curve | Points | Arrow | Label | Surface | Region | Image
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """A panel with two axes."""
+    """A panel with two axes.
+
+    With ``legend`` the layers' labels stand in a key (where there is most room, or beside the panel); without it they
+    stand at the layers themselves.
+    """
 
     layers: tuple[Layer, ...]
     x_label: str
@@ -112,7 +116,7 @@ class Plane:
     x_scale: Literal["linear", "log", "symlog"] = "linear"
     y_scale: Literal["linear", "log", "symlog"] = "linear"
     equal: bool = False
-    legend: bool = False
+    legend: bool | Literal["beside"] = False
     title: str = ""
 
 

@@ -29,8 +29,8 @@ PALE = "#c3c9d0"
 class Style:
     """The look of a role.
 
-    ``dash`` is on, off, on, off, ... in points. ``fill`` is the opacity of areas and surfaces, ``back`` the colour of a
-    surface's inner side. ``hidden`` says whether parts behind a surface are drawn (dashed). ``tube`` is the diameter in
+    ``dash`` is on, off, on, off, ... in points. ``fill`` is the opacity of areas and surfaces, ``glass`` that of
+    surfaces in shaded pictures, ``back`` the colour of a surface's inner side. ``hidden`` says whether parts behind a surface are drawn (dashed). ``tube`` is the diameter in
     shaded pictures.
     """
 
@@ -40,6 +40,7 @@ class Style:
     marker: str = ""
     size: float = 4.0
     fill: float = 0.0
+    glass: float = 0.42
     back: str = ""
     hidden: bool = True
     tube: float = 2.0
@@ -53,9 +54,9 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "label": Style(INK),
         "note": Style(SLATE),
         # frames
-        "basis": Style(INK, 0.8, tube=1.8),
+        "basis": Style(INK, 0.8, tube=1.5),
         "axis": Style(SLATE, _THIN, tube=1.0),
-        "canonical": Style(PLUM, 0.7, tube=1.5),
+        "canonical": Style(PLUM, 0.7, tube=1.3),
         "body_axis": Style(NAVY, 1.2, tube=2.6),
         # vectors of the physics
         "field": Style(CRIMSON, 1.3, tube=3.0),
@@ -74,12 +75,12 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "trace": Style(CRIMSON, 1.2, tube=2.8),
         "precession": Style(GREEN, 0.9, tube=2.0),
         "unstable": Style(VERMILION, 1.5, tube=3.0),
-        "angle": Style(SLATE, 0.6, tube=1.2),
-        "construction": Style(GREY, _THIN, (3.0, 2.0), tube=1.0),
+        "angle": Style(SLATE, 0.6, tube=0.9),
+        "construction": Style(GREY, _THIN, (3.0, 2.0), tube=0.8),
         "guide": Style(PALE, _THIN, tube=0.8),
         "rim": Style(INK, 0.7, tube=1.4),
         "silhouette": Style(INK, 0.9, hidden=False, tube=0.0),
-        "wire": Style(GREY, 0.3, hidden=False, tube=0.5),
+        "wire": Style("#97a1ac", 0.3, hidden=False, tube=0.4),
         # plotted lines, in order of importance
         "main": Style(NAVY, 1.2),
         "second": Style(CRIMSON, 1.0, (5.0, 1.6)),
@@ -100,7 +101,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "start": Style(NAVY, marker="o", size=3.8, tube=4.6),
         "sample": Style(SLATE, marker=".", size=2.6, tube=2.6),
         # areas and surfaces
-        "surface": Style("#5d8fc4", fill=0.30, back="#d9a766"),
+        "surface": Style("#4f8fd0", fill=0.30, back="#f0b25c", glass=0.40),
         "surface_second": Style("#6aa58c", fill=0.30, back="#c9b3dd"),
         "sphere": Style("#9fb6cf", fill=0.22, back="#c9d3de"),
         "ball": Style("#e3b778", fill=0.45, back="#e3b778"),

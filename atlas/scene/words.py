@@ -59,6 +59,12 @@ def body_name(ratio: Any) -> str:
     return "short solenoid" if I3 > I2 else "long solenoid"
 
 
-def per(unit: str) -> str:
-    """Return the unit of a rate: 1/time for 'time', 1/s for 's'."""
-    return f"1/{unit}"
+def tex_setting(ratio: Any, field: Sequence[float]) -> str:
+    """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3)."""
+    vector = tex_vector((0.0, *field))
+    return rf"a {body_name(ratio)} with $I={tex(quotient(ratio))}$ in the field $\mathbf{{B}}'={vector}$"
+
+
+def plain_setting(ratio: Any, field: Sequence[float]) -> str:
+    """Return the same without TeX."""
+    return f"a {body_name(ratio)} with I = {plain(quotient(ratio))} in the field B' = {plain_vector((0.0, *field))}"

@@ -1,0 +1,152 @@
+"""A panel in space made ready for either renderer: the eye, the scale at which all fits, and the names to write."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.errors import AtlasError
+from atlas.render.house import LABEL_SIZE, TEXT_SIZE
+from atlas.render.labels import Tag, stand
+from atlas.render.text import extent
+from atlas.scene.camera import frame
+from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Points, Region, Space, Surface
+from atlas.scene.style import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+FloatArray = NDArray[np.float64]
+
+_MARGIN = 4.0
+_TITLE = 14.0
+_BEYOND = 4.5
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Where things of a panel appear on paper.
+
+    ``frame`` has the rows right, up, towards the eye; ``scale`` is in printer's points per unit, ``shift`` the place on
+    paper of the origin, ``window`` the (width, height) of the panel, both in points; ``centre`` and ``size`` are those
+    of what is shown, in its own units; ``tags`` are the names, anchored on paper.
+    """
+
+    panel: Space
+    frame: FloatArray
+    scale: float
+    shift: FloatArray
+    window: tuple[float, float]
+    centre: FloatArray
+    size: float
+    tags: tuple[Tag, ...]
+
+    @property
+    def towards(self) -> FloatArray:
+        """The unit vector to the eye."""
+        return self.frame[2]
+
+    @property
+    def surfaces(self) -> tuple[Surface, ...]:
+        """What can hide something."""
+        return tuple(layer for layer in self.panel.layers if isinstance(layer, Surface))
+
+    def on_paper(self, points: FloatArray) -> FloatArray:
+        """Points (..., 3) of the scene as points (..., 2) of the paper."""
+        return self.scale * (points @ self.frame[:2].T) + self.shift
+
+
+def stage(axes: "Axes", panel: Space) -> Stage:
+    """Fit a panel into its axes: the largest scale at which all that is drawn and written stays inside."""
+    figure = axes.figure
+    inches = axes.get_window_extent().transformed(figure.dpi_scale_trans.inverted())
+    width, height = 72.0 * inches.width, 72.0 * inches.height
+    head = _TITLE if panel.title else 0.0
+    shown = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
+    low, high = shown.min(axis=0), shown.max(axis=0)
+    eye = frame(panel)
+    flat = shown @ eye[:2].T
+    tags = [tag for layer in panel.layers for tag in _tags(figure, layer, eye)]
+    inside = np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN - head])
+    scale = _fit(flat, tags, inside)
+    left, right = _reach(flat, tags, scale)
+    shift = 0.5 * (np.array([width, height - head]) - left - right)
+    moved = (replace(tag, anchor=tuple(scale * np.array(tag.anchor) + shift)) for tag in tags)
+    size = float(np.linalg.norm(high - low)) or 1.0
+    return Stage(panel, eye, scale, shift, (width, height), 0.5 * (low + high), size, tuple(moved))
+
+
+def _parts(layer: Layer) -> Iterator[FloatArray]:
+    """All the points of a layer that must be seen."""
+    if isinstance(layer, Curve | Points):
+        yield layer.points
+    elif isinstance(layer, Arrow):
+        yield np.stack([layer.tail, layer.tip])
+    elif isinstance(layer, Label):
+        yield layer.at
+    elif isinstance(layer, Surface):
+        yield from (*layer.grids, *layer.rims)
+    elif isinstance(layer, Image | Region):
+        raise AtlasError(f"a panel in space cannot hold a {type(layer).__name__}; put it in a Plane")
+
+
+def _tags(figure, layer: Layer, eye: FloatArray) -> Iterator[Tag]:  # noqa: ANN001  a Matplotlib figure
+    """The names that a layer wants written; their anchors are on paper at scale 1."""
+    request = _request(layer, eye)
+    if request is not None:
+        text, at, offset, role = request
+        size = TEXT_SIZE if role == "note" else LABEL_SIZE
+        anchor = eye[:2] @ np.asarray(at, dtype=float)
+        yield Tag(text, (float(anchor[0]), float(anchor[1])), offset, extent(figure, text, size), _ink(role), size)
+
+
+def _request(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
+    """Text, place, offset and role of a layer's name."""
+    if isinstance(layer, Label):
+        return layer.text, layer.at, layer.offset, layer.role
+    if not layer.label:
+        return None
+    if isinstance(layer, Arrow):
+        step = eye[:2] @ (np.asarray(layer.tip) - np.asarray(layer.tail))
+        length = float(np.hypot(*step))
+        beyond = (_BEYOND * step[0] / length, _BEYOND * step[1] / length) if length else (_BEYOND, 0.0)
+        return layer.label, layer.tip, layer.offset or beyond, layer.role
+    if isinstance(layer, Points):
+        return layer.label, np.atleast_2d(layer.points)[0], (4.0, 4.0), layer.role
+    if isinstance(layer, Curve):
+        return layer.label, layer.points[-1], (4.0, 4.0), layer.role
+    if isinstance(layer, Surface):
+        points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
+        corner = points[int(np.argmax(points @ (eye[0] + eye[1])))]
+        return layer.label, corner, (3.0, 3.0), "note"
+    return None
+
+
+def _ink(role: str) -> str:
+    """The colour of a name: that of the thing, unless it would not be read on white."""
+    colour = style(role).colour
+    red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+    return colour if 0.30 * red + 0.59 * green + 0.11 * blue < 0.62 else style("label").colour
+
+
+def _fit(flat: FloatArray, tags: list[Tag], inside: FloatArray) -> float:
+    """The largest scale at which drawing and names stay inside, by bisection."""
+    span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
+    low, high = 0.0, float(np.min(inside / span))
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        a, b = _reach(flat, tags, middle)
+        low, high = (middle, high) if (b - a <= inside).all() else (low, middle)
+    return low or high
+
+
+def _reach(flat: FloatArray, tags: list[Tag], scale: float) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest corner of drawing and names at this scale, the origin at (0, 0)."""
+    low, high = scale * flat.min(axis=0), scale * flat.max(axis=0)
+    for tag in tags:
+        centre = stand(replace(tag, anchor=(scale * tag.anchor[0], scale * tag.anchor[1])))
+        half = 0.5 * np.array(tag.extent)
+        low, high = np.minimum(low, centre - half), np.maximum(high, centre + half)
+    return low, high

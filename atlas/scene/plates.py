@@ -1,0 +1,110 @@
+"""What the plates of the quadric have in common: the vectors and angles of the paper's Figure Hyp around a surface."""
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.core.quadric import Quadric
+from atlas.scene import quadrics, solids
+from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Surface
+from atlas.scene.sample import quarter_pixel
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+E1, E2, E3 = np.eye(3)
+O = np.zeros(3)
+WIDTH = 120.0
+
+
+def in_plane(second: float, third: float) -> FloatArray:
+    """Return the vector (0, second, third)."""
+    return np.array([0.0, second, third])
+
+
+def tolerance(reach: float) -> float:
+    """Return a quarter of a pixel for a plate that shows about ``2 reach``."""
+    return quarter_pixel(2.0 * reach, WIDTH)
+
+
+def extent(quadric: Quadric, field: tuple[float, float]) -> float:
+    """Return how far along its axis, from its centre, a sheet is drawn: past the origin, towards the tip of B'."""
+    b = float(np.hypot(*field))
+    w = quadrics.sheet_axis(quadric)
+    origin = abs(float(np.asarray(quadric.axes)[w] @ in_plane(*field)))
+    return origin + 0.75 * b
+
+
+def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = "both") -> list[Surface]:
+    """Return the drawn pieces of a quadric that has sheets: 'both', or the 'upper' alone, on which the origin lies."""
+    Q = quadrics.quadric_matrix(I, field)
+    high = extent(quadric, field)
+    fine = tolerance(high)
+    if quadric.kind != "two-sheet hyperboloid":
+        return [quadrics.sheet(quadric, Q, -high, high, fine)]
+    vertex = abs(float(quadric.semi_axes[quadrics.sheet_axis(quadric)]))
+    high = max(high, 1.5 * vertex)
+    upper = 1.0 if float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) > 0.0 else -1.0
+    spans = [(vertex, high), (-high, -vertex)][:: int(upper)]
+    return [quadrics.sheet(quadric, Q, *span, fine) for span in (spans if which == "both" else spans[:1])]
+
+
+def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:
+    """Return the hyperbola omega_1 = 0 on the surfaces, mf72."""
+    Q = quadrics.quadric_matrix(I, field)
+    fine = tolerance(float(np.hypot(*field)))
+    return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, fine)]
+
+
+def basis(lengths: tuple[float, float, float]) -> list[Layer]:
+    """Return the laboratory axes e1, e2, e3 from the origin."""
+    return [
+        Arrow(O, length * e, "basis", rf"$\mathbf{{e}}_{k}$")
+        for k, (e, length) in enumerate(zip((E1, E2, E3), lengths, strict=True), 1)
+    ]
+
+
+def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
+    """Return B', I^-1 B', the angle beta between e2 and the latter, and the shifted centre -B'."""
+    B2, B3 = field
+    b = float(np.hypot(B2, B3))
+    prime, inverse = in_plane(B2, B3), in_plane(B2, B3 / I)
+    radius = 0.42 * float(np.linalg.norm(inverse))
+    angle = solids.arc(O, radius * E2, radius * E3, 0.0, beta, tolerance(b))
+    name = 1.0 * radius * in_plane(float(np.cos(0.5 * beta)), float(np.sin(0.5 * beta)))
+    towards = in_plane(float(np.cos(0.5 * beta)), float(np.sin(0.5 * beta)))
+    return [
+        Arrow(O, prime, "field", r"$\mathbf{B}'$"),
+        Arrow(O, inverse, "field_inverse", r"$\mathrm{𝕀}^{-1}\mathbf{B}'$"),
+        Curve(angle, "angle"),
+        Label(name, r"$\beta$", offset=(4.0 * float(towards[1]), 4.0 * float(towards[2]))),
+        Curve(np.stack([O, -prime]), "construction"),
+        Points(O[None], "origin", r"$O$"),
+    ]
+
+
+def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
+    """Return the canonical axes omega'_1..3 through the centre -B', and the angle of their turn from e2."""
+    centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
+    w = quadrics.sheet_axis(quadric)
+    layers: list[Layer] = []
+    for k in range(3):
+        length = reach if k == w else across
+        back = 0.35 * across
+        layers.append(Arrow(centre - back * axes[k], centre + length * axes[k], "canonical", rf"$\omega'_{k + 1}$"))
+    layers.append(Points(centre[None], "centre", r"$-\mathbf{B}'$"))
+    turn = float(np.arctan2(axes[1, 2], axes[1, 1]))
+    radius = 0.62 * across
+    arc = solids.arc(centre, radius * E2, radius * E3, 0.0, turn, tolerance(reach))
+    middle = in_plane(float(np.cos(0.5 * turn)), float(np.sin(0.5 * turn)))
+    layers += [
+        Curve(np.stack([centre, centre + 1.25 * radius * E2]), "construction"),
+        Curve(arc, "angle"),
+        Label(
+            centre + radius * middle,
+            r"$\beta/2+\pi/4$",
+            offset=(4.0 * float(middle[1]), 4.0 * float(middle[2])),
+        ),
+    ]
+    return layers

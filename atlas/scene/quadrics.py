@@ -1,0 +1,102 @@
+"""The quadric of constant Omega_3, mf58, as surfaces to draw: sheets cut across their axis, in canonical coordinates."""
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.core.quadric import Quadric
+from atlas.scene import conics, sample, solids
+from atlas.scene.layers import Surface
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+_WIRES = 12
+
+
+def quadric_matrix(I: float, field: tuple[float, float]) -> FloatArray:
+    """Return the (4, 4) matrix of mf58.1, negative inside the sheets (around their axis).
+
+    B3 (w1^2 + w2^2) - I B2 w2 w3 + (2 - I) B2 B3 w2 - I B2^2 w3, divided by B3 where that is not zero.
+    """
+    B2, B3 = field
+    unit = B3 or 1.0
+    form = np.diag([B3, B3, 0.0])
+    form[1, 2] = form[2, 1] = -0.5 * I * B2
+    return solids.matrix(form / unit, np.array([0.0, (2.0 - I) * B2 * B3, -I * B2 * B2]) / unit, 0.0)
+
+
+def sheet_axis(quadric: Quadric) -> int:
+    """Return which canonical axis the sheets lie around: omega'_2 (1) for B3 / B2 > 0, omega'_3 (2) otherwise."""
+    return 1 if quadric.a2 > 0.0 else 2
+
+
+def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: float, role: str = "surface") -> Surface:
+    """Return the part of the quadric between ``low`` and ``high`` along the axis of its sheets, from its centre.
+
+    With D = (1, -1/a2, 1/a3), negative for the axis w of the sheets, the cross section at w is the ellipse
+    D_i x_i^2 + D_j x_j^2 = |D_w| w^2 + (1 - I) B2^2; ``low`` and ``high`` lie on one sheet. The parameter along the
+    sheet is hyperbolic, so that the cells shrink towards the vertex, where it bends most.
+    """
+    D = np.array([1.0, -1.0 / quadric.a2, 1.0 / quadric.a3])
+    w = sheet_axis(quadric)
+    i, j = (k for k in range(3) if k != w)
+    centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
+    rest = -float(centre_value(Q, centre))
+    C = float(np.sqrt(abs(rest / D[w])))
+    sign = 1.0 if high > -low else -1.0
+
+    def height(s: FloatArray) -> FloatArray:
+        if rest < 0.0:
+            return sign * C * np.cosh(s)
+        return C * np.sinh(s) if rest > 0.0 else s
+
+    def parameter(h: float) -> float:
+        if rest < 0.0:
+            return sign * float(np.arccosh(max(1.0, abs(h) / C)))
+        return float(np.arcsinh(h / C)) if rest > 0.0 else h
+
+    def point(s: FloatArray, v: FloatArray) -> FloatArray:
+        if rest < 0.0:
+            radius = np.sqrt(-rest) * np.sinh(sign * s)
+        else:
+            radius = np.sqrt(rest) * np.cosh(s) if rest > 0.0 else np.sqrt(-D[w]) * s
+        canonical = np.zeros((*np.broadcast_shapes(s.shape, v.shape), 3))
+        canonical[..., i] = radius * np.cos(v) / np.sqrt(D[i])
+        canonical[..., j] = radius * np.sin(v) / np.sqrt(D[j])
+        canonical[..., w] = height(s)
+        return centre + canonical @ axes
+
+    a, b = parameter(low), parameter(high)
+    u, v = np.linspace(a, b, 49), np.linspace(0.0, solids.TURN, 97)
+    grid = point(u[:, None], v[None, :])
+    meridians = [
+        sample.curve(lambda s, t=t: point(s, np.full_like(s, t)), a, b, tolerance)  # type: ignore[misc]
+        for t in solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
+    ]
+    parallels = [_ring(point, float(s), tolerance) for s in u[8:-1:8]]
+    edges = [h for h in (low, high) if not (rest < 0.0 and abs(h) <= C * (1.0 + 1e-9)) and h != 0.0]
+    rims = [_ring(point, parameter(h), tolerance) for h in edges]
+    n, middle = axes[w], float(axes[w] @ centre)
+    clip = np.array([[*n, middle + high], [*(-n), -middle - low]])
+    return Surface(Q, clip, (grid,), (*meridians, *parallels), tuple(rims), role=role)
+
+
+def centre_value(Q: FloatArray, centre: FloatArray) -> float:
+    """Return F at the centre, -(1 - I) B2^2."""
+    x = np.append(centre, 1.0)
+    return float(x @ Q @ x)
+
+
+def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatArray]:
+    """Return the part of the hyperbola mf72, the section omega_1 = 0, that lies on a drawn surface."""
+    points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, radius = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
+    curves = conics.section(Q, np.array([1.0, 0.0, 0.0]), 0.0, middle, radius, tolerance)
+    return [piece for curve in curves for piece in conics.clip(curve, surface.clip)]
+
+
+def _ring(point, s: float, tolerance: float) -> FloatArray:  # type: ignore[no-untyped-def]  # noqa: ANN001  a closure
+    """Return the closed curve of the surface at the parameter s."""
+    return sample.curve(lambda v: point(np.full_like(v, s), v), 0.0, solids.TURN, tolerance)

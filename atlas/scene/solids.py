@@ -1,0 +1,118 @@
+"""Pieces of simple quadrics: sphere, cone, cylinder with its lids, disk, rectangle."""
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.scene import sample
+from atlas.scene.layers import Surface
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+_ROUND, _LONG = 97, 33
+TURN = 2.0 * np.pi
+
+
+def across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return two unit vectors that make a right-handed frame with the unit vector ``axis``."""
+    helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    first = np.cross(axis, helper)
+    first /= np.linalg.norm(first)
+    return first, np.cross(axis, first)
+
+
+def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float) -> FloatArray:
+    """Return the circle around ``axis`` (unit vector), sampled to a tolerance."""
+    return arc(centre, *(radius * v for v in across(axis)), 0.0, TURN, tolerance)
+
+
+def arc(
+    centre: FloatArray, first: FloatArray, second: FloatArray, start: float, stop: float, tolerance: float
+) -> FloatArray:
+    """Return centre + first cos s + second sin s for s from start to stop."""
+    return sample.curve(
+        lambda s: centre + np.cos(s)[:, None] * first + np.sin(s)[:, None] * second, start, stop, tolerance
+    )
+
+
+def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
+    """Return the (4, 4) matrix of x.form.x + linear.x + constant."""
+    Q = np.zeros((4, 4))
+    Q[:3, :3], Q[3, 3] = form, constant
+    Q[:3, 3] = Q[3, :3] = 0.5 * linear
+    return Q
+
+
+def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sphere") -> Surface:
+    """Return a sphere with a light net of parallels and meridians."""
+    east, north = np.linspace(0.0, TURN, _ROUND), np.linspace(-0.5 * np.pi, 0.5 * np.pi, 49)
+    v, u = np.meshgrid(east, north)
+    grid = centre + radius * np.stack([np.cos(u) * np.cos(v), np.cos(u) * np.sin(v), np.sin(u)], axis=-1)
+    e1, e2, e3 = np.eye(3)
+    wires = [
+        circle(centre + radius * np.sin(h) * e3, e3, radius * np.cos(h), tolerance)
+        for h in np.radians([-60.0, -30.0, 0.0, 30.0, 60.0])
+    ]
+    wires += [
+        arc(centre, radius * (np.cos(w) * e1 + np.sin(w) * e2), radius * e3, -0.5 * np.pi, 0.5 * np.pi, tolerance)
+        for w in np.arange(12) * np.pi / 6.0
+    ]
+    Q = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
+    return Surface(Q, np.empty((0, 4)), (grid,), tuple(wires), role=role)
+
+
+def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolerance: float) -> Surface:
+    """Return the cone of half-angle ``angle`` around the unit vector ``axis``, its side ``length`` long."""
+    c, s = float(np.cos(angle)), float(np.sin(angle))
+    first, second = across(axis)
+    v, w = np.meshgrid(np.linspace(0.0, TURN, _ROUND), np.linspace(0.0, length, 9))
+    direction = c * axis + s * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    form = c * c * np.eye(3) - np.outer(axis, axis)
+    Q = matrix(form, -2.0 * form @ apex, float(apex @ form @ apex))
+    height = float(axis @ apex)
+    sign = 1.0 if c >= 0.0 else -1.0
+    clip = np.array([[*(-sign * axis), -sign * height], [*(sign * axis), sign * (height + c * length)]])
+    rim = circle(apex + c * length * axis, axis, s * length, tolerance)
+    return Surface(Q, clip, (apex + w[..., None] * direction,), (), (rim,), role="cone")
+
+
+def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, role: str = "body") -> Surface:
+    """Return a disk whose outer side is the one that ``axis`` points to."""
+    first, second = across(axis)
+    v, r = np.meshgrid(np.linspace(0.0, TURN, _ROUND), np.linspace(0.0, radius, 5))
+    grid = centre + r[..., None] * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    ball = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
+    Q = matrix(np.zeros((3, 3)), axis, -float(axis @ centre))
+    rim = circle(centre, axis, radius, tolerance)
+    return Surface(Q, np.empty((0, 4)), (grid,), (), (rim,), (ball,), role=role)
+
+
+def cylinder(
+    centre: FloatArray, axis: FloatArray, radius: float, height: float, tolerance: float, role: str = "body"
+) -> Surface:
+    """Return the side of a cylinder around the unit vector ``axis``."""
+    first, second = across(axis)
+    v, w = np.meshgrid(np.linspace(0.0, TURN, _ROUND), np.linspace(-0.5 * height, 0.5 * height, _LONG))
+    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    form = np.eye(3) - np.outer(axis, axis)
+    Q = matrix(form, -2.0 * form @ centre, float(centre @ form @ centre) - radius * radius)
+    middle = float(axis @ centre)
+    clip = np.array([[*axis, middle + 0.5 * height], [*(-axis), -middle + 0.5 * height]])
+    rims = tuple(circle(centre + s * height * axis, axis, radius, tolerance) for s in (-0.5, 0.5))
+    return Surface(Q, clip, (centre + ring + w[..., None] * axis,), (), rims, role=role)
+
+
+def rectangle(
+    centre: FloatArray, first: FloatArray, second: FloatArray, role: str = "plane", label: str = ""
+) -> Surface:
+    """Return the rectangle centre + a first + b second with a, b in [-1, 1]; first and second are orthogonal."""
+    normal = np.cross(first, second)
+    normal /= np.linalg.norm(normal)
+    sides = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
+    rim = centre + sides[:, :1] * first + sides[:, 1:] * second
+    b, a = np.meshgrid(np.linspace(-1.0, 1.0, 9), np.linspace(-1.0, 1.0, 9))
+    grid = centre + a[..., None] * first + b[..., None] * second
+    clip = np.array([[*(g * v), g * float(v @ centre) + float(v @ v)] for v in (first, second) for g in (1.0, -1.0)])
+    Q = matrix(np.zeros((3, 3)), normal, -float(normal @ centre))
+    return Surface(Q, clip, (grid,), (), (rim,), role=role, label=label)
