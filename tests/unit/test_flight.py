@@ -1,0 +1,97 @@
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from oracles.taylor import taylor
+
+from atlas.core.field import Field
+from atlas.core.flight import Flight
+from atlas.core.particle import ParticleMotion
+from atlas.errors import AtlasError
+
+EPS = float(np.finfo(float).eps)
+FIELD = Field([0.3, -0.5, 1.1], [0.2, 0.1, -0.3], mu=-1.3, c=0.8)
+FRAME = FIELD.frame([1.0, 2.0, -0.5])
+ARGUMENTS = ((1, 1, 1.5), (0.0, *FRAME.field), (0.3, 0.7, -0.2))
+TIMES = (0.0, 0.5, 1.25, 3.0)
+STEP = 0.01
+AROUND = 1 + STEP * np.arange(-3, 4)
+
+
+class Tabulated:
+    """A motion of the body by its Taylor series."""
+
+    def _states(self, t: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return R and Omega at the times, sorted."""
+        states = taylor(*ARGUMENTS, np.ravel(t).tolist())
+        R = np.array([np.array(s.R.tolist(), dtype=float) for s in states])
+        Omega = np.array([[float(x) for x in s.Omega] for s in states])
+        return R.reshape((*np.shape(t), 3, 3)), Omega.reshape((*np.shape(t), 3))
+
+    def rotation(self, t: Any) -> NDArray[np.float64]:
+        """R(t)."""
+        return self._states(t)[0]
+
+    def angular_velocity(self, t: Any) -> NDArray[np.float64]:
+        """Omega(t)."""
+        return self._states(t)[1]
+
+
+PARTICLE = ParticleMotion.in_field(FIELD, [1.0, 2.0, 3.0], [0.1, -0.4, 0.2])
+
+
+def test_a_point_starts_where_it_is_put() -> None:
+    """At t = 0 the point is at y_0 + x_N, in the user's frame, since R(0) = 1."""
+    point = np.array([0.3, -0.1, 0.7])
+    assert np.abs(Flight(PARTICLE, Tabulated(), point, FRAME).position(0.0) - (PARTICLE.y0 + point)).max() <= 4 * EPS
+
+
+def test_the_body_is_rigid() -> None:
+    """Distances and handedness of three points about the centre of mass stay as they were, and the centre flies on."""
+    points = np.array([[0.3, -0.1, 0.7], [1.0, 0.2, 0.1], [-0.4, 0.5, 0.6]])
+    paths = np.array([Flight(PARTICLE, Tabulated(), p, FRAME).position(TIMES) for p in points])
+    arms = paths - PARTICLE.position(TIMES)
+    gram, start = np.einsum("ati,bti->tab", arms, arms), points @ points.T
+    assert np.abs(gram - start).max() < 64 * EPS
+    assert np.abs(np.linalg.det(arms.swapaxes(0, 1)) - np.linalg.det(points)).max() < 64 * EPS
+    centre = Flight(PARTICLE, Tabulated(), np.zeros(3), FRAME)
+    assert np.array_equal(centre.position(TIMES), PARTICLE.position(TIMES))
+
+
+def slope(y: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the derivative in the middle of seven values a STEP apart, to sixth order."""
+    return (-y[0] + 9 * y[1] - 45 * y[2] + 45 * y[4] - 9 * y[5] + y[6]) / (60 * STEP)
+
+
+def test_the_velocity_is_the_derivative_of_the_path() -> None:
+    """Differences of the position give the velocity."""
+    flight = Flight(PARTICLE, Tabulated(), [0.3, -0.1, 0.7], FRAME)
+    assert np.abs(flight.velocity(AROUND[3]) - slope(flight.position(AROUND))).max() < 1e-12
+
+
+def test_the_points_feel_the_lorentz_force_and_no_other() -> None:
+    """Six points that make the body, each on its flight, gain the angular momentum and the momentum of their forces."""
+    # Unit masses on the principal axes: 1.32 is diag(1.5, 1.5, 0.5), the inertia diag(2, 2, 3), as in ARGUMENTS.
+    ends = FRAME.to_user(np.concatenate([np.eye(3), -np.eye(3)]) * np.sqrt([0.75, 0.75, 0.25]))
+    flights = [Flight(PARTICLE, Tabulated(), p, FRAME) for p in ends]
+    x = np.array([f.arm(AROUND) for f in flights])
+    v = np.array([f.velocity(AROUND) for f in flights])
+    force = FIELD.mu * FIELD.E + FIELD.mu / FIELD.c * np.cross(v[:, 3], FIELD.B)
+    gain = slope(np.cross(x, v - PARTICLE.velocity(AROUND)).sum(axis=0))
+    assert np.abs(gain - np.cross(x[:, 3], force).sum(axis=0)).max() < 1e-11
+    assert np.abs(slope(v.sum(axis=0)) - force.sum(axis=0)).max() < 1e-11
+
+
+def test_without_a_frame_the_user_is_in_the_laboratory() -> None:
+    """The arm is R(t) x_N(0) as it stands, for times of any shape."""
+    flight, motion = Flight(PARTICLE, Tabulated(), [0.3, -0.1, 0.7]), Tabulated()
+    assert np.abs(flight.arm(TIMES) - motion.rotation(TIMES) @ [0.3, -0.1, 0.7]).max() <= 2 * EPS
+    assert flight.position(1.0).shape == (3,)
+    assert flight.position(np.array([[0.0, 1.0], [1.5, 2.0]])).shape == (2, 2, 3)
+
+
+def test_a_point_has_three_components() -> None:
+    """Anything else raises."""
+    with pytest.raises(AtlasError, match="three components"):
+        Flight(PARTICLE, Tabulated(), [1, 2])
