@@ -1,0 +1,99 @@
+"""Rotation matrices on a uniform grid, near the speed at which memory can be filled.
+
+With Rodrigues' generators G = 1, [n, .], n n^T on the left and those of R_z on the right, mf90 gives
+
+    R(s + tau) = R_n(k s) R(tau) R_z(phi s) = sum over g, h of F_gh(s) (G_g R(tau) H_h),
+
+F being the nine functions of `rotation.Basis`. So a coarse table of F and a fine table of G R(tau) H give every matrix
+of the grid by one product of rank nine, which writes the result in place.
+"""
+
+from fractions import Fraction
+from math import ceil
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.core.phase import LIMIT, Phases
+from atlas.core.rotation import BLOCK, TURNS, Basis, DoubleRotation
+from atlas.core.threads import shared
+from atlas.core.wide import Wide
+from atlas.errors import AtlasError
+
+FINE = 96
+"""Times in the fine table."""
+
+ROWS = 32
+"""Coarse times a product: large enough to pay for its call, small enough that the library does not thread it."""
+
+
+def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArray) -> None:
+    """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step.
+
+    A grid that passes t = 0 is cut there, and each part runs away from zero: so coarse and fine times never cancel, and
+    what is small with k t keeps its digits.
+    """
+    count = len(out)
+    if not count:
+        return
+    first, stride = Wide.exactly(start), Wide.exactly(step)
+    ends = first, first + stride * Wide(count - 1)
+    if max(abs(float(f * t)) for f in turning.frequencies for t in ends) > LIMIT:
+        raise AtlasError(f"The grid from {start} by {step} to {float(ends[1])} leaves the phases up to 2^50.")
+    cut = min(max(ceil(Fraction(-start) / Fraction(step)), 0), count) if step else 0
+    run(turning, first + stride * Wide(cut), stride, out[cut:])
+    run(turning, first + stride * Wide(cut - 1), -stride, out[:cut], backward=True)
+
+
+def run(turning: DoubleRotation, origin: Wide, step: Wide, out: FloatArray, *, backward: bool = False) -> None:
+    """Fill `out` with R at origin + i step, or, if backward, from its end; origin and step have one sign."""
+    count = len(out)
+    if not count:
+        return
+    fine = Basis(indexed(turning, step), min(FINE, count))
+    near = (fine.at(np.arange(float(min(FINE, count)))).T @ turning.weights).reshape(-1, 3, 3)
+    if turning.inverse:
+        near = near.swapaxes(1, 2)
+    if backward:
+        near = near[::-1]
+    left, right = turning.generators, TURNS
+    table = np.einsum("gab,tbc,hcd->hgtad", left, near, right, optimize=True)
+    if turning.inverse:
+        table = table.swapaxes(3, 4)
+    table = table.reshape(9, -1)
+    coarse = indexed(turning, step * Wide(FINE), origin)
+    blocks, rest = divmod(count, FINE)
+
+    def fill(low: int, high: int) -> None:
+        """Fill the blocks low to high, counted from the origin."""
+        basis = Basis(coarse, min(BLOCK, high - low))
+        for i in range(low, high, BLOCK):
+            j = min(i + BLOCK, high)
+            functions = basis.at(np.arange(float(i), float(j))).T
+            if backward:
+                product(functions[::-1], table, out[count - j * FINE : count - i * FINE])
+            else:
+                product(functions, table, out[i * FINE : j * FINE])
+
+    shared(fill, blocks, FINE)
+    if rest:
+        functions = Basis(coarse, 1).at(np.array([float(blocks)])).T
+        part, end = (slice(-9 * rest, None), slice(0, rest)) if backward else (slice(9 * rest), slice(-rest, None))
+        product(functions, table[:, part], out[end])
+
+
+def product(functions: FloatArray, table: FloatArray, out: FloatArray) -> None:
+    """Write functions (m, 9) times table (9, 9 L) into out (m L, 3, 3), a few rows at a time."""
+    m = len(functions)
+    functions, rows = np.ascontiguousarray(functions), out.reshape(m, -1)
+    whole = m - m % ROWS
+    np.matmul(
+        functions[:whole].reshape(-1, ROWS, 9), table, out=rows[:whole].reshape(whole // ROWS, ROWS, rows.shape[1])
+    )
+    np.matmul(functions[whole:], table, out=rows[whole:])
+
+
+def indexed(turning: DoubleRotation, step: Wide, origin: Wide | None = None) -> Phases:
+    """Return the phases at origin + i step as functions of the whole number i."""
+    turns = [(f * step).turn() for f in turning.turns]
+    return Phases(turns, None if origin is None else [f * origin for f in turning.turns])
