@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.ball import BallMotion
+from atlas.exact.ball import BallMotion as Exact
 from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross
 from atlas.study.bench.peers import Turn, composed, lambdified
 
@@ -83,8 +84,6 @@ def ours_on_grid() -> Solve:
 
 def case() -> Case:
     """Return the case; its true values are those of `atlas.exact`."""
-    from atlas.exact.ball import BallMotion as Exact
-
     exact = Exact(PARAMETERS["inertia"], PARAMETERS["larmor"], PARAMETERS["momentum"])
     return Case(
         name="ball",

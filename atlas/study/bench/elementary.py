@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
+from atlas.exact.elementary import ElementaryMotion as Exact
 from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross
 from atlas.study.bench.peers import Turn, composed, lambdified
 
@@ -76,6 +77,11 @@ def motion() -> ElementaryMotion:
     return ElementaryMotion(PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"])
 
 
+def exact_motion() -> Exact:
+    """Make the motion in balls."""
+    return Exact(PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"])
+
+
 def ours() -> Solve:
     """Evaluate `ElementaryMotion.rotation` at any times."""
     made = motion()
@@ -90,9 +96,7 @@ def ours_on_grid() -> Solve:
 
 def case() -> Case:
     """Return the case; its true values are those of `atlas.exact`."""
-    from atlas.exact.elementary import ElementaryMotion as Exact
-
-    exact = Exact(PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"])
+    exact = exact_motion()
     return Case(
         name="elementary",
         title="Elementary motion",

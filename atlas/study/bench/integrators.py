@@ -15,8 +15,10 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from flint import ctx
 
 from atlas.study.bench.case import Case, FloatArray, Grid, Solve
+from atlas.study.bench.reference import BITS, nearest
 
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
 """SciPy takes no smaller rtol: where less is asked for, this is used, and the record says so."""
@@ -57,10 +59,8 @@ def integrators() -> tuple[Integrator, ...]:
 
 def start(case: Case) -> list[float]:
     """Return the initial state, each number rounded once."""
-    from flint import arb, ctx
-
-    with ctx.workprec(256):
-        return [float(arb(x).mid()) for x in case.initial()]
+    with ctx.workprec(BITS):
+        return [nearest(x) for x in case.initial()]
 
 
 def _scipy(name: str) -> Callable[[Case, float, float], Solve]:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.particle import ParticleMotion
+from atlas.exact.particle import ParticleMotion as Exact
 from atlas.study.bench.case import Case, FloatArray, Grid, Method, Parameters, Solve, cross
 
 PARAMETERS: Parameters = {
@@ -101,8 +102,6 @@ def scale(values: FloatArray) -> FloatArray:
 
 def case() -> Case:
     """Return the case; its true values are those of `atlas.exact`."""
-    from atlas.exact.particle import ParticleMotion as Exact
-
     p = PARAMETERS
     exact = Exact(p["mu"], p["E"], p["B"], p["position"], p["velocity"])
     return Case(

@@ -69,12 +69,16 @@ class Setup(Item, frozen=True):
 
 
 class Cost(Item, frozen=True):
-    """Time for ``count`` rotation matrices: nanoseconds each, over filling the same memory, over the plain formula."""
+    """Time for ``count`` rotation matrices: nanoseconds each, over filling the same memory, over the plain formula.
+
+    ``error`` is the largest found among a few of them. Both ratios are to one thread.
+    """
 
     method: str
     count: int
     threads: int
     status: Status
+    error: float | None = None
     nanoseconds: float | None = None
     to_fill: float | None = None
     to_plain: float | None = None

@@ -85,8 +85,12 @@ def _balls(value: Any) -> Any:
     return tuple(arb(x) for x in value) if isinstance(value, tuple) else arb(value)
 
 
+def nearest(value: Any) -> float:
+    """Round a certified number to a float."""
+    return float(arb(value).mid())
+
+
 def _two_words(value: Any) -> tuple[float, float]:
     """Round a certified number to the sum of two floats."""
-    ball = arb(value).mid()
-    high = float(ball)
-    return high, float(ball - high)
+    high = nearest(value)
+    return high, nearest(arb(value) - high)

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import TypeAlias, TypeVar
 
-from msgspec import to_builtins
 from msgspec.structs import replace
 
 from atlas.errors import AtlasError
@@ -113,7 +112,10 @@ def run(
         elapsed=round(perf_counter() - began, 1),
         machine=machine(),
         versions=versions(),
-        parameters={case.name: to_builtins(dict(case.parameters)) for case in chosen},
+        parameters={
+            case.name: {name: list(x) if isinstance(x, tuple) else x for name, x in case.parameters.items()}
+            for case in chosen
+        },
         checks=[_short(item) for item in checks],
         runs=[_short(row) for row in rows if isinstance(row, Run)],
         setups=[_short(row) for row in rows if isinstance(row, Setup)],

@@ -3,27 +3,11 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from atlas.study.bench.methods import title
 from atlas.study.bench.record import Cost, Record, Run, Setup
 from atlas.study.bench.targets import targets
 
 NONE = "–"
-TITLES = {
-    "plain": "plain NumPy",
-    "lambdify": "sympy lambdify",
-    "rotation": "SciPy Rotation",
-    "ours": "atlas",
-    "ours_grid": "atlas, grid",
-    "fill": "filling the memory",
-    "plain_out": "plain NumPy, out=",
-    "plain_out_far": "plain NumPy, out=, far",
-    "ours_out": "atlas, out=",
-    "ours_out_far": "atlas, out=, far",
-    "grid": "atlas, grid",
-    "grid_out": "atlas, grid, out=",
-    "third_axis": "atlas, third axis alone",
-    "omega": "atlas, Omega alone",
-}
-"""Names of methods in words; one that is not here is shown by its own."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +55,7 @@ def _horizons(record: Record) -> Iterable[Table]:
         rows = []
         for method in _methods(runs):
             best = [_best([run for run in runs if run.method == method and run.horizon == T]) for T in horizons]
-            rows.append((TITLES.get(method, method), *(number(run.error) if run else NONE for run in best)))
+            rows.append((title(method), *(number(run.error) if run else NONE for run in best)))
         heading = ("largest error to t =", *(f"{T:.0e}" for T in horizons))
         note = "Of an integrator the best tolerance that came through in time."
         yield Table(f"Error against horizon: {case}", heading, tuple(rows), (note,))
@@ -84,7 +68,7 @@ def _precision(record: Record) -> Iterable[Table]:
         first = min(run.horizon for run in runs)
         rows = [
             (
-                TITLES.get(run.method, run.method),
+                title(run.method),
                 f"{run.tolerance:.0e}" if run.tolerance else NONE,
                 number(run.error),
                 number(None if run.seconds is None else run.seconds / run.samples * 1e6),
@@ -103,7 +87,7 @@ def _setups(record: Record) -> Table:
     rows = {
         (item.case, item.method): (
             item.case,
-            TITLES.get(item.method, item.method),
+            title(item.method),
             number(None if item.seconds is None else item.seconds * 1e3),
             number(None if item.again is None else item.again * 1e3),
             item.note or ("" if item.status == "done" else item.status),
@@ -117,8 +101,9 @@ def _costs(record: Record) -> Iterable[Table]:
     """Nanoseconds a matrix, and its multiples of filling the memory and of the plain formula, by count."""
     counts = sorted({cost.count for cost in record.costs})
     heading = ("method", "threads", *(f"{count:.0e}" for count in counts))
-    for title, field in (
+    for what, field in (
         ("Nanoseconds a matrix", "nanoseconds"),
+        ("Largest error among a few of them", "error"),
         ("Time over filling the same memory, one thread", "to_fill"),
         ("Time over the plain formula with out=, one thread", "to_plain"),
     ):
@@ -126,25 +111,20 @@ def _costs(record: Record) -> Iterable[Table]:
         for cost in record.costs:
             row = rows.setdefault((cost.method, cost.threads), [NONE] * len(counts))
             row[counts.index(cost.count)] = number(getattr(cost, field))
-        shown = tuple((TITLES.get(name, name), str(threads), *row) for (name, threads), row in rows.items())
-        yield Table(f"{title}, against their number", heading, shown)
+        shown = tuple((title(name), str(threads), *row) for (name, threads), row in rows.items())
+        yield Table(f"{what}, against their number", heading, shown)
 
 
 def _failures(record: Record) -> Table:
-    """Whatever has no number, with the reason."""
+    """Show what has no number, with the reason; of several tolerances at one place the loosest one's."""
     items: list[Run | Setup | Cost] = [*record.runs, *record.setups, *record.costs]
-    rows = [
-        (
-            "cost" if isinstance(item, Cost) else item.case,
-            TITLES.get(item.method, item.method),
-            _where(item),
-            item.status,
-            item.note,
-        )
-        for item in items
-        if item.status != "done"
-    ]
-    return Table("Not measured", ("case", "method", "where", "status", "reason"), tuple(rows))
+    rows: dict[tuple[str, str, str, str], list[Run | Setup | Cost]] = {}
+    for item in items:
+        if item.status != "done":
+            case = "cost" if isinstance(item, Cost) else item.case
+            rows.setdefault((case, title(item.method), _where(item), item.status), []).append(item)
+    shown = tuple((*key, _tolerances(group), group[0].note) for key, group in rows.items())
+    return Table("Not measured", ("case", "method", "where", "status", "tolerances", "reason"), shown)
 
 
 def number(value: float | None) -> str:
@@ -154,9 +134,15 @@ def number(value: float | None) -> str:
 
 def _where(item: Run | Setup | Cost) -> str:
     if isinstance(item, Cost):
-        return f"{item.count} on {item.threads} threads"
-    tolerance = () if item.tolerance is None else (f"tolerance {item.tolerance:.0e}",)
-    return ", ".join(((f"t to {item.horizon:.0e}",) if isinstance(item, Run) else ()) + tolerance)
+        return f"N = {item.count}, threads: {item.threads}"
+    return f"t to {item.horizon:.0e}" if isinstance(item, Run) else "set-up"
+
+
+def _tolerances(items: Sequence[Run | Setup | Cost]) -> str:
+    """Return the range of the tolerances, in words."""
+    found = [item.tolerance for item in items if not isinstance(item, Cost) and item.tolerance]
+    ends = dict.fromkeys((max(found, default=0.0), min(found, default=0.0)))
+    return " to ".join(f"{tolerance:.0e}" for tolerance in ends) if found else NONE
 
 
 def _cases(record: Record) -> list[str]:

@@ -1,0 +1,42 @@
+"""The methods of a record in words, in the order of the tables, and the role that each plays in a figure."""
+
+TITLES = {
+    "ours": "atlas",
+    "ours_grid": "atlas, grid",
+    "plain": "plain NumPy",
+    "lambdify": "sympy lambdify",
+    "rotation": "SciPy Rotation",
+    "ours_out": "atlas, out=",
+    "ours_out_far": "atlas, out=, far",
+    "grid": "atlas, grid",
+    "grid_out": "atlas, grid, out=",
+    "third_axis": "atlas, third axis alone",
+    "omega": "atlas, Omega alone",
+    "plain_out": "plain NumPy, out=",
+    "plain_out_far": "plain NumPy, out=, far",
+    "fill": "filling the memory",
+}
+
+LINES = {
+    "ours": "main",
+    "ours_out": "main",
+    "ours_grid": "seventh",
+    "grid_out": "seventh",
+    "plain": "second",
+    "plain_out": "second",
+    "lambdify": "third",
+    "rotation": "sixth",
+    "RK45": "reference",
+    "DOP853": "fourth",
+    "LSODA": "fifth",
+    "Radau": "eighth",
+    "heyoka": "third",
+    "fill": "limit",
+}
+
+MARKS = {"ours": "start", "ours_grid": "point", "plain": "special", "lambdify": "rest", "rotation": "centre"}
+
+
+def title(method: str) -> str:
+    """Return the name of a method in words; one that is not known keeps its own."""
+    return TITLES.get(method, method)
