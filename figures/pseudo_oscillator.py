@@ -4,6 +4,8 @@ For any initial angular velocity u = Omega3 moves by mf55 as a particle of unit 
 V(u) = -a0 u - a1 u^2/2 - a2 u^3/3 - a3 u^4/4, and (du/dt)^2 = Q(u) with a quartic Q; both with the coefficients mf56.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from atlas.core.inputs import FloatArray
@@ -11,7 +13,7 @@ from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
 from atlas.scene.libration import Libration
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import body_name, plain, plain_vector, quotient, tex, tex_vector, title
+from atlas.scene.words import plain, plain_setting, plain_vector, tex, tex_setting, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 16.0
 
@@ -32,22 +34,22 @@ def scene(
     span = (high - low) or max(np.abs((*omega, *field))) or 1.0
     view = window(oscillator, (low, high), span)
     allowed = rf"{tex(low)}\le\Omega_3\le {tex(high)}"
-    body = f"a {body_name(ratio)} with $I={tex(quotient(ratio))}$"
     still = "The motion is at equilibrium: $\\Omega_3$ is constant. "
     period = rf"It oscillates in ${allowed}$ with the period ${tex(libration.period)}$. "
     spoken = "Omega 3 stays where it is" if rest else f"Omega 3 oscillates between {plain(low)} and {plain(high)}"
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The third component $\Omega_3$ of the angular velocity of {body} in the field "
-            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$, started with $\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic $Q$ in its first integral $\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential "
-            r"$V$ of mf55, $\ddot\Omega_3=-V'(\Omega_3)$, and the level of the motion. The shaded interval is the "
+            rf"The third component $\Omega_3$ of the angular velocity of {tex_setting(ratio, field)}, started with "
+            rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic $Q$ of the first integral "
+            r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of mf55, $\ddot\Omega_3=-V'(\Omega_3)$, and the "
+            r"level of the motion. The shaded interval is the "
             rf"allowed one, the dot the start. (c) $\Omega_3(t)$. {still if rest else period}"
         ).rstrip(),
         alt=(
-            f"Three panels for a {body_name(ratio)} with I = {plain(quotient(ratio))} in the field "
-            f"{plain_vector((0.0, *field))}, started with the angular velocity {plain_vector(omega)}: the quartic Q over "
-            "Omega 3 with the interval where the motion goes on; the potential with a level line over the same "
+            f"Three panels for {plain_setting(ratio, field)}, started with the angular velocity "
+            f"{plain_vector(omega)}: the quartic Q over Omega 3 with the interval where the motion goes on; the "
+            f"potential with a level line over the same "
             f"interval; Omega 3 over time. {spoken}."
         ),
         panels=(
@@ -61,7 +63,7 @@ def scene(
 
 
 def window(oscillator: PseudoOscillator, allowed: tuple[float, float], span: float) -> tuple[float, float]:
-    """The interval of Omega3 to show: the allowed one, and the extrema of Q near it that are of its size."""
+    """Return the interval of Omega3 to show: the allowed one, and the extrema of Q near it that are of its size."""
     slope = np.polynomial.Polynomial(oscillator.coefficients).trim()
     extrema = slope.roots() if slope.degree() else np.empty(0)
     real = np.sort(extrema[np.isreal(extrema)].real)
@@ -126,7 +128,7 @@ def course(libration: Libration, turns: float, view: tuple[float, float], unit: 
         scaled = curve(lambda s: libration.path(s) * [stretch, 1.0], 0.0, turns, size, pieces=max(8, round(8 * turns)))
         line = scaled / [stretch, 1.0]
     ends = (float(line[0, 0]), float(line[-1, 0]))
-    layers = (
+    layers: tuple[Layer, ...] = (
         *(Curve(np.array([[ends[0], u], [ends[1], u]]), "reference") for u in dict.fromkeys(libration.range)),
         Curve(line, "main"),
         Points(line[:1], "start"),
@@ -140,10 +142,12 @@ def band(interval: tuple[float, float], limits: tuple[float, float]) -> FloatArr
     return np.array([[a, low], [b, low], [b, high], [a, high]])
 
 
-def graph(function: object, view: tuple[float, float], limits: tuple[float, float]) -> FloatArray:
-    """The graph of a function inside a window."""
+def graph(
+    function: Callable[[FloatArray], FloatArray], view: tuple[float, float], limits: tuple[float, float]
+) -> FloatArray:
+    """Return the graph of a function inside a window."""
     scale = np.array([1.0, (view[1] - view[0]) / (limits[1] - limits[0])])
     box = (np.array([view[0], limits[0]]) * scale, np.array([view[1], limits[1]]) * scale)
     tolerance = quarter_pixel(view[1] - view[0], WIDTH / 3 - MARGIN)
     points = curve(lambda u: np.stack([u, function(u)], axis=1) * scale, *view, tolerance, pieces=32, box=box)
-    return points / scale
+    return np.asarray(points / scale)

@@ -16,7 +16,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.libration import Libration
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import body_name, listed, plain, plain_vector, quotient, tex, tex_vector, title
+from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 16.0
 ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
@@ -46,16 +46,17 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"A {body_name(ratio)}, $I={tex(quotient(ratio))}$, in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$, "
-            rf"started from points of the quadric mf58 with $\omega_2={tex(omega2)}$ and with $\omega_1$ equal to "
-            rf"{listed([f'${tex(value)}$' for value in omega1])}. A constant $\Omega_3$ would solve mf55, but the body "
-            r"leaves the quadric at the rate $\dot\Omega_3(0)=\omega_1B_2$, and only $\omega_1=0$ stays. "
-            r"(a) The motion of $\Omega_3$; dashed: the rate at the start. (b) The largest departure from the start, with "
-            rf"dots for the motions of (a); {law}"
+            rf"Points of the quadric mf58 of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$, off the "
+            r"hyperbola. From each, a constant $\Omega_3$ would solve mf55, but the body leaves at the rate "
+            r"$\dot\Omega_3(0)=\omega_1B_2$; only with $\omega_1=0$ it stays. (a) The motion of $\Omega_3$ for "
+            r"$\omega_1$ "
+            rf"equal to {listed([f'${tex(value)}$' for value in omega1])}; dashed: the rate at the start. (b) The "
+            rf"largest "
+            rf"departure from the start, with dots for the motions of (a); {law}"
         ),
         alt=(
-            f"Two panels for a {body_name(ratio)} with I = {plain(quotient(ratio))} in the field "
-            f"{plain_vector((0.0, *field))}: the change of Omega 3 over time from starts with omega 1 equal to "
+            f"Two panels for {plain_setting(ratio, field)}: the change of Omega 3 over time from starts with omega 1 "
+            f"equal to "
             f"{listed([plain(value) for value in omega1])}, each an oscillation that begins with the slope "
             "omega 1 times B 2; and the largest change over omega 1 on logarithmic axes, "
             + ("which falls in proportion to omega 1." if nu2 > 0 else "which does not fall to zero with omega 1.")
@@ -96,7 +97,7 @@ def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: flo
         whole = stop / libration.period
 
         def path(s: FloatArray, libration: Libration = libration) -> FloatArray:
-            return (libration.path(s) - [0.0, libration.start]) * scale
+            return np.asarray((libration.path(s) - [0.0, libration.start]) * scale
 
         line = curve(path, 0.0, 1.05 * whole, size, pieces=max(8, round(10 * whole))) / scale
         far = int(np.argmax(np.abs(line[line[:, 0] < 0.9 * stop, 1])))
@@ -134,7 +135,7 @@ def departures(
         return np.stack([logarithm, [np.log10(max(x.above, -x.below)) for x in moved]], axis=1)
 
     span = float(np.log10(ends[1] / ends[0]))
-    line = 10.0 ** curve(departure, *np.log10(ends), quarter_pixel(span, WIDTH / 2 - MARGIN), pieces=6)
+    line = 10.0 ** curve(departure, np.log10(ends[0]), np.log10(ends[1]), quarter_pixel(span, WIDTH / 2), pieces=6)
     dots = np.array([[a, max(x.above, -x.below)] for a, x in zip(size, librations, strict=True)])
     layers: list[Layer] = [Curve(line, "main"), Points(dots, "start")]
     top = float(line[:, 1].max())

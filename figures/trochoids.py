@@ -4,9 +4,11 @@ The projection of the path on the plane orthogonal to B, mf10.1 and mf11: the gu
 e1 = [E, B]/|[E, B]| with the speed v = c |E_perp|/|B|, and the particle turns round it with the speed a omega.
 """
 
+from typing import Any
+
 import numpy as np
 
-from atlas.core.inputs import FloatArray, positive
+from atlas.core.inputs import positive
 from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Plane, Points, Scene
@@ -38,12 +40,12 @@ def scene(
     for speed in speeds:
         particle = ParticleMotion.trochoid(mu, E, B, speed * v / omega, c)
 
-        def path(t: FloatArray, particle: ParticleMotion = particle) -> FloatArray:
-            return np.asarray(particle.position(t) @ plane.T)
+        def path(t: Any, particle: ParticleMotion = particle) -> Any:
+            return particle.position(t) @ plane.T
 
         tolerance = quarter_pixel(1.12 * span, WIDTH - MARGIN)
         points = curve(path, 0.0, turns * period, tolerance, pieces=max(8, round(8 * turns)))
-        paths.append((speed, points, path(period * np.arange(1, int(turns) + 1))))
+        paths.append((speed, points, path(period * np.arange(1.0, turns + 0.5))))
     left = min(0.0, *(float(points[:, 0].min()) for _, points, _ in paths))
     right = max(span, *(float(points[:, 0].max()) for _, points, _ in paths))
     limits = (left - 0.05 * (right - left), right + 0.05 * (right - left))

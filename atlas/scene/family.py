@@ -100,27 +100,29 @@ def graph(
 
         box = (low * stretch, high * stretch)
         found = curve(points, float(np.log(near)), float(np.log(far)), tolerance, pieces=16, box=box) / stretch
-        pieces.append(found[_seen(found, view)])
+        pieces.append(found[seen(found, view)])
     return tuple(piece for piece in pieces if len(piece))
 
 
-def _seen(points: FloatArray, view: Window) -> FloatArray:
-    """Which points are in the window, or are the ends of a chord that may cross it."""
+def seen(points: FloatArray, view: Window) -> FloatArray:
+    """Tell which points of a polyline are in the window, or next to one that is."""
     low, high = view.box
     inside = ((points >= low) & (points <= high)).all(axis=1)
-    seen = inside.copy()
-    seen[1:] |= inside[:-1]
-    seen[:-1] |= inside[1:]
-    return np.asarray(seen)
+    chosen = inside.copy()
+    chosen[1:] |= inside[:-1]
+    chosen[:-1] |= inside[1:]
+    return np.asarray(chosen)
 
 
 def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
-    """Return the intervals of omega2 on which the family is unstable against nutation: none, or one on each branch."""
+    """Return the intervals of omega2 on which the family is unstable against nutation: none, one on each branch, or one."""
     B2, _ = components(field)
     band = Hyperbola(ratio, field).unstable_band if B2 else None
     if band is None:
         return ()
     inner, outer = (float(np.sqrt(y)) for y in band)
+    if inner == 0:
+        return ((-B2 - abs(B2) * outer, -B2 + abs(B2) * outer),)
     return tuple(
         (min(ends), max(ends)) for ends in ((B2 * (side * inner - 1), B2 * (side * outer - 1)) for side in (-1, 1))
     )
@@ -156,7 +158,7 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
     B2, B3 = components(field)
     found = [
         Place("rest", "the state of rest at 0", (0.0, 0.0), "rest"),
-        Place(r"$-2\mathbf{B}'$", f"the point \N{MINUS SIGN}2B'", (-2 * B2, -2 * B3), "special"),
+        Place(r"$-2\mathbf{B}'$", "the point \N{MINUS SIGN}2B'", (-2 * B2, -2 * B3), "special"),
     ]
     if B2 and B3 and one_less and two_less:
         name = r"$\omega_2=-(2-I)B_2$"

@@ -1,0 +1,119 @@
+"""The two frequencies along the hyperbola.
+
+Precession k = omega2/B2hat, mf84, and proper rotation phi, mf77, over omega2; and their quotient, mf91, which tells
+the motions that repeat themselves (rational) from the others, beside that of the free body, mf92.
+"""
+
+import numpy as np
+
+from atlas.core.hyperbola import Hyperbola
+from atlas.core.inputs import FloatArray
+from atlas.core.integrals import shape_factors
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.family import Window, components, graph
+from atlas.scene.words import MINUS, plain, plain_setting, tex, tex_setting, title
+
+WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 14.0
+
+
+def scene(
+    *,
+    ratio: float = 1.5,
+    field: tuple[float, float] = (1.0, 2.0),
+    reach: float = 2.6,
+    unit: str = "time",
+) -> Scene:
+    """Draw k and phi, and below phi/k, for omega2 up to ``reach`` times B2 from the pole."""
+    B2, B3 = components(field)
+    if B2 == 0:
+        raise DomainError("With B2 = 0 all elementary motions have omega2 = 0, so nothing can be drawn over omega2.")
+    I, one_less, _ = shape_factors(ratio)
+    free = one_less / I * B3 / float(np.hypot(B2, B3))
+    ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
+    proper = (
+        r"the proper rotation $\phi$, mf77, which is zero at rest and at $\omega_2=-2B_2$ and has its pole, dotted, at "
+        r"$\omega_2=-B_2$. (b) Their quotient, mf91: the motion repeats itself where it is rational. Dashed: the free body "
+        rf"that precesses as fast about the same axis, mf92, with $\phi/k={tex(free)}$."
+        if free
+        else r"the proper rotation $\phi$, mf77, which is zero on the whole curve. (b) Their quotient, mf91."
+    )
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The frequencies of the elementary motions of {tex_setting(ratio, field)}. (a) The precession "
+            rf"$k=\omega_2/\hat B_2$ about the field and {proper}"
+        ),
+        alt=(
+            f"Two panels over omega 2 for {plain_setting(ratio, field)}: the frequency of precession k, a straight line "
+            "through zero, with the frequency of proper rotation phi, "
+            + (
+                f"two branches with a pole at omega 2 = {plain(-B2)} and zeros at 0 and {plain(-2 * B2)}; and the quotient "
+                f"phi over k, two branches that level out at {plain(free)}, the value of the free body."
+                if free
+                else "which is zero throughout; and the quotient phi over k, zero too."
+            )
+        ),
+        panels=(
+            frequencies(Hyperbola(ratio, field), (B2, B3), ends, unit),
+            quotients((B2, B3), ends, free, unit),
+        ),
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def frequencies(hyperbola: Hyperbola, field: tuple[float, float], ends: tuple[float, float], unit: str) -> Plane:
+    """Panel (a): k and phi."""
+    B2, _ = field
+    k, phi = hyperbola.frequencies(np.array(ends))
+    top = 1.1 * float(np.abs(k).max())
+    view = Window(ends, (-top, top))
+    layers: list[Layer] = [
+        Curve(view.level(0.0), "guide"),
+        Curve(view.upright(0.0), "guide"),
+        Curve(np.stack([ends, k], axis=1), "second", "$k$"),
+    ]
+    if phi.any():
+
+        def proper(omega2: FloatArray) -> FloatArray:
+            return np.asarray(hyperbola.frequencies(omega2)[1])
+
+        # phi ~ x - 1/x: as large at 1/x as at x, so it leaves the window nearer to the pole than this
+        x = abs(1 + ends[1] / B2)
+        near = 1 / (x * (1 + 2 * top / float(np.abs(phi).min())))
+        pieces = graph(proper, B2, view, near, WIDTH - MARGIN)
+        layers.append(Curve(view.upright(-B2), "pole"))
+        layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B_2$", "note", (4.0, 5.0)))
+    else:
+        pieces = (view.level(0.0),)
+    layers += [Curve(piece, "main", "" if order else r"$\phi$") for order, piece in enumerate(pieces)]
+    side = float(np.copysign(1.0, B2))
+    layers += [
+        Points(np.array([[0.0, 0.0]]), "rest"),
+        Points(np.array([[-2 * B2, 0.0]]), "special"),
+        Label(np.array([0.0, 0.0]), "rest", "label", (5.0 * side, -5.0)),
+        Label(np.array([-2 * B2, 0.0]), r"$\omega_2=-2B_2$", "label", (0.0, 6.0)),
+    ]
+    return Plane(tuple(layers), "", f"frequency (1/{unit})", view.x, view.y, title="(a) precession, proper rotation")
+
+
+def quotients(field: tuple[float, float], ends: tuple[float, float], free: float, unit: str) -> Plane:
+    """Panel (b): phi/k by mf91, which is finite at rest, where both vanish; ``free`` is that of the free body."""
+    B2, _ = field
+    top = 4 * abs(free) or 1.0
+    view = Window(ends, (-top, top))
+    layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
+    if free:
+
+        def quotient(omega2: FloatArray) -> FloatArray:
+            return np.asarray(free * (omega2 + 2 * B2) / (omega2 + B2))
+
+        layers += [Curve(view.upright(-B2), "pole"), Curve(view.level(free), "reference", "free body")]
+        layers += [Curve(piece, "main") for piece in graph(quotient, B2, view, 0.1, WIDTH - MARGIN)]
+    else:
+        layers.append(Curve(view.level(0.0), "main"))
+    layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))
+    layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))
+    return Plane(
+        tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient"
+    )

@@ -1,0 +1,143 @@
+"""Hyperbola of the elementary motions.
+
+The initial angular velocities (0, omega2, omega3) of the motions with constant Omega3, mf72, in the plane (omega2,
+omega3). Where the family is unstable against nutation (which is not in the paper) it is drawn in another colour.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.core.integrals import shape_factors
+from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene.family import asymptote, branches, components, places, unstable, window
+from atlas.scene.words import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting, title
+
+WIDTH, MARGIN = 86.0, 14.0
+
+
+def scene(
+    *,
+    ratio: float = 1.5,
+    field: tuple[float, float] = (1.0, 2.0),
+    reach: float = 2.6,
+    unit: str = "time",
+) -> Scene:
+    """Draw both branches, the asymptotes and the named points; ``reach`` sets how far, in units of the field."""
+    view, (B2, B3) = window(field, reach), components(field)
+    centre = np.array([-B2, -B3])
+    bands = unstable(ratio, field)
+    named = places(ratio, field)
+    pieces = branches(ratio, field, view, WIDTH - MARGIN)
+    layers: list[Layer] = [Region(view.band(*interval), "unstable_region") for interval in bands if B3]
+    layers += [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
+    if B2 and B3:
+        layers.append(Curve(view.upright(-B2), "pole"))
+        layers.append(Curve(asymptote(ratio, field, view), "asymptote"))
+    layers += [Curve(piece, "hyperbola") for piece in pieces]
+    layers += [Curve(part, "unstable") for piece in pieces for part in within(piece, bands)]
+    free = free_spin(ratio, field)
+    if free:
+        layers.append(Curve(np.array([[-B2, max(-free, view.y[0])], [-B2, min(free, view.y[1])]]), "unstable"))
+    layers.append(Points(centre[None], "centre"))
+    layers += [Points(np.array([place.at]), place.role) for place in named]
+    s2, s3 = np.copysign(1.0, field)
+    layers.append(Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)))
+    layers += [
+        Label(np.array(place.at), place.text, "label", (5 * s2 * turn, -4 * s3 * turn))
+        for place, turn in zip(named, (1, -1, -1), strict=False)
+    ]
+    if B2:
+        layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B_2$", "note", (4.0, 5.0)))
+    layers += [
+        Label(np.array([np.clip(sum(interval) / 2, *view.x), view.y[1]]), "unstable", "unstable", (0.0, -6.0))
+        for interval in bands[-1:]
+    ]
+    return Scene(
+        title=title(__doc__),
+        caption=caption(ratio, field, bands),
+        alt=alt(ratio, field, bands),
+        panels=(
+            Plane(
+                tuple(layers),
+                x_label=rf"$\omega_2$ (1/{unit})",
+                y_label=rf"$\omega_3$ (1/{unit})",
+                x_limits=view.x,
+                y_limits=view.y,
+            ),
+        ),
+        size=(WIDTH, WIDTH - 4.0),
+    )
+
+
+def within(piece: FloatArray, intervals: tuple[tuple[float, float], ...]) -> list[FloatArray]:
+    """Return the parts of a polyline over the intervals of omega2, their ends put on the polyline."""
+    piece = piece[np.argsort(piece[:, 0])]
+    parts = []
+    for a, b in intervals:
+        ends = np.array([a, b])
+        if piece[0, 0] < b and piece[-1, 0] > a:
+            inner = piece[(piece[:, 0] > a) & (piece[:, 0] < b)]
+            first, last = np.stack([ends, np.interp(ends, *piece.T)], axis=1)
+            parts.append(np.vstack([first, inner, last]))
+    return parts
+
+
+def free_spin(ratio: float, field: tuple[float, float]) -> float:
+    """Return the |omega3| below which the motions with B3 = 0 and omega2 = -B2 are unstable, 0 if none is.
+
+    There -p'(omega3) = I^2 omega3^2 - (1-I) B2^2, by mf56.
+    """
+    I, one_less, _ = shape_factors(ratio)
+    B2, B3 = components(field)
+    return float(np.sqrt(one_less)) * abs(B2) / I if B3 == 0 and one_less > 0 else 0.0
+
+
+def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
+    """Say what the curve is, in which case, and where it is unstable."""
+    I, one_less, _ = shape_factors(ratio)
+    B2, B3 = components(field)
+    what = r"The initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, mf72, of"
+    sentences = [f"{what} {tex_setting(ratio, field)}."]
+    line = rf"the line $\omega_2={tex(-B2)}$, on which $\omega_3$ is free"
+    if B2 == 0:
+        sentences.append(r"With $B_2=0$ the curve is the line $\omega_2=0$: the body spins along the field.")
+    elif B3 == 0:
+        sentences.append(rf"With $B_3=0$ the curve falls apart into the line $\omega_3=0$ and {line}.")
+    elif one_less == 0:
+        sentences.append(rf"For a ball it falls apart into the line along $\mathbf{{B}}'$ and {line}.")
+    else:
+        sentences.append(
+            r"Dashed: the asymptote through the centre $-\mathbf{B}'$ along $\mathbb{I}^{-1}\mathbf{B}'$; dotted: the "
+            r"pole "
+            rf"$\omega_2=-B_2={tex(-B2)}$."
+        )
+        zeros = rf"$\omega_3$ is zero at rest and at $\omega_2=-(2-I)B_2={tex((I - 2) * B2)}$."
+        sentences.append(zeros if I != 2 else r"Both zeros of $\omega_3$ have met in the state of rest.")
+    where = listed([rf"${tex(a)}<\omega_2<{tex(b)}$" for a, b in bands]) if bands else ""
+    if bands and B3:
+        sentences.append(f"On the shaded bands, {where}, the motions are unstable against nutation.")
+    elif bands:
+        sentences.append(
+            rf"Unstable against nutation are those on the first line with {where}, and those on the second with "
+            rf"$\lvert\omega_3\rvert<{tex(free_spin(ratio, field))}$."
+        )
+    elif B2:
+        sentences.append("All these motions are stable against nutation.")
+    return " ".join(sentences)
+
+
+def alt(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
+    """Say the same in words alone."""
+    view = components(field)
+    shape = "two branches of a hyperbola" if all(view) and body_name(ratio) != "ball" else "straight lines"
+    unstable_words = (
+        "Unstable are the motions with omega 2 from " + listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from") + " "
+        "are unstable."
+        if bands
+        else "No part of the family is marked as unstable."
+    )
+    return (
+        f"Plot in the plane of omega 2 and omega 3 for {plain_setting(ratio, field)}: {shape} around the centre "
+        f"{plain_vector((-view[0], -view[1]))}, with {listed([place.words for place in places(ratio, field)])}. "
+        f"{unstable_words}"
+    )

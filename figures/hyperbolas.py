@@ -1,0 +1,86 @@
+"""Hyperbolas of the elementary motions for several bodies.
+
+The curves mf72 of bodies with different I = I3/I2 in one field, in the plane (omega2, omega3). All have the centre -B'
+and the asymptote omega2 = -B2, and all pass through rest and through -2 B'.
+"""
+
+import numpy as np
+
+from atlas.errors import AtlasError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.family import asymptote, branches, components, places, window
+from atlas.scene.words import body_name, listed, plain, plain_vector, quotient, tex, tex_vector, title
+
+WIDTH, HEIGHT, MARGIN = 120.0, 100.0, 14.0
+ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
+
+
+def scene(
+    *,
+    ratios: tuple[float, ...] = (2.0, 1.5, 1.0, 0.5),
+    field: tuple[float, float] = (1.0, 2.0),
+    reach: float = 2.6,
+    unit: str = "time",
+) -> Scene:
+    """Draw the hyperbolas of the bodies with these ``ratios``; ``reach`` sets how far, in units of the field."""
+    if not 0 < len(ratios) <= len(ROLES):
+        raise AtlasError(f"ratios must hold one to {len(ROLES)} values of I, not {len(ratios)}.")
+    view, (B2, B3) = window(field, reach), components(field)
+    centre = np.array([-B2, -B3])
+    s2, s3 = np.copysign(1.0, field)
+    layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
+    if B2 and B3:
+        layers.append(Curve(view.upright(-B2), "pole"))
+        layers += [Curve(asymptote(ratio, field, view), "asymptote") for ratio in ratios]
+    for ratio, role in zip(ratios if B2 and B3 else ratios[:1], ROLES, strict=False):
+        name = f"$I={tex(quotient(ratio))}$" if B2 and B3 else "every $I$"
+        pieces = branches(ratio, field, view, WIDTH - MARGIN)
+        layers += [Curve(piece, role, "" if order else name) for order, piece in enumerate(pieces)]
+    common = places(ratios[0], field)[:2]
+    layers.append(Points(centre[None], "centre"))
+    layers += [Points(np.array([place.at]), place.role) for place in common]
+    layers.append(Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)))
+    layers += [
+        Label(np.array(place.at), place.text, "label", (5 * s2 * turn, -4 * s3 * turn))
+        for place, turn in zip(common, (1, -1), strict=True)
+    ]
+    for ratio in ratios:
+        layers += [Points(np.array([place.at]), place.role) for place in places(ratio, field)[2:]]
+    bodies = listed([f"a {body_name(ratio)} ($I={tex(quotient(ratio))}$)" for ratio in ratios])
+    spoken = listed([f"a {body_name(ratio)} with I = {plain(quotient(ratio))}" for ratio in ratios])
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            r"The curves mf72 of initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions in the "
+            r"field "
+            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
+            + (
+                r"All have the centre $-\mathbf{B}'$ and the dotted asymptote $\omega_2=-B_2$, and all pass through "
+                r"the "
+                r"state of rest and through $-2\mathbf{B}'$; the dashed asymptotes run along "
+                r"$\mathbb{I}^{-1}\mathbf{B}'$. "
+                r"Black dots: the points $\omega_2=-(2-I)B_2$, where $\omega_3=0$ again."
+                if B2 and B3
+                else "In such a field the curve is the same for every body, and falls apart into straight lines."
+                if B2
+                else "In such a field the curve is the same for every body, a straight line."
+            )
+        ),
+        alt=(
+            f"Plot of hyperbolas in the plane of omega 2 and omega 3 in the field B' = {plain_vector((0.0, *field))} "
+            f"for "
+            f"{spoken}. They share the centre {plain_vector((-field[0], -field[1]))}, one vertical asymptote, the "
+            f"state of "
+            f"rest at 0 and the point {plain_vector((-2 * field[0], -2 * field[1]))}."
+        ),
+        panels=(
+            Plane(
+                tuple(layers),
+                x_label=rf"$\omega_2$ (1/{unit})",
+                y_label=rf"$\omega_3$ (1/{unit})",
+                x_limits=view.x,
+                y_limits=view.y,
+            ),
+        ),
+        size=(WIDTH, HEIGHT),
+    )

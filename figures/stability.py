@@ -1,0 +1,148 @@
+"""Nutation frequency along the elementary family.
+
+The motions with constant Omega3 are stable against nutation where nu^2 = -p'(omega3) > 0, p being the cubic of mf55. On
+the hyperbola mf72, with x = (omega2 + B2)/B2 and tau = B3/B2,
+
+    nu^2/B2^2 = (1 + tau^2) x^2 + (1 - I)(2 tau^2 - 1) + tau^2 (1 - I)^2/x^2,
+
+so a level nu^2 = n B2^2 is the curve tau(x) = |x| sqrt(n + 1 - I - x^2)/|x^2 + 1 - I|. This is not in the paper.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.hyperbola import Hyperbola
+from atlas.core.inputs import FloatArray
+from atlas.core.integrals import shape_factors
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene.family import Window, components, graph, seen, unstable
+from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 16.0
+HIGH, WIDE = 1.6, 1.0
+"""The map shows |x| up to HIGH, and tau up to WIDE or a little beyond that of the field."""
+ROLES = ("third", "second", "main", "fourth", "sixth", "seventh", "eighth")
+
+
+def scene(
+    *,
+    ratio: float = 0.5,
+    field: tuple[float, float] = (1.0, 0.1),
+    levels: tuple[float, ...] = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0),
+    reach: float = 2.2,
+    unit: str = "time",
+) -> Scene:
+    """Draw nu^2 over omega2, and its ``levels`` in units of B2^2 in the plane of tau and x, for all fields."""
+    B2, B3 = components(field)
+    if B2 == 0:
+        raise DomainError("With B2 = 0 all elementary motions have omega2 = 0, so nothing can be drawn over omega2.")
+    bands = unstable(ratio, field)
+    where = listed([rf"${tex(a)}<\omega_2<{tex(b)}$" for a, b in bands]) if bands else ""
+    spoken = listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from") if bands else ""
+    long = shape_factors(ratio)[1] > 0
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency squared, "
+            rf"$\nu^2=-p'(\omega_3)$ with the cubic $p$ of mf55, along the hyperbola mf72. "
+            + (f"It is negative, and the motion unstable, on the shaded bands {where}. " if bands else "It is positive. ")
+            + r"(b) Levels of $\nu^2/B_2^2$ for this body in every field, over $\tau=\lvert B_3/B_2\rvert$ and "
+            r"$\lvert x\rvert=\lvert(\omega_2+B_2)/B_2\rvert$; dotted: the field of (a). "
+            + (r"Shaded: unstable, for $\tau<1/(2\sqrt2)$ only." if long else r"For $I\ge1$ all motions are stable.")
+        ),
+        alt=(
+            f"Two panels for {plain_setting(ratio, field)}. The first shows the nutation frequency squared over omega 2, "
+            + (f"negative from {spoken}. " if bands else "positive throughout. ")
+            + "The second is a map of its level lines over the ratio of the field components and the distance from the "
+            + ("pole, with an unstable region at small ratios." if long else "pole, with no unstable region.")
+        ),
+        panels=(course(ratio, (B2, B3), bands, reach, unit), chart(ratio, (B2, B3), levels)),
+        columns=2,
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def course(
+    ratio: Any, field: tuple[float, float], bands: tuple[tuple[float, float], ...], reach: float, unit: str
+) -> Plane:
+    """Panel (a): nu^2 over omega2."""
+    B2, B3 = field
+    I, one_less, two_less = shape_factors(ratio)
+    tau2 = (B3 / B2) ** 2
+    # at rest x = 1 and nu^2 = I B2^2 + (2-I)^2 B3^2; the least value is at x^2 = tau |1-I|/sqrt(1 + tau^2)
+    rest = I + tau2 * two_less**2
+    least = one_less * (2 * tau2 - 1) + 2 * abs(one_less) * float(np.sqrt(tau2 * (1 + tau2)))
+    top = B2 * B2 * 2.5 * max(rest, abs(least))
+    view = Window((-B2 - reach * abs(B2), -B2 + reach * abs(B2)), (min(1.5 * B2 * B2 * least, -0.12 * top), top))
+    pole = abs(one_less) * float(np.sqrt(tau2 / (2 * (top / (B2 * B2) + 1))))
+    layers: list[Layer] = [Region(view.band(*interval), "unstable_region") for interval in bands]
+    layers += [Curve(view.level(0.0), "guide"), Curve(view.upright(-B2), "pole")]
+    pieces = graph(Hyperbola(ratio, field).stability, B2, view, max(pole, 1e-6), WIDTH / 2 - MARGIN)
+    layers += [Curve(piece, "main") for piece in pieces]
+    if bands:
+        layers.append(Points(np.array([[edge, 0.0] for interval in bands for edge in interval]), "point"))
+        layers.append(Label(np.array([sum(bands[-1]) / 2, view.y[0]]), "unstable", "unstable", (0.0, 6.0)))
+    layers += [
+        Points(np.array([[0.0, B2 * B2 * rest]]), "rest"),
+        Label(np.array([0.0, B2 * B2 * rest]), "rest", "label", (float(np.copysign(6.0, B2)), -2.0)),
+        Label(np.array([-B2, view.y[1]]), r"$\omega_2=-B_2$", "note", (4.0, -6.0)),
+    ]
+    return Plane(
+        tuple(layers),
+        rf"$\omega_2$ (1/{unit})",
+        rf"$\nu^2$ (1/{unit}$^2$)",
+        view.x,
+        view.y,
+        title="(a) nutation frequency squared",
+    )
+
+
+def chart(ratio: Any, field: tuple[float, float], levels: tuple[float, ...]) -> Plane:
+    """Panel (b): the levels over tau and |x|, and where the body is unstable."""
+    _, one_less, _ = shape_factors(ratio)
+    tau = abs(field[1] / field[0])
+    view = Window((0.0, max(WIDE, 1.15 * tau)), (0.0, HIGH))
+    layers: list[Layer] = []
+    if one_less > 0:
+        (edge,) = level(0.0, one_less, view)
+        layers += [Region(edge, "unstable_region"), Curve(edge, "unstable")]
+        layers.append(Label(edge.mean(axis=0), "unstable", "unstable"))
+    for value, role in zip(levels, ROLES, strict=False):
+        lines = level(value, one_less, view)
+        layers += [Curve(line, role) for line in lines]
+        inner = np.concatenate([np.empty((0, 2)), *lines])
+        inner = inner[inner[:, 0] < 0.93 * view.x[1]]
+        if len(inner):
+            layers.append(Label(inner[np.argmax(inner[:, 0])], f"${tex(value)}$", role, (4.0, 3.0)))
+    layers.append(Curve(view.upright(tau), "limit"))
+    return Plane(
+        tuple(layers),
+        r"$\tau=|B_3/B_2|$",
+        r"$|x|=|(\omega_2+B_2)/B_2|$",
+        view.x,
+        view.y,
+        title=r"(b) levels of $\nu^2/B_2^2$",
+    )
+
+
+def level(value: float, one_less: float, view: Window) -> list[FloatArray]:
+    """Return the pieces of the curve nu^2 = value B2^2 in the plane (tau, |x|), from x = 0 to tau = 0.
+
+    For I > 1 it runs to infinity on both sides of x^2 = I - 1.
+    """
+    if value + one_less <= 0:
+        return []
+    height = float(np.sqrt(value + one_less))
+
+    def point(s: FloatArray) -> FloatArray:
+        x = height * np.sin(s)
+        return np.stack([x * height * np.cos(s) / np.abs(x * x + one_less), x], axis=1)
+
+    gap = float(np.arcsin(min(1.0, np.sqrt(max(0.0, -one_less)) / height)))
+    tolerance = quarter_pixel(view.x[1], WIDTH / 2 - MARGIN)
+    ends = ((0.0, gap * (1 - 1e-6)), (gap * (1 + 1e-6) or 1e-9, np.pi / 2))
+    pieces = [curve(point, *pair, tolerance, pieces=32, box=view.box) for pair in ends if pair[1] > pair[0]]
+    return [piece[shown] for piece in pieces if (shown := seen(piece, view)).any()]
