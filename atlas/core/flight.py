@@ -8,6 +8,11 @@ from atlas.core.euler_poisson import bracket
 from atlas.core.field import LaboratoryFrame
 from atlas.core.inputs import FloatArray, vector
 from atlas.core.particle import ParticleMotion
+from atlas.core.units import prime
+from atlas.errors import AtlasError
+
+AGREEMENT = 1e-9
+"""How far, of its size, the field of the turning body may be from that of its centre: what typed digits may lose."""
 
 
 class Rotation(Protocol):
@@ -27,8 +32,9 @@ class Flight:
     `frame`; without one the user's frame is the laboratory. `point` (3,) is x_N(0), from the centre of mass to the
     point at t = 0, in the user's frame.
 
-    Both motions must be those of one field: with a `Field`, make the particle by `ParticleMotion.in_field` and the
-    frame by `Field.frame`, and give `frame.field` to the motion.
+    Both must move in one field: with a `Field`, make the particle by `ParticleMotion.in_field` and the frame by
+    `Field.frame`, and give `frame.field` to the motion. A motion that knows its `field` (B2, B3) is held against the
+    particle's B', and AtlasError raised if they differ by more than AGREEMENT.
     """
 
     def __init__(
@@ -37,6 +43,7 @@ class Flight:
         self.particle, self.motion, self.point = particle, motion, vector(point, "The point")
         self._to_user = np.eye(3) if frame is None else frame.matrix.T
         self._arm = self._to_user.T @ self.point
+        self._compare_fields()
 
     def arm(self, t: Any) -> FloatArray:
         """Vector x_N(t) = R(t) x_N(0) from the centre of mass to the point, shape (..., 3)."""
@@ -50,3 +57,16 @@ class Flight:
         """Velocity dy_N/dt = dy_0/dt + R [Omega, x_N(0)], by mf21; shape (..., 3)."""
         turning = np.matvec(self.motion.rotation(t), bracket(self.motion.angular_velocity(t), self._arm))
         return np.asarray(self.particle.velocity(t) + np.matvec(self._to_user, turning))
+
+    def _compare_fields(self) -> None:
+        """Raise AtlasError if the body turns in another field than the one in which its centre flies."""
+        turning = getattr(self.motion, "field", None)
+        if turning is None:
+            return
+        flying = self._to_user.T @ prime(self.particle.mu, self.particle.B, self.particle.c)
+        apart = np.abs(np.stack(np.broadcast_arrays(0.0, *turning), axis=-1) - flying).max()
+        if apart > AGREEMENT * max(np.abs(flying).max(), np.abs(turning).max()):
+            raise AtlasError(
+                f"The centre of mass flies in the field B' = {flying.tolist()} of the laboratory frame, "
+                f"but the body turns in (B2, B3) = {turning}: they must be the same."
+            )

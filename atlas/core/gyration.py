@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from math import factorial
-from typing import Any
 
 import numpy as np
 
@@ -11,10 +10,13 @@ from atlas.core.inputs import FloatArray
 SERIES = np.array([(-1) ** n / factorial(2 * n + 3) for n in range(12, -1, -1)])
 """Coefficients of (x - sin x)/x^3 in powers of x^2, highest first: to the last digit for |x| < 2."""
 
+TINY = 2.0**-500
+"""Below it, 0 included, each function is its limit to far less than an ulp, while x^2 would underflow."""
+
 
 @dataclass(frozen=True)
 class Gyration:
-    """Functions of x, each to a few ulp of its own size but for zeros of cos x, where it is to an ulp of 1."""
+    """Functions of x, each to a few ulp of its own size, but cos x and sin x to an ulp of 1 where they are small."""
 
     cos: FloatArray
     sin: FloatArray
@@ -28,20 +30,13 @@ class Gyration:
     """(x - sin x)/x^2"""
 
 
-def gyration(x: Any, sine: Any, cosine: Any) -> Gyration:
-    """Return the functions at x, given sin(x/2) and cos(x/2): of an x reduced better than x itself, if it is large."""
-    x, sine, cosine = np.broadcast_arrays(x, sine, cosine)
-    # Below 2^-500 (0 included) every function equals its limit to far less than an ulp, and x^2 would underflow.
-    tiny = np.abs(x) < 2.0**-500
-    safe = np.where(tiny, 1.0, x)
-    half = np.where(tiny, 1.0, sine / (safe / 2))
-    sin = np.where(tiny, x, 2 * sine * cosine)
-    near = np.where(np.abs(x) < 2, x, 0.0)
-    return Gyration(
-        cos=1 - 2 * sine * sine,
-        sin=sin,
-        s=half * cosine,
-        f=half * half / 2,
-        g=np.where(tiny, x / 2, half * sine),
-        h=np.where(np.abs(x) < 2, near * np.polyval(SERIES, near * near), (1 - sin / safe) / safe),
-    )
+def gyration(x: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> Gyration:
+    """Return the functions at x (m,), given cos x, sin x and 1 - cos x, found from a better reduced x than x itself."""
+    tiny = np.abs(x) < TINY
+    divisor = np.where(tiny, 1.0, x)
+    s, g = sin / divisor, versine / divisor
+    f, h = g / divisor, (1.0 - s) / divisor
+    near = np.abs(x) < 2
+    h[near] = x[near] * np.polyval(SERIES, x[near] ** 2)
+    s[tiny], f[tiny], g[tiny] = 1.0, 0.5, x[tiny] / 2
+    return Gyration(cos, sin, s, f, g, h)

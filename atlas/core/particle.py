@@ -11,6 +11,7 @@ a = mu E, every vector split along B and across it, mf1 reads y'' = a + [w, y'] 
 with v = y'(0). No term is larger than the motion itself, any sign of mu is right, and B -> 0 is the parabola of mf2.
 """
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, Self
@@ -20,10 +21,13 @@ import numpy as np
 from atlas.core.field import Field
 from atlas.core.gyration import Gyration, gyration
 from atlas.core.inputs import FloatArray, number, positive, real, vector
-from atlas.core.phase import Phases
+from atlas.core.phase import Phases, circle
 from atlas.core.rational import cross, dot, exact, minus, plus, root, rounded, scaled, times, unit
-from atlas.core.wide import Wide
+from atlas.core.wide import TURN, Wide
 from atlas.errors import DomainError
+
+BLOCK = 4096
+"""Times evaluated at once."""
 
 
 class ParticleMotion:
@@ -125,14 +129,22 @@ class ParticleMotion:
 
     def position(self, t: Any) -> FloatArray:
         """Position y(t), shape (..., 3) for times of any shape, mf10.2 with mf5 and mf10."""
-        t, gyro = self._at(t)
-        inner = _mix(0.5, gyro.f, gyro.h, self._a)
-        return np.asarray(self.y0 + t[..., None] * (_mix(1.0, gyro.s, gyro.g, self._v) + t[..., None] * inner))
+
+        def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
+            v, a = self._v[:, i], self._a[:, i]
+            inner = a[0] / 2 + x.f * a[1] + x.h * a[2]
+            return np.asarray(self.y0[i] + t * (v[0] + x.s * v[1] + x.g * v[2] + t * inner))
+
+        return self._spread(component, t)
 
     def velocity(self, t: Any) -> FloatArray:
         """Velocity y'(t), shape (..., 3) for times of any shape, mf2."""
-        t, gyro = self._at(t)
-        return np.asarray(_mix(1.0, gyro.cos, gyro.sin, self._v) + t[..., None] * _mix(1.0, gyro.s, gyro.g, self._a))
+
+        def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
+            v, a = self._v[:, i], self._a[:, i]
+            return np.asarray(v[0] + x.cos * v[1] + x.sin * v[2] + t * (a[0] + x.s * a[1] + x.g * a[2]))
+
+        return self._spread(component, t)
 
     def guiding_centre(self, t: Any) -> FloatArray:
         """Point O(t) of mf11 about which the particle circles, carried along B with it; shape (..., 3)."""
@@ -151,28 +163,27 @@ class ParticleMotion:
 
     @cached_property
     def _phases(self) -> Phases:
-        """The phase |w| t, with |w| in two words."""
+        """The phase |w| t, with |w| in two words; without a magnetic force it is 0."""
         _, w2, _, _ = self._exact
-        return Phases([(Wide(w2.numerator) / Wide(w2.denominator)).sqrt()])
+        return Phases([(Wide(w2.numerator) / Wide(w2.denominator)).sqrt() / TURN])
 
-    def _at(self, t: Any) -> tuple[FloatArray, Gyration]:
-        """Return the times and the functions of x = |w| t; AtlasError if x is beyond 2^50."""
+    def _spread(self, component: Callable[[int, FloatArray, Gyration], FloatArray], t: Any) -> FloatArray:
+        """Evaluate the three components at the times, block by block, so that what is between stays in the cache."""
         t = real(t, "t")
-        if not self._rate or not t.size:
-            return t, gyration(t * 0, 0.0, 1.0)
-        half, rest = (h.reshape(t.shape) for h in self._phases.angles(t.ravel(), np.empty((5, 1, t.size))))
-        sine, cosine = np.sin(half), np.cos(half)
-        return t, gyration(self._rate * t, sine + rest / 2 * cosine, cosine - rest / 2 * sine)
+        flat, out = t.ravel(), np.empty((t.size, 3))
+        for start in range(0, t.size, BLOCK):
+            piece = flat[start : start + BLOCK]
+            cos, sin, versine, work = np.split(np.empty((8, 1, piece.size)), [1, 2, 3])
+            circle(self._phases.angles(piece, work), cos[0], sin[0], versine[0, 0])
+            functions = gyration(self._rate * piece, cos[0, 0], sin[0, 0], versine[0, 0])
+            for i in range(3):
+                out[start : start + BLOCK, i] = component(i, piece, functions)
+        return out.reshape((*t.shape, 3))
 
     def _needs_field(self, what: str) -> None:
         """Raise DomainError where there is no magnetic force."""
         if not self._rate:
             raise DomainError(f"Without a magnetic force (mu B = 0) the motion has no {what}.")
-
-
-def _mix(along: float, first: FloatArray, second: FloatArray, rows: FloatArray) -> FloatArray:
-    """Return along rows[0] + first rows[1] + second rows[2], shape (..., 3)."""
-    return np.asarray(along * rows[0] + first[..., None] * rows[1] + second[..., None] * rows[2])
 
 
 def _case(electric: bool, magnetic: bool, along: bool, across: bool) -> str:

@@ -5,6 +5,7 @@ import pytest
 from numpy.typing import NDArray
 from oracles.taylor import taylor
 
+from atlas.core.elementary import ElementaryMotion
 from atlas.core.field import Field
 from atlas.core.flight import Flight
 from atlas.core.particle import ParticleMotion
@@ -89,6 +90,23 @@ def test_without_a_frame_the_user_is_in_the_laboratory() -> None:
     assert np.abs(flight.arm(TIMES) - motion.rotation(TIMES) @ [0.3, -0.1, 0.7]).max() <= 2 * EPS
     assert flight.position(1.0).shape == (3,)
     assert flight.position(np.array([[0.0, 1.0], [1.5, 2.0]])).shape == (2, 2, 3)
+
+
+def test_the_flight_of_an_elementary_motion() -> None:
+    """With the closed form for R, the point of a body in the user's frame goes where the Taylor series says."""
+    flight = Flight(PARTICLE, ElementaryMotion(1.5, FRAME.field, 0.7), [0.3, -0.1, 0.7], FRAME)
+    start = (0.0, 0.7, flight.motion.omega3)
+    R = [np.array(s.R.tolist(), dtype=float) for s in taylor((1, 1, 1.5), (0.0, *FRAME.field), start, TIMES)]
+    path = PARTICLE.position(TIMES) + np.array([FRAME.rotation_to_user(r) @ flight.point for r in R])
+    assert np.abs(flight.position(TIMES) - path).max() < 16 * EPS
+
+
+def test_centre_and_body_must_be_in_one_field() -> None:
+    """A body that turns in another field than the one its centre flies in is an error, not a picture."""
+    with pytest.raises(AtlasError, match="must be the same"):
+        Flight(PARTICLE, ElementaryMotion(1.5, (1.0, 2.0), 0.7), [1, 0, 0], FRAME)
+    with pytest.raises(AtlasError, match="must be the same"):
+        Flight(PARTICLE, ElementaryMotion(1.5, FRAME.field, 0.7), [1, 0, 0])
 
 
 def test_a_point_has_three_components() -> None:
