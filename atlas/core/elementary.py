@@ -79,7 +79,7 @@ class Elementary(DoubleRotation):
         super().__init__(axis, precession, proper)
 
 
-class ElementaryMotion(Motion):
+class ElementaryMotion(Motion[Elementary]):
     """Motion R(t) = R_B(k t) R_z(phi t) of a charged symmetric body, mf89, mf90, from Omega(0) = (0, omega2, omega3).
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c); `omega2` and, where it
@@ -99,8 +99,6 @@ class ElementaryMotion(Motion):
     it is free or given where it is not. A frequency that overflows is inf; its motion is not lost, as long as
     the phases stay within 2^50.
     """
-
-    _turnings: list[Elementary]
 
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
         self.ratio = ratio
@@ -162,14 +160,25 @@ class ElementaryMotion(Motion):
         return FreeMotion(self.ratio, (0.0, self.omega2, I2 * self.omega2 * B3 / (I3 * B2)))
 
 
-class FreeMotion(Motion):
+class Free(DoubleRotation):
+    """One free body."""
+
+    def __init__(self, I2: float, I3: float, *omega: float) -> None:
+        self.omega = omega
+        i2, i3, w1, w2, w3 = exact(I2, I3, *omega)
+        momentum = w1, w2, i3 * w3 / i2
+        k = length(*momentum)
+        m1, m2, m3 = momentum
+        axis = (m1 / k, m2 / k, m3 / k) if k else (ZERO, ZERO, ONE)
+        super().__init__(axis, k, (i2 - i3) * w3 / i2)
+
+
+class FreeMotion(Motion[Free]):
     """Motion of a free symmetric body, R(t) = R_m(k t) R_z(phi t), above mf92: precession without nutation.
 
     `ratio` I = I3/I2 or a SymmetricBody; `omega` (omega1, omega2, omega3), the initial angular velocity, 1/time; arrays
     broadcast. The axis is that of m = (I2 omega1, I2 omega2, I3 omega3); k = |m|/I2; phi = (1 - I) omega3.
     """
-
-    _turnings: "list[Free]"
 
     def __init__(self, ratio: Any, omega: Any) -> None:
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity")
@@ -188,15 +197,3 @@ class FreeMotion(Motion):
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body: it turns about the third axis with frequency phi; shape (..., 3)."""
         return self._spread(lambda one, t, out: one.swung(one.omega, t, out), t, (3,))
-
-
-class Free(DoubleRotation):
-    """One free body."""
-
-    def __init__(self, I2: float, I3: float, *omega: float) -> None:
-        self.omega = omega
-        i2, i3, w1, w2, w3 = exact(I2, I3, *omega)
-        momentum = w1, w2, i3 * w3 / i2
-        k = length(*momentum)
-        axis = tuple(m / k for m in momentum) if k else (ZERO, ZERO, ONE)
-        super().__init__(axis, k, (i2 - i3) * w3 / i2)

@@ -1,13 +1,15 @@
 """What all motions in elementary functions share: one turning, or an array of them that broadcasts with time."""
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from atlas.core.inputs import FloatArray, number, real
 from atlas.core.rotation import DoubleRotation, target
 from atlas.errors import AtlasError
+
+Turning = TypeVar("Turning", bound=DoubleRotation)
 
 
 def over(function: Callable[..., Any], *inputs: Any) -> Any:
@@ -30,10 +32,10 @@ def components(value: Any, names: Sequence[str], what: str) -> list[Any]:
     return [real(x, name) for x, name in zip(parts, names, strict=True)]
 
 
-class Motion:
+class Motion(Generic[Turning]):
     """Motions R(t) = R_n(k t) R_z(phi t), mf90, of the shape of the parameters, which broadcasts with the times."""
 
-    def __init__(self, make: Callable[..., DoubleRotation], *inputs: Any) -> None:
+    def __init__(self, make: Callable[..., Turning], *inputs: Any) -> None:
         arrays = np.broadcast_arrays(*inputs)
         self.shape: tuple[int, ...] = arrays[0].shape
         self._turnings = [make(*row) for row in zip(*(a.ravel().tolist() for a in arrays), strict=True)]
@@ -86,7 +88,7 @@ class Motion:
             out[where] = evaluate(turning, times[where], None)
         return out
 
-    def _each(self, value: Callable[[Any], Any]) -> Any:
+    def _each(self, value: Callable[[Turning], Any]) -> Any:
         """Return one value for each motion: plain for one motion, else an array."""
         if not self.shape:
             return value(self._turnings[0])
