@@ -50,7 +50,7 @@ class ElementaryMotion:
     def _omega3(self, given: fmpq | None) -> fmpq:
         if self.case in {"precession", "at rest"}:
             value = Hyperbola(self.I, (self.B2, self.B3)).omega3(self.omega2)
-            if given is not None and given != value:
+            if given is not None and float_text(given) != float_text(value):
                 raise DomainError(
                     f"omega3 follows from omega2 by mf76 and is {float_text(value)}, not {float_text(given)}: "
                     "leave it out."
@@ -99,6 +99,14 @@ class ElementaryMotion:
         A = self._precession(t)
         S, C = sin_cos(self.phi * rational(t, "the time"))
         return [[row[0] * C + row[1] * S, row[1] * C - row[0] * S, row[2]] for row in A]
+
+    def quaternion(self, t: Any) -> list[Real]:
+        """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of mf90."""
+        t = rational(t, "the time")
+        n2, n3 = self.axis
+        s, c = sin_cos(self.k * t / 2)
+        S, C = sin_cos(self.phi * t / 2)
+        return [c * C - n3 * s * S, n2 * s * S, n2 * s * C, c * S + n3 * s * C]
 
     def column(self, j: int, t: Any) -> list[Real]:
         """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""

@@ -2,7 +2,7 @@
 
 from typing import Any, TypeAlias
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
@@ -25,16 +25,34 @@ class ParticleMotion:
 
     @property
     def cyclotron_frequency(self) -> Real:
-        """The frequency omega = |mu B|/c of mf9."""
-        return root(self._w2)
+        """The frequency omega = mu |B|/c of mf9, with the sign of mu."""
+        return -root(self._w2) if self.mu < 0 else root(self._w2)
 
     @property
     def drift(self) -> Vector:
         """The drift velocity c [E, B]/B^2 of mf6, whatever the sign of mu."""
-        B2 = _dot(self.B, self.B)
-        if B2 == 0:
-            raise DomainError("Without a magnetic field there is no drift: the particle is accelerated along E.")
-        return tuple(self.c * x / B2 for x in _cross(self.E, self.B))
+        self._needs_field("drift")
+        return tuple(self.c * x / _dot(self.B, self.B) for x in _cross(self.E, self.B))
+
+    @property
+    def period(self) -> arb:
+        """The time 2 pi/|omega| of one turn."""
+        self._needs_field("period")
+        return 2 * arb.pi() / root(self._w2)
+
+    @property
+    def radius(self) -> Real:
+        """The radius a of mf9: that of the circle around the drifting centre."""
+        self._needs_field("radius")
+        _, _, _, q = self._vectors()
+        return root(_dot(q, q) / self._w2)
+
+    def guiding_centre(self, t: Any) -> list[fmpq]:
+        """Return the point O(t) of mf11 about which the particle circles, carried along B with it."""
+        self._needs_field("guiding centre")
+        t = rational(t, "the time")
+        terms = zip(self.start, *self._vectors(), strict=True)
+        return [y - r + d * t + p * t**2 / 2 for y, d, p, r, _ in terms]
 
     def position(self, t: Any) -> list[Real]:
         """Return y(t), mf10 with the constants of the given start: y0 + d t + p t^2/2 + (c - 1) r + s q.
@@ -56,6 +74,11 @@ class ParticleMotion:
             return [v + a * t for v, a in zip(self.launch, self._a, strict=True)]
         s, c = self._circle(t)
         return [d + p * t - self._w2 * s * r + c * q for d, p, r, q in zip(*self._vectors(), strict=True)]
+
+    def _needs_field(self, what: str) -> None:
+        """Raise DomainError where there is no magnetic force."""
+        if self._w2 == 0:
+            raise DomainError(f"Without a magnetic force (mu B = 0) the motion has no {what}.")
 
     def _vectors(self) -> tuple[Vector, Vector, Vector, Vector]:
         """Return d (steady velocity), p (acceleration along B), r and q (the two radii of the circle), all rational."""

@@ -1,0 +1,293 @@
+"""Grade a user's trajectory against the certified motion: correct digits, where it begins to fail, what drifts."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+from statistics import median
+from typing import Any, TypeAlias
+
+import numpy as np
+from flint import arb, ctx, fmpq
+
+from atlas.errors import AtlasError
+from atlas.exact.digits import certified, enclosed
+from atlas.exact.elementary import ElementaryMotion
+from atlas.exact.inputs import Real
+from atlas.scene import Curve, Plane, Scene
+from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION, Trajectory, read
+
+MOST = 17.0
+"""Digits are counted up to here: no double has more."""
+
+BITS = 80
+GROUPS: Mapping[str, tuple[str, ...]] = {"R": MATRIX, "Omega": OMEGA, "quaternion": QUATERNION}
+ROLES = {"R": "main", "Omega": "second", "quaternion": "fourth"}
+Row: TypeAlias = dict[str, float]
+
+
+@dataclass(frozen=True)
+class Column:
+    """The grade of one column: digits that are correct, the worst place, and the time from which it fails, if it does.
+
+    Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its length.
+    """
+
+    name: str
+    median: float
+    worst: float
+    worst_time: float
+    fails_at: float | None
+
+
+@dataclass(frozen=True)
+class Drift:
+    """How far something that must not change leaves its true value: the largest relative deviation, and the last."""
+
+    name: str
+    says: str
+    label: str
+    worst: float
+    worst_time: float
+    last: float
+
+
+@dataclass(frozen=True)
+class Check:
+    """The grades of a trajectory. ``errors`` holds for R, Omega and quaternion the largest error of each row."""
+
+    file: str
+    case: str
+    parameters: Mapping[str, Any]
+    frequencies: Mapping[str, str]
+    rows: int
+    threshold: float
+    columns: tuple[Column, ...]
+    drifts: tuple[Drift, ...]
+    times: tuple[float, ...]
+    errors: Mapping[str, tuple[float, ...]]
+
+    def record(self) -> dict[str, Any]:
+        """Return the grades as plain data for JSON."""
+        return asdict(self) | {"columns": [asdict(c) for c in self.columns], "drifts": [asdict(d) for d in self.drifts]}
+
+    def column_table(self) -> tuple[list[str], list[list[str]]]:
+        """Return heading and rows of the grades by column."""
+        heading = ["column", "median digits", "worst digits", "at t", f"below {self.threshold:g} digits from t"]
+        rows = [
+            [
+                c.name,
+                f"{c.median:.1f}",
+                f"{c.worst:.1f}",
+                f"{c.worst_time:g}",
+                "-" if c.fails_at is None else f"{c.fails_at:g}",
+            ]
+            for c in self.columns
+        ]
+        return heading, rows
+
+    def drift_table(self) -> tuple[list[str], list[list[str]]]:
+        """Return heading and rows of what should not change."""
+        heading = ["constant", "what", "equation", "largest deviation", "at t", "last deviation"]
+        rows = [[d.name, d.says, d.label, f"{d.worst:.1e}", f"{d.worst_time:g}", f"{d.last:.1e}"] for d in self.drifts]
+        return heading, rows
+
+    def scene(self) -> Scene:
+        """Draw the error of each group of columns against time."""
+        floor = 10.0**-MOST
+        layers = tuple(
+            Curve(np.column_stack([self.times, np.maximum(errors, floor)]), ROLES[name], name)
+            for name, errors in self.errors.items()
+        )
+        limit = 10.0**-self.threshold
+        line = Curve(
+            np.array([[min(self.times), limit], [max(self.times), limit]]), "limit", f"{self.threshold:g} digits"
+        )
+        worst = min(self.columns, key=lambda c: c.worst)
+        return Scene(
+            title=f"Error of {self.file}",
+            caption=(
+                f"The largest error of each row of {self.file} against the certified motion; of a matrix and of a "
+                f"quaternion in units of 1, of Omega in units of its length. The dotted line marks {self.threshold:g} "
+                f"digits. The worst column is {worst.name}, with {worst.worst:.1f} correct digits at "
+                f"t = {worst.worst_time:g}."
+            ),
+            alt=(
+                f"Curves of error against time on a logarithmic scale, for {', '.join(self.errors)}; the worst column, "
+                f"{worst.name}, has {worst.worst:.1f} correct digits at t = {worst.worst_time:g}."
+            ),
+            panels=(Plane((*layers, line), "$t$", "error", y_scale="log", legend=True),),
+            size=(120.0, 75.0),
+            parameters=dict(self.parameters),
+        )
+
+
+def check(
+    path: Path,
+    *,
+    ratio: Any = None,
+    field: tuple[float, float] | None = None,
+    omega2: float | None = None,
+    omega3: float | None = None,
+    threshold: float = 6.0,
+) -> Check:
+    """Grade the trajectory in a CSV file, see `atlas.study.trajectory`; arguments override the file's # lines.
+
+    A column fails from the first row on at which it has fewer than ``threshold`` correct digits. The times and the
+    parameters of the file are taken as the doubles nearest to what is written.
+    """
+    trajectory = read(path)
+    given = dict(trajectory.parameters)
+    parameters: dict[str, Any] = {
+        "ratio": ratio if ratio is not None else _body(given, path.name),
+        "field": field if field is not None else _needed(given, "field", path.name),
+        "omega2": omega2 if omega2 is not None else _needed(given, "omega2", path.name)[0],
+        "omega3": omega3 if omega3 is not None else given.get("omega3", (None,))[0],
+    }
+    motion = ElementaryMotion(*parameters.values())
+    with ctx.workprec(BITS + 16):
+        errors = _errors(trajectory, motion)
+        drifts = tuple(_drifts(trajectory, motion))
+    times = tuple(trajectory.times)
+    return Check(
+        file=path.name,
+        case=motion.case,
+        parameters={name: value for name, value in parameters.items() if value is not None},
+        frequencies=certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15),
+        rows=len(times),
+        threshold=threshold,
+        columns=tuple(_grade(name, times, values, threshold) for name, values in errors.items()),
+        drifts=drifts,
+        times=times,
+        errors={
+            group: tuple(max(row) for row in zip(*(errors[n] for n in names if n in errors), strict=True))
+            for group, names in GROUPS.items()
+            if any(name in errors for name in names)
+        },
+    )
+
+
+def _body(given: Mapping[str, tuple[float, ...]], file: str) -> Any:
+    if "inertia" in given:
+        I2, I3 = given["inertia"]
+        if I2 <= 0:
+            raise AtlasError(f"{file}: the moment of inertia I2 must be positive, not {I2:g}.")
+        return fmpq(*I3.as_integer_ratio()) / fmpq(*I2.as_integer_ratio())
+    return _needed(given, "ratio", file)[0]
+
+
+def _needed(given: Mapping[str, tuple[float, ...]], name: str, file: str) -> tuple[float, ...]:
+    if name not in given:
+        example = {"field": "# field = 1 2"}.get(name, f"# {name} = 1.5")
+        raise AtlasError(f"{file} does not say {name}: give the option, or a line such as '{example}' in the file.")
+    return given[name]
+
+
+def _errors(trajectory: Trajectory, motion: ElementaryMotion) -> dict[str, list[float]]:
+    """Return the errors of each column, row by row."""
+    columns = {name: values for name, values in trajectory.columns.items() if name != "t"}
+    errors: dict[str, list[float]] = {name: [] for name in columns}
+    length = arb(motion.omega2**2 + motion.omega3**2).sqrt()
+    for i, t in enumerate(trajectory.times):
+        truth: dict[str, Real] = {}
+        if any(name in columns for name in MATRIX + QUATERNION):
+            R = enclosed(partial(motion.rotation, t), BITS)
+            truth |= dict(zip(MATRIX, (x for row in R for x in row), strict=True))
+        if any(name in columns for name in OMEGA):
+            truth |= dict(zip(OMEGA, enclosed(partial(motion.angular_velocity, t), BITS), strict=True))
+        if QUATERNION[0] in columns:
+            found = [columns[name][i] for name in QUATERNION]
+            truth |= dict(zip(QUATERNION, _quaternion(motion, t, found), strict=True))
+        for name, values in columns.items():
+            unit = length if name in OMEGA and length != 0 else arb(1)
+            errors[name].append(float((abs(arb(values[i]) - truth[name]) / unit).upper()))
+    return errors
+
+
+def _quaternion(motion: ElementaryMotion, t: float, found: Sequence[float]) -> list[Real]:
+    """Return the quaternion of R(t), of the two the one nearer to what was found."""
+    quaternion: list[Real] = enclosed(lambda: motion.quaternion(t), BITS)
+    same = sum((arb(a) * b for a, b in zip(found, quaternion, strict=True)), arb(0))
+    return quaternion if same >= 0 else [-x for x in quaternion]
+
+
+def _grade(name: str, times: Sequence[float], errors: Sequence[float], threshold: float) -> Column:
+    digits = [min(MOST, -math.log10(error)) if error else MOST for error in errors]
+    worst = min(range(len(digits)), key=digits.__getitem__)
+    fails = next((t for t, d in zip(times, digits, strict=True) if d < threshold), None)
+    return Column(name, median(digits), digits[worst], times[worst], fails)
+
+
+def _drifts(trajectory: Trajectory, motion: ElementaryMotion) -> Iterable[Drift]:
+    """Yield what the columns allow to test: orthogonality, the norm, and the integrals of motion."""
+    columns = {name: np.array(values, dtype=np.longdouble) for name, values in trajectory.columns.items()}
+    count = len(trajectory.times)
+    R = _matrices(columns, count)
+    Omega = np.stack([columns[name] for name in OMEGA], axis=-1) if set(OMEGA) <= set(columns) else None
+    if QUATERNION[0] in columns:
+        norm = np.sqrt(sum(columns[name] ** 2 for name in QUATERNION))
+        yield _drift("|q|", "norm of the quaternion", "mf21", norm - 1, trajectory)
+    if R is not None:
+        defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2))
+        yield _drift("R^T R", "orthogonality of R", "mf21", defect, trajectory)
+    I, B2, B3 = (_number(x) for x in (motion.I, motion.B2, motion.B3))
+    K = None if R is None else B2 * R[:, 1] + B3 * R[:, 2]
+    for name, says, label, value in _integrals(I, Omega, K):
+        true = motion.invariants[name]
+        scale = _scales(motion)[name]
+        yield _drift(name, says, label, (value - _number(true)) / (_number(scale) or 1), trajectory)
+
+
+def _integrals(I: Any, Omega: Any, K: Any) -> Iterable[tuple[str, str, str, Any]]:
+    """Yield the integrals of motion that Omega and K determine."""
+    if Omega is not None:
+        yield "E'", "energy 2 E/I2", "mf44", Omega[:, 0] ** 2 + Omega[:, 1] ** 2 + I * Omega[:, 2] ** 2
+    if K is not None:
+        yield "K^2", "length of the field in the body, squared", "mf45", (K**2).sum(-1)
+    if Omega is not None and K is not None:
+        u, c3 = Omega[:, 2], K[:, 2] + Omega[:, 2]
+        across = Omega[:, 0] * K[:, 0] + Omega[:, 1] * K[:, 1]
+        yield "c3", "K3 + Omega3", "mf48", c3
+        yield "c5", "the fourth integral", "mf49", across - u**2 + (2 - I) * c3 * u
+        yield "(m,B')", "momentum along the field, over I2", "mf93", across + I * u * K[:, 2]
+
+
+def _scales(motion: ElementaryMotion) -> dict[str, fmpq]:
+    """Return the size of each integral: the sum of the absolute values of its terms."""
+    I, B2, B3, w2, w3 = motion.I, abs(motion.B2), abs(motion.B3), abs(motion.omega2), abs(motion.omega3)
+    return {
+        "E'": w2**2 + I * w3**2,
+        "K^2": B2**2 + B3**2,
+        "c3": w3 + B3,
+        "c5": w2 * B2 + w3**2 + (2 - I) * (w3 + B3) * w3,
+        "(m,B')": w2 * B2 + I * w3 * B3,
+    }
+
+
+def _matrices(columns: Mapping[str, Any], count: int) -> Any:
+    """Return the matrices (N, 3, 3) of the columns R11 to R33, else of the quaternion, else None."""
+    if set(MATRIX) <= set(columns):
+        return np.stack([columns[name] for name in MATRIX], axis=-1).reshape(count, 3, 3)
+    if QUATERNION[0] not in columns:
+        return None
+    w, x, y, z = (columns[name] for name in QUATERNION)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)
+
+
+def _drift(name: str, says: str, label: str, deviations: Any, trajectory: Trajectory) -> Drift:
+    size = np.abs(deviations)
+    worst = int(np.argmax(size))
+    return Drift(name, says, label, float(size[worst]), trajectory.times[worst], float(size[-1]))
+
+
+def _number(value: fmpq) -> np.longdouble:
+    """Return a rational in extended precision."""
+    head = int(value.p) / int(value.q)
+    rest = value - fmpq(*head.as_integer_ratio())
+    return np.longdouble(head) + np.longdouble(int(rest.p) / int(rest.q))
