@@ -110,7 +110,7 @@ def test_floats_in_json_read_back_the_same() -> None:
         ("motion --ratio 1.5 --field 1 2 --omega2 1 --times", "--times"),
         ("motion --ratio 1.5 --field 1 2 --omega2 1 --times 0 --grid 0 1 5", "--grid"),
         ("motion --ratio 1.5 --field 1 2 --omega2 1 --grid 0 1 2.5", "2.5"),
-        ("motion --ratio 1.5 --field 1 2 --omega2 1e3 --times 1e30", "2^50"),
+        ("motion --ratio 1.5 --field 1 2 --omega2 1e3 --times 1e30 --json", "2^50"),
         ("figure nosuchfigure", "nosuchfigure"),
         ("report nosuchreport", "nosuchreport"),
         ("clasify --ratio 1", "clasify"),

@@ -1,0 +1,60 @@
+"""``atlas bench``: error against time, by the closed forms, by their peers and by integrators."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from atlas.cli.options import Command, Many, examples
+from atlas.cli.present import Sheet, dump, show
+from atlas.cli.progress import bar
+
+
+@click.command(
+    "bench",
+    cls=Command,
+    short_help="Measure error against time.",
+    epilog=examples(
+        "atlas bench", "atlas bench --quick --case elementary", "atlas bench --read reports/data/bench.json"
+    ),
+)
+@click.option("--case", "cases", cls=Many, metavar="NAME [...]", help="elementary, ball, particle; all when left out.")
+@click.option("--quick", is_flag=True, help="The short form, under half a minute.")
+@click.option("--read", type=click.Path(path_type=Path), help="Show this record instead of measuring.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    default="build/bench.json",
+    show_default=True,
+    help="Keep the record here.",
+)
+@click.option("--store", is_flag=True, help="Keep it where figures and reports draw it from.")
+@click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
+def command(cases: tuple[str, ...], quick: bool, read: Path | None, out: Path, store: bool, as_json: bool) -> None:
+    """Measure error and time together, against references that share nothing with what they judge.
+
+    The record holds machine, versions and command. Figures and report pages are drawn from the stored record.
+    """
+    from atlas.study.bench import record as records
+    from atlas.study.bench.run import run
+    from atlas.study.bench.tables import machine_line, tables
+
+    if read is not None:
+        found = records.read(read)
+    else:
+        words = ["atlas bench", *(["--quick"] if quick else []), *(f"--case {case}" for case in cases)]
+        with bar("bench") as tell:
+            found = run(cases or None, quick, tell, command=" ".join(words))
+        records.write(found, records.stored() if store else out)
+    if as_json:
+        dump(_plain(found))
+        return
+    for table in tables(found):
+        show(Sheet(table.title, heading=table.heading, rows=table.rows, notes=table.notes, justify="left"))
+    click.echo(machine_line(found))
+
+
+def _plain(record: Any) -> Any:
+    import msgspec
+
+    return msgspec.to_builtins(record)

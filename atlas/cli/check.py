@@ -1,0 +1,70 @@
+"""``atlas check``: a user's own trajectory, graded against the certified one."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from atlas.cli.options import (
+    REAL,
+    Command,
+    body_options,
+    chosen_body,
+    chosen_field,
+    examples,
+    field_options,
+)
+from atlas.cli.present import Sheet, dump, show
+
+
+@click.command(
+    "check",
+    cls=Command,
+    short_help="Grade a trajectory of your own.",
+    epilog=examples(
+        "atlas check mine.csv --ratio 1.5 --field 1 2 --omega2 0.7",
+        "atlas check mine.csv --figure mine.pdf --json",
+    ),
+)
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE.csv")
+@body_options
+@field_options
+@click.option("--omega2", type=REAL, help="Second component of the initial angular velocity.")
+@click.option("--omega3", type=REAL, help="Third component, where mf76 leaves it free.")
+@click.option(
+    "--threshold", type=REAL, default="6", show_default=True, help="Correct digits below which a column fails."
+)
+@click.option(
+    "--figure", type=click.Path(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
+)
+@click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
+def command(file: Path, **options: Any) -> None:
+    """Count the correct digits of a trajectory computed elsewhere, column by column.
+
+    FILE.csv has a column t and any of R11 to R33, Omega1 to Omega3, or a quaternion w, x, y, z. The parameters are
+    options, or lines such as '# field = 1 2' at the head of the file.
+    """
+    from atlas.study.check import check
+
+    body = any(options[name] is not None for name in ("ratio", "inertia", "shape"))
+    field = any(options[name] is not None for name in ("field", "magnetic"))
+    found = check(
+        file,
+        ratio=chosen_body(options) if body else None,
+        field=chosen_field(options) if field else None,
+        omega2=options["omega2"],
+        omega3=options["omega3"],
+        threshold=options["threshold"],
+    )
+    if options["figure"] is not None:
+        from atlas.render import draw
+
+        draw(found.scene(), options["figure"])
+    if options["as_json"]:
+        dump(found.record())
+        return
+    title = f"{found.file}: {found.rows} rows, case {found.case}"
+    heading, rows = found.column_table()
+    show(Sheet(title, heading=heading, rows=rows))
+    heading, rows = found.drift_table()
+    show(Sheet("what should not change", heading=heading, rows=rows, justify="left"))
