@@ -148,26 +148,37 @@ class _Composer:
 
     def plate(self, block: records.Figure) -> views.Plate:
         """Return the plate of a figure block, the same one for the same recipe, parameters and renderer."""
-        parameters = self.parameters(block) | block.parameters
+        recipe, failure = _recipe(block.recipe)
+        parameters = self.parameters(block, recipe) | block.parameters
         key = f"{block.recipe} {sorted(parameters.items())} {block.renderer}"
         plates = self.document.plates
         if key not in plates:
             stem = f"{len(plates) + 1:02d}-{block.recipe.replace('_', '-')}"
-            plates[key] = views.Plate(stem, block.recipe, block.renderer, parameters)
-            _stage(plates[key])
+            plates[key] = views.Plate(stem, block.recipe, block.renderer, parameters, failure=failure)
+            if recipe:
+                _stage(plates[key], recipe)
         return plates[key]
 
-    def parameters(self, block: records.Figure) -> dict[str, Any]:
-        """Turn the named bodies and fields of a figure into the parameters ratio, ratios and field."""
+    def parameters(self, block: records.Figure, recipe: Any) -> dict[str, Any]:
+        """Turn the bodies and the field that a figure names into those parameters that its recipe takes."""
         settings = self.settings(block)
-        parameters: dict[str, Any] = {}
+        offered: dict[str, Any] = {}
         if block.body:
-            parameters["ratio"] = settings[0].ratio
+            offered["ratio"] = settings[0].ratio
         if block.bodies:
-            parameters["ratios"] = tuple(one.ratio for one in settings)
+            offered["ratios"] = tuple(one.ratio for one in settings)
+        takes = recipe.parameters if recipe else offered
+        for name in offered:
+            if name not in takes:
+                raise AtlasError(f"the recipe {block.recipe!r} takes no parameter {name!r}, so don't name a body.")
         if block.field:
-            parameters["field"] = settings[0].field
-        return parameters
+            offered["field"] = settings[0].components
+            physical = settings[0].physical
+            if physical is not None:
+                offered |= {"mu": physical.mu, "E": tuple(physical.E), "B": tuple(physical.B), "c": physical.c}
+            if takes.get("unit") == "time":
+                offered["unit"] = "s"
+        return {name: value for name, value in offered.items() if name in takes}
 
     def settings(self, block: records.Figure | records.Table) -> tuple[Setting, ...]:
         """Return the bodies of a block, each in its field."""
@@ -206,24 +217,29 @@ class _Composer:
         return views.Cell(self.text(value, inline=True)) if value else views.Cell()
 
 
-def _stage(plate: views.Plate) -> None:
-    """Make the scene of a plate, or note why it can't be made; a misspelt recipe or parameter is an error."""
+def _recipe(name: str) -> tuple[Any, str]:
+    """Load a recipe, or return why it can't be loaded; a name that there is not is an error."""
     from atlas.scene import recipes
 
-    if plate.recipe not in recipes.names():
-        raise AtlasError(f"there is no recipe {plate.recipe!r}{nearest(plate.recipe, recipes.names())} in figures/.")
+    if name not in recipes.names():
+        raise AtlasError(f"there is no recipe {name!r}{nearest(name, recipes.names())} in figures/.")
     try:
-        recipe = recipes.load(plate.recipe)
-        unknown = [name for name in plate.parameters if name not in recipe.parameters]
-        if not unknown:
-            plate.scene = recipe.scene(**plate.parameters)
-            plate.parameters = plate.scene.parameters
+        return recipes.load(name), ""
+    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
+        return None, f"{type(error).__name__}: {error}"
+
+
+def _stage(plate: views.Plate, recipe: Any) -> None:
+    """Make the scene of a plate, or note why it can't be made; a misspelt parameter is an error."""
+    for name in plate.parameters:
+        if name not in recipe.parameters:
+            guess = nearest(name, list(recipe.parameters))
+            raise AtlasError(f"the recipe {plate.recipe!r} has no parameter {name!r}{guess}.")
+    try:
+        plate.scene = recipe.scene(**plate.parameters)
+        plate.parameters = plate.scene.parameters
     except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
         plate.failure = f"{type(error).__name__}: {error}"
-        return
-    if unknown:
-        guess = nearest(unknown[0], list(recipe.parameters))
-        raise AtlasError(f"the recipe {plate.recipe!r} has no parameter {unknown[0]!r}{guess}.")
 
 
 def _shown(value: Any) -> str:

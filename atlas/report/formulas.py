@@ -22,6 +22,8 @@ _READ = "markdown+smart-implicit_figures-auto_identifiers-citations-raw_tex-yaml
 _WRITE = {"html": ["-t", "html5", "--mathml"], "typst": ["-t", "typst"]}
 _MARK = {"html": "<!--text {}-->", "typst": "// text {}\n"}
 _TEX = re.compile(r"\$\$(.+?)\$\$|(?<![\\$])\$([^$]+?)\$", re.DOTALL)
+_CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
+"""How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
 _CODE = re.compile(r"`[^`]*`")
 
 
@@ -58,6 +60,12 @@ class Manuscript:
         )
         output = _pandoc(source, target, self.texts)
         pieces = re.split(re.escape(_MARK[target]).replace(r"\{\}", r"\d+").rstrip("\n\\") + r"\s*", output)[1:]
+        if target == "typst":
+            for piece, text in zip(pieces, self.texts, strict=True):
+                if _CHAIN.search(piece):
+                    raise AtlasError(
+                        f"{text.where}: a fraction below a fraction is lost in print; write it with a slash."
+                    )
         tidy = mend_all if target == "html" else _tidy_typst
         return [
             _bare(tidy(piece.strip()), target) if text.inline else tidy(piece.strip())
@@ -115,7 +123,7 @@ def _pandoc(source: str, target: Target, texts: Sequence[Text]) -> str:
 def _tidy_typst(typst: str) -> str:
     r"""Give ``\;`` and ``\!`` their widths, which pandoc rounds to whole ems, and bars their role as delimiters."""
     typst = typst.replace("#h(0em)", "#h(0.278em)").replace("#h(-1em)", "#h(-0.167em)")
-    return typst.replace("\\|", "|")
+    return re.sub(r"\\\| ?(.+?) ?\\\|", r"lr(| \1 |)", typst)
 
 
 def _bare(markup: str, target: Target) -> str:

@@ -21,7 +21,8 @@ def mend(math: str) -> str:
     r"""Mend one formula.
 
     The TeX repeated inside it goes. ``\mathbf`` is upright, as in print. Accents don't stretch. A prime, which the math
-    font draws raised, isn't raised again. Function names get the thin spaces that TeX gives them.
+    font draws raised, isn't raised again. The rows of ``aligned`` are in display style. Function names get the thin
+    spaces that TeX gives them. How cells are aligned is left to the stylesheet, since browsers differ.
     """
     root = ET.fromstring(math.replace(_NAMESPACE, ""))  # noqa: S314  pandoc's output, not a stranger's
     semantics = root.find("semantics")
@@ -52,6 +53,11 @@ def _mended(element: ET.Element) -> ET.Element:
         mark = element[1]
         mark.text = _ACCENTS.get(mark.text or "", mark.text)
         mark.attrib = {"stretchy": "false"}
+    if element.tag == "mtd":
+        align, tight = element.get("columnalign", "center"), "padding" in element.get("style", "")
+        element.attrib = {"class": align + " tight" * tight}
+    if element.tag == "mtable" and element.find("mtr/mtd[@class='right tight']") is not None:
+        element.set("displaystyle", "true")
     if element.tag in {"msup", "msubsup"} and (element[-1].text or " ") in _PRIMES:
         return _primed(element)
     return element

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import numpy as np
+
 from atlas.errors import AtlasError
 from atlas.report.numbers import plain
 from atlas.report.settings import Setting
@@ -15,6 +17,8 @@ def exact_particle(setting: Setting, position: Any, velocity: Any) -> Any:
     if setting.physical is None:
         raise AtlasError("this needs a field that is given as B (and E), not as B'.")
     p = setting.physical
+    if setting.frame is not None and not (setting.frame.matrix == np.eye(3)).all():
+        raise AtlasError("give B in the laboratory frame: e3 along the body's axis, B in the plane of e2 and e3.")
     return ParticleMotion(p.mu, tuple(p.E), tuple(p.B), position, velocity, p.c)
 
 
@@ -32,7 +36,7 @@ def particle(request: Request) -> Data:
     return Data(
         (Column("$t$", "s"), *(Column(f"$y_{j}$", unit) for j in (1, 2, 3))),
         tuple(zip(column([plain(t) for t in times], request.digits), *columns, strict=True)),
-        "The path of the particle, @mf10.2, in the user's frame.",
+        "The path of the particle, @mf10.2, in the laboratory frame.",
         rf"Cyclotron frequency $\omega=${frequency.tex()} s$^{{-1}}$, drift "
         rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {unit} s$^{{-1}}$. {CERTIFIED}",
     )
