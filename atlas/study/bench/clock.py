@@ -4,6 +4,7 @@ Only medians and ratios within a round are used: an absolute time on a busy mach
 """
 
 import gc
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from statistics import median
@@ -23,6 +24,20 @@ def no_collection() -> Iterator[None]:
     finally:
         if was_on:
             gc.enable()
+
+
+@contextmanager
+def one_core() -> Iterator[None]:
+    """Hold this thread to one core, where the system can: what would use several threads then uses one."""
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    cores = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(cores)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, cores)
 
 
 def once(job: Job) -> tuple[float, Any]:

@@ -18,7 +18,7 @@ from flint import ctx
 from msgspec.structs import replace
 
 from atlas.study.bench.case import FloatArray, Grid
-from atlas.study.bench.clock import Job, interleave, ratio
+from atlas.study.bench.clock import Job, interleave, one_core, ratio
 from atlas.study.bench.elementary import exact_motion, formula, frequencies, motion, turns
 from atlas.study.bench.peers import composed, lambdified
 from atlas.study.bench.record import Cost
@@ -26,6 +26,8 @@ from atlas.study.bench.reference import BITS, nearest
 
 SEED = 89
 SAMPLES = 32
+PARALLEL = 100_000
+LARGE = 1000  # from here on the time grows with the count
 NEAR, FAR = 1e8, 5e14
 STEP = 1.0 / 64
 
@@ -56,6 +58,11 @@ class Work:
     against: str = "plain_out"
     truth: Callable[[Any, float], list[Any]] | None = lambda exact, t: exact.rotation(t)
 
+    @property
+    def key(self) -> str:
+        """The name in a round."""
+        return f"{self.method}/{self.threads}"
+
     def error(self, values: FloatArray) -> float | None:
         """Return the largest error at a few of the times, spread evenly; none for what computes nothing."""
         if self.truth is None:
@@ -68,34 +75,50 @@ class Work:
 
 
 def costs(count: int, rounds: int, limit: float, before: Sequence[Cost] = ()) -> list[Cost]:
-    """Return the rows for ``count`` matrices; a job that by the rows ``before`` would exceed ``limit`` is skipped."""
-    rows, jobs, works = list[Cost](), dict[str, Job](), dict[str, tuple[Work, float | None]]()
-    pace = {(row.method, row.threads): row.nanoseconds * 1e-9 for row in before if row.nanoseconds}
+    """Return the rows for ``count`` matrices; a job that by the rows ``before`` would exceed ``limit`` is skipped.
+
+    Those on one thread are timed by turns on one core; then those on two, by turns with what they are compared to.
+    """
     with ThreadPoolExecutor(2) as pool:
-        for work in _works(count, pool):
-            row = Cost(work.method, count, work.threads, "done")
-            expected = pace.get((work.method, work.threads), 0.0) * count
-            if expected > limit:
-                rows.append(replace(row, status="skipped", note=f"would take about {expected:.2g} s"))
-                continue
-            try:
-                error = work.error(work.job())
-            except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
-                rows.append(replace(row, status="failed", note=" ".join(f"{type(raised).__name__}: {raised}".split())))
-                continue
-            key = f"{work.method}/{work.threads}"
-            jobs[key], works[key] = work.job, (work, error)
-        times = interleave(jobs, rounds)
-    for key, (work, error) in works.items():
-        seconds, fill, base = times[key], times["fill/1"], times.get(f"{work.against}/1")
-        to_plain = ratio(seconds, base) if base else None
-        each = median(seconds) / count * 1e9
-        rows.append(Cost(work.method, count, work.threads, "done", error, each, ratio(seconds, fill), to_plain))
+        works = _works(count, pool)
+        with one_core():
+            rows = _timed([work for work in works if work.threads == 1], count, rounds, limit, before)
+        return rows + _timed([work for work in works if work.threads == 2], count, rounds, limit, before, works)
+
+
+def _timed(
+    works: Sequence[Work], count: int, rounds: int, limit: float, before: Sequence[Cost], bases: Sequence[Work] = ()
+) -> list[Cost]:
+    """Grade and time works; ``bases`` holds the memory limit and the plain formula where they are not among them."""
+    rows, jobs, errors = list[Cost](), dict[str, Job](), list[tuple[Work, float | None]]()
+    pace = {
+        (row.method, row.threads): row.nanoseconds * 1e-9 for row in before if row.nanoseconds and row.count >= LARGE
+    }
+    for work in works:
+        row = Cost(work.method, count, work.threads, "done")
+        expected = pace.get((work.method, work.threads), 0.0) * count
+        if expected > limit:
+            rows.append(replace(row, status="skipped", note=f"would take about {expected:.2g} s"))
+            continue
+        try:
+            errors.append((work, work.error(work.job())))
+            jobs[work.key] = work.job
+        except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
+            rows.append(replace(row, status="failed", note=" ".join(f"{type(raised).__name__}: {raised}".split())))
+    needed = {"fill/1", *(f"{work.against}/1" for work, _ in errors)}
+    jobs |= {work.key: work.job for work in bases if work.key in needed} if errors else {}
+    times = interleave(jobs, rounds)
+    for work, error in errors:
+        seconds, base = times[work.key], times.get(f"{work.against}/1")
+        each, to_fill = median(seconds) / count * 1e9, ratio(seconds, times["fill/1"])
+        rows.append(
+            Cost(work.method, count, work.threads, "done", error, each, to_fill, ratio(seconds, base) if base else None)
+        )
     return rows
 
 
 def _works(count: int, pool: ThreadPoolExecutor) -> list[Work]:
-    """Return all jobs for ``count`` matrices; those on two threads where each has a thousand to do."""
+    """Return all jobs for ``count`` matrices; the atlas takes two threads by itself where they help."""
     generator = np.random.default_rng(SEED)
     near, far = (generator.uniform(-size, size, count) for size in (NEAR, FAR))
     grid = Grid(0.0, STEP, count)
@@ -110,9 +133,6 @@ def _works(count: int, pool: ThreadPoolExecutor) -> list[Work]:
             return out
 
         return run
-
-    def grid_part(part: slice) -> Any:
-        return made.rotation_grid(part.start * STEP, STEP, part.stop - part.start, out=out[part])
 
     works = [
         Work("fill", lambda: out.fill(1.0), near, truth=None),
@@ -129,11 +149,11 @@ def _works(count: int, pool: ThreadPoolExecutor) -> list[Work]:
         Work("third_axis", lambda: made.third_axis(near), near, truth=lambda exact, t: exact.third_axis(t)),
         Work("omega", lambda: made.angular_velocity(near), near, truth=lambda exact, t: exact.angular_velocity(t)),
     ]
-    if count >= 2000:
+    if count >= PARALLEL:
         works += [
             Work("fill", both(lambda part: out[part].fill(1.0)), near, 2, truth=None),
             Work("plain_out", both(lambda part: formula(constants, near[part], out[part])), near, 2),
-            Work("ours_out", both(lambda part: made.rotation(near[part], out=out[part])), near, 2),
-            Work("grid_out", both(grid_part), grid.times, 2),
+            Work("ours_out", lambda: made.rotation(near, out=out), near, 2),
+            Work("grid_out", lambda: made.rotation_grid(0.0, STEP, count, out=out), grid.times, 2),
         ]
     return works

@@ -17,6 +17,8 @@ TITLES = {
     "fill": "filling the memory",
 }
 
+CASES = {"elementary": "elementary motion", "ball": "charged ball", "particle": "charged particle"}
+
 LINES = {
     "ours": "main",
     "ours_out": "main",
@@ -26,13 +28,17 @@ LINES = {
     "plain_out": "second",
     "lambdify": "third",
     "rotation": "sixth",
-    "RK45": "reference",
-    "DOP853": "fourth",
-    "LSODA": "fifth",
-    "Radau": "eighth",
-    "heyoka": "third",
+    "RK45": "pole",
+    "DOP853": "fifth",
+    "LSODA": "eighth",
+    "Radau": "reference",
+    "heyoka": "fourth",
     "fill": "limit",
+    "ours_out/2": "fourth",
+    "grid_out/2": "fifth",
 }
+
+OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "third_axis")
 
 MARKS = {"ours": "start", "ours_grid": "point", "plain": "special", "lambdify": "rest", "rotation": "centre"}
 

@@ -45,7 +45,7 @@ FULL = Scope(
         tolerances=tuple(float(f"1e-{n}") for n in range(3, 15)),
         samples=1024,
         rounds=9,
-        limit=2.5,
+        limit=3.0,
     ),
     check_until=20.0,
     counts=(1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000),

@@ -44,7 +44,7 @@ def machine_line(record: Record) -> str:
 
 def _targets(record: Record) -> Table:
     rows = [(item.says, item.wanted, number(item.found), item.verdict) for item in targets(record)]
-    return Table("Limits of speed", ("what", "wanted", "found", "verdict"), tuple(rows), (machine_line(record),))
+    return Table("Limits of speed", ("what", "wanted", "found", "verdict"), tuple(rows))
 
 
 def _horizons(record: Record) -> Iterable[Table]:

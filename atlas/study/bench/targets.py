@@ -1,12 +1,16 @@
 """Is it as fast as it should be? The limits of speed, as ratios within one run, against what a record holds."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
+from atlas.study.bench.methods import OURS
 from atlas.study.bench.record import Record
 
-Verdict: TypeAlias = Literal["met", "missed", "not measured"]
+LIMIT = 4 * 2.0**-52
+"""Four ulp of 1: the accuracy that the limits of speed are for."""
+
+Verdict: TypeAlias = Literal["met", "missed", "wrong values", "not measured"]
 
 
 @dataclass(frozen=True)
@@ -20,10 +24,15 @@ class Target:
 
 
 def targets(record: Record) -> list[Target]:
-    """Return every limit with its verdict; what the record does not hold is not measured."""
+    """Return every limit with its verdict; what the record does not hold is not measured.
+
+    Speed is worth nothing where a value is wrong: then no limit is met.
+    """
     if not record.costs:
         return []
-    return [*_speed(record), *_never_slower(record), *_latency(record)]
+    every = [*_speed(record), *_never_slower(record), *_latency(record)]
+    wrong = any((cost.error or 0.0) > LIMIT for cost in record.costs if cost.method in OURS)
+    return [replace(item, verdict="wrong values") if wrong and item.found is not None else item for item in every]
 
 
 def _speed(record: Record) -> Iterator[Target]:

@@ -1,0 +1,72 @@
+"""Error against time of the closed forms and of integrators.
+
+Drawn from the stored record of the benchmark, which `make bench` renews: a method is better the further it lies to
+the lower left. An integrator is a line with one dot a tolerance, from 1e-3 to 1e-14; a closed form is a point.
+"""
+
+from collections.abc import Iterator
+
+from atlas.errors import AtlasError
+from atlas.scene.layers import Layer, Plane, Points, Scene
+from atlas.scene.words import listed, plain, title
+from atlas.study.bench.methods import MARKS
+from atlas.study.bench.methods import title as name
+from atlas.study.bench.plates import by_method, case_title, decades, line, measured, pairs, power, runs_of
+from atlas.study.bench.record import Record, Run, read
+
+
+def scene(
+    *, cases: tuple[str, ...] = ("elementary", "ball", "particle"), horizon: float = 100.0, columns: int = 1
+) -> Scene:
+    """Draw one panel for each of the cases, with all runs up to the time ``horizon``."""
+    record = read()
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            f"Largest error up to $t = {power(horizon)}$ against the time for one sample, set-up apart, for "
+            f"{listed([f'the {case_title(case)}' for case in cases])}. Each line is an integrator with one dot for "
+            "each tolerance from $10^{-3}$ to $10^{-14}$ that came through in time; each mark is a closed form, which "
+            f"has no tolerance. {measured(record)}"
+        ),
+        alt=(
+            f"{'One panel' if len(cases) == 1 else f'{len(cases)} panels'} with two logarithmic axes, the largest "
+            f"error up to t = {plain(horizon)} to the right and the time for one sample upwards: "
+            f"{listed([case_title(case) for case in cases])}. The lines of the integrators rise to the left; "
+            "the closed forms lie below them, and those of the atlas furthest to the left."
+        ),
+        panels=panels(record, cases, horizon),
+        columns=columns,
+        size=(columns * 140.0, -(-len(cases) // columns) * 84.0),
+    )
+
+
+def panels(record: Record, cases: tuple[str, ...], horizon: float) -> tuple[Plane, ...]:
+    """Draw the runs of each case up to the horizon, all on the same axes."""
+    layers = {case: tuple(drawn([run for run in runs_of(record, case) if run.horizon == horizon])) for case in cases}
+    points = [layer.points for case in cases for layer in layers[case]]
+    if not points:
+        known = dict.fromkeys(f"{run.horizon:g}" for run in record.runs)
+        raise AtlasError(f"The benchmark record has no horizon {horizon:g}; it has {', '.join(known)}.")
+    return tuple(
+        Plane(
+            layers[case],
+            x_label=f"largest error up to $t = {power(horizon)}$",
+            y_label="time for one sample (µs)",
+            x_limits=decades((x for some in points for x in some[:, 0]), 0.8, 0.5),
+            y_limits=decades((y for some in points for y in some[:, 1]), 0.5, 0.5),
+            x_scale="log",
+            y_scale="log",
+            title=case_title(case).capitalize(),
+        )
+        for case in cases
+    )
+
+
+def drawn(runs: list[Run]) -> Iterator[Layer]:
+    """Yield the line of each integrator and the mark of each closed form."""
+    for method, group in by_method(runs).items():
+        points = pairs(group, lambda run: run.error, lambda run: run.seconds / run.samples * 1e6)
+        if group[0].tolerance is None:
+            yield Points(points, MARKS.get(method, "point"), name(method))
+        else:
+            yield from line(points, method)
