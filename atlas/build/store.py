@@ -11,7 +11,7 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -65,6 +65,23 @@ class Store:
             shutil.rmtree(beside, ignore_errors=True)
         return Entry(folder, facts, new=True)
 
+    def changed(self, name: str, parts: Mapping[str, str]) -> str:
+        """Say in words which parts of a thing's key differ from those remembered under its name."""
+        try:
+            before = json.loads(self._note(name).read_text())
+        except (OSError, ValueError):
+            return "it was never made here"
+        different = [part for part, value in parts.items() if before.get(part) != value]
+        return f"changed: {', '.join(different)}" if different else "its files were lost or damaged"
+
+    def remember(self, name: str, parts: Mapping[str, str]) -> None:
+        """Remember the parts of a thing's key under its name."""
+        note = self._note(name)
+        note.parent.mkdir(parents=True, exist_ok=True)
+        beside = note.with_name(f"{note.name}.{os.getpid()}")
+        beside.write_text(json.dumps(dict(parts)))
+        beside.replace(note)
+
     def sweep(self) -> None:
         """Remove what killed builds left half-written."""
         for left in (self.root / "unfinished").glob("*"):
@@ -86,6 +103,9 @@ class Store:
             else:
                 return
         raise OSError(f"the store could not write {folder}")
+
+    def _note(self, name: str) -> Path:
+        return self.root / "names" / f"{hashlib.sha256(name.encode()).hexdigest()[:24]}.json"
 
     def _folder(self, key: str) -> Path:
         return self.root / key[:2] / key

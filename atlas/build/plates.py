@@ -1,0 +1,200 @@
+"""Figures drawn once: each under a key of all that it depends on, taken from the store or drawn, side by side.
+
+The key of a plate holds the recipe's code and that of every module of ours that it reaches, the drawing code, the data
+files it reads, its parameters, the renderer, and the versions of the libraries that draw.
+"""
+
+import multiprocessing
+import resource
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from atlas.build.sources import PACKAGE, Sources, digest
+from atlas.build.store import Store
+from atlas.places import folder
+
+DRAWERS = {"vector": ("numpy", "matplotlib"), "shaded": ("numpy", "matplotlib", "pyvista", "vtk")}
+STEM = "plate"
+
+
+@dataclass(frozen=True)
+class Request:
+    """A figure that is wanted: a recipe, its parameters, a renderer."""
+
+    recipe: str
+    renderer: str
+    parameters: Mapping[str, Any] = field(hash=False)
+
+    @property
+    def name(self) -> str:
+        """The recipe's name and what distinguishes this plate, for people."""
+        settings = ", ".join(f"{key}={value}" for key, value in self.parameters.items())
+        return f"{self.recipe}({settings})" + (" shaded" if self.renderer == "shaded" else "")
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A figure that was made: where its files are, what was noted, whether it is new; or why it failed."""
+
+    request: Request
+    folder: Path | None = None
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    new: bool = False
+    why: str = ""
+    failure: str = ""
+
+    def file(self, kind: str) -> Path:
+        """Return the path of the file for ``kind``, which is html or pdf."""
+        if self.folder is None:
+            raise FileNotFoundError(self.request.name)
+        return self.folder / str(self.facts["files"][kind])
+
+
+def key_of(request: Request, sources: Sources, gl: str | None) -> tuple[str, dict[str, str]]:
+    """Return the key of a plate and the parts that it is made of, by name."""
+    used = request.renderer if request.renderer == "vector" or gl else "vector"
+    roots = [PACKAGE / "build" / "plates.py", PACKAGE / "scene" / "style.py", PACKAGE / "render" / f"{used}.py"]
+    parts = {
+        "parameters": digest(request.parameters),
+        "recipe and kernels": sources.closure([folder("figures") / f"{request.recipe}.py"]),
+        "data": sources.closure(data_files(request.recipe)),
+        "drawing code": sources.closure(roots),
+        "libraries": digest([[name, _version(name)] for name in DRAWERS[used]]),
+        "renderer": digest([request.renderer, gl if request.renderer == "shaded" else None]),
+    }
+    return digest(request.recipe, parts), parts
+
+
+def data_files(recipe: str) -> list[Path]:
+    """Return the files that a recipe reads: those of reports/data that its source names."""
+    data = folder("reports") / "data"
+    text = (folder("figures") / f"{recipe}.py").read_text(encoding="utf-8")
+    return [path for path in sorted(data.glob("*.json")) if path.name in text or path.stem in text]
+
+
+def make(recipe: str, renderer: str, parameters: dict[str, Any], into: Path) -> dict[str, Any]:
+    """Make the scene, draw it into a folder, and return what there is to note about it."""
+    from atlas.build import meter
+    from atlas.render import draw
+    from atlas.scene import recipes
+
+    start = time.perf_counter()
+    loaded = recipes.load(recipe)
+    with meter.counting() as counts:
+        scene = loaded.scene(**parameters)
+    computed = time.perf_counter()
+    kinds = ("png",) if renderer == "shaded" else ("svg", "pdf")
+    drawn = [draw(scene, into / f"{STEM}.{kind}", renderer=renderer) for kind in kinds]  # type: ignore[arg-type]
+    if renderer == "shaded" and drawn[0].renderer == "vector":
+        drawn[0].path.unlink()
+        drawn = [draw(scene, into / f"{STEM}.{kind}") for kind in ("svg", "pdf")]
+    note = next((one.note for one in drawn if one.note), "")
+    files = {"html": drawn[0].path.name, "pdf": drawn[-1].path.name}
+    return {
+        "title": scene.title,
+        "caption": scene.caption,
+        "alt": scene.alt,
+        "size": list(scene.size),
+        "parameters": dict(scene.parameters),
+        "renderer": drawn[0].renderer,
+        "note": note,
+        "files": files,
+        "cost": {
+            "quantities": dict(sorted(counts.items())),
+            "points": meter.points(scene),
+            "faces": meter.faces(scene),
+            "compute_s": computed - start,
+            "draw_s": time.perf_counter() - computed,
+            "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+            "bytes": sum((into / name).stat().st_size for name in set(files.values())),
+        },
+    }
+
+
+def plates(
+    requests: Sequence[Request],
+    store: Store,
+    sources: Sources,
+    *,
+    gl: str | None,
+    jobs: int = 1,
+    tell: Callable[[int, int, str], None] = lambda _done, _total, _what: None,
+) -> Iterator[Plate]:
+    """Go through the plates of the requests as they are ready, each taken from the store or drawn.
+
+    With ``jobs`` > 1 they are drawn side by side, by processes that live as long as there is work, so that each loads
+    the drawing libraries once. A plate that fails is returned with the reason and does not stop the others.
+    """
+    waiting: list[tuple[Request, str, str]] = []
+    done = 0
+    for request in requests:
+        key, parts = key_of(request, sources, gl)
+        entry = store.take(key)
+        if entry is None:
+            waiting.append((request, key, store.changed(request.name, parts)))
+        else:
+            done += 1
+            yield Plate(request, entry.folder, entry.facts, new=False, why="nothing it depends on has changed")
+        store.remember(request.name, parts)
+    tell(done, len(requests), "")
+    for plate in _drawn(waiting, store, jobs):
+        done += 1
+        tell(done, len(requests), plate.request.recipe)
+        yield plate
+
+
+def _drawn(waiting: list[tuple[Request, str, str]], store: Store, jobs: int) -> Iterator[Plate]:
+    """Draw what is not in the store: here, or in processes of their own; shaded plates first, they take longest."""
+    waiting.sort(key=lambda item: item[0].renderer != "shaded")
+    if jobs == 1 or len(waiting) < 2:
+        for request, key, why in waiting:
+            yield _plate(
+                request, why, _into_store(store.root, key, request.recipe, request.renderer, request.parameters)
+            )
+        return
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(min(jobs, len(waiting)), mp_context=context) as pool:
+        running: dict[Future[Any], tuple[Request, str]] = {
+            pool.submit(_into_store, store.root, key, request): (request, why) for request, key, why in waiting
+        }
+        while running:
+            finished, _ = wait(running, return_when=FIRST_COMPLETED)
+            for future in finished:
+                request, why = running.pop(future)
+                try:
+                    outcome = future.result()
+                except Exception as error:  # noqa: BLE001  a process that died takes its figure along, not the build
+                    outcome = f"{type(error).__name__}: {error}"
+                yield _plate(request, why, outcome)
+
+
+def _into_store(root: Path, key: str, request: Request) -> Any:
+    """Draw one plate into the store; return its folder and facts, or in one sentence why it failed."""
+    try:
+        entry = Store(root).make(
+            key, lambda into: make(request.recipe, request.renderer, dict(request.parameters), into)
+        )
+    except OSError:
+        raise  # no room, or no leave to write: that is not the figure's fault
+    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
+        return f"{type(error).__name__}: {error}"
+    return entry.folder, entry.facts
+
+
+def _plate(request: Request, why: str, outcome: Any) -> Plate:
+    if isinstance(outcome, str):
+        return Plate(request, failure=" ".join(outcome.split()))
+    where, facts = outcome
+    return Plate(request, where, facts, new=True, why=why)
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "absent"
