@@ -12,7 +12,7 @@ from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.family import Window, components, graph
-from atlas.scene.words import MINUS, plain, plain_setting, tex, tex_setting, title
+from atlas.scene.words import plain, plain_setting, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 14.0
 
@@ -33,8 +33,9 @@ def scene(
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
     proper = (
         r"the proper rotation $\phi$, mf77, which is zero at rest and at $\omega_2=-2B_2$ and has its pole, dotted, at "
-        r"$\omega_2=-B_2$. (b) Their quotient, mf91: the motion repeats itself where it is rational. Dashed: the free body "
-        rf"that precesses as fast about the same axis, mf92, with $\phi/k={tex(free)}$."
+        r"$\omega_2=-B_2$. (b) Their quotient, mf91: the motion repeats itself where it is rational. Dashed: the free "
+        r"body "
+        rf"that precesses as fast about the same axis, mf92, with $\phi/k{tex_equals(free)}$."
         if free
         else r"the proper rotation $\phi$, mf77, which is zero on the whole curve. (b) Their quotient, mf91."
     )
@@ -45,10 +46,12 @@ def scene(
             rf"$k=\omega_2/\hat B_2$ about the field and {proper}"
         ),
         alt=(
-            f"Two panels over omega 2 for {plain_setting(ratio, field)}: the frequency of precession k, a straight line "
+            f"Two panels over omega 2 for {plain_setting(ratio, field)}: the frequency of precession k, a straight "
+            f"line "
             "through zero, with the frequency of proper rotation phi, "
             + (
-                f"two branches with a pole at omega 2 = {plain(-B2)} and zeros at 0 and {plain(-2 * B2)}; and the quotient "
+                f"two branches with a pole at omega 2 = {plain(-B2)} and zeros at 0 and {plain(-2 * B2)}; and the "
+                f"quotient "
                 f"phi over k, two branches that level out at {plain(free)}, the value of the free body."
                 if free
                 else "which is zero throughout; and the quotient phi over k, zero too."
@@ -114,6 +117,4 @@ def quotients(field: tuple[float, float], ends: tuple[float, float], free: float
         layers.append(Curve(view.level(0.0), "main"))
     layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))
     layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))
-    return Plane(
-        tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient"
-    )
+    return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient")

@@ -131,7 +131,9 @@ def alt(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, floa
     view = components(field)
     shape = "two branches of a hyperbola" if all(view) and body_name(ratio) != "ball" else "straight lines"
     unstable_words = (
-        "Unstable are the motions with omega 2 from " + listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from") + " "
+        "Unstable are the motions with omega 2 from "
+        + listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from")
+        + " "
         "are unstable."
         if bands
         else "No part of the family is marked as unstable."

@@ -13,7 +13,7 @@ from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
 from atlas.scene.libration import Libration
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import plain, plain_setting, plain_vector, tex, tex_setting, tex_vector, title
+from atlas.scene.words import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 16.0
 
@@ -35,7 +35,7 @@ def scene(
     view = window(oscillator, (low, high), span)
     allowed = rf"{tex(low)}\le\Omega_3\le {tex(high)}"
     still = "The motion is at equilibrium: $\\Omega_3$ is constant. "
-    period = rf"It oscillates in ${allowed}$ with the period ${tex(libration.period)}$. "
+    period = rf"It oscillates in ${allowed}$ with the period $T{tex_equals(libration.period)}$. "
     spoken = "Omega 3 stays where it is" if rest else f"Omega 3 oscillates between {plain(low)} and {plain(high)}"
     return Scene(
         title=title(__doc__),

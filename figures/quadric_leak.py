@@ -16,7 +16,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.libration import Libration
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
+from atlas.scene.words import listed, plain, plain_setting, tex, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 16.0
 ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
@@ -39,7 +39,7 @@ def scene(
     librations = [Libration(start(ratio, field, number(value, "omega1"), omega2)) for value in omega1]
     law = (
         rf"dashed: the law $\lvert\omega_1B_2\rvert/\nu$ near the hyperbola, where nutation has the frequency "
-        rf"$\nu={tex(float(np.sqrt(nu2)))}$."
+        rf"$\nu{tex_equals(float(np.sqrt(nu2)))}$."
         if nu2 > 0
         else r"it does not shrink with $\omega_1$, for the point of the hyperbola with this $\omega_2$ is unstable."
     )
@@ -97,7 +97,7 @@ def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: flo
         whole = stop / libration.period
 
         def path(s: FloatArray, libration: Libration = libration) -> FloatArray:
-            return np.asarray((libration.path(s) - [0.0, libration.start]) * scale
+            return np.asarray((libration.path(s) - [0.0, libration.start]) * scale)
 
         line = curve(path, 0.0, 1.05 * whole, size, pieces=max(8, round(10 * whole))) / scale
         far = int(np.argmax(np.abs(line[line[:, 0] < 0.9 * stop, 1])))

@@ -46,15 +46,21 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency squared, "
+            rf"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
+            rf"squared, "
             rf"$\nu^2=-p'(\omega_3)$ with the cubic $p$ of mf55, along the hyperbola mf72. "
-            + (f"It is negative, and the motion unstable, on the shaded bands {where}. " if bands else "It is positive. ")
+            + (
+                f"It is negative, and the motion unstable, on the shaded bands {where}. "
+                if bands
+                else "It is positive. "
+            )
             + r"(b) Levels of $\nu^2/B_2^2$ for this body in every field, over $\tau=\lvert B_3/B_2\rvert$ and "
             r"$\lvert x\rvert=\lvert(\omega_2+B_2)/B_2\rvert$; dotted: the field of (a). "
             + (r"Shaded: unstable, for $\tau<1/(2\sqrt2)$ only." if long else r"For $I\ge1$ all motions are stable.")
         ),
         alt=(
-            f"Two panels for {plain_setting(ratio, field)}. The first shows the nutation frequency squared over omega 2, "
+            f"Two panels for {plain_setting(ratio, field)}. The first shows the nutation frequency squared over omega "
+            f"2, "
             + (f"negative from {spoken}. " if bands else "positive throughout. ")
             + "The second is a map of its level lines over the ratio of the field components and the distance from the "
             + ("pole, with an unstable region at small ratios." if long else "pole, with no unstable region.")

@@ -13,7 +13,7 @@ from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Plane, Points, Scene
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import listed, plain, plain_vector, tex, tex_vector, title
+from atlas.scene.words import listed, plain, plain_vector, tex, tex_equals, tex_vector, title
 
 WIDTH, MARGIN = 86.0, 15.0
 
@@ -73,8 +73,9 @@ def scene(
             rf"$\mathbf{{E}}={tex_vector(E)}$ and $\mathbf{{B}}={tex_vector(B)}$, projected on the plane orthogonal to "
             rf"$\mathbf{{B}}$; $x$ runs along $[\mathbf{{E}},\mathbf{{B}}]$ and $y$ along $\mathbf{{E}}_\perp$. "
             rf"The guiding centre drifts along the dashed line with the speed "
-            rf"$v=c\lvert\mathbf{{E}}_\perp\rvert/\lvert\mathbf{{B}}\rvert={tex(v)}$, and the particle turns round it "
-            rf"with the frequency $\omega=\lvert\mu\mathbf{{B}}\rvert/c={tex(omega)}$ on a circle of radius $a$. "
+            rf"$v=c\lvert\mathbf{{E}}_\perp\rvert/\lvert\mathbf{{B}}\rvert{tex_equals(v)}$, and the particle turns "
+            rf"round it "
+            rf"with the frequency $\omega=\lvert\mu\mathbf{{B}}\rvert/c{tex_equals(omega)}$ on a circle of radius $a$. "
             r"It starts at the large dot; small dots mark whole turns. "
             r"All panels have one scale."
         ),

@@ -5,12 +5,16 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray, number
 from atlas.core.integrals import shape_factors
-from atlas.errors import AtlasError, DomainError
+from atlas.core.motion import components as parts
+from atlas.errors import DomainError
 from atlas.scene.sample import curve, quarter_pixel
+
+NAMES = ("B2", "B3")
 
 
 @dataclass(frozen=True)
@@ -45,11 +49,7 @@ class Window:
 
 def components(field: Any) -> tuple[float, float]:
     """Return B2 and B3 of B', of which one at least must not vanish."""
-    try:
-        B2, B3 = field
-    except (TypeError, ValueError) as error:
-        raise AtlasError(f"The field must be two components (B2, B3) of B', not {field!r}.") from error
-    B2, B3 = number(B2, "B2"), number(B3, "B3")
+    B2, B3 = (number(part, name) for part, name in zip(parts(field, NAMES, "The field"), NAMES, strict=True))
     if B2 == 0 and B3 == 0:
         raise DomainError("Without a field every omega is the start of a free motion, and no hyperbola is singled out.")
     return B2, B3
@@ -96,7 +96,7 @@ def graph(
 
         def points(s: FloatArray, side: float = side) -> FloatArray:
             omega2 = B2 * (side * np.exp(s) - 1)
-            return np.stack([omega2, function(omega2)], axis=1) * stretch
+            return np.asarray(np.stack([omega2, function(omega2)], axis=1) * stretch)
 
         box = (low * stretch, high * stretch)
         found = curve(points, float(np.log(near)), float(np.log(far)), tolerance, pieces=16, box=box) / stretch
@@ -104,18 +104,18 @@ def graph(
     return tuple(piece for piece in pieces if len(piece))
 
 
-def seen(points: FloatArray, view: Window) -> FloatArray:
+def seen(points: FloatArray, view: Window) -> NDArray[np.bool_]:
     """Tell which points of a polyline are in the window, or next to one that is."""
     low, high = view.box
-    inside = ((points >= low) & (points <= high)).all(axis=1)
+    inside = np.asarray(((points >= low) & (points <= high)).all(axis=1))
     chosen = inside.copy()
     chosen[1:] |= inside[:-1]
     chosen[:-1] |= inside[1:]
-    return np.asarray(chosen)
+    return chosen
 
 
 def unstable(ratio: Any, field: Any) -> tuple[tuple[float, float], ...]:
-    """Return the intervals of omega2 on which the family is unstable against nutation: none, one on each branch, or one."""
+    """Return the intervals of omega2 on which the family is unstable against nutation: none, one, or one a branch."""
     B2, _ = components(field)
     band = Hyperbola(ratio, field).unstable_band if B2 else None
     if band is None:
@@ -154,13 +154,13 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
     The last is the state of rest for I = 2 and lies at the pole for I = 1: then it is left out, as it is for B2 = 0 or
     B3 = 0, where nothing singles it out.
     """
-    _, one_less, two_less = shape_factors(ratio)
     B2, B3 = components(field)
+    special = Hyperbola(ratio, field).special
     found = [
-        Place("rest", "the state of rest at 0", (0.0, 0.0), "rest"),
-        Place(r"$-2\mathbf{B}'$", "the point \N{MINUS SIGN}2B'", (-2 * B2, -2 * B3), "special"),
+        Place("rest", "the state of rest at 0", special["omega2 = 0"], "rest"),
+        Place(r"$-2\mathbf{B}'$", "the point \N{MINUS SIGN}2B'", special["omega2 = -2 B2"], "special"),
     ]
-    if B2 and B3 and one_less and two_less:
-        name = r"$\omega_2=-(2-I)B_2$"
-        found.append(Place(name, "the second point with omega 3 = 0", (-two_less * B2, 0.0), "point"))
+    zero = special["omega2 = -(2-I) B2"]
+    if B2 and B3 and zero[0] not in {0.0, -B2}:
+        found.append(Place(r"$\omega_2=-(2-I)B_2$", "the second point with omega 3 = 0", zero, "point"))
     return tuple(found)

@@ -23,6 +23,11 @@ def tex(value: float) -> str:
     return power if mantissa == "1" else rf"{mantissa} \times {power}"
 
 
+def tex_equals(value: float) -> str:
+    r"""Return '=0.5', or '\approx 0.658824' where six digits are not the whole number."""
+    return f"={tex(value)}" if float(f"{value:.{DIGITS}g}") == value else rf"\approx {tex(value)}"
+
+
 def plain(value: float) -> str:
     """Return a number for a sentence without TeX, with a true minus sign."""
     return f"{value + 0.0:.{DIGITS}g}".replace("-", MINUS)

@@ -1,0 +1,123 @@
+"""Flight of a point of the body.
+
+The path y_N(t) = y_0(t) + R(t) x_N(0), as below mf29: the centre of mass flies as a charged particle, mf17, and the
+body turns about it by the elementary motion mf89. Both feel one magnetic field, B = 2 c B'/mu, mf41.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from atlas.core.elementary import ElementaryMotion
+from atlas.core.flight import Flight
+from atlas.core.inputs import FloatArray, number, positive, vector
+from atlas.core.particle import ParticleMotion
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
+from atlas.scene.camera import frame
+from atlas.scene.family import components
+from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 88.0, 16.0
+
+
+def scene(
+    *,
+    ratio: float = 1.5,
+    field: tuple[float, float] = (1.0, 2.0),
+    omega2: float = -1.5,
+    omega3: float | None = None,
+    mu: float = 1.0,
+    c: float = 1.0,
+    E: tuple[float, float, float] = (-2.0, 0.0, 0.0),
+    velocity: tuple[float, float, float] = (1.0, 0.5, 0.5),
+    point: tuple[float, float, float] = (0.0, 0.3, 0.2),
+    stop: float = 5.0,
+    unit: str = "length",
+) -> Scene:
+    """Draw the paths of the centre of mass and of the point x_N(0) = ``point``, for times from 0 to ``stop``."""
+    mu, c, stop = number(mu, "mu"), positive(c, "c"), positive(stop, "stop")
+    B2, B3 = components(field)
+    if mu == 0:
+        raise DomainError("A body with mu = 0 feels no field; give it a charge.")
+    B = 2 * c / mu * np.array([0.0, B2, B3])
+    particle = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), vector(velocity, "velocity"), c)
+    motion = ElementaryMotion(ratio, field, omega2, omega3)
+    flight = Flight(particle, motion, point)
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The flight of a point of {tex_setting(ratio, field)}, $\mu={tex(mu)}$ and $c={tex(c)}$, with "
+            rf"$\mathbf{{E}}={tex_vector(E)}$. The centre of mass starts at the origin with the velocity "
+            rf"${tex_vector(velocity)}$ and circles with the frequency $2\lvert\mathbf{{B}}'\rvert"
+            rf"{tex_equals(abs(particle.cyclotron_frequency))}$; the point starts at "
+            rf"$\mathbf{{x}}_N={tex_vector(point)}$ and is "
+            rf"carried round it by the elementary motion with $\omega_2={tex(motion.omega2)}$, "
+            rf"$k{tex_equals(motion.k)}$ and "
+            rf"$\phi{tex_equals(motion.phi)}$. (a) In space. (b) Seen along $\mathbf{{B}}$. Thin lines join the "
+            rf"centre of mass "
+            rf"to the point at equal steps of time."
+        ),
+        alt=(
+            f"Two panels with the path of a point of {plain_setting(ratio, field)} in the electric field "
+            f"{plain_vector(E)}: a curve that winds round the path of the centre of mass, drawn in space and "
+            f"projected on "
+            "the plane across the magnetic field."
+        ),
+        panels=(space(flight, B, stop), projection(flight, B, stop, unit)),
+        columns=2,
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def paths(flight: Flight, stop: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the path of the centre of mass, that of the point, and the arms between them, (M, 2, 3)."""
+    rough = flight.position(np.linspace(0.0, stop, 257))
+    size = quarter_pixel(float(np.ptp(rough, axis=0).max()), HEIGHT - MARGIN)
+    centre = curve(flight.particle.position, 0.0, stop, size, pieces=64)
+    point = curve(flight.position, 0.0, stop, size, pieces=64)
+    times = np.linspace(0.0, stop, 33)
+    return centre, point, np.stack([flight.particle.position(times), flight.position(times)], axis=1)
+
+
+def space(flight: Flight, B: FloatArray, stop: float) -> Space:
+    """Panel (a): the paths in space, with the directions of the fields in the lower left corner."""
+    view = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")
+    layers, seen = bundle(*paths(flight, stop))
+    eye = frame(view)
+    flat = seen @ eye.T
+    length = 0.3 * float(np.ptp(flat, axis=0).max())
+    corner = np.array([flat[:, 0].min(), flat[:, 1].min() - 0.5 * length, 0.0]) @ eye
+    for field, role, name in ((B, "field", r"$\mathbf{B}$"), (flight.particle.E, "electric", r"$\mathbf{E}$")):
+        if np.any(field):
+            layers.append(Arrow(corner, corner + length * field / np.linalg.norm(field), role, name))
+    return replace(view, layers=tuple(layers))
+
+
+def projection(flight: Flight, B: FloatArray, stop: float, unit: str) -> Plane:
+    """Panel (b): the paths on the plane across B; x runs along the drift [E, B], or along e1 where there is none."""
+    drifts = bool(np.cross(flight.particle.E, B).any())
+    first = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])
+    axes = np.stack([first, np.cross(B / np.linalg.norm(B), first)], axis=1)
+    centre, point, arms = (path @ axes for path in paths(flight, stop))
+    layers, _ = bundle(centre, point, arms, ("centre of mass", "point"))
+    along = r"[\mathbf{E},\mathbf{B}]" if drifts else r"\mathbf{e}_1"
+    across = r"\mathbf{E}_\perp" if drifts else r"[\hat{\mathbf{B}},\mathbf{e}_1]"
+    return Plane(
+        tuple(layers),
+        rf"along ${along}$ ({unit})",
+        rf"along ${across}$ ({unit})",
+        equal=True,
+        legend=True,
+        title=r"(b) across $\mathbf{B}$",
+    )
+
+
+def bundle(
+    centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", "")
+) -> tuple[list[Layer], FloatArray]:
+    """Return the layers of the two paths and the arms between them, and all their points."""
+    layers: list[Layer] = [Curve(arm, "guide") for arm in arms]
+    layers += [Curve(centre, "fourth", names[0]), Curve(point, "trajectory", names[1]), Points(point[:1], "start")]
+    return layers, np.concatenate([centre, point])
