@@ -1,5 +1,6 @@
 """A run of the benchmark, its record, its tables, and what becomes of methods that fail."""
 
+import os
 import socket
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,7 @@ import pytest
 from atlas.errors import AtlasError
 from atlas.study.bench import elementary, integrators
 from atlas.study.bench.case import FloatArray, Grid, Method
-from atlas.study.bench.clock import interleave, ratio
+from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.precision import Plan
 from atlas.study.bench.record import FORMAT, Cost, Machine, Record, Run, Setup, read, stored, write
 from atlas.study.bench.run import Scope, run
@@ -159,6 +160,18 @@ def test_times_by_turns() -> None:
     assert {name: len(seconds) for name, seconds in times.items()} == {"a": 4, "b": 4}
     assert ratio([1.0, 30.0, 3.0], [1.0, 1.0, 1.0]) == 3.0
     assert ratio([1.0, 30.0, 3.0], [1.0, 10.0, 1.0]) == 3.0
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_getaffinity"), reason="this system does not say which cores there are")
+def test_one_core_is_given_back() -> None:
+    """Inside, one core; afterwards, even after an error, all that there were."""
+    before = os.sched_getaffinity(0)
+    with one_core():
+        inside = os.sched_getaffinity(0)
+    assert len(inside) == 1
+    with pytest.raises(ZeroDivisionError), one_core():
+        _ = 1 / 0
+    assert os.sched_getaffinity(0) == before
 
 
 def synthetic(to_fill: float, to_plain: float, single: float, made: float, avx512: bool) -> Record:

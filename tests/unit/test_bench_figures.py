@@ -1,0 +1,108 @@
+"""The figures of the benchmark: drawn from the stored record and from nothing else."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+
+from atlas.errors import AtlasError
+from atlas.scene import recipes
+from atlas.scene.layers import Curve, Plane, Points, Scene
+from atlas.study.bench import record as records
+from atlas.study.bench.methods import LINES, MARKS, title
+
+NAMES = ("work_precision", "horizon", "cost")
+
+
+@pytest.fixture(params=NAMES)
+def scene(request: pytest.FixtureRequest) -> Scene:
+    """Return each of the three figures."""
+    return recipes.load(request.param).scene()
+
+
+def layers(scene: Scene) -> Iterator[Curve | Points]:
+    """Return everything that is drawn."""
+    for panel in scene.panels:
+        assert isinstance(panel, Plane)
+        for layer in panel.layers:
+            assert isinstance(layer, Curve | Points)
+            yield layer
+
+
+def test_everything_lies_in_view(scene: Scene) -> None:
+    """All axes are logarithmic, and every point lies within their limits."""
+    for panel in scene.panels:
+        assert isinstance(panel, Plane)
+        assert panel.x_scale == panel.y_scale == "log"
+        for layer in panel.layers:
+            for k, limits in enumerate((panel.x_limits, panel.y_limits)):
+                assert limits is not None
+                values = np.array([point[k] for point in layer.points])  # type: ignore[union-attr]
+                assert ((values >= limits[0]) & (values <= limits[1])).all()
+
+
+def test_caption_names_machine_and_date(scene: Scene) -> None:
+    """Whoever sees the figure learns where and when it was measured."""
+    record = records.read()
+    assert record.machine.processor in scene.caption
+    assert record.date in scene.caption
+    assert "$" not in scene.alt
+
+
+def test_every_pair_of_the_record_is_drawn() -> None:
+    """The diagram shows each measured run up to its horizon once, at its error and its time a sample."""
+    record = records.read()
+    for case in ("elementary", "ball", "particle"):
+        drawn = recipes.load("work_precision").scene(cases=(case,), horizon=1000.0)
+        found = {tuple(p) for layer in layers(drawn) if isinstance(layer, Points) for p in layer.points.tolist()}
+        wanted = {
+            (run.error, (run.seconds or 0.0) / run.samples * 1e6)
+            for run in record.runs
+            if run.case == case and run.horizon == 1000.0 and run.status == "done"
+        }
+        assert found == wanted
+
+
+def test_figures_follow_the_record(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Another record gives another figure: one with a tenfold error moves a decade."""
+    record = records.read()
+    runs = [msgspec.structs.replace(run, error=run.error * 10.0) if run.error else run for run in record.runs]
+    path = tmp_path / "record.json"
+    records.write(msgspec.structs.replace(record, runs=runs), path)
+    before = np.concatenate([layer.points for layer in layers(recipes.load("work_precision").scene())])
+    monkeypatch.setattr(records, "stored", lambda: path)
+    after = np.concatenate([layer.points for layer in layers(recipes.load("work_precision").scene())])
+    np.testing.assert_allclose(after[:, 0], 10.0 * before[:, 0], rtol=4e-16)
+    np.testing.assert_array_equal(after[:, 1], before[:, 1])
+
+
+def test_unknown_case_or_horizon_is_an_error() -> None:
+    """The sentence says which there are."""
+    with pytest.raises(AtlasError, match="elementary, ball, particle"):
+        recipes.load("horizon").scene(cases=("balloon",))
+    with pytest.raises(AtlasError, match="100, 1000"):
+        recipes.load("work_precision").scene(horizon=3.0)
+
+
+def test_every_method_of_the_record_has_a_name_and_a_look() -> None:
+    """No method of the record is drawn by default alone."""
+    for run in records.read().runs:
+        assert run.method in LINES
+        assert run.tolerance or (run.method in MARKS and title(run.method) != run.method)
+
+
+def test_drawing_measures_nothing() -> None:
+    """The recipes load no integrator, no compiler, no ball arithmetic: there is nothing that could measure."""
+    code = (
+        "import sys\n"
+        "from atlas.scene import recipes\n"
+        f"[recipes.load(name).scene() for name in {NAMES}]\n"
+        "heavy = {'scipy', 'sympy', 'heyoka', 'flint', 'matplotlib', 'atlas.study.bench.run'}\n"
+        "print(sorted(heavy & set(sys.modules)))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
