@@ -21,7 +21,7 @@ from atlas.study.bench.case import FloatArray, Grid
 from atlas.study.bench.clock import Job, interleave, one_core, ratio
 from atlas.study.bench.elementary import exact_motion, formula, frequencies, motion, turns
 from atlas.study.bench.peers import composed, lambdified
-from atlas.study.bench.record import Cost
+from atlas.study.bench.record import Cost, said
 from atlas.study.bench.reference import BITS, nearest
 
 SEED = 89
@@ -104,7 +104,7 @@ def _timed(
             errors.append((work, work.error(work.job())))
             jobs[work.key] = work.job
         except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
-            rows.append(replace(row, status="failed", note=" ".join(f"{type(raised).__name__}: {raised}".split())))
+            rows.append(replace(row, status="failed", note=said(raised)))
     needed = {"fill/1", *(f"{work.against}/1" for work, _ in errors)}
     jobs |= {work.key: work.job for work in bases if work.key in needed} if errors else {}
     times = interleave(jobs, rounds)

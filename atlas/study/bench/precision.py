@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from atlas.study.bench.case import Case, FloatArray, Grid, Solve, grid
 from atlas.study.bench.clock import interleave, once, ratio
 from atlas.study.bench.integrators import Integrator, TimedOutError
-from atlas.study.bench.record import Run, Setup, Status
+from atlas.study.bench.record import Run, Setup, Status, said
 from atlas.study.bench.reference import Reference, reference
 
 SHORT = 0.1
@@ -59,14 +59,14 @@ def closed(bench: Bench) -> Iterator[Setup | Run]:
             again = median(interleave({"setup": method.prepare}, bench.plan.rounds)["setup"])
             yield Setup(case.name, method.name, "done", seconds=seconds, again=again)
         except Exception as raised:  # noqa: BLE001  whatever a peer raises is what the record has to say about it
-            yield Setup(case.name, method.name, "failed", note=_said(raised))
+            yield Setup(case.name, method.name, "failed", note=said(raised))
     for horizon, g in bench.grids.items():
         errors: dict[str, float] = {}
         for name, solve in ready.items():
             try:
                 errors[name] = bench.truths[horizon].error(solve(g))
             except Exception as raised:  # noqa: BLE001  the same
-                yield Run(case.name, name, horizon, g.count, "failed", note=_said(raised))
+                yield Run(case.name, name, horizon, g.count, "failed", note=said(raised))
         jobs = {name: _job(ready[name], g) for name in errors}
         times = interleave({"base": _job(bench.plain, g)} | jobs, bench.plan.rounds)
         for name, error in errors.items():
@@ -85,7 +85,7 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
         try:
             setup, solve = once(partial(integrator.prepare, case, tolerance, plan.limit))
         except Exception as raised:  # noqa: BLE001  the same
-            yield Setup(case.name, integrator.name, "failed", tolerance, note=_said(raised))
+            yield Setup(case.name, integrator.name, "failed", tolerance, note=said(raised))
             continue
         yield Setup(case.name, integrator.name, "done", tolerance, setup)
         pace = 0.0
@@ -117,7 +117,7 @@ def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
     except TimedOutError:
         return _unmeasured(run, "timed out", f"stopped after {bench.plan.limit:g} s, so at longer horizons")
     except Exception as raised:  # noqa: BLE001  the same
-        return _unmeasured(run, "failed", _said(raised))
+        return _unmeasured(run, "failed", said(raised))
     jobs = {"base": _job(bench.plain, g)} | ({"peer": _job(solve, g)} if seconds < SHORT else {})
     times = interleave(jobs, min(3, bench.plan.rounds))
     peer = times.get("peer", [seconds] * len(times["base"]))
@@ -138,8 +138,3 @@ def _measured(run: Run, error: float, times: Sequence[float], base: Sequence[flo
 def _unmeasured(run: Run, status: Status, note: str) -> Run:
     """Keep a run that has no error and no time, with the reason."""
     return replace(run, status=status, note=note)
-
-
-def _said(error: Exception) -> str:
-    """Return what a peer raised, in one line."""
-    return " ".join(f"{type(error).__name__}: {error}".split())

@@ -164,6 +164,11 @@ def today() -> str:
     return datetime.now(UTC).date().isoformat()
 
 
+def said(error: Exception) -> str:
+    """Return what a peer raised, in one line."""
+    return " ".join(f"{type(error).__name__}: {error}".split())
+
+
 def _version(name: str) -> str:
     try:
         return version(name)
