@@ -68,14 +68,14 @@ def advice() -> str:
 
 
 def _remedy() -> str:
-    """The command that brings what is missing."""
+    """Return the command that brings what is missing."""
     if _vtk() is None:
         return f"{sys.executable} -m pip install pyvista vtk"
     return f"sudo apt-get install {' '.join(PACKAGES)}"
 
 
 def _vtk() -> str | None:
-    """The version of VTK, or None without VTK or PyVista."""
+    """Return the version of VTK, or None without VTK or PyVista."""
     try:
         return f"{version('vtk')}/{version('pyvista')}"
     except PackageNotFoundError:
@@ -83,7 +83,7 @@ def _vtk() -> str | None:
 
 
 def _candidates() -> tuple[str, ...]:
-    """What to try, best first."""
+    """Return what to try, best first."""
     if _vtk() is None:
         return ()
     return tuple(WINDOWS) if sys.platform.startswith("linux") else ("native",)

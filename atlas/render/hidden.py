@@ -24,7 +24,7 @@ _NOTHING = 1e-12
 def split(
     points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float
 ) -> list[tuple[FloatArray, bool]]:
-    """Cut a polyline (N, 3) into pieces, each with the answer to: is it visible?
+    """Cut a polyline (N, 3) into pieces, each with whether it is visible.
 
     ``towards`` is the unit vector to the eye, ``size`` that of the drawing: what is nearer than 1e-7 of it counts as
     touching.
@@ -64,7 +64,7 @@ def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray,
 
 
 def values(quadric: FloatArray, points: FloatArray) -> FloatArray:
-    """The quadratic form F(x) = (x, 1) Q (x, 1) at points (..., 3)."""
+    """Return the quadratic form F(x) = (x, 1) Q (x, 1) at points (..., 3)."""
     return _form(quadric, _lift(points), _lift(points))
 
 
@@ -74,12 +74,12 @@ def _lift(x: FloatArray, last: float = 1.0) -> FloatArray:
 
 
 def _form(quadric: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
-    """The bilinear form a.Q.b."""
+    """Return the bilinear form a.Q.b."""
     return np.einsum("...i,ij,...j->...", a, quadric, b)
 
 
 def _weight(quadric: FloatArray, points: FloatArray, size: float) -> FloatArray:
-    """The size of the terms whose sum F is, against which F counts as zero."""
+    """Return the size of the terms whose sum F is, against which F counts as zero."""
     x = np.abs(_lift(points))
     return np.maximum(_form(np.abs(quadric), x, x), np.abs(quadric[:3, :3]).max() * size * size * 1e-3)
 
@@ -166,7 +166,7 @@ def _along(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[FloatArra
 
 
 def _ratio(a: FloatArray, b: FloatArray) -> FloatArray:
-    """a / b, not a number where there is none."""
+    """Return a / b, not a number where there is none."""
     with np.errstate(all="ignore"):
         return np.where(b != 0.0, a / b, np.nan)
 

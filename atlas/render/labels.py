@@ -75,7 +75,7 @@ def _cost(
     weights: FloatArray,
     window: tuple[float, float, float, float],
 ) -> float:
-    """What a text with this centre covers: other texts, ink, and the edge of the window."""
+    """Return what a text with this centre covers: other texts, ink, and the edge of the window."""
     half = 0.5 * np.array(extent) + _AIR
     low, high = centre - half, centre + half
     cost = 0.0

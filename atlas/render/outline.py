@@ -17,7 +17,7 @@ _DIGITS = 9
 
 
 def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> FloatArray:
-    """grad F . d at points (..., 3): positive where the outer side (F > 0) faces the eye, zero on the silhouette."""
+    """Return grad F . d at points (..., 3): above zero where the outer side (F > 0) is seen."""
     return 2.0 * (points @ (quadric[:3, :3] @ towards) + quadric[:3, 3] @ towards)
 
 
@@ -47,12 +47,12 @@ def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: Fl
         slant = normal @ towards * (1.0 if bend >= 0.0 else -1.0)
         lit = normal @ light * np.where(normal @ towards >= 0.0, 1.0, -1.0)
         for band, level in zip(bands, levels, strict=True):
-            band += _edges(grid, np.minimum(slant, level - lit))
+            band.extend(_edges(grid, np.minimum(slant, level - lit)))
     return bands
 
 
 def _edges(grid: FloatArray, height: FloatArray) -> list[FloatArray]:
-    """The closed edges of the part of a mesh (M, N, 3) where the height, linear on each cell's sides, is positive."""
+    """Return the closed edges of the part of a mesh (M, N, 3) where the height, linear on each side, is positive."""
     size = float(np.abs(grid).max()) or 1.0
     places: dict[tuple[int, ...], FloatArray] = {}
     follows: defaultdict[tuple[int, ...], list[tuple[int, ...]]] = defaultdict(list)
@@ -88,7 +88,7 @@ def _edges(grid: FloatArray, height: FloatArray) -> list[FloatArray]:
 
 
 def _keep(corners: list[tuple[FloatArray, float]]) -> list[FloatArray]:
-    """The part of a cell where the height is positive."""
+    """Return the part of a cell where the height is positive."""
     kept: list[FloatArray] = []
     for (p, a), (q, b) in zip(corners, corners[1:] + corners[:1], strict=True):
         if a > 0.0:

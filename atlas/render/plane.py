@@ -1,55 +1,35 @@
 """A panel with two axes, drawn on Matplotlib axes."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from atlas.errors import AtlasError
 from atlas.render.house import SMALL_SIZE, TEXT_SIZE
 from atlas.render.labels import Tag, along, place
 from atlas.render.text import extent, typeset, write
-from atlas.scene.layers import Arrow, Curve, Image, Label, Plane, Points, Region
+from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
 from atlas.scene.style import INK, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.transforms import Transform
 
-_HEAD = 7.0
+FloatArray = NDArray[np.float64]
+
+_AREAS, _LINES, _MARKS = 1.0, 2.0, 3.0
+_FAR = 1e5
 
 
 def draw_plane(axes: "Axes", panel: Plane) -> None:
     """Draw everything but the labels; those wait until the layout is settled (see `label_plane`)."""
     _scales(axes, panel)
     for order, layer in enumerate(panel.layers):
-        zorder = 2.0 + 1e-3 * order
-        if isinstance(layer, Curve):
-            look = style(layer.role)
-            name = typeset(layer.label) if panel.legend else ""
-            (line,) = axes.plot(*layer.points.T, color=look.colour, linewidth=look.width, zorder=zorder)
-            if look.dash:
-                line.set_dashes(look.dash)
-            line.set_label(name or "_")
-        elif isinstance(layer, Points):
-            look = style(layer.role)
-            edge = INK if look.colour == "#ffffff" else look.colour
-            (marks,) = axes.plot(*np.atleast_2d(layer.points).T, linestyle="none", zorder=zorder + 1.0)
-            marks.set(marker=look.marker or "o", markersize=look.size, markerfacecolor=look.colour)
-            marks.set(
-                markeredgecolor=edge, markeredgewidth=0.7, label=(typeset(layer.label) if panel.legend else "") or "_"
-            )
-        elif isinstance(layer, Region):
-            look = style(layer.role)
-            name = typeset(layer.label) if panel.legend else ""
-            axes.fill(*layer.points.T, color=look.colour, alpha=look.fill, linewidth=0.0, zorder=1.0, label=name or "_")
-        elif isinstance(layer, Arrow):
-            look = style(layer.role)
-            arrow = {"arrowstyle": "-|>,head_width=0.16,head_length=0.42", "color": look.colour, "lw": look.width}
-            arrow |= {"shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 10.0}
-            axes.annotate("", layer.tip, layer.tail, arrowprops=arrow, zorder=zorder)
-        elif isinstance(layer, Image):
-            _image(axes, layer)
-        elif not isinstance(layer, Label):
+        if type(layer) not in _BRUSHES:
             raise AtlasError(f"a plane panel cannot hold a {type(layer).__name__}; put it in a Space")
+        _BRUSHES[type(layer)](axes, layer, bool(panel.legend), 1e-3 * order)
     axes.set_xlabel(typeset(panel.x_label))
     axes.set_ylabel(typeset(panel.y_label))
     if panel.title:
@@ -64,59 +44,114 @@ def draw_plane(axes: "Axes", panel: Plane) -> None:
         axes.legend(loc="best")
 
 
+def _name(layer: Any, keyed: bool) -> str:
+    """Return what stands in the key for a layer; an underscore keeps it out."""
+    return (typeset(layer.label) if keyed else "") or "_"
+
+
+def _curve(axes: "Axes", layer: Curve, keyed: bool, rise: float) -> None:
+    look = style(layer.role)
+    (line,) = axes.plot(*layer.points.T, color=look.colour, linewidth=look.width, zorder=_LINES + rise)
+    line.set_label(_name(layer, keyed))
+    if look.dash:
+        line.set_dashes(look.dash)
+
+
+def _points(axes: "Axes", layer: Points, keyed: bool, rise: float) -> None:
+    look = style(layer.role)
+    edge = INK if look.colour == "#ffffff" else look.colour
+    (marks,) = axes.plot(*np.atleast_2d(layer.points).T, linestyle="none", zorder=_MARKS + rise)
+    marks.set(marker=look.marker or "o", markersize=look.size, markerfacecolor=look.colour)
+    marks.set(markeredgecolor=edge, markeredgewidth=0.7, label=_name(layer, keyed))
+
+
+def _region(axes: "Axes", layer: Region, keyed: bool, rise: float) -> None:
+    look = style(layer.role)
+    (area,) = axes.fill(*layer.points.T, color=look.colour, alpha=look.fill, linewidth=0.0, zorder=_AREAS + rise)
+    area.set_label(_name(layer, keyed))
+
+
+def _arrow(axes: "Axes", layer: Arrow, _keyed: bool, rise: float) -> None:
+    look = style(layer.role)
+    shape = {"arrowstyle": "-|>,head_width=0.16,head_length=0.42", "color": look.colour, "lw": look.width}
+    shape |= {"shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 10.0}
+    axes.annotate("", layer.tip, layer.tail, arrowprops=shape, zorder=_LINES + rise)
+    axes.update_datalim(np.stack([layer.tail, layer.tip]))
+
+
+def _image(axes: "Axes", layer: Image, _keyed: bool, _rise: float) -> None:
+    from matplotlib.colors import LogNorm, Normalize
+
+    low, high = layer.limits or (None, None)
+    norm = LogNorm(low, high) if layer.scale == "log" else Normalize(low, high)
+    mesh = axes.pcolormesh(layer.x, layer.y, layer.values, norm=norm, cmap="cividis", rasterized=True, zorder=0.5)
+    bar = axes.figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30)
+    bar.set_label(typeset(layer.label))
+    bar.outline.set_linewidth(0.5)
+
+
+def _later(_axes: "Axes", _layer: Label, _keyed: bool, _rise: float) -> None:
+    """Leave a label for when the layout is settled."""
+
+
+_BRUSHES: dict[type, Callable[..., None]] = {
+    Curve: _curve,
+    Points: _points,
+    Region: _region,
+    Arrow: _arrow,
+    Image: _image,
+    Label: _later,
+}
+
+
 def label_plane(axes: "Axes", panel: Plane) -> None:
     """Place the labels of a panel whose axes have their final position."""
     from matplotlib.transforms import Affine2D
 
     figure = axes.figure
     per_point = figure.dpi / 72.0
-    requests = [request for layer in panel.layers for request in _requests(axes, layer, panel.legend)]
-    if not requests:
-        return
     to_points = axes.transData + Affine2D().scale(1.0 / per_point)
     box = axes.get_window_extent().extents / per_point
-    ink, weights = _ink(panel, to_points, box)
     tags = []
-    for text, at, offset, role in requests:
-        size = SMALL_SIZE if role == "note" else TEXT_SIZE
-        anchor = to_points.transform(np.asarray(at, dtype=float))
-        box_size = extent(figure, text, size)
-        tags.append(Tag(text, (float(anchor[0]), float(anchor[1])), offset, box_size, style(role).colour, size))
-    write(figure, tags, place(tags, ink, weights, tuple(box)))
+    for layer in panel.layers:
+        for text, at, offset, role in _requests(axes, layer, bool(panel.legend)):
+            size = SMALL_SIZE if role == "note" else TEXT_SIZE
+            x, y = to_points.transform(np.asarray(at, dtype=float))
+            tags.append(Tag(text, (float(x), float(y)), offset, extent(figure, text, size), style(role).colour, size))
+    if tags:
+        write(figure, tags, place(tags, *_ink(panel, to_points, box), tuple(box)))
 
 
-def _requests(axes, layer, legend):
+def _requests(axes: "Axes", layer: Layer, keyed: bool) -> Iterator[tuple[str, Any, tuple[float, float], str]]:
     """Yield (text, place, offset, role) for each name that a layer wants written in the panel."""
     if isinstance(layer, Label):
         yield layer.text, layer.at, layer.offset, layer.role
     elif isinstance(layer, Arrow) and layer.label:
         step = axes.transData.transform(layer.tip) - axes.transData.transform(layer.tail)
-        beyond = tuple(4.0 * step / max(float(np.hypot(*step)), 1e-9))
-        yield layer.label, layer.tip, layer.offset or beyond, layer.role
-    elif isinstance(layer, Points) and layer.label and not legend:
+        beyond = 4.0 * step / max(float(np.hypot(*step)), 1e-9)
+        yield layer.label, layer.tip, layer.offset or (float(beyond[0]), float(beyond[1])), layer.role
+    elif isinstance(layer, Image) or keyed or not layer.label:
+        return
+    elif isinstance(layer, Points):
         yield layer.label, np.atleast_2d(layer.points)[0], (4.0, 4.0), "label"
-    elif isinstance(layer, Curve) and layer.label and not legend:
-        seen = layer.points[_inside(axes, layer.points)]
+    elif isinstance(layer, Curve):
+        (x0, x1), (y0, y1) = sorted(axes.get_xlim()), sorted(axes.get_ylim())
+        x, y = layer.points.T
+        seen = layer.points[(x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)]
         if len(seen):
             yield layer.label, seen[-1], (-4.0, 4.0), layer.role
-    elif isinstance(layer, Region) and layer.label and not legend:
+    elif isinstance(layer, Region):
         yield layer.label, layer.points.mean(axis=0), (0.0, 0.0), "note"
 
 
-def _inside(axes, points):
-    """Which points lie in the window."""
-    (x0, x1), (y0, y1) = sorted(axes.get_xlim()), sorted(axes.get_ylim())
-    return (points[:, 0] >= x0) & (points[:, 0] <= x1) & (points[:, 1] >= y0) & (points[:, 1] <= y1)
-
-
-def _ink(panel, to_points, box):
+def _ink(panel: Plane, to_points: "Transform", box: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return points of all lines and marks inside the box, and how much it hurts to cover each."""
     ink, weights = [np.empty((0, 2))], [np.empty(0)]
     for layer in panel.layers:
-        if isinstance(layer, Curve | Points):
-            with np.errstate(all="ignore"):
-                seen = to_points.transform(np.atleast_2d(layer.points))
-            points = along(np.clip(seen, -1e5, 1e5)) if isinstance(layer, Curve) else seen
+        if isinstance(layer, Curve):
+            points = along(np.clip(to_points.transform(layer.points), -_FAR, _FAR))
+        elif isinstance(layer, Points):
+            points = to_points.transform(np.atleast_2d(layer.points))
         elif isinstance(layer, Arrow):
             points = along(to_points.transform(np.array([layer.tail, layer.tip])))
         else:
@@ -127,31 +162,15 @@ def _ink(panel, to_points, box):
     return np.concatenate(ink), np.concatenate(weights)
 
 
-def _scales(axes, panel):
+def _scales(axes: "Axes", panel: Plane) -> None:
     """Set the kind of each axis; a symmetric logarithm turns linear below the smallest value drawn."""
-    for which, kind in (("x", panel.x_scale), ("y", panel.y_scale)):
-        options = {}
+    drawn = [np.atleast_2d(layer.points) for layer in panel.layers if isinstance(layer, Curve | Points)]
+    for column, (kind, change) in enumerate(((panel.x_scale, axes.set_xscale), (panel.y_scale, axes.set_yscale))):
         if kind == "symlog":
-            column = 0 if which == "x" else 1
-            values = np.concatenate(
-                [np.atleast_2d(layer.points)[:, column] for layer in panel.layers if isinstance(layer, Curve | Points)]
-                or [np.ones(1)]
-            )
-            size = np.abs(values[np.isfinite(values) & (values != 0.0)])
-            options = {"linthresh": 10.0 ** np.floor(np.log10(size.min())) if size.size else 1.0}
-        if kind != "linear":
-            getattr(axes, f"set_{which}scale")(kind, **options)
+            values = np.abs(np.concatenate([np.ones(0), *(points[:, column] for points in drawn)]))
+            sizes = values[np.isfinite(values) & (values > 0.0)]
+            change("symlog", linthresh=10.0 ** np.floor(np.log10(sizes.min())) if sizes.size else 1.0)
+        elif kind == "log":
+            change("log")
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x_limits and panel.y_limits else "datalim")
-
-
-def _image(axes, layer):
-    """Draw a map with its scale of colours."""
-    from matplotlib.colors import LogNorm, Normalize
-
-    low, high = layer.limits or (None, None)
-    norm = LogNorm(low, high) if layer.scale == "log" else Normalize(low, high)
-    mesh = axes.pcolormesh(layer.x, layer.y, layer.values, norm=norm, cmap="cividis", rasterized=True, zorder=0.5)
-    bar = axes.figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30)
-    bar.set_label(typeset(layer.label))
-    bar.outline.set_linewidth(0.5)

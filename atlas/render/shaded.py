@@ -69,7 +69,7 @@ def _ink(view: Stage) -> Iterator[tuple[FloatArray, float]]:
 
 @cache
 def _plotter() -> "pv.Plotter":
-    """The one plotter: making a second costs more than all the drawing."""
+    """Return the one plotter: making a second costs more than all the drawing."""
     import pyvista as pv
 
     pv.global_theme.allow_empty_mesh = True
@@ -77,7 +77,7 @@ def _plotter() -> "pv.Plotter":
 
 
 def _picture(view: Stage, width: int, height: int) -> NDArray[np.uint8]:
-    """The shaded picture (height, width, 3)."""
+    """Return the shaded picture (height, width, 3)."""
     plotter = _plotter()
     plotter.clear()
     plotter.window_size = [_OVER * width, _OVER * height]
@@ -86,8 +86,12 @@ def _picture(view: Stage, width: int, height: int) -> NDArray[np.uint8]:
     plotter.enable_depth_peeling(_PEELS, 0.0)
     _light(plotter, view)
     solids = [solid for layer in view.panel.layers for solid in _solids(layer, view)]
-    if solids:
-        plotter.add_mesh(solids[0].append_polydata(*solids[1:]), scalars="rgb", rgb=True, render=False, **_SOLID)
+    wires = [
+        solid for surface in view.surfaces for wire in surface.wires for solid in _tubes(wire, style("wire"), view)
+    ]
+    for meshes, light in ((solids, _SOLID), (wires, {"lighting": False})):
+        if meshes:
+            plotter.add_mesh(meshes[0].append_polydata(*meshes[1:]), scalars="rgb", rgb=True, render=False, **light)
     for surface in view.surfaces:
         for sheet in _glass(surface, view):
             plotter.add_mesh(sheet, scalars="rgba", rgb=True, render=False, **_GLASS)
@@ -115,7 +119,7 @@ def _look(plotter: "pv.Plotter", view: Stage) -> None:
 
 
 def _light(plotter: "pv.Plotter", view: Stage) -> None:
-    """A studio: a key light from upper left, a broad fill from the right, a little from above and behind."""
+    """Set up a studio: a key light from upper left, a broad fill from the right, a little from behind."""
     import pyvista as pv
 
     plotter.remove_all_lights()
@@ -124,7 +128,7 @@ def _light(plotter: "pv.Plotter", view: Stage) -> None:
         (-0.55 * right + 0.75 * up + 0.9 * towards, 0.80),
         (0.9 * right + 0.15 * up + 0.8 * towards, 0.34),
         (0.1 * right + 1.0 * up - 0.5 * towards, 0.25),
-        (towards, 0.18),
+        (towards - 0.35 * up, 0.30),
     ):
         light = pv.Light(light_type="scene light", intensity=strength, color="white")
         light.position = view.centre + 10.0 * view.size * place
@@ -174,8 +178,8 @@ def _mesh(grid: FloatArray, normals: FloatArray) -> "pv.PolyData":
 def _solids(layer: Layer, view: Stage) -> Iterator["pv.PolyData"]:
     """Yield what is not glass, each with its colour at every point."""
     if isinstance(layer, Surface):
-        for points, role in [(wire, "wire") for wire in layer.wires] + [(rim, "rim") for rim in layer.rims]:
-            yield from _tubes(points, style(role), view)
+        for rim in layer.rims:
+            yield from _tubes(rim, style("rim"), view)
     elif isinstance(layer, Curve):
         yield from _tubes(layer.points, style(layer.role), view)
     elif isinstance(layer, Arrow):

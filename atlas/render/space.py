@@ -23,8 +23,8 @@ _TINT, _WIRE, _HIDDEN, _VISIBLE, _HEAD, _MARK = 1.0, 1.5, 2.0, 3.0, 5.0, 6.0
 _DASH = (2.6, 1.9)
 _TOLERANCE = 0.06
 _LIGHT = np.array([-0.45, 0.62, 0.64])
-_LEVELS = np.linspace(0.05, 0.9, 9)
-_SHADE, _DEPTH = "#1d3048", 0.028
+_LEVELS = np.linspace(0.02, 0.92, 14)
+_SHADE, _DEPTH = "#1d3048", 0.019
 HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
 
 
@@ -158,7 +158,7 @@ def head_base(tail: FloatArray, tip: FloatArray, look: Style, scale: float) -> F
 
 
 def silhouette(surface: Surface, view: Stage) -> list[FloatArray]:
-    """The curve where lines of sight graze the surface: a plane section, since grad F . d is linear."""
+    """Return the curve where lines of sight graze the surface: a plane section, since grad F . d is linear."""
     normal = surface.quadric[:3, :3] @ view.towards
     reach = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     centre = 0.5 * (reach.min(axis=0) + reach.max(axis=0))
@@ -166,6 +166,5 @@ def silhouette(surface: Surface, view: Stage) -> list[FloatArray]:
     if float(np.linalg.norm(normal)) * radius <= 1e-12 * abs(float(facing(surface.quadric, centre, view.towards))):
         return []
     distance = -float(surface.quadric[:3, 3] @ view.towards)
-    tolerance = _TOLERANCE / view.scale
-    curves = conics.section(surface.quadric, normal, distance, centre, radius, tolerance)
-    return [piece for curve in curves for piece in conics.clip(curve, surface.clip)]
+    ball = (centre, radius)
+    return conics.section(surface.quadric, normal, distance, surface.clip, ball, _TOLERANCE / view.scale)

@@ -93,7 +93,7 @@ def _parts(layer: Layer) -> Iterator[FloatArray]:
 
 
 def _tags(figure, layer: Layer, eye: FloatArray) -> Iterator[Tag]:  # noqa: ANN001  a Matplotlib figure
-    """The names that a layer wants written; their anchors are on paper at scale 1."""
+    """Yield the names that a layer wants written; their anchors are on paper at scale 1."""
     request = _request(layer, eye)
     if request is not None:
         text, at, offset, role = request
@@ -103,36 +103,34 @@ def _tags(figure, layer: Layer, eye: FloatArray) -> Iterator[Tag]:  # noqa: ANN0
 
 
 def _request(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
-    """Text, place, offset and role of a layer's name."""
+    """Return text, place, offset and role of a layer's name, if it has one."""
+    request: tuple[str, FloatArray, tuple[float, float], str] | None = None
     if isinstance(layer, Label):
-        return layer.text, layer.at, layer.offset, layer.role
-    if not layer.label:
-        return None
-    if isinstance(layer, Arrow):
+        request = layer.text, layer.at, layer.offset, layer.role
+    elif isinstance(layer, Arrow):
         step = eye[:2] @ (np.asarray(layer.tip) - np.asarray(layer.tail))
         length = float(np.hypot(*step))
         beyond = (_BEYOND * step[0] / length, _BEYOND * step[1] / length) if length else (_BEYOND, 0.0)
-        return layer.label, layer.tip, layer.offset or beyond, layer.role
-    if isinstance(layer, Points):
-        return layer.label, np.atleast_2d(layer.points)[0], (4.0, 4.0), layer.role
-    if isinstance(layer, Curve):
-        return layer.label, layer.points[-1], (4.0, 4.0), layer.role
-    if isinstance(layer, Surface):
+        request = layer.label, layer.tip, layer.offset or beyond, layer.role
+    elif isinstance(layer, Points):
+        request = layer.label, np.atleast_2d(layer.points)[0], (4.0, 4.0), layer.role
+    elif isinstance(layer, Curve):
+        request = layer.label, layer.points[-1], (4.0, 4.0), layer.role
+    elif isinstance(layer, Surface):
         points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
-        corner = points[int(np.argmax(points @ (eye[0] + eye[1])))]
-        return layer.label, corner, (3.0, 3.0), "note"
-    return None
+        request = layer.label, points[int(np.argmax(points @ (eye[0] + eye[1])))], (3.0, 3.0), "note"
+    return request if request and request[0] else None
 
 
 def _ink(role: str) -> str:
-    """The colour of a name: that of the thing, unless it would not be read on white."""
+    """Return the colour of a name: that of the thing, unless it would not be read on white."""
     colour = style(role).colour
     red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
     return colour if 0.30 * red + 0.59 * green + 0.11 * blue < 0.62 else style("label").colour
 
 
 def _fit(flat: FloatArray, tags: list[Tag], inside: FloatArray) -> float:
-    """The largest scale at which drawing and names stay inside, by bisection."""
+    """Return the largest scale at which drawing and names stay inside, by bisection."""
     span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
     low, high = 0.0, float(np.min(inside / span))
     for _ in range(40):

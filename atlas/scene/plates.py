@@ -1,7 +1,7 @@
 """What the plates of the quadric have in common: the vectors and angles of the paper's Figure Hyp around a surface."""
 
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +10,19 @@ from atlas.core.quadric import Quadric
 from atlas.scene import quadrics, solids
 from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Surface
 from atlas.scene.sample import quarter_pixel
+from atlas.scene.words import quotient
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
 E1, E2, E3 = np.eye(3)
 O = np.zeros(3)
 WIDTH = 120.0
+LEGEND = (
+    r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. In the plane of "
+    r"$\mathbf{e}_2$ and $\mathbf{e}_3$ lie $\mathbf{B}'$ and $\mathbb{I}^{-1}\mathbf{B}'$, the latter at the angle "
+    r"$\beta$ to $\mathbf{e}_2$, the canonical axes $\omega'_2$ and $\omega'_3$ through $-\mathbf{B}'$, and the "
+    r"hyperbola $\omega_1=0$ (heavy line), whose points alone are motions; the origin $O$ lies on it."
+)
 
 
 def in_plane(second: float, third: float) -> FloatArray:
@@ -33,21 +40,59 @@ def extent(quadric: Quadric, field: tuple[float, float]) -> float:
     b = float(np.hypot(*field))
     w = quadrics.sheet_axis(quadric)
     origin = abs(float(np.asarray(quadric.axes)[w] @ in_plane(*field)))
-    return origin + 0.75 * b
+    vertex = abs(float(quadric.semi_axes[w])) if quadric.kind == "two-sheet hyperboloid" else 0.0
+    return max(origin + 0.75 * b, 1.4 * vertex)
 
 
 def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = "both") -> list[Surface]:
-    """Return the drawn pieces of a quadric that has sheets: 'both', or the 'upper' alone, on which the origin lies."""
+    """Return the drawn pieces of a quadric that has sheets: 'both', or the one alone on which the 'origin' lies."""
     Q = quadrics.quadric_matrix(I, field)
     high = extent(quadric, field)
     fine = tolerance(high)
     if quadric.kind != "two-sheet hyperboloid":
         return [quadrics.sheet(quadric, Q, -high, high, fine)]
-    vertex = abs(float(quadric.semi_axes[quadrics.sheet_axis(quadric)]))
-    high = max(high, 1.5 * vertex)
-    upper = 1.0 if float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) > 0.0 else -1.0
-    spans = [(vertex, high), (-high, -vertex)][:: int(upper)]
+    w = quadrics.sheet_axis(quadric)
+    vertex = abs(float(quadric.semi_axes[w]))
+    spans = [(vertex, high), (-high, -vertex)]
+    if float(np.asarray(quadric.axes)[w] @ in_plane(*field)) < 0.0:
+        spans.reverse()
     return [quadrics.sheet(quadric, Q, *span, fine) for span in (spans if which == "both" else spans[:1])]
+
+
+def planes(field: tuple[float, float]) -> list[Layer]:
+    """Return the two planes omega_3 = 0 and omega_2 = -B2 that the quadric is for B3 = 0."""
+    B2, reach = field[0], 1.6 * abs(field[0])
+    corner = in_plane(-B2, 0.0)
+    layers: list[Layer] = []
+    for along, name in ((E2, r"$\omega_3=0$"), (E3, r"$\omega_2=-B'_2$")):
+        layers.append(solids.rectangle(corner, reach * along, reach * E1, role="surface", label=name))
+        layers.append(Curve(np.stack([corner - reach * along, corner + reach * along]), "hyperbola"))
+    return layers
+
+
+def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
+    """Return the quadric of any kind with what it holds, and the canonical axes where there are such."""
+    I, quadric = quotient(ratio), Quadric(ratio, field)
+    b = float(np.hypot(*field))
+    if quadric.kind == "plane pair":
+        return planes(field)
+    if quadric.kind == "line":
+        line = np.stack([in_plane(0.0, -2.4 * field[1]), in_plane(0.0, 1.6 * field[1])])
+        return [Curve(line, "hyperbola"), Points(-in_plane(*field)[None], "centre", r"$-\mathbf{B}'$")]
+    if quadric.kind == "all space":
+        return []
+    pieces = sheets(I, quadric, field, which)
+    return [*pieces, *hyperbolas(I, pieces, field), *canonical(quadric, 1.14 * extent(quadric, field), 0.75 * b)]
+
+
+def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
+    """Return what the paper's Figure Hyp shows: the quadric, the laboratory axes, B' and I^-1 B'."""
+    b = float(np.hypot(*field)) or 1.0
+    frame = basis((0.9 * b, 1.15 * b, 1.4 * b))
+    surface = surface_layers(ratio, field, which)
+    if not any(field):
+        return [*frame, Points(O[None], "origin", r"$O$")]
+    return [*surface, *frame, *vectors(quotient(ratio), float(np.arctan2(field[1], quotient(ratio) * field[0])), field)]
 
 
 def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:
@@ -72,13 +117,16 @@ def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
     prime, inverse = in_plane(B2, B3), in_plane(B2, B3 / I)
     radius = 0.42 * float(np.linalg.norm(inverse))
     angle = solids.arc(O, radius * E2, radius * E3, 0.0, beta, tolerance(b))
-    name = 1.0 * radius * in_plane(float(np.cos(0.5 * beta)), float(np.sin(0.5 * beta)))
     towards = in_plane(float(np.cos(0.5 * beta)), float(np.sin(0.5 * beta)))
+    inverse_name = r"\mathrm{I\!I}^{-1}\mathbf{B}'"  # mathtext's blackboard I is slanted
+    if (inverse == prime).all():
+        arrows = [Arrow(O, prime, "field", rf"$\mathbf{{B}}'={inverse_name}$")]
+    else:
+        arrows = [Arrow(O, prime, "field", r"$\mathbf{B}'$"), Arrow(O, inverse, "field_inverse", f"${inverse_name}$")]
     return [
-        Arrow(O, prime, "field", r"$\mathbf{B}'$"),
-        Arrow(O, inverse, "field_inverse", r"$\mathrm{𝕀}^{-1}\mathbf{B}'$"),
+        *arrows,
         Curve(angle, "angle"),
-        Label(name, r"$\beta$", offset=(4.0 * float(towards[1]), 4.0 * float(towards[2]))),
+        Label(radius * towards, r"$\beta$", offset=(4.0 * float(towards[1]), 4.0 * float(towards[2]))),
         Curve(np.stack([O, -prime]), "construction"),
         Points(O[None], "origin", r"$O$"),
     ]

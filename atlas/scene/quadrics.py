@@ -1,4 +1,4 @@
-"""The quadric of constant Omega_3, mf58, as surfaces to draw: sheets cut across their axis, in canonical coordinates."""
+"""The quadric of constant Omega_3, mf58, as surfaces to draw: sheets cut across their axis."""
 
 from typing import TypeAlias
 
@@ -93,8 +93,7 @@ def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatAr
     points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))
-    curves = conics.section(Q, np.array([1.0, 0.0, 0.0]), 0.0, middle, radius, tolerance)
-    return [piece for curve in curves for piece in conics.clip(curve, surface.clip)]
+    return conics.section(Q, np.array([1.0, 0.0, 0.0]), 0.0, surface.clip, (middle, radius), tolerance)
 
 
 def _ring(point, s: float, tolerance: float) -> FloatArray:  # type: ignore[no-untyped-def]  # noqa: ANN001  a closure

@@ -24,7 +24,8 @@ def across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float) -> FloatArray:
     """Return the circle around ``axis`` (unit vector), sampled to a tolerance."""
-    return arc(centre, *(radius * v for v in across(axis)), 0.0, TURN, tolerance)
+    first, second = across(axis)
+    return arc(centre, radius * first, radius * second, 0.0, TURN, tolerance)
 
 
 def arc(

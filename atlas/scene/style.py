@@ -30,8 +30,8 @@ class Style:
     """The look of a role.
 
     ``dash`` is on, off, on, off, ... in points. ``fill`` is the opacity of areas and surfaces, ``glass`` that of
-    surfaces in shaded pictures, ``back`` the colour of a surface's inner side. ``hidden`` says whether parts behind a surface are drawn (dashed). ``tube`` is the diameter in
-    shaded pictures.
+    surfaces in shaded pictures, ``back`` the colour of a surface's inner side. ``hidden`` says whether parts behind a
+    surface are drawn (dashed). ``tube`` is the diameter in shaded pictures.
     """
 
     colour: str
@@ -73,14 +73,17 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "pole": Style(GREY, 0.6, (1.2, 1.8), tube=1.0),
         "trajectory": Style(NAVY, 1.1, tube=2.6),
         "trace": Style(CRIMSON, 1.2, tube=2.8),
+        "second_trace": Style(BLUE, 0.6, tube=1.2),
+        "coil": Style("#8a5a1f", 0.5, hidden=False, tube=1.0),
+        "loop": Style("#8a5a1f", 2.0, tube=5.0),
         "precession": Style(GREEN, 0.9, tube=2.0),
         "unstable": Style(VERMILION, 1.5, tube=3.0),
         "angle": Style(SLATE, 0.6, tube=0.9),
         "construction": Style(GREY, _THIN, (3.0, 2.0), tube=0.8),
         "guide": Style(PALE, _THIN, tube=0.8),
-        "rim": Style(INK, 0.7, tube=1.4),
+        "rim": Style(INK, 0.7, tube=1.1),
         "silhouette": Style(INK, 0.9, hidden=False, tube=0.0),
-        "wire": Style("#97a1ac", 0.3, hidden=False, tube=0.4),
+        "wire": Style("#828e9b", 0.3, hidden=False, tube=0.35),
         # plotted lines, in order of importance
         "main": Style(NAVY, 1.2),
         "second": Style(CRIMSON, 1.0, (5.0, 1.6)),

@@ -1,0 +1,56 @@
+"""Laboratory system of a charged ball.
+
+The paper's Figure Ball: e3 points along B, and the angular momentum m(0) lies in the plane of e2 and e3. It goes round
+B with the Larmor frequency alpha, mf36, while the ball turns about the axis k, mf38, mf39, which lies in that plane.
+"""
+
+import numpy as np
+
+from atlas.core.ball import BallMotion
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, plates, solids
+from atlas.scene.words import plain, tex, title
+
+
+def scene(
+    *,
+    inertia: float = 1.0,
+    larmor: float = 0.8,
+    momentum: tuple[float, float] = (1.0, 0.9),
+    azimuth: float = 25.0,
+    elevation: float = 16.0,
+) -> Scene:
+    """Show a ball with ``inertia`` I0 and ``momentum`` (m2, m3) at t = 0 in a field with the frequency ``larmor``."""
+    ball = BallMotion(inertia, larmor, momentum=momentum)
+    size = float(np.hypot(*momentum))
+    radius, fine = 0.62, plates.tolerance(2.0)
+    layers: list[Layer] = [
+        solids.sphere(plates.O, radius, fine, role="ball"),
+        *plates.basis((1.6, 1.75, 2.0)),
+        Arrow(plates.O, 1.6 * plates.E3, "field", r"$\mathbf{B}$", offset=(-7.0, 0.0)),
+        Points(plates.O[None], "origin", r"$O$"),
+    ]
+    k = plates.in_plane(*ball.k_hat)
+    layers.append(Arrow(plates.O, 1.35 * k, "turn", r"$\hat{\mathbf{k}}$"))
+    if size > 0.0:
+        m2, m3 = (1.65 / size * m for m in momentum)
+        layers.append(Arrow(plates.O, plates.in_plane(m2, m3), "momentum", r"$\mathbf{m}(0)$"))
+        if m2 != 0.0:
+            layers.append(Curve(solids.circle(m3 * plates.E3, plates.E3, abs(m2), fine), "precession"))
+            quarter = np.pi / 5.0 * float(np.sign(larmor) or 1.0)
+            at = np.array([[m2 * np.sin(s), m2 * np.cos(s), m3] for s in (quarter - 0.24 * np.sign(quarter), quarter)])
+            layers.append(Arrow(at[0], at[1], "precession", r"$\mathbf{m}(t)$"))
+    m2, m3 = momentum
+    return Scene(
+        title(__doc__),
+        rf"Laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and "
+        rf"$\mathbf{{m}}(0)=(0, {tex(m2)}, {tex(m3)})$: $\mathbf{{e}}_3$ points along $\mathbf{{B}}$, and "
+        rf"$\mathbf{{m}}(0)$ "
+        r"lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. The tip of $\mathbf{m}(t)$ goes round $\mathbf{B}$ "
+        "on the "
+        r"circle, and the ball turns about $\hat{\mathbf{k}}$. Lengths are not to scale.",
+        f"A ball at the origin with inertia {plain(inertia)} and Larmor frequency {plain(larmor)}; B and e3 point "
+        "up, the "
+        f"angular momentum (0, {plain(m2)}, {plain(m3)}) in the plane e2, e3 precesses round B on a horizontal circle.",
+        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(100.0, 95.0),
+    )

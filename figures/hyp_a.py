@@ -1,0 +1,33 @@
+"""The hyperboloid of a short solenoid, upper sheet.
+
+The paper's Figure Hyp (a): the sheet of the quadric mf58 through the origin for 1 < I < 2, where it has two, mf61b.
+"""
+
+from typing import Any
+
+from atlas.core.quadric import Quadric
+from atlas.errors import DomainError
+from atlas.scene import Scene, Space, plates
+from atlas.scene.words import plain_setting, quotient, tex_setting, title
+
+
+def scene(
+    *, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, elevation: float = 14.0
+) -> Scene:
+    """Show the sheet through the origin with all that lies in the plane omega_1 = 0."""
+    if Quadric(ratio, field).kind != "two-sheet hyperboloid":
+        raise DomainError(
+            f"figure hyp_a shows a hyperboloid of two sheets, which takes I > 1 and B2, B3 both not zero, not "
+            f"I = {quotient(ratio):g} and field = {field}; figure quadric shows any kind."
+        )
+    layers = plates.quadric_layers(ratio, field, "origin")
+    return Scene(
+        title(__doc__),
+        f"Upper sheet of the hyperboloid of initial angular velocities with constant $\\Omega_3$ for "
+        f"{tex_setting(ratio, field)}. {plates.LEGEND}",
+        f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the origin "
+        "O, from "
+        "which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it at −B'.",
+        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(plates.WIDTH, 112.0),
+    )

@@ -1,0 +1,33 @@
+"""The hyperboloid of a long solenoid.
+
+The paper's Figure Hyp (b): the quadric mf58 for 0 < I < 1, where it has one sheet, mf63.
+"""
+
+from typing import Any
+
+from atlas.core.quadric import Quadric
+from atlas.errors import DomainError
+from atlas.scene import Scene, Space, plates
+from atlas.scene.words import plain_setting, quotient, tex_setting, title
+
+
+def scene(
+    *, ratio: Any = 0.5, field: tuple[float, float] = (1.0, 0.5), azimuth: float = 25.0, elevation: float = 14.0
+) -> Scene:
+    """Show the sheet with all that lies in the plane omega_1 = 0."""
+    if Quadric(ratio, field).kind != "one-sheet hyperboloid":
+        raise DomainError(
+            f"figure hyp_b shows a hyperboloid of one sheet, which takes I < 1 and B2, B3 both not zero, not "
+            f"I = {quotient(ratio):g} and field = {field}; figure quadric shows any kind."
+        )
+    layers = plates.quadric_layers(ratio, field)
+    return Scene(
+        title(__doc__),
+        f"Hyperboloid of initial angular velocities with constant $\\Omega_3$ for {tex_setting(ratio, field)}. "
+        f"{plates.LEGEND}",
+        f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
+        "−B'; both "
+        "branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",
+        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(plates.WIDTH, 125.0),
+    )

@@ -1,0 +1,36 @@
+"""The hyperboloid of a loop and its two tangent planes.
+
+For I = 2 the sheets of the quadric mf58 touch the planes omega_3 = 0, at the origin, and omega_3 = -2 B'_3, at -2 B'.
+"""
+
+from atlas.core.quadric import Quadric
+from atlas.errors import DomainError
+from atlas.scene import Points, Scene, Space, plates, solids
+from atlas.scene.words import plain_setting, tex_setting, title
+
+
+def scene(*, field: tuple[float, float] = (1.0, 0.8), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
+    """Show both sheets with the planes; ``field`` = (B2, B3) of B'."""
+    B2, B3 = field
+    if Quadric(2.0, field).kind != "two-sheet hyperboloid":
+        raise DomainError(
+            f"figure loop takes B2, B3 both not zero, not field = {field}; figure quadric shows any kind."
+        )
+    touch = plates.in_plane(-2.0 * B2, -2.0 * B3)
+    half = 1.25 * float((B2 * B2 + B3 * B3) ** 0.5)
+    planes = [
+        solids.rectangle(point, half * plates.E2, half * plates.E1, role="tangent_plane", label=name)
+        for point, name in ((plates.O, r"$\omega_3=0$"), (touch, r"$\omega_3=-2B'_3$"))
+    ]
+    touching = Points(touch[None], "special", r"$-2\mathbf{B}'$")
+    layers = [*plates.quadric_layers(2.0, field), *planes, touching]
+    return Scene(
+        title(__doc__),
+        f"Both sheets of the hyperboloid for {tex_setting(2.0, field)}, and the planes $\\omega_3=0$ and "
+        rf"$\omega_3=-2B'_3$ that they touch at $O$ and at $-2\mathbf{{B}}'$. {plates.LEGEND}",
+        f"Two bowls, the sheets of a hyperboloid, for {plain_setting(2.0, field)}; the upper rests on a horizontal "
+        "plane at "
+        "the origin, the lower hangs from another one at −2B'.",
+        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(plates.WIDTH, 108.0),
+    )

@@ -1,0 +1,61 @@
+"""Laboratory system of a symmetric body.
+
+The paper's Figure Lssc: e3 points along the third inertia axis R_3(0), and B lies in the plane of e2 and e3, so that
+B = (0, B2, B3). The body drawn is the cylindrical shell (radius 1) whose moments of inertia have the ratio I.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, plates, solids
+from atlas.scene.words import plain_setting, quotient, tex_setting, title
+
+LONGEST, TURNS_PER_RADIUS = 3.0, 7.0
+
+
+def scene(
+    *, ratio: Any = 1.2, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, elevation: float = 16.0
+) -> Scene:
+    """Show a solenoid with I = I3/I2 = ``ratio`` and the field B with the components ``field`` = (B2, B3)."""
+    I = quotient(ratio)
+    height = min(LONGEST, float(np.sqrt(max(0.0, 12.0 / I - 6.0))))  # I3/I2 of a shell is 1/(1/2 + h^2/(12 R^2))
+    fine = plates.tolerance(2.5)
+    reach = 0.5 * height
+    b = float(np.hypot(*field)) or 1.0
+    tip = plates.in_plane(*field) * (max(2.3, reach + 1.2) / b)
+    second, third = tip[1] * plates.E2, tip[2] * plates.E3
+    layers: list[Layer] = []
+    if height > 0.0:
+        shell = solids.cylinder(plates.O, plates.E3, 1.0, height, fine, role="body")
+        count = max(2, round(TURNS_PER_RADIUS * height))
+        coils = [
+            solids.circle(h * plates.E3, plates.E3, 1.0, fine) for h in np.linspace(-reach, reach, count + 1)[1:-1]
+        ]
+        layers.append(shell)
+        layers += [Curve(coil, "coil") for coil in coils]
+    else:
+        layers.append(Curve(solids.circle(plates.O, plates.E3, 1.0, fine), "loop"))
+    layers += [
+        Arrow(plates.O, 2.0 * plates.E1, "basis", r"$\mathbf{e}_1$"),
+        Arrow(plates.O, max(2.0, 1.15 * float(tip[1])) * plates.E2, "basis", r"$\mathbf{e}_2$"),
+        Arrow(plates.O, max(reach + 1.0, 1.15 * float(tip[2])) * plates.E3, "basis", r"$\mathbf{e}_3=\mathbf{R}_3(0)$"),
+        Points(plates.O[None], "origin", r"$O$"),
+    ]
+    if any(field):
+        layers += [
+            Arrow(plates.O, tip, "field", r"$\mathbf{B}$"),
+            Curve(np.stack([tip, second]), "construction"),
+            Curve(np.stack([tip, third]), "construction"),
+            Label(second, r"$B_2$", offset=(0.0, -5.0)),
+            Label(third, r"$B_3$", offset=(-5.0, 0.0)),
+        ]
+    return Scene(
+        title(__doc__),
+        f"Laboratory system for {tex_setting(ratio, field)}: $\\mathbf{{e}}_3$ is the third inertia axis "
+        r"$\mathbf{R}_3(0)$, and $\mathbf{B}$ lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$.",
+        f"A body with a vertical axis e3, and the laboratory axes e1 towards the reader and e2 to the right, for "
+        f"{plain_setting(ratio, field)}; the field leans from e3 towards e2.",
+        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(100.0, 92.0),
+    )

@@ -1,0 +1,71 @@
+"""Laboratory system of a charged particle.
+
+The paper's Figure Magn: z points along B, and E lies in the plane of y and z, so that [E, B] points along x. A path of
+the particle, mf5 and mf10, drifts along [E, B] while it goes round B and is drawn along B.
+"""
+
+import numpy as np
+
+from atlas.core.particle import ParticleMotion
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, plates
+from atlas.scene.sample import curve
+from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
+
+
+def scene(
+    *,
+    mu: float = 1.0,
+    E: tuple[float, float] = (0.12, 0.012),
+    B: float = 1.0,
+    c: float = 1.0,
+    speed: float = 0.8,
+    turns: float = 3.72,
+    azimuth: float = 32.0,
+    elevation: float = 18.0,
+) -> Scene:
+    """Show E = (0, E_y, E_z), B = (0, 0, B) and a path that starts at the origin with ``speed`` along x."""
+    if not (B and mu):
+        raise DomainError(f"figure magn needs a field B and a ratio mu that are not zero, not B = {B} and mu = {mu}.")
+    particle = ParticleMotion(mu, (0.0, *E), (0.0, 0.0, B), (0.0, 0.0, 0.0), (speed, 0.0, 0.0), c)
+    rough = particle.position(np.linspace(0.0, turns * particle.period, 200))
+    span = float(np.ptp(rough, axis=0).max()) or 1.0
+    fine = plates.tolerance(0.5 * span)
+    path = curve(particle.position, 0.0, turns * particle.period, fine, pieces=max(8, round(8 * turns)))
+    reach = 0.55 * span
+    strength = float(np.hypot(*E))
+    layers: list[Layer] = [
+        Curve(path, "trajectory"),
+        Points(path[:1], "start"),
+        Arrow(plates.O, 1.15 * reach * plates.E1, "basis", r"$x,\ \mathbf{e}_1$"),
+        Arrow(plates.O, 1.45 * reach * plates.E2, "basis", r"$y,\ \mathbf{e}_2$"),
+        Arrow(plates.O, 1.75 * reach * plates.E3, "basis", r"$z,\ \mathbf{e}_3$"),
+        Arrow(plates.O, float(np.sign(B)) * 1.3 * reach * plates.E3, "field", r"$\mathbf{B}$", offset=(7.0, 0.0)),
+    ]
+    if strength > 0.0:
+        angle = np.arctan2(E[1], E[0])
+        lean = float(angle if abs(E[0]) < 2.0 * abs(E[1]) else np.copysign(0.55, angle if E[1] else 1.0))
+        tip = 1.1 * reach * plates.in_plane(float(np.cos(lean)), float(np.sin(lean)))
+        flat, tall = tip[1] * plates.E2, tip[2] * plates.E3
+        layers += [
+            Arrow(plates.O, tip, "electric", r"$\mathbf{E}$"),
+            Arrow(plates.O, flat, "component"),
+            Arrow(flat, tip, "component"),
+            Label(0.62 * flat, r"$\mathbf{E}_{\!\perp}$", offset=(0.0, -5.0)),
+            Label(flat + 0.5 * tall, r"$\mathbf{E}_{\!\parallel}$", offset=(5.0, 0.0)),
+        ]
+    vector = tex_vector((0.0, *E))
+    return Scene(
+        title(__doc__),
+        rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and "
+        rf"$\mathbf{{B}}=(0, 0, {tex(B)})$: $z$ points along the axis of $\mathbf{{B}}$, and $\mathbf{{E}}$ lies in "
+        "the "
+        r"plane of $y$ and $z$. The path begins at the origin and drifts along $[\mathbf{E}, \mathbf{B}]$, the axis "
+        "$x$. "
+        r"The arrows of the fields are not to scale.",
+        f"Axes x towards the reader, y to the right and z up; B = {plain(B)} along z, E = {plain_vector((0.0, *E))} "
+        "in the "
+        "plane of y and z with its two components, and the spiral path of a particle that drifts along x.",
+        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(100.0, 88.0),
+    )

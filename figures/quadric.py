@@ -1,0 +1,31 @@
+"""The quadric of constant Omega_3.
+
+The surface mf58 with what the paper's Figure Hyp shows: B' and I^-1 B', the angle beta, the shifted centre -B', the
+canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on which the true motions lie, mf72.
+"""
+
+from typing import Any
+
+from atlas.core.quadric import Quadric
+from atlas.scene import Scene, Space, plates
+from atlas.scene.words import plain_setting, tex_setting, title
+
+
+def scene(
+    *, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 2.0), azimuth: float = 25.0, elevation: float = 14.0
+) -> Scene:
+    """Show the quadric of any kind; ``ratio`` = I3/I2 or a body, ``field`` = (B2, B3) of B', the view in degrees."""
+    kind = Quadric(ratio, field).kind
+    layers = plates.quadric_layers(ratio, field)
+    return Scene(
+        title(__doc__),
+        f"The quadric of initial angular velocities with constant $\\Omega_3$ is a {kind} for "
+        f"{tex_setting(ratio, field)}. "
+        f"{plates.LEGEND}",
+        f"A {kind} in the space of angular velocities, for {plain_setting(ratio, field)}, with the laboratory axes, "
+        "B', "
+        "its image under the inverse inertia tensor, the canonical axes through −B' and the hyperbola in the plane "
+        "e2, e3.",
+        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(plates.WIDTH, 130.0),
+    )
