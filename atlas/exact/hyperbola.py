@@ -21,6 +21,24 @@ class Hyperbola:
         """The value -B2 of omega2 that mf76 leaves out."""
         return -self.B2
 
+    @property
+    def asymptotes(self) -> tuple[tuple[Real, Real], tuple[Real, Real]]:
+        """Unit directions (omega2, omega3) of the asymptotes through -B': the pole's, and that of I^-1 B'."""
+        if self.B2 == 0 or self.B3 == 0:
+            raise DomainError("The curve mf72 has asymptotes only if neither B2 nor B3 is zero.")
+        size = root((self.I * self.B2) ** 2 + self.B3**2)
+        return (fmpq(0), fmpq(1)), (self.I * self.B2 / size, self.B3 / size)
+
+    @property
+    def special(self) -> dict[str, tuple[fmpq, fmpq]]:
+        """Named points (omega2, omega3): rest, -2 B', where phi = 0 too, and the other zero of omega3."""
+        zero = fmpq(0)
+        return {
+            "omega2 = 0": (zero, zero),
+            "omega2 = -2 B2": (-2 * self.B2, -2 * self.B3),
+            "omega2 = -(2-I) B2": (-(2 - self.I) * self.B2, zero),
+        }
+
     def omega3(self, omega2: Any) -> fmpq:
         """Return the ordinate omega3 of mf76: B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2))."""
         w2 = self._off_the_pole(omega2)

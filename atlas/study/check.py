@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from flint import arb, ctx, fmpq
 
+from atlas.core.body import SymmetricBody
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified, enclosed
 from atlas.exact.elementary import ElementaryMotion
@@ -153,10 +154,10 @@ def check(
     return Check(
         file=path.name,
         case=motion.case,
-        parameters={name: value for name, value in parameters.items() if value is not None},
+        parameters=_shown(parameters),
         frequencies=certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15),
         rows=len(times),
-        threshold=threshold,
+        threshold=float(threshold),
         columns=tuple(_grade(name, times, values, threshold) for name, values in errors.items()),
         drifts=drifts,
         times=times,
@@ -168,12 +169,18 @@ def check(
     )
 
 
+def _shown(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the parameters as plain numbers, a body as its two moments."""
+    body = parameters["ratio"]
+    shown: dict[str, Any] = {"inertia": [body.I2, body.I3]} if hasattr(body, "I2") else {"ratio": float(body)}
+    shown["field"] = [float(component) for component in parameters["field"]]
+    return shown | {name: float(parameters[name]) for name in ("omega2", "omega3") if parameters[name] is not None}
+
+
 def _body(given: Mapping[str, tuple[float, ...]], file: str) -> Any:
     if "inertia" in given:
         I2, I3 = given["inertia"]
-        if I2 <= 0:
-            raise AtlasError(f"{file}: the moment of inertia I2 must be positive, not {I2:g}.")
-        return fmpq(*I3.as_integer_ratio()) / fmpq(*I2.as_integer_ratio())
+        return SymmetricBody(I2, I3)
     return _needed(given, "ratio", file)[0]
 
 

@@ -220,7 +220,7 @@ def special_motion(random: Random) -> Motion:
     w2 = 0.0 if B3 else random.choice((0.0, sign(random) * size(random)))
     w3 = random.choice((0.0, sign(random) * size(random, -12, 12)))
     I = ratio(random)
-    return Motion(1.0, I, 0.0, B3, w2, w3, times((abs(w2) + abs(w3),), random))
+    return Motion(1.0, I, 0.0, B3, w2, w3, times((abs(w2) + 2 * abs(w3),), random))
 
 
 def ball_motion(random: Random) -> Ball:

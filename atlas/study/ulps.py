@@ -60,10 +60,14 @@ class Tally:
         self.worst[key] = Worst(*key, larger.ulps, larger.input, new.samples + known.samples)
 
 
+UNDERFLOW = 2.0**-1010
+"""Below it intermediate results may lose bits to underflow: errors are in ulps of this size."""
+
+
 def ulp(value: Real) -> float:
     """Return the unit in the last place of the double nearest to a number; of the largest double beyond it."""
     size = abs(approximate(value))
-    return math.ulp(size) if math.isfinite(size) else 2.0**971
+    return math.ulp(max(size, UNDERFLOW)) if math.isfinite(size) else 2.0**971
 
 
 def approximate(value: Real) -> float:
@@ -74,7 +78,7 @@ def approximate(value: Real) -> float:
     try:
         return p / q
     except OverflowError:
-        return math.copysign(math.inf, p)
+        return math.inf if p > 0 else -math.inf
 
 
 def error(found: float, true: Real, unit: float) -> float:

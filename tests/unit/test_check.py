@@ -118,9 +118,11 @@ def test_parameters_come_from_options_or_from_the_file(write: Writer) -> None:
     bare = table(["Time", "r_13"], rows, ";")
     result = check(write(bare), ratio=1.5, field=(1.0, 2.0), omega2=0.7)
     assert result.columns[0].name == "R13"
+    assert result.parameters == {"ratio": 1.5, "field": [1.0, 2.0], "omega2": 0.7}
     assert result.columns[0].worst > 15.9
     again = check(write("# solver: RK45\n# inertia: 2, 3 ; field = (1, 2)\n# omega2 = 5\n\n" + bare), omega2=0.7)
     assert again.columns[0].worst > 15.9
+    assert json.loads(json.dumps(again.record()))["parameters"]["inertia"] == [2.0, 3.0]
 
 
 def test_a_free_body_needs_its_omega3(write: Writer) -> None:

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles import closed_form, taylor
 
+from atlas.errors import DomainError
 from atlas.exact.ball import BallMotion
 from atlas.exact.digits import enclosed, numbers
 from atlas.exact.elementary import ElementaryMotion
@@ -208,6 +209,19 @@ def test_points_of_the_hyperbola_lie_on_the_quadric_and_rest_on_the_cubic(
     assert phi == ElementaryMotion(I, (B2, B3), w2).phi
     expected = Fraction(w2) ** 2 * (1 + (Fraction(B3) / Fraction(B2)) ** 2)
     assert (arb(k) ** 2).contains(fmpq(expected.numerator, expected.denominator))
+
+
+def test_special_points_and_asymptotes_of_the_hyperbola() -> None:
+    """The named points lie on the curve, where phi or omega3 vanish; far out the curve runs along its asymptote."""
+    h = Hyperbola(1.5, (1.0, -2.0))
+    for w2, w3 in h.special.values():
+        assert h.omega3(w2) == w3
+    assert h.frequencies(h.special["omega2 = -2 B2"][0])[1] == 0
+    (_, pole), (x, y) = enclosed(lambda: h.asymptotes, 80)
+    assert pole == 1
+    assert abs(arb(y / x - h.omega3(2**200) / 2**200)) < 1e-50
+    with pytest.raises(DomainError, match="asymptotes"):
+        _ = Hyperbola(1.5, (1.0, 0.0)).asymptotes
 
 
 def test_the_unstable_band_ends_where_the_stability_changes_sign() -> None:

@@ -1,0 +1,164 @@
+"""Stress: every public quantity of the kernels against its ball, on hostile inputs; the worst errors in ulps.
+
+An error is |found - true| over a unit in the last place: of 1 for the entries of a rotation matrix, of the vector's
+length for a vector, of the value itself for the rest; the truth is a ball some 2^-27 ulp wide. Inputs are exact
+doubles and are kept as hexadecimal text, so that any record can be reproduced to the bit.
+"""
+
+import json
+import math
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+from random import Random
+from typing import Any
+
+from atlas.errors import AtlasError
+from atlas.study import hostile
+from atlas.study.judges import judge_ball, judge_hyperbola, judge_motion, judge_particle, judge_quadric
+from atlas.study.ulps import Refusal, Tally, Worst
+
+RATCHET = Path(__file__).with_name("ratchet.json")
+"""The worst errors on record: they may not grow."""
+
+LIMITS: Mapping[str, float] = {
+    "R": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R13, R23 for |kt| < 1": 8, "R(0) = 1": 0,
+    "R under scaling by 2^n": 0, "third axis": 4, "k": 4, "phi": 4, "omega3": 4, "Omega": 8, "K": 8, "m": 8,
+    "beta": 4, "a2": 4, "a3": 4, "semi-axes": 4, "canonical axes": 4, "omega3 of the hyperbola": 4,
+    "k of the hyperbola": 4, "phi of the hyperbola": 4, "ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8,
+}  # fmt: skip
+"""What the kernels promise, in ulps, for each quantity that has a promise."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A stress run: what was found, from which seed, in which time."""
+
+    seed: int
+    rounds: int
+    samples: int
+    seconds: float
+    worst: tuple[Worst, ...]
+    refusals: tuple[Refusal, ...]
+
+    def by_quantity(self) -> list[Worst]:
+        """Return for each quantity its worst regime, with the samples of all regimes."""
+        found = []
+        for quantity in dict.fromkeys(w.quantity for w in self.worst):
+            rows = [w for w in self.worst if w.quantity == quantity]
+            worst = max(rows, key=lambda w: w.ulps)
+            found.append(Worst(quantity, worst.regime, worst.ulps, worst.input, sum(w.samples for w in rows)))
+        return found
+
+    def broken(self) -> list[Worst]:
+        """Return what exceeds the promise of its quantity."""
+        return [w for w in self.worst if w.ulps > LIMITS.get(w.quantity, math.inf)]
+
+    def grown(self, ratchet: Mapping[str, float]) -> list[Worst]:
+        """Return what exceeds the worst error on record; what has no record yet exceeds it."""
+        return [w for w in self.worst if w.ulps > ratchet.get(record_name(w), -1.0)]
+
+    def record(self) -> dict[str, Any]:
+        """Return the run as plain data for JSON."""
+        return {
+            "seed": self.seed,
+            "samples": self.samples,
+            "seconds": self.seconds,
+            "worst": [asdict(w) | {"limit": LIMITS.get(w.quantity)} for w in self.worst],
+            "refusals": [asdict(r) for r in self.refusals],
+        }
+
+    def table(self) -> tuple[list[str], list[list[str]]]:
+        """Return heading and rows: each quantity with its worst regime and input."""
+        heading = ["quantity", "values", "worst [ulp]", "limit", "regime", "input"]
+        rows = [
+            [
+                w.quantity,
+                f"{w.samples}",
+                f"{w.ulps:.3g}",
+                f"{LIMITS.get(w.quantity, '-')}",
+                w.regime,
+                " ".join(f"{name}={value}" for name, value in w.input.items()),
+            ]
+            for w in self.by_quantity()
+        ]
+        return heading, rows
+
+
+def stress(
+    samples: int = 1_000_000, seed: int = 0, jobs: int = 1, progress: Callable[[int, int], None] | None = None
+) -> Result:
+    """Judge at least ``samples`` values drawn from ``seed`` on ``jobs`` processes, which do not change the result.
+
+    ``progress(samples so far, samples asked for)`` is called after each round of all regimes.
+    """
+    if samples < 1 or jobs < 1:
+        raise AtlasError(f"A stress run needs at least one sample and one process, not {samples} and {jobs}.")
+    started, tally, rounds, count = time.perf_counter(), Tally(), 0, 0
+    for part in _rounds(seed, jobs):
+        tally.merge(part)
+        rounds += 1
+        count += sum(w.samples for w in part.worst.values())
+        if progress is not None:
+            progress(count, samples)
+        if count >= samples:
+            break
+    worst = tuple(tally.worst[key] for key in sorted(tally.worst))
+    return Result(seed, rounds, count, time.perf_counter() - started, worst, tuple(tally.refusals))
+
+
+def one_round(seed: int, index: int) -> Tally:
+    """Judge one motion of every regime with its quadric and hyperbola, a special one, a ball and a particle."""
+    tally = Tally()
+    random = Random(f"{seed} {index}")  # noqa: S311  reproducible, not secret
+    for regime in hostile.REGIMES:
+        motion = hostile.motion(regime, random)
+        for judge in (judge_motion, judge_hyperbola, judge_quadric):
+            judge(motion, regime, tally)
+    judge_motion(hostile.special_motion(random), "B2 = 0", tally)
+    judge_ball(hostile.ball_motion(random), tally)
+    judge_particle(hostile.particle_motion(random), tally)
+    return tally
+
+
+def record_name(worst: Worst) -> str:
+    """Return the name under which the ratchet keeps a quantity in a regime."""
+    return f"{worst.quantity} | {worst.regime}"
+
+
+def read_ratchet(path: Path = RATCHET) -> dict[str, float]:
+    """Return the worst errors on record, in ulps."""
+    return {name: float(value) for name, value in json.loads(path.read_text(encoding="utf-8")).items()}
+
+
+def write_ratchet(results: Iterable[Result], path: Path = RATCHET) -> None:
+    """Record the worst errors of some runs, rounded up to a thousandth of an ulp.
+
+    Half an ulp is on record where less was found: a correctly rounded number is as good as it gets. What must hold to
+    the bit stays at zero.
+    """
+    record: dict[str, float] = {}
+    for worst in (w for result in results for w in result.worst):
+        best = 0.5 if LIMITS.get(worst.quantity) != 0 else 0.0
+        known = record.get(record_name(worst), best)
+        record[record_name(worst)] = max(known, math.ceil(worst.ulps * 1000) / 1000)
+    path.write_text(json.dumps(dict(sorted(record.items())), indent=1) + "\n", encoding="utf-8")
+
+
+def _rounds(seed: int, jobs: int) -> Iterator[Tally]:
+    """Judge one round after the other, endlessly, in the order of their index."""
+    batch = 4 * jobs
+    if jobs == 1:
+        index = 0
+        while True:
+            yield one_round(seed, index)
+            index += 1
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        first = 0
+        while True:
+            yield from pool.map(partial(one_round, seed), range(first, first + batch))
+            first += batch

@@ -1,0 +1,185 @@
+"""The worst errors on hostile inputs stay within the promises and do not grow; a planted error is found."""
+
+import json
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb, ctx, fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+
+from atlas.core import phase
+from atlas.core.elementary import ElementaryMotion
+from atlas.errors import AtlasError
+from atlas.study import hostile
+from atlas.study.judges import judge_motion
+from atlas.study.stress import LIMITS, Result, read_ratchet, record_name, stress, write_ratchet
+from atlas.study.ulps import UNDERFLOW, Tally, error, of_length, own, ulp
+
+SHORT, SEED = 60_000, 1
+
+
+@pytest.fixture(scope="module")
+def short_run() -> Result:
+    """Run the short seeded stress run, once."""
+    return stress(SHORT, SEED)
+
+
+def test_the_short_run_keeps_every_promise(short_run: Result) -> None:
+    """No quantity exceeds its limit in ulps, and no kernel refuses an input inside the domain."""
+    assert short_run.samples >= SHORT
+    assert not short_run.broken()
+    assert not short_run.refusals
+
+
+def test_the_worst_errors_do_not_grow(short_run: Result) -> None:
+    """Every worst error of the short run is on record as at least so large."""
+    assert [(record_name(w), w.ulps) for w in short_run.grown(read_ratchet())] == []
+
+
+def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
+    """Each quantity with a limit is judged, in every regime that concerns it, and so is each regime."""
+    assert set(LIMITS) <= {w.quantity for w in short_run.worst}
+    regimes = {w.regime for w in short_run.worst if w.quantity == "k"}
+    assert regimes == {*hostile.REGIMES, "B2 = 0"}
+    clocks = {w.regime.rpartition(", ")[2] for w in short_run.worst if w.quantity == "R"}
+    assert clocks == set(hostile.CLOCKS)
+
+
+def test_the_same_seed_gives_the_same_errors() -> None:
+    """A run is reproducible, on two processes as on one, and another seed gives other inputs."""
+    first, second = stress(1, SEED), stress(1, SEED, jobs=2)
+    assert first.worst == second.worst
+    assert stress(1, SEED + 1).worst != first.worst
+
+
+def test_a_record_can_be_reproduced_from_its_hexadecimal_input(short_run: Result) -> None:
+    """The input of the worst R gives that error again, to the bit."""
+    worst = max((w for w in short_run.worst if w.quantity == "R"), key=lambda w: w.ulps)
+    x = {name: float.fromhex(value) for name, value in worst.input.items()}
+    motion = hostile.Motion(x["I2"], x["I3"], x["B2"], x["B3"], x["omega2"], x.get("omega3"), (x["t"],) * 6)
+    tally = Tally()
+    judge_motion(motion, "again", tally)
+    again = max(w.ulps for w in tally.worst.values() if w.quantity == "R")
+    assert again == pytest.approx(worst.ulps, abs=0.6)  # a lone time may take another path through a matrix product
+
+
+def test_a_phase_that_loses_its_second_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the second word of the frequencies dropped, long times break the promise by orders of magnitude."""
+    make = phase.Phases.__init__
+
+    def without_second_word(self: Any, *arguments: Any, **named: Any) -> None:
+        make(self, *arguments, **named)
+        self.words[1:] = 0.0
+
+    monkeypatch.setattr(phase.Phases, "__init__", without_second_word)
+    tally = Tally()
+    judge_motion(hostile.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
+    assert tally.worst["R", "ordinary, long times"].ulps > 1e3
+
+
+def test_a_planted_slip_in_a_scalar_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A phi that is six ulps off is reported as six ulps off."""
+    true = ElementaryMotion.phi.func
+    monkeypatch.setattr(ElementaryMotion, "phi", property(lambda self: true(self) * (1 + 6 * 2.0**-52)))
+    tally = Tally()
+    judge_motion(hostile.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
+    assert 3 <= tally.worst["phi", "ordinary"].ulps <= 13
+
+
+def test_a_refusal_is_kept_with_its_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A kernel that will not answer is on record with what it said."""
+
+    def refuse(*_: Any) -> None:
+        raise AtlasError("not today")
+
+    monkeypatch.setattr(ElementaryMotion, "rotation", refuse)
+    tally = Tally()
+    judge_motion(hostile.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
+    assert [r.reason for r in tally.refusals] == ["not today"]
+    assert "B2" in tally.refusals[0].input
+
+
+def test_a_ratchet_holds_the_worst_of_several_runs(tmp_path: Any, short_run: Result) -> None:
+    """What is written covers each run that it was made from, and nothing worse."""
+    path = tmp_path / "ratchet.json"
+    write_ratchet([short_run, stress(1, SEED + 1)], path)
+    ratchet = read_ratchet(path)
+    assert not short_run.grown(ratchet)
+    largest = max(short_run.worst, key=lambda w: w.ulps)
+    ratchet[record_name(largest)] = 0.5
+    assert short_run.grown(ratchet) == [largest]
+    assert short_run.grown({})
+
+
+def test_a_run_becomes_json_and_a_table(short_run: Result) -> None:
+    """The record reads back the same, and the table has a row a quantity."""
+    record = json.loads(json.dumps(short_run.record()))
+    assert record["seed"] == SEED
+    heading, rows = short_run.table()
+    assert {len(row) for row in rows} == {len(heading)}
+    assert len(rows) == len({w.quantity for w in short_run.worst})
+
+
+def test_no_samples_are_refused() -> None:
+    """A run needs a sample and a process."""
+    with pytest.raises(AtlasError, match="at least one sample"):
+        stress(0)
+
+
+def draws() -> Iterator[hostile.Motion]:
+    """Draw motions of every regime."""
+    random = Random(5)  # noqa: S311  reproducible, not secret
+    for _ in range(40):
+        for regime in hostile.REGIMES:
+            yield hostile.motion(regime, random)
+
+
+def test_hostile_motions_are_inside_the_domain() -> None:
+    """Every draw is a body in a field, off the pole or with its free omega3, with phases below 2^50."""
+    for motion in draws():
+        assert 0 < motion.I3 <= 2 * motion.I2
+        assert (motion.omega2 != -motion.B2) or motion.omega3 is not None
+        assert len(motion.times) == hostile.TIMES
+        assert all(map(math.isfinite, motion.times))
+
+
+def test_hostile_motions_come_within_an_ulp_of_the_special_values() -> None:
+    """Among the draws are neighbours of I = 1, of the pole, of -2 B2 and of -(2-I) B2, on both sides."""
+    offsets: dict[str, set[float]] = {"I": set(), "pole": set(), "twice": set()}
+    for m in draws():
+        offsets["I"].add((m.I3 - m.I2) / math.ulp(m.I2))
+        offsets["pole"].add((m.omega2 + m.B2) / math.ulp(m.B2))
+        offsets["twice"].add((m.omega2 + 2 * m.B2) / math.ulp(2 * m.B2))
+    for found in offsets.values():
+        assert {-1.0, 0.0, 1.0} <= found
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False), st.integers(-9, 9))
+def test_an_error_is_counted_in_units_of_the_last_place(x: float, steps: int) -> None:
+    """A float that is n steps from the true value is at most n ulps off, and as many within a binade."""
+    if abs(x) < UNDERFLOW * 2:
+        return
+    found = x
+    for _ in range(abs(steps)):
+        found = math.nextafter(found, math.copysign(math.inf, steps))
+    true = fmpq(*Fraction(x).as_integer_ratio())
+    if math.isinf(found):
+        return
+    with ctx.workprec(2200):
+        measured = own([found], [true])[0]
+    assert abs(steps) / 2 <= measured * (1 + 1e-9)
+    assert measured <= abs(steps) * (1 + 1e-9)
+
+
+def test_what_is_not_a_number_is_infinitely_wrong() -> None:
+    """NaN never passes; an infinity passes only where the number is beyond the doubles."""
+    assert error(math.nan, arb(1), 1.0) == math.inf
+    assert error(math.inf, arb(1), 1.0) == math.inf
+    assert error(math.inf, arb(10) ** 400, ulp(arb(10) ** 400)) == 0.0
+    assert of_length(np.array([3.0, 4.0 + 2.0**-50, 0.0]), [fmpq(3), fmpq(4), fmpq(0)]) == pytest.approx(1.0)
