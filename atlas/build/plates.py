@@ -153,9 +153,7 @@ def _drawn(waiting: list[tuple[Request, str, str]], store: Store, jobs: int) -> 
     waiting.sort(key=lambda item: item[0].renderer != "shaded")
     if jobs == 1 or len(waiting) < 2:
         for request, key, why in waiting:
-            yield _plate(
-                request, why, _into_store(store.root, key, request.recipe, request.renderer, request.parameters)
-            )
+            yield _plate(request, why, _into_store(store.root, key, request))
         return
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(min(jobs, len(waiting)), mp_context=context) as pool:
