@@ -61,6 +61,16 @@ def vectors(value: Any, name: str) -> FloatArray:
     return array
 
 
+def common_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the shape to which arrays of these shapes broadcast."""
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError as error:
+        raise AtlasError(
+            f"The shapes {', '.join(map(str, shapes))} of the inputs do not broadcast together."
+        ) from error
+
+
 def plain(array: Any) -> Any:
     """Return a Python float for an array without dimensions, any other array as it is."""
     return array if np.ndim(array) else float(array)

@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import plain, real, vectors
+from atlas.core.body import moments
+from atlas.core.inputs import common_shape, plain, real, vectors
 from atlas.core.integrals import Integrals, integrals, shape_factors
 from atlas.errors import AtlasError
 
@@ -50,6 +51,7 @@ class PseudoOscillator:
             raise AtlasError(f"The field must be two components (B2, B3) of B', not {field!r}.") from error
         self.B2, self.B3 = real(B2, "B2"), real(B3, "B3")
         self.omega1, self.omega2, self.omega3 = np.moveaxis(vectors(omega, "omega"), -1, 0)
+        common_shape(np.shape(moments(ratio)[1]), self.B2.shape, self.B3.shape, self.omega1.shape)
 
     @cached_property
     def integrals(self) -> Integrals:

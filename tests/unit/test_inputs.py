@@ -35,6 +35,13 @@ def test_shapes_are_kept() -> None:
     assert inputs.plain(np.ones(2)).shape == (2,)
 
 
+def test_shapes_that_do_not_broadcast_are_one_sentence() -> None:
+    """The sentence holds the shapes."""
+    assert inputs.common_shape((3, 1), (2,), ()) == (3, 2)
+    with pytest.raises(AtlasError, match=r"^The shapes \(3,\), \(2,\) [^\n]*\.$"):
+        inputs.common_shape((3,), (2,))
+
+
 @pytest.mark.parametrize(
     ("check", "value", "kind"),
     [

@@ -145,3 +145,5 @@ def test_what_is_no_field_is_one_sentence() -> None:
     for field in ((1,), 3.0, (1, 2, 3), "ab"):
         with pytest.raises(AtlasError, match=r"^[^\n]*\.$"):
             PseudoOscillator(1.5, field, (0, 1, 0))
+    with pytest.raises(AtlasError, match="broadcast"):
+        PseudoOscillator([1.5, 1.0], ([1, 2, 3], 1), (0, 1, 0))
