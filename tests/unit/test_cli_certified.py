@@ -1,0 +1,96 @@
+"""Floats and certified digits come from two floors that share no code; they must say the same."""
+
+import json
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from atlas.cli.app import atlas as command
+from tests_support import ulps_apart
+
+COMMANDS = [
+    "classify --ratio 1.5 --field 1 2",
+    "classify --ratio 2 --field -1e100 2e99",
+    "classify --ratio 0.5 --field 1 -2",
+    "classify --ratio 1 --field -3 -0.1",
+    "classify --ratio 0.3 --field 1 0",
+    "classify --ratio 0.3 --field 0 1",
+    "classify --ratio 0.3 --field 0 -1",
+    "classify --ratio 0.3 --field 0 0",
+    "classify --shape cylindrical-shell --radius 0.1 --height 0.3 --field 1e-9 1",
+    "classify --inertia 3 5 --field 1 2",
+    "hyperbola --ratio 0.5 --field 1 0.1 --count 9",
+    "hyperbola --ratio 1.9 --field -1e-3 7 --omega2 -1 0 2e-3 5e9",
+    "hyperbola --ratio 1 --field 1 2 --omega2 -0.9999999999999999",
+    "motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 2.5 -1e8",
+    "motion --ratio 0.1 --field 1e-3 -2e5 --omega2 0.7 --times 0 1e-9 2.5",
+    "motion --ratio 1 --field 1 2 --omega2 -1 --omega3 0.3 --times 0 3",
+    "motion --ratio 1.2 --field 0 2 --omega2 0 --omega3 0.3 --times 0 3",
+    "motion --ratio 1.2 --field 0 0 --omega2 0.5 --omega3 0.3 --times 0 3",
+    "motion --ratio 1.2 --field -2 0 --omega2 2 --omega3 0.3 --times 0 3",
+    "ball --inertia 2 --larmor 0.5 --momentum 0.3 -0.7 --times 0 1 1e9",
+    "ball --inertia 2 --larmor 0.5 --momentum 0 -1 --times 0 1",
+    "ball --larmor -0.5 --momentum 0 3 --times 2",
+    "particle --mu -2 --electric 0.1 0.5 -1 --magnetic 0.3 -0.2 1 --velocity 1 2 3 --times 0 1 50",
+    "particle --mu 2 --electric 0.1 0.5 -1 --velocity 1 2 3 --position 1 1 1 --times 0 1 50",
+    "particle --mu 1.7e11 --magnetic 0 0 1e-3 --electric 10 0 0 --velocity 1e5 0 0 --times 1e-9 --units si",
+    "particle --mu 5e17 --magnetic 0 0 1e2 --velocity 1e5 0 0 --times 1e-9 --units gaussian",
+]
+
+
+def answer(words: str) -> Any:
+    """Run a command inside this process and read the JSON it prints."""
+    result = CliRunner().invoke(command, [*words.split(), "--json"], catch_exceptions=False)
+    assert result.exit_code == 0, result.output
+    return json.loads(result.stdout)
+
+
+@pytest.mark.parametrize("words", COMMANDS)
+def test_floats_are_the_certified_digits_rounded(words: str) -> None:
+    """Every float in the JSON of a command is within a few ulps of the certified value under the same key."""
+    floats, texts = answer(words), answer(f"{words} --digits 25")
+    for name in ("certified_digits", "inputs"):
+        del texts[name]
+    compare(floats, texts, "")
+
+
+def compare(found: Any, certified: Any, where: str) -> None:
+    """Compare two nested records; vectors by their length, all else by its own size."""
+    assert isinstance(found, dict) == isinstance(certified, dict), where
+    if isinstance(found, dict):
+        assert found.keys() == certified.keys(), where
+        for key in found:
+            compare(found[key], certified[key], f"{where}.{key}")
+    elif isinstance(found, list):
+        assert len(found) == len(certified), where
+        if found and all(isinstance(x, float) for x in found) and all(isinstance(x, str) for x in certified):
+            size = max(abs(float(x)) for x in certified)
+            for x, text in zip(found, certified, strict=True):
+                assert ulps_apart(x, text, size) <= 8, (where, x, text)
+        else:
+            for index, pair in enumerate(zip(found, certified, strict=True)):
+                compare(*pair, f"{where}[{index}]")
+    elif isinstance(found, float) and isinstance(certified, str):
+        assert ulps_apart(found, certified, abs(float(certified))) <= 8, (where, found, certified)
+    else:
+        assert found == certified, where
+
+
+@pytest.mark.parametrize(("digits", "more"), list(pairwise([1, 5, 17, 60, 400])))
+def test_more_digits_begin_with_the_same_ones(digits: int, more: int) -> None:
+    """Asking for more digits never changes those already printed, but for the rounding of the last."""
+    words = "motion --ratio 0.3 --field 1 2 --omega2 0.7 --times 1e3"
+    few, many = (answer(f"{words} --digits {n}")["samples"][0]["R"] for n in (digits, more))
+    for i in range(3):
+        for j in range(3):
+            assert abs(float(few[i][j]) - float(many[i][j])) <= 0.51 * 10.0 ** (1 - digits) + 1e-15
+
+
+def test_decimals_are_taken_as_typed_when_asked() -> None:
+    """With --decimal, 0.1 is 1/10: the ratio enters phi and its digits end where those of a rational do."""
+    words = "motion --ratio 0.5 --field 1 1 --omega2 0.1 --digits 40"
+    # phi = B3 w2 (1-I)(w2 + 2 B2)/(I B2 (w2 + B2)) = 0.1*2.1/1.1 = 21/110
+    assert answer(f"{words} --decimal")["phi"] == "0.1909090909090909090909090909090909090909"
+    assert answer(words)["phi"] != answer(f"{words} --decimal")["phi"]
