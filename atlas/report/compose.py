@@ -1,5 +1,6 @@
 """From the records of a report to what the templates see: numbers given, citations resolved, texts collected."""
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -8,10 +9,13 @@ from atlas.errors import AtlasError
 from atlas.report import records, views
 from atlas.report.formulas import Manuscript, Target
 from atlas.report.load import nearest
-from atlas.report.numbers import Number, plain, room
+from atlas.report.numbers import MINUS, Number, plain, room
 from atlas.report.settings import Setting, setting
 from atlas.report.tables import compute
 from atlas.report.tables.model import Column, Data, Request
+
+_LABEL = re.compile(r"(?<![@\w])(mf\d+(?:\.\d)?[ab]?)\b")
+"""A label of the ledger as the captions of recipes have it; here it becomes a citation."""
 
 
 @dataclass
@@ -130,6 +134,7 @@ class _Composer:
         plate = self.plate(block)
         scene = plate.scene
         caption = block.caption or (scene.caption if scene else f"The recipe {block.recipe} failed.")
+        caption = _LABEL.sub(r"@\1", caption)
         width, height = scene.size if scene else (120.0, 30.0)
         shown = block.width or width
         name = block.id or f"{self.figures}"
@@ -245,7 +250,7 @@ def _stage(plate: views.Plate, recipe: Any) -> None:
 def _shown(value: Any) -> str:
     """Write a parameter as it was given."""
     if isinstance(value, float | int) and not isinstance(value, bool):
-        return plain(value)
+        return plain(value).replace("-", MINUS)
     if isinstance(value, tuple | list):
         return f"({', '.join(_shown(part) for part in value)})"
     return str(value)

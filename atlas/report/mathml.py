@@ -80,16 +80,26 @@ def _space_functions(parent: ET.Element) -> None:
     """Give a function name a thin space before, if a factor stands there, and after, unless a bracket opens there."""
     children = list(parent)
     for place, child in enumerate(children):
-        if child.tag != "mrow" or len(child) != 2 or child[1].text != _APPLY:
+        name = _function(child)
+        if name is None:
             continue
-        after = children[place + 1] if place + 1 < len(children) else None
-        child.remove(child[1])
-        if after is not None and after.get("form") != "prefix":
-            child.append(_thin())
-        before = children[place - 1] if place else None
+        before, after = children[place - 1] if place else None, (*children, None)[place + 1]
+        row = ET.Element("mrow")
         factor = before is not None and (before.tag in _CLOSING or before.get("form") == "postfix")
         if before is not None and factor and before.text not in _SIGNS:
-            child.insert(0, _thin())
+            row.append(_thin())
+        row.append(name)
+        if after is not None and after.get("form") != "prefix":
+            row.append(_thin())
+        parent[place] = row
+
+
+def _function(element: ET.Element) -> ET.Element | None:
+    """Return the name of a function: pandoc marks it as one, but not inside growing brackets."""
+    if element.tag == "mrow" and len(element) == 2 and element[1].text == _APPLY:
+        return element[0]
+    named = element.tag == "mi" and element.get("mathvariant") == "normal" and len(element.text or "") > 1
+    return element if named else None
 
 
 def _thin() -> ET.Element:

@@ -10,7 +10,6 @@ from atlas.core.field import Field as PhysicalField
 from atlas.core.field import LaboratoryFrame
 from atlas.core.units import System, charge_to_mass, system
 from atlas.errors import AtlasError
-from atlas.exact.body import shape_moments
 from atlas.report import records
 from atlas.report.load import nearest
 
@@ -46,6 +45,8 @@ class Setting:
             raise AtlasError("this needs a body: name one with the key 'body'.")
         if record.shape is None:
             return Moments(self.body.I2, self.body.I3)
+        from atlas.exact.body import shape_moments
+
         return Moments(*shape_moments(record.shape, **dimensions(record)))
 
     @property
@@ -57,10 +58,11 @@ class Setting:
 
     @property
     def ratio(self) -> float:
-        """I = I3/I2 as a float, for figures."""
-        if self.body is None:
-            raise AtlasError("this needs a body: name one with the key 'body'.")
-        return self.body.ratio
+        """The double nearest to the exact I = I3/I2, for figures."""
+        from atlas.exact.body import ratio_of
+
+        I = ratio_of(self.exact)
+        return int(I.p) / int(I.q)
 
 
 def body(record: records.Body) -> SymmetricBody:
