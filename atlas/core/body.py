@@ -85,48 +85,52 @@ class SymmetricBody:
     @classmethod
     def ring(cls, mass: float, radius: float) -> Self:
         """Thin ring (a loop): I3 = m R^2 = 2 I2."""
-        across = positive(mass, "mass") * _square(radius, "radius") / 2
+        across = positive(mass, "The mass") * _square(radius, "The radius") / 2
         return cls(across, 2 * across)
 
     @classmethod
     def disk(cls, mass: float, radius: float) -> Self:
         """Thin disk: I3 = m R^2/2 = 2 I2."""
-        across = positive(mass, "mass") * _square(radius, "radius") / 4
+        across = positive(mass, "The mass") * _square(radius, "The radius") / 4
         return cls(across, 2 * across)
 
     @classmethod
     def cylindrical_shell(cls, mass: float, radius: float, height: float) -> Self:
         """Open cylindrical surface (a solenoid): I3 = m R^2, I2 = m (6 R^2 + h^2)/12; I = 1 at h = R sqrt(6)."""
-        m, R2, h2 = positive(mass, "mass"), _square(radius, "radius"), _square(height, "height", zero=True)
+        m, R2, h2 = positive(mass, "The mass"), _square(radius, "The radius"), _square(height, "The height", zero=True)
         return cls(m * (R2 / 2 + h2 / 12), m * R2)
 
     @classmethod
     def solid_cylinder(cls, mass: float, radius: float, height: float) -> Self:
         """Solid cylinder: I3 = m R^2/2, I2 = m (3 R^2 + h^2)/12; I = 1 at h = R sqrt(3)."""
-        m, R2, h2 = positive(mass, "mass"), _square(radius, "radius"), _square(height, "height", zero=True)
+        m, R2, h2 = positive(mass, "The mass"), _square(radius, "The radius"), _square(height, "The height", zero=True)
         return cls(m * (R2 / 4 + h2 / 12), m * (R2 / 2))
 
     @classmethod
     def thin_rod(cls, mass: float, length: float) -> Self:
         """Rod without thickness: I2 = m l^2/12, I3 = 0. A body, but `moments` refuses it."""
-        return cls(positive(mass, "mass") * _square(length, "length") / 12, 0.0)
+        return cls(positive(mass, "The mass") * _square(length, "The length") / 12, 0.0)
 
     @classmethod
     def sphere(cls, mass: float, radius: float) -> Self:
         """Solid ball: I2 = I3 = 2 m R^2/5."""
-        moment = 2 * positive(mass, "mass") * _square(radius, "radius") / 5
+        moment = 2 * positive(mass, "The mass") * _square(radius, "The radius") / 5
         return cls(moment, moment)
 
     @classmethod
     def spherical_shell(cls, mass: float, radius: float) -> Self:
         """Hollow sphere: I2 = I3 = 2 m R^2/3."""
-        moment = 2 * positive(mass, "mass") * _square(radius, "radius") / 3
+        moment = 2 * positive(mass, "The mass") * _square(radius, "The radius") / 3
         return cls(moment, moment)
 
     @classmethod
     def spheroid(cls, mass: float, equatorial: float, polar: float) -> Self:
         """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5, `equatorial` a and `polar` c."""
-        m, a2, c2 = positive(mass, "mass"), _square(equatorial, "equatorial"), _square(polar, "polar", zero=True)
+        m, a2, c2 = (
+            positive(mass, "The mass"),
+            _square(equatorial, "The equatorial radius"),
+            _square(polar, "The polar radius", zero=True),
+        )
         return cls(m * (a2 / 5 + c2 / 5), 2 * m * (a2 / 5))
 
     @classmethod
@@ -144,12 +148,14 @@ class SymmetricBody:
 
         Raises DomainError if no two are equal, or one is negative beyond rounding.
         """
-        matrix, _ = diagonal_or_matrices(mass_matrix, "the mass matrix")
+        matrix, _ = diagonal_or_matrices(mass_matrix, "The mass matrix")
         if matrix.ndim > 2:
             raise AtlasError(f"A body has one mass matrix (3, 3) or diagonal (3,), not the shape {matrix.shape}.")
         g, vectors = np.linalg.eigh(np.diag(matrix) if matrix.ndim == 1 else matrix)
         largest = g[2]
-        if largest <= 0 or g[0] < -ROUNDING * largest:
+        if not matrix.any():
+            raise DomainError("The mass matrix is zero: all of the body is in one point, and has no rotation.")
+        if g[0] < -ROUNDING * abs(largest):
             raise DomainError(
                 f"A mass matrix is a sum of m x x^T and so not negative, but its principal values are {g}."
             )

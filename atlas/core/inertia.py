@@ -10,6 +10,9 @@ from atlas.errors import AtlasError, DomainError
 ROUNDING = 16 * float(np.finfo(float).eps)
 """An eigenvalue of a mass matrix below this part of the largest one is zero, rounded."""
 
+LARGEST = float(np.finfo(float).max) / 8
+"""Sums of elements up to this are finite."""
+
 
 def mass_matrix(inertia: Any) -> FloatArray:
     """Mass matrix g = (tr I / 2) 1 - I of inertia tensors (..., 3, 3), unchecked; see mf21."""
@@ -22,7 +25,7 @@ def mass_matrix_from_inertia(inertia: Any) -> FloatArray:
 
     `inertia` is a diagonal of shape (3,) or tensors of shape (..., 3, 3); the result has the same shape.
     """
-    tensor, trace = diagonal_or_matrices(inertia, "the inertia tensor")
+    tensor, trace = diagonal_or_matrices(inertia, "The inertia tensor")
     return trace / 2 - tensor if tensor.ndim == 1 else mass_matrix(tensor)
 
 
@@ -31,7 +34,7 @@ def inertia_from_mass_matrix(mass_matrix: Any) -> FloatArray:
 
     `mass_matrix` is a diagonal of shape (3,) or matrices of shape (..., 3, 3); the result has the same shape.
     """
-    matrix, trace = diagonal_or_matrices(mass_matrix, "the mass matrix")
+    matrix, trace = diagonal_or_matrices(mass_matrix, "The mass matrix")
     return trace - matrix if matrix.ndim == 1 else trace * np.eye(3) - matrix
 
 
@@ -40,13 +43,14 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
 
     `masses` (N,), all positive; `positions` (N, 3) in any frame and from any origin. Returns (3, 3).
     """
-    m, x = real(masses, "the masses"), real(positions, "the positions")
+    m, x = real(masses, "The masses"), real(positions, "The positions")
     if m.ndim != 1 or x.shape != (m.size, 3) or not m.size:
         raise AtlasError(f"Point masses need masses (N,) and positions (N, 3), not {m.shape} and {x.shape}.")
     if m.min() <= 0:
         raise DomainError(f"Every mass must be positive, but one is {m.min()}.")
-    x = x - (m @ x) / m.sum()
-    return np.asarray((m[:, None] * x).T @ x)
+    with np.errstate(over="ignore", invalid="ignore"):
+        x = x - (m @ x) / m.sum()
+        return real((m[:, None] * x).T @ x, "The mass matrix")
 
 
 def inertia_tensor(inertia: Any) -> FloatArray:
@@ -55,14 +59,14 @@ def inertia_tensor(inertia: Any) -> FloatArray:
     Raises DomainError unless it is positive, with each principal moment at most the sum of the others: by mf22,
     2 g1 = I2 + I3 - I1 is a sum of 2 m x^2. A plane body has equality, up to rounding.
     """
-    tensor, _ = diagonal_or_matrices(inertia, "the inertia tensor")
+    tensor, _ = diagonal_or_matrices(inertia, "The inertia tensor")
     if tensor.ndim > 2:
         raise AtlasError(f"A body has one inertia tensor (3, 3) or diagonal (3,), not the shape {tensor.shape}.")
     tensor = np.diag(tensor) if tensor.ndim == 1 else tensor
     I = np.linalg.eigvalsh(tensor)
     if I[0] <= ROUNDING * I[2]:
         raise DomainError(f"The moments of inertia must be positive, but the principal ones are {I}.")
-    if I[2] - I[1] > I[0] * (1 + ROUNDING):
+    if I[2] - I[1] > I[0] + ROUNDING * I[2]:
         raise DomainError(
             f"No body has the principal moments {I}: the largest is at most the sum of the others, "
             "since 2 g1 = I2 + I3 - I1 is a sum of 2 m x^2."
@@ -73,11 +77,13 @@ def inertia_tensor(inertia: Any) -> FloatArray:
 def diagonal_or_matrices(value: Any, name: str) -> tuple[FloatArray, FloatArray]:
     """Return diagonals (3,) or symmetric matrices (..., 3, 3) and their trace, shaped to broadcast."""
     tensor = real(value, name)
-    if tensor.shape == (3,):
-        return tensor, tensor.sum()
-    if tensor.shape[-2:] != (3, 3):
+    if tensor.shape != (3,) and tensor.shape[-2:] != (3, 3):
         raise AtlasError(f"{name} must be a diagonal (3,) or matrices (..., 3, 3), not of shape {tensor.shape}.")
-    size = np.abs(tensor).max(axis=(-2, -1), initial=0.0)
+    if np.abs(tensor).max(initial=0.0) > LARGEST:
+        raise DomainError(f"{name} is too large for a float: choose larger units.")
+    if tensor.ndim == 1:
+        return tensor, tensor.sum()
+    size = np.abs(tensor).max(axis=(-2, -1))
     if (np.abs(tensor - tensor.swapaxes(-2, -1)).max(axis=(-2, -1)) > ROUNDING * size).any():
         raise AtlasError(f"{name} must be symmetric.")
     return tensor, np.trace(tensor, axis1=-2, axis2=-1)[..., None, None]

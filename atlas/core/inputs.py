@@ -1,13 +1,13 @@
 """What a user typed, as float64, or one sentence that says what is wrong with it."""
 
+import reprlib
+from numbers import Number
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from atlas.errors import AtlasError, DomainError
-
-_KINDS = {"U": "text", "S": "text", "b": "true or false", "c": "a complex number"}
 
 FloatArray = NDArray[np.float64]
 
@@ -16,17 +16,23 @@ def real(value: Any, name: str) -> FloatArray:
     """Return `value` as a float64 array of any shape, finite everywhere; `-0.0` becomes `0.0`."""
     try:
         raw = np.asarray(value)
-        if raw.dtype.kind not in "iufO":
-            raise AtlasError(f"{name} must be a real number, not {_KINDS.get(raw.dtype.kind, 'this')}: {value!r}.")
-        array = raw.astype(np.float64)
+        # NumPy would read text as numbers, None as NaN and True as 1.
+        numbers = raw.dtype.kind in "iuf" or (raw.dtype.kind == "O" and all(isinstance(x, Number) for x in raw.flat))
+        array = raw.astype(np.float64) if numbers else None
     except (TypeError, ValueError, OverflowError) as error:
-        if isinstance(error, AtlasError):
-            raise
-        raise AtlasError(f"{name} must be a real number or an array of them, not {value!r}.") from error
+        raise _not_real(value, name) from error
+    if array is None:
+        raise _not_real(value, name)
     if not np.isfinite(array).all():
         worst = array[~np.isfinite(array)].flat[0]
         raise DomainError(f"{name} must be finite, but holds {worst}.")
-    return array + 0.0
+    array += 0.0
+    return array
+
+
+def _not_real(value: Any, name: str) -> AtlasError:
+    """Return the error for what is not made of numbers."""
+    return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.")
 
 
 def number(value: Any, name: str) -> float:

@@ -79,7 +79,7 @@ def system(name: str | System) -> System:
 
 def charge_to_mass(charge: Any, mass: Any) -> float:
     """Charge-to-mass ratio mu = e/m, mf1, of either sign, in units of charge over mass."""
-    return number(charge, "charge") / positive(mass, "mass")
+    return number(charge, "The charge") / positive(mass, "The mass")
 
 
 def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:

@@ -180,6 +180,15 @@ def test_inertia_and_mass_matrix_are_those_of_the_points(seed: int) -> None:
     assert np.abs(inertia_tensor(I) - I).max() == 0
 
 
+def test_a_thin_plane_body_is_a_body() -> None:
+    """A plane strip, whose largest moment is the sum of the others, is not refused for its rounding."""
+    masses, strip = np.ones(4), np.array([[1, 1e-6, 0], [-1, 1e-6, 0], [1, -1e-6, 0], [-1, -1e-6, 0]])
+    for seed in range(20):
+        turned = strip @ Rotation.random(rng=np.random.default_rng(seed)).as_matrix().T
+        inertia = inertia_from_mass_matrix(mass_matrix_of_points(masses, turned))
+        assert np.array_equal(inertia_tensor(inertia), inertia)
+
+
 def test_tensors_come_in_stacks_and_as_diagonals() -> None:
     """A stack of tensors is treated one by one; a diagonal stays a diagonal: 2 g1 = I2 + I3 - I1."""
     diagonal = np.array([2.0, 3.0, 4.0])
@@ -234,6 +243,9 @@ def test_a_ratio_above_two_is_told_why() -> None:
         lambda: SymmetricBody.from_point_masses([1, 1], [[0, 0, 0]]),
         lambda: SymmetricBody.from_point_masses([1, -1], np.eye(3)[:2]),
         lambda: SymmetricBody.from_point_masses([1], [[1, 2, 3]]),
+        lambda: SymmetricBody.from_point_masses([1e300, 1], [[1e200, 0, 0], [0, 0, 0]]),
+        lambda: SymmetricBody.from_mass_matrix([1e308, 1e308, 1e308]),
+        lambda: SymmetricBody.from_mass_matrix([-1, -1, -1]),
         lambda: SymmetricBody.from_mass_matrix([1, 1, -1]),
         lambda: SymmetricBody.from_mass_matrix([[1, 2], [3, 4]]),
         lambda: SymmetricBody.from_mass_matrix([[1, 2, 0], [0, 1, 0], [0, 0, 1]]),
