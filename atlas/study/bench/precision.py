@@ -80,7 +80,7 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
         yield Setup(case.name, integrator.name, "skipped", note=f"{integrator.module} is not installed")
         return
     import_module(integrator.module)
-    beaten: dict[float, float] = {}  # by horizon: the loosest tolerance that ran out of time
+    beaten = 0.0  # the loosest tolerance that did not even reach the first horizon in time
     for tolerance in plan.tolerances:
         try:
             setup, solve = once(partial(integrator.prepare, case, tolerance, plan.limit))
@@ -91,18 +91,16 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
         pace = 0.0
         for horizon in plan.horizons:
             run = Run(case.name, integrator.name, horizon, plan.samples, "done", tolerance)
-            if horizon in beaten:
-                yield _unmeasured(
-                    run, "skipped", f"out of time at {beaten[horizon]:.0e} already, so at longer horizons"
-                )
+            if beaten and not pace:
+                yield _unmeasured(run, "skipped", f"out of time at {beaten:.0e} already, so at longer horizons")
                 break
             if pace * horizon > plan.limit:
                 yield _unmeasured(run, "skipped", f"would take about {pace * horizon:.2g} s, so at longer horizons")
                 break
             run = _timed(bench, run, solve, integrator.note(tolerance))
             yield run
-            if run.status == "timed out":
-                beaten[horizon] = tolerance
+            if run.status == "timed out" and not pace:
+                beaten = tolerance
             if run.seconds is None:
                 break
             pace = run.seconds / horizon
