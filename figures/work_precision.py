@@ -32,7 +32,7 @@ def scene(
             f"{'One panel' if len(cases) == 1 else f'{len(cases)} panels'} with two logarithmic axes, the largest "
             f"error up to t = {plain(horizon)} to the right and the time for one sample upwards: "
             f"{listed([case_title(case) for case in cases])}. The lines of the integrators rise to the left; "
-            "the closed forms lie below them, and those of the atlas furthest to the left."
+            "the closed forms are marks at the lower left."
         ),
         panels=panels(record, cases, horizon),
         columns=columns,

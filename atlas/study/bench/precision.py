@@ -117,7 +117,7 @@ def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
     except Exception as raised:  # noqa: BLE001  the same
         return _unmeasured(run, "failed", said(raised))
     jobs = {"base": _job(bench.plain, g)} | ({"peer": _job(solve, g)} if seconds < SHORT else {})
-    times = interleave(jobs, min(3, bench.plan.rounds))
+    times = interleave(jobs, bench.plan.rounds if seconds < SHORT / 10 else 3)
     peer = times.get("peer", [seconds] * len(times["base"]))
     return _measured(run, error, peer, times["base"], note)
 
