@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from tests_support import ulps_apart
 
 from atlas.cli.app import atlas as command
-from tests_support import ulps_apart
 
 COMMANDS = [
     "classify --ratio 1.5 --field 1 2",
