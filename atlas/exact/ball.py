@@ -59,6 +59,20 @@ class BallMotion:
         S, C = sin_cos(self.larmor * rational(t, "the time"))
         return [self.m2 * S, self.m2 * C, self.m3]
 
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) = R^T m/I0 in the body, below mf35: the turn by gamma t about k_hat, of m(0)/I0."""
+        size = self._size
+        if size == 0:
+            return [fmpq(0), self.m2 / self.inertia, self.m3 / self.inertia]
+        s, c = sin_cos(self.gamma * rational(t, "the time"))
+        x, y, v = self.m2, self.m3 + self.larmor * self.inertia, (1 - c) / self.inertia
+        along = (x * self.m2 + y * self.m3) / (x**2 + y**2)
+        return [
+            self.larmor * self.m2 * s / size,
+            c * self.m2 / self.inertia + along * x * v,
+            c * self.m3 / self.inertia + along * y * v,
+        ]
+
     @property
     def _size(self) -> Real:
         """The root of m2^2 + (alpha I0 + m3)^2."""

@@ -24,7 +24,7 @@ MOST = 17.0
 
 BITS = 80
 GROUPS: Mapping[str, tuple[str, ...]] = {"R": MATRIX, "Omega": OMEGA, "quaternion": QUATERNION}
-ROLES = {"R": "main", "Omega": "second", "quaternion": "fourth"}
+LINES = {"R": ("main", "$R$"), "Omega": ("second", r"$\boldsymbol{\Omega}$"), "quaternion": ("fourth", "quaternion")}
 Row: TypeAlias = dict[str, float]
 
 
@@ -98,7 +98,7 @@ class Check:
         """Draw the error of each group of columns against time."""
         floor = 10.0**-MOST
         layers = tuple(
-            Curve(np.column_stack([self.times, np.maximum(errors, floor)]), ROLES[name], name)
+            Curve(np.column_stack([self.times, np.maximum(errors, floor)]), *LINES[name])
             for name, errors in self.errors.items()
         )
         limit = 10.0**-self.threshold

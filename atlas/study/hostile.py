@@ -33,6 +33,15 @@ class Motion:
 
 
 @dataclass(frozen=True)
+class Free:
+    """The input of a free body."""
+
+    I: float
+    omega: tuple[float, float, float]
+    times: tuple[float, ...]
+
+
+@dataclass(frozen=True)
 class Ball:
     """The input of a charged ball."""
 
@@ -221,6 +230,17 @@ def special_motion(random: Random) -> Motion:
     w3 = random.choice((0.0, sign(random) * size(random, -12, 12)))
     I = ratio(random)
     return Motion(1.0, I, 0.0, B3, w2, w3, times((abs(w2) + 2 * abs(w3),), random))
+
+
+def free_motion(random: Random) -> Free:
+    """Draw a free body: omega along an axis of the body, nearly so, or anywhere, at any scale."""
+    scale = 10.0 ** random.choice((0.0, 0.0, random.uniform(-139, 139)))
+    faint = random.choice((1.0, 1.0, 0.0, size(random, -150, -3)))
+    x, y, z = (sign(random) * size(random) * scale for _ in range(3))
+    omega = random.choice(((x, y, z), (x * faint, y, z), (x * faint, y * faint, z), (x, y, z * faint)))
+    return Free(
+        near(1.0, random) if random.random() < 0.3 else ratio(random), omega, times((math.hypot(*omega) * 3,), random)
+    )
 
 
 def ball_motion(random: Random) -> Ball:

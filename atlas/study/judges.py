@@ -12,13 +12,14 @@ from flint import ctx
 
 from atlas.core.ball import BallMotion
 from atlas.core.body import SymmetricBody
-from atlas.core.elementary import ElementaryMotion
+from atlas.core.elementary import ElementaryMotion, FreeMotion
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.particle import ParticleMotion
 from atlas.core.quadric import Quadric
 from atlas.errors import AtlasError
 from atlas.exact import ball as exact_ball
 from atlas.exact import elementary as exact_elementary
+from atlas.exact import free as exact_free
 from atlas.exact import hyperbola as exact_hyperbola
 from atlas.exact import particle as exact_particle
 from atlas.exact import quadric as exact_quadric
@@ -31,6 +32,9 @@ BITS = 80
 
 SHIFTS = (1, -7, 60)
 """Powers of two by which all frequencies are scaled, and times the other way: no bit of R may change."""
+
+POINTS = 8
+"""Points of each hyperbola."""
 
 GRID = 300
 """Matrices on a uniform grid; a few of them are judged."""
@@ -93,12 +97,31 @@ def judge_hyperbola(motion: hostile.Motion, regime: str, tally: Tally) -> None:
         )
         for name, value, true in pairs:
             tally.add(name, regime, own([value], [true]), _with(inputs))
+        if motion.B3:
+            points = [(x, y) for x, y in zip(*found.sample(POINTS), strict=True) if np.isfinite(y)]
+            errors = own((y for _, y in points), (exact.omega3(x) for x, _ in points))
+            tally.add("points of the hyperbola", regime, errors, lambda i: inputs | {"at": float(points[i][0]).hex()})
+
+
+def judge_free(motion: hostile.Free, tally: Tally) -> None:
+    """Judge a free body with any initial angular velocity."""
+    inputs = _described(motion)
+    with _refusals(tally, "free body", "free body", inputs), ctx.workprec(BITS + 16):
+        exact, found = exact_free.FreeMotion(motion.I, motion.omega), FreeMotion(motion.I, motion.omega)
+        k, phi = enclosed(lambda: (exact.k, exact.phi), BITS)
+        tally.add("free k", "free body", own([found.k], [k]), _with(inputs))
+        tally.add("free phi", "free body", own([found.phi], [phi]), _with(inputs))
+        fastest = max(abs(approximate(k)), abs(approximate(phi)))
+        R, Omega = found.rotation(np.array(motion.times)), found.angular_velocity(np.array(motion.times))
+        for i, t in enumerate(motion.times):
+            where = f"free body, {hostile.clock(fastest, t)}"
+            true = enclosed(partial(_both, exact.rotation, exact.angular_velocity, t), BITS)
+            tally.add("free R", where, absolute(R[i].flat, chain(*true[0])), _with(inputs, t=t.hex()))
+            tally.add("free Omega", where, [of_length(Omega[i], true[1])], _with(inputs, t=t.hex()))
 
 
 def judge_quadric(motion: hostile.Motion, regime: str, tally: Tally) -> None:
     """Judge the quadric of the motion's body and field."""
-    if motion.B2 == 0 or motion.B3 == 0:
-        return
     inputs = _described(motion)
     with _refusals(tally, "quadric", regime, inputs), ctx.workprec(BITS + 16):
         exact = exact_quadric.Quadric(_body(motion.I2, motion.I3), (motion.B2, motion.B3))
@@ -124,12 +147,15 @@ def judge_ball(ball: hostile.Ball, tally: Tally) -> None:
         tally.add("ball gamma", "ball", own([found.gamma], [gamma]), _with(inputs))
         tally.add("ball k_hat", "ball", own(found.k_hat, k_hat), _with(inputs))
         fastest = max(abs(approximate(gamma)), abs(ball.larmor))
-        R, m = found.rotation(np.array(ball.times)), found.angular_momentum(np.array(ball.times))
+        times = np.array(ball.times)
+        R, m, Omega = found.rotation(times), found.angular_momentum(times), found.angular_velocity(times)
         for i, t in enumerate(ball.times):
             where = f"ball, {hostile.clock(fastest, t)}"
             true = enclosed(partial(_both, exact.rotation, exact.angular_momentum, t), BITS)
             tally.add("ball R", where, absolute(R[i].flat, chain(*true[0])), _with(inputs, t=t.hex()))
             tally.add("ball m", where, [of_length(m[i], true[1])], _with(inputs, t=t.hex()))
+            true = enclosed(partial(exact.angular_velocity, t), BITS)
+            tally.add("ball Omega", where, [of_length(Omega[i], true)], _with(inputs, t=t.hex()))
 
 
 def judge_particle(particle: hostile.Particle, tally: Tally) -> None:

@@ -19,7 +19,7 @@ from typing import Any
 
 from atlas.errors import AtlasError
 from atlas.study import hostile
-from atlas.study.judges import judge_ball, judge_hyperbola, judge_motion, judge_particle, judge_quadric
+from atlas.study.judges import judge_ball, judge_free, judge_hyperbola, judge_motion, judge_particle, judge_quadric
 from atlas.study.ulps import Refusal, Tally, Worst
 
 RATCHET = Path(__file__).with_name("ratchet.json")
@@ -29,7 +29,9 @@ LIMITS: Mapping[str, float] = {
     "R": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R13, R23 for |kt| < 1": 8, "R(0) = 1": 0,
     "R under scaling by 2^n": 0, "third axis": 4, "k": 4, "phi": 4, "omega3": 4, "Omega": 8, "K": 8, "m": 8,
     "beta": 4, "a2": 4, "a3": 4, "semi-axes": 4, "canonical axes": 4, "omega3 of the hyperbola": 4,
-    "k of the hyperbola": 4, "phi of the hyperbola": 4, "ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8,
+    "k of the hyperbola": 4, "phi of the hyperbola": 4, "points of the hyperbola": 4,
+    "ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8,
+    "free R": 4, "free k": 4, "free phi": 4, "free Omega": 8,
 }  # fmt: skip
 """What the kernels promise, in ulps, for each quantity that has a promise."""
 
@@ -120,6 +122,7 @@ def one_round(seed: int, index: int) -> Tally:
         for judge in (judge_motion, judge_hyperbola, judge_quadric):
             judge(motion, regime, tally)
     judge_motion(hostile.special_motion(random), "B2 = 0", tally)
+    judge_free(hostile.free_motion(random), tally)
     judge_ball(hostile.ball_motion(random), tally)
     judge_particle(hostile.particle_motion(random), tally)
     return tally

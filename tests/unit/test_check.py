@@ -186,6 +186,6 @@ def test_the_record_is_json_and_the_scene_shows_the_errors(write: Writer) -> Non
     (panel,) = result.scene().panels
     assert isinstance(panel, Plane)
     curves = [layer for layer in panel.layers if isinstance(layer, Curve)]
-    assert [curve.label for curve in curves] == ["R", "Omega", "6 digits"]
+    assert [curve.label for curve in curves] == ["$R$", r"$\boldsymbol{\Omega}$", "6 digits"]
     assert curves[0].points.shape == (len(TIMES), 2)
     assert (curves[0].points[:, 1] <= 2.0**-53).all()

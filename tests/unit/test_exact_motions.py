@@ -16,6 +16,7 @@ from atlas.exact.ball import BallMotion
 from atlas.exact.digits import enclosed, numbers
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.flight import Flight
+from atlas.exact.free import FreeMotion
 from atlas.exact.hyperbola import Hyperbola
 from atlas.exact.inputs import Real
 from atlas.exact.particle import ParticleMotion
@@ -269,6 +270,33 @@ def test_a_momentum_along_the_field_stays_there_exactly() -> None:
     """For I = 1 the momentum of mf76 is parallel to B', and m(t) has an exact zero."""
     m = ElementaryMotion(1.0, (1.0, 2.0), 0.5).angular_momentum(0.3)
     assert m == [0, fmpq(1, 2), 1]
+
+
+def test_the_ball_obeys_the_equations_of_motion() -> None:
+    """Matrix and angular velocity of mf38 are those of the Taylor series, in the frame with B along e3."""
+    b = BallMotion(0.5, 0.75, (0.3, -0.8))
+    (state,) = taylor.taylor((1, 1, 1), (0, 0, 0.75), (0, Fraction(0.3) * 2, Fraction(-0.8) * 2), [2.5], digits=45)
+    found = enclosed(lambda: [*b.rotation(2.5), b.angular_velocity(2.5)], 200)
+    for ball, value in zip(numbers(found), [*flat(state.R), *state.Omega], strict=True):
+        assert abs(as_fraction(ball.mid()) - as_fraction(value)) < Fraction(1, 10**40)
+    still = BallMotion(0.5, 3.0, (0.0, -1.5))
+    assert still.angular_velocity(7.0) == [0, 0, -3]
+
+
+@pytest.mark.parametrize("omega", [(0.3, 0.7, -0.2), (0.0, 0.0, 0.5), (1.5, 0.0, 0.0), (0.0, 0.0, 0.0)])
+@pytest.mark.parametrize("I", [0.25, 1.0, 2.0])
+def test_the_free_body_obeys_the_equations_of_motion(omega: Triple, I: float) -> None:
+    """Precession about any angular momentum and proper rotation, mf92, are the Taylor series without a field."""
+    free = FreeMotion(I, omega)
+    (state,) = taylor.taylor((1, 1, I), (0, 0, 0), omega, [4.5], digits=45)
+    found = enclosed(lambda: [*free.rotation(4.5), free.angular_velocity(4.5)], 200)
+    for ball, value in zip(numbers(found), [*flat(state.R), *state.Omega], strict=True):
+        middle = as_fraction(ball.mid() if isinstance(ball, arb) else ball)
+        assert abs(middle - as_fraction(value)) < Fraction(1, 10**40)
+    if omega[0] == 0:
+        same = ElementaryMotion(I, (0, 0), *omega[1:])
+        assert same.phi == free.phi
+        assert arb(same.k).overlaps(arb(free.k))
 
 
 vectors = st.tuples(*[st.floats(-4, 4) | st.just(0.0)] * 3)
