@@ -6,9 +6,8 @@ import numpy as np
 
 from atlas.core.euler_poisson import bracket
 from atlas.core.field import LaboratoryFrame
-from atlas.core.inputs import FloatArray, vector
+from atlas.core.inputs import FloatArray, vectors
 from atlas.core.particle import ParticleMotion
-from atlas.core.units import prime
 from atlas.errors import AtlasError
 
 AGREEMENT = 1e-9
@@ -29,8 +28,8 @@ class Flight:
     """Path of the point N of a body, y_N(t) = y_0(t) + R(t) x_N(0), as below mf29, in the user's frame.
 
     `particle` moves as the centre of mass, in the user's frame. `motion` is the body's rotation, in the laboratory
-    `frame`; without one the user's frame is the laboratory. `point` (3,) is x_N(0), from the centre of mass to the
-    point at t = 0, in the user's frame.
+    `frame`; without one the user's frame is the laboratory. `point` (..., 3) is x_N(0), from the centre of mass to the
+    point at t = 0, in the user's frame; many points broadcast with the times.
 
     Both must move in one field: with a `Field`, make the particle by `ParticleMotion.in_field` and the frame by
     `Field.frame`, and give `frame.field` to the motion. A motion that knows its `field` (B2, B3) is held against the
@@ -40,9 +39,9 @@ class Flight:
     def __init__(
         self, particle: ParticleMotion, motion: Rotation, point: Any, frame: LaboratoryFrame | None = None
     ) -> None:
-        self.particle, self.motion, self.point = particle, motion, vector(point, "The point")
+        self.particle, self.motion, self.point = particle, motion, vectors(point, "The point")
         self._to_user = np.eye(3) if frame is None else frame.matrix.T
-        self._arm = self._to_user.T @ self.point
+        self._arm = self.point @ self._to_user
         self._compare_fields()
 
     def arm(self, t: Any) -> FloatArray:
@@ -63,7 +62,7 @@ class Flight:
         turning = getattr(self.motion, "field", None)
         if turning is None:
             return
-        flying = self._to_user.T @ prime(self.particle.mu, self.particle.B, self.particle.c)
+        flying = self.particle.prime @ self._to_user
         apart = np.abs(np.stack(np.broadcast_arrays(0.0, *turning), axis=-1) - flying).max()
         if apart > AGREEMENT * max(np.abs(flying).max(), np.abs(turning).max()):
             raise AtlasError(

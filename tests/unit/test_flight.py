@@ -109,6 +109,17 @@ def test_centre_and_body_must_be_in_one_field() -> None:
         Flight(PARTICLE, ElementaryMotion(1.5, FRAME.field, 0.7), [1, 0, 0])
 
 
+def test_many_points_fly_at_once() -> None:
+    """Points broadcast with times."""
+    points = np.array([[0.3, -0.1, 0.7], [1.0, 0.2, 0.1]])
+    motion = ElementaryMotion(1.5, FRAME.field, 0.7)
+    paths = Flight(PARTICLE, motion, points, FRAME).position(np.array(TIMES)[:, None])
+    assert paths.shape == (4, 2, 3)
+    for n in range(2):
+        alone = Flight(PARTICLE, motion, points[n], FRAME).position(TIMES)
+        assert np.abs(paths[:, n] - alone).max() <= 4 * EPS * np.abs(alone).max()
+
+
 def test_a_point_has_three_components() -> None:
     """Anything else raises."""
     with pytest.raises(AtlasError, match="three components"):

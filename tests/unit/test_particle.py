@@ -40,7 +40,7 @@ def sizes(p: ParticleMotion, t: float) -> tuple[float, float]:
     x, a, v = abs(p.cyclotron_frequency * t), np.hypot.reduce(p.mu * p.E), np.hypot.reduce(p.v0)
     direction = p.B / np.abs(p.B).max() if p.B.any() else p.B
     along = abs(p.mu * p.E @ direction) / np.hypot.reduce(direction) if p.B.any() else a
-    drift = min(abs(t) * a, a / abs(p.cyclotron_frequency)) if x else abs(t) * a
+    drift = abs(t) * a / max(x, 1)
     return np.hypot.reduce(p.y0) + abs(t) * (v + drift + along * abs(t) / 2), v + drift + along * abs(t)
 
 
@@ -181,6 +181,40 @@ def test_times_of_any_shape() -> None:
     assert np.array_equal(p.position(t)[1, 2], p.position(1.0))
 
 
+def test_many_times_are_each_met() -> None:
+    """More times than are evaluated at once give, one by one, what each gives alone."""
+    p = ParticleMotion(-1.3, [0.2, 0.3, 0.4], [1, -2, 0.5], ORIGIN, [0.1, 0.2, -0.3], 2.0)
+    t = np.linspace(-50, 50, 10001)
+    position, velocity = p.position(t), p.velocity(t)
+    for i in (0, 1, 4095, 4096, 5000, 8192, 10000):
+        assert np.array_equal(position[i], p.position(t[i]))
+        assert np.array_equal(velocity[i], p.velocity(t[i]))
+
+
+def test_arrays_of_particles_broadcast() -> None:
+    """Charges of both signs, by fields, by times: each value is that of the particle alone, to the last bit."""
+    rng = np.random.default_rng(2)
+    mu, c = np.array([[1.0], [-2.0]]), np.array([1.0, 0.5, 2.0])
+    E, B, y, v = rng.normal(size=(3, 3)), rng.normal(size=(2, 1, 3)), rng.normal(size=3), rng.normal(size=(3, 3))
+    many, t = ParticleMotion(mu, E, B, y, v, c), rng.normal(size=(4, 1, 3))
+    assert many.shape == (2, 3)
+    assert many.drift.shape == many.prime.shape == (2, 3, 3)
+    assert many.kind.shape == many.cyclotron_frequency.shape == many.radius.shape == many.period.shape == (2, 3)
+    assert many.axes.shape == (2, 3, 3, 3)
+    position, velocity, centre = many.position(t), many.velocity(t), many.guiding_centre(t)
+    assert position.shape == (4, 2, 3, 3)
+    for i, j in np.ndindex(2, 3):
+        one = ParticleMotion(mu[i, 0], E[j], B[i, 0], y, v[j], c[j])
+        assert np.array_equal(position[:, i, j], one.position(t[:, 0, j]))
+        assert np.array_equal(velocity[:, i, j], one.velocity(t[:, 0, j]))
+        assert np.array_equal(centre[:, i, j], one.guiding_centre(t[:, 0, j]))
+        assert (many.kind[i, j], many.case[i, j], many.radius[i, j]) == (one.kind, one.case, one.radius)
+    trochoids = ParticleMotion.trochoid(mu, [0, 1, 0], [0, 0, 1], np.array([0.5, 1.0, 2.0]))
+    small, large = ["curtate trochoid", "cycloid", "prolate trochoid"], ["cycloid", *["prolate trochoid"] * 2]
+    assert trochoids.kind.tolist() == [small, large]
+    assert ParticleMotion(np.ones(0), E[0], B[0, 0], y, y).position(1.0).shape == (0, 3)
+
+
 @given(st.integers(-130, 130))
 def test_the_unit_of_time_changes_no_bit(power: int) -> None:
     """Scaling the fields and the velocity by powers of two, and the time back, leaves the path as it is."""
@@ -212,6 +246,7 @@ def test_what_needs_a_magnetic_force_says_so(name: str) -> None:
         lambda: ParticleMotion(1, [1, 2], ORIGIN, ORIGIN, ORIGIN),
         lambda: ParticleMotion(1, ORIGIN, ORIGIN, ORIGIN, [0, 0, np.nan]),
         lambda: ParticleMotion(1, ORIGIN, ORIGIN, ORIGIN, ORIGIN, c=-1),
+        lambda: ParticleMotion([1, 2], np.ones((3, 3)), ORIGIN, ORIGIN, ORIGIN),
         lambda: ParticleMotion(1e200, [1e200, 0, 0], ORIGIN, ORIGIN, ORIGIN),
         lambda: ParticleMotion(1, [0, 0, 1], [0, 0, 1], ORIGIN, ORIGIN).axes,
         lambda: ParticleMotion(1, [0, 0, 1], [0, 0, 1], ORIGIN, ORIGIN).position(np.nan),

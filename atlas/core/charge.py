@@ -1,0 +1,173 @@
+"""One charged point particle in constant E and B, mf1 to mf11, for any fields and any sign of mu.
+
+The paper's solution divides by B and holds for mu > 0. Here, with w = -mu B/c, n its direction, x = |w| t and
+a = mu E, every vector split along B and across it, mf1 reads y'' = a + [w, y'] and integrates to
+
+    y'(t) = v_par + cos x v_perp + sin x [n, v_perp] + t {a_par + s a_perp + g [n, a_perp]},
+    y(t) = y(0) + t {v_par + s v_perp + g [n, v_perp]} + t^2 {a_par/2 + f a_perp + h [n, a_perp]},
+
+    s = sin x / x,   f = (1 - cos x)/x^2,   g = (1 - cos x)/x,   h = (x - sin x)/x^2,
+
+with v = y'(0). No term is larger than the motion itself, any sign of mu is right, and B -> 0 is the parabola of mf2.
+"""
+
+from collections.abc import Callable
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+
+from atlas.core.gyration import Gyration, gyration
+from atlas.core.inputs import FloatArray
+from atlas.core.phase import Phases
+from atlas.core.rational import Vector, cross, dot, exact, minus, plus, root, rounded, scaled, times, unit
+from atlas.core.wide import TURN, Wide
+from atlas.errors import DomainError
+
+BLOCK = 4096
+"""Times evaluated at once, so that what is between stays in the cache."""
+
+
+class Charge:
+    """A particle of finite mu, c > 0, and fields, position, velocity (3,), all checked and taken as exact.
+
+    All that follows from them but lengths is rational, and is rounded once. See `ParticleMotion` for what is public.
+    """
+
+    def __init__(
+        self, mu: float, E: FloatArray, B: FloatArray, position: FloatArray, velocity: FloatArray, c: float
+    ) -> None:
+        self.mu, self.E, self.B, self.y0 = mu, exact(E), exact(B), position
+        self._a, self._v = times(Fraction(mu), self.E), exact(velocity)
+        self._w = w = times(-Fraction(mu) / Fraction(c), self.B)
+        self._w2 = w2 = dot(w, w)
+        self.rate = root(w2)
+        self._acceleration = self._split(self._a, "The acceleration mu E")
+        self._velocity = self._split(self._v, "The velocity")
+
+    def _split(self, v: Vector, name: str) -> FloatArray:
+        """Return the rows v_par, v_perp and [n, v_perp]; without a magnetic force, v alone."""
+        w, w2 = self._w, self._w2
+        if not w2:
+            return np.array([rounded(v, name), np.zeros(3), np.zeros(3)])
+        along = times(dot(w, v) / w2, w)
+        return np.array([rounded(along, name), rounded(minus(v, along), name), scaled(cross(w, v), w2)])
+
+    @property
+    def case(self) -> str:
+        """Name of the case, from which of mu E, mu B, (E, B) and [E, B] vanish."""
+        if not self._w2:
+            return "electric field alone" if any(self._a) else "no force"
+        if not any(self._a):
+            return "magnetic field alone"
+        if not any(cross(self._a, self._w)):
+            return "parallel fields"
+        return "oblique fields" if dot(self._a, self._w) else "crossed fields"
+
+    @property
+    def kind(self) -> str:
+        """Name of the path across B, see `ParticleMotion.kind`."""
+        v, a = self._v, self._a
+        if not self._w2:
+            return "parabola" if any(cross(a, v)) else "straight line" if any(a) or any(v) else "point"
+        drift, circling = dot(self._drift, self._drift), dot(self._circling, self._circling)
+        if not drift or not circling:
+            return "circle" if circling else "straight line" if drift else "point"
+        return "cycloid" if circling == drift else "prolate trochoid" if circling > drift else "curtate trochoid"
+
+    @property
+    def cyclotron_frequency(self) -> float:
+        """Frequency omega = mu |B|/c of mf9, with the sign of mu."""
+        return self.rate if self.mu >= 0 else -self.rate
+
+    @property
+    def prime(self) -> FloatArray:
+        """B' = mu B/(2c) = -w/2, mf41."""
+        return rounded(times(Fraction(-1, 2), self._w), "B' = mu B/(2c)")
+
+    @property
+    def drift(self) -> FloatArray:
+        """Velocity c [E, B]/B^2."""
+        self.needs_field("drift")
+        return rounded(self._drift, "The drift")
+
+    @property
+    def radius(self) -> float:
+        """Radius a of mf9."""
+        self.needs_field("radius")
+        return root(dot(self._circling, self._circling) / self._w2)
+
+    @property
+    def centre(self) -> FloatArray:
+        """Rows: position, velocity and acceleration of the point O(t) of mf11, at t = 0."""
+        self.needs_field("guiding centre")
+        start = plus(exact(self.y0), times(1 / self._w2, cross(self._w, self._circling)))
+        along = times(dot(self._w, self._v) / self._w2, self._w)
+        name = "The guiding centre"
+        return np.array([rounded(start, name), rounded(plus(along, self._drift), name), self._acceleration[0]])
+
+    @property
+    def axes(self) -> FloatArray:
+        """Frame of figure Magn, rows e1, e2, e3."""
+        self.needs_field("frame")
+        e1 = cross(self.E, self.B)
+        if not any(e1):
+            raise DomainError("The frame of figure Magn needs an electric field across B, but E is along B or zero.")
+        return np.array([unit(e1), unit(cross(self.B, e1)), unit(self.B)])
+
+    def fill_position(self, t: FloatArray, out: FloatArray) -> None:
+        """Write y(t), mf10.2 with mf5 and mf10, at times (m,) into (m, 3)."""
+
+        def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
+            v, a = self._velocity[:, i], self._acceleration[:, i]
+            inner = a[0] / 2 + x.f * a[1] + x.h * a[2]
+            return np.asarray(self.y0[i] + t * (v[0] + x.s * v[1] + x.g * v[2] + t * inner))
+
+        self._fill(component, t, out)
+
+    def fill_velocity(self, t: FloatArray, out: FloatArray) -> None:
+        """Write y'(t), mf2, at times (m,) into (m, 3)."""
+
+        def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
+            v, a = self._velocity[:, i], self._acceleration[:, i]
+            return np.asarray(v[0] + x.cos * v[1] + x.sin * v[2] + t * (a[0] + x.s * a[1] + x.g * a[2]))
+
+        self._fill(component, t, out)
+
+    def fill_centre(self, t: FloatArray, out: FloatArray) -> None:
+        """Write O(t) of mf11, carried along B with the particle, at times (m,) into (m, 3)."""
+        start, velocity, acceleration = self.centre
+        out[:] = start + t[:, None] * (velocity + t[:, None] * (acceleration / 2))
+
+    def needs_field(self, what: str) -> None:
+        """Raise DomainError where there is no magnetic force."""
+        if not self.rate:
+            raise DomainError(f"Without a magnetic force (mu B = 0) the motion has no {what}.")
+
+    def _fill(
+        self, component: Callable[[int, FloatArray, Gyration], FloatArray], t: FloatArray, out: FloatArray
+    ) -> None:
+        """Write the three components, block by block."""
+        for start in range(0, t.size, BLOCK):
+            piece = t[start : start + BLOCK]
+            halves, work = np.empty((3, 1, piece.size)), np.empty((5, 1, piece.size))
+            self._phases.circle(piece, work, halves[0], halves[1], halves[2, 0])
+            functions = gyration(self.rate * piece, *(2 * halves[:, 0]))
+            for i in range(3):
+                out[start : start + BLOCK, i] = component(i, piece, functions)
+
+    @cached_property
+    def _phases(self) -> Phases:
+        """The phase |w| t, with |w| in two words; without a magnetic force it is 0."""
+        return Phases([(Wide(self._w2.numerator) / Wide(self._w2.denominator)).sqrt() / TURN])
+
+    @property
+    def _drift(self) -> Vector:
+        """The drift [w, a]/w^2 = c [E, B]/B^2, exact."""
+        return times(1 / self._w2, cross(self._w, self._a))
+
+    @property
+    def _circling(self) -> Vector:
+        """Velocity across B less the drift, at t = 0, exact."""
+        across = minus(self._v, times(dot(self._w, self._v) / self._w2, self._w))
+        return minus(across, self._drift)
