@@ -1,11 +1,8 @@
 """Rotation matrices on a uniform grid, near the speed at which memory can be filled.
 
-With Rodrigues' generators G = 1, [n, .], n n^T on the left and those of R_z on the right, mf90 gives
-
-    R(s + tau) = R_n(k s) R(tau) R_z(phi s) = sum over g, h of F_gh(s) (G_g R(tau) H_h),
-
-F being the nine functions of `rotation.Basis`. So a coarse table of F and a fine table of G R(tau) H give every matrix
-of the grid by one product of rank nine, which writes the result in place.
+With the functions F_r and the matrices L_r, Q_r of `basis`, R(s + tau) = sum over r of F_r(s) (L_r R(tau) Q_r). So a coarse
+table of F and a fine table of L R(tau) Q give every matrix of the grid by one product of rank nine, which writes the
+result in place.
 """
 
 from fractions import Fraction
@@ -13,9 +10,10 @@ from math import ceil
 
 import numpy as np
 
+from atlas.core.basis import Basis
 from atlas.core.inputs import FloatArray
 from atlas.core.phase import LIMIT, Phases
-from atlas.core.rotation import BLOCK, TURNS, Basis, DoubleRotation
+from atlas.core.rotation import BLOCK, DoubleRotation
 from atlas.core.threads import shared
 from atlas.core.wide import Wide
 from atlas.errors import AtlasError
@@ -50,23 +48,18 @@ def run(turning: DoubleRotation, origin: Wide, step: Wide, out: FloatArray, *, b
     count = len(out)
     if not count:
         return
-    fine = Basis(indexed(turning, step), min(FINE, count))
-    near = (fine.at(np.arange(float(min(FINE, count)))).T @ turning.weights).reshape(-1, 3, 3)
+    near = min(FINE, count)
+    functions = Basis(indexed(turning, step), near, len(turning.weights)).at(np.arange(float(near)))
+    matrices = (functions.T @ turning.weights.reshape(-1, 9)).reshape(-1, 3, 3)
     if turning.inverse:
-        near = near.swapaxes(1, 2)
-    if backward:
-        near = near[::-1]
-    left, right = turning.generators, TURNS
-    table = np.einsum("gab,tbc,hcd->hgtad", left, near, right, optimize=True)
-    if turning.inverse:
-        table = table.swapaxes(3, 4)
-    table = table.reshape(9, -1)
+        matrices = matrices.swapaxes(1, 2)
+    table = turning.table(matrices[::-1] if backward else matrices).reshape(len(turning.weights), -1)
     coarse = indexed(turning, step * Wide(FINE), origin)
     blocks, rest = divmod(count, FINE)
 
     def fill(low: int, high: int) -> None:
         """Fill the blocks low to high, counted from the origin."""
-        basis = Basis(coarse, min(BLOCK, high - low))
+        basis = Basis(coarse, min(BLOCK, high - low), len(table))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
             functions = basis.at(np.arange(float(i), float(j))).T
@@ -77,18 +70,20 @@ def run(turning: DoubleRotation, origin: Wide, step: Wide, out: FloatArray, *, b
 
     shared(fill, blocks, FINE)
     if rest:
-        functions = Basis(coarse, 1).at(np.array([float(blocks)])).T
+        functions = Basis(coarse, 1, len(table)).at(np.array([float(blocks)])).T
         part, end = (slice(-9 * rest, None), slice(0, rest)) if backward else (slice(9 * rest), slice(-rest, None))
         product(functions, table[:, part], out[end])
 
 
 def product(functions: FloatArray, table: FloatArray, out: FloatArray) -> None:
-    """Write functions (m, 9) times table (9, 9 L) into out (m L, 3, 3), a few rows at a time."""
+    """Write functions (m, r) times table (r, 9 L) into out (m L, 3, 3), a few rows at a time."""
     m = len(functions)
     functions, rows = np.ascontiguousarray(functions), out.reshape(m, -1)
     whole = m - m % ROWS
     np.matmul(
-        functions[:whole].reshape(-1, ROWS, 9), table, out=rows[:whole].reshape(whole // ROWS, ROWS, rows.shape[1])
+        functions[:whole].reshape(-1, ROWS, len(table)),
+        table,
+        out=rows[:whole].reshape(whole // ROWS, ROWS, rows.shape[1]),
     )
     np.matmul(functions[whole:], table, out=rows[whole:])
 

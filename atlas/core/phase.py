@@ -22,52 +22,79 @@ SAFE = 900
 SPLITTER = 2.0**27 + 1
 """Veltkamp's: t SPLITTER cuts t into two halves of 26 digits, whose products with halves are exact."""
 
-QUANTUM = 1.5 * 2.0**27
-"""Adding and subtracting it rounds a turn to a multiple of 2^-25."""
+ROUNDER, QUANTUM = 1.5 * 2.0**52, 1.5 * 2.0**27
+"""Adding and subtracting them rounds to whole numbers, the last digit of the sum being the parity, and to 2^-25."""
 
-TURN_HEAD = np.ldexp(np.rint(np.ldexp(float(TURN), 25)), -25)
-"""2 pi in 28 digits: its product with a multiple of 2^-25 is exact."""
+QUARTER = TURN.scaled(-2)
+QUARTER_HEAD = round(float(QUARTER.scaled(26))) / 2.0**26
+"""pi/2 in 27 digits: its product with a multiple of 2^-25 below one is exact."""
 
-TURN_TAIL, TURN_WHOLE = float(TURN - Wide.exactly(float(TURN_HEAD))), float(TURN)
+QUARTER_TAIL, QUARTER_WHOLE = float(QUARTER - Wide.exactly(QUARTER_HEAD)), float(QUARTER)
+
+ONE_BITS = np.float64(1.0).view(np.int64)
 
 
 class Phases:
     """Phases of one or two frequencies, and what is needed to evaluate them at times t.
 
     `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
-    `words` (2, n, 1) are the frequencies as P0 + P1, to 2^-107 of themselves.
+    `words` (2, n, 1) are the frequencies in half turns, P0 + P1, to 2^-107 of themselves.
     """
 
     def __init__(self, turns: Sequence[Wide], origins: Sequence[Wide] | None = None) -> None:
-        self.exponents = np.array([p.magnitude if p and abs(p.magnitude) > SAFE else 0 for p in turns])[:, None]
-        self.words = _columns([p.scaled(-int(x)).words(2) for p, x in zip(turns, self.exponents.flat, strict=True)])
+        halves = [turn.scaled(1) for turn in turns]
+        exponents = [p.magnitude if p and abs(p.magnitude) > SAFE else 0 for p in halves]
+        self.exponents = np.array(exponents)[:, None] if any(exponents) else None
+        self.words = _columns([p.scaled(-x).words(2) for p, x in zip(halves, exponents, strict=True)])
         scaled = self.words[0] * SPLITTER
         self.head = scaled - (scaled - self.words[0])
         self.tail = self.words[0] - self.head
         self.reach = min((_reach(p) for p in turns if p), default=float("inf"))
+        self.enough = min(self.reach * self.reach, float(np.finfo(float).max))
         self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
 
-    def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return half the reduced phases, |h| <= pi/2 or little more, and what rounding h left out of the phases.
+    def circle(self, t: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
+        """Fill cos(x)/2 and sin(x)/2 (n, m), and (1 - cos x)/2 of the first phase (m,), for x = f t.
 
-        `t` (m,) finite; `work` (5, n, m) is overwritten. Returns h and e, both (n, m), in radians: f t = 2 h + e
-        but for whole turns. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
+        `t` (m,) finite; `work` (5, n, m) is overwritten. Halves, since they come free of a rounding. The versine keeps its
+        digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
+        """
+        u, e, sign, square = self._angles(t, work)
+        # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; then what rounding x left out
+        np.tan(u, out=u)
+        np.multiply(u, u, out=square)
+        square += 1.0
+        e *= square
+        u += e
+        np.multiply(u, u, out=square)
+        square += 1.0
+        np.divide(u, square, out=sin)
+        half = np.multiply(u, sin, out=square)
+        np.subtract(0.5, half, out=cos)
+        cos *= sign
+        sin *= sign
+        np.multiply(half[0], sign[0], out=versine)
+        np.subtract(1.0, sign[0], out=e[0])
+        e[0] *= 0.5
+        versine += e[0]
+
+    def _angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
+        """Return x/2 for x = f t less whole half turns, |x| <= pi/2, what rounding left out of it, and the turns' sign.
+
+        The three are (n, m), in radians, and lie in `work`; the fourth array returned is free.
         """
         product, rest, x, y, z = work
-        if not -self.reach <= t.min() <= t.max() <= self.reach:
-            raise AtlasError(
-                f"A time is {t[np.argmax(np.where(np.isnan(t), np.inf, np.abs(t)))]}, "
-                f"but the phases are known for |t| <= {self.reach:.6g} only, where they reach 2^50."
-            )
-        if self.exponents.any():
+        if not t.dot(t) <= self.enough:
+            self._check(t)
+        if self.exponents is not None:
             t = np.ldexp(t, self.exponents)
         P0, P1 = self.words
         upper, lower = (x, y) if t.ndim > 1 else (x[0], y[0])
         np.multiply(t, SPLITTER, out=upper)
         np.subtract(upper, t, out=lower)
-        np.subtract(upper, lower, out=upper)
+        upper -= lower
         np.subtract(t, upper, out=lower)
-        # rest = P0 t - product, Dekker's exact error of a product; then P1 t
+        # rest = P0 t - product, by Dekker, without error; then P1 t
         np.multiply(P0, t, out=product)
         np.multiply(self.head, upper, out=rest)
         rest -= product
@@ -75,51 +102,41 @@ class Phases:
         rest += np.multiply(self.tail, upper, out=z)
         rest += np.multiply(self.tail, lower, out=z)
         rest += np.multiply(P1, t, out=z)
-        np.rint(product, out=z)
-        product -= z
-        # product = coarse + fine: the phase is coarse + rest in turns, coarse a multiple of 2^-25
-        np.add(product, QUANTUM, out=x)
-        x -= QUANTUM
+        np.add(product, ROUNDER, out=z)
+        np.subtract(z, ROUNDER, out=x)
         product -= x
+        # in half turns the phase is coarse + rest, coarse a multiple of 2^-25
+        coarse = np.add(product, QUANTUM, out=x)
+        coarse -= QUANTUM
+        product -= coarse
         rest += product
+        parity = z.view(np.int64)
         if self.origins is not None:
-            x += self.origins[0]
+            coarse += self.origins[0]
             rest += self.origins[1]
-        # in radians: x TURN_HEAD is exact, y is small
-        np.multiply(x, TURN_TAIL, out=y)
-        rest *= TURN_WHOLE
+            np.add(coarse, ROUNDER, out=y)
+            parity += y.view(np.int64)
+            y -= ROUNDER
+            coarse -= y
+        np.left_shift(parity, 63, out=parity)
+        np.bitwise_or(parity, ONE_BITS, out=parity)
+        # in radians, and halved: coarse QUARTER_HEAD is exact, y is small
+        np.multiply(coarse, QUARTER_TAIL, out=y)
+        rest *= QUARTER_WHOLE
         y += rest
-        x *= TURN_HEAD
-        np.add(x, y, out=z)
-        x -= z
-        x += y
-        z *= 0.5
-        return z, x
+        coarse *= QUARTER_HEAD
+        np.add(coarse, y, out=product)
+        coarse -= product
+        coarse += y
+        return product, coarse, z, rest
 
-
-def circle(angles: tuple[FloatArray, FloatArray], cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
-    """Fill cos x, sin x (n, m), and 1 - cos x of the first phase (m,), from u = tan(x/2).
-
-    Why the tangent: NumPy vectorises it, and not the sine and cosine. `versine` keeps its digits where x is small.
-    """
-    u, e = angles
-    np.tan(u, out=u)
-    square = np.multiply(u, u, out=cos)
-    g = np.add(square, 1.0, out=sin)
-    np.divide(2.0, g, out=g)
-    np.multiply(square[0], g[0], out=versine)
-    u *= g
-    np.subtract(1.0, square, out=cos)
-    cos *= g
-    cos *= 0.5
-    # 1 - cos x is the better of the two where cos x is small
-    np.subtract(1.0, cos[0], out=versine, where=cos[0] < 0.5)
-    # the correction to first order: d cos = -e sin, d sin = e cos
-    np.multiply(e, cos, out=sin)
-    e *= u
-    sin += u
-    cos -= e
-    versine += e[0]
+    def _check(self, t: FloatArray) -> None:
+        """Raise AtlasError for a time that is out of reach."""
+        far = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
+        if far.size:
+            raise AtlasError(
+                f"A time is {far[0]}, but the phases are known for |t| <= {self.reach:.6g} only, where one reaches 2^50."
+            )
 
 
 def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
@@ -128,10 +145,10 @@ def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
 
 
 def _cut(turn: Wide) -> tuple[float, float]:
-    """Cut a phase in turns into a multiple of 2^-25 below one half and the rest."""
-    turn = turn.turn()
-    head = round(float(turn.scaled(25))) / 2.0**25
-    return head, float(turn - Wide.exactly(head))
+    """Cut a phase in turns into half turns: a multiple of 2^-25, at most one, and the rest."""
+    half = turn.turn().scaled(1)
+    head = round(float(half.scaled(25))) / 2.0**25
+    return head, float(half - Wide.exactly(head))
 
 
 def _reach(turns: Wide) -> float:

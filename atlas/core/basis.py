@@ -1,0 +1,84 @@
+"""The functions of time in which R(t) = R_n(k t) R_z(phi t), mf90, is linear, and the matrices that go with them.
+
+By Rodrigues R_n(x) = n n^T + cos x (1 - n n^T) + sin x [n, .], and R_z(x) = cos x E + sin x J + e3 e3^T. So
+
+    R(s + tau) = R_n(k s) R(tau) R_z(phi s) = sum over r of F_r(s) (L_r R(tau) Q_r),
+
+F_r being products of functions of k s and phi s. With tau = 0 that gives R(s) itself.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.core.phase import Phases
+from atlas.core.wide import ONE, Wide
+
+Axis = tuple[Wide, Wide, Wide]
+
+E, J, E33 = np.diag([1.0, 1, 0]), np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]), np.diag([0.0, 0, 1])
+
+SCALE = np.array([2.0, 2, 4, 4, 4, 4, 2, 2, 2, 4, 4])
+"""What the functions of a basis have to be multiplied by: they come as halves, and as products of halves."""
+
+
+class Basis:
+    """The functions F_r of up to `size` times, for both phases; or cos, sin and 1 - cos of one.
+
+    In the order of `resolution`: cos phi t, sin phi t, their products with cos kt and with sin kt; cos kt, sin kt,
+    1 - cos kt; and, if there are 11, the products of the latter with cos phi t, sin phi t.
+    """
+
+    def __init__(self, phases: Phases, size: int, count: int = 3) -> None:
+        self.phases = phases
+        self.times = np.empty(size)
+        self.work = np.empty((5, phases.words.shape[1], size))
+        self.rows = np.empty((count, size))
+
+    def at(self, t: FloatArray) -> FloatArray:
+        """Return the functions over SCALE, shape (count, m); valid until the next call."""
+        rows, times, work = self.rows, self.times, self.work
+        if t.size < times.size:
+            rows, times, work = rows[:, : t.size], times[: t.size], work[:, :, : t.size]
+        np.add(t, 0.0, out=times)
+        if len(rows) == 3:
+            self.phases.circle(times, work, rows[0:1], rows[1:2], rows[2])
+            return rows
+        self.phases.circle(times, work, rows[6::-6], rows[7::-6], rows[8])
+        np.multiply(rows[6:8], rows[0], out=rows[2:4])
+        np.multiply(rows[6:8], rows[1], out=rows[4:6])
+        if len(rows) == 11:
+            np.multiply(rows[8], rows[0:2], out=rows[9:11])
+        return rows
+
+
+def rodrigues(axis: Axis) -> FloatArray:
+    """Return 1, [n, .] and n n^T, shape (3, 3, 3), each element rounded once."""
+    n1, n2, n3 = (float(n) for n in axis)
+    dyad = [[float(a * b) for b in axis] for a in axis]
+    return np.array([np.eye(3), [[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]], dyad])
+
+
+def resolution(axis: Axis, *, third_row: bool) -> tuple[FloatArray, FloatArray]:
+    """Return L_r and Q_r, both (9, 3, 3); or (11, 3, 3) if the third row is wanted to its own size.
+
+    The third column, small when k t is, comes from sin and 1 - cos and keeps its digits. So does then the third row, at
+    the price of two functions more: that is the third column of the transposed matrix.
+    """
+    one, across, dyad = rodrigues(axis)
+    along, rest = projectors(axis)
+    upper = E if third_row else one
+    left = [upper @ along, upper @ rest + (one - upper), across]
+    pairs = [(left[0], E), (left[0], J), (left[1], E), (across, E), (left[1], J), (across, J)]
+    pairs += [(one, E33), (across, E33), (dyad, E33)]
+    if third_row:
+        pairs += [(E33 @ dyad, E), (E33 @ dyad, J)]
+    return np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])
+
+
+def projectors(axis: Axis) -> tuple[FloatArray, FloatArray]:
+    """Return n n^T and 1 - n n^T, rounded so that their sum is 1 exactly: R(0) is."""
+    dyad = rodrigues(axis)[2]
+    for i, n in enumerate(axis):
+        if dyad[i, i] < 0.5:
+            dyad[i, i] = 1.0 - float(ONE - n * n)
+    return dyad, np.eye(3) - dyad
