@@ -131,35 +131,35 @@ class _Composer:
     def figure(self, block: records.Figure) -> views.FigureView:
         """Make the scene of a figure, or note why it can't be made."""
         self.figures += 1
-        plate = self.plate(block)
-        scene = plate.scene
+        renderers = ("shaded", "vector") if block.renderer == "both" else (block.renderer,)
+        plates = tuple(self.plate(block, renderer) for renderer in renderers)
+        scene = plates[0].scene
         caption = block.caption or (scene.caption if scene else f"The recipe {block.recipe} failed.")
         caption = _LABEL.sub(r"@\1", caption)
         width, height = scene.size if scene else (120.0, 30.0)
         shown = block.width or width
         name = block.id or f"{self.figures}"
         self.target(f"fig:{name}", f"fig-{name}", f"Figure {self.figures}")
-        settings = ", ".join(f"{key} = {_shown(value)}" for key, value in plate.parameters.items())
         return views.FigureView(
             self.figures,
             f"fig-{name}",
-            plate,
+            plates,
             self.text(caption, inline=True),
-            scene.alt if scene else plate.failure,
+            scene.alt if scene else plates[0].failure,
             shown,
             height * shown / width,
-            settings,
+            ", ".join(f"{key} = {_shown(value)}" for key, value in plates[0].parameters.items()),
         )
 
-    def plate(self, block: records.Figure) -> views.Plate:
-        """Return the plate of a figure block, the same one for the same recipe, parameters and renderer."""
+    def plate(self, block: records.Figure, renderer: str) -> views.Plate:
+        """Return a plate of a figure block, the same one for the same recipe, parameters and renderer."""
         recipe, failure = _recipe(block.recipe)
         parameters = self.parameters(block, recipe) | block.parameters
-        key = f"{block.recipe} {sorted(parameters.items())} {block.renderer}"
+        key = f"{block.recipe} {sorted(parameters.items())} {renderer}"
         plates = self.document.plates
         if key not in plates:
             stem = f"{len(plates) + 1:02d}-{block.recipe.replace('_', '-')}"
-            plates[key] = views.Plate(stem, block.recipe, block.renderer, parameters, failure=failure)
+            plates[key] = views.Plate(stem, block.recipe, renderer, parameters, failure=failure)
             if recipe:
                 _stage(plates[key], recipe)
         return plates[key]

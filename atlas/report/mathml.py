@@ -81,9 +81,9 @@ def _space_functions(parent: ET.Element) -> None:
     children = list(parent)
     for place, child in enumerate(children):
         name = _function(child)
-        if name is None:
-            continue
         before, after = children[place - 1] if place else None, (*children, None)[place + 1]
+        if name is None or (after is not None and after.text == _APPLY):
+            continue
         row = ET.Element("mrow")
         factor = before is not None and (before.tag in _CLOSING or before.get("form") == "postfix")
         if before is not None and factor and before.text not in _SIGNS:

@@ -9,11 +9,13 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from atlas.errors import AtlasError
 from atlas.places import folder
+from atlas.report import fonts
 from atlas.report.colophon import Colophon
 from atlas.report.compose import Document
 
-TEXT_FONT = "New Computer Modern"
-MATH_FONT = "New Computer Modern Math"
+TEXT_FONT = "STIXGeneral"
+MATH_FONT = "STIX Two Math"
+"""The faces of the pages and of the figures; see `atlas.report.fonts`."""
 
 
 def source(document: Document, colophon: Colophon) -> str:
@@ -44,8 +46,11 @@ def compile_pdf(typst_source: str, where: Path) -> bytes:
 
     file = where / "report.typ"
     file.write_text(typst_source, encoding="utf-8")
+    folders = sorted({str(path.parent) for path in map(fonts.source, fonts.FACES.values())})
     try:
-        pdf, warnings = typst.compile_with_warnings(str(file), root=str(where), ignore_system_fonts=True, format="pdf")
+        pdf, warnings = typst.compile_with_warnings(
+            str(file), root=str(where), font_paths=folders, ignore_system_fonts=True, format="pdf"
+        )
     except typst.TypstError as error:
         raise AtlasError(f"the PDF could not be set: {_reason(error)}.") from error
     if warnings:

@@ -70,11 +70,11 @@ class Equation(Record, frozen=True, tag_field="kind", tag="equation"):
 
 
 class Figure(Record, frozen=True, tag_field="kind", tag="figure"):
-    """A plate: a recipe of ``figures/`` with its parameters."""
+    """A plate: a recipe with its parameters; ``both`` sets the shaded picture beside the line drawing."""
 
     recipe: str
     id: str | None = None
-    renderer: Literal["vector", "shaded"] = "vector"
+    renderer: Literal["vector", "shaded", "both"] = "vector"
     body: str | None = None
     bodies: tuple[str, ...] = ()
     field: str | None = None

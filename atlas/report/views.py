@@ -52,17 +52,27 @@ class Plate:
 
 @dataclass(frozen=True)
 class FigureView:
-    """A numbered figure."""
+    """A numbered figure: one plate, or two beside each other; `width` and `height` in millimetres are those of each."""
 
     kind: ClassVar[str] = "figure"
     number: int
     id: str
-    plate: Plate
+    plates: tuple[Plate, ...]
     caption: int
     alt: str
     width: float
     height: float
     settings: str
+
+    @property
+    def failure(self) -> str:
+        """Why there is no picture, or nothing."""
+        return next((plate.failure for plate in self.plates if plate.failure), "")
+
+    @property
+    def remark(self) -> str:
+        """What the reader should know of how it was drawn, or nothing."""
+        return next((plate.remark for plate in self.plates if plate.remark), "")
 
 
 @dataclass(frozen=True)

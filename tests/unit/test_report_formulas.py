@@ -1,0 +1,80 @@
+"""Formulas: one notation in, MathML and Typst out, and nothing lost on the way."""
+
+import re
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from atlas.errors import AtlasError
+from atlas.paper import EQUATIONS
+from atlas.report.formulas import Manuscript, Target
+
+
+def one(tex: str, target: Target = "html") -> str:
+    """Set one text."""
+    manuscript = Manuscript()
+    manuscript.add(tex, "here", inline=True)
+    return manuscript.set(target, lambda name, _where: f"[({name})](#{name})")[0]
+
+
+def test_every_equation_of_the_ledger_is_set_in_both_targets() -> None:
+    """No formula of the paper stays behind as raw TeX, and none is lost."""
+    manuscript = Manuscript()
+    for label, entry in EQUATIONS.items():
+        manuscript.add(f"$${entry.tex}$$", label)
+    pages = manuscript.set("html", lambda name, _where: name)
+    print_ = manuscript.set("typst", lambda name, _where: name)
+    assert len(pages) == len(print_) == len(EQUATIONS)
+    for label, page, typst in zip(EQUATIONS, pages, print_, strict=True):
+        assert page.count("<math") == 1, label
+        assert not re.search(r"\\[a-z]|\$", page), label
+        assert not re.search(r"\\[a-z]{2,}", typst), label
+
+
+def test_a_formula_that_cannot_be_read_is_an_error_that_names_it() -> None:
+    """An unknown command raises, with the formula and its place."""
+    with pytest.raises(AtlasError, match=r"here: .*\\foo"):
+        one(r"$\foo{x}$")
+
+
+def test_a_fraction_below_a_fraction_is_refused_in_print() -> None:
+    """Typst would read a/b/c from left to right, so the user is told."""
+    with pytest.raises(AtlasError, match="slash"):
+        one(r"$\frac{a}{\frac{1}{2}}$", "typst")
+
+
+def test_vectors_are_upright_and_primes_not_raised_twice() -> None:
+    """B' is a bold upright letter with a prime beside it, before its index."""
+    math = ET.fromstring(one(r"$\mathbf{B}'_2$"))  # noqa: S314  our own output
+    assert "".join(math.itertext()) == "\N{MATHEMATICAL BOLD CAPITAL B}\N{PRIME}2"
+    assert math.find(".//msup") is None
+    assert math.find(".//msubsup") is None
+
+
+def test_functions_have_their_spaces() -> None:
+    """A thin space stands on both sides of sin in `a sin x`, none before a bracket."""
+    assert one(r"$a\sin x$").count("mspace") == 4
+    assert one(r"$\sin(x)$").count("mspace") == 0
+    assert one(r"$\left[a\sin x\right]$").count("mspace") == 4
+
+
+def test_accents_do_not_stretch() -> None:
+    """A hat is as wide as a hat."""
+    math = ET.fromstring(one(r"$\hat B$"))  # noqa: S314  our own output
+    mark = math.find(".//mover/mo")
+    assert mark is not None
+    assert mark.get("stretchy") == "false"
+
+
+def test_citations_become_links_but_not_in_code_or_formulas() -> None:
+    """``@mf72`` is a link; in code it stays as it is."""
+    html = one("see @mf58.1, `@mf72`")
+    assert '<a href="#mf58.1">(mf58.1)</a>' in html
+    assert "<code>@mf72</code>" in html
+
+
+def test_thin_spaces_keep_their_width_in_print() -> None:
+    r"""``\;`` is five eighteenths of an em, ``\!`` three eighteenths backwards."""
+    typst = one(r"$a\;b\!c$", "typst")
+    assert "#h(0.278em)" in typst
+    assert "#h(-0.167em)" in typst

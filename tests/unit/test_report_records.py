@@ -1,0 +1,80 @@
+"""What a report file may say, and what is said about what it may not."""
+
+from pathlib import Path
+
+import pytest
+
+from atlas.errors import AtlasError
+from atlas.report.load import find, load, names
+
+HEAD = 'name = "a"\ntitle = "A"\n'
+PAGE = '[[pages]]\nslug = "index"\ntitle = "T"\n'
+MISTAKES = {
+    "a misspelt key at the top": (HEAD + 'titel = "x"\n' + PAGE + "blocks = []", "line 3", "'titel'", "'title'"),
+    "a misspelt key of a body": (
+        HEAD + '[parameters.bodies.ring]\ntitle = "x"\nradus = 2.0\n' + PAGE + "blocks = []",
+        "line 5",
+        "bodies 'ring'",
+        "'radus'",
+        "'radius'",
+    ),
+    "a misspelt key of a block": (
+        HEAD + PAGE + '[[pages.blocks]]\nkind = "figure"\nrecpe = "x"',
+        "page 'index', block 1 (figure)",
+        "'recpe'",
+        "'recipe'",
+    ),
+    "a misspelt kind": (HEAD + PAGE + '[[pages.blocks]]\nkind = "figur"', "block 1", "'figur'", "'figure'"),
+    "no kind": (HEAD + PAGE + '[[pages.blocks]]\ntext = "x"', "block 1", "'kind'"),
+    "a missing key": (HEAD + PAGE + '[[pages.blocks]]\nkind = "prose"', "block 1 (prose)", "'text'"),
+    "a wrong type": (HEAD + '[[pages]]\nslug = "index"\ntitle = 3\nblocks = []', "page 'index'", "'str'", "title"),
+    "a misspelt renderer": (
+        HEAD + PAGE + '[[pages.blocks]]\nkind = "figure"\nrecipe = "x"\nrenderer = "shadd"',
+        "'shadd'",
+        "renderer",
+    ),
+    "a field of three components": (
+        HEAD + '[parameters.fields.f]\ntitle = "x"\nprime = [1.0, 2.0, 3.0]\n' + PAGE + "blocks = []",
+        "fields 'f'",
+        "prime",
+    ),
+    "a body that is not there": (
+        HEAD
+        + '[parameters.bodies.ring]\ntitle = "x"\nratio = 2.0\n'
+        + PAGE
+        + '[[pages.blocks]]\nkind = "table"\ntable = "quadric"\nbody = "rng"',
+        "block 1",
+        "no body 'rng'",
+        "'ring'",
+    ),
+    "no first page": (HEAD + '[[pages]]\nslug = "x"\ntitle = "T"\nblocks = []', "'index'"),
+    "two pages of one name": (HEAD + (PAGE + "blocks = []\n") * 2, "'index'", "two"),
+    "no TOML": (HEAD + "a =", "not TOML"),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_told_in_one_sentence_with_file_place_and_nearest_key(tmp_path: Path, mistake: str) -> None:
+    """Every mistake names the file, where it is, and what was probably meant."""
+    text, *expected = MISTAKES[mistake]
+    file = tmp_path / "mine.toml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(AtlasError) as caught:
+        load(file)
+    sentence = str(caught.value)
+    assert str(file) in sentence
+    assert "\n" not in sentence
+    for words in expected:
+        assert words in sentence
+
+
+def test_an_unknown_report_is_told_with_the_nearest_name() -> None:
+    """A misspelt name of a report names the one that was probably meant."""
+    with pytest.raises(AtlasError, match="'atlas'"):
+        find("atls")
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_report_of_the_folder_loads(name: str) -> None:
+    """The reports that come with the atlas are sound, and each is named like its file."""
+    assert load(find(name)).name == name

@@ -1,0 +1,144 @@
+"""Tables: every digit printed is that of the true value, computed here in another way."""
+
+from decimal import Decimal
+
+import mpmath
+import pytest
+
+from atlas.errors import AtlasError
+from atlas.report import records
+from atlas.report.numbers import Number
+from atlas.report.settings import setting
+from atlas.report.tables import TABLES, compute
+from atlas.report.tables.model import Data, Request, column
+
+BODY = records.Body(title="short solenoid", ratio=1.5)
+OBLIQUE = records.Field(title="oblique field", prime=(1.0, 2.0))
+
+
+def table(
+    name: str, digits: int = 10, body: records.Body = BODY, field: records.Field = OBLIQUE, **more: object
+) -> Data:
+    """Compute a table."""
+    return compute(name, Request((setting(body, field),), more, digits))
+
+
+def agrees(number: Number, true: mpmath.mpf) -> bool:
+    """Whether the digits are the true value rounded to as many decimals."""
+    printed = Decimal(number.digits)
+    last = mpmath.mpf(10) ** printed.as_tuple().exponent
+    return bool(abs(mpmath.mpf(number.digits) - true) <= last / 2)
+
+
+def values(data: Data) -> dict[str, Number]:
+    """The numbers of a table of quantities, by symbol."""
+    return {str(row[1]): row[2] for row in data.rows if isinstance(row[2], Number)}
+
+
+def test_the_digits_of_the_quadric_are_true() -> None:
+    """Angle and semi-axes at I = 3/2, B' = (0, 1, 2), by mf60 and mf61b in 40 digits."""
+    with mpmath.workdps(40):
+        beta = mpmath.atan2(2, mpmath.mpf(3) / 2)
+        sine = mpmath.sin(beta)
+        true = {
+            r"$\beta$": beta,
+            r"$\beta/2+\pi/4$": beta / 2 + mpmath.pi / 4,
+            "$a_2$": 2 * sine / (1 - sine),
+            "$C_1$": mpmath.sqrt(mpmath.mpf(1) / 2),
+            "$C_3$": mpmath.sqrt(sine / (1 + sine)),
+        }
+        found = values(table("quadric", digits=25))
+        for symbol, value in true.items():
+            assert agrees(found[symbol], value), symbol
+            assert len(found[symbol].digits.replace(".", "").lstrip("0")) >= 24
+
+
+def test_the_digits_of_the_points_are_true() -> None:
+    """omega3, k, phi of mf76, mf84, mf77 and the nutation frequency at omega2 = 1/4, in 40 digits."""
+    row = next(row for row in table("points", omega2=[0.25]).rows if row[1] == Number("0.25"))
+    with mpmath.workdps(40):
+        w, I, b = mpmath.mpf(1) / 4, mpmath.mpf(3) / 2, mpmath.sqrt(5)
+        omega3 = 2 * w * (w + 2 - I) / (I * (w + 1))
+        x2 = (w + 1) ** 2
+        nu2 = (5 * x2**2 + (1 - I) * 7 * x2 + 4 * (1 - I) ** 2) / x2
+        for number, true in zip(row[2:6], (omega3, w * b, omega3 - 2 * w, nu2), strict=True):
+            assert isinstance(number, Number)
+            assert agrees(number, true)
+
+
+def test_a_long_time_costs_no_digit() -> None:
+    """R_33 at t = 10^6 is that of mf89 in 40 digits."""
+    row = table("samples", omega2=0.5, times=[1e6]).rows[0]
+    with mpmath.workdps(40):
+        true = mpmath.mpf(4) / 5 + mpmath.cos(mpmath.mpf(10) ** 6 * mpmath.sqrt(5) / 2) / 5
+        assert isinstance(row[6], Number)
+        assert agrees(row[6], true)
+
+
+def test_an_unstable_motion_is_called_unstable() -> None:
+    """A long solenoid in a low field has a band of unstable motions."""
+    low = records.Field(title="low", prime=(1.0, 0.1))
+    data = table("points", body=records.Body(title="long", ratio=0.5), field=low, omega2=[-0.5, 0.7])
+    verdicts = {row[1].digits: row[-1] for row in data.rows if isinstance(row[1], Number)}
+    assert verdicts["-0.5"] == "unstable"
+    assert verdicts["0.7"] == "stable"
+
+
+def test_every_number_has_a_unit() -> None:
+    """Each numeric column names its unit in its head, or a column of units stands beside it."""
+    more = {
+        "points": {},
+        "quadric": {},
+        "motion": {"omega2": 0.7},
+        "samples": {"omega2": 0.7, "times": [0.0, 1.0]},
+        "setting": {},
+    }
+    for name, parameters in more.items():
+        data = table(name, **parameters)
+        heads = [one.head for one in data.columns]
+        for place, one in enumerate(data.columns):
+            if any(isinstance(row[place], Number) for row in data.rows):
+                assert one.unit or "Unit" in heads, (name, one.head)
+        if "Unit" in heads:
+            at = heads.index("Unit")
+            assert all(row[at] for row in data.rows if isinstance(row[at - 1], Number)), name
+
+
+def test_a_column_of_mixed_sizes_has_powers_of_ten() -> None:
+    """Entries far apart each have their own power; near ones share their decimals."""
+    assert [one.parts()[2] for one in column([1.0, 1e-9], 5)] == ["0", "\N{MINUS SIGN}9"]
+    assert {one.parts()[2] for one in column([1.5, 0.25], 5)} == {""}
+
+
+def test_a_shape_in_si_units_gives_its_ratio_without_rounding() -> None:
+    """A shell of h = 2R has I = 6/5, whatever the rounding of its moments."""
+    shell = records.Body(title="shell", shape="cylindrical_shell", mass=0.1, radius=0.25, height=0.5, charge=0.3)
+    magnet = records.Field(title="magnet", B=(0.0, 3.0, 4.0))
+    found = values(table("setting", 30, shell, magnet))
+    assert found["$I=I_3/I_2$"].digits == "1.2" + 28 * "0"
+    assert setting(shell, magnet).ratio == 1.2
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        (records.Body(title="b"), "exactly one of"),
+        (records.Body(title="b", ratio=1.0, shape="ring"), "exactly one of"),
+        (records.Body(title="b", shape="rng", mass=1.0, radius=1.0), "'ring'"),
+        (records.Body(title="b", shape="ring", mass=1.0), "takes mass, radius"),
+        (records.Body(title="b", ratio=2.5), "at most 2"),
+    ],
+)
+def test_a_body_that_cannot_be_is_refused_with_a_reason(body: records.Body, words: str) -> None:
+    """Each way to give a body wrongly is told."""
+    with pytest.raises(AtlasError, match=words):
+        setting(body, None)
+
+
+def test_unknown_tables_and_parameters_are_refused() -> None:
+    """A misspelt table or parameter names the one that was meant."""
+    with pytest.raises(AtlasError, match="'points'"):
+        table("point")
+    with pytest.raises(AtlasError, match="'omega2'"):
+        table("motion", omega_2=0.7)
+    assert set(TABLES) >= {"quadric", "points", "motion", "particle", "flight"}
