@@ -30,7 +30,7 @@ window.Render()
 print(window.GetClassName())
 """
 _PATIENCE = 60.0
-_OLD = 7
+_APT = "/usr/bin/apt-get"
 
 
 @cache
@@ -131,18 +131,21 @@ def _remember(note: Path, found: str) -> None:
         return
 
 
+def _may_install() -> bool:
+    """Return whether we are root on a machine with apt-get."""
+    return sys.platform.startswith("linux") and os.geteuid() == 0 and Path(_APT).exists()
+
+
 def _install() -> bool:
-    """Install the GL libraries where we may: as root, with apt-get. Return whether that was done."""
-    if not (sys.platform.startswith("linux") and os.geteuid() == 0 and Path("/usr/bin/apt-get").exists()):
+    """Install the GL libraries where we may; return whether that was done."""
+    if not _may_install():
         return False
     environment = dict(os.environ, DEBIAN_FRONTEND="noninteractive")
+    done = False
     for words in (["update", "-qq"], ["install", "-y", "-qq", "--no-install-recommends", *PACKAGES]):
-        done = subprocess.run(  # noqa: S603  fixed words
-            ["/usr/bin/apt-get", *words], env=environment, capture_output=True, check=False
-        )
-        if done.returncode != 0 and words[0] == "install":
-            return False
-    return True
+        apt = subprocess.run([_APT, *words], env=environment, capture_output=True, check=False)  # noqa: S603  fixed words
+        done = apt.returncode == 0
+    return done
 
 
 def main(arguments: list[str]) -> int:

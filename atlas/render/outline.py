@@ -5,6 +5,7 @@ and far part. An area is kept as its edge alone: filled by the rule of non-zero 
 """
 
 from collections import defaultdict
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,8 @@ from numpy.typing import NDArray
 from atlas.scene.layers import Surface
 
 FloatArray = NDArray[np.float64]
+
+_Name: TypeAlias = tuple[int, int]
 
 _DIGITS = 9
 
@@ -27,7 +30,9 @@ def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, list[
     parts = []
     for sign in (1.0, -1.0):
         near = bend * sign >= 0.0
-        loops = [loop for grid in surface.grids for loop in _edges(grid, sign * facing(surface.quadric, grid, towards))]
+        loops = []
+        for grid in surface.grids:
+            loops += _edges(grid, _numbers(grid), sign * facing(surface.quadric, grid, towards))
         if loops:
             parts.append((near, sign > 0.0, loops))
     return sorted(parts, key=lambda part: part[0])
@@ -46,23 +51,29 @@ def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: Fl
         normal = gradient / np.where(length > 0.0, length, 1.0)[..., None]
         slant = normal @ towards * (1.0 if bend >= 0.0 else -1.0)
         lit = normal @ light * np.where(normal @ towards >= 0.0, 1.0, -1.0)
+        numbers = _numbers(grid)
         for band, level in zip(bands, levels, strict=True):
-            band.extend(_edges(grid, np.minimum(slant, level - lit)))
+            band.extend(_edges(grid, numbers, np.minimum(slant, level - lit)))
     return bands
 
 
-def _edges(grid: FloatArray, height: FloatArray) -> list[FloatArray]:
-    """Return the closed edges of the part of a mesh (M, N, 3) where the height, linear on each side, is positive."""
+def _numbers(grid: FloatArray) -> NDArray[np.int64]:
+    """Return a number for each corner of a mesh (M, N, 3), one for those that coincide at a seam or a pole."""
     size = float(np.abs(grid).max()) or 1.0
-    places: dict[tuple[int, ...], FloatArray] = {}
-    follows: defaultdict[tuple[int, ...], list[tuple[int, ...]]] = defaultdict(list)
+    places = np.round(grid.reshape(-1, 3) * (10.0**_DIGITS / size)).astype(np.int64)
+    numbers: NDArray[np.int64] = np.unique(places, axis=0, return_inverse=True)[1].reshape(grid.shape[:2])
+    return numbers
 
-    def name(point: FloatArray) -> tuple[int, ...]:
-        key = tuple(int(v) for v in np.round(point / size * 10.0**_DIGITS))
-        places.setdefault(key, point)
-        return key
 
-    def side(a: tuple[int, ...], b: tuple[int, ...]) -> None:
+def _edges(grid: FloatArray, numbers: NDArray[np.int64], height: FloatArray) -> list[FloatArray]:
+    """Return the closed edges of the part of a mesh (M, N, 3) where the height, linear on each side, is positive.
+
+    A corner is known by its number, a point between two corners by both of theirs.
+    """
+    places: dict[_Name, FloatArray] = {}
+    follows: defaultdict[_Name, list[_Name]] = defaultdict(list)
+
+    def side(a: _Name, b: _Name) -> None:
         if a == b:
             return
         if a in follows[b]:
@@ -72,35 +83,44 @@ def _edges(grid: FloatArray, height: FloatArray) -> list[FloatArray]:
 
     above = height > 0.0
     count = 1 * above[:-1, :-1] + above[1:, :-1] + above[1:, 1:] + above[:-1, 1:]
-    whole = np.pad(count == 4, 1)  # a side between two whole cells cancels at once
-    for i, j in np.argwhere(count > 0):
+    whole = np.pad(count == 4, 1).tolist()  # a side between two whole cells cancels at once
+    edge = _next_to_open(np.pad(count == 4, 1))
+    for i, j in np.argwhere((count > 0) & ((count < 4) | edge)).tolist():
         corners = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
+        names = [(int(numbers[c]), -1) for c in corners]
+        places.update(zip(names, (grid[c] for c in corners), strict=True))
         if count[i, j] == 4:
             beyond = ((i + 1, j), (i + 2, j + 1), (i + 1, j + 2), (i, j + 1))  # the neighbours, as padded
-            for k in range(4):
-                if not whole[beyond[k]]:
-                    side(name(grid[corners[k]]), name(grid[corners[(k + 1) % 4]]))
+            for k, (row, column) in enumerate(beyond):
+                if not whole[row][column]:
+                    side(names[k], names[(k + 1) % 4])
         else:
-            keys = [name(point) for point in _keep([(grid[c], float(height[c])) for c in corners])]
-            for a, b in zip(keys, keys[1:] + keys[:1], strict=True):
+            kept = _keep(names, [float(height[c]) for c in corners], places)
+            for a, b in zip(kept, kept[1:] + kept[:1], strict=True):
                 side(a, b)
-    return [np.array([places[key] for key in loop]) for loop in _loops(follows)]
+    return [np.array([places[name] for name in loop]) for loop in _loops(follows)]
 
 
-def _keep(corners: list[tuple[FloatArray, float]]) -> list[FloatArray]:
-    """Return the part of a cell where the height is positive."""
-    kept: list[FloatArray] = []
-    for (p, a), (q, b) in zip(corners, corners[1:] + corners[:1], strict=True):
-        if a > 0.0:
-            kept.append(p)
-        if (a > 0.0) != (b > 0.0):
-            # from the positive end, so that two cells with this side in common find the same point
-            inner, outer, u, v = (p, q, a, b) if a > 0.0 else (q, p, b, a)
-            kept.append(inner + u / (u - v) * (outer - inner))
+def _next_to_open(whole: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return which cells have a neighbour that is not whole; the argument is padded by one cell all round."""
+    return ~(whole[:-2, 1:-1] & whole[2:, 1:-1] & whole[1:-1, :-2] & whole[1:-1, 2:])
+
+
+def _keep(names: list[_Name], heights: list[float], places: dict[_Name, FloatArray]) -> list[_Name]:
+    """Return the corners of the part of a cell where the height is positive, and note where the new ones are."""
+    kept: list[_Name] = []
+    for k in range(4):
+        a, b, u, v = names[k], names[(k + 1) % 4], heights[k], heights[(k + 1) % 4]
+        if u > 0.0:
+            kept.append(a)
+        if (u > 0.0) != (v > 0.0):
+            between = (min(a[0], b[0]), max(a[0], b[0]))
+            places[between] = places[a] + u / (u - v) * (places[b] - places[a])
+            kept.append(between if a[0] != b[0] else a)
     return kept
 
 
-def _loops(follows: dict[tuple[int, ...], list[tuple[int, ...]]]) -> list[list[tuple[int, ...]]]:
+def _loops(follows: dict[_Name, list[_Name]]) -> list[list[_Name]]:
     """Chain directed sides to closed edges."""
     loops = []
     for start in list(follows):

@@ -89,7 +89,8 @@ def _parts(layer: Layer) -> Iterator[FloatArray]:
     elif isinstance(layer, Surface):
         yield from (*layer.grids, *layer.rims)
     elif isinstance(layer, Image | Region):
-        raise AtlasError(f"a panel in space cannot hold a {type(layer).__name__}; put it in a Plane")
+        kind = "map" if isinstance(layer, Image) else "flat region"
+        raise AtlasError(f"a panel in space cannot hold a {kind}; put it in a Plane")
 
 
 def _tags(figure, layer: Layer, eye: FloatArray) -> Iterator[Tag]:  # noqa: ANN001  a Matplotlib figure

@@ -17,6 +17,7 @@ FloatArray: TypeAlias = NDArray[np.float64]
 E1, E2, E3 = np.eye(3)
 O = np.zeros(3)
 WIDTH = 120.0
+_FLAT = 1e-3
 LEGEND = (
     r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. In the plane of "
     r"$\mathbf{e}_2$ and $\mathbf{e}_3$ lie $\mathbf{B}'$ and $\mathbb{I}^{-1}\mathbf{B}'$, the latter at the angle "
@@ -91,7 +92,8 @@ def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
     frame = basis((0.9 * b, 1.15 * b, 1.4 * b))
     surface = surface_layers(ratio, field, which)
     if not any(field):
-        return [*frame, Points(O[None], "origin", r"$O$")]
+        note = Label(0.55 * (E2 + E3), "every $\\omega$ keeps $\\Omega_3$ constant", "note")
+        return [*frame, Points(O[None], "origin", r"$O$"), note]
     return [*surface, *frame, *vectors(quotient(ratio), float(np.arctan2(field[1], quotient(ratio) * field[0])), field)]
 
 
@@ -113,23 +115,24 @@ def basis(lengths: tuple[float, float, float]) -> list[Layer]:
 def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
     """Return B', I^-1 B', the angle beta between e2 and the latter, and the shifted centre -B'."""
     B2, B3 = field
-    b = float(np.hypot(B2, B3))
     prime, inverse = in_plane(B2, B3), in_plane(B2, B3 / I)
-    radius = 0.42 * float(np.linalg.norm(inverse))
-    angle = solids.arc(O, radius * E2, radius * E3, 0.0, beta, tolerance(b))
-    towards = in_plane(float(np.cos(0.5 * beta)), float(np.sin(0.5 * beta)))
     inverse_name = r"\mathrm{I\!I}^{-1}\mathbf{B}'"  # mathtext's blackboard I is slanted
     if (inverse == prime).all():
         arrows = [Arrow(O, prime, "field", rf"$\mathbf{{B}}'={inverse_name}$")]
     else:
         arrows = [Arrow(O, prime, "field", r"$\mathbf{B}'$"), Arrow(O, inverse, "field_inverse", f"${inverse_name}$")]
-    return [
-        *arrows,
-        Curve(angle, "angle"),
-        Label(radius * towards, r"$\beta$", offset=(4.0 * float(towards[1]), 4.0 * float(towards[2]))),
-        Curve(np.stack([O, -prime]), "construction"),
-        Points(O[None], "origin", r"$O$"),
-    ]
+    layers: list[Layer] = [*arrows, Curve(np.stack([O, -prime]), "construction"), Points(O[None], "origin", r"$O$")]
+    if abs(beta) > _FLAT:
+        layers += turn(O, beta, 0.42 * float(np.linalg.norm(inverse)), r"$\beta$")
+    return layers
+
+
+def turn(centre: FloatArray, angle: float, radius: float, name: str) -> list[Layer]:
+    """Return an arc in the plane omega_1 = 0 from the direction of e2, with the name of its angle."""
+    arc = solids.arc(centre, radius * E2, radius * E3, 0.0, angle, tolerance(2.0 * radius))
+    middle = in_plane(float(np.cos(0.5 * angle)), float(np.sin(0.5 * angle)))
+    label = Label(centre + radius * middle, name, offset=(4.0 * float(middle[1]), 4.0 * float(middle[2])))
+    return [Curve(arc, "angle"), label]
 
 
 def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
@@ -142,17 +145,7 @@ def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
         back = 0.35 * across
         layers.append(Arrow(centre - back * axes[k], centre + length * axes[k], "canonical", rf"$\omega'_{k + 1}$"))
     layers.append(Points(centre[None], "centre", r"$-\mathbf{B}'$"))
-    turn = float(np.arctan2(axes[1, 2], axes[1, 1]))
     radius = 0.62 * across
-    arc = solids.arc(centre, radius * E2, radius * E3, 0.0, turn, tolerance(reach))
-    middle = in_plane(float(np.cos(0.5 * turn)), float(np.sin(0.5 * turn)))
-    layers += [
-        Curve(np.stack([centre, centre + 1.25 * radius * E2]), "construction"),
-        Curve(arc, "angle"),
-        Label(
-            centre + radius * middle,
-            r"$\beta/2+\pi/4$",
-            offset=(4.0 * float(middle[1]), 4.0 * float(middle[2])),
-        ),
-    ]
+    layers.append(Curve(np.stack([centre, centre + 1.25 * radius * E2]), "construction"))
+    layers += turn(centre, float(np.arctan2(axes[1, 2], axes[1, 1])), radius, r"$\beta/2+\pi/4$")
     return layers

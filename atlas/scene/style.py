@@ -89,10 +89,10 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "second": Style(CRIMSON, 1.0, (5.0, 1.6)),
         "third": Style(OCHRE, 1.1),
         "fourth": Style(GREEN, 1.0, (5.0, 1.5, 1.2, 1.5)),
-        "fifth": Style(SKY, 1.1),
+        "fifth": Style(SKY, 1.3, (3.5, 1.0)),
         "sixth": Style(PLUM, 1.0, (1.6, 1.4)),
         "seventh": Style(BLUE, 1.0, (8.0, 2.0)),
-        "eighth": Style(GREY, 1.0),
+        "eighth": Style(GREY, 1.0, (2.6, 1.0, 0.8, 1.0)),
         "reference": Style(GREY, 0.7, (3.0, 2.0)),
         "limit": Style(INK, 0.7, (1.0, 1.5)),
         # marked points

@@ -1,0 +1,223 @@
+"""The plates in space as arrays: what is drawn is what the paper says."""
+
+import os
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from atlas import DomainError, ElementaryMotion, Hyperbola, Quadric, SymmetricBody
+from atlas.scene import Arrow, Curve, Label, Points, Scene, Surface, recipes
+from atlas.scene.quadrics import quadric_matrix
+from atlas.scene.style import style
+
+FloatArray = NDArray[np.float64]
+
+EPS = float(np.finfo(float).eps)
+PLATES = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
+HYPERBOLOIDS = [
+    ("quadric", {"ratio": 1.5, "field": (1.0, 2.0)}),
+    ("quadric", {"ratio": 2.0, "field": (1.0, 0.05)}),
+    ("quadric", {"ratio": 0.3, "field": (-2.0, 0.7)}),
+    ("quadric", {"ratio": 1.7, "field": (1.0, -1.0)}),
+    ("quadric", {"ratio": 0.9, "field": (-1.0, -3.0)}),
+    ("quadric", {"ratio": 1.5, "field": (1e-90, 2e-90)}),
+    ("hyp_a", {}),
+    ("hyp_b", {}),
+    ("cone", {}),
+    ("loop", {}),
+]
+
+
+def layers(name: str, kind: Any, role: str = "", **parameters: Any) -> list[Any]:
+    """Return the layers of one kind, and role, of a plate."""
+    (panel,) = recipes.load(name).scene(**parameters).panels
+    return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", layer.role}]
+
+
+def defect(Q: FloatArray, points: FloatArray) -> float:
+    """Return the largest |F| in units of eps times the sizes of its terms."""
+    x = np.concatenate([points.reshape(-1, 3), np.ones((points.size // 3, 1))], axis=1)
+    size = np.sum((np.abs(x) @ np.abs(Q)) * np.abs(x), axis=1).max()
+    return float(np.abs(np.sum((x @ Q) * x, axis=1)).max()) / (EPS * (size or 1.0))
+
+
+@pytest.mark.parametrize(("name", "parameters"), HYPERBOLOIDS)
+def test_meshes_wires_and_rims_lie_on_the_quadric(name: str, parameters: dict[str, Any]) -> None:
+    """Each point satisfies mf58 to a few eps of its terms, and the half spaces hold it."""
+    used = recipes.load(name).parameters | parameters
+    quadric = Quadric(used.get("ratio", {"cone": 1.0, "loop": 2.0}.get(name)), used["field"])
+    for surface in layers(name, Surface, "surface", **parameters):
+        for points in (*surface.grids, *surface.wires, *surface.rims):
+            assert defect(surface.quadric, points) < 64.0
+            scale = float(np.abs(points).max())
+            assert np.abs(quadric.residual(points)).max() < 1e-13 * max(scale, abs(quadric.field[1])) ** 3
+            for *n, d in surface.clip:
+                assert (points @ np.array(n) <= d + 16.0 * EPS * scale).all()
+
+
+@pytest.mark.parametrize(("name", "parameters"), HYPERBOLOIDS)
+def test_the_heavy_line_is_the_hyperbola(name: str, parameters: dict[str, Any]) -> None:
+    """It lies in omega_1 = 0 and on mf72, and one of its branches passes through the origin."""
+    used = recipes.load(name).parameters | parameters
+    ratio, field = used.get("ratio", {"cone": 1.0, "loop": 2.0}.get(name)), used["field"]
+    hyperbola = Hyperbola(ratio, field)
+    curves = [layer.points for layer in layers(name, Curve, "hyperbola", **parameters)]
+    assert curves
+    b = float(np.hypot(*field))
+    for points in curves:
+        assert np.abs(points[:, 0]).max() <= 8.0 * EPS * b
+        far = np.abs(points[:, 1] + field[0]) > 0.3 * abs(field[0])  # away from the pole, where omega_3 says little
+        if ratio != 1.0:
+            assert hyperbola.omega3(points[far, 1]) == pytest.approx(points[far, 2], abs=1e-12 * 10.0 * b)
+    gaps = [np.linalg.norm(points, axis=1).min() for points in curves]
+    assert min(gaps) < 0.3 * b
+
+
+@pytest.mark.parametrize(("ratio", "field"), [(1.5, (1.0, 2.0)), (0.4, (2.0, -1.0)), (1.0, (-1.0, 1.0))])
+def test_canonical_axes_and_vectors_are_those_of_the_kernel(ratio: float, field: tuple[float, float]) -> None:
+    """The arrows omega' run along Quadric.axes through -B'; B' and I^-1 B' start at the origin and span beta."""
+    quadric = Quadric(ratio, field)
+    arrows = layers("quadric", Arrow, "canonical", ratio=ratio, field=field)
+    for arrow, axis in zip(arrows, quadric.axes, strict=True):
+        step = arrow.tip - arrow.tail
+        assert np.linalg.norm(np.cross(step, axis)) < 4.0 * EPS * np.linalg.norm(step)
+        assert step @ axis > 0.0
+        assert np.linalg.norm(np.cross(arrow.tip - quadric.centre, axis)) < 8.0 * EPS * np.linalg.norm(step)
+    (prime,) = layers("quadric", Arrow, "field", ratio=ratio, field=field)
+    assert prime.tip.tolist() == [0.0, *field]
+    (centre,) = layers("quadric", Points, "centre", ratio=ratio, field=field)
+    assert centre.points[0].tolist() == [0.0, -field[0], -field[1]]
+    inverse = layers("quadric", Arrow, "field_inverse", ratio=ratio, field=field)
+    tip = inverse[0].tip if inverse else prime.tip
+    assert np.arctan2(tip[2], tip[1]) == pytest.approx(quadric.beta, abs=4.0 * EPS)
+
+
+def test_the_planes_of_the_loop_touch_its_sheets() -> None:
+    """At each point of contact the gradient of mf58 is vertical, and no point of the sheets is between the planes."""
+    field = recipes.load("loop").parameters["field"]
+    Q = quadric_matrix(2.0, field)
+    planes = layers("loop", Surface, "tangent_plane")
+    sheets = layers("loop", Surface, "surface")
+    for plane, height in zip(planes, (0.0, -2.0 * field[1]), strict=True):
+        contact = np.array([0.0, height / field[1] * field[0], height])
+        assert defect(Q, contact) < 8.0
+        gradient = 2.0 * (Q @ np.append(contact, 1.0))[:3]
+        assert np.abs(gradient[:2]).max() < 8.0 * EPS * abs(gradient[2])
+        assert np.abs(plane.grids[0][..., 2] - height).max() == 0.0
+    heights = np.concatenate([sheet.grids[0][..., 2].ravel() for sheet in sheets])
+    assert ((heights > -1e-12) | (heights < -2.0 * field[1] + 1e-12)).all()
+
+
+def test_the_trace_lies_on_the_sphere_and_on_the_cone() -> None:
+    """R_3(t) is a unit vector at the angle of e3 from B, mf91, and ends where it began after one period of k."""
+    (trace,) = (layer.points for layer in layers("motion_sphere", Curve, "trace"))
+    assert np.abs(np.linalg.norm(trace, axis=1) - 1.0).max() < 4.0 * EPS
+    axis = np.array([0.0, 1.0, 2.0]) / np.sqrt(5.0)
+    assert np.abs(trace @ axis - 2.0 / np.sqrt(5.0)).max() < 4.0 * EPS
+    assert np.abs(trace[0] - trace[-1]).max() < 1e-14
+    for surface in layers("motion_sphere", Surface):
+        assert defect(surface.quadric, trace) < 16.0
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    assert trace[-1] == pytest.approx(motion.third_axis(2.0 * np.pi / motion.k), abs=1e-14)
+
+
+def test_the_shell_of_the_laboratory_system_has_the_ratio() -> None:
+    """The height of the drawn shell of radius 1 is that of the body with this I."""
+    (shell,) = layers("lssc", Surface, ratio=1.2)
+    height = np.ptp(shell.grids[0][..., 2])
+    assert SymmetricBody.cylindrical_shell(1.0, 1.0, height).ratio == pytest.approx(1.2, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("field", "kind"), [((1.0, 0.0), "plane pair"), ((0.0, 1.0), "line"), ((0.0, 0.0), "all space")]
+)
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 1.5])
+def test_degenerate_quadrics_are_drawn_too(ratio: float, field: tuple[float, float], kind: str) -> None:
+    """Each kind has its picture, whose surfaces and lines satisfy mf58.1."""
+    scene = recipes.load("quadric").scene(ratio=ratio, field=field)
+    assert kind in scene.caption
+    quadric = Quadric(ratio, field)
+    (panel,) = scene.panels
+    for layer in panel.layers:
+        if isinstance(layer, Surface):
+            assert np.abs(quadric.residual(layer.grids[0])).max() < 1e-14
+        elif isinstance(layer, Curve) and layer.role == "hyperbola":
+            assert np.abs(quadric.residual(layer.points)).max() < 1e-14
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters"),
+    [
+        ("hyp_a", {"ratio": 0.5}),
+        ("hyp_b", {"ratio": 1.5}),
+        ("cone", {"field": (0.0, 1.0)}),
+        ("loop", {"field": (1.0, 0.0)}),
+        ("magn", {"B": 0.0}),
+        ("magn", {"mu": 0.0}),
+        ("quadric", {"ratio": 2.5}),
+    ],
+)
+def test_a_plate_refuses_what_it_does_not_show(name: str, parameters: dict[str, Any]) -> None:
+    """One sentence says what was wrong and what would be right."""
+    with pytest.raises(DomainError) as caught:
+        recipes.load(name).scene(**parameters)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", PLATES)
+def test_plates_have_words_and_known_roles(name: str) -> None:
+    """Captions and alternative texts are sentences, these without TeX; roles have styles; points are finite."""
+    scene = recipes.load(name).scene()
+    assert isinstance(scene, Scene)
+    assert scene.title == recipes.title(name)
+    for text in (scene.caption, scene.alt):
+        assert text.endswith(".")
+        assert text[0].isupper()
+    assert not set("$\\{}") & set(scene.alt)
+    assert scene.caption.count("$") % 2 == 0
+    for panel in scene.panels:
+        for layer in panel.layers:
+            style(layer.role)
+            points = {Arrow: lambda a: np.stack([a.tail, a.tip]), Label: lambda a: a.at}.get(
+                type(layer), lambda a: a.grids[0] if isinstance(a, Surface) else a.points
+            )(layer)
+            assert np.isfinite(points).all()
+
+
+def heavy(program: str) -> set[str]:
+    """Return the drawing libraries that a program of ours has loaded at its end."""
+    watched = ["matplotlib", "matplotlib.pyplot", "pyvista", "vtkmodules", "vtk", "sympy", "scipy", "flint", "jinja2"]
+    ending = f"\nimport sys; print(*[name for name in {watched} if name in sys.modules])"
+    done = subprocess.run(
+        [sys.executable, "-c", program + ending], env=dict(os.environ), capture_output=True, text=True, check=True
+    )
+    return set(done.stdout.split())
+
+
+def test_a_scene_loads_no_drawing_library() -> None:
+    """A figure as data costs NumPy and the kernels only."""
+    program = "from atlas.scene import recipes\nfor name in ('quadric', 'motion_sphere'): recipes.load(name).scene()"
+    assert heavy(program) == set()
+
+
+def test_a_figure_on_paper_loads_no_vtk_and_no_pyplot(tmp_path: Any) -> None:
+    """Matplotlib's canvases are enough."""
+    program = (
+        "from atlas.scene import recipes; from atlas.render import draw\n"
+        f"draw(recipes.load('cone').scene(), r'{tmp_path / 'cone.svg'}')"
+    )
+    assert heavy(program) == {"matplotlib"}
+
+
+def test_a_flat_figure_asked_for_shaded_loads_no_vtk(tmp_path: Any) -> None:
+    """There is nothing to shade in a panel with two axes."""
+    program = (
+        "import numpy as np; from atlas.scene import Curve, Plane, Scene; from atlas.render import draw\n"
+        "panel = Plane((Curve(np.eye(2), 'main'),), 'x', 'y')\n"
+        f"draw(Scene('t', 'c', 'a', (panel,)), r'{tmp_path / 'flat.png'}', renderer='shaded')"
+    )
+    assert heavy(program) == {"matplotlib"}

@@ -1,0 +1,121 @@
+"""Shaded pictures: translucent surfaces, and labels where the things are."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from atlas.render import draw, gl
+from atlas.scene import Arrow, Curve, Points, Scene, Space, recipes, solids
+
+pytestmark = pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
+
+
+def picture(path: Path) -> NDArray[np.int64]:
+    """Return a PNG as whole numbers (H, W, 3)."""
+    from matplotlib.image import imread
+
+    return np.round(255.0 * imread(path)[..., :3]).astype(int)
+
+
+def shown(layers: Any, path: Path, dpi: float = 100.0, **options: Any) -> NDArray[np.int64]:
+    """Draw layers shaded and return the picture (H, W, 3)."""
+    scene = Scene("t", "c", "a", (Space(tuple(layers), azimuth=0.0, elevation=0.0, **options),), size=(40.0, 40.0))
+    done = draw(scene, path, renderer="shaded", dpi=dpi)
+    assert (done.renderer, done.note) == ("shaded", "")
+    return picture(path)
+
+
+def test_a_second_picture_is_like_the_first(tmp_path: Path) -> None:
+    """The one plotter keeps nothing of what it drew before: other things between two equal scenes change no byte."""
+    ball = [solids.sphere(np.zeros(3), 1.0, 1e-2)]
+    first = shown(ball, tmp_path / "a.png")
+    shown([Curve(np.eye(3), "main"), solids.rectangle(np.zeros(3), *np.eye(3)[:2])], tmp_path / "b.png", dpi=130.0)
+    assert (shown(ball, tmp_path / "c.png") == first).all()
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "c.png").read_bytes()
+    assert (first < 250).any()
+
+
+def test_what_is_inside_a_translucent_ball_shines_through(tmp_path: Path) -> None:
+    """Behind glass a red line is still redder than the glass, but not as red as before it."""
+    ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
+
+    def redness(at: float) -> int:
+        line = Curve(np.array([[at, -0.4, 0.0], [at, 0.4, 0.0]]), "trace")
+        image = shown([ball, line], tmp_path / "ball.png")
+        patch = image[image.shape[0] // 2 - 3 : image.shape[0] // 2 + 4, image.shape[1] // 2]
+        return int((patch[:, 0] - patch[:, 2]).max())
+
+    glass = shown([ball], tmp_path / "glass.png")
+    plain = int(glass[glass.shape[0] // 2, glass.shape[1] // 2, 0] - glass[glass.shape[0] // 2, glass.shape[1] // 2, 2])
+    behind, before = redness(0.0), redness(1.5)
+    assert plain + 20 < behind < before
+
+
+def test_things_are_drawn_where_the_labels_think(tmp_path: Path) -> None:
+    """The centre of a marked point in the picture is where the parallel projection of the page puts it."""
+    corners = np.array([[0.0, -1.0, -1.0], [0.0, 1.0, 1.0]])
+    spot = np.array([[0.3, 0.4, -0.25]])
+    image = shown([Curve(corners, "guide"), Points(spot, "special")], tmp_path / "spot.png", dpi=254.0)
+    red = (image[..., 0] > 100) & (image[..., 1] < 60)
+    rows, columns = np.nonzero(red)
+    height, width = red.shape
+    span = (width - 2.0 * 4.0 / 72.0 * 254.0) / 2.0  # a margin of four points on each side of the interval [-1, 1]
+    assert columns.mean() + 0.5 == pytest.approx(0.5 * width + 0.4 * span, abs=1.0)
+    assert rows.mean() + 0.5 == pytest.approx(0.5 * height + 0.25 * span, abs=1.0)
+
+
+def test_light_falls_from_the_upper_left(tmp_path: Path) -> None:
+    """The upper left of a ball is lighter than its lower right."""
+    image = shown([solids.sphere(np.zeros(3), 1.0, 1e-2, role="ball")], tmp_path / "ball.png")
+    height, width = image.shape[:2]
+    upper = image[int(0.3 * height) : int(0.4 * height), int(0.3 * width) : int(0.4 * width)].mean()
+    lower = image[int(0.6 * height) : int(0.7 * height), int(0.6 * width) : int(0.7 * width)].mean()
+    assert upper > lower + 3.0
+
+
+def test_a_picture_has_the_size_of_the_scene(tmp_path: Path) -> None:
+    """Both renderers make the same page."""
+    arrow = Arrow(np.zeros(3), np.ones(3), "field", r"$\mathbf{B}$")
+    scene = Scene("t", "c", "a", (Space((arrow,)), Space((arrow,))), columns=2, size=(63.0, 31.0))
+    sizes = []
+    for renderer in ("vector", "shaded"):
+        draw(scene, tmp_path / "a.png", renderer=renderer, dpi=123.0)
+        sizes.append(picture(tmp_path / "a.png").shape)
+    assert sizes[0] == sizes[1]
+
+
+def test_without_peeling_there_is_no_picture(tmp_path: Path) -> None:
+    """Where VTK gives up depth peeling without a word, we do not: the drawing is refused, and no file is left."""
+    program = (
+        "import sys\n"
+        "from atlas.render import gl; gl.prepare()\n"
+        "import pyvista as pv\n"
+        "pv.Plotter.enable_depth_peeling = lambda *_: None\n"
+        "from atlas.errors import AtlasError\n"
+        "from atlas.render import draw\n"
+        "from atlas.scene import recipes\n"
+        "try:\n"
+        "    draw(recipes.load('cone').scene(), sys.argv[1], renderer='shaded', dpi=40)\n"
+        "except AtlasError as error:\n"
+        "    print(error)\n"
+    )
+    path = tmp_path / "cone.png"
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(path)], env=dict(os.environ), capture_output=True, text=True, check=True
+    )
+    assert "without depth peeling" in done.stdout
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["hyp_b", "loop", "motion_sphere"])
+def test_plates_can_be_shaded(tmp_path: Path, name: str) -> None:
+    """The default plates are drawn, with both sides of the surface in their colours."""
+    done = draw(recipes.load(name).scene(), tmp_path / "plate.png", renderer="shaded", dpi=60.0)
+    image = picture(done.path)
+    assert 0.08 < (image.min(axis=2) < 250).mean() < 0.9

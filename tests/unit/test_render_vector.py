@@ -1,0 +1,218 @@
+"""Figures on paper: whole files, the same bytes, names that cover nothing."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from atlas import AtlasError
+from atlas.render import draw, gl, vector
+from atlas.render.house import house_style
+from atlas.render.labels import Tag, place
+from atlas.render.space import silhouette
+from atlas.render.stage import stage
+from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
+from atlas.scene.style import STYLES
+
+PLATES = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
+
+
+def flat_scene() -> Scene:
+    """Return a scene with a panel of each kind of axis and every layer that a plane can hold."""
+    x = np.linspace(0.01, 1.0, 50)
+    curve = Curve(np.stack([x, x**2], axis=1), "main", "$x^2$")
+    layers = (
+        curve,
+        Points(np.array([[0.5, 0.25]]), "special", "$B'_2$"),
+        Arrow(np.array([0.1, 0.1]), np.array([0.6, 0.8]), "field", r"$\mathbf{B}'$"),
+        Region(np.array([[0.2, 0.0], [0.4, 0.0], [0.4, 1.0]]), "region", "band"),
+        Label(np.array([0.7, 0.2]), "$O$", offset=(4.0, 4.0)),
+    )
+    image = Image(np.arange(4.0), np.arange(3.0), np.array([[1e-3, 1e-2, 0.1], [1.0, 10.0, 100.0]]), "error", "log")
+    panels = (
+        Plane(layers, "$x$", "$y$", legend=True, title="(a)"),
+        Plane(layers, "$x$", "$y$", equal=True, x_limits=(0.0, 1.0), y_limits=(0.0, 1.0)),
+        Plane((curve,), "$x$", "$y$", x_scale="log", y_scale="symlog", legend="beside"),
+        Plane((image,), "$x$", "$y$"),
+    )
+    return Scene("Flat", "A caption.", "An alternative.", panels, columns=2, size=(150.0, 120.0))
+
+
+def ball_scene(**options: Any) -> Scene:
+    """Return a scene with a ball and an arrow."""
+    ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
+    arrow = Arrow(np.zeros(3), np.array([0.0, 1.5, 1.0]), "field", r"$\mathbf{B}$")
+    return Scene("Ball", "A caption.", "A ball.", (Space((ball, arrow), **options),), size=(50.0, 50.0))
+
+
+@pytest.mark.parametrize("kind", ["svg", "pdf", "png"])
+@pytest.mark.parametrize("make", [flat_scene, ball_scene])
+def test_a_scene_drawn_twice_has_the_same_bytes(tmp_path: Path, kind: str, make: Callable[[], Scene]) -> None:
+    """No date, no random name, nothing left over from the first drawing."""
+    first, second = (draw(make(), tmp_path / f"{n}.{kind}").path.read_bytes() for n in "ab")
+    assert first == second
+    assert len(first) > 1000
+
+
+def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
+    """The seed of hashing, the locale and the time zone do not matter."""
+    program = (
+        "import sys; from atlas.scene import recipes; from atlas.render import draw; "
+        "scene = recipes.load('cone').scene(); [draw(scene, sys.argv[1] + kind) for kind in ('.svg', '.pdf')]"
+    )
+    scene = recipes.load("cone").scene()
+    environment = dict(os.environ, PYTHONHASHSEED="7", TZ="Pacific/Chatham", LC_ALL="C")
+    subprocess.run([sys.executable, "-c", program, str(tmp_path / "theirs")], env=environment, check=True)
+    for kind in ("svg", "pdf"):
+        ours = draw(scene, tmp_path / f"ours.{kind}").path.read_bytes()
+        assert ours == (tmp_path / f"theirs.{kind}").read_bytes()
+
+
+def test_the_page_has_the_size_of_the_scene(tmp_path: Path) -> None:
+    """Sizes are in millimetres: at 254 dots an inch, ten dots each."""
+    draw(ball_scene(), tmp_path / "ball.png", dpi=254.0)
+    header = (tmp_path / "ball.png").read_bytes()[16:24]
+    assert [int.from_bytes(header[i : i + 4], "big") for i in (0, 4)] == [500, 500]
+
+
+def test_a_drawing_that_fails_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
+    """Whole or not at all."""
+    path = tmp_path / "ball.svg"
+    path.write_text("old", encoding="utf-8")
+    broken = Scene("t", "c", "a", (Plane((Surface(np.eye(4), np.empty((0, 4)), ()),), "x", "y"),))
+    with pytest.raises(AtlasError, match="plane panel cannot hold a Surface"):
+        draw(broken, path)
+    assert path.read_text(encoding="utf-8") == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_picture_in_space_cannot_hold_a_map(tmp_path: Path) -> None:
+    """The error says where it belongs."""
+    image = Image(np.arange(3.0), np.arange(3.0), np.ones((2, 2)), "error")
+    with pytest.raises(AtlasError, match="panel in space cannot hold a map"):
+        draw(Scene("t", "c", "a", (Space((image,)),)), tmp_path / "a.svg")
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        ("a.gif", {}, "format 'gif'.*svg, pdf, png"),
+        ("a.svg", {"renderer": "etching"}, "no renderer 'etching'; known: vector, shaded"),
+        ("a.svg", {"renderer": "shaded"}, "a shaded figure is a PNG"),
+    ],
+)
+def test_an_unknown_format_or_renderer_is_refused(
+    tmp_path: Path, name: str, options: dict[str, Any], words: Any
+) -> None:
+    """The error says which there are."""
+    with pytest.raises(AtlasError, match=words):
+        draw(ball_scene(), tmp_path / name, **options)
+
+
+def test_without_gl_a_shaded_figure_is_drawn_on_paper(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same file in the other style, and a line that says so and what to do."""
+    monkeypatch.setenv(gl.CHOICE, "none")
+    gl.library.cache_clear()
+    try:
+        done = draw(ball_scene(), tmp_path / "ball.png", renderer="shaded")
+    finally:
+        gl.library.cache_clear()
+    assert done.renderer == "vector"
+    assert "apt-get install" in done.note
+    assert "\n" not in done.note
+    assert done.path.read_bytes() == draw(ball_scene(), tmp_path / "paper.png").path.read_bytes()
+
+
+def test_a_flat_figure_asked_for_shaded_is_drawn_on_paper(tmp_path: Path) -> None:
+    """There is nothing to shade, and nothing to say."""
+    done = draw(flat_scene(), tmp_path / "flat.svg", renderer="shaded")
+    assert (done.renderer, done.note) == ("vector", "")
+
+
+def boxes(figure: Any) -> list[tuple[str, Any]]:
+    """Return the boxes of all names of a figure, in dots, with their text."""
+    renderer = figure.canvas.get_renderer()
+    return [(text.get_text(), text.get_window_extent(renderer)) for text in figure.texts]
+
+
+@pytest.mark.parametrize("name", PLATES)
+def test_names_on_a_plate_stay_on_the_page_and_do_not_overlap(name: str) -> None:
+    """Each name of the default figure is inside the page and clear of every other."""
+    with house_style():
+        figure = vector.compose(recipes.load(name).scene(), dpi=100.0)
+        found = boxes(figure)
+    width, height = figure.get_size_inches() * 100.0
+    assert len(found) >= 4
+    for text, box in found:
+        assert box.x0 >= 0.0, text
+        assert box.x1 <= width, text
+        assert box.y0 >= 0.0, text
+        assert box.y1 <= height, text
+    for i, (text, a) in enumerate(found):
+        for other, b in found[i + 1 :]:
+            overlap = (min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0))
+            assert min(overlap) <= 0.0, (text, other)
+
+
+@pytest.mark.parametrize("name", PLATES)
+def test_a_plate_fills_its_page(name: str) -> None:
+    """What is drawn reaches within a tenth of the page's width or height from both edges, and is not cut off."""
+    scene = recipes.load(name).scene()
+    with house_style():
+        figure = vector.compose(scene, dpi=50.0)
+        figure.canvas.draw()
+        ink = np.asarray(figure.canvas.buffer_rgba())[..., :3].min(axis=2) < 250
+    rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
+    height, width = ink.shape
+    margins = [rows[0] / height, 1.0 - rows[-1] / height, columns[0] / width, 1.0 - columns[-1] / width]
+    assert min(margins) > 0.0
+    assert max(margins[:2]) < 0.1 or max(margins[2:]) < 0.1
+
+
+@pytest.mark.parametrize("name", ["hyp_a", "hyp_b", "cone", "loop", "motion_sphere"])
+def test_the_silhouette_lies_on_the_surface_where_the_line_of_sight_grazes_it(name: str) -> None:
+    """Each of its points has F = 0 and grad F . d = 0, to eps times the size of their terms."""
+    (panel,) = recipes.load(name).scene().panels
+    with house_style():
+        figure = vector.compose(Scene("t", "c", "a", (panel,)), dpi=50.0)
+        view = stage(figure.axes[0], panel)
+    found = 0
+    for surface in view.surfaces:
+        for line in silhouette(surface, view):
+            found += len(line)
+            x = np.concatenate([line, np.ones((len(line), 1))], axis=1)
+            d = np.append(view.towards, 0.0)
+            size = np.sum((np.abs(x) @ np.abs(surface.quadric)) * np.abs(x), axis=1).max()
+            assert np.abs(np.sum((x @ surface.quadric) * x, axis=1)).max() < 1e-12 * size
+            assert np.abs(x @ surface.quadric @ d).max() < 1e-12 * size
+            assert (line @ surface.clip[:, :3].T <= surface.clip[:, 3] + 1e-12 * view.size).all()
+    assert found > 10
+
+
+def test_a_name_moves_away_from_ink() -> None:
+    """Placed on a dense patch of ink it finds a place beside it; one that must stay stays."""
+    patch = np.stack(np.meshgrid(np.linspace(50.0, 70.0, 30), np.linspace(50.0, 70.0, 30)), axis=-1).reshape(-1, 2)
+    moving = Tag("a", (50.0, 50.0), (3.0, 3.0), (12.0, 8.0), "#000000", 9.0)
+    fixed = Tag("b", (60.0, 60.0), (0.0, 0.0), (12.0, 8.0), "#000000", 9.0)
+    centres = place([moving, fixed], patch, np.ones(len(patch)), (0.0, 0.0, 100.0, 100.0))
+    low, high = centres[0] - (6.0, 4.0), centres[0] + (6.0, 4.0)
+    assert not ((patch > low) & (patch < high)).all(axis=1).any()
+    assert centres[1].tolist() == [60.0, 60.0]
+
+
+@pytest.mark.parametrize("role", list(STYLES))
+def test_every_style_can_be_drawn(role: str) -> None:
+    """Colours are those of a printer: six hexadecimal digits; widths and opacities are in their range."""
+    look = STYLES[role]
+    for colour in filter(None, (look.colour, look.back)):
+        assert len(colour) == 7
+        assert int(colour[1:], 16) >= 0
+    assert 0.0 <= look.fill <= 1.0
+    assert 0.0 <= look.glass <= 1.0
+    assert look.width > 0.0
+    assert len(look.dash) % 2 == 0

@@ -1,0 +1,87 @@
+"""Recipes by name."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from atlas import AtlasError
+from atlas.scene import recipes
+from atlas.scene.style import STYLES, style
+
+
+def test_every_file_in_figures_is_a_recipe_with_a_title() -> None:
+    """Titles are the first lines of the docstrings, read without running the recipe."""
+    assert {"hyp_a", "hyp_b", "quadric", "ball", "lssc", "magn", "loop", "cone", "motion_sphere"} <= set(
+        recipes.names()
+    )
+    for name in recipes.names():
+        assert recipes.title(name)
+        assert recipes.title(name) == recipes.load(name).title
+
+
+def test_parameters_used_are_noted_in_the_scene() -> None:
+    """Defaults and values given stand in the scene in the recipe's order; floats and tuples have one form."""
+    scene = recipes.load("quadric").scene(field=[1, 2])
+    assert list(scene.parameters) == list(recipes.load("quadric").parameters)
+    assert scene.parameters["field"] == (1.0, 2.0)
+    assert all(isinstance(component, float) for component in scene.parameters["field"])
+    assert scene.parameters["ratio"] == recipes.load("quadric").parameters["ratio"]
+
+
+def test_an_unknown_recipe_is_named_with_the_nearest() -> None:
+    """The error says which figure is meant."""
+    with pytest.raises(AtlasError, match=r"no figure 'quadrik'.*nearest is 'quadric'.*known: "):
+        recipes.load("quadrik")
+
+
+def test_an_unknown_parameter_is_named_with_the_nearest() -> None:
+    """The error says which parameter is meant, and which there are."""
+    with pytest.raises(AtlasError, match=r"no parameter 'feild'.*'quadric'.*nearest is 'field'.*ratio"):
+        recipes.load("quadric").scene(feild=(1.0, 2.0))
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Put an empty folder of figures in place of ours."""
+    monkeypatch.setattr(recipes, "folder", lambda _kind: tmp_path)
+    recipes.load.cache_clear()
+    yield tmp_path
+    recipes.load.cache_clear()
+
+
+def test_a_parameter_without_default_is_refused(folder: Path) -> None:
+    """A recipe can be made by its name alone, so each of its parameters has a default."""
+    (folder / "bare.py").write_text('"""Bare."""\ndef scene(*, ratio): ...\n', encoding="utf-8")
+    with pytest.raises(AtlasError, match=r"parameter 'ratio' of figures/bare.py has no default"):
+        recipes.load("bare")
+
+
+def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
+    """The error says what is missing."""
+    (folder / "empty.py").write_text('"""Empty."""\n', encoding="utf-8")
+    (folder / "mute.py").write_text("def scene(): ...\n", encoding="utf-8")
+    with pytest.raises(AtlasError, match=r"no function scene\(\)"):
+        recipes.load("empty")
+    with pytest.raises(AtlasError, match="no docstring"):
+        recipes.title("mute")
+
+
+def test_an_unknown_role_is_named_with_the_nearest() -> None:
+    """The error says which role is meant."""
+    with pytest.raises(AtlasError, match=r"'hyperbolla'; nearest is 'hyperbola'"):
+        style("hyperbolla")
+
+
+def test_styles_of_lines_that_meet_in_a_plot_differ_in_grey_or_in_dash() -> None:
+    """In grey print two of the plotted lines are told apart by lightness, or by their dashes."""
+    order = ["main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"]
+
+    def grey(colour: str) -> float:
+        red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+        return 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2
+
+    for i, a in enumerate(order):
+        for b in order[i + 1 :]:
+            lightness = [116.0 * grey(STYLES[role].colour) ** (1.0 / 3.0) for role in (a, b)]
+            assert abs(lightness[0] - lightness[1]) > 8.0 or STYLES[a].dash != STYLES[b].dash, (a, b)

@@ -1,0 +1,56 @@
+"""Curves sampled to a tolerance."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from atlas.scene.sample import curve, quarter_pixel
+
+FloatArray = NDArray[np.float64]
+
+
+def spiral(s: FloatArray) -> FloatArray:
+    """Return a curve that bends more and more."""
+    return np.stack([s * np.cos(3.0 * s), s * np.sin(3.0 * s), 0.3 * s * s], axis=-1)
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3, 1e-4])
+def test_no_chord_leaves_the_curve_by_more_than_the_tolerance(tolerance: float) -> None:
+    """A dense sampling of the curve stays as near to the polyline as asked, in a metric of its own."""
+    points = curve(spiral, 0.0, 4.0, tolerance)
+    dense = spiral(np.linspace(0.0, 4.0, 4001))
+    a, b = points[:-1], points[1:]
+    along = np.einsum("nik,ik->ni", dense[:, None] - a, b - a) / np.einsum("ik,ik->i", b - a, b - a)
+    foot = a + np.clip(along, 0.0, 1.0)[..., None] * (b - a)
+    assert np.linalg.norm(dense[:, None] - foot, axis=2).min(axis=1).max() < 1.1 * tolerance
+
+
+def test_a_finer_tolerance_costs_points_as_its_root() -> None:
+    """The sag of a chord is quadratic in its length: a hundredth of the tolerance takes about ten times the points."""
+    coarse, fine = (len(curve(spiral, 0.0, 4.0, tolerance)) for tolerance in (1e-2, 1e-4))
+    assert 5.0 < fine / coarse < 20.0
+
+
+def test_a_straight_line_is_left_as_it_is() -> None:
+    """Nothing is refined where nothing bends."""
+    assert len(curve(lambda s: np.stack([s, 2.0 * s], axis=-1), 0.0, 1.0, 1e-12, pieces=4)) == 5
+
+
+def test_ends_are_the_ends_of_the_curve() -> None:
+    """The first and the last point are those of the parameters given."""
+    points = curve(spiral, 1.0, 2.0, 1e-3)
+    assert (points[[0, -1]] == spiral(np.array([1.0, 2.0]))).all()
+
+
+def test_what_lies_outside_the_box_is_not_refined() -> None:
+    """With a box around the first half only, the points of the second half are those of the first cut."""
+    box = (np.array([-1.0, -1.0, -1.0]), np.array([1.0, 1.0, 1.0]))
+    whole, part = curve(spiral, 0.0, 8.0, 1e-4), curve(spiral, 0.0, 8.0, 1e-4, box=box)
+    assert len(part) < len(whole) / 4
+    inside = (np.abs(whole) < 0.9).all(axis=1)
+    assert all((np.abs(part - point).max(axis=1) == 0.0).any() for point in whole[inside])
+
+
+def test_quarter_pixel_of_an_inch() -> None:
+    """An inch at 300 dots has 1200 quarters of a pixel."""
+    assert quarter_pixel(1.0, 25.4) == pytest.approx(1.0 / 1200.0, rel=1e-15)
