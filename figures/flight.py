@@ -20,6 +20,7 @@ from atlas.scene.sample import curve, quarter_pixel
 from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 88.0, 16.0
+MANY = 200
 
 
 def scene(
@@ -33,18 +34,21 @@ def scene(
     E: tuple[float, float, float] = (-2.0, 0.0, 0.0),
     velocity: tuple[float, float, float] = (1.0, 0.5, 0.5),
     point: tuple[float, float, float] = (0.0, 0.3, 0.2),
-    stop: float = 5.0,
+    turns: float = 3.5,
     unit: str = "length",
 ) -> Scene:
-    """Draw the paths of the centre of mass and of the point x_N(0) = ``point``, for times from 0 to ``stop``."""
-    mu, c, stop = number(mu, "mu"), positive(c, "c"), positive(stop, "stop")
+    """Draw the paths of the centre of mass and of the point x_N(0) = ``point``, for ``turns`` of the former."""
+    mu, c, turns = number(mu, "mu"), positive(c, "c"), positive(turns, "turns")
     B2, B3 = components(field)
     if mu == 0:
         raise DomainError("A body with mu = 0 feels no field; give it a charge.")
     B = 2 * c / mu * np.array([0.0, B2, B3])
     particle = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), vector(velocity, "velocity"), c)
     motion = ElementaryMotion(ratio, field, omega2, omega3)
-    flight = Flight(particle, motion, point)
+    flight, stop = Flight(particle, motion, point), turns * particle.period
+    spun = (abs(motion.k) + abs(motion.phi)) * stop / (2 * np.pi) + turns
+    if not spun < MANY:
+        raise DomainError(f"In this flight the body makes {spun:.3g} turns, and more than {MANY} cannot be drawn.")
     return Scene(
         title=title(__doc__),
         caption=(

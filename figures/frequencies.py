@@ -15,6 +15,8 @@ from atlas.scene.family import Window, components, graph
 from atlas.scene.words import plain, plain_setting, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 14.0
+CLOSE = 1e-9
+"""Nearer to the pole than this part of B2, a float omega2 does not tell phi well enough to draw."""
 
 
 def scene(
@@ -78,12 +80,12 @@ def frequencies(hyperbola: Hyperbola, field: tuple[float, float], ends: tuple[fl
     ]
     if phi.any():
 
-        def proper(omega2: FloatArray) -> FloatArray:
-            return np.asarray(hyperbola.frequencies(omega2)[1])
+        def proper(x: FloatArray) -> FloatArray:
+            return np.asarray(hyperbola.frequencies(B2 * (x - 1))[1])
 
         # phi ~ x - 1/x: as large at 1/x as at x, so it leaves the window nearer to the pole than this
         x = abs(1 + ends[1] / B2)
-        near = 1 / (x * (1 + 2 * top / float(np.abs(phi).min())))
+        near = max(1 / (x * (1 + 2 * top / float(np.abs(phi).min()))), CLOSE)
         pieces = graph(proper, B2, view, near, WIDTH - MARGIN)
         layers.append(Curve(view.upright(-B2), "pole"))
         layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B_2$", "note", (4.0, 5.0)))
@@ -108,8 +110,8 @@ def quotients(field: tuple[float, float], ends: tuple[float, float], free: float
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     if free:
 
-        def quotient(omega2: FloatArray) -> FloatArray:
-            return np.asarray(free * (omega2 + 2 * B2) / (omega2 + B2))
+        def quotient(x: FloatArray) -> FloatArray:
+            return np.asarray(free * (1 + 1 / x))
 
         layers += [Curve(view.upright(-B2), "pole"), Curve(view.level(free), "reference", "free body")]
         layers += [Curve(piece, "main") for piece in graph(quotient, B2, view, 0.1, WIDTH - MARGIN)]

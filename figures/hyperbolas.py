@@ -11,7 +11,7 @@ from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.family import asymptote, branches, components, places, window
 from atlas.scene.words import body_name, listed, plain, plain_vector, quotient, tex, tex_vector, title
 
-WIDTH, HEIGHT, MARGIN = 120.0, 100.0, 14.0
+WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 14.0
 ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 
 

@@ -18,6 +18,7 @@ from atlas.scene.solids import cone, sphere
 from atlas.scene.words import plain, plain_setting, tex, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 140.0, 16.0
+FEW = 25.0
 LONG = 1e8
 """The last panel goes on for so many units of the others' time."""
 
@@ -34,7 +35,9 @@ def scene(
     """Draw the motion for ``turns`` periods of its precession; ``omega3`` is given only where mf76 leaves it free."""
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     turns = positive(turns, "turns")
-    rate = abs(motion.k) or abs(motion.phi)
+    # as many periods of precession, but no more than FEW of a proper rotation so fast that it would be all ink
+    k, phi = abs(motion.k), abs(motion.phi)
+    rate = max(k, phi * turns / FEW) or phi
     stop = 2 * np.pi * turns / rate if rate else 1.0
     free = not any(motion.field)
     axis = r"$\mathbf{m}$" if free else r"$\mathbf{B}$"

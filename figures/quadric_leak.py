@@ -97,7 +97,7 @@ def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: flo
         whole = stop / libration.period
 
         def path(s: FloatArray, libration: Libration = libration) -> FloatArray:
-            return np.asarray((libration.path(s) - [0.0, libration.start]) * scale)
+            return np.asarray(libration.departure(s) * scale)
 
         line = curve(path, 0.0, 1.05 * whole, size, pieces=max(8, round(10 * whole))) / scale
         far = int(np.argmax(np.abs(line[line[:, 0] < 0.9 * stop, 1])))

@@ -86,7 +86,12 @@ def course(
     pole = abs(one_less) * float(np.sqrt(tau2 / (2 * (top / (B2 * B2) + 1))))
     layers: list[Layer] = [Region(view.band(*interval), "unstable_region") for interval in bands]
     layers += [Curve(view.level(0.0), "guide"), Curve(view.upright(-B2), "pole")]
-    pieces = graph(Hyperbola(ratio, field).stability, B2, view, max(pole, 1e-6), WIDTH / 2 - MARGIN)
+    hyperbola = Hyperbola(ratio, field)
+
+    def squared(x: FloatArray) -> FloatArray:
+        return np.asarray(hyperbola.stability(B2 * (x - 1)))
+
+    pieces = graph(squared, B2, view, max(pole, 1e-6), WIDTH / 2 - MARGIN)
     layers += [Curve(piece, "main") for piece in pieces]
     if bands:
         layers.append(Points(np.array([[edge, 0.0] for interval in bands for edge in interval]), "point"))

@@ -15,6 +15,7 @@ from atlas.errors import DomainError
 from atlas.scene.sample import curve, quarter_pixel
 
 NAMES = ("B2", "B3")
+_CLOSE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -76,15 +77,25 @@ def branches(ratio: Any, field: Any, view: Window, millimetres: float) -> tuple[
     if B3 == 0 or one_less == 0:
         return view.level(0.0) * [1.0, 0.0] + np.outer(view.x, [0.0, B3 / B2]), pole
     far, rise = view.half[0] / abs(B2), view.half[1] * I / abs(B3)
-    return graph(Hyperbola(ratio, field).omega3, B2, view, abs(one_less) / (rise + far), millimetres)
+    hyperbola = Hyperbola(ratio, field)
+
+    def ordinate(x: FloatArray) -> FloatArray:
+        # so near to the pole a float omega2 no longer tells x
+        close = np.abs(x) < _CLOSE
+        omega3 = B3 / I * (x - one_less / x) - B3
+        omega3[~close] = hyperbola.omega3(B2 * (x[~close] - 1))
+        return np.asarray(omega3)
+
+    return graph(ordinate, B2, view, abs(one_less) / (rise + far), millimetres)
 
 
 def graph(
     function: Callable[[FloatArray], Any], B2: float, view: Window, near: float, millimetres: float
 ) -> tuple[FloatArray, ...]:
-    """Return the pieces (N, 2) of the graph of a function of omega2 with the pole -B2 that the window shows.
+    """Return the pieces (N, 2) that the window shows of a graph over omega2 with the pole -B2.
 
-    They are sampled in log |x|, x = (omega2 + B2)/B2, from ``near``, where the graph has left the window at the pole.
+    ``function`` is of x = (omega2 + B2)/B2, which is sampled in log |x| from ``near``, where the graph has left the
+    window at the pole.
     """
     stretch = np.array([1.0, view.half[0] / view.half[1]])
     tolerance = quarter_pixel(2 * view.half[0], millimetres)
@@ -95,8 +106,8 @@ def graph(
     for side in (1.0, -1.0):
 
         def points(s: FloatArray, side: float = side) -> FloatArray:
-            omega2 = B2 * (side * np.exp(s) - 1)
-            return np.asarray(np.stack([omega2, function(omega2)], axis=1) * stretch)
+            x = side * np.exp(s)
+            return np.asarray(np.stack([B2 * (x - 1), function(x)], axis=1) * stretch)
 
         box = (low * stretch, high * stretch)
         found = curve(points, float(np.log(near)), float(np.log(far)), tolerance, pieces=16, box=box) / stretch

@@ -37,10 +37,10 @@ class Libration:
         self.speed = speed
         # u^2 <= E'/I and K3^2 <= K^2: outside, Q is a product of two negative numbers less a square
         I, _, _ = shape_factors(oscillator.ratio)
-        spin, field = float(np.sqrt(oscillator.integrals.E / I)), float(np.sqrt(oscillator.integrals.K2))
-        B3 = float(oscillator.B3)
-        self.above = self._turning(1.0, min(spin - self.start, field + B3))
-        self.below = -self._turning(-1.0, min(spin + self.start, field - B3))
+        spin = _reach(self.start, float((oscillator.omega1**2 + oscillator.omega2**2) / I))
+        field = _reach(float(oscillator.B3), float(oscillator.B2**2))
+        self.above = self._turning(1.0, min(spin[1], field[0]))
+        self.below = -self._turning(-1.0, min(spin[0], field[1]))
 
     @property
     def range(self) -> tuple[float, float]:
@@ -71,7 +71,11 @@ class Libration:
         return float("inf") if self.above == self.below else float(2 * np.pi * self._series[0].real)
 
     def path(self, turns: FloatArray) -> FloatArray:
-        """Return points (t, Omega3) at ``turns`` of s since the start, where t = 0."""
+        """Return points (t, Omega3), shape (N, 2), at ``turns`` of s since the start, where t = 0."""
+        return self.departure(turns) + np.array([0.0, self.start])
+
+    def departure(self, turns: FloatArray) -> FloatArray:
+        """Return points (t, Omega3 - omega3), exact also where the departure is a rounding of omega3."""
         first = float(np.arcsin(np.clip((self.above + self.below) / (self.below - self.above), -1.0, 1.0)))
         first = first if self.speed >= 0 else np.pi - first
         s = first + 2 * np.pi * np.asarray(turns)
@@ -81,10 +85,10 @@ class Libration:
         weights = 2 * series[order] / (1j * order)
         waves = np.exp(1j * np.multiply.outer(np.append(first, s), order)) @ weights
         time = series[0].real * (s - first) + (waves[1:] - waves[0]).real
-        return np.stack([time, self.start + self._excursion(s)], axis=-1)
+        return np.stack([time, self._excursion(s)], axis=-1)
 
     def _excursion(self, s: FloatArray) -> FloatArray:
-        """Omega3 less its start, at the parameter s."""
+        """Return Omega3 less its start, at the parameter s."""
         return np.asarray((self.above + self.below) / 2 + (self.above - self.below) / 2 * np.sin(s))
 
     def _turning(self, side: float, bound: float) -> float:
@@ -106,3 +110,10 @@ class Libration:
                 return outer
             inner = outer
         return inner
+
+
+def _reach(component: float, others: float) -> tuple[float, float]:
+    """Return how far a component can go down and up when the square of the others joins it; nothing cancels."""
+    far = abs(component) + float(np.hypot(component, np.sqrt(others)))
+    near = others / far if far else 0.0
+    return (far, near) if component >= 0 else (near, far)

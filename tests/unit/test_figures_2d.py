@@ -1,0 +1,487 @@
+"""The recipes in the plane: what their scenes hold, as arrays."""
+
+import ast
+import re
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from oracles.taylor import taylor
+
+from atlas.core.elementary import ElementaryMotion
+from atlas.core.hyperbola import Hyperbola
+from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.errors import AtlasError, DomainError
+from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface
+from atlas.scene.family import asymptote, branches, places, unstable, window
+from atlas.scene.libration import Libration
+from atlas.scene.recipes import load
+from atlas.scene.style import style
+
+EPS = float(np.finfo(float).eps)
+NAMES = (
+    "flight",
+    "frequencies",
+    "hyperbola",
+    "hyperbolas",
+    "motion",
+    "pseudo_oscillator",
+    "quadric_leak",
+    "stability",
+    "trochoids",
+)
+OF_A_BODY = tuple(name for name in NAMES if name not in {"hyperbolas", "trochoids"})
+RATIOS = (2.0, 1.5, 1.0, 1.0 + EPS, 0.5, 1e-3)
+FIELDS = ((1.0, 2.0), (-1.0, 0.1), (1.0, -0.3), (0.0, 1.0), (0.0, -2.0), (1.0, 0.0), (-3.0, -1e-9), (1e-6, 1e6))
+
+
+def curves(panel: Plane | Space, role: str) -> list[np.ndarray]:
+    """Return the points of the curves that play a role."""
+    return [layer.points for layer in panel.layers if isinstance(layer, Curve) and layer.role == role]
+
+
+def points(panel: Plane | Space, role: str) -> np.ndarray:
+    """Return the marked points that play a role."""
+    return np.concatenate([layer.points for layer in panel.layers if isinstance(layer, Points) and layer.role == role])
+
+
+def coordinates(scene: Scene) -> list[np.ndarray]:
+    """Return all coordinates of a scene."""
+    found: list[np.ndarray] = []
+    for panel in scene.panels:
+        if isinstance(panel, Plane):
+            found += [np.array(limits) for limits in (panel.x_limits, panel.y_limits) if limits is not None]
+        for layer in panel.layers:
+            match layer:
+                case Curve() | Points() | Region():
+                    found.append(np.asarray(layer.points))
+                case Arrow():
+                    found += [np.asarray(layer.tail), np.asarray(layer.tip)]
+                case Label():
+                    found.append(np.asarray(layer.at))
+                case Surface():
+                    found += [layer.quadric, *layer.grids]
+                case Image():
+                    found += [layer.x, layer.y, layer.values]
+    return found
+
+
+def check(scene: Scene) -> None:
+    """Assert that a scene is whole: finite, with known roles, and words that are sentences."""
+    assert all(np.isfinite(array).all() for array in coordinates(scene))
+    for panel in scene.panels:
+        for layer in panel.layers:
+            if not isinstance(layer, Image):
+                style(layer.role)
+        if isinstance(panel, Plane):
+            for limits in (panel.x_limits, panel.y_limits):
+                assert limits is None or limits[0] < limits[1]
+    assert scene.caption[0].isupper()
+    assert scene.caption.endswith(".")
+    assert scene.caption.count("$") % 2 == 0
+    assert scene.alt[0].isupper()
+    assert scene.alt.endswith(".")
+    assert not re.search(r"[$\\{}]", scene.alt)
+    for words in (scene.caption, scene.alt):
+        assert not re.search(r"nan|inf\b|  |\.\.", words)
+    assert scene.size[0] in {86.0, 178.0}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_recipe_draws_with_its_defaults(name: str) -> None:
+    """Without parameters each recipe gives a whole scene, and its title is the first line of the file."""
+    recipe = load(name)
+    scene = recipe.scene()
+    check(scene)
+    assert scene.title == recipe.title
+    assert dict(scene.parameters) == dict(recipe.parameters)
+
+
+@pytest.mark.parametrize("field", FIELDS)
+@pytest.mark.parametrize("name", OF_A_BODY)
+def test_hostile_parameters_give_a_picture_or_one_sentence(name: str, field: tuple[float, float]) -> None:
+    """For every body and field there is a whole scene, or a DomainError that says why not in one sentence."""
+    drawn, refused = 0, []
+    for ratio in RATIOS:
+        try:
+            check(load(name).scene(ratio=ratio, field=field))
+            drawn += 1
+        except DomainError as error:
+            refused.append(str(error))
+    assert [sentence for sentence in refused if not re.fullmatch(r"\S.*\.", sentence)] == []
+    assert [sentence for sentence in refused if re.search(r"\. [A-Z]", sentence)] == []
+    assert drawn or field[0] == 0 or name == "flight"
+
+
+@pytest.mark.parametrize("field", FIELDS)
+def test_hyperbolas_of_several_bodies_draw_in_every_field(field: tuple[float, float]) -> None:
+    """The plate of several bodies is whole in each field."""
+    check(load("hyperbolas").scene(field=field))
+
+
+@pytest.mark.parametrize("name", OF_A_BODY)
+def test_no_field_has_an_answer(name: str) -> None:
+    """With B = 0 a recipe draws the free body or says in a DomainError that there is nothing to draw."""
+    parameters = {"omega3": 0.4} if name == "motion" else {}
+    try:
+        check(load(name).scene(field=(0.0, 0.0), **parameters))
+    except DomainError:
+        assert name not in {"motion", "pseudo_oscillator"}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_recipes_import_only_the_floors_below(name: str) -> None:
+    """A recipe imports core, scene, the errors, NumPy and the standard library's small things."""
+    tree = ast.parse(load(name).source.read_text(encoding="utf-8"))
+    modules = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    modules |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
+    allowed = r"atlas\.(core|scene)(\.\w+)?|atlas\.errors|numpy|collections\.abc|dataclasses|typing"
+    assert [module for module in modules if not re.fullmatch(allowed, str(module))] == []
+
+
+def residual(ratio: float, field: tuple[float, float], point: np.ndarray) -> float:
+    """Return mf72 at a point, exactly, over the sum of the sizes of its terms."""
+    I, B2, B3, w2, w3 = (Fraction(float(x)) for x in (ratio, *field, *point))
+    terms = (B3 * w2 * w2, -I * B2 * w2 * w3, (2 - I) * B2 * B3 * w2, -I * B2 * B2 * w3)
+    return float(abs(sum(terms)) / (sum(map(abs, terms)) or 1))
+
+
+@pytest.mark.parametrize("field", [field for field in FIELDS if any(field)])
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_drawn_points_satisfy_the_equation_of_the_hyperbola(ratio: float, field: tuple[float, float]) -> None:
+    """Every point of the drawn branches satisfies mf72 to 3 eps of its terms, lines at the pole included."""
+    (panel,) = load("hyperbola").scene(ratio=ratio, field=field).panels
+    drawn = curves(panel, "hyperbola")
+    assert drawn
+    assert max(residual(ratio, field, point) for line in drawn for point in line) <= 3 * EPS
+
+
+def test_branches_reach_the_edges_of_the_window_and_stop_there() -> None:
+    """A branch ends within one chord outside the window, and no inner point lies outside."""
+    for ratio in (1.5, 0.5):
+        view = window((1.0, 2.0))
+        low, high = view.box
+        for piece in branches(ratio, (1.0, 2.0), view, 72.0):
+            assert ((piece[1:-1] >= low) & (piece[1:-1] <= high)).all()
+            for end in (piece[0], piece[-1]):
+                assert ((end <= low) | (end >= high)).any()
+
+
+def test_branches_are_sampled_by_their_bends() -> None:
+    """Neither branch is starved, and a quarter pixel takes no more than some hundred points."""
+    pieces = branches(1.5, (1.0, 2.0), window((1.0, 2.0)), 72.0)
+    assert len(pieces) == 2
+    assert all(20 < len(piece) < 400 for piece in pieces)
+
+
+@pytest.mark.parametrize("ratio", [2.0, 1.5, 0.5])
+@pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, 0.1), (1.0, -0.3)])
+def test_the_dashed_line_is_the_asymptote(ratio: float, field: tuple[float, float]) -> None:
+    """It passes through -B', runs as Hyperbola says, and the curve comes near to it as 1/omega2."""
+    ends = asymptote(ratio, field, window(field))
+    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    _, expected = Hyperbola(ratio, field).asymptotes
+    assert abs(along[0] * expected[1] - along[1] * expected[0]) <= 8 * EPS
+    assert np.allclose(ends.mean(axis=0), [-field[0], -field[1]], rtol=0, atol=8 * EPS * np.hypot(*field))
+    far = np.array([1e3, 2e3]) * field[0]
+    gap = Hyperbola(ratio, field).omega3(far) + field[1] - (far + field[0]) * expected[1] / expected[0]
+    assert gap[1] / gap[0] == pytest.approx(0.5, rel=1e-3)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_named_points_lie_on_the_curve(ratio: float) -> None:
+    """Rest, -2B' and the second zero of omega3 satisfy mf72; phi vanishes at the first two."""
+    field = (1.0, 2.0)
+    named = places(ratio, field)
+    assert [place.at for place in named[:2]] == [(0.0, 0.0), (-2.0, -4.0)]
+    for place in named:
+        assert residual(ratio, field, np.array(place.at)) <= EPS
+    assert [Hyperbola(ratio, field).frequencies(place.at[0])[1] for place in named[:2]] == [0.0, 0.0]
+    assert len(named) == (3 if ratio not in {1.0, 2.0} else 2)
+
+
+@pytest.mark.parametrize("field", [(1.0, 0.1), (-1.0, 0.3), (2.0, -0.4), (1.0, 0.0)])
+def test_the_family_is_unstable_inside_the_bands_and_stable_outside(field: tuple[float, float]) -> None:
+    """The nutation frequency squared, from the cubic mf55 itself, is negative in the bands and positive beside them."""
+    bands = unstable(0.5, field)
+    assert len(bands) == (1 if field[1] == 0 else 2)
+    hyperbola = Hyperbola(0.5, field)
+    for low, high in bands:
+        for omega2 in low + (high - low) * np.array([1e-3, 0.3, 0.71, 1 - 1e-3]):
+            assert curvature(0.5, field, omega2, hyperbola.omega3(omega2)) < 0
+        for omega2 in (low - 1e-3, high + 1e-3):
+            assert omega2 == pytest.approx(-field[0]) or curvature(0.5, field, omega2, hyperbola.omega3(omega2)) > 0
+
+
+def curvature(ratio: float, field: tuple[float, float], omega2: float, omega3: float) -> float:
+    """Return -p'(omega3) by a difference quotient of mf57."""
+    oscillator = PseudoOscillator(ratio, field, (0.0, omega2, omega3))
+    step = 1e-5
+    return float(oscillator.acceleration(omega3 - step) - oscillator.acceleration(omega3 + step)) / (2 * step)
+
+
+def test_unstable_parts_of_the_curve_are_marked() -> None:
+    """The parts drawn as unstable end where the bands do, and none is drawn for a short solenoid."""
+    (panel,) = load("hyperbola").scene(ratio=0.5, field=(1.0, 0.1)).panels
+    bands = unstable(0.5, (1.0, 0.1))
+    marked = [(line[0, 0], line[-1, 0]) for line in curves(panel, "unstable")]
+    assert sorted(marked) == sorted(bands)
+    assert not curves(load("hyperbola").scene(ratio=1.5, field=(1.0, 0.1)).panels[0], "unstable")
+
+
+def test_free_spins_across_the_field_are_unstable_below_their_bound() -> None:
+    """For B3 = 0 and I < 1 the upright line is drawn unstable exactly where -p' < 0."""
+    ratio, field = 0.5, (1.0, 0.0)
+    (panel,) = load("hyperbola").scene(ratio=ratio, field=field).panels
+    (line,) = [line for line in curves(panel, "unstable") if line[0, 0] == line[1, 0]]
+    edge = line[1, 1]
+    assert curvature(ratio, field, -1.0, 0.999 * edge) < 0 < curvature(ratio, field, -1.0, 1.001 * edge)
+
+
+@pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, 0.1), (2.0, -3.0)])
+@pytest.mark.parametrize("ratio", [2.0, 1.5, 0.5])
+def test_drawn_frequencies_obey_their_equations(ratio: float, field: tuple[float, float]) -> None:
+    """The drawn k and phi are mf84 and mf77, and the quotient drawn is their quotient, mf91, at any point."""
+    upper, lower = load("frequencies").scene(ratio=ratio, field=field).panels
+    (B2, B3), b = field, np.hypot(*field)
+    for line in curves(upper, "second"):
+        assert np.allclose(line[:, 1], line[:, 0] * b / B2, rtol=4 * EPS, atol=0)
+    for line in curves(upper, "main"):
+        w2 = line[:, 0]
+        phi = B3 * w2 * (1 - ratio) * (w2 + 2 * B2) / (ratio * B2 * (w2 + B2))
+        assert np.allclose(line[:, 1], phi, rtol=64 * EPS, atol=64 * EPS * b)
+    for line in curves(lower, "main"):
+        k, phi = Hyperbola(ratio, field).frequencies(line[:, 0])
+        assert np.allclose(line[:, 1] * k, phi, rtol=1e-12, atol=1e-12 * b)
+
+
+def test_quotient_levels_out_at_the_free_body() -> None:
+    """The dashed line is phi/k of the free body beside the motion, mf92."""
+    _, lower = load("frequencies").scene(ratio=1.5, field=(1.0, 2.0)).panels
+    beside = ElementaryMotion(1.5, (1.0, 2.0), 0.7).beside
+    (line,) = curves(lower, "reference")
+    assert line[0, 1] == pytest.approx(beside.phi / beside.k, rel=8 * EPS)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_level_lines_of_the_map_have_their_level(ratio: float) -> None:
+    """At every drawn point (tau, x) the nutation frequency squared is the level on the label, in units of B2^2."""
+    levels = (0.25, 0.5, 1.0, 2.0)
+    roles = ("third", "second", "main", "fourth")
+    _, panel = load("stability").scene(ratio=ratio, field=(1.0, 0.5), levels=levels).panels
+    found = 0
+    for value, role in zip(levels, roles, strict=True):
+        for line in curves(panel, role):
+            for tau, x in line[(line[:, 1] > 1e-3) & (line[:, 0] < 1.2)]:
+                terms = x * x * (1 + tau * tau) + abs(1 - ratio) * (1 + 2 * tau * tau) + ((1 - ratio) * tau / x) ** 2
+                assert Hyperbola(ratio, (1.0, tau)).stability(x - 1.0) == pytest.approx(value, abs=64 * EPS * terms / x)
+                found += 1
+    assert found > 20
+
+
+def test_the_map_shows_instability_below_the_critical_field_only() -> None:
+    """The unstable region reaches tau = 1/(2 sqrt 2) for every long solenoid, and is missing for I >= 1."""
+    for ratio in (0.9, 0.5, 0.1):
+        _, panel = load("stability").scene(ratio=ratio).panels
+        (edge,) = curves(panel, "unstable")
+        assert edge[:, 0].max() == pytest.approx(1 / np.sqrt(8), abs=2e-4)
+        assert edge[:, 0].max() <= 1 / np.sqrt(8) + EPS
+    for ratio in (1.0, 2.0):
+        _, panel = load("stability").scene(ratio=ratio).panels
+        assert not curves(panel, "unstable")
+
+
+def test_the_third_axis_traces_a_circle_about_the_field() -> None:
+    """The trace starts at e3, stays on the unit sphere and at one angle to B, and closes."""
+    scene = load("motion").scene(ratio=1.5, field=(1.0, -2.0), omega2=0.7)
+    (trace,) = curves(scene.panels[0], "trace")
+    B = np.array([0.0, 1.0, -2.0]) / np.sqrt(5)
+    assert np.array_equal(trace[0], [0.0, 0.0, 1.0])
+    assert np.abs(np.linalg.norm(trace, axis=1) - 1).max() <= 4 * EPS
+    assert np.abs(trace @ B - B[2]).max() <= 4 * EPS
+    assert np.abs(trace[-1] - trace[0]).max() <= 8 * EPS
+
+
+def test_drawn_angular_velocity_is_that_of_the_paper() -> None:
+    """The three curves are omega2 sin(phi t), omega2 cos(phi t) and omega3, mf78."""
+    scene = load("motion").scene(ratio=0.5, field=(1.0, 2.0), omega2=-1.7)
+    phi = 2.0 * -1.7 * 0.5 * 0.3 / (0.5 * -0.7)
+    omega3 = 2.0 * -1.7 * (-1.7 + 1.5) / (0.5 * -0.7)
+    (one,), (two,), (three,) = (curves(scene.panels[1], role) for role in ("main", "second", "third"))
+    assert np.allclose(one[:, 1], -1.7 * np.sin(phi * one[:, 0]), rtol=0, atol=1e-13)
+    assert np.allclose(two[:, 1], -1.7 * np.cos(phi * two[:, 0]), rtol=0, atol=1e-13)
+    assert np.allclose(three[:, 1], omega3, rtol=16 * EPS, atol=0)
+
+
+def test_drawn_angular_momentum_keeps_its_projection_on_the_field() -> None:
+    """(m, B') of mf93 from the drawn curves, brought to common times, equals the dashed level."""
+    scene = load("motion").scene(ratio=1.5, field=(1.0, 2.0), omega2=0.7)
+    panel = scene.panels[2]
+    (level,) = curves(panel, "reference")
+    (two,), (three,) = curves(panel, "second"), curves(panel, "third")
+    t = np.intersect1d(two[:, 0], three[:, 0])
+    assert len(t) > 10
+    m2, m3 = (line[np.searchsorted(line[:, 0], t), 1] for line in (two, three))
+    assert np.abs((m2 + 2 * m3) / np.sqrt(5) - level[0, 1]).max() <= 32 * EPS
+
+
+def test_residuals_of_the_invariants_stay_at_rounding() -> None:
+    """No invariant changes by more than 16 eps of its terms over 1e8 windows of time, and maxima only grow."""
+    panel = load("motion").scene().panels[3]
+    lines = [layer.points for layer in panel.layers if isinstance(layer, Curve)]
+    assert len(lines) == 5
+    for line in lines:
+        assert (np.diff(line[:, 0]) >= 0).all()
+        assert (np.diff(line[:, 1]) >= 0).all()
+        assert line[-1, 1] * 1e-16 <= 16 * EPS
+    assert max(line[-1, 1] for line in lines) > 0
+    assert lines[0][-1, 0] > 1e8
+
+
+@pytest.mark.parametrize("mu", [1.0, -0.5])
+def test_trochoids_are_those_of_the_paper(mu: float) -> None:
+    """The paths are x = V t + a sin(omega t), y = a cos(omega t), mf11, with omega of the charge's sign: eliminating t leaves 0."""
+    E, B, c = (0.3, 1.0, 2.0), (0.0, 1.0, 2.0), 1.5
+    scene = load("trochoids").scene(mu=mu, E=E, B=B, c=c, speeds=(2.0, 1.0, 0.5, 0.0), turns=2.5)
+    V = c * np.linalg.norm(np.cross(E, B)) / np.dot(B, B)
+    omega = mu * np.linalg.norm(B) / c
+    for panel, speed in zip(scene.panels, (2.0, 1.0, 0.5, 0.0), strict=True):
+        (line,) = curves(panel, "trajectory")
+        a = speed * V / abs(omega)
+        assert np.array_equal(line[0], points(panel, "start")[0])
+        assert np.allclose(line[0], [0.0, a], rtol=0, atol=8 * EPS * V)
+        assert line[-1, 0] == pytest.approx(2.5 * 2 * np.pi * V / abs(omega) + a * np.sin(5 * np.pi), rel=1e-14)
+        # the time from y alone, up to whole turns and mirrored halves, then x
+        phase = np.arccos(np.clip(line[:, 1] / a, -1, 1)) if a else np.zeros(len(line))
+        turn = np.arange(4) * 2 * np.pi
+        times = np.concatenate([turn + phase[:, None], turn - phase[:, None]], axis=1) / omega * np.sign(omega)
+        x = V * times + a * np.sin(omega * times)
+        if a:
+            assert np.abs(x - line[:, :1]).min(axis=1).max() <= 1e-7 * a
+        assert np.abs(points(panel, "sample")[:, 0] - 2 * np.pi / abs(omega) * V * np.array([1, 2])).max() <= 1e-13 * V
+
+
+def test_the_cycloid_has_cusps_and_the_others_do_not() -> None:
+    """Only the path with a omega = v touches the speed zero: there its chords turn back."""
+    scene = load("trochoids").scene(turns=1.0)
+    backwards = [bool((np.diff(curves(panel, "trajectory")[0][:, 0]) < -1e-9).any()) for panel in scene.panels]
+    assert backwards == [True, False, False]
+    titles = [panel.title for panel in scene.panels if isinstance(panel, Plane)]
+    assert [title.split(",")[0] for title in titles] == ["(a) prolate trochoid", "(b) cycloid", "(c) curtate trochoid"]
+
+
+@pytest.mark.parametrize(
+    "parameters", [{"mu": 0.0}, {"B": (0.0, 0.0, 0.0)}, {"E": (0.0, 0.0, 1.0)}, {"speeds": (-1.0,)}]
+)
+def test_fields_without_a_trochoid_say_so(parameters: dict[str, object]) -> None:
+    """No charge, no magnetic field, no electric field across it, a negative speed: a DomainError."""
+    with pytest.raises(DomainError):
+        load("trochoids").scene(**parameters)
+
+
+def test_the_point_keeps_its_distance_from_the_centre_of_mass() -> None:
+    """Every drawn arm has the length of x_N(0), and starts on the path of a particle in B = 2 c B'/mu."""
+    scene = load("flight").scene(mu=-2.0, c=1.5, point=(0.1, 0.2, -0.2))
+    arms = np.stack(curves(scene.panels[0], "guide"))
+    assert np.abs(np.linalg.norm(arms[:, 1] - arms[:, 0], axis=1) - 0.3).max() <= 16 * EPS
+    assert np.array_equal(arms[0], [[0, 0, 0], [0.1, 0.2, -0.2]])
+    (field,) = (layer for layer in scene.panels[0].layers if isinstance(layer, Arrow) and layer.role == "field")
+    direction = (np.asarray(field.tip) - np.asarray(field.tail)) @ np.array([0.0, 1.0, 2.0])
+    assert direction < 0
+
+
+STARTS = (
+    (1.5, (1.0, 2.0), (0.3, 0.7, 0.2)),
+    (0.5, (1.0, 0.1), (1e-3, -0.5, 0.3)),
+    (2.0, (-1.0, -2.0), (-0.3, 0.7, 0.2)),
+    (1.0, (1.0, 2.0), (0.3, -0.7, 0.2)),
+    (0.5, (1.0, 2.0), (0.0, 0.7, 0.3)),
+)
+
+
+@pytest.mark.parametrize(("ratio", "field", "omega"), STARTS)
+def test_libration_is_the_motion_of_omega3(
+    ratio: float, field: tuple[float, float], omega: tuple[float, float, float]
+) -> None:
+    """Omega3(t) by quadrature agrees with the Taylor series of the Euler-Poisson equations to 1e-12."""
+    libration = Libration(PseudoOscillator(ratio, field, omega))
+    path = libration.path(np.array([0.0, 0.13, 0.5, 0.77, 1.0]))
+    states = taylor((1.0, 1.0, ratio), (0.0, *field), omega, [float(t) for t in path[:, 0]], 25)
+    truth = np.array([float(state.Omega[2]) for state in states])
+    assert np.abs(path[:, 1] - truth).max() <= 1e-12
+    low, high = libration.range
+    assert path[0].tolist() == pytest.approx([0.0, omega[2]], abs=4 * EPS)
+    assert path[-1, 0] == pytest.approx(libration.period, rel=1e-14)
+    assert ((path[:, 1] >= low) & (path[:, 1] <= high)).all()
+
+
+@pytest.mark.parametrize(("ratio", "field", "omega"), STARTS)
+def test_turning_points_bound_the_allowed_interval(
+    ratio: float, field: tuple[float, float], omega: tuple[float, float, float]
+) -> None:
+    """Q is zero at both ends of the shaded interval, positive inside and negative just outside."""
+    scene = load("pseudo_oscillator").scene(ratio=ratio, field=field, omega=omega)
+    panel = scene.panels[0]
+    oscillator = PseudoOscillator(ratio, field, omega)
+    (low, high) = points(panel, "rest")[:, 0]
+    top = float(oscillator.quartic(np.linspace(low, high, 33)).max())
+    assert np.abs(oscillator.quartic(np.array([low, high]))).max() <= 1e-12 * top
+    assert (oscillator.quartic(np.linspace(low, high, 33)[1:-1]) > 0).all()
+    width = high - low
+    assert (oscillator.quartic(np.array([low - 1e-3 * width, high + 1e-3 * width])) < 0).all()
+    (region,) = (layer for layer in panel.layers if isinstance(layer, Region))
+    assert set(region.points[:, 0]) == {low, high}
+
+
+def test_the_potential_is_minus_half_the_quartic() -> None:
+    """V is drawn so that level - V = Q/2 at every point: the first integral of mf55."""
+    omega = (0.3, 0.7, 0.2)
+    scene = load("pseudo_oscillator").scene(omega=omega)
+    panel = scene.panels[1]
+    (line,), (level,) = curves(panel, "main"), curves(panel, "second")
+    half = PseudoOscillator(1.5, (1.0, 2.0), omega).quartic(line[:, 0]) / 2
+    assert np.abs(level[0, 1] - line[:, 1] - half).max() <= 1e-13 * np.abs(line[:, 1]).max()
+
+
+def test_points_of_the_quadric_leave_it_at_the_rate_of_the_paper() -> None:
+    """The starts solve mf58.1, and Omega3 begins with the slope omega1 B2; with omega1 = 0 nothing moves."""
+    values = (0.8, -0.4, 0.2)
+    panel, _ = load("quadric_leak").scene(ratio=0.5, field=(1.5, 2.0), omega2=0.7, omega1=values).panels
+    for value, role in zip(values, ("main", "second", "third"), strict=True):
+        (line,) = curves(panel, role)
+        assert line[0] == pytest.approx([0.0, 0.0], abs=4 * EPS)
+        omega3 = 2.0 * (value**2 + 0.7**2 + 1.5 * 1.5 * 0.7) / (0.5 * 1.5 * (0.7 + 1.5))
+        oscillator = PseudoOscillator(0.5, (1.5, 2.0), (value, 0.7, omega3))
+        assert abs(oscillator.acceleration(omega3)) <= 64 * EPS * 10
+        slope = Libration(oscillator).path(np.array([1e-6])) - [0.0, omega3]
+        assert slope[0, 1] / slope[0, 0] == pytest.approx(value * 1.5, rel=1e-4)
+    still = PseudoOscillator(0.5, (1.5, 2.0), (0.0, 0.7, Hyperbola(0.5, (1.5, 2.0)).omega3(0.7)))
+    assert still.quartic(still.omega3) == 0.0
+
+
+def test_departures_are_linear_where_the_family_is_stable() -> None:
+    """At small omega1 the largest departure meets |omega1 B2|/nu; in the unstable band it stays large."""
+    _, panel = load("quadric_leak").scene(ratio=1.5, field=(1.0, 2.0), omega2=0.7).panels
+    (line,), (law,) = curves(panel, "main"), curves(panel, "reference")
+    nu = np.sqrt(Hyperbola(1.5, (1.0, 2.0)).stability(0.7))
+    assert law[0] == pytest.approx([line[0, 0], line[0, 0] / nu], rel=1e-9)
+    assert line[0, 1] == pytest.approx(law[0, 1], rel=1e-2)
+    _, panel = load("quadric_leak").scene(ratio=0.5, field=(1.0, 0.1), omega2=-0.5).panels
+    assert not curves(panel, "reference")
+    assert curves(panel, "main")[0][0, 1] > 0.5
+
+
+def test_the_pole_and_a_still_quadric_are_refused_by_name() -> None:
+    """omega2 = -B2 has no point of the quadric, and with B2 = 0 no point is left: DomainErrors that say so."""
+    with pytest.raises(DomainError, match="pole"):
+        load("quadric_leak").scene(omega2=-1.0)
+    with pytest.raises(DomainError, match="B2 = 0"):
+        load("quadric_leak").scene(field=(0.0, 1.0))
+    with pytest.raises(DomainError, match="pole"):
+        load("motion").scene(omega2=-1.0)
+
+
+def test_a_misspelt_parameter_is_an_error() -> None:
+    """An unknown parameter is refused with the nearest known name."""
+    with pytest.raises(AtlasError, match="'ratio'"):
+        load("hyperbola").scene(ration=1.5)
