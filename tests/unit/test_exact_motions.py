@@ -302,7 +302,7 @@ def test_the_free_body_obeys_the_equations_of_motion(omega: Triple, I: float) ->
 vectors = st.tuples(*[st.floats(-4, 4) | st.just(0.0)] * 3)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(st.floats(-2, 2), vectors, vectors, vectors, vectors, st.floats(-30, 30), st.sampled_from([1.0, 2.5]))
 def test_particle_contains_the_matrix_exponential(
     mu: float, E: Triple, B: Triple, y: Triple, v: Triple, t: float, c: float
