@@ -7,7 +7,10 @@ By Rodrigues R_n(x) = n n^T + cos x (1 - n n^T) + sin x [n, .], and R_z(x) = cos
 F_r being products of functions of k s and phi s. With tau = 0 that gives R(s) itself.
 """
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from atlas.core.inputs import FloatArray
 from atlas.core.phase import Phases
@@ -58,27 +61,35 @@ def rodrigues(axis: Axis) -> FloatArray:
     return np.array([np.eye(3), [[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]], dyad])
 
 
-def resolution(axis: Axis, *, third_row: bool) -> tuple[FloatArray, FloatArray]:
-    """Return L_r and Q_r, both (9, 3, 3); or (11, 3, 3) if the third row is wanted to its own size.
+def generators(axis: Axis) -> FloatArray:
+    """Return n n^T and 1 - n n^T, whose sum is 1 exactly, since R(0) is; [n, .]; and n n^T, each element rounded once."""
+    _, across, dyad = rodrigues(axis)
+    along = dyad.copy()
+    for i, n in enumerate(axis):
+        if along[i, i] < 0.5:
+            along[i, i] = 1.0 - float(ONE - n * n)
+    return np.array([along, np.eye(3) - along, across, dyad])
+
+
+def extended(axis: Axis) -> NDArray[np.longdouble]:
+    """Return the same with the digits of a long double."""
+    n1, n2, n3 = (np.longdouble(head) + np.longdouble(tail) for head, tail in (n.words(2) for n in axis))
+    dyad = np.outer([n1, n2, n3], [n1, n2, n3])
+    across = np.array([[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]])
+    return np.array([dyad, np.eye(3) - dyad, across, dyad])
+
+
+def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], FloatArray]:
+    """Return L_r and Q_r of the generators, both (9, 3, 3); or (11, 3, 3) if the third row is wanted to its own size.
 
     The third column, small when k t is, comes from sin and 1 - cos and keeps its digits. So does then the third row, at
     the price of two functions more: that is the third column of the transposed matrix.
     """
-    one, across, dyad = rodrigues(axis)
-    along, rest = projectors(axis)
+    along, rest, across, dyad = parts
+    one = np.eye(3)
     upper = E if third_row else one
-    left = [upper @ along, upper @ rest + (one - upper), across]
-    pairs = [(left[0], E), (left[0], J), (left[1], E), (across, E), (left[1], J), (across, J)]
-    pairs += [(one, E33), (across, E33), (dyad, E33)]
+    C, aC = upper @ along, upper @ rest + (one - upper)
+    pairs = [(C, E), (C, J), (aC, E), (across, E), (aC, J), (across, J), (one, E33), (across, E33), (dyad, E33)]
     if third_row:
         pairs += [(E33 @ dyad, E), (E33 @ dyad, J)]
     return np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])
-
-
-def projectors(axis: Axis) -> tuple[FloatArray, FloatArray]:
-    """Return n n^T and 1 - n n^T, rounded so that their sum is 1 exactly: R(0) is."""
-    dyad = rodrigues(axis)[2]
-    for i, n in enumerate(axis):
-        if dyad[i, i] < 0.5:
-            dyad[i, i] = 1.0 - float(ONE - n * n)
-    return dyad, np.eye(3) - dyad

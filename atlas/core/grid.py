@@ -10,7 +10,7 @@ from math import ceil
 
 import numpy as np
 
-from atlas.core.basis import Basis
+from atlas.core.basis import SCALE, Basis, extended, resolution
 from atlas.core.inputs import FloatArray
 from atlas.core.phase import LIMIT, Phases
 from atlas.core.rotation import BLOCK, DoubleRotation
@@ -20,6 +20,9 @@ from atlas.errors import AtlasError
 
 FINE = 96
 """Times in the fine table."""
+
+FEW = 8192
+"""Shorter grids are evaluated time by time: their tables would cost more."""
 
 ROWS = 32
 """Coarse times a product: large enough to pay for its call, small enough that the library does not thread it."""
@@ -48,18 +51,23 @@ def run(turning: DoubleRotation, origin: Wide, step: Wide, out: FloatArray, *, b
     count = len(out)
     if not count:
         return
-    near = min(FINE, count)
-    functions = Basis(indexed(turning, step), near, len(turning.weights)).at(np.arange(float(near)))
-    matrices = (functions.T @ turning.weights.reshape(-1, 9)).reshape(-1, 3, 3)
-    if turning.inverse:
-        matrices = matrices.swapaxes(1, 2)
-    table = turning.table(matrices[::-1] if backward else matrices).reshape(len(turning.weights), -1)
+    size = len(turning.weights)
+    if count < FEW:
+        functions = Basis(indexed(turning, step, origin), count, size).at(np.arange(float(count))).T
+        np.matmul(
+            functions[::-1] if backward else functions, turning.weights.reshape(size, 9), out=out.reshape(count, 9)
+        )
+        return
+    table = fine_table(turning, step)
+    if backward:
+        table = table[:, ::-1]
+    table = table.reshape(size, -1)
     coarse = indexed(turning, step * Wide(FINE), origin)
     blocks, rest = divmod(count, FINE)
 
     def fill(low: int, high: int) -> None:
         """Fill the blocks low to high, counted from the origin."""
-        basis = Basis(coarse, min(BLOCK, high - low), len(table))
+        basis = Basis(coarse, min(BLOCK, high - low), size)
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
             functions = basis.at(np.arange(float(i), float(j))).T
@@ -70,9 +78,33 @@ def run(turning: DoubleRotation, origin: Wide, step: Wide, out: FloatArray, *, b
 
     shared(fill, blocks, FINE)
     if rest:
-        functions = Basis(coarse, 1, len(table)).at(np.array([float(blocks)])).T
+        functions = Basis(coarse, 1, size).at(np.array([float(blocks)])).T
         part, end = (slice(-9 * rest, None), slice(0, rest)) if backward else (slice(9 * rest), slice(-rest, None))
         product(functions, table[:, part], out[end])
+
+
+def fine_table(turning: DoubleRotation, step: Wide) -> FloatArray:
+    """Return L_r R(tau) Q_r at the FINE times tau = j step, shape (9 or 11, FINE, 3, 3), rounded once.
+
+    Its errors would be those of every matrix of the grid: so it is made in long doubles, where the machine has them.
+    """
+    phases = indexed(turning, step)
+    half, left_out, sign, _ = phases.angles(np.arange(float(FINE)), np.empty((5, 2, FINE)))
+    x = half.astype(np.longdouble) + left_out
+    versine = 2 * np.sin(x) ** 2
+    a, C = sign * (1 - versine)
+    b, S = sign * np.sin(2 * x)
+    v = sign[0] * versine[0] + (1 - sign[0])
+    parts = extended(turning.axis)
+    one, across, dyad = np.eye(3), parts[2], parts[3]
+    precession = np.multiply.outer(a, one) + np.multiply.outer(b, across) + np.multiply.outer(v, dyad)
+    first, second, third = np.moveaxis(precession, -1, 0)
+    C, S = C[:, None], S[:, None]
+    matrices = np.stack([first * C + second * S, second * C - first * S, third], axis=-1)
+    left, right = resolution(parts, third_row=turning.inverse)
+    table = (left[:, None] @ matrices).astype(np.float64) @ right[:, None]
+    table *= SCALE[: len(table), None, None, None]
+    return np.ascontiguousarray(table.swapaxes(2, 3)) if turning.inverse else table
 
 
 def product(functions: FloatArray, table: FloatArray, out: FloatArray) -> None:

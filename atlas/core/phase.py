@@ -59,7 +59,7 @@ class Phases:
         `t` (m,) finite; `work` (5, n, m) is overwritten. Halves, since they come free of a rounding. The versine keeps its
         digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
         """
-        u, e, sign, square = self._angles(t, work)
+        u, e, sign, square = self.angles(t, work)
         # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; then what rounding x left out
         np.tan(u, out=u)
         np.multiply(u, u, out=square)
@@ -78,7 +78,7 @@ class Phases:
         e[0] *= 0.5
         versine += e[0]
 
-    def _angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
+    def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
         """Return x/2 for x = f t less whole half turns, |x| <= pi/2, what rounding left out of it, and the turns' sign.
 
         The three are (n, m), in radians, and lie in `work`; the fourth array returned is free.

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.basis import SCALE, Axis, Basis, resolution, rodrigues
+from atlas.core.basis import SCALE, Axis, Basis, generators, resolution, rodrigues
 from atlas.core.inputs import FloatArray, real
 from atlas.core.phase import Phases
 from atlas.core.threads import shared
@@ -30,15 +30,10 @@ class DoubleRotation:
         self.axis, self.frequencies, self.inverse = axis, (precession, proper), inverse
         self.turns = [f / TURN for f in self.frequencies]
         self.phases, self.precession, self.proper = (Phases(self.turns[part]) for part in PARTS)
-        self.left, self.right = resolution(axis, third_row=inverse)
-        self.weights = self.table(np.eye(3))
-
-    def table(self, matrices: FloatArray) -> FloatArray:
-        """Return what the functions of time are multiplied by to turn `matrices` (..., 3, 3), shape (9 or 11, ..., 3, 3)."""
-        axes = (slice(None), *(None,) * (matrices.ndim - 2))
-        table = self.left[axes] @ matrices @ self.right[axes]
-        table *= SCALE[: len(table)].reshape(-1, *(1,) * matrices.ndim)
-        return np.ascontiguousarray(table.swapaxes(-1, -2)) if self.inverse else table
+        weights = SCALE[:, None, None][: 11 if inverse else 9] * np.matmul(
+            *resolution(generators(axis), third_row=inverse)
+        )
+        self.weights = np.ascontiguousarray(weights.swapaxes(1, 2)) if inverse else weights
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), mf89, shape (..., 3, 3)."""
