@@ -35,10 +35,10 @@ def scene(
     """Draw the motion for ``turns`` periods of its precession; ``omega3`` is given only where mf76 leaves it free."""
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     turns = positive(turns, "turns")
-    # as many periods of precession, but no more than FEW of a proper rotation so fast that it would be all ink
     k, phi = abs(motion.k), abs(motion.phi)
-    rate = max(k, phi * turns / FEW) or phi
-    stop = 2 * np.pi * turns / rate if rate else 1.0
+    slow = 2 * np.pi * turns / (k or phi) if k or phi else 1.0
+    # no more than FEW proper rotations: beyond, Omega(t) would be all ink
+    stop = min(slow, 2 * np.pi * FEW / phi) if phi else slow
     free = not any(motion.field)
     axis = r"$\mathbf{m}$" if free else r"$\mathbf{B}$"
     along = "" if free else r"; dashed: its projection on the field, which is constant"
@@ -72,7 +72,7 @@ def scene(
         panels=(
             trace(motion),
             velocity(motion, stop, unit),
-            momentum(motion, stop, unit),
+            momentum(motion, slow, unit),
             residuals(motion, stop, unit),
         ),
         columns=2,

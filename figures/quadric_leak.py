@@ -141,8 +141,9 @@ def departures(
     top = float(line[:, 1].max())
     limits = (min(0.5 * float(line[:, 1].min()), 0.02 * top), 3.0 * top)
     if nu2 > 0:
-        law = np.abs(np.array(ends) * field[0]) / np.sqrt(nu2)
-        layers.insert(0, Curve(np.stack([ends, law], axis=1), "reference", r"$|\omega_1B_2|/\nu$"))
+        slope = abs(field[0]) / float(np.sqrt(nu2))
+        law = np.array([[x, slope * x] for x in (ends[0], min(ends[1], 2.0 * top / slope))])
+        layers.insert(0, Curve(law, "reference", r"$|\omega_1B_2|/\nu$"))
     return Plane(
         tuple(layers),
         rf"$|\omega_1|$ (1/{unit})",

@@ -72,7 +72,7 @@ class Libration:
 
     def path(self, turns: FloatArray) -> FloatArray:
         """Return points (t, Omega3), shape (N, 2), at ``turns`` of s since the start, where t = 0."""
-        return self.departure(turns) + np.array([0.0, self.start])
+        return np.asarray(self.departure(turns) + np.array([0.0, self.start]))
 
     def departure(self, turns: FloatArray) -> FloatArray:
         """Return points (t, Omega3 - omega3), exact also where the departure is a rounding of omega3."""

@@ -340,7 +340,7 @@ def test_residuals_of_the_invariants_stay_at_rounding() -> None:
 
 @pytest.mark.parametrize("mu", [1.0, -0.5])
 def test_trochoids_are_those_of_the_paper(mu: float) -> None:
-    """The paths are x = V t + a sin(omega t), y = a cos(omega t), mf11, with omega of the charge's sign: eliminating t leaves 0."""
+    """The paths are x = V t + a sin(omega t), y = a cos(omega t), mf11, with omega of the sign of the charge."""
     E, B, c = (0.3, 1.0, 2.0), (0.0, 1.0, 2.0), 1.5
     scene = load("trochoids").scene(mu=mu, E=E, B=B, c=c, speeds=(2.0, 1.0, 0.5, 0.0), turns=2.5)
     V = c * np.linalg.norm(np.cross(E, B)) / np.dot(B, B)
