@@ -87,12 +87,12 @@ def subset(face: Face, wanted: str) -> bytes:
         recalc_timestamp=False,
         drop_tables=["FFTM", "DSIG"],
     )
-    font = load_font(str(source(face)), options)
-    subsetter = Subsetter(options)
-    subsetter.populate(text=wanted)
-    subsetter.subset(font)
     out = BytesIO()
-    save_font(font, out, options)
+    with load_font(str(source(face)), options) as font:
+        subsetter = Subsetter(options)
+        subsetter.populate(text=wanted)
+        subsetter.subset(font)
+        save_font(font, out, options)
     return out.getvalue()
 
 

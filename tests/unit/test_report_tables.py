@@ -31,7 +31,7 @@ def agrees(number: Number, true: mpmath.mpf) -> bool:
 
 
 def values(data: Data) -> dict[str, Number]:
-    """The numbers of a table of quantities, by symbol."""
+    """Return the numbers of a table of quantities, by symbol."""
     return {str(row[1]): row[2] for row in data.rows if isinstance(row[2], Number)}
 
 
