@@ -27,5 +27,5 @@ def scene(
         "its image under the inverse inertia tensor, the canonical axes through −B' and the hyperbola in the plane "
         "e2, e3.",
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
-        size=(plates.WIDTH, 130.0),
+        size=(105.0, 130.0),
     )

@@ -116,7 +116,7 @@ def _note() -> Path:
         state = place.stat() if place.exists() else None
         seen.append(f"{place} {(state.st_mtime_ns, state.st_size) if state else None}")
     key = hashlib.sha256("\n".join(seen).encode()).hexdigest()[:20]
-    root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    root = Path(os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser())
     return root / "atlas" / f"gl-{key}.json"
 
 

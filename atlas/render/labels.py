@@ -10,7 +10,7 @@ FloatArray = NDArray[np.float64]
 
 _TURNS = np.radians([0, 20, -20, 40, -40, 65, -65, 90, -90, 120, -120, 150, -150, 180])
 _STEPS = (0.0, 3.0, 7.0, 12.0)
-_AIR = 1.2
+_AIR, _APART = 1.2, 4.0
 
 
 @dataclass(frozen=True)
@@ -80,9 +80,10 @@ def _cost(
     low, high = centre - half, centre + half
     cost = 0.0
     for other, size in others:
-        overlap = np.minimum(high, other + 0.5 * np.array(size)) - np.maximum(low, other - 0.5 * np.array(size))
+        reach = 0.5 * np.array(size) + _APART
+        overlap = np.minimum(high, other + reach) - np.maximum(low, other - reach)
         if (overlap > 0.0).all():
-            cost += 60.0 + float(overlap.prod())
+            cost += 30.0 + float(overlap.prod())
     if ink.size:
         covered = ((ink > low) & (ink < high)).all(axis=1)
         cost += float(weights[covered].sum())

@@ -82,7 +82,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "construction": Style(GREY, _THIN, (3.0, 2.0), tube=0.8),
         "guide": Style(PALE, _THIN, tube=0.8),
         "rim": Style(INK, 0.7, tube=1.1),
-        "silhouette": Style(INK, 0.9, hidden=False, tube=0.0),
+        "silhouette": Style(INK, 0.9, tube=0.0),
         "wire": Style("#828e9b", 0.3, hidden=False, tube=0.35),
         # plotted lines, in order of importance
         "main": Style(NAVY, 1.2),
