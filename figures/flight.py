@@ -35,9 +35,10 @@ def scene(
     velocity: tuple[float, float, float] = (1.0, 0.5, 0.5),
     point: tuple[float, float, float] = (0.0, 0.3, 0.2),
     turns: float = 3.5,
+    stop: float | None = None,
     unit: str = "length",
 ) -> Scene:
-    """Draw the paths of the centre of mass and of the point x_N(0) = ``point``, for ``turns`` of the former."""
+    """Draw the paths of the centre of mass and of x_N(0) = ``point``, for ``turns`` of the former or up to ``stop``."""
     mu, c, turns = number(mu, "mu"), positive(c, "c"), positive(turns, "turns")
     B2, B3 = components(field)
     if mu == 0:
@@ -45,8 +46,9 @@ def scene(
     B = 2 * c / mu * np.array([0.0, B2, B3])
     particle = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), vector(velocity, "velocity"), c)
     motion = ElementaryMotion(ratio, field, omega2, omega3)
-    flight, stop = Flight(particle, motion, point), turns * particle.period
-    spun = (abs(motion.k) + abs(motion.phi)) * stop / (2 * np.pi) + turns
+    flight = Flight(particle, motion, point)
+    stop = turns * particle.period if stop is None else positive(stop, "stop")
+    spun = (abs(motion.k) + abs(motion.phi)) * stop / (2 * np.pi) + stop / particle.period
     if not spun < MANY:
         raise DomainError(f"In this flight the body makes {spun:.3g} turns, and more than {MANY} cannot be drawn.")
     return Scene(

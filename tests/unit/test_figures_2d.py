@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from oracles.taylor import taylor
 
+from atlas.core.body import SymmetricBody
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.pseudo_oscillator import PseudoOscillator
@@ -127,6 +128,27 @@ def test_no_field_has_an_answer(name: str) -> None:
         check(load(name).scene(field=(0.0, 0.0), **parameters))
     except DomainError:
         assert name not in {"motion", "pseudo_oscillator"}
+
+
+@pytest.mark.parametrize("name", OF_A_BODY)
+def test_a_body_may_stand_for_its_ratio(name: str) -> None:
+    """A SymmetricBody draws the same picture as the number I = I3/I2."""
+    recipe = load(name)
+    number, body = recipe.scene(ratio=1.5), recipe.scene(ratio=SymmetricBody(2.0, 3.0))
+    assert number.caption == body.caption
+    for one, other in zip(coordinates(number), coordinates(body), strict=True):
+        assert np.allclose(one, other, rtol=1e-12, atol=1e-12)
+
+
+def test_a_flight_ends_when_it_is_told() -> None:
+    """The time is ``turns`` cyclotron periods pi/b, or ``stop``; too many turns of the body are refused."""
+    recipe = load("flight")
+    by_turns = recipe.scene(turns=2.0)
+    by_time = recipe.scene(stop=2.0 * np.pi / np.sqrt(5.0))
+    (one,), (other,) = (curves(scene.panels[0], "trajectory") for scene in (by_turns, by_time))
+    assert np.allclose(one[-1], other[-1], rtol=0, atol=1e-13)
+    with pytest.raises(DomainError, match="turns"):
+        recipe.scene(stop=1e4)
 
 
 @pytest.mark.parametrize("name", NAMES)
