@@ -18,6 +18,7 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.study import hostile
 from atlas.study.judges import judge_motion
+from atlas.study.regimes import REGIMES
 from atlas.study.stress import LIMITS, Result, read_ratchet, record_name, stress, write_ratchet
 from atlas.study.ulps import UNDERFLOW, Tally, error, of_length, own, ulp
 
@@ -46,7 +47,7 @@ def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
     """Each quantity with a limit is judged, in every regime that concerns it, and so is each regime."""
     assert set(LIMITS) <= {w.quantity for w in short_run.worst}
     regimes = {w.regime for w in short_run.worst if w.quantity == "k"}
-    assert regimes == {*hostile.REGIMES, "B2 = 0"}
+    assert regimes == {*REGIMES, "B2 = 0"}
     clocks = {w.regime.rpartition(", ")[2] for w in short_run.worst if w.quantity == "R"}
     assert clocks == set(hostile.CLOCKS)
 
@@ -136,7 +137,7 @@ def draws() -> Iterator[hostile.Motion]:
     """Draw motions of every regime."""
     random = Random(5)  # noqa: S311  reproducible, not secret
     for _ in range(40):
-        for regime in hostile.REGIMES:
+        for regime in REGIMES:
             yield hostile.motion(regime, random)
 
 
