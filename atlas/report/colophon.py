@@ -5,7 +5,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 import atlas
 from atlas.report import records
-from atlas.report.numbers import plain
+from atlas.report.numbers import shown
 
 LIBRARIES = ("numpy", "python-flint", "matplotlib", "pyvista", "vtk", "typst", "pypandoc_binary", "fonttools")
 
@@ -55,9 +55,9 @@ def _given(record: records.Body | records.Field) -> str:
         value = getattr(record, key)
         if key in {"title", "system"} or value is None or (key in {"E", "axis"} and _is_default(record, key)):
             continue
-        shown = value.replace("_", " ") if isinstance(value, str) else _numbers(value)
+        written = value.replace("_", " ") if isinstance(value, str) else _numbers(value)
         unit = f"\u202f{units[key]}" if key in units else ""
-        parts.append(shown if key == "shape" else f"{_NAMES.get(key, key)} = {shown}{unit}")
+        parts.append(written if key == "shape" else f"{_NAMES.get(key, key)} = {written}{unit}")
     return ", ".join(parts)
 
 
@@ -69,5 +69,5 @@ def _is_default(record: records.Body | records.Field, key: str) -> bool:
 def _numbers(value: float | tuple[float, ...]) -> str:
     """Write a number or a vector."""
     if isinstance(value, tuple):
-        return f"({', '.join(map(plain, value))})"
-    return plain(value)
+        return f"({', '.join(map(shown, value))})"
+    return shown(value)

@@ -9,7 +9,7 @@ from atlas.errors import AtlasError
 from atlas.report import records, views
 from atlas.report.formulas import Manuscript, Target
 from atlas.report.load import nearest
-from atlas.report.numbers import MINUS, Number, plain, room
+from atlas.report.numbers import Number, room, shown
 from atlas.report.settings import Setting, setting
 from atlas.report.tables import compute
 from atlas.report.tables.model import Column, Data, Request
@@ -148,7 +148,7 @@ class _Composer:
             scene.alt if scene else plates[0].failure,
             shown,
             height * shown / width,
-            ", ".join(f"{key} = {_shown(value)}" for key, value in plates[0].parameters.items()),
+            ", ".join(f"{key} = {_shown(value)}" for key, value in plates[0].parameters.items() if value is not None),
         )
 
     def plate(self, block: records.Figure, renderer: str) -> views.Plate:
@@ -250,7 +250,7 @@ def _stage(plate: views.Plate, recipe: Any) -> None:
 def _shown(value: Any) -> str:
     """Write a parameter as it was given."""
     if isinstance(value, float | int) and not isinstance(value, bool):
-        return plain(value).replace("-", MINUS)
+        return shown(value)
     if isinstance(value, tuple | list):
         return f"({', '.join(_shown(part) for part in value)})"
     return str(value)

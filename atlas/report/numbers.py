@@ -36,6 +36,15 @@ def room(text: str) -> float:
 
 
 def plain(value: float) -> str:
-    """Write an input as it was given: the shortest digits that read back the same."""
-    text = repr(float(value))
-    return text.removesuffix(".0")
+    """Write an input as it was given, in ASCII: the shortest digits that read back the same."""
+    return repr(float(value)).removesuffix(".0")
+
+
+_RAISED = str.maketrans("0123456789-", "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207b")
+
+
+def shown(value: float) -> str:
+    """Write an input for a line of small print: with a true minus sign, and a power of ten as such."""
+    mantissa, _, power = plain(value).partition("e")
+    raised = f"\N{MULTIPLICATION SIGN}10{str(int(power)).translate(_RAISED)}" if power else ""
+    return mantissa.replace("-", MINUS) + raised

@@ -110,6 +110,14 @@ def test_a_column_of_mixed_sizes_has_powers_of_ten() -> None:
     assert {one.parts()[2] for one in column([1.5, 0.25], 5)} == {""}
 
 
+def test_small_lengths_carry_a_power_of_ten_in_their_unit() -> None:
+    """A drift of 3 um in one second is 3.000 in units of 1e-6 m; the digits are those of c [E, B]/B^2 times t."""
+    magnet = records.Field(title="magnet", B=(0.0, 0.0, 1.0), E=(0.0, 3e-6, 0.0), charge_to_mass=2.0)
+    data = table("particle", 4, field=magnet, times=[1.0], velocity=[3e-6, 0.0, 0.0])
+    assert [one.unit for one in data.columns[1:]] == 3 * ["$10^{-6}$ m"]
+    assert data.rows[0][1] == Number("3.000")
+
+
 def test_a_shape_in_si_units_gives_its_ratio_without_rounding() -> None:
     """A shell of h = 2R has I = 6/5, whatever the rounding of its moments."""
     shell = records.Body(title="shell", shape="cylindrical_shell", mass=0.1, radius=0.25, height=0.5, charge=0.3)

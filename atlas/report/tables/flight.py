@@ -1,7 +1,7 @@
 """A point of a flying body: the centre of mass, and the point that turns about it."""
 
 from atlas.report.numbers import plain
-from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, column
+from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, column, scaled
 from atlas.report.tables.particle import exact_particle
 
 
@@ -19,7 +19,7 @@ def flight(request: Request) -> Data:
     whole = Flight(made, turning, point)
     unit = setting.units.length_unit if setting.units else ""
     values = certified(lambda: [(*made.position(t), *whole.position(t)) for t in times], request.digits)
-    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     return Data(
         (
             Column("$t$", "s"),

@@ -84,6 +84,19 @@ def column(values: Sequence[Any], digits: int) -> list[Number]:
     return [_number(v if isinstance(v, str) else proven(v, digits, "scientific"), v) for v in values]
 
 
+def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
+    """Print columns of one unit; where all are very small or large, a power of ten of thousands joins the unit."""
+    from flint import fmpq
+
+    sizes = [power for values in columns for value in values if (power := _power(value)) is not None]
+    largest = max(sizes, default=0)
+    if -3 <= largest <= 5:
+        return unit, [column(values, digits) for values in columns]
+    power = 3 * (largest // 3)
+    factor = fmpq(10) ** -power
+    return f"$10^{{{power}}}$ {unit}", [column([value * factor for value in values], digits) for values in columns]
+
+
 def quantity(value: Any, digits: int) -> Number:
     """Print one number with `digits` significant digits."""
     return column([value], digits)[0]

@@ -7,7 +7,7 @@ import numpy as np
 from atlas.errors import AtlasError
 from atlas.report.numbers import plain
 from atlas.report.settings import Setting
-from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, column
+from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, column, scaled
 
 
 def exact_particle(setting: Setting, position: Any, velocity: Any) -> Any:
@@ -27,10 +27,10 @@ def particle(request: Request) -> Data:
     times, position, velocity = request.take(times=None, position=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0))
     setting = request.setting
     made = exact_particle(setting, position, velocity)
-    unit = setting.units.length_unit if setting.units else ""
+    unit = speed = setting.units.length_unit if setting.units else ""
     values = certified(lambda: [made.position(t) for t in times], request.digits)
     omega, drift = certified(lambda: (made.cyclotron_frequency, list(made.drift)), request.digits)
-    columns = [column(one, request.digits) for one in zip(*values, strict=True)]
+    unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     (frequency,) = column([omega], request.digits)
     drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
     return Data(
@@ -38,5 +38,5 @@ def particle(request: Request) -> Data:
         tuple(zip(column([plain(t) for t in times], request.digits), *columns, strict=True)),
         "The path of the particle, @mf10.2, in the laboratory frame.",
         rf"Cyclotron frequency $\omega=${frequency.tex()} s$^{{-1}}$, drift "
-        rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {unit} s$^{{-1}}$. {CERTIFIED}",
+        rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {speed} s$^{{-1}}$. {CERTIFIED}",
     )
