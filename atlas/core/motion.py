@@ -69,7 +69,7 @@ class Motion(Generic[Turning]):
         if count != int(count) or count < 0:
             raise AtlasError(f"A grid has a whole number of times, not {count!r}.")
         out = target(out, (*self.shape, int(count), 3, 3))
-        for turning, part in zip(self._turnings, out.reshape(-1, int(count), 3, 3), strict=True):
+        for turning, part in zip(self._turnings, out.reshape(len(self._turnings), int(count), 3, 3), strict=True):
             fill_grid(turning, start, step, part)
         return out
 

@@ -16,8 +16,11 @@ from atlas.errors import AtlasError
 LIMIT = 2.0**50
 """Largest phase |f t| in radians: beyond it two words of f no longer hold the turn."""
 
-SAFE = 900
-"""Frequencies outside 2^±900 are scaled, and times the other way, lest a product of words overflow or vanish."""
+SAFE = 400
+"""Frequencies outside 2^±400 are scaled, and times the other way, lest a product of words overflow or vanish."""
+
+NEVER = -4000
+"""A power of two that makes any time zero: that of a frequency which is zero."""
 
 SPLITTER = 2.0**27 + 1
 """Veltkamp's: t SPLITTER cuts t into two halves of 26 digits, whose products with halves are exact."""
@@ -43,8 +46,9 @@ class Phases:
 
     def __init__(self, turns: Sequence[Wide], origins: Sequence[Wide] | None = None) -> None:
         halves = [turn.scaled(1) for turn in turns]
-        exponents = [p.magnitude if p and abs(p.magnitude) > SAFE else 0 for p in halves]
-        self.exponents = np.array(exponents)[:, None] if any(exponents) else None
+        ordinary = any(halves) and all(abs(p.magnitude) <= SAFE for p in halves if p)
+        exponents = [0 if ordinary else p.magnitude if p else NEVER for p in halves]
+        self.exponents = None if ordinary else np.array(exponents)[:, None]
         self.words = _columns([p.scaled(-x).words(2) for p, x in zip(halves, exponents, strict=True)])
         scaled = self.words[0] * SPLITTER
         self.head = scaled - (scaled - self.words[0])
@@ -84,8 +88,9 @@ class Phases:
         The three are (n, m), in radians, and lie in `work`; the fourth array returned is free.
         """
         product, rest, x, y, z = work
-        if not t.dot(t) <= self.enough:
-            self._check(t)
+        with np.errstate(over="ignore"):
+            if not t.dot(t) <= self.enough:
+                self._check(t)
         if self.exponents is not None:
             t = np.ldexp(t, self.exponents)
         P0, P1 = self.words

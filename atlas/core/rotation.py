@@ -47,7 +47,8 @@ class DoubleRotation:
 
     def turned(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_n(k t) v for a constant v, shape (..., 3): one phase is evaluated, not two."""
-        weights = 2 * (rodrigues(self.axis) @ np.asarray(vector))
+        with np.errstate(over="ignore", invalid="ignore"):
+            weights = 2 * (rodrigues(self.axis) @ np.asarray(vector))
         if not np.isfinite(weights).all():
             raise AtlasError(f"The vector {vector} that is to be turned is too large for a float: choose larger units.")
         return evaluate(self.precession, weights, t, (3,), out)

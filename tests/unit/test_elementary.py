@@ -1,0 +1,253 @@
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mp, mpf
+from oracles import closed_form
+from oracles.taylor import taylor
+
+from atlas.core.body import SymmetricBody
+from atlas.core.elementary import ElementaryMotion, FreeMotion
+from atlas.errors import AtlasError, DomainError
+
+ULP1 = 2.0**-52
+
+CASES: dict[str, tuple[float, tuple[float, float], float, float | None]] = {
+    "precession": (1.5, (1.0, 2.0), 0.7, None),
+    "at rest": (1.5, (1.0, 2.0), 0.0, None),
+    "free body": (1.5, (0.0, 0.0), 0.7, 0.4),
+    "spin along the field": (1.5, (0.0, 2.0), 0.0, 0.4),
+    "transverse field, free spin": (1.5, (1.0, 0.0), -1.0, 0.4),
+    "ball, free spin": (1.0, (1.0, 2.0), -1.0, 0.4),
+}
+
+HOSTILE = [
+    (0.7, 1.1, 0.6, 1.3),
+    (1.0 + 2.0**-52, 1.0, 2.0, 0.7),
+    (1.0 - 2.0**-53, 1.0, 2.0, 0.7),
+    (2.0, -1.0, 2.0, 0.7),
+    (0.5, 1.1, 0.6, float(np.nextafter(-1.1, 0))),
+    (0.5, 1.1, 0.6, float(np.nextafter(-1.1, -2))),
+    (1.5, 1.1, 0.6, float(np.nextafter(-2.2, 0))),
+    (1.5, 1.1, 0.6, float(np.nextafter(-0.55, 0))),
+    (1.5, 1.0, 1e12, 0.3),
+    (0.5, -1e12, -1.0, 3e11),
+    (1.5, 1e140, -2e140, 0.7e140),
+    (0.5, -1e-140, 2e-140, 0.7e-140),
+    (2.0, 1e140, 1e-140, -0.3e140),
+    (1e-8, 1e-140, 1e140, 3e-140),
+]
+
+
+def ulps(ours: Any, true: mpf) -> float:
+    """Return an error in ulp of the true value, zero if both are zero."""
+    return float(abs(mpf(ours) - true) / mpf(float(np.spacing(abs(float(true)))))) if true else float(ours != 0)
+
+
+@pytest.mark.parametrize("inputs", HOSTILE)
+def test_the_scalars_are_rounded_once(inputs: tuple[float, float, float, float]) -> None:
+    """omega3, mf76, k, mf84, and phi, mf77, are within one ulp of their own size on hostile inputs."""
+    I, B2, B3, omega2 = inputs
+    motion, true = ElementaryMotion(I, (B2, B3), omega2), closed_form.elementary(1.0, I, B2, B3, omega2, digits=40)
+    assert max(ulps(motion.omega3, true.omega3), ulps(motion.k, true.k), ulps(motion.phi, true.phi)) <= 0.51
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.floats(1e-6, 2), st.floats(-1e140, 1e140), st.floats(-1e140, 1e140), st.floats(-5, 5))
+def test_the_scalars_are_rounded_once_for_any_inputs(I: float, B2: float, B3: float, x: float) -> None:
+    """The same for any ratio and field."""
+    omega2 = x * B2
+    if abs(B2) < 1e-140 or omega2 == -B2:
+        return
+    motion, true = ElementaryMotion(I, (B2, B3), omega2), closed_form.elementary(1.0, I, B2, B3, omega2, digits=40)
+    pairs = ((motion.omega3, true.omega3), (motion.k, true.k), (motion.phi, true.phi))
+    assert all(ulps(ours, exact) <= 0.51 for ours, exact in pairs if 1e-300 < abs(exact) < 1e300)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_case_has_its_name_and_solves_the_equations(case: str) -> None:
+    """Each case is a motion: a Taylor integration of mf21, mf27 gives the same R, Omega and K."""
+    I, field, omega2, omega3 = CASES[case]
+    motion = ElementaryMotion(I, field, omega2, omega3)
+    assert motion.case == case
+    if omega3 is None:
+        with mp.workdps(60):
+            exact = closed_form.elementary(1.0, I, *field, omega2, digits=50).omega3
+            numerator = mp.nint(exact * mpf(2) ** 160)
+        start = Fraction(int(numerator), 2**160)
+    else:
+        start = omega3
+    times = [0.5, 3.0]
+    for state in taylor((1.0, 1.0, I), (0.0, *field), (0.0, omega2, start), times, digits=30):
+        t = float(state.t)
+        assert np.abs(motion.rotation(t) - np.array(state.R.tolist(), float)).max() <= 4 * ULP1
+        assert np.abs(motion.angular_velocity(t) - np.array(state.Omega, float)).max() <= 8 * ULP1
+        assert np.abs(motion.field_in_body(t) - np.array(state.K, float)).max() <= 8 * ULP1
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_momentum_is_that_of_omega_turned_into_the_laboratory(case: str) -> None:
+    """m/I2 = R I Omega/I2, as in mf93."""
+    I, field, omega2, omega3 = CASES[case]
+    motion, t = ElementaryMotion(I, field, omega2, omega3), np.linspace(-5, 5, 41)
+    body = motion.angular_velocity(t) * [1.0, 1.0, I]
+    assert np.abs(motion.angular_momentum(t) - np.matvec(motion.rotation(t), body)).max() <= 8 * ULP1
+    assert np.abs(motion.field_in_body(t) - np.matvec(motion.rotation(t).mT, [0, *field])).max() <= 8 * ULP1
+
+
+@pytest.mark.parametrize("inputs", HOSTILE)
+def test_vectors_are_true_to_8_ulp_of_their_length(inputs: tuple[float, float, float, float]) -> None:
+    """Omega, K and m are within 8 ulp of their length on hostile inputs and at long times."""
+    I, B2, B3, omega2 = inputs
+    motion, true = ElementaryMotion(I, (B2, B3), omega2), closed_form.elementary(1.0, I, B2, B3, omega2, digits=60)
+    with mp.workdps(60):
+        for n in (-3.0, 3.0, 30.0, 49.9):
+            t = 2.0**n / max(abs(motion.k), abs(motion.phi))
+            s, c = mp.sin(true.phi * mpf(t)), mp.cos(true.phi * mpf(t))
+            start = mp.matrix([0, mpf(omega2), mpf(I) * true.omega3])
+            pairs = (
+                (motion.angular_velocity(t), [omega2 * s, omega2 * c, true.omega3]),
+                (motion.field_in_body(t), [B2 * s, B2 * c, mpf(B3)]),
+                (
+                    motion.angular_momentum(t),
+                    list(closed_form.rotation(true.axis2, true.axis3, true.k * mpf(t)) * start),
+                ),
+            )
+            for ours, exact in pairs:
+                length = mp.sqrt(sum(x * x for x in exact))
+                error = mp.sqrt(sum((mpf(float(x)) - y) ** 2 for x, y in zip(ours, exact, strict=True)))
+                assert error <= 8 * mpf(float(np.spacing(float(length))))
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_invariants_are_constant(case: str) -> None:
+    """E', K^2, c3, c5, mf44 to mf49, and (m, B'), mf93, do not change."""
+    I, field, omega2, omega3 = CASES[case]
+    values = ElementaryMotion(I, field, omega2, omega3).invariants(np.linspace(-1e6, 1e6, 101))
+    assert set(values) == {"E'", "K^2", "c3", "c5", "(m,B')"}
+    for value in values.values():
+        assert np.ptp(value) <= 64 * ULP1
+
+
+def test_the_closed_form_differentiates_to_mf21() -> None:
+    """dR/dt = R [Omega]x, by central differences of the closed form."""
+    motion, t, h = ElementaryMotion(0.7, (1.1, -0.6), 1.3), np.linspace(-3, 3, 13), 2.0**-17
+    slope = (motion.rotation(t + h) - motion.rotation(t - h)) / (2 * h)
+    Omega = motion.angular_velocity(t)
+    hat = np.cross(np.eye(3), Omega[:, None, :]) * -1.0
+    assert np.abs(slope - motion.rotation(t) @ hat.mT).max() < 1e-9
+
+
+def test_frequencies_obey_mf91() -> None:
+    """For B2 > 0, phi = (I2 - I3) B3hat (2 b + k) k/(I3 (b + k))."""
+    body, (B2, B3) = SymmetricBody(2.0, 3.0), (1.0, 2.0)
+    motion, b = ElementaryMotion(body, (B2, B3), 0.7), np.hypot(B2, B3)
+    k = motion.k
+    assert motion.phi == pytest.approx((2.0 - 3.0) * (B3 / b) * (2 * b + k) * k / (3.0 * (b + k)), rel=8 * ULP1)
+
+
+def test_the_free_body_beside_precesses_alike() -> None:
+    """The free body of mf92 has the same k and axis, and phi = (I2 - I3) B3hat k/I3."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    free = motion.beside
+    assert free.k == pytest.approx(motion.k, rel=4 * ULP1)
+    assert free.phi == pytest.approx(-0.5 / 1.5 * 2 / np.sqrt(5) * motion.k, rel=4 * ULP1)
+    assert np.abs(free.third_axis(3.0) - motion.third_axis(3.0)).max() <= 8 * ULP1
+
+
+def test_a_free_body_turns_as_the_equations_say() -> None:
+    """FreeMotion with any initial omega agrees with the Taylor integration, and omega1 = 0 with the elementary one."""
+    omega = (0.3, -0.7, 0.2)
+    free = FreeMotion(0.4, omega)
+    (state,) = taylor((1.0, 1.0, 0.4), (0.0, 0.0, 0.0), omega, [2.5], digits=30)
+    assert np.abs(free.rotation(2.5) - np.array(state.R.tolist(), float)).max() <= 4 * ULP1
+    assert np.abs(free.angular_velocity(2.5) - np.array(state.Omega, float)).max() <= 8 * ULP1
+    same = ElementaryMotion(0.4, (0.0, 0.0), -0.7, 0.2)
+    assert np.array_equal(FreeMotion(0.4, (0.0, -0.7, 0.2)).rotation(7.0), same.rotation(7.0))
+    assert np.array_equal(FreeMotion(0.4, (0.0, 0.0, 0.0)).rotation(7.0), np.eye(3))
+
+
+def test_a_body_is_not_rounded_to_its_ratio() -> None:
+    """I2 = 3, I3 = 1 is the exact third, which the ratio 1/3 is not."""
+    body, ratio = ElementaryMotion(SymmetricBody(3.0, 1.0), (1.0, 2.0), 0.7), ElementaryMotion(1 / 3, (1.0, 2.0), 0.7)
+    assert ulps(body.phi, closed_form.elementary(3.0, 1.0, 1.0, 2.0, 0.7).phi) <= 0.51
+    assert not np.array_equal(body.rotation(1e14), ratio.rotation(1e14))
+
+
+def test_a_ball_precesses_without_proper_rotation() -> None:
+    """For I3 = I2 phi is zero exactly, and next to it R is next to that."""
+    motion = ElementaryMotion(1.0, (1.0, 2.0), 0.7)
+    assert motion.phi == 0.0
+    assert np.abs(ElementaryMotion(1 + 2.0**-52, (1.0, 2.0), 0.7).rotation(3.0) - motion.rotation(3.0)).max() < 8 * ULP1
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.1, 2), st.floats(-3, 3), st.floats(-3, 3), st.floats(-50, 50))
+def test_reversing_the_field_and_the_motion_turns_it_about_e3(I: float, B3: float, omega2: float, t: float) -> None:
+    """With B2 and omega2 reversed R becomes D R D, D = diag(-1, -1, 1): the half turn about e3."""
+    if omega2 == -1.0:
+        return
+    D = np.array([-1.0, -1.0, 1.0])
+    plain, turned = ElementaryMotion(I, (1.0, B3), omega2), ElementaryMotion(I, (-1.0, B3), -omega2)
+    assert np.array_equal(turned.rotation(t), D[:, None] * plain.rotation(t) * D)
+
+
+def test_parameters_and_times_broadcast() -> None:
+    """Arrays of ratios, fields, omega2 and times broadcast by NumPy's rules."""
+    ratio, B3, t = np.array([0.5, 1.0, 1.5]), np.array([[2.0], [1.0]]), np.linspace(0, 1, 4)[:, None, None]
+    motion = ElementaryMotion(ratio, (1.0, B3), 0.7)
+    assert motion.case.shape == motion.k.shape == motion.phi.shape == (2, 3)
+    R, Omega = motion.rotation(t), motion.angular_velocity(t)
+    assert R.shape == (4, 2, 3, 3, 3)
+    assert Omega.shape == motion.field_in_body(t).shape == (4, 2, 3, 3)
+    assert motion.invariants(t)["E'"].shape == (4, 2, 3)
+    one = ElementaryMotion(0.5, (1.0, 1.0), 0.7)
+    assert np.abs(R[:, 1, 0] - one.rotation(t[:, 0, 0])).max() <= ULP1
+    assert motion.phi[1, 0] == one.phi
+
+
+@pytest.mark.parametrize(
+    ("ratio", "field", "omega2", "omega3", "says"),
+    [
+        (1.5, (1.0, 2.0), -1.0, None, "pole"),
+        (1.5, (0.0, 2.0), 0.3, None, "B2 = 0"),
+        (1.5, (0.0, 0.0), 0.3, None, "free"),
+        (1.5, (1.0, 2.0), 0.7, 0.1, "follows"),
+        (2.1, (1.0, 2.0), 0.7, None, "No body"),
+        (0.0, (1.0, 2.0), 0.7, None, "positive"),
+        (1.5, (1.0, np.nan), 0.7, None, "finite"),
+        (1.5, (1.0, 2.0), np.inf, None, "finite"),
+        (1.5, (1.0, 2.0, 3.0), 0.7, None, "components"),
+        (1.5, 1.0, 0.7, None, "components"),
+    ],
+)
+def test_what_has_no_answer_is_an_error(ratio: Any, field: Any, omega2: Any, omega3: Any, says: str) -> None:
+    """The pole, a body that cannot be, omega3 missing or too much: an error says which."""
+    with pytest.raises(AtlasError, match=says):
+        ElementaryMotion(ratio, field, omega2, omega3)
+
+
+def test_omega3_may_be_given_back() -> None:
+    """The omega3 that a motion reports is accepted where it follows."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    assert ElementaryMotion(1.5, (1.0, 2.0), 0.7, motion.omega3).phi == motion.phi
+
+
+def test_a_frequency_that_overflows_is_inf_and_the_motion_is_not_lost() -> None:
+    """An infinite phi is reported as such, while R at a tiny time is a rotation; m beyond all floats is an error."""
+    motion = ElementaryMotion(1e-300, (1.0, 1e100), 1e-3)
+    assert np.isinf(motion.phi)
+    R = motion.rotation(0.0)
+    assert np.array_equal(R, np.eye(3))
+    assert np.isinf(ElementaryMotion(0.5, (1.0, 1e300), 1e200).omega3)
+    with pytest.raises(AtlasError, match="too large"):
+        ElementaryMotion(0.5, (1.0, 1e300), 1e200).angular_momentum(0.0)
+
+
+def test_the_domain_errors_are_domain_errors() -> None:
+    """Physics outside the formula is a DomainError, a kind of AtlasError."""
+    with pytest.raises(DomainError):
+        ElementaryMotion(1.5, (1.0, 2.0), -1.0)

@@ -1,0 +1,106 @@
+import tracemalloc
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+from oracles import closed_form
+
+from atlas.core import grid
+from atlas.core.ball import BallMotion
+from atlas.core.elementary import ElementaryMotion
+from atlas.errors import AtlasError
+
+ULP1 = 2.0**-52
+I, B2, B3, OMEGA2 = 0.7, 1.1, -0.6, 1.3
+GRIDS = [(0.0, 0.01), (-1.3, 0.1), (1.3, -0.1), (1e14, 12345.678), (-5e-3, 1e-5), (3.0, 0.0), (0.1, 1e10 / 3)]
+
+
+def true(start: float, step: float, i: int) -> mp.matrix:
+    """Return R at the exact real number start + i step."""
+    return closed_form.elementary_rotation(1.0, I, B2, B3, OMEGA2, Fraction(start) + i * Fraction(step), digits=40)
+
+
+@pytest.mark.parametrize("tables", [False, True])
+@pytest.mark.parametrize(("start", "step"), GRIDS)
+def test_the_grid_is_that_of_exact_real_times(
+    start: float, step: float, tables: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each matrix is within 4 ulp(1) of that at start + i step, and orthogonal to that; with tables and without."""
+    monkeypatch.setattr(grid, "FEW", 0 if tables else 10**6)
+    R = ElementaryMotion(I, (B2, B3), OMEGA2).rotation_grid(start, step, 1000)
+    for i in (0, 1, 12, 13, 95, 96, 97, 499, 500, 501, 767, 999):
+        with mp.workdps(40):
+            ours = mp.matrix(R[i].tolist())
+            assert max(abs(x) for x in ours - true(start, step, i)) <= 4 * ULP1
+            assert max(abs(x) for x in ours.T * ours - mp.eye(3)) <= 4 * ULP1
+
+
+@pytest.mark.parametrize("tables", [False, True])
+@pytest.mark.parametrize(("start", "step"), [(0.0, 1e-9), (-3e-4, 1e-6), (1e-5, -1e-7), (-1.0, 0.002)])
+def test_the_small_third_column_keeps_its_digits_also_through_zero(
+    start: float, step: float, tables: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """R13 and R23 are within 8 ulp of their own size where k t is small, also where the grid passes t = 0."""
+    monkeypatch.setattr(grid, "FEW", 0 if tables else 10**6)
+    R = ElementaryMotion(I, (B2, B3), OMEGA2).rotation_grid(start, step, 1000)
+    for i in (1, 2, 99, 100, 101, 298, 299, 300, 301, 498, 499, 500, 501, 999):
+        column = true(start, step, i)
+        for j in (0, 1):
+            if column[j, 2]:
+                assert abs(mpf(float(R[i, j, 2])) - column[j, 2]) <= 8 * float(np.spacing(abs(float(column[j, 2]))))
+
+
+def test_the_balls_grid_agrees_with_its_times(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The transposed matrix has its own table: it agrees with single times."""
+    monkeypatch.setattr(grid, "FEW", 0)
+    ball = BallMotion(2.0, 0.5, (0.3, -0.4))
+    t = np.arange(-400, 600) / 64
+    assert np.abs(ball.rotation_grid(-400 / 64, 1 / 64, 1000) - ball.rotation(t)).max() <= 4 * ULP1
+
+
+def test_grids_of_every_length_end_where_they_should(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whole and broken blocks, forward and backward, agree with single times."""
+    monkeypatch.setattr(grid, "FEW", 0)
+    motion = ElementaryMotion(I, (B2, B3), OMEGA2)
+    for count in (0, 1, 2, 95, 96, 97, 192, 3071, 3072, 3100):
+        for start, step in ((0.0, 2.0**-7), (-(2.0**-7) * (count // 3), 2.0**-7), (1.0, -(2.0**-7))):
+            t = start + step * np.arange(count)
+            assert np.abs(motion.rotation_grid(start, step, count) - motion.rotation(t)).max(initial=0) <= 4 * ULP1
+
+
+def test_two_threads_give_the_same_grid(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether a second thread helps changes no bit."""
+    motion = ElementaryMotion(I, (B2, B3), OMEGA2)
+    monkeypatch.setattr("atlas.core.threads.processors", lambda: 2)
+    two = motion.rotation_grid(-10.0, 1e-3, 250_000)
+    monkeypatch.setattr("atlas.core.threads.processors", lambda: 1)
+    assert np.array_equal(two, motion.rotation_grid(-10.0, 1e-3, 250_000))
+
+
+def test_a_grid_fills_out_and_takes_little_memory() -> None:
+    """A million matrices go into `out` with less than 4 MB beside it."""
+    motion, out = ElementaryMotion(I, (B2, B3), OMEGA2), np.empty((1_000_000, 3, 3))
+    tracemalloc.start()
+    assert motion.rotation_grid(0.0, 1e-3, 1_000_000, out=out) is out
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 4e6
+
+
+def test_grids_of_several_motions_stand_side_by_side() -> None:
+    """Parameters that are arrays come first in the shape."""
+    motion = ElementaryMotion([0.5, 1.5], (B2, B3), OMEGA2)
+    R = motion.rotation_grid(0.0, 0.5, 7)
+    assert R.shape == (2, 7, 3, 3)
+    assert np.array_equal(R[1], ElementaryMotion(1.5, (B2, B3), OMEGA2).rotation_grid(0.0, 0.5, 7))
+
+
+@pytest.mark.parametrize(
+    ("start", "step", "count"),
+    [(np.nan, 1.0, 3), (0.0, np.inf, 3), (0.0, 1.0, -1), (0.0, 1.0, 2.5), (0.0, 1e15, 5), (1e300, 0.0, 1)],
+)
+def test_a_grid_without_an_answer_is_an_error(start: float, step: float, count: int) -> None:
+    """No finite start, step or count, and phases beyond 2^50, are errors."""
+    with pytest.raises(AtlasError):
+        ElementaryMotion(I, (B2, B3), OMEGA2).rotation_grid(start, step, count)

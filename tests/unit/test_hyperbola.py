@@ -1,0 +1,151 @@
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mp, mpf
+from oracles import closed_form
+
+from atlas.core.elementary import ElementaryMotion
+from atlas.core.hyperbola import Hyperbola
+from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.core.quadric import Quadric
+from atlas.errors import AtlasError, DomainError
+
+RATIOS = [0.5, 1.0 - 2.0**-53, 1.0, 1.0 + 2.0**-52, 1.5, 2.0]
+FIELDS = [(1.0, 2.0), (-1.0, 2.0), (1.0, -1e-12), (1e-12, 1.0), (1e140, 2e140), (-1e-140, -3e-140)]
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+@pytest.mark.parametrize("field", FIELDS)
+def test_sampled_points_are_true_to_one_ulp(ratio: float, field: tuple[float, float]) -> None:
+    """Each omega3 is within an ulp of mf76 at the double omega2, on both branches."""
+    omega2, omega3 = Hyperbola(ratio, field).sample(20)
+    assert omega2.shape == omega3.shape == (20,)
+    for x, y in zip(omega2.tolist(), omega3.tolist(), strict=True):
+        true = closed_form.elementary(1.0, ratio, *field, x, digits=40).omega3
+        assert abs(mpf(y) - true) <= 0.51 * float(np.spacing(abs(float(true))))
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.5, 2.0])
+@pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, 2.0), (2.0, -0.3)])
+def test_the_branches_lie_on_either_side_of_the_pole_and_reach_out_evenly(
+    ratio: float, field: tuple[float, float]
+) -> None:
+    """One branch has omega2 > -B2, the other omega2 < -B2; each reaches 4 |B'| along both asymptotes."""
+    curve, reach = Hyperbola(ratio, field), 4 * np.hypot(*field)
+    (x, y), (u, v) = curve.branches(400)
+    assert np.all(x > curve.pole)
+    assert np.all(u < curve.pole)
+    for a, b in ((x, y), (u, v)):
+        assert np.abs(a - curve.pole).max() == pytest.approx(reach, rel=1e-12)
+        assert 0.5 * reach < np.abs(b + field[1])[np.abs(a - curve.pole).argmin()] < 4 * reach
+
+
+def test_the_parameter_is_hyperbolic() -> None:
+    """X = ± sqrt|1-I| |B2| e^s, and s = 0 is where the parts of Y are equal: the vertex line of the curve."""
+    curve, s = Hyperbola(1.5, (1.0, 2.0)), np.linspace(-1, 1, 5)
+    (x, y), (u, v) = curve.branches(s)
+    assert np.abs(x + 1 - np.sqrt(0.5) * np.exp(s)).max() <= 4 * 2.0**-52
+    assert np.abs(y + 2 - (2 / 1.5) * np.sqrt(0.5) * 2 * np.cosh(s)).max() <= 16 * 2.0**-52
+    assert np.abs(x + u + 2).max() <= 8 * 2.0**-52
+    assert np.abs(y + v + 4).max() <= 16 * 2.0**-52
+
+
+def test_straight_curves_are_sampled_as_lines() -> None:
+    """For B3 = 0 the lines omega3 = 0 and omega2 = -B2, for B2 = 0 the line omega2 = 0, for B = 0 an error."""
+    (_, flat), (upright, _) = Hyperbola(1.5, (1.0, 0.0)).branches(10)
+    assert np.all(flat == 0.0)
+    assert np.all(upright == -1.0)
+    (line,) = Hyperbola(1.5, (0.0, 2.0)).branches(10)
+    assert np.all(line[0] == 0.0)
+    with pytest.raises(DomainError):
+        Hyperbola(1.5, (0.0, 0.0)).sample(10)
+    with pytest.raises(AtlasError):
+        Hyperbola(1.5, (1.0, 0.0)).sample(np.linspace(-1, 1, 5))
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.1, 2), st.floats(0.1, 3), st.floats(-3, 3), st.floats(-5, 5))
+def test_points_of_the_curve_lie_on_the_quadric_and_start_motions(I: float, B2: float, B3: float, x: float) -> None:
+    """The residual of mf58.1 vanishes to rounding, and k, phi are those of the motion."""
+    omega2 = x * B2
+    if abs(x + 1) < 1e-3:
+        return
+    curve, motion = Hyperbola(I, (B2, B3)), ElementaryMotion(I, (B2, B3), omega2)
+    omega3 = curve.omega3(omega2)
+    size = abs(B3) * (omega2**2 + B2**2) + I * B2 * abs(omega3) * (abs(omega2) + B2) + 1e-300
+    assert abs(Quadric(I, (B2, B3)).residual((0.0, omega2, omega3))) <= 2.0**-51 * size
+    assert (omega3, *curve.frequencies(omega2)) == (motion.omega3, motion.k, motion.phi)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.5, 1.0, 1.5, 2.0])
+@pytest.mark.parametrize("field", [(1.0, 2.0), (1.0, 0.1), (-1.0, 0.3)])
+def test_stability_is_minus_the_slope_of_the_cubic(ratio: float, field: tuple[float, float]) -> None:
+    """The nutation frequency squared is -p'(omega3), p the cubic of mf55."""
+    curve = Hyperbola(ratio, field)
+    for x in (-2.7, -1.4, 0.5, 1.0, 3.0):
+        omega2 = (x - 1) * field[0]
+        omega3 = curve.omega3(omega2)
+        slope = PseudoOscillator(ratio, field, (0.0, omega2, omega3)).stiffness(omega3)
+        assert curve.stability(omega2) == pytest.approx(-slope, rel=1e-11, abs=1e-12)
+
+
+@pytest.mark.parametrize("tau", [1e-12, 0.1, 0.35])
+def test_the_stability_changes_sign_at_the_ends_of_the_band(tau: float) -> None:
+    """Inside the band the square is negative, outside positive, to 1e-9 of its ends."""
+    curve = Hyperbola(0.5, (1.0, tau))
+    band = curve.unstable_band
+    assert band is not None
+    for y, sign in ((band[0], 1), (band[1], -1)):
+        x = np.sqrt(y) * np.array([1 - 1e-9, 1 + 1e-9])
+        assert (np.sign(curve.stability(x - 1)) == [sign, -sign]).all() or tau < 1e-6
+
+
+def test_the_band_is_true_to_4_ulp_also_where_it_opens() -> None:
+    """The ends y- and y+ are within 4 ulp of their own size, for tau down to 1e-12."""
+    for tau in (1e-12, 1e-3, 0.1, 0.35):
+        with mp.workdps(60):
+            t2 = mpf(tau) ** 2
+            true = [(1 - 2 * t2 + s * mp.sqrt(1 - 8 * t2)) / (4 * (1 + t2)) for s in (-1, 1)]
+        band = Hyperbola(0.5, (1.0, tau)).unstable_band
+        assert band is not None
+        for ours, exact in zip(band, true, strict=True):
+            assert abs(mpf(ours) - exact) <= 4 * float(np.spacing(float(exact)))
+
+
+@pytest.mark.parametrize(("ratio", "tau"), [(1.0, 0.1), (1.5, 0.1), (0.5, 0.36), (2.0, 0.0)])
+def test_elsewhere_the_family_is_stable(ratio: float, tau: float) -> None:
+    """For I >= 1, or tau > 1/(2 sqrt 2), there is no band."""
+    assert Hyperbola(ratio, (1.0, tau)).unstable_band is None
+
+
+def test_named_points_and_asymptotes() -> None:
+    """Rest, -2 B' and the zero of omega3 lie on the curve; the asymptotes are e3 and I^-1 B'."""
+    curve = Hyperbola(1.5, (1.0, 2.0))
+    assert set(curve.special) == {"omega2 = 0", "omega2 = -2 B2", "omega2 = -(2-I) B2"}
+    for omega2, omega3 in curve.special.values():
+        assert curve.omega3(omega2) == omega3
+    upright, oblique = curve.asymptotes
+    assert upright.tolist() == [0.0, 1.0]
+    assert oblique[1] / oblique[0] == pytest.approx(2 / 1.5)
+    assert curve.pole == -1.0
+
+
+def test_arrays_of_omega2_give_arrays() -> None:
+    """Each function takes an array of any shape, and gives a float for a float."""
+    curve, omega2 = Hyperbola(1.5, (1.0, 2.0)), np.array([[0.7, -2.0], [3.0, -0.5]])
+    assert curve.omega3(omega2).shape == curve.stability(omega2).shape == (2, 2)
+    k, phi = curve.frequencies(omega2)
+    assert k.shape == phi.shape == (2, 2)
+    assert isinstance(curve.omega3(0.7), float)
+
+
+@pytest.mark.parametrize("bad", [lambda h: h.omega3(-1.0), lambda h: h.frequencies([0.0, -1.0]), lambda h: h.sample(1)])
+def test_the_pole_and_too_few_points_are_errors(bad: Any) -> None:
+    """At omega2 = -B2 there is no omega3, and two branches need two points."""
+    with pytest.raises(AtlasError):
+        bad(Hyperbola(1.5, (1.0, 2.0)))
+    with pytest.raises(DomainError, match="B2 = 0"):
+        Hyperbola(1.5, (0.0, 2.0)).omega3(0.0)

@@ -1,0 +1,110 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mp, mpf
+
+from atlas.core.phase import Phases
+from atlas.core.wide import TURN, Wide
+from atlas.errors import AtlasError
+
+UNIT = 2.0**-53
+
+
+def circle(phases: Phases, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return cos, sin and 1 - cos of the first phase."""
+    n, m = phases.words.shape[1], t.size
+    cos, sin, versine = np.empty((n, m)), np.empty((n, m)), np.empty(m)
+    phases.circle(t, np.empty((5, n, m)), cos, sin, versine)
+    return 2 * cos[0], 2 * sin[0], 2 * versine
+
+
+def worst(phases: Phases, f: float, times: np.ndarray) -> float:
+    """Return the largest error of cos and sin of f t, in units of 2^-53."""
+    cos, sin, _ = circle(phases, times)
+    with mp.workprec(300):
+        errors = [
+            max(abs(mpf(c) - mp.cos(mpf(f) * mpf(t))), abs(mpf(s) - mp.sin(mpf(f) * mpf(t))))
+            for t, c, s in zip(times.tolist(), cos.tolist(), sin.tolist(), strict=True)
+        ]
+    return float(max(errors)) / UNIT
+
+
+def phases_of(f: float) -> Phases:
+    """Return the phases of one frequency in radians."""
+    return Phases([Wide.exactly(f) / TURN])
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.floats(1e-3, 1e3), st.integers(0, 50), st.integers(0, 2**32))
+def test_cosine_and_sine_are_true_to_two_units_up_to_phase_2_to_50(f: float, digits: int, seed: int) -> None:
+    """Cosine and sine of f t are within 2 units of 2^-53 for any |f t| <= 2^50."""
+    t = np.random.default_rng(seed).uniform(-1, 1, 20) * 2.0**digits / f
+    assert worst(phases_of(f), f, t) < 2.5
+
+
+@pytest.mark.parametrize("word", [0, 1])
+def test_either_word_of_a_frequency_is_needed(word: int) -> None:
+    """A phase of 2^49 is lost if a word of the frequency is dropped, and with both words it is not."""
+    f, t = 1.2345, np.linspace(0.9, 1.0, 20) * 2.0**49
+    phases = phases_of(f)
+    assert worst(phases, f, t) < 2.5
+    phases.words[word] = 0.0
+    assert worst(phases, f, t) > 100
+
+
+def test_the_lower_half_of_the_first_word_is_needed() -> None:
+    """The exact error of the product, made from halves, carries digits at moderate phases already."""
+    f, t = 1.2345, np.linspace(900, 1000, 20)
+    phases = phases_of(f)
+    phases.tail[...] = 0.0
+    assert worst(phases, f, t) > 100
+
+
+def test_one_less_the_cosine_keeps_its_digits() -> None:
+    """1 - cos x is within 6 ulp of its own size down to x = 1e-150."""
+    t = 10.0 ** np.linspace(-150, -0.5, 200)
+    _, _, versine = circle(phases_of(1.0), t)
+    with mp.workprec(1200):
+        exact = [2 * mp.sin(mpf(x) / 2) ** 2 for x in t.tolist()]
+        errors = [
+            abs(mpf(v) - e) / mpf(float(np.spacing(float(e)))) for v, e in zip(versine.tolist(), exact, strict=True)
+        ]
+    assert max(errors) < 6
+
+
+def test_an_origin_is_added_before_anything_is_rounded() -> None:
+    """A phase c + f t with c = 0.3 turns and f a third of a turn is that of the exact sum."""
+    third, origin = Wide(1) / Wide(3), Wide(3) / Wide(10)
+    phases = Phases([third], [origin])
+    i = np.arange(1e6, 1e6 + 50)
+    cos, sin, _ = circle(phases, i)
+    with mp.workprec(300):
+        turns = [mpf(3) / 10 + mpf(n) / 3 for n in i.tolist()]
+        assert max(abs(mpf(c) - mp.cospi(2 * x)) for c, x in zip(cos.tolist(), turns, strict=True)) < 2.5 * UNIT
+        assert max(abs(mpf(s) - mp.sinpi(2 * x)) for s, x in zip(sin.tolist(), turns, strict=True)) < 2.5 * UNIT
+
+
+@pytest.mark.parametrize("exponent", [-950, -300, 300, 990])
+def test_a_power_of_two_in_the_frequency_moves_to_the_time(exponent: int) -> None:
+    """A frequency f 2^n at t 2^-n gives the bits of f at t, also where f is scaled inside."""
+    t = np.array([0.0, 1e-7, 0.3, 1.7, 1e5, -3e12])
+    plain = circle(Phases([Wide.exactly(1.2345)]), t)
+    moved = circle(Phases([Wide.exactly(1.2345).scaled(exponent)]), np.ldexp(t, -exponent))
+    for a, b in zip(plain, moved, strict=True):
+        assert np.array_equal(a, b)
+
+
+@pytest.mark.parametrize("time", [2.0**50 * (1 + 1e-15), -(2.0**60), 1e308, np.inf, -np.inf, np.nan])
+def test_a_phase_out_of_reach_is_an_error(time: float) -> None:
+    """Beyond 2^50, and for no number at all, there is an error that names the time."""
+    with pytest.raises(AtlasError, match="2\\^50"):
+        circle(phases_of(1.0), np.array([0.0, time]))
+
+
+def test_without_frequency_every_finite_time_is_in_reach() -> None:
+    """A body at rest stays there, but not to infinity."""
+    phases = Phases([Wide(0)])
+    assert np.array_equal(circle(phases, np.array([1e308, -1e308]))[0], [1.0, 1.0])
+    with pytest.raises(AtlasError):
+        circle(phases, np.array([np.inf]))
