@@ -15,30 +15,32 @@ from pathlib import Path
 from typing import Any
 
 from atlas.build.sources import PACKAGE, Sources, digest
-from atlas.build.store import Store
+from atlas.build.store import Store, place
 from atlas.places import folder
+from atlas.report.gallery import Gallery
+from atlas.report.numbers import shown
 
 DRAWERS = {"vector": ("numpy", "matplotlib"), "shaded": ("numpy", "matplotlib", "pyvista", "vtk")}
 STEM = "plate"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Request:
     """A figure that is wanted: a recipe, its parameters, a renderer."""
 
     recipe: str
     renderer: str
-    parameters: Mapping[str, Any] = field(hash=False)
+    parameters: Mapping[str, Any]
 
     @property
     def name(self) -> str:
         """The recipe's name and what distinguishes this plate, for people."""
-        settings = ", ".join(f"{key}={value}" for key, value in self.parameters.items())
+        settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
         return f"{self.recipe}({settings})" + (" shaded" if self.renderer == "shaded" else "")
 
 
 @dataclass(frozen=True)
-class Plate:
+class Made:
     """A figure that was made: where its files are, what was noted, whether it is new; or why it failed."""
 
     request: Request
@@ -48,11 +50,23 @@ class Plate:
     why: str = ""
     failure: str = ""
 
-    def file(self, kind: str) -> Path:
-        """Return the path of the file for ``kind``, which is html or pdf."""
+    @property
+    def reason(self) -> str:
+        """Say whether it was drawn or taken, and why."""
+        if self.failure:
+            return f"failed: {self.failure}"
+        return f"{'drawn' if self.new else 'taken'}: {self.why}"
+
+    @property
+    def note(self) -> str:
+        """A line to tell the user, or nothing."""
+        return str(self.facts.get("note", ""))
+
+    def file(self, target: str) -> Path:
+        """Return the path of the file for a target, html or pdf."""
         if self.folder is None:
             raise FileNotFoundError(self.request.name)
-        return self.folder / str(self.facts["files"][kind])
+        return self.folder / str(self.facts["files"][target])
 
 
 def key_of(request: Request, sources: Sources, gl: str | None) -> tuple[str, dict[str, str]]:
@@ -100,7 +114,7 @@ def make(recipe: str, renderer: str, parameters: dict[str, Any], into: Path) -> 
         "caption": scene.caption,
         "alt": scene.alt,
         "size": list(scene.size),
-        "parameters": dict(scene.parameters),
+        "parameters": {name: shown(value) for name, value in scene.parameters.items()},
         "renderer": drawn[0].renderer,
         "note": note,
         "files": files,
@@ -116,44 +130,62 @@ def make(recipe: str, renderer: str, parameters: dict[str, Any], into: Path) -> 
     }
 
 
+def draw_gallery(
+    gallery: Gallery, folder: Path, store: Store, sources: Sources, jobs: int, tell: Callable[[int, str], None]
+) -> list[Made]:
+    """Draw or take every plate of a gallery, put its files into ``folder``/figures, and fill in what is known of it."""
+    from atlas.render import gl
+
+    wanted = {Request(plate.recipe, plate.renderer, plate.parameters): plate for plate in gallery.values()}
+    made = []
+    requests = [request for request, plate in wanted.items() if not plate.failure]
+    for one in plates(requests, store, sources, gl=gl.library(), jobs=jobs):
+        made.append(one)
+        tell(len(made), one.request.recipe)
+        plate = wanted[one.request]
+        if one.failure:
+            plate.failure = one.failure
+            continue
+        for target in ("html", "pdf"):
+            source = one.file(target)
+            name = f"figures/{plate.stem}{source.suffix}"
+            place(source, folder / name)
+            plate.files[target] = name
+        plate.caption, plate.alt = one.facts["caption"], one.facts["alt"]
+        width, height = one.facts["size"]
+        plate.size, plate.settings = (width, height), one.facts["parameters"]
+        if one.facts["renderer"] != plate.renderer and one.note:
+            plate.remark = "Drawn by the vector renderer."
+    order = {request: index for index, request in enumerate(requests)}
+    return sorted(made, key=lambda one: order[one.request])
+
+
 def plates(
-    requests: Sequence[Request],
-    store: Store,
-    sources: Sources,
-    *,
-    gl: str | None,
-    jobs: int = 1,
-    tell: Callable[[int, int, str], None] = lambda _done, _total, _what: None,
-) -> Iterator[Plate]:
+    requests: Sequence[Request], store: Store, sources: Sources, *, gl: str | None, jobs: int = 1
+) -> Iterator[Made]:
     """Go through the plates of the requests as they are ready, each taken from the store or drawn.
 
     With ``jobs`` > 1 they are drawn side by side, by processes that live as long as there is work, so that each loads
     the drawing libraries once. A plate that fails is returned with the reason and does not stop the others.
     """
     waiting: list[tuple[Request, str, str]] = []
-    done = 0
     for request in requests:
         key, parts = key_of(request, sources, gl)
         entry = store.take(key)
         if entry is None:
             waiting.append((request, key, store.changed(request.name, parts)))
         else:
-            done += 1
-            yield Plate(request, entry.folder, entry.facts, new=False, why="nothing it depends on has changed")
+            yield Made(request, entry.folder, entry.facts, new=False, why="nothing it depends on has changed")
         store.remember(request.name, parts)
-    tell(done, len(requests), "")
-    for plate in _drawn(waiting, store, jobs):
-        done += 1
-        tell(done, len(requests), plate.request.recipe)
-        yield plate
+    yield from _drawn(waiting, store, jobs)
 
 
-def _drawn(waiting: list[tuple[Request, str, str]], store: Store, jobs: int) -> Iterator[Plate]:
+def _drawn(waiting: list[tuple[Request, str, str]], store: Store, jobs: int) -> Iterator[Made]:
     """Draw what is not in the store: here, or in processes of their own; shaded plates first, they take longest."""
     waiting.sort(key=lambda item: item[0].renderer != "shaded")
     if jobs == 1 or len(waiting) < 2:
         for request, key, why in waiting:
-            yield _plate(request, why, _into_store(store.root, key, request))
+            yield _made(request, why, _into_store(store.root, key, request))
         return
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(min(jobs, len(waiting)), mp_context=context) as pool:
@@ -168,7 +200,7 @@ def _drawn(waiting: list[tuple[Request, str, str]], store: Store, jobs: int) -> 
                     outcome = future.result()
                 except Exception as error:  # noqa: BLE001  a process that died takes its figure along, not the build
                     outcome = f"{type(error).__name__}: {error}"
-                yield _plate(request, why, outcome)
+                yield _made(request, why, outcome)
 
 
 def _into_store(root: Path, key: str, request: Request) -> Any:
@@ -184,11 +216,11 @@ def _into_store(root: Path, key: str, request: Request) -> Any:
     return entry.folder, entry.facts
 
 
-def _plate(request: Request, why: str, outcome: Any) -> Plate:
+def _made(request: Request, why: str, outcome: Any) -> Made:
     if isinstance(outcome, str):
-        return Plate(request, failure=" ".join(outcome.split()))
+        return Made(request, failure=" ".join(outcome.split()))
     where, facts = outcome
-    return Plate(request, where, facts, new=True, why=why)
+    return Made(request, where, facts, new=True, why=why)
 
 
 def _version(name: str) -> str:

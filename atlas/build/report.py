@@ -1,24 +1,32 @@
-"""One report from its TOML file to pages and PDF: figures drawn once, what fails told, everything written whole."""
+"""One report from its TOML file to pages and PDF: nothing is made twice, and everything is written whole.
 
+A report whose sources have not changed is not built at all; a plate whose key is in the store is taken from there, and
+so is the text that pandoc made from the same prose.
+"""
+
+import os
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
+from atlas.build import fresh
+from atlas.build.sources import Sources, digest
+from atlas.build.store import Store
 from atlas.build.whole import publish, staging, write
-from atlas.report import html, pdf
-from atlas.report.colophon import colophon
-from atlas.report.compose import Document, compose
+from atlas.errors import AtlasError
 from atlas.report.load import find, load
-from atlas.report.views import Plate
 
 OUT = Path("build/report")
+STORE = ".store"
 Progress: TypeAlias = Callable[[int, int, str], None]
 
 
 @dataclass(frozen=True)
 class Built:
-    """What a build made, which figures failed and why, and lines to tell the user."""
+    """What a build made or found, which figures failed and why, lines to tell the user, and why each part was made."""
 
     name: str
     index: Path
@@ -27,6 +35,8 @@ class Built:
     figures: int
     failures: tuple[tuple[str, str], ...] = ()
     notes: tuple[str, ...] = ()
+    reasons: tuple[tuple[str, str, str], ...] = ()
+    ledger: Path | None = None
 
     @property
     def ok(self) -> bool:
@@ -34,86 +44,110 @@ class Built:
         return not self.failures
 
 
-def build_report(name: str | Path, out: Path = OUT, progress: Progress | None = None) -> Built:
+def build_report(
+    name: str | Path,
+    out: Path = OUT,
+    progress: Progress | None = None,
+    *,
+    jobs: int | None = None,
+    store: Path | None = None,
+) -> Built:
     """Build the report of that name or file into `out`: NAME/index.html and its pages, and NAME.pdf.
 
-    `progress` is called with the steps done, their number, and what comes next. A figure that fails leaves a framed
-    note in its place and an entry in `failures`. Raises AtlasError, in one sentence, for anything wrong with the file.
+    `progress` is called with the steps done, their number, and what comes next; `jobs` figures are drawn at once, one a
+    core when it is not given; `store` is the folder of what was built before, `out`/.store when it is not given. A
+    figure that fails leaves a framed note in its place and an entry in `failures`. Raises AtlasError, in one sentence,
+    for anything wrong with the file.
     """
-    report = load(find(str(name)))
-    tell = progress or (lambda _done, _total, _what: None)
-    tell(0, 1, "tables and scenes")
-    document = compose(report)
-    total = len(document.plates) + 3
+    began = time.perf_counter()
+    file = find(str(name))
+    kept = Store(store or out / STORE)
+    sources = Sources(kept.root / "sources.json")
+    key = fresh.key(file, sources)
+    found = fresh.read(out, file.stem, key)
+    if found is not None:
+        return Built(
+            file.stem,
+            out / file.stem / "index.html",
+            out / f"{file.stem}.pdf",
+            found["pages"],
+            found["figures"],
+            reasons=(("report", file.stem, "taken: nothing it depends on has changed"),),
+        )
+    return _build(file, out, key, kept, sources, progress or _silent, jobs or os.cpu_count() or 1, began)
+
+
+def _silent(_done: int, _total: int, _what: str) -> None:
+    """Show no progress."""
+
+
+def _build(
+    file: Path, out: Path, key: str, store: Store, sources: Sources, tell: Progress, jobs: int, began: float
+) -> Built:
+    """Build a report that is not up to date."""
+    from atlas.build import ledger
+    from atlas.build.plates import draw_gallery
+    from atlas.build.record import record_of
+    from atlas.report import html, pdf
+    from atlas.report.colophon import colophon
+    from atlas.report.compose import compose
+    from atlas.report.gallery import gallery
+
+    report = load(file)
+    if report.name != file.stem:
+        raise AtlasError(f"{file}: the report's name is {report.name!r}, but its file is called {file.stem!r}.")
+    wanted = gallery(report)
+    total = len(wanted) + 3
     with staging(out) as stage:
-        notes = _draw(document, stage / report.name, lambda done, what: tell(done + 1, total, what))
-        made = colophon(report)
+        store.sweep()
+        folder = stage / report.name
+        made = draw_gallery(wanted, folder, store, sources, jobs, lambda done, what: tell(done, total, what))
+        sources.save()
+        tell(total - 3, total, "tables")
+        times = {"figures": time.perf_counter()}
+        document = compose(report, wanted)
+        document.manuscript.recall = partial(_recall, store)
+        described = colophon(report)
         tell(total - 2, total, "pages")
-        pages = html.pages(document, made)
-        for file, content in pages.items():
-            write(stage / report.name / file, content)
+        times["tables"] = time.perf_counter()
+        pages = html.pages(document, described)
+        for page, content in pages.items():
+            write(folder / page, content)
         tell(total - 1, total, "PDF")
-        source = pdf.source(document, made)
-        write(stage / f"{report.name}.pdf", pdf.compile_pdf(source, stage / report.name))
-        figures = [
-            f"{report.name}/{kept}"
-            for plate in document.plates.values()
-            if (kept := plate.files.get("html")) is not None
-        ]
-        files = [*figures, *(f"{report.name}/{file}" for file in pages), f"{report.name}.pdf"]
+        times["pages"] = time.perf_counter()
+        write(stage / f"{report.name}.pdf", pdf.compile_pdf(pdf.source(document, described), folder))
+        times["PDF"] = time.perf_counter()
+        write(folder / "record.json", record_of(document, described, folder))
+        figures = [f"{report.name}/{plate.files['html']}" for plate in wanted.values() if plate.files]
+        files = [*figures, *(f"{report.name}/{one}" for one in (*pages, "record.json")), f"{report.name}.pdf"]
         publish(stage, out, files, [report.name])
     tell(total, total, "done")
-    failures = tuple((plate.recipe, plate.failure) for plate in document.plates.values() if plate.failure)
+    failures = tuple((plate.recipe, plate.failure) for plate in wanted.values() if plate.failure)
+    if not failures:
+        fresh.write(out, report.name, key, files, pages=len(document.pages), figures=len(wanted))
+    costs = ledger.write(out / f"{report.name}.costs.json", report.name, made, times, began, jobs)
     return Built(
         report.name,
         out / report.name / "index.html",
         out / f"{report.name}.pdf",
         len(document.pages),
-        len(document.plates) - len(failures),
+        len(wanted) - len(failures),
         failures,
-        tuple(dict.fromkeys(notes)),
+        tuple(dict.fromkeys(one.note for one in made if one.note)),
+        tuple(("figure", one.request.name, one.reason) for one in made),
+        costs,
     )
 
 
-def _draw(document: Document, folder: Path, tell: Callable[[int, str], None]) -> list[str]:
-    """Draw every plate in the formats that the pages and the PDF take; return what the user should know."""
-    notes: list[str] = []
-    for done, plate in enumerate(document.plates.values()):
-        tell(done, f"figure {plate.recipe}")
-        if plate.failure or plate.scene is None:
-            continue
-        try:
-            notes += _drawn(plate, folder)
-        except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
-            plate.failure = f"{type(error).__name__}: {error}"
-    return notes
+def _recall(store: Store, parts: Any, make: Callable[[], str]) -> str:
+    """Return a text that was made from the same parts before, or make and keep it."""
+    key = digest("text", parts)
+    entry = store.take(key)
+    if entry is None:
 
+        def maker(folder: Path) -> dict[str, Any]:
+            (folder / "text").write_text(make(), encoding="utf-8")
+            return {}
 
-def _drawn(plate: Plate, folder: Path) -> list[str]:
-    """Draw one plate: shaded as one PNG for both, else as SVG for the pages and as PDF for print."""
-    from atlas.render import draw
-
-    if plate.scene is None:
-        return []
-    if plate.renderer == "shaded":
-        drawn = draw(plate.scene, folder / "figures" / f"{plate.stem}.png", renderer="shaded")
-        if drawn.renderer == "shaded":
-            plate.files = {"html": f"figures/{plate.stem}.png", "pdf": f"figures/{plate.stem}.png"}
-            return []
-        drawn.path.unlink()
-        plate.remark = "Drawn by the vector renderer."
-        plate.files = _vector(plate, folder)
-        return [drawn.note] if drawn.note else []
-    plate.files = _vector(plate, folder)
-    return []
-
-
-def _vector(plate: Plate, folder: Path) -> dict[str, str]:
-    """Draw a plate on paper, for the pages and for print."""
-    from atlas.render import draw
-
-    names = {"html": f"figures/{plate.stem}.svg", "pdf": f"figures/{plate.stem}.pdf"}
-    for name in names.values():
-        if plate.scene is not None:
-            draw(plate.scene, folder / name, renderer="vector")
-    return names
+        entry = store.make(key, maker)
+    return entry.file("text").read_text(encoding="utf-8")

@@ -12,11 +12,10 @@ LIBRARIES = ("numpy", "python-flint", "matplotlib", "pyvista", "vtk", "typst", "
 
 @dataclass(frozen=True)
 class Colophon:
-    """Versions by name, and each body and field in a line."""
+    """Versions by name, and each body and field in a line of Markdown."""
 
     versions: tuple[tuple[str, str], ...]
-    bodies: tuple[tuple[str, str], ...]
-    fields: tuple[tuple[str, str], ...]
+    parameters: tuple[str, ...]
 
 
 def colophon(report: records.Report) -> Colophon:
@@ -27,9 +26,10 @@ def colophon(report: records.Report) -> Colophon:
             versions.append((name, version(name)))
         except PackageNotFoundError:
             continue
-    bodies = tuple((body.title, _given(body)) for body in report.parameters.bodies.values())
-    fields = tuple((field.title, _given(field)) for field in report.parameters.fields.values())
-    return Colophon(tuple(versions), bodies, fields)
+    given: list[records.Body | records.Field] = []
+    given += report.parameters.bodies.values()
+    given += report.parameters.fields.values()
+    return Colophon(tuple(versions), tuple(f"{record.title}: {_given(record)}" for record in given))
 
 
 _UNITS = {

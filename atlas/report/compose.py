@@ -7,10 +7,11 @@ from typing import Any
 
 from atlas.errors import AtlasError
 from atlas.report import records, views
+from atlas.report.colophon import colophon
 from atlas.report.formulas import Manuscript, Target
+from atlas.report.gallery import Gallery, plate_name, renderers, settings_of
 from atlas.report.load import nearest
-from atlas.report.numbers import Number, room, shown
-from atlas.report.settings import Setting, setting
+from atlas.report.numbers import Number, room
 from atlas.report.tables import compute
 from atlas.report.tables.model import Column, Data, Request
 
@@ -23,11 +24,12 @@ class Document:
     """A report ready to be set: its pages, plates, texts, and where each citation leads."""
 
     report: records.Report
+    plates: Gallery
     manuscript: Manuscript = field(default_factory=Manuscript)
     pages: list[views.PageView] = field(default_factory=list)
-    plates: dict[str, views.Plate] = field(default_factory=dict)
     targets: dict[str, tuple[str, str, str]] = field(default_factory=dict)
     abstract: int = 0
+    given: list[int] = field(default_factory=list)
     equations: dict[str, str] = field(default_factory=dict)
 
     def cite(self, target: Target) -> Callable[[str, str], str]:
@@ -44,13 +46,15 @@ class Document:
         return link
 
 
-def compose(report: records.Report) -> Document:
-    """Count the blocks of a report, compute its tables and the scenes of its figures, and collect its texts.
+def compose(report: records.Report, plates: Gallery) -> Document:
+    """Count the blocks of a report, compute its tables, take in the words of its plates, and collect its texts.
 
-    A figure whose scene fails keeps its place with the reason; anything else that is wrong raises AtlasError.
+    A plate that failed keeps its place with the reason; anything else that is wrong raises AtlasError.
     """
-    document = Document(report)
+    document = Document(report, plates)
     document.abstract = document.manuscript.add(report.abstract, "the abstract")
+    for line in colophon(report).parameters:
+        document.given.append(document.manuscript.add(line, "the parameters", inline=True))
     composer = _Composer(document)
     for number, page in enumerate(report.pages, 1):
         composer.page = page
@@ -98,7 +102,7 @@ class _Composer:
             case records.Figure():
                 return self.figure(block)
             case records.Table():
-                request = Request(self.settings(block), block.parameters, block.digits)
+                request = Request(settings_of(block, self.document.report), block.parameters, block.digits)
                 return self.table(block, compute(block.table, request), block.table)
             case records.Listing():
                 for row in block.rows:
@@ -129,14 +133,13 @@ class _Composer:
         return views.EquationView(label, number, self.text(f"$${tex.strip()}$$"), block.scale, first)
 
     def figure(self, block: records.Figure) -> views.FigureView:
-        """Make the scene of a figure, or note why it can't be made."""
+        """Show the plates of a figure, or say why there are none."""
         self.figures += 1
-        renderers = ("shaded", "vector") if block.renderer == "both" else (block.renderer,)
-        plates = tuple(self.plate(block, renderer) for renderer in renderers)
-        scene = plates[0].scene
-        caption = block.caption or (scene.caption if scene else f"The recipe {block.recipe} failed.")
-        caption = _LABEL.sub(r"@\1", caption)
-        width, height = scene.size if scene else (120.0, 30.0)
+        report = self.document.report
+        plates = tuple(self.document.plates[plate_name(block, one, report)] for one in renderers(block))
+        first = plates[0]
+        caption = block.caption or first.caption or f"The recipe {block.recipe} failed."
+        width, height = first.size
         shown = block.width or width
         name = block.id or f"{self.figures}"
         self.target(f"fig:{name}", f"fig-{name}", f"Figure {self.figures}")
@@ -144,53 +147,12 @@ class _Composer:
             self.figures,
             f"fig-{name}",
             plates,
-            self.text(caption, inline=True),
-            scene.alt if scene else plates[0].failure,
+            self.text(_LABEL.sub(r"@\1", caption), inline=True),
+            first.alt or first.failure,
             shown,
             height * shown / width,
-            ", ".join(f"{key} = {_shown(value)}" for key, value in plates[0].parameters.items() if value is not None),
+            self.text(", ".join(f"{key} = {value}" for key, value in first.settings.items()), inline=True),
         )
-
-    def plate(self, block: records.Figure, renderer: str) -> views.Plate:
-        """Return a plate of a figure block, the same one for the same recipe, parameters and renderer."""
-        recipe, failure = _recipe(block.recipe)
-        parameters = self.parameters(block, recipe) | block.parameters
-        key = f"{block.recipe} {sorted(parameters.items())} {renderer}"
-        plates = self.document.plates
-        if key not in plates:
-            stem = f"{len(plates) + 1:02d}-{block.recipe.replace('_', '-')}"
-            plates[key] = views.Plate(stem, block.recipe, renderer, parameters, failure=failure)
-            if recipe:
-                _stage(plates[key], recipe)
-        return plates[key]
-
-    def parameters(self, block: records.Figure, recipe: Any) -> dict[str, Any]:
-        """Turn the bodies and the field that a figure names into those parameters that its recipe takes."""
-        settings = self.settings(block)
-        offered: dict[str, Any] = {}
-        if block.body:
-            offered["ratio"] = settings[0].ratio
-        if block.bodies:
-            offered["ratios"] = tuple(one.ratio for one in settings)
-        takes = recipe.parameters if recipe else offered
-        for name in offered:
-            if name not in takes:
-                raise AtlasError(f"the recipe {block.recipe!r} takes no parameter {name!r}, so don't name a body.")
-        if block.field:
-            offered["field"] = settings[0].components
-            physical = settings[0].physical
-            if physical is not None:
-                offered |= {"mu": physical.mu, "E": tuple(physical.E), "B": tuple(physical.B), "c": physical.c}
-            if takes.get("unit") == "time":
-                offered["unit"] = "s"
-        return {name: value for name, value in offered.items() if name in takes}
-
-    def settings(self, block: records.Figure | records.Table) -> tuple[Setting, ...]:
-        """Return the bodies of a block, each in its field."""
-        known = self.document.report.parameters
-        chosen = known.fields[block.field] if block.field else None
-        bodies = block.bodies or ((block.body,) if block.body else (None,))
-        return tuple(setting(known.bodies[name] if name else None, chosen) for name in bodies)
 
     def table(self, block: records.Table | records.Listing, data: Data, name: str) -> views.TableView:
         """Set a table out in columns, aligned on the decimal point."""
@@ -220,40 +182,6 @@ class _Composer:
         if isinstance(value, Number):
             return views.Cell(None, *value.parts(), value.proven)
         return views.Cell(self.text(value, inline=True)) if value else views.Cell()
-
-
-def _recipe(name: str) -> tuple[Any, str]:
-    """Load a recipe, or return why it can't be loaded; a name that there is not is an error."""
-    from atlas.scene import recipes
-
-    if name not in recipes.names():
-        raise AtlasError(f"there is no recipe {name!r}{nearest(name, recipes.names())} in figures/.")
-    try:
-        return recipes.load(name), ""
-    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
-        return None, f"{type(error).__name__}: {error}"
-
-
-def _stage(plate: views.Plate, recipe: Any) -> None:
-    """Make the scene of a plate, or note why it can't be made; a misspelt parameter is an error."""
-    for name in plate.parameters:
-        if name not in recipe.parameters:
-            guess = nearest(name, list(recipe.parameters))
-            raise AtlasError(f"the recipe {plate.recipe!r} has no parameter {name!r}{guess}.")
-    try:
-        plate.scene = recipe.scene(**plate.parameters)
-        plate.parameters = plate.scene.parameters
-    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
-        plate.failure = f"{type(error).__name__}: {error}"
-
-
-def _shown(value: Any) -> str:
-    """Write a parameter as it was given."""
-    if isinstance(value, float | int) and not isinstance(value, bool):
-        return shown(value)
-    if isinstance(value, tuple | list):
-        return f"({', '.join(_shown(part) for part in value)})"
-    return str(value)
 
 
 def _ledger() -> Mapping[str, Any]:

@@ -9,6 +9,7 @@ import re
 import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Literal, TypeAlias
@@ -27,6 +28,14 @@ _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 _CODE = re.compile(r"`[^`]*`")
 
 
+Recall: TypeAlias = Callable[[Sequence[object], Callable[[], str]], str]
+
+
+def _anew(_parts: Sequence[object], make: Callable[[], str]) -> str:
+    """Recall nothing."""
+    return make()
+
+
 @dataclass(frozen=True)
 class Text:
     """A piece of Markdown, where it stands in the report, and whether it is less than a paragraph."""
@@ -41,6 +50,8 @@ class Manuscript:
     """The texts of one report, collected so that they are set together."""
 
     texts: list[Text] = field(default_factory=list)
+    recall: Recall = field(default=_anew)
+    """What pandoc made of the same source before may be recalled here; the parts name it."""
 
     def add(self, markdown: str, where: str, *, inline: bool = False) -> int:
         """Take in a text and return its number."""
@@ -58,7 +69,8 @@ class Manuscript:
             mark.format(target, _MARK[target].format(number).rstrip()) + _prepared(text, target, cite)
             for number, text in enumerate(self.texts)
         )
-        output = _pandoc(source, target, self.texts)
+        parts = ["pandoc", version("pypandoc_binary"), _READ, _WRITE[target], source]
+        output = self.recall(parts, lambda: _pandoc(source, target, self.texts))
         pieces = re.split(re.escape(_MARK[target]).replace(r"\{\}", r"\d+").rstrip("\n\\") + r"\s*", output)[1:]
         if target == "typst":
             for piece, text in zip(pieces, self.texts, strict=True):

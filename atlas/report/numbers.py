@@ -1,6 +1,7 @@
 """Numbers in print: a string of proven digits cut at its decimal point, so that a column can be aligned on it."""
 
 from dataclasses import dataclass
+from typing import Any
 
 MINUS = "\N{MINUS SIGN}"
 THIN = "\N{NARROW NO-BREAK SPACE}"
@@ -40,11 +41,12 @@ def plain(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
-_RAISED = str.maketrans("0123456789-", "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207b")
-
-
-def shown(value: float) -> str:
-    """Write an input for a line of small print: with a true minus sign, and a power of ten as such."""
+def shown(value: Any) -> str:
+    """Write an input for a line of small print, in Markdown: with a true minus sign, and a power of ten as such."""
+    if isinstance(value, tuple | list):
+        return f"({', '.join(shown(part) for part in value)})"
+    if isinstance(value, bool) or not isinstance(value, float | int):
+        return str(value)
     mantissa, _, power = plain(value).partition("e")
-    raised = f"\N{MULTIPLICATION SIGN}10{str(int(power)).translate(_RAISED)}" if power else ""
+    raised = f"\N{MULTIPLICATION SIGN}10^{int(power)}^".replace("-", MINUS) if power else ""
     return mantissa.replace("-", MINUS) + raised

@@ -4,8 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeAlias
 
-from atlas.scene import Scene
-
 
 @dataclass(frozen=True)
 class ProseView:
@@ -38,13 +36,19 @@ class EquationView:
 
 @dataclass
 class Plate:
-    """A figure to draw, once for all the blocks that show it; `files` by format, or why there are none."""
+    """A figure that is drawn once for all the blocks that show it: what is wanted, and what became of it.
+
+    `size` is in millimetres, `settings` are the parameters as text, `files` are by target, html and pdf.
+    """
 
     stem: str
     recipe: str
     renderer: str
     parameters: Mapping[str, Any]
-    scene: Scene | None = None
+    caption: str = ""
+    alt: str = ""
+    size: tuple[float, float] = (120.0, 30.0)
+    settings: Mapping[str, str] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
     failure: str = ""
     remark: str = ""
@@ -62,7 +66,7 @@ class FigureView:
     alt: str
     width: float
     height: float
-    settings: str
+    settings: int
 
     @property
     def failure(self) -> str:

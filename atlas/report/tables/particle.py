@@ -31,12 +31,12 @@ def particle(request: Request) -> Data:
     values = certified(lambda: [made.position(t) for t in times], request.digits)
     omega, drift = certified(lambda: (made.cyclotron_frequency, list(made.drift)), request.digits)
     unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
-    (frequency,) = column([omega], request.digits)
+    frequency = column([omega], request.digits)[0].tex().strip("$")
     drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
     return Data(
         (Column("$t$", "s"), *(Column(f"$y_{j}$", unit) for j in (1, 2, 3))),
         tuple(zip(column([plain(t) for t in times], request.digits), *columns, strict=True)),
         "The path of the particle, @mf10.2, in the laboratory frame.",
-        rf"Cyclotron frequency $\omega=${frequency.tex()} s$^{{-1}}$, drift "
+        rf"Cyclotron frequency $\omega={frequency}$ s$^{{-1}}$, drift "
         rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {speed} s$^{{-1}}$. {CERTIFIED}",
     )

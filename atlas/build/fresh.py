@@ -1,0 +1,78 @@
+"""Is a report up to date? Decided from its sources and its files, without loading what would build it."""
+
+import json
+import os
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from atlas.build.sources import PACKAGE, Sources, digest
+from atlas.places import folder
+
+LIBRARIES = (
+    "numpy",
+    "python-flint",
+    "matplotlib",
+    "pyvista",
+    "vtk",
+    "jinja2",
+    "typst",
+    "pypandoc_binary",
+    "ziamath",
+    "fonttools",
+)
+
+
+def key(file: Path, sources: Sources) -> str:
+    """Return the key of a whole report: all code and templates that may take part, its file, the data, the versions."""
+    roots = [
+        *PACKAGE.glob("*.py"),
+        *(path for floor in ("build", "report", "render", "scene", "core", "exact", "paper") for path in _code(floor)),
+        *folder("figures").glob("*.py"),
+        *(path for path in folder("templates").rglob("*") if path.is_file()),
+        *(folder("reports") / "data").glob("*.json"),
+        file,
+    ]
+    found = sources.closure(roots)
+    sources.save()
+    from atlas.render import gl
+
+    return digest(found, [[name, _version(name)] for name in LIBRARIES], gl.library())
+
+
+def read(out: Path, name: str, wanted: str) -> dict[str, Any] | None:
+    """Return what was noted of a report that is up to date: its key is the one wanted and its files are untouched."""
+    try:
+        note: dict[str, Any] = json.loads(_note(out, name).read_text())
+        same = note["key"] == wanted and all(_stamp(out / file) == stamp for file, stamp in note["files"].items())
+    except (OSError, ValueError, KeyError):
+        return None
+    return note if same else None
+
+
+def write(out: Path, name: str, made: str, files: list[str], **facts: Any) -> None:
+    """Note a report that was built whole, with the state of its files."""
+    note = _note(out, name)
+    beside = note.with_name(f"{note.name}.{os.getpid()}")
+    beside.write_text(json.dumps({"key": made, "files": {file: _stamp(out / file) for file in files}, **facts}))
+    beside.replace(note)
+
+
+def _code(floor: str) -> list[Path]:
+    return [path for path in (PACKAGE / floor).rglob("*.py") if "__pycache__" not in path.parts]
+
+
+def _stamp(path: Path) -> list[int]:
+    state = path.stat()
+    return [state.st_mtime_ns, state.st_size]
+
+
+def _note(out: Path, name: str) -> Path:
+    return out / f".{name}.made.json"
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "absent"

@@ -1,0 +1,62 @@
+"""The cost ledger of a build: for each scene what was computed, sampled and drawn, its time and memory."""
+
+import json
+import os
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from atlas.build.plates import Made
+
+
+def write(path: Path, name: str, made: Sequence[Made], ends: Mapping[str, float], began: float, jobs: int) -> Path:
+    """Write the ledger of a build as JSON; `ends` are the clock's readings at the end of each step."""
+    steps: dict[str, float] = {}
+    before = began
+    for step, end in ends.items():
+        steps[step], before = round(end - before, 4), end
+    record = {
+        "report": name,
+        "jobs": jobs,
+        "seconds": round(time.perf_counter() - began, 4),
+        "steps": steps,
+        "scenes": [scene(one) for one in made],
+    }
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    beside.write_text(json.dumps(record, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    beside.replace(path)
+    return path
+
+
+def scene(made: Made) -> dict[str, Any]:
+    """Return the entry of one scene; what it cost when it was made, if it comes from the store."""
+    if made.failure:
+        return {"scene": made.request.name, "from": "failed", "reason": made.failure}
+    cost = made.facts["cost"]
+    return {"scene": made.request.name, "from": "drawn" if made.new else "store", "reason": made.reason, **cost}
+
+
+def table(path: Path) -> tuple[tuple[str, ...], list[list[str]]]:
+    """Return heading and rows of a ledger for people."""
+    heading = ("scene", "from", "quantities", "points", "faces", "compute [ms]", "draw [ms]", "peak [MB]", "kB")
+    rows = []
+    for entry in json.loads(path.read_text(encoding="utf-8"))["scenes"]:
+        if entry["from"] == "failed":
+            rows.append([entry["scene"], "failed", *[""] * 7])
+            continue
+        asked = sum(entry["quantities"].values())
+        rows.append(
+            [
+                entry["scene"],
+                entry["from"],
+                f"{asked} of {len(entry['quantities'])} kinds",
+                str(entry["points"]),
+                str(entry["faces"]),
+                f"{1e3 * entry['compute_s']:.0f}",
+                f"{1e3 * entry['draw_s']:.0f}",
+                f"{entry['memory_mb']:.0f}",
+                f"{entry['bytes'] / 1024:.0f}",
+            ]
+        )
+    return heading, rows
