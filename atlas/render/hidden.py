@@ -22,7 +22,7 @@ _NOTHING = 1e-12
 
 
 def split(
-    points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float
+    points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float = 1.0
 ) -> list[tuple[FloatArray, bool]]:
     """Cut a polyline (N, 3) into pieces, each with whether it is visible.
 
@@ -54,7 +54,7 @@ def split(
     return pieces
 
 
-def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float) -> BoolArray:
+def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float = 1.0) -> BoolArray:
     """Whether each of the points (N, 3) is hidden."""
     answer = np.zeros(len(points), dtype=bool)
     for surface in surfaces:

@@ -16,10 +16,11 @@ from atlas.errors import AtlasError
 from atlas.render import vector
 from atlas.render.labels import along
 from atlas.render.outline import facing
-from atlas.render.space import HEAD_WIDTH, head_base, write_names
+from atlas.render.solids import solids, tubes
+from atlas.render.space import write_names
 from atlas.render.stage import Stage, stage
-from atlas.scene.layers import Arrow, Curve, Layer, Points, Scene, Space, Surface
-from atlas.scene.style import Style, style
+from atlas.scene.layers import Arrow, Curve, Points, Scene, Space, Surface
+from atlas.scene.style import style
 
 if TYPE_CHECKING:
     import pyvista as pv
@@ -29,7 +30,6 @@ FloatArray = NDArray[np.float64]
 
 _OVER = 2
 _PEELS = 10
-_SIDES = 18
 _GRAZE = 2.2
 
 
@@ -85,11 +85,9 @@ def _picture(view: Stage, width: int, height: int) -> NDArray[np.uint8]:
     plotter.disable_anti_aliasing()
     plotter.enable_depth_peeling(_PEELS, 0.0)
     _light(plotter, view)
-    solids = [solid for layer in view.panel.layers for solid in _solids(layer, view)]
-    wires = [
-        solid for surface in view.surfaces for wire in surface.wires for solid in _tubes(wire, style("wire"), view)
-    ]
-    for meshes, light in ((solids, _SOLID), (wires, {"lighting": False})):
+    lines = [solid for layer in view.panel.layers for solid in solids(layer, view)]
+    wires = [solid for surface in view.surfaces for wire in surface.wires for solid in tubes(wire, style("wire"), view)]
+    for meshes, light in ((lines, _SOLID), (wires, {"lighting": False})):
         if meshes:
             plotter.add_mesh(meshes[0].append_polydata(*meshes[1:]), scalars="rgb", rgb=True, render=False, **light)
     for surface in view.surfaces:
@@ -107,15 +105,14 @@ def _picture(view: Stage, width: int, height: int) -> NDArray[np.uint8]:
 def _look(plotter: "pv.Plotter", view: Stage) -> None:
     """Put the camera where the paper is: parallel projection, the same scale and shift as the labels."""
     middle = (0.5 * np.array(view.window) - view.shift) / view.scale
-    depth = float(view.centre @ view.towards)
-    focus = middle[0] * view.frame[0] + middle[1] * view.frame[1] + depth * view.towards
+    focus = middle[0] * view.frame[0] + middle[1] * view.frame[1]
     camera = plotter.camera
     camera.parallel_projection = True
     camera.focal_point = focus
-    camera.position = focus + 4.0 * view.size * view.towards
+    camera.position = focus + 4.0 * view.towards
     camera.up = view.frame[1]
     camera.parallel_scale = 0.5 * view.window[1] / view.scale
-    camera.clipping_range = (0.5 * view.size, 8.0 * view.size)
+    camera.clipping_range = (0.5, 8.0)
 
 
 def _light(plotter: "pv.Plotter", view: Stage) -> None:
@@ -125,14 +122,14 @@ def _light(plotter: "pv.Plotter", view: Stage) -> None:
     plotter.remove_all_lights()
     right, up, towards = view.frame
     for place, strength in (
-        (-0.55 * right + 0.75 * up + 0.9 * towards, 0.80),
-        (0.9 * right + 0.15 * up + 0.8 * towards, 0.34),
+        (-0.55 * right + 0.75 * up + 0.9 * towards, 0.90),
+        (0.9 * right + 0.15 * up + 0.8 * towards, 0.26),
         (0.1 * right + 1.0 * up - 0.5 * towards, 0.25),
-        (towards - 0.35 * up, 0.30),
+        (towards - 0.35 * up, 0.20),
     ):
         light = pv.Light(light_type="scene light", intensity=strength, color="white")
-        light.position = view.centre + 10.0 * view.size * place
-        light.focal_point = view.centre
+        light.position = 10.0 * place
+        light.focal_point = (0.0, 0.0, 0.0)
         plotter.add_light(light)
 
 
@@ -173,84 +170,3 @@ def _mesh(grid: FloatArray, normals: FloatArray) -> "pv.PolyData":
     mesh = pv.PolyData(grid.reshape(-1, 3), faces.ravel())
     mesh.point_data.active_normals = normals
     return mesh
-
-
-def _solids(layer: Layer, view: Stage) -> Iterator["pv.PolyData"]:
-    """Yield what is not glass, each with its colour at every point."""
-    if isinstance(layer, Surface):
-        for rim in layer.rims:
-            yield from _tubes(rim, style("rim"), view)
-    elif isinstance(layer, Curve):
-        yield from _tubes(layer.points, style(layer.role), view)
-    elif isinstance(layer, Arrow):
-        yield from _arrow(layer, view)
-    elif isinstance(layer, Points):
-        look = style(layer.role)
-        for point in np.atleast_2d(layer.points):
-            yield _ball(point, 0.5 * look.tube / view.scale, look)
-
-
-def _painted(mesh: "pv.PolyData", colour: str) -> "pv.PolyData":
-    """Return the mesh with that colour and normals at every point, and nothing else."""
-    import pyvista as pv
-
-    if mesh.point_data.active_normals is None:
-        mesh = mesh.compute_normals(split_vertices=True, feature_angle=40.0)
-    normals = np.asarray(mesh.point_data.active_normals)
-    mesh.clear_data()
-    mesh.point_data.active_normals = normals
-    mesh.point_data["rgb"] = np.tile(np.array(pv.Color(colour).int_rgb, dtype=np.uint8), (mesh.n_points, 1))
-    return mesh
-
-
-def _tubes(points: FloatArray, look: Style, view: Stage) -> Iterator["pv.PolyData"]:
-    """Yield a round line; a dashed one in dashes."""
-    import pyvista as pv
-
-    if look.tube <= 0.0:
-        return
-    for piece in _dashes(points, look, view):
-        keep = np.concatenate([[True], np.linalg.norm(np.diff(piece, axis=0), axis=1) > 1e-9 * view.size])
-        if keep.sum() > 1:
-            line = pv.lines_from_points(piece[keep])
-            yield _painted(line.tube(radius=0.5 * look.tube / view.scale, n_sides=_SIDES, capping=True), look.colour)
-
-
-def _dashes(points: FloatArray, look: Style, view: Stage) -> list[FloatArray]:
-    """Return the polyline itself, or the dashes of it, measured in points of the paper along the line."""
-    if not look.dash:
-        return [points]
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    pattern = np.array(look.dash) / view.scale
-    pieces, at, k = [], 0.0, 0
-    while at < length[-1]:
-        end = min(at + float(pattern[k % len(pattern)]), float(length[-1]))
-        if k % 2 == 0:
-            inner = length[(length > at) & (length < end)]
-            s = np.concatenate([[at], inner, [end]])
-            pieces.append(np.stack([np.interp(s, length, points[:, i]) for i in range(3)], axis=1))
-        at, k = end, k + 1
-    return pieces
-
-
-def _arrow(arrow: Arrow, view: Stage) -> Iterator["pv.PolyData"]:
-    """Yield a round shaft and a cone."""
-    import pyvista as pv
-
-    look = style(arrow.role)
-    tail, tip = np.asarray(arrow.tail, dtype=float), np.asarray(arrow.tip, dtype=float)
-    base = head_base(tail, tip, look, view.scale)
-    head = float(np.linalg.norm(tip - base))
-    if head > 0.0:
-        yield from _tubes(np.stack([tail, base + 0.02 * (tip - base)]), look, view)
-        middle = 0.5 * (base + tip)
-        cone = pv.Cone(center=middle, direction=tip - base, height=head, radius=HEAD_WIDTH * head, resolution=40)
-        yield _painted(cone, look.colour)
-
-
-def _ball(centre: FloatArray, radius: float, look: Style) -> "pv.PolyData":
-    """Return a marked point."""
-    import pyvista as pv
-
-    ball = pv.Sphere(radius=radius, center=centre, theta_resolution=32, phi_resolution=24)
-    return _painted(ball, look.colour)

@@ -32,7 +32,7 @@ def draw_space(axes: "Axes", panel: Space) -> None:
     """Draw a panel with its labels."""
     view = stage(axes, panel)
     easel = Easel(axes, view)
-    for order, layer in enumerate(panel.layers):
+    for order, layer in enumerate(view.panel.layers):
         easel.rise = 1e-3 * order
         if isinstance(layer, Surface):
             easel.surface(layer)
@@ -92,7 +92,7 @@ class Easel:
     def line(self, points: FloatArray, look: Style, zorder: float = _VISIBLE, weight: float = 1.5) -> None:
         """Draw a polyline: what is seen in its own style, what is hidden thin and dashed, or not at all."""
         view = self.view
-        for piece, seen in split(points, view.surfaces, view.towards, view.size):
+        for piece, seen in split(points, view.surfaces, view.towards):
             flat = view.on_paper(piece)
             if seen:
                 self._stroke(flat, look.colour, look.width, look.dash, zorder)
@@ -113,7 +113,7 @@ class Easel:
         length = float(np.linalg.norm(tip - base)) * view.scale
         run = point - foot
         side = np.array([-run[1], run[0]]) / max(float(np.hypot(*run)), 1e-9) * HEAD_WIDTH * length
-        seen = not hidden(tip[None], view.surfaces, view.towards, view.size)[0]
+        seen = not hidden(tip[None], view.surfaces, view.towards)[0]
         corners = np.stack([point, foot + side, foot + 0.12 * run, foot - side])
         (shape,) = self.axes.fill(*corners.T, facecolor=look.colour if seen else "white", edgecolor=look.colour)
         shape.set(linewidth=0.3 if seen else 0.5, joinstyle="miter", zorder=_HEAD + self.rise)
@@ -122,7 +122,7 @@ class Easel:
         """Draw marked points; hidden ones are hollow."""
         look, view = style(points.role), self.view
         places = np.atleast_2d(points.points)
-        gone = hidden(places, view.surfaces, view.towards, view.size)
+        gone = hidden(places, view.surfaces, view.towards)
         edge = INK if look.colour == "#ffffff" else look.colour
         for place_, behind in zip(view.on_paper(places), gone, strict=True):
             (mark,) = self.axes.plot(*place_, linestyle="none", marker=look.marker or "o", markersize=look.size)

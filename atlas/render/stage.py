@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from atlas.errors import AtlasError
 from atlas.render.house import LABEL_SIZE, TEXT_SIZE
 from atlas.render.labels import Tag, stand
+from atlas.render.scaling import scaled
 from atlas.render.text import extent
 from atlas.scene.camera import frame
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Points, Region, Space, Surface
@@ -29,9 +30,9 @@ _BEYOND = 4.5
 class Stage:
     """Where things of a panel appear on paper.
 
-    ``frame`` has the rows right, up, towards the eye; ``scale`` is in printer's points per unit, ``shift`` the place on
-    paper of the origin, ``window`` the (width, height) of the panel, both in points; ``centre`` and ``size`` are those
-    of what is shown, in its own units; ``tags`` are the names, anchored on paper.
+    ``panel`` is the panel brought to the origin and to the size one; ``frame`` has the rows right, up, towards the eye;
+    ``scale`` is in printer's points per unit, ``shift`` the place on paper of the origin, ``window`` the panel's
+    (width, height), both in points; ``tags`` are the names, anchored on paper.
     """
 
     panel: Space
@@ -39,8 +40,6 @@ class Stage:
     scale: float
     shift: FloatArray
     window: tuple[float, float]
-    centre: FloatArray
-    size: float
     tags: tuple[Tag, ...]
 
     @property
@@ -66,6 +65,8 @@ def stage(axes: "Axes", panel: Space) -> Stage:
     head = _TITLE if panel.title else 0.0
     shown = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
     low, high = shown.min(axis=0), shown.max(axis=0)
+    centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
+    panel, shown = scaled(panel, centre, size), (shown - centre) / size
     eye = frame(panel)
     flat = shown @ eye[:2].T
     tags = [tag for layer in panel.layers for tag in _tags(figure, layer, eye)]
@@ -74,8 +75,7 @@ def stage(axes: "Axes", panel: Space) -> Stage:
     left, right = _reach(flat, tags, scale)
     shift = 0.5 * (np.array([width, height - head]) - left - right)
     moved = (replace(tag, anchor=tuple(scale * np.array(tag.anchor) + shift)) for tag in tags)
-    size = float(np.linalg.norm(high - low)) or 1.0
-    return Stage(panel, eye, scale, shift, (width, height), 0.5 * (low + high), size, tuple(moved))
+    return Stage(panel, eye, scale, shift, (width, height), tuple(moved))
 
 
 def _parts(layer: Layer) -> Iterator[FloatArray]:

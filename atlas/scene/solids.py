@@ -108,8 +108,7 @@ def rectangle(
     centre: FloatArray, first: FloatArray, second: FloatArray, role: str = "plane", label: str = ""
 ) -> Surface:
     """Return the rectangle centre + a first + b second with a, b in [-1, 1]; first and second are orthogonal."""
-    normal = np.cross(first, second)
-    normal /= np.linalg.norm(normal)
+    normal = np.cross(first / np.linalg.norm(first), second / np.linalg.norm(second))
     sides = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
     rim = centre + sides[:, :1] * first + sides[:, 1:] * second
     b, a = np.meshgrid(np.linspace(-1.0, 1.0, 9), np.linspace(-1.0, 1.0, 9))
