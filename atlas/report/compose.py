@@ -151,7 +151,9 @@ class _Composer:
             first.alt or first.failure,
             shown,
             height * shown / width,
-            self.text(", ".join(f"{key} = {value}" for key, value in first.settings.items()), inline=True),
+            self.text(
+                ", ".join(f"{key} = {value}" for key, value in first.settings.items() if value != "None"), inline=True
+            ),
         )
 
     def table(self, block: records.Table | records.Listing, data: Data, name: str) -> views.TableView:

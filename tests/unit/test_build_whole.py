@@ -33,9 +33,12 @@ build_report(sys.argv[1], __import__("pathlib").Path(sys.argv[2]), tell)
 
 
 def state(folder: Path) -> dict[str, bytes]:
-    """Return all published files and what is in them."""
-    files = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
-    return {str(path.relative_to(folder)): path.read_bytes() for path in files if PREFIX not in str(path)}
+    """Return what a reader gets: all files but hidden ones and the times that a build took."""
+    names = (path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
+    shown = (
+        name for name in names if not any(part.startswith(".") for part in name.parts) and "costs" not in name.name
+    )
+    return {str(name): (folder / name).read_bytes() for name in shown}
 
 
 def report(folder: Path, title: str) -> Path:

@@ -6,7 +6,9 @@ import pytest
 
 from atlas.errors import AtlasError
 from atlas.report.compose import compose
+from atlas.report.gallery import gallery
 from atlas.report.load import find, load, names
+from atlas.scene import recipes
 
 HEAD = 'name = "a"\ntitle = "A"\n'
 PAGE = '[[pages]]\nslug = "index"\ntitle = "T"\n'
@@ -79,7 +81,10 @@ def test_an_unknown_report_is_told_with_the_nearest_name() -> None:
 def test_every_report_of_the_folder_is_sound(name: str) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""
     report = load(find(name))
-    document = compose(report)
+    plates = gallery(report)
+    document = compose(report, plates)
     assert report.name == name
-    assert [plate.failure for plate in document.plates.values() if plate.failure] == []
+    for plate in plates.values():
+        assert not plate.failure
+        assert recipes.load(plate.recipe).scene(**plate.parameters).alt
     assert len(document.manuscript.set("html", document.cite("html"))) == len(document.manuscript.texts)
