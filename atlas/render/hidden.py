@@ -120,7 +120,7 @@ def within(surface: Surface, x: FloatArray, size: float) -> BoolArray:
     """Whether points (..., 3) lie in all half spaces, and inside all quadrics, that cut the surface out."""
     inside = np.ones(x.shape[:-1], dtype=bool)
     for *n, d in surface.clip:
-        inside &= x @ np.array(n) <= d + _ON * size
+        inside &= x @ np.array(n) <= d + _ON * size * np.linalg.norm(n)
     for quadric in surface.within:
         inside &= values(quadric, x) <= _ON * _weight(quadric, x, size)
     return inside

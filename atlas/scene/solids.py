@@ -108,11 +108,18 @@ def rectangle(
     centre: FloatArray, first: FloatArray, second: FloatArray, role: str = "plane", label: str = ""
 ) -> Surface:
     """Return the rectangle centre + a first + b second with a, b in [-1, 1]; first and second are orthogonal."""
-    normal = np.cross(first / np.linalg.norm(first), second / np.linalg.norm(second))
+    units = [v / np.linalg.norm(v) for v in (first, second)]
+    normal = np.cross(units[0], units[1])
     sides = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
     rim = centre + sides[:, :1] * first + sides[:, 1:] * second
     b, a = np.meshgrid(np.linspace(-1.0, 1.0, 9), np.linspace(-1.0, 1.0, 9))
     grid = centre + a[..., None] * first + b[..., None] * second
-    clip = np.array([[*(g * v), g * float(v @ centre) + float(v @ v)] for v in (first, second) for g in (1.0, -1.0)])
+    clip = np.array(
+        [
+            [*(g * unit), g * float(unit @ centre) + float(np.linalg.norm(v))]
+            for unit, v in zip(units, (first, second), strict=True)
+            for g in (1.0, -1.0)
+        ]
+    )
     Q = matrix(np.zeros((3, 3)), normal, -float(normal @ centre))
     return Surface(Q, clip, (grid,), (), (rim,), role=role, label=label)

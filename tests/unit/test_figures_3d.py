@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from atlas import DomainError, ElementaryMotion, Hyperbola, Quadric, SymmetricBody
+from atlas.render import draw
 from atlas.scene import Arrow, Curve, Label, Points, Scene, Surface, recipes
 from atlas.scene.quadrics import quadric_matrix
 from atlas.scene.style import style
@@ -221,3 +222,17 @@ def test_a_flat_figure_asked_for_shaded_loads_no_vtk(tmp_path: Any) -> None:
         f"draw(Scene('t', 'c', 'a', (panel,)), r'{tmp_path / 'flat.png'}', renderer='shaded')"
     )
     assert heavy(program) == {"matplotlib"}
+
+
+@pytest.mark.parametrize("name", ["quadric", "loop"])
+@pytest.mark.parametrize("scale", [1e-140, 1e140])
+def test_a_plate_looks_the_same_in_any_unit_of_frequency(tmp_path: Any, name: str, scale: float) -> None:
+    """Multiplying B' by a number changes nothing on the page but the rounding of a few pixels."""
+    from matplotlib.image import imread
+
+    field = recipes.load(name).parameters["field"]
+    pictures = []
+    for factor in (1.0, scale):
+        scene = recipes.load(name).scene(field=tuple(factor * component for component in field))
+        pictures.append(imread(draw(scene, tmp_path / "plate.png", dpi=50.0).path))
+    assert np.abs(pictures[0] - pictures[1]).mean() < 5e-4
