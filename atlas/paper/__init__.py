@@ -26,9 +26,11 @@ from atlas.paper import (
 )
 from atlas.paper.equation import Equation, Kind, Section
 
-__all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation"]
+__all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "topic"]
 
 _FILES = (lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle, theorems)
+
+_TOPICS = {entry.label: file.__name__.rpartition(".")[2] for file in _FILES for entry in file.EQUATIONS}
 
 EQUATIONS: Mapping[str, Equation] = MappingProxyType(
     {entry.label: entry for file in _FILES for entry in file.EQUATIONS}
@@ -42,3 +44,8 @@ def equation(label: str) -> Equation:
         near = get_close_matches(label, EQUATIONS, n=1, cutoff=0.0)[0]
         raise AtlasError(f"the paper has no equation with the label {label!r}; the nearest is {near!r}")
     return found
+
+
+def topic(label: str) -> str:
+    """Return the topic of an equation: the stem of its file here, and of the files about it on the other floors."""
+    return _TOPICS[equation(label).label]

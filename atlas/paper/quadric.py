@@ -113,6 +113,15 @@ EQUATIONS = (
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "1 < I <= 2"),
     ),
     Equation(
+        label="text-two-sheets",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="For I > 1 the squared semi-axes are positive: the surface is a hyperboloid of two sheets",
+        tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "1 < I <= 2"),
+    ),
+    Equation(
         label="text-short-cylinder",
         number=None,
         section="IV",
@@ -171,6 +180,15 @@ EQUATIONS = (
             r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} "
             r"\end{aligned}"
         ),
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "0 < I < 1"),
+    ),
+    Equation(
+        label="text-one-sheet",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="For I < 1 the squared semi-axes are positive: the surface is a hyperboloid of one sheet",
+        tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "0 < I < 1"),
     ),
     Equation(

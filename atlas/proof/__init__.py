@@ -1,1 +1,28 @@
-"""Claims about the paper's equations and their verdicts; an independent witness."""
+"""The trial of the paper's equations: claims, proofs and verdicts; an independent witness that imports no kernel.
+
+    from atlas import proof
+    proof.verify(["mf77"])        try entries of the ledger now, all if none is named
+    proof.mutants(["mf77"])       change each in one place at a time and see whether the trial notices
+    proof.record.load()           the recorded verdicts, without SymPy
+
+`notation` reads a printed formula, `model` says what stands before it, `decide` decides, `trial` joins the three; one
+file holds the trials of one topic, under the name that it has on the other floors. What needs SymPy is loaded when it
+is used.
+"""
+
+from importlib import import_module
+from typing import Any
+
+from atlas.proof import record
+from atlas.proof.verdict import Sensitivity, Verdict
+
+__all__ = ["Sensitivity", "Verdict", "mutants", "record", "try_mutants", "try_one", "verify"]
+
+_LAZY = {"verify", "mutants", "try_one", "try_mutants"}
+
+
+def __getattr__(name: str) -> Any:
+    """Load what needs SymPy when it is first used."""
+    if name not in _LAZY:
+        raise AttributeError(f"module 'atlas.proof' has no attribute {name!r}")
+    return getattr(import_module("atlas.proof.run"), name)

@@ -1,0 +1,299 @@
+"""Section III on trial: the charged ball, mf30.0 to mf40."""
+
+from functools import cache
+
+import sympy
+
+from atlas.proof import euler_poisson as general
+from atlas.proof.model import Model, Value, cross, hat, rotation_symbols, turn, vector
+from atlas.proof.trial import Trial
+
+(R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
+I0, mu, c = sympy.symbols("I0 mu c", positive=True)
+alpha, gamma, t, k2, k3, m2, m3 = sympy.symbols("alpha gamma t k2 k3 m2 m3", real=True)
+ca, sa, cg, sg, p, q, h = sympy.symbols("ca sa cg sg p q h", real=True)
+size = sympy.Symbol("s", positive=True)
+
+LARMOR = {ca: -alpha * sa, sa: alpha * ca}
+TURNING = {cg: -gamma * sg, sg: gamma * cg}
+START = {ca: 1, sa: 0, cg: 1, sg: 0}
+ANGLES = [(ca, turn(p)[0]), (sa, turn(p)[1]), (cg, turn(q)[0]), (sg, turn(q)[1])]
+AXIS = [(k2, turn(h)[1]), (k3, turn(h)[0])]
+
+
+@cache
+def kinematic_model() -> Model:
+    """Three masses on the principal axes of a turning body."""
+    masses = sympy.symbols("m1:4", positive=True)
+    places = [sympy.diag(*sympy.symbols("x1:4", real=True)).col(n) for n in range(3)]
+    g = sum((m * x * x.T for m, x in zip(masses, places, strict=True)), sympy.zeros(3, 3))
+    dR = R * hat(Omega)
+    spin = sum((m * cross(R * x, dR * x) for m, x in zip(masses, places, strict=True)), sympy.zeros(3, 1))
+    letters = {"m": spin, "R": R, "I": g.trace() * sympy.eye(3) - g, "Omega": Omega, "omega": R * Omega}
+    letters |= {f"g{n + 1}": g[n, n] for n in range(3)}
+    letters |= {f"R{n + 1}": R.col(n) for n in range(3)} | {f"dR{n + 1}": dR.col(n) for n in range(3)}
+    return Model(letters, ROTATION)
+
+
+@cache
+def uniform_ball_model() -> Model:
+    """Moments of inertia of a uniform ball of radius r, each by its own integral."""
+    r, s, u, w, mass = sympy.symbols("r s u w M", positive=True)
+    x, y, z = s * sympy.sqrt(1 - u**2) * sympy.cos(w), s * sympy.sqrt(1 - u**2) * sympy.sin(w), s * u
+    density = mass / (sympy.Rational(4, 3) * sympy.pi * r**3)
+
+    def over(value: Value) -> Value:
+        return sympy.integrate(density * s**2 * sympy.expand(value), (w, 0, 2 * sympy.pi), (u, -1, 1), (s, 0, r))
+
+    letters = {"I1": over(y**2 + z**2), "I2": over(x**2 + z**2), "I3": over(x**2 + y**2), "M": mass, "r": r}
+    return Model({**letters, "I0": sympy.Rational(2, 5) * mass * r**2})
+
+
+@cache
+def ball_model() -> Model:
+    """mf27 with I = I0 and so g = I0/2; m = I0 R Omega."""
+    tensor = I0 * sympy.eye(3)
+    rate = general.euler(tensor, tensor / 2, R.T * Bf) / I0
+    dm = I0 * R * (hat(Omega) * Omega + rate)
+    spin = I0 * R * Omega
+    dR = R * hat(Omega)
+    columns = {n + 1: R.col(n) for n in range(3)}
+    rates = {n + 1: dR.col(n) for n in range(3)}
+    letters = {"R": R, "dR": dR, "Rj": columns, "dRj": rates, "Bf": Bf, "mu": mu, "c": c, "I0": I0}
+    letters |= {"Omega": Omega, "dOmega": rate, "m": spin, "dm": dm}
+    return Model(letters, ROTATION)
+
+
+@cache
+def momentum_flow_model() -> Model:
+    """Any vector m that obeys mf32."""
+    m = vector("m")
+    return Model({"m": m, "Bf": Bf}, flow=dict(zip(m, -mu / (2 * c) * cross(Bf, m), strict=True)))
+
+
+@cache
+def larmor_model() -> Model:
+    """B = (0, 0, b), alpha t as an angle."""
+    b = sympy.Symbol("b", positive=True)
+    letters = {"alpha": alpha, "t": t, "m2": m2, "m3": m3, "mu": mu, "c": c, "b": b}
+    where = [(alpha, mu * b / (2 * c)), *ANGLES[:2]]
+    return Model(letters, where, LARMOR, START, {alpha * t: (ca, sa)})
+
+
+@cache
+def larmor_frequency_model() -> Model:
+    """Rate of the angle of m about B, from mf32: (m x dm).B over |m_perp|^2 |B|, turned clockwise."""
+    m, b = vector("m"), sympy.Symbol("b", positive=True)
+    field = sympy.Matrix([0, 0, b])
+    dm = -mu / (2 * c) * cross(field, m)
+    rate = -cross(m, dm)[2] / (m[0] ** 2 + m[1] ** 2)
+    return Model({"alpha": sympy.cancel(rate), "mu": mu, "c": c, "b": b}, units={})
+
+
+def _motion(spin: Value, where: list[tuple[Value, Value]]) -> Model:
+    letters = {"alpha": alpha, "gamma": gamma, "t": t, "k2": k2, "k3": k3, "I0": I0, "m": spin, "m2": m2, "m3": m3}
+    phases = {alpha * t: (ca, sa), gamma * t: (cg, sg)}
+    letters["rod"] = rodrigues
+    return Model(letters, where, {**LARMOR, **TURNING}, START, phases)
+
+
+def rodrigues(axis: Value, cosine: Value, sine: Value) -> Value:
+    """Rotation about a unit vector by the angle with that cosine and sine."""
+    return cosine * sympy.eye(3) + (1 - cosine) * axis * axis.T + sine * hat(axis)
+
+
+@cache
+def motion_model() -> Model:
+    """Model the angular momentum mf36 and the constants mf39, solved for m2, m3."""
+    spin = sympy.Matrix([m2 * sa, m2 * ca, m3])
+    return _motion(spin, [*ANGLES, (m2, -gamma * I0 * k2), (m3, -gamma * I0 * k3 - alpha * I0), *AXIS])
+
+
+@cache
+def start_model() -> Model:
+    """Model the momentum that the ansatz mf38 has at t = 0: I0 times the axial vector of dR/dt."""
+    first = rodrigues(sympy.Matrix([0, 0, 1]), ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
+    model = _motion(sympy.zeros(3, 1), [])
+    W = (model.letters["d"](first)).subs(START)
+    return _motion(sympy.zeros(3, 1), [(m2, I0 * W[0, 2]), (m3, I0 * W[1, 0]), *AXIS])
+
+
+@cache
+def constants_model() -> tuple[Model, Model]:
+    """All initial data: m2, m3 + alpha I0 = s (sin, cos) with s > 0, and the point s = 0."""
+    known = {"alpha": alpha, "I0": I0}
+    anywhere = {**known, "m2": size * turn(h)[1], "m3": size * turn(h)[0] - alpha * I0}
+    return Model(anywhere), Model({**known, "m2": sympy.Integer(0), "m3": -alpha * I0})
+
+
+@cache
+def true_constants_model() -> tuple[Model, Model]:
+    """Model the same with k and gamma solved from the motion at t = 0; where gamma = 0, k is any unit vector."""
+    anywhere, rest = constants_model()
+    axis = {"k2": -turn(h)[1], "k3": -turn(h)[0], "gamma": size / I0}
+    return (
+        Model({**anywhere.letters, **axis}),
+        Model({**rest.letters, "k2": turn(h)[1], "k3": turn(h)[0], "gamma": sympy.Integer(0)}),
+    )
+
+
+@cache
+def parallel_model() -> tuple[Model, Model]:
+    """m2 = 0 and m3 + alpha I0 of either sign, with k and gamma of mf39."""
+    cases = []
+    for sign in (1, -1):
+        axis = {"k2": sympy.Integer(0), "k3": -sympy.Integer(sign), "gamma": size / I0}
+        cases.append(Model({"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}))
+    return cases[0], cases[1]
+
+
+@cache
+def parallel_motion_model() -> Model:
+    """m(0) = (0, 0, m3): the angle is m3 t/I0."""
+    angle = m3 * t / I0
+    flow = {cg: -m3 / I0 * sg, sg: m3 / I0 * cg}
+    letters = {"m3": m3, "I0": I0, "t": t, "m": sympy.Matrix([0, 0, m3])}
+    return Model(letters, ANGLES[2:], flow, START, {angle: (cg, sg)})
+
+
+_EXPANDED = (
+    "[[cos(gamma*t)*cos(alpha*t) - k3*sin(gamma*t)*sin(alpha*t),"
+    " k3*sin(gamma*t)*cos(alpha*t) + (k2^2 + k3^2*cos(gamma*t))*sin(alpha*t),"
+    " -k2*sin(gamma*t)*cos(alpha*t) + k2*k3*(1 - cos(gamma*t))*sin(alpha*t)],"
+    " [-cos(gamma*t)*sin(alpha*t) - k3*sin(gamma*t)*cos(alpha*t),"
+    " -k3*sin(gamma*t)*sin(alpha*t) + (k2^2 + k3^2*cos(gamma*t))*cos(alpha*t),"
+    " k2*sin(gamma*t)*sin(alpha*t) + k2*k3*(1 - cos(gamma*t))*cos(alpha*t)],"
+    " [k2*sin(gamma*t), k2*k3*(1 - cos(gamma*t)), k3^2 + k2^2*cos(gamma*t)]]"
+)
+_LEFT = "[[cos(alpha*t), sin(alpha*t), 0], [-sin(alpha*t), cos(alpha*t), 0], [0, 0, 1]]"
+_RIGHT = (
+    "[[cos(gamma*t), k3*sin(gamma*t), -k2*sin(gamma*t)],"
+    " [-k3*sin(gamma*t), k2^2 + k3^2*cos(gamma*t), k2*k3*(1 - cos(gamma*t))],"
+    " [k2*sin(gamma*t), k2*k3*(1 - cos(gamma*t)), k3^2 + k2^2*cos(gamma*t)]]"
+)
+_LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
+
+TRIALS = (
+    Trial(
+        label="text-momentum",
+        printed="m = g1*cross(R1,dR1) + g2*cross(R2,dR2) + g3*cross(R3,dR3) = R*I*T(R)*omega = R*I*Omega",
+        model=kinematic_model,
+        follows="m = sum of m_N [x, dx/dt] for three masses on the principal axes",
+    ),
+    Trial(
+        label="mf30.0",
+        printed="I1 = I2 = I3 = I0",
+        model=uniform_ball_model,
+        follows="the moments of a uniform ball, integrated, I0 = 2 M r^2/5",
+    ),
+    Trial(
+        label="mf30",
+        printed="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
+        model=general.poisson_model,
+        follows="mf21",
+    ),
+    Trial(
+        label="mf31", printed="dOmega = -mu/(2*c)*cross(T(R)*Bf,Omega)", model=ball_model, follows="mf27 with g = I0/2"
+    ),
+    Trial(
+        label="mf32", printed="dm = -mu/(2*c)*cross(Bf,m)", model=ball_model, follows="m = I0 R Omega, mf30 and mf31"
+    ),
+    Trial(
+        label="mf33",
+        printed="d(m[1]^2 + m[2]^2 + m[3]^2) = 0; d(m[1]*Bf[1] + m[2]*Bf[2] + m[3]*Bf[3]) = 0",
+        model=momentum_flow_model,
+        follows="mf32",
+    ),
+    Trial(
+        label="text-linear-poisson",
+        printed="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
+        model=ball_model,
+        follows="det R = 1",
+    ),
+    Trial(
+        label="mf34",
+        printed="dR[i,j] = 1/I0*eps[i,a,b]*m[a]*R[b,j]; dRj[j] = 1/I0*cross(m,Rj[j])",
+        model=ball_model,
+        follows="mf30 and m = I0 R Omega",
+    ),
+    Trial(
+        label="mf35", printed="dm = -mu/(2*c)*cross(Bf,m)", model=ball_model, follows="m = I0 R Omega, mf30 and mf31"
+    ),
+    Trial(
+        label="mf36",
+        printed=f"m = {_LEFT}*[0, m2, m3] = [m2*sin(alpha*t), m2*cos(alpha*t), m3]",
+        model=larmor_model,
+        follows="mf35 by substitution, alpha of mf37",
+        defines=("m",),
+        solves="d(m) = -mu/(2*c)*cross([0, 0, b],m); at0(m) = [0, m2, m3]",
+    ),
+    Trial(
+        label="mf37",
+        printed="alpha = mu*b/(2*c)",
+        model=larmor_frequency_model,
+        follows="the rate of the angle of m about B in mf32",
+    ),
+    Trial(
+        label="text-ball-ansatz",
+        printed="k2 = -m2/(gamma*I0); k3 = -(alpha*I0 + m3)/(gamma*I0); I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
+        model=start_model,
+        follows="the rate of the ansatz at t = 0 is m/I0",
+    ),
+    Trial(
+        label="mf38",
+        printed=f"R = {_EXPANDED} = {_LEFT}*{_RIGHT}",
+        model=motion_model,
+        follows="mf34 by substitution, with m of mf36 and k, gamma of mf39",
+        defines=("R",),
+        solves=_LINEAR,
+    ),
+    Trial(
+        label="mf39",
+        printed="k2 = -m2/sqrt(m2^2 + (alpha*I0 + m3)^2); k3 = -(m3 + alpha*I0)/sqrt(m2^2 + (alpha*I0 + m3)^2);"
+        " gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2)",
+        model=constants_model,
+        follows="the rate of the ansatz at t = 0 is m/I0, for all initial data",
+        defines=("k2", "k3", "gamma"),
+        solves="k2^2 + k3^2 = 1; gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0",
+        corrected="gamma*k2 = -m2/I0; gamma*k3 = -(m3 + alpha*I0)/I0; gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2);"
+        " k2^2 + k3^2 = 1",
+        corrected_model=true_constants_model,
+        corrected_defines=(),
+        corrected_solves="",
+        corrected_tex=(
+            r"\gamma\hat{k}_2=-\frac{m_2}{I_0},\quad\gamma\hat{k}_3=-\frac{m_3+\alpha I_0}{I_0},\quad"
+            r"\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}"
+        ),
+        note="Right but for one point, m2 = 0 and m3 = -alpha I0, where it reads 0/0: there gamma = 0 and k is any unit"
+        " vector, see theorem-ball-rest.",
+    ),
+    Trial(
+        label="text-ball-two-rotations",
+        printed=f"{_LEFT}*{_RIGHT} = rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, k2,"
+        f" k3],cos(gamma*t),-sin(gamma*t))",
+        model=motion_model,
+        follows="Rodrigues' formula for a rotation about a unit vector",
+    ),
+    Trial(
+        label="text-ball-parallel",
+        printed="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
+        model=parallel_model,
+        follows="mf39 with m2 = 0",
+        corrected="k2 = 0; gamma*k3 = -(alpha + m3/I0); gamma = abs(alpha + m3/I0)",
+        corrected_tex=(
+            r"\hat{\mathbf{k}}=\left(0,0,-\mathrm{sign}\Bigl(\alpha+\frac{m_3}{I_0}\Bigr)\right)^T,"
+            r"\qquad\gamma=\left\lvert\alpha+\frac{m_3}{I_0}\right\rvert"
+        ),
+        note="gamma is a root and never negative: for m3 < -alpha I0 both signs turn round. The product, and so"
+        " mf40, is"
+        " the same.",
+    ),
+    Trial(
+        label="mf40",
+        printed="R = [[cos(m3/I0*t), -sin(m3/I0*t), 0], [sin(m3/I0*t), cos(m3/I0*t), 0], [0, 0, 1]]",
+        model=parallel_motion_model,
+        follows="mf34 by substitution with m = (0, 0, m3)",
+        defines=("R",),
+        solves=_LINEAR,
+    ),
+)

@@ -1,0 +1,342 @@
+"""Decides whether a line holds in a model: an exact identity, an exact counterexample, or undecided.
+
+Every model is made of rational functions of free parameters (rotations by Cayley's formula, angles by the tangent of
+the half, roots by parameters that make them rational), so that `left = right` is a polynomial identity: it holds if and
+only if the numerator of the difference expands to nothing. One exact rational point where it doesn't vanish refutes it.
+"""
+
+import random
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any, Literal
+
+import sympy
+from sympy.polys.rings import ring
+
+from atlas.proof.dimensions import unbalanced
+from atlas.proof.model import Model
+from atlas.proof.notation import NoMeaningError, Reader, Relation, letters_of, parse, write
+
+Value = Any
+Decision = Literal["proved", "refuted", "undecided", "supported"]
+
+SAMPLES = 5
+
+_small = [Fraction(n, d) for d in (1, 2, 3, 4, 5) for n in range(1, 6)]
+DOMAINS: dict[str, Callable[[random.Random], Fraction]] = {
+    "real": lambda r: r.choice(_small) * r.choice((-1, 1)),
+    "positive": lambda r: r.choice(_small),
+    "unit": lambda r: Fraction(r.randint(1, 8), 9),
+    "oblique": lambda r: Fraction(r.randint(9, 19), 20),  # tan(delta/2) for pi/4 < delta < pi/2
+}
+_SIMPLE: dict[str, tuple[Fraction | int, ...]] = {
+    "real": (0, 1, 2),
+    "positive": (1, 2, 3),
+    "unit": (Fraction(1, 2), Fraction(1, 3)),
+    "oblique": (Fraction(1, 2), Fraction(2, 3)),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What the trial of one line found."""
+
+    decision: Decision
+    method: str = ""
+    counterexample: dict[str, str] = field(default_factory=dict)
+
+
+def decide(
+    line: str,
+    cases: Model | Sequence[Model],
+    *,
+    defines: Iterable[str] = (),
+    solves: str = "",
+    sample_only: bool = False,
+    shrink: bool = False,
+) -> Outcome:
+    """Try a line in a model, or in each of several cases.
+
+    defines      names on the left of `=` that the line defines: they are taken from it, not checked against the model
+    solves       a second line that must hold with what the first one defines
+    sample_only  look for a counterexample only, and say `supported` if there is none
+    shrink       make the counterexample as simple as possible
+    """
+    models = [cases] if isinstance(cases, Model) else list(cases)
+    methods: list[str] = []
+    for model in models:
+        if model.units:
+            wrong = unbalanced(line, model.units)
+            if wrong:
+                return Outcome("refuted", "dimensions", wrong)
+        try:
+            relations, letters, where = _read(line, model, tuple(defines), solves)
+        except (NoMeaningError, TypeError, AttributeError, IndexError, KeyError, ValueError) as reason:
+            return Outcome("refuted", "indices", {"reason": f"the line cannot be read: {reason}"})
+        here = replace(model, letters=letters, where=where)
+        names = tuple(
+            dict.fromkeys(name for tree in parse(f"{line}; {solves}" if solves else line) for name in letters_of(tree))
+        )
+        found = _counterexample(relations, here, names, shrink=shrink)
+        if found:
+            return Outcome("refuted", "exact counterexample", found)
+        if not sample_only:
+            methods += [_prove(relation, here) for relation in relations]
+    if sample_only:
+        return Outcome("supported", f"{SAMPLES * len(models)} exact points")
+    if all(methods):
+        return Outcome("proved", ", ".join(dict.fromkeys(methods)))
+    return Outcome("undecided", "neither proved nor refuted")
+
+
+def _read(
+    line: str, model: Model, defines: tuple[str, ...], solves: str
+) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
+    """Return the relations to be checked, and the model's letters and `where` with what the line defines."""
+    letters, where = dict(model.letters), list(model.where)
+    kept = []
+    for tree in parse(line):
+        name = getattr(tree.left, "id", None)
+        if name in defines:
+            value = Reader(letters, model.ranges).value(tree.comparators[0], {})
+            known = letters.get(name)
+            pairs = list(zip(known, value, strict=True)) if isinstance(known, sympy.MatrixBase) else [(known, value)]
+            if all(isinstance(symbol, sympy.Symbol) for symbol, _ in pairs):
+                where = pairs + [entry for entry in where if entry[0] not in dict(pairs)]
+            letters[name] = value
+            if len(tree.comparators) > 1:
+                tree.left, tree.ops, tree.comparators = tree.comparators[0], tree.ops[1:], tree.comparators[1:]
+                kept.append(tree)
+        else:
+            kept.append(tree)
+    reader = Reader(letters, model.ranges)
+    relations = reader.relations(write(kept)) if kept else []
+    return relations + (reader.relations(solves) if solves else []), letters, where
+
+
+def _parameters(relations: list[Relation], model: Model) -> list[Value]:
+    found: set[Value] = set()
+    for value in [side for relation in relations for side in (*relation.left, *relation.right)]:
+        found |= sympy.sympify(value).free_symbols
+    while True:
+        more = found | {
+            s for symbol, value in model.where if symbol in found for s in sympy.sympify(value).free_symbols
+        }
+        if more == found:
+            break
+        found = more
+    return sorted(found - {symbol for symbol, _ in model.where}, key=str)
+
+
+def _complete(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
+    """Add what the symbols of `where` are at a point; each may use any other that doesn't depend on it."""
+    point = dict(values)
+    for symbol, value in _ordered(model.where):
+        found = sympy.sympify(value).xreplace(point)
+        if not found.free_symbols:
+            point[symbol] = found
+    return point
+
+
+def _ordered(where: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
+    """Sort definitions so that each comes after those that it uses."""
+    left, result = list(where), list[tuple[Value, Value]]()
+    done: set[Value] = set()
+    names = {symbol for symbol, _ in where}
+    while left:
+        for entry in left:
+            if not (sympy.sympify(entry[1]).free_symbols & names) - done - {entry[0]}:
+                break
+        left.remove(entry)
+        done.add(entry[0])
+        result.append(entry)
+    return result
+
+
+def _points(parameters: list[Value], model: Model) -> Iterator[dict[Value, Value]]:
+    """Yield exact values of the free parameters at a few points of their domain, the same ones in every run."""
+    chance = random.Random(20240)  # noqa: S311  points of a proof, not secrets
+    for _ in range(SAMPLES):
+        yield {s: sympy.Rational(DOMAINS[_domain(s, model)](chance)) for s in parameters}
+
+
+def _domain(symbol: Value, model: Model) -> str:
+    return model.domains.get(str(symbol), "positive" if symbol.is_positive else "real")
+
+
+def _violated(sign: str, difference: Value) -> bool | None:
+    """Say whether left - right = difference breaks the relation; None if it has no value."""
+    if difference.has(sympy.nan, sympy.zoo, sympy.oo, -sympy.oo):
+        return None
+    if not difference.is_Rational:
+        number = sympy.N(difference, 40)
+        if not number.is_number or not number.is_finite:
+            return None
+        if not number.is_real:
+            return True
+        difference = sympy.Integer(0) if abs(number) < sympy.Float("1e-30") else number
+    broken = {
+        "=": difference != 0,
+        "!=": difference == 0,
+        "<": difference >= 0,
+        "<=": difference > 0,
+        ">": difference <= 0,
+        ">=": difference < 0,
+    }
+    return bool(broken[sign])
+
+
+def _counterexample(relations: list[Relation], model: Model, names: tuple[str, ...], *, shrink: bool) -> dict[str, str]:
+    """Return an exact point that breaks a relation, or one where a relation has no value at any; {} if there is none.
+
+    names  the letters to be shown, where they have a value at that point
+    """
+    parameters = _parameters(relations, model)
+    valued = [False] * len(relations)
+    free: dict[Value, Value] = {}
+    for free in _points(parameters, model):
+        values = _complete(free, model)
+        for number, relation in enumerate(relations):
+            for entry in range(len(relation.left)):
+                broken = _broken(relation, entry, values)
+                valued[number] |= broken is not None
+                if broken:
+                    if shrink:
+                        values = _simplest(relation, entry, free, model)
+                    return _describe(relation, entry, model, names, values)
+    for number, relation in enumerate(relations):
+        if not valued[number] and relation.left:
+            shown = _describe(relation, 0, model, names, _complete(free, model))
+            return {**shown, "left": "no value: 0/0", "right": "no value: 0/0"}
+    return {}
+
+
+def _broken(relation: Relation, entry: int, values: dict[Value, Value]) -> bool | None:
+    difference = sympy.sympify(relation.left[entry]).xreplace(values) - sympy.sympify(relation.right[entry]).xreplace(
+        values
+    )
+    return _violated(relation.sign, difference)
+
+
+def _simplest(relation: Relation, entry: int, free: dict[Value, Value], model: Model) -> dict[Value, Value]:
+    """Replace the parameters of a counterexample one by one by 0, 1, 2, as far as it stays one."""
+    for symbol in free:
+        for value in _SIMPLE[_domain(symbol, model)]:
+            simpler = {**free, symbol: sympy.Rational(value)}
+            if _broken(relation, entry, _complete(simpler, model)):
+                free = simpler
+                break
+    return _complete(free, model)
+
+
+def _describe(
+    relation: Relation, entry: int, model: Model, names: tuple[str, ...], values: dict[Value, Value]
+) -> dict[str, str]:
+    """Return the letters of a relation and its two sides at a point; of a family, those that aren't 0."""
+    found: dict[str, str] = {}
+    for name in dict.fromkeys((*relation.letters, *names)):
+        value = model.letters.get(name, sympy.Symbol(name, real=True))
+        if isinstance(value, dict):
+            plain = any(isinstance(key, int) for key in value)
+            family = {key: _show(v, values) for key, v in value.items() if isinstance(key, int) or not plain}
+            kept = {key: shown for key, shown in family.items() if shown.strip("[]0, ")}
+            found |= {f"{name}[{str(key).strip('()').replace(' ', '')}]": shown for key, shown in kept.items()}
+            if len(kept) < len(family):
+                found[f"any other {name}"] = "0"
+        elif isinstance(value, sympy.MatrixBase | sympy.Expr) and value.free_symbols <= set(values):
+            found[name] = _show(value, values)
+    found |= {str(s): _text(v) for s, v in values.items() if str(s) in model.letters and str(s) not in found}
+    sides = [_text(sympy.sympify(side[entry]).xreplace(values)) for side in (relation.left, relation.right)]
+    at = f" (component {entry + 1})" if len(relation.left) > 1 else ""
+    return {**found, "relation": relation.text + at, "left": sides[0], "right": sides[1]}
+
+
+def _text(value: Value) -> str:
+    if value.is_Rational:
+        return str(value)
+    return "no value" if value.has(sympy.nan, sympy.zoo, sympy.oo) else str(sympy.N(value, 17))
+
+
+def _show(value: Value, values: dict[Value, Value]) -> str:
+    if isinstance(value, sympy.MatrixBase):
+        rows = [[_text(entry.xreplace(values)) for entry in row] for row in value.tolist()]
+        return str([row[0] for row in rows] if value.shape[1] == 1 else rows).replace("'", "")
+    return _text(sympy.sympify(value).xreplace(values))
+
+
+def _prove(relation: Relation, model: Model) -> str:
+    """Prove a relation and return how; empty if it can't."""
+    how = "identity"
+    where = resolved(model.where)
+    for left, right in zip(relation.left, relation.right, strict=True):
+        difference = sympy.sympify(left) - sympy.sympify(right)
+        if relation.sign == "=":
+            how = "polynomial identity" if vanishes(difference, where) else ""
+        else:
+            value = difference.xreplace(where)
+            signs = {">": [value], ">=": [value], "<": [-value], "<=": [-value], "!=": [value, -value]}[relation.sign]
+            strict = relation.sign not in {"<=", ">="}
+            how = "one sign throughout" if any(positive(sign, strict=strict) for sign in signs) else ""
+        if not how:
+            return ""
+    return how
+
+
+def resolved(where: list[tuple[Value, Value]]) -> dict[Value, Value]:
+    """Return what each symbol of `where` is in free parameters alone."""
+    found: dict[Value, Value] = {}
+    for symbol, value in _ordered(where):
+        found[symbol] = sympy.cancel(sympy.sympify(value).xreplace(found))
+    return found
+
+
+def vanishes(difference: Value, where: dict[Value, Value] | None = None) -> bool:
+    """Whether a rational function is zero identically: the numerator, as a polynomial in free parameters, is nothing.
+
+    A symbol that is N/n in free parameters becomes N times a symbol for 1/n; at the end each power of that is cleared
+    by the power of n that is missing. So no fraction is ever expanded.
+    """
+    numerator = sympy.numer(sympy.together(difference))
+    used = {symbol: value for symbol, value in (where or {}).items() if numerator.has(symbol)}
+    inverses: dict[Value, Value] = {}
+    swap = {}
+    for symbol, value in used.items():
+        top, bottom = sympy.fraction(value)
+        swap[symbol] = top if bottom.is_number else top * inverses.setdefault(bottom, sympy.Dummy())
+        if bottom.is_number:
+            swap[symbol] = top / bottom
+    polynomial = numerator.xreplace(swap)
+    symbols = sorted(polynomial.free_symbols | {s for n in inverses for s in n.free_symbols}, key=str)
+    if polynomial.is_number or not symbols:
+        return bool(sympy.expand(polynomial) == 0)
+    try:
+        algebra = ring(symbols, sympy.QQ)[0]
+        element = algebra.from_expr(polynomial)
+    except (ValueError, sympy.polys.polyerrors.CoercionFailed):
+        return bool(sympy.expand(sympy.numer(sympy.together(numerator.xreplace(used)))) == 0)
+    for bottom, inverse in inverses.items():
+        element = (
+            _cleared(element, symbols.index(inverse), algebra.from_expr(bottom), algebra)
+            if inverse in symbols
+            else element
+        )
+    return not element
+
+
+def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value:
+    """Multiply a polynomial in s = 1/n by the power of n that clears s."""
+    by_power: dict[int, dict[tuple[int, ...], Value]] = {}
+    for powers, coefficient in element.terms():
+        by_power.setdefault(powers[place], {})[(*powers[:place], 0, *powers[place + 1 :])] = coefficient
+    result = algebra.zero
+    for power in range(max(by_power, default=0) + 1):
+        result = result * bottom + algebra.from_dict(by_power.get(power, {}))
+    return result
+
+
+def positive(value: Value, *, strict: bool) -> bool:
+    """Whether a function of symbols of known sign is positive (nonnegative): factor by factor, or term by term."""
+    value = sympy.factor(sympy.together(value))
+    forms = [value, sympy.expand(sympy.numer(value)) / sympy.expand(sympy.denom(value))]
+    return any(form.is_positive or (not strict and form.is_nonnegative) for form in forms)

@@ -1,0 +1,368 @@
+"""Section V, second half, on trial: the rotation matrix in elementary functions, mf78 to mf93."""
+
+from functools import cache
+
+import sympy
+
+from atlas.proof.ball import rodrigues
+from atlas.proof.model import Model, Value, cross, hat, turn, vector
+from atlas.proof.quadric import I, constant_omega3, omega1, omega2, omega3
+from atlas.proof.trial import Trial
+
+b, I2 = sympy.symbols("b I2", positive=True)
+B2, B3 = sympy.symbols("B2 B3", positive=True)
+hB2, hB3, k, phi, t, k0, c, amplitude, u, p, q, h = sympy.symbols("hB2 hB3 k phi t k0 c amplitude u p q h", real=True)
+ck, sk, cf, sf, c0, s0 = sympy.symbols("ck sk cf sf c0 s0", real=True)
+gamma = g1, g2, g3 = vector("g")
+
+PHASES = {k * t: (ck, sk), phi * t: (cf, sf), k0: (c0, s0)}
+FLOW = {ck: -k * sk, sk: k * ck, cf: -phi * sf, sf: phi * cf}
+START = {ck: 1, sk: 0, cf: 1, sf: 0}
+ANGLES = [(ck, turn(p)[0]), (sk, turn(p)[1]), (cf, turn(q)[0]), (sf, turn(q)[1]), (c0, turn(h)[0]), (s0, turn(h)[1])]
+# the unit vector of the field by the tangent u of half its angle with e3, its length b
+FIELD = [(B2, b * hB2), (B3, b * hB3), (hB2, turn(u)[1]), (hB3, turn(u)[0])]
+K_OF_OMEGA2 = (k, omega2 / hB2)
+ON_HYPERBOLA = [(omega3, constant_omega3().subs(omega1, 0))]
+PHI = (phi, omega3 - B3 / B2 * omega2)
+CONSTANTS = {"hB2": hB2, "hB3": hB3, "B2": B2, "B3": B3, "k": k, "phi": phi, "t": t, "k0": k0, "c": c}
+CONSTANTS |= {"amp": amplitude, "I": I, "I2": I2, "omega2": omega2, "omega3": omega3}
+SPIN = sympy.Matrix([omega2 * sf, omega2 * cf, omega3])
+TENSOR, MASS = I2 * sympy.diag(1, 1, I), I2 * sympy.diag(I, I, 2 - I) / 2
+DOMAINS = {"u": "unit"}
+
+
+def precession() -> Value:
+    """Rotation about the field by the angle k t, as mf90 writes it."""
+    return sympy.Matrix(
+        [
+            [ck, -hB3 * sk, hB2 * sk],
+            [hB3 * sk, hB2**2 + hB3**2 * ck, hB2 * hB3 * (1 - ck)],
+            [-hB2 * sk, hB2 * hB3 * (1 - ck), hB3**2 + hB2**2 * ck],
+        ]
+    )
+
+
+PROPER = sympy.Matrix([[cf, -sf, 0], [sf, cf, 0], [0, 0, 1]])
+
+
+def _model(
+    letters: dict[str, Value], where: list[tuple[Value, Value]], flow: dict[Value, Value] | None = None
+) -> Model:
+    return Model({**CONSTANTS, **letters}, where, flow or FLOW, START, PHASES, DOMAINS)
+
+
+@cache
+def velocity_model() -> Model:
+    """K = (B2 sin, B2 cos, B3) of mf68, and the whole system mf42, mf43 for it."""
+    letters = {"K": sympy.Matrix([B2 * sf, B2 * cf, B3]), "J": TENSOR, "g": MASS}
+    return _model(letters, [*ON_HYPERBOLA, PHI, *ANGLES, *FIELD])
+
+
+@cache
+def row_model() -> Model:
+    """Model A row of any turning matrix: dR/dt = R hat(Omega)."""
+    Omega, row = vector("Omega"), vector("gamma")
+    rate = (row.T * hat(Omega)).T
+    letters = {f"gamma{n + 1}": row[n] for n in range(3)} | {f"dgamma{n + 1}": rate[n] for n in range(3)}
+    letters |= {f"Omega{n + 1}": Omega[n] for n in range(3)} | {"gamma": row, "Omega": Omega, "dgamma": rate}
+    return Model({**letters, "omega3": Omega[2]})
+
+
+@cache
+def integral_model() -> Model:
+    """Any row that obeys mf80 with Omega of mf78; c is what mf81 says at that state."""
+    rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
+    letters = {f"Omega{n + 1}": SPIN[n] for n in range(3)} | {f"gamma{n + 1}": gamma[n] for n in range(3)}
+    letters["c"] = SPIN[0] * g1 + SPIN[1] * g2 + hB3 * omega2 / hB2 * g3
+    return _model(letters, [PHI, K_OF_OMEGA2, *ANGLES, *FIELD], {**FLOW, **rows})
+
+
+@cache
+def ratio_model() -> Model:
+    """B = (2c/mu) B', and its unit vector."""
+    mu, light = sympy.symbols("mu light", positive=True)
+    letters = {"Bl2": 2 * light / mu * b * hB2, "Bl3": 2 * light / mu * b * hB3}
+    return _model(letters, [*FIELD])
+
+
+@cache
+def rows_model() -> Model:
+    """Model the constant c of mf81 for the three rows of R(0) = 1."""
+    value = SPIN.subs(START)
+    letters = {f"c_{n + 1}": [value[0], value[1], hB3 * omega2 / hB2][n] for n in range(3)}
+    return _model(letters, [*FIELD])
+
+
+def _third(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
+    """gamma_3 of mf85."""
+    return size * (ck * phase[0] - sk * phase[1]) + constant * hB3 * omega2 / (hB2 * k**2)
+
+
+def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
+    """Return A row by mf83 and mf85."""
+    third = _third(constant, size, phase)
+    rate = -k * size * (sk * phase[0] + ck * phase[1])
+    rest = constant - hB3 * omega2 / hB2 * third
+    return (
+        sympy.Matrix([SPIN[0] * rest + SPIN[1] * rate, SPIN[1] * rest - SPIN[0] * rate, omega2**2 * third]) / omega2**2
+    )
+
+
+@cache
+def solution_model() -> Model:
+    """Model the row of mf83 and mf85, for any constants."""
+    row = _row(c, amplitude, (c0, s0))
+    rates = cross(row, SPIN)
+    letters = {"gamma3": row[2], "rate3": rates[2], "Omega1": SPIN[0], "Omega2": SPIN[1]}
+    letters |= {f"start{n + 1}": row.subs(START)[n] for n in range(3)}
+
+    def begin(constant: Value, size: Value, angle: Value) -> Value:
+        phase = sympy.cos(angle), sympy.sin(angle)
+        return _row(constant, size, phase).subs(START)
+
+    letters["row"] = begin
+    return _model(letters, [PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
+
+
+@cache
+def matrix_model() -> Model:
+    """Omega of mf78, the field B', and the moments of the body."""
+    letters = {"Omega": SPIN, "Bp": sympy.Matrix([0, B2, B3]), "J": TENSOR, "g": MASS, "R": precession() * PROPER}
+    letters |= {
+        "rod": rodrigues,
+        "hat_B": sympy.Matrix([0, hB2, hB3]),
+        "P": precession(),
+        "Q": PROPER,
+        "e3": sympy.Matrix([0, 0, 1]),
+    }
+    letters["m"] = precession() * PROPER * TENSOR * SPIN
+    letters["dm"] = -2 * cross(letters["R"] * MASS * letters["R"].T * letters["Bp"], letters["R"] * SPIN)
+    return _model(letters, [*ON_HYPERBOLA, PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
+
+
+@cache
+def ball_limit_model() -> Model:
+    """I2 = I3."""
+    return _model({}, [*ON_HYPERBOLA, (I, sympy.Integer(1)), *FIELD])
+
+
+@cache
+def frequencies_model() -> Model:
+    """Phi of mf77 with omega2 = k_B hat B2."""
+    kB = sympy.Symbol("kB", real=True)
+    I3 = sympy.Symbol("I3", positive=True)
+    letters = {"phiB": omega3 - B3 / B2 * omega2, "kB": kB, "b": b, "I3": I3}
+    return _model(letters, [*ON_HYPERBOLA, (omega2, kB * hB2), (I, I3 / I2), *FIELD])
+
+
+@cache
+def free_model() -> Model:
+    """Model the free body launched with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)); phi is whatever mf92 says."""
+    I3 = sympy.Symbol("I3", positive=True)
+    spin = sympy.Matrix([omega2 * sf, omega2 * cf, I2 * omega2 * B3 / (I3 * B2)])
+    body = sympy.diag(I2, I2, I3)
+    letters = {"Omega": spin, "R": precession() * PROPER, "J": body, "I3": I3, "kB": k, "Bp": sympy.Matrix([0, B2, B3])}
+    letters["Omega0"] = spin.subs(START)
+    where = [K_OF_OMEGA2, *ANGLES, *FIELD]
+    return _model(letters, where)
+
+
+@cache
+def free_frequency_model() -> tuple[Model, Model]:
+    """Model launched with omega2 of either sign; m = (I2 omega2/B2) B'."""
+    speed = sympy.Symbol("speed", positive=True)
+    cases = []
+    for sign in (1, -1):
+        length = I2 * speed / B2 * b
+        letters = {
+            "size": length.subs(B2, b * hB2),
+            "omega2": sign * speed,
+            "k": sign * speed / hB2,
+            "hB2": hB2,
+            "I2": I2,
+        }
+        cases.append(Model(letters, [(hB2, turn(u)[1])], domains=DOMAINS))
+    return cases[0], cases[1]
+
+
+_MF89 = (
+    "[[cos(k*t)*cos(phi*t) - hB3*sin(k*t)*sin(phi*t), -cos(k*t)*sin(phi*t) - hB3*sin(k*t)*cos(phi*t), hB2*sin(k*t)],"
+    " [hB3*sin(k*t)*cos(phi*t) + (hB2^2 + hB3^2*cos(k*t))*sin(phi*t),"
+    " -hB3*sin(k*t)*sin(phi*t) + (hB2^2 + hB3^2*cos(k*t))*cos(phi*t), hB2*hB3*(1 - cos(k*t))],"
+    " [-hB2*sin(k*t)*cos(phi*t) + hB2*hB3*(1 - cos(k*t))*sin(phi*t),"
+    " hB2*sin(k*t)*sin(phi*t) + hB2*hB3*(1 - cos(k*t))*cos(phi*t), hB3^2 + hB2^2*cos(k*t)]]"
+)
+_LEFT = (
+    "[[cos(k*t), -hB3*sin(k*t), hB2*sin(k*t)], [hB3*sin(k*t), hB2^2 + hB3^2*cos(k*t), hB2*hB3*(1 - cos(k*t))],"
+    " [-hB2*sin(k*t), hB2*hB3*(1 - cos(k*t)), hB3^2 + hB2^2*cos(k*t)]]"
+)
+_RIGHT = "[[cos(phi*t), -sin(phi*t), 0], [sin(phi*t), cos(phi*t), 0], [0, 0, 1]]"
+_POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
+_EULER = "J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
+_BRACKET = "1/omega2*(c - amp*hB3*omega2/hB2*cos(k*t + k0) - c*hB3^2)"
+
+TRIALS = (
+    Trial(
+        label="mf78",
+        printed="Omega = [omega2*sin(phi*t), omega2*cos(phi*t), omega3]",
+        model=velocity_model,
+        follows="mf42, mf43 by substitution, with K of mf68, omega3 of mf76, phi of mf77",
+        defines=("Omega",),
+        solves="J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*K,Omega); d(K) = -cross(Omega,K); at0(Omega) = [0,"
+        " omega2, omega3]",
+    ),
+    Trial(label="mf79", printed="dgamma = cross(gamma,Omega)", model=row_model, follows="mf21 for one row"),
+    Trial(
+        label="mf80",
+        printed="dgamma1 = gamma2*omega3 - gamma3*Omega2; dgamma2 = gamma3*Omega1 - gamma1*omega3;"
+        " dgamma3 = gamma1*Omega2 - gamma2*Omega1",
+        model=row_model,
+        follows="mf79 in components",
+    ),
+    Trial(
+        label="mf81",
+        printed="d(Omega1*gamma1 + Omega2*gamma2 + hB3*omega2/hB2*gamma3) = 0",
+        model=integral_model,
+        follows="mf80 with Omega of mf78",
+    ),
+    Trial(label="mf82", printed="B3/B2 = Bl3/Bl2 = hB3/hB2", model=ratio_model, follows="mf41"),
+    Trial(
+        label="text-row-constants",
+        printed="c_1 = 0; c_2 = omega2; c_3 = hB3*omega2/hB2",
+        model=rows_model,
+        follows="mf81 at t = 0 for the rows of R(0) = 1",
+    ),
+    Trial(
+        label="mf83",
+        printed="gamma1 = 1/omega2^2*(Omega1*(c - hB3*omega2/hB2*gamma3) + Omega2*d(gamma3));"
+        " gamma2 = 1/omega2^2*(Omega2*(c - hB3*omega2/hB2*gamma3) - Omega1*d(gamma3))",
+        model=integral_model,
+        follows="mf80 and mf81",
+    ),
+    Trial(
+        label="mf84",
+        printed="d2(gamma3) + k^2*gamma3 = c*hB3*omega2/hB2; k = omega2/hB2",
+        model=integral_model,
+        follows="mf80, mf81 and mf83",
+    ),
+    Trial(
+        label="mf85",
+        printed="gamma3 = amp*cos(k*t + k0) + c*hB3*omega2/(hB2*k^2)",
+        model=solution_model,
+        follows="mf84 by substitution, with two constants",
+        defines=("gamma3",),
+        solves="d2(gamma3) + k^2*gamma3 = c*hB3*omega2/hB2",
+    ),
+    Trial(
+        label="mf86",
+        printed=f"gamma1 = {_BRACKET}*sin(phi*t) - amp/hB2*sin(k*t + k0)*cos(phi*t);"
+        f" gamma2 = {_BRACKET}*cos(phi*t) + amp/hB2*sin(k*t + k0)*sin(phi*t)",
+        model=solution_model,
+        follows="mf80 by substitution, with gamma3 of mf85",
+        defines=("gamma1", "gamma2"),
+        solves="d(gamma1) = gamma2*omega3 - gamma3*Omega2; d(gamma2) = gamma3*Omega1 - gamma1*omega3;"
+        " d(gamma3) = gamma1*Omega2 - gamma2*Omega1",
+    ),
+    Trial(
+        label="mf87",
+        printed="start1 = -amp/hB2*sin(k0); start2 = 1/omega2*(c - amp*hB3*omega2/hB2*cos(k0) - c*hB3^2);"
+        " start3 = amp*cos(k0) + c*hB2*hB3/omega2",
+        model=solution_model,
+        follows="mf85 and mf86 at t = 0",
+    ),
+    Trial(
+        label="mf88",
+        printed="row(0,-hB2,pi/2) = [1, 0, 0]; row(omega2,-hB2*hB3,0) = [0, 1, 0];"
+        " row(hB3*omega2/hB2,1 - hB3^2,0) = [0, 0, 1]; 1 - hB3^2 = hB2^2",
+        model=solution_model,
+        follows="mf87: the three rows of R(0) = 1; row(c, b, k0) is the row at t = 0 with these constants",
+    ),
+    Trial(
+        label="mf89",
+        printed=f"R = {_MF89}",
+        model=matrix_model,
+        follows="mf21 and mf27 by substitution, with Omega of mf78",
+        defines=("R",),
+        solves=f"{_POISSON}; {_EULER}",
+    ),
+    Trial(
+        label="mf90",
+        printed=f"R = {_LEFT}*{_RIGHT} = P*Q",
+        model=matrix_model,
+        follows="mf89",
+        defines=("R",),
+        solves=_POISSON,
+    ),
+    Trial(
+        label="text-precession",
+        printed="P = cos(k*t)*one + (1 - cos(k*t))*hat_B*T(hat_B) + sin(k*t)*hat(hat_B); Q ="
+        " rod(e3,cos(phi*t),sin(phi*t))",
+        model=matrix_model,
+        follows="Rodrigues' formula",
+    ),
+    Trial(
+        label="text-ball-limit",
+        printed="omega3 - B3/B2*omega2 = 0",
+        model=ball_limit_model,
+        follows="mf76, mf77 with I = 1",
+    ),
+    Trial(
+        label="mf91",
+        printed="phiB = (I2 - I3)*hB3*(2*b + kB)/(I3*(b + kB))*kB",
+        model=frequencies_model,
+        follows="mf76, mf77 and omega2 = k_B hat B2",
+    ),
+    Trial(
+        label="mf92",
+        printed="phi = (I2 - I3)/I3*hB3*kB",
+        model=free_model,
+        follows="the free Euler and Poisson equations by substitution",
+        defines=("phi",),
+        solves=f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega)",
+    ),
+    Trial(
+        label="text-affirmation-free",
+        printed="Omega0 = [0, omega2, I2*omega2*B3/(I3*B2)]; J*Omega0 = I2*omega2/B2*Bp",
+        model=free_model,
+        follows="the launch of the free body",
+    ),
+    Trial(
+        label="text-free-frequency",
+        printed="size/I2 = omega2/hB2 = k",
+        model=free_frequency_model,
+        follows="m = (I2 omega2/B2) B', its length for either sign of omega2",
+        corrected="size/I2 = abs(omega2)/hB2; k = omega2/hB2",
+        corrected_tex=r"k=\frac{\omega_2}{\hat{B}_2},\qquad\lvert k\rvert=\frac{\lvert\mathbf{m}\rvert}{I_2}",
+        note="For omega2 < 0 the length |m| loses the sign; mf92 holds with k = omega2/hat B2.",
+    ),
+    Trial(
+        label="text-momentum-moves",
+        printed="dot(dm,dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2",
+        model=matrix_model,
+        follows="mf28: the length of dm/dt, zero only for I = 1 or omega2 = 0",
+    ),
+    Trial(
+        label="text-constant-omega3",
+        printed="Omega[3] = omega2; d(Omega[3]) = 0",
+        model=matrix_model,
+        follows="mf78",
+        corrected="Omega[3] = omega3; d(Omega[3]) = 0",
+        corrected_tex=r"\Omega_3(t)=\omega_3=\text{const}",
+        note="A wrong index.",
+    ),
+    Trial(
+        label="mf93",
+        printed="d(m[1]*Bp[1] + m[2]*Bp[2] + m[3]*Bp[3]) = 0",
+        model=matrix_model,
+        follows="m = R I Omega by substitution",
+    ),
+    Trial(
+        label="text-momentum-plane",
+        printed="dot(m,Bp) = 0",
+        model=matrix_model,
+        follows="m = R I Omega",
+        corrected="dot(m - at0(m),Bp) = 0",
+        corrected_tex=r"(\mathbf{m}(t)-\mathbf{m}(0),\mathbf{B})=0",
+        note="The projection is constant, not zero: only the tip of m stays in a plane orthogonal to B.",
+    ),
+)

@@ -1,0 +1,240 @@
+"""Section II, second half, on trial: Euler-Poisson equations for any rotation and any inertia tensor, The.1 to mf29."""
+
+from functools import cache
+
+import sympy
+
+from atlas.proof.model import Model, Value, cross, hat, matrix, rotation, rotation_symbols, symmetric, vector
+from atlas.proof.trial import Trial
+
+(R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
+mu, c = sympy.symbols("mu c", positive=True)
+g = symmetric("g")
+moments = g.trace() * sympy.eye(3) - g
+COMMON = {"R": R, "Omega": Omega, "Bf": Bf, "mu": mu, "c": c}
+
+
+def _antisymmetric(S: Value) -> Value:
+    return sympy.Matrix([S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]])
+
+
+@cache
+def multiplier_model() -> Model:
+    """The.1 with any matrix A, and Lam, the multipliers that it needs: The.1 holds if and only if Lam is symmetric.
+
+    R^T d2R = hat(Omega)^2 + hat(w), w the rate of Omega. IdOmega is what the symmetry of Lam makes of I w.
+    """
+    A, w = matrix("A"), vector("w")
+    Lam = -(hat(Omega) ** 2 + hat(w) + R.T * A) * g
+    skew = _antisymmetric(Lam)
+    slope = skew.jacobian(w)
+    rest = skew.xreplace(dict.fromkeys(w, 0))
+    solved = -(moments * slope.inv()).applyfunc(sympy.cancel) * rest
+    ddRg = R * (hat(Omega) ** 2 + hat(w)) * g
+    return Model(
+        {**COMMON, "A": A, "g": g, "I": moments, "Lam": Lam, "w": w, "IdOmega": solved, "ddRg": ddRg}, ROTATION
+    )
+
+
+@cache
+def magnetic_model() -> Model:
+    """Model the magnetic force of mf20 as the matrix A, and I times the rate of Omega from mf22."""
+    dR = R * hat(Omega)
+    A = sympy.Matrix(3, 3, lambda i, a: (mu / c * Bf.cross(dR.col(a)))[i])
+    model = multiplier_model()
+    free = model.letters["A"]
+    rate = model.letters["IdOmega"].xreplace(dict(zip(free, A, strict=True)))
+    return Model({**COMMON, "A": A, "dR": dR, "g": g, "I": moments, "IdOmega": rate}, ROTATION)
+
+
+def euler(tensor: Value, mass: Value, field: Value) -> Value:
+    """I times the rate of Omega, mf27 as proved, with the field seen from the body."""
+    return cross(tensor * Omega, Omega) - mu / c * cross(mass * field, Omega)
+
+
+@cache
+def momentum_model() -> Model:
+    """Angular momentum in both frames, with the rates that mf27 and mf21 give them.
+
+    M is any vector and J any symmetric matrix, the inverse of I: Omega = J M. More isn't needed of them.
+    """
+    M, J = vector("M"), symmetric("J")
+    spin = J * M
+    rate = cross(M, spin) - mu / c * cross(g * R.T * Bf, spin)
+    letters = {
+        "I": sympy.ImmutableMatrix(moments),
+        "inv": {sympy.ImmutableMatrix(moments): J}.__getitem__,
+        "g": g,
+        "M": M,
+        "m": R * M,
+    }
+    return Model({**COMMON, **letters, "dm": R * (cross(spin, M) + rate), "dM": rate}, ROTATION)
+
+
+@cache
+def poisson_model() -> Model:
+    """Any moving rotation: R changes with its three parameters; Omega is read off R^T dR/dt."""
+    R = rotation()
+    parameters = sympy.symbols("q1:4", real=True)
+    flow = dict(zip(parameters, sympy.symbols("p1:4", real=True), strict=True))
+    dR = R.applyfunc(lambda entry: sum((entry.diff(q) * p for q, p in flow.items()), sympy.Integer(0)))
+    W = (R.T * dR).applyfunc(sympy.cancel)
+    return Model({"R": R, "Omega": sympy.Matrix([W[2, 1], W[0, 2], W[1, 0]])}, flow=flow)
+
+
+@cache
+def matrix_flow_model() -> Model:
+    """Any matrix that obeys mf21."""
+    free = matrix("R")
+    return Model({"R": free, "Omega": Omega}, flow=dict(zip(free, free * hat(Omega), strict=True)))
+
+
+@cache
+def diagonal_model() -> Model:
+    """Principal axes: I and g are diagonal, made of three masses on the axes."""
+    g1, g2, g3 = sympy.symbols("g1:4", positive=True)
+    diagonal = sympy.diag(g1, g2, g3)
+    tensor = diagonal.trace() * sympy.eye(3) - diagonal
+    K = vector("K")
+    letters = {"g": diagonal, "I": tensor, "K": K, "Omega": Omega, "g1": g1, "g2": g2, "g3": g3}
+    letters |= {f"I{n + 1}": tensor[n, n] for n in range(3)}
+    letters |= {f"K{n + 1}": K[n] for n in range(3)} | {f"Omega{n + 1}": Omega[n] for n in range(3)}
+    return Model(letters)
+
+
+@cache
+def inertia_model() -> Model:
+    """Model the inertia tensor from the kinetic energy of four particles that turn with Omega."""
+    masses = sympy.symbols("m1:5", positive=True)
+    places = [vector(f"x{n}_") for n in range(1, 5)]
+    energy = sum(m * Omega.cross(x).dot(Omega.cross(x)) for m, x in zip(masses, places, strict=True)) / 2
+    mass = sum((m * x * x.T for m, x in zip(masses, places, strict=True)), sympy.zeros(3, 3))
+    return Model({"I": sympy.hessian(sympy.expand(energy), list(Omega)), "g": mass})
+
+
+@cache
+def grioli_model() -> Model:
+    """B along e3; G3 is the third row of R."""
+    b = sympy.Symbol("b", positive=True)
+    field = R.T * sympy.Matrix([0, 0, b])
+    return Model(
+        {**COMMON, "I": moments, "g": g, "b": b, "G3": R.row(2).T, "IdOmega": euler(moments, g, field)}, ROTATION
+    )
+
+
+_MF22 = (
+    "cross(I*Omega,Omega)[k] + 1/2*eps[k,i,j]*((A*I)[a,i]*R[a,j] + (R*I)[a,i]*A[a,j])"
+    " - 1/2*I[k,a]*eps[a,i,j]*A[b,i]*R[b,j]"
+)
+_MF23 = (
+    "eps[i,j,k]*Bf[j]*dR[k,a] = {sign}eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
+    " = {sign}eps[i,j,k]*eps[al,be,ga]*R[al,a]*R[be,b]*R[ga,l]*Bf[j]*Omega[b]*R[k,l]"
+    " = {sign}eps[i,j,k]*eps[al,be,ga]*R[al,a]*Bf[j]*(R*Omega)[be]*(R*T(R))[ga,k]"
+    " = {sign}eps[i,j,k]*eps[al,be,k]*R[al,a]*Bf[j]*(R*Omega)[be]"
+)
+
+TRIALS = (
+    Trial(
+        label="The.1",
+        printed="ddRg[i,j] = -R[i,k]*Lam[k,j] - A[i,k]*g[k,j]",
+        model=multiplier_model,
+        follows="mf19 about the centre of mass, solved for the multipliers",
+    ),
+    Trial(
+        label="Aff100",
+        printed=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_MF22})",
+        model=multiplier_model,
+        follows="The.1 with R^T d2R/dt2 = hat(Omega)^2 + hat(dOmega/dt)",
+        note="The multipliers are symmetric if and only if mf22 holds: one identity proves both directions, for every"
+        " rotation, every symmetric mass matrix and every matrix A. That g be non-degenerate is not needed, only I.",
+    ),
+    Trial(
+        label="mf22",
+        printed=f"IdOmega[k] = {_MF22}",
+        model=multiplier_model,
+        follows="the symmetry of the multipliers in The.1",
+    ),
+    Trial(
+        label="mf21",
+        printed="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
+        model=poisson_model,
+        follows="any moving rotation, by its Cayley parameters",
+    ),
+    Trial(
+        label="text-inertia-tensor",
+        printed="I[i,j] = g[a,a]*delta[i,j] - g[i,j]",
+        model=inertia_model,
+        follows="the kinetic energy of four particles that turn with Omega",
+    ),
+    Trial(
+        label="text-mass-moments",
+        printed="2*g1 = I2 + I3 - I1; 2*g2 = I3 + I1 - I2; 2*g3 = I1 + I2 - I3",
+        model=diagonal_model,
+        follows="I = tr(g) - g",
+    ),
+    Trial(
+        label="text-orthogonal",
+        printed="d(R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]) = 0",
+        model=matrix_flow_model,
+        follows="mf21 for any matrix R",
+    ),
+    Trial(
+        label="mf23",
+        printed=_MF23.format(sign="").replace("= ", "= ", 1) + " = R[i,a]*dot(Bf,R*Omega) - (R*Omega)[i]*(T(R)*Bf)[a]",
+        model=magnetic_model,
+        follows="mf21 and R R^T = 1",
+        corrected=_MF23.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
+        corrected_tex=(
+            r"\begin{aligned} \epsilon_{ijk}B_j\dot R_{ka}&=-\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}=\ldots\\ "
+            r"&=-\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta"
+            r"=(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega}) \end{aligned}"
+        ),
+        note="The minus of mf21 is lost at the first step and back in mf24.",
+    ),
+    Trial(
+        label="mf24",
+        printed="A[i,a] = -mu/c*eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
+        " = mu/c*((R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega))",
+        model=magnetic_model,
+        follows="mf20 and mf21",
+    ),
+    Trial(
+        label="mf25",
+        printed="IdOmega = cross(I*Omega,Omega) - mu/(2*c)*(I*cross(T(R)*Bf,Omega) - cross(I*T(R)*Bf,Omega)"
+        " + cross(T(R)*Bf,I*Omega))",
+        model=magnetic_model,
+        follows="mf22 with the matrix A of mf20",
+    ),
+    Trial(
+        label="mf26",
+        printed="(I*cross(K,Omega))[1] - cross(I*K,Omega)[1] + cross(K,I*Omega)[1]"
+        " = (I1 - I2 + I3)*K2*Omega3 - (I1 - I3 + I2)*K3*Omega2 = 2*g2*K2*Omega3 - 2*g3*K3*Omega2 ="
+        " 2*cross(g*K,Omega)[1]",
+        model=diagonal_model,
+        follows="I = tr(g) - g, K = R^T B",
+    ),
+    Trial(
+        label="mf27",
+        printed="IdOmega = cross(I*Omega,Omega) - mu/c*cross(g*T(R)*Bf,Omega)",
+        model=magnetic_model,
+        follows="mf22 with the matrix A of mf20",
+    ),
+    Trial(
+        label="mf28",
+        printed="dm = -mu/c*cross(R*g*T(R)*Bf,R*inv(I)*T(R)*m)",
+        model=momentum_model,
+        follows="m = R I Omega, mf21 and mf27",
+    ),
+    Trial(
+        label="mf29",
+        printed="dM = cross(M,inv(I)*M) - mu/c*cross(g*T(R)*Bf,inv(I)*M)",
+        model=momentum_model,
+        follows="M = I Omega and mf27",
+    ),
+    Trial(
+        label="text-grioli",
+        printed="IdOmega = cross(I*Omega,Omega) - mu*b/c*cross(g*G3,Omega)",
+        model=grioli_model,
+        follows="mf27 with B = (0, 0, b)",
+    ),
+)

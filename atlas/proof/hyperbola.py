@@ -1,0 +1,259 @@
+"""Section V, first half, on trial: motions with a constant Omega3, mf64 to mf77."""
+
+from functools import cache
+
+import sympy
+
+from atlas.proof.model import Model, Value, certain, cross, turn
+from atlas.proof.pseudo_oscillator import I2, I3, RATE, RATE2, UNITS, mass, ratio, tensor
+from atlas.proof.quadric import (
+    AXES,
+    B2,
+    B3,
+    LETTERS,
+    I,
+    axes_line,
+    canonical_model,
+    condition_model,
+    constant_omega3,
+    omega1,
+    omega2,
+    omega3,
+)
+from atlas.proof.trial import Trial
+
+Omega1, Omega2, K1, K2 = sympy.symbols("Omega1 Omega2 K1 K2", real=True)
+kappa, p, s = sympy.symbols("kappa p s", real=True)
+_DIMENSIONS = {**UNITS, "dOmega1": RATE2, "dOmega2": RATE2, "dOmega3": RATE2, "dK1": RATE2, "dK2": RATE2, "phip": RATE}
+_STATE = {"Omega1": Omega1, "Omega2": Omega2, "K1": K1, "K2": K2, "I": ratio, "B2": B2, "B3": B3}
+_STATE |= {"omega1": omega1, "omega2": omega2, "omega3": omega3}
+
+
+def _rates() -> tuple[Value, Value]:
+    """Rates of Omega and K by mf42, mf43 in vectors, at Omega3 = omega3 and K3 = c3 - omega3 = B3."""
+    Omega, K = sympy.Matrix([Omega1, Omega2, omega3]), sympy.Matrix([K1, K2, B3])
+    return tensor.inv() * (cross(tensor * Omega, Omega) - 2 * cross(mass * K, Omega)), -cross(Omega, K)
+
+
+@cache
+def constant_model() -> Model:
+    """Omega3 = omega3, so that K3 = B3 by mf48."""
+    dOmega, dK = _rates()
+    letters = {f"dOmega{n + 1}": dOmega[n] for n in range(3)} | {f"dK{n + 1}": dK[n] for n in range(2)}
+    letters["K3"] = (omega3 + B3) - omega3
+    start = {Omega1: omega1, Omega2: omega2}
+    return Model({**_STATE, **letters}, flow={omega3: sympy.Integer(0)}, start=start, units=_DIMENSIONS)
+
+
+@cache
+def proportional_model() -> Model:
+    """K1, K2 proportional to Omega1, Omega2, as the last equation of mf65 has it."""
+    dOmega, dK = _rates()
+    flow = {Omega1: dOmega[0], Omega2: dOmega[1], K1: dK[0], K2: dK[1]}
+    start = {Omega1: omega1, Omega2: omega2, K1: sympy.Integer(0), K2: B2}
+    return Model(_STATE, [(K1, kappa * Omega1), (K2, kappa * Omega2)], flow, start, units=_DIMENSIONS)
+
+
+@cache
+def circle_model() -> Model:
+    """Omega turned from omega by any angle, and (Omega, K) = omega2 B2 as in mf67."""
+    cosine, sine = turn(p)
+    where = [(Omega1, cosine * omega1 + sine * omega2), (Omega2, cosine * omega2 - sine * omega1)]
+    where += [(B2, kappa * (omega1**2 + omega2**2) / omega2), (K1, kappa * Omega1), (K2, kappa * Omega2)]
+    return Model(_STATE, where, units=_DIMENSIONS)
+
+
+@cache
+def precession_model() -> Model:
+    """Rates with K of mf68: from the Euler equations, and from the rates of K."""
+    factor = omega2 * B2 / (omega1**2 + omega2**2)
+    swap = {K1: factor * Omega1, K2: factor * Omega2}
+    euler, field = (rates.xreplace(swap) for rates in _rates())
+    letters = {"dOmega1": euler[0], "dOmega2": euler[1], "nu1": field[0] / factor, "nu2": field[1] / factor}
+    return Model({**_STATE, **letters}, units=_DIMENSIONS)
+
+
+def _frequencies() -> tuple[Value, Value]:
+    """Phi' and phi, read off the rates of precession_model."""
+    letters = precession_model().letters
+    return sympy.cancel(letters["dOmega1"] / Omega2), sympy.cancel(letters["nu1"] / Omega2)
+
+
+@cache
+def agreement_model() -> Model:
+    """Model the omega3 for which both frequencies agree: the condition is linear in it."""
+    euler, field = _frequencies()
+    condition = sympy.Poly(sympy.numer(sympy.together((euler - field).subs(I3, I * I2))), omega3)
+    slope, rest = condition.all_coeffs()
+    return Model(LETTERS, [(omega3, sympy.cancel(-rest / slope))], units=_DIMENSIONS)
+
+
+@cache
+def motion_model() -> tuple[Model, Model]:
+    """Omega1 K2 = Omega2 K1 at t = 0 says omega1 B2 = 0; then mf71.1, resolved or, for I = 1, at omega2 = -B2."""
+    zero = (omega1, sympy.Integer(0))
+    ball = [zero, (omega2, -B2), (I, sympy.Integer(1))]
+    return Model(LETTERS, [(omega3, constant_omega3()), zero], units=UNITS), Model(LETTERS, ball, units=UNITS)
+
+
+@cache
+def both_conditions_model() -> tuple[Model, Model]:
+    """All solutions of mf71 and mf71.1: their difference is a multiple of omega1^2 omega3."""
+    square = omega1**2 + omega2**2
+    difference = I * B2**2 * omega3 - I * B2**2 * omega2**2 * omega3 / square
+    certain(sympy.cancel(difference - I * B2**2 * omega3 * omega1**2 / square) == 0)
+    circle = [(omega3, sympy.Integer(0)), (omega2, -(2 - I) * B2 / (1 + s**2)), (omega1, s * omega2)]
+    return Model(LETTERS, [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]), Model(LETTERS, circle)
+
+
+@cache
+def degenerate_model() -> tuple[Model, Model]:
+    """Model the two lines of the hyperbola for I = 1, with a2 and a3 of mf60; sign tells them apart."""
+    whole = canonical_model("one", plane=True)
+    lines = []
+    for sign, entry in ((1, (omega2, -B2)), (-1, (omega3, constant_omega3()))):
+        where = [entry, *(pair for pair in whole.where if pair[0] not in {omega2, omega3})]
+        letters = {**whole.letters, "sign": sympy.Integer(sign)}
+        lines.append(Model(letters, where, phases=whole.phases, domains=whole.domains))
+    return lines[0], lines[1]
+
+
+@cache
+def frequency_model() -> Model:
+    """Phi' of mf69 at omega1 = 0, on the hyperbola."""
+    phi = _frequencies()[0].subs(I3, I * I2)
+    where = [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]
+    return Model({**LETTERS, "phi": phi}, where, units=UNITS)
+
+
+_MF711 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
+_MF72 = "B3*omega2^2 - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
+_MF75 = "w2/a2 = sign*w3/a3; a2 = sqrt(2*sin(beta)/(1 - sin(beta))); a3 = sqrt(2*sin(beta)/(1 + sin(beta)))"
+
+
+def _plane_axes(factor: str) -> str:
+    return axes_line(factor).split("; ", 1)[1]
+
+
+TRIALS = (
+    Trial(
+        label="mf64",
+        printed="d(omega3) = 0; at0(Omega1) = omega1; at0(Omega2) = omega2",
+        model=constant_model,
+        follows="the ansatz: Omega3 is the constant omega3",
+    ),
+    Trial(
+        label="mf65",
+        printed="dOmega1 = ((1 - I)*omega3 + (2 - I)*B3)*Omega2 - I*omega3*K2;"
+        " dOmega2 = -((1 - I)*omega3 + (2 - I)*B3)*Omega1 + I*omega3*K1; dOmega3 = Omega1*K2 - Omega2*K1",
+        model=constant_model,
+        follows="mf42 with Omega3 = omega3",
+    ),
+    Trial(
+        label="mf66",
+        printed="dK1 = omega3*K2 - B3*Omega2; dK2 = -omega3*K1 + B3*Omega1; K3 = B3",
+        model=constant_model,
+        follows="mf43 and mf48 with Omega3 = omega3",
+    ),
+    Trial(
+        label="mf67",
+        printed="d(Omega1^2 + Omega2^2) = 0; d(K1^2 + K2^2) = 0; d(Omega1*K1 + Omega2*K2) = 0;"
+        " at0(Omega1^2 + Omega2^2) = omega1^2 + omega2^2; at0(K1^2 + K2^2) = B2^2;"
+        " at0(Omega1*K1 + Omega2*K2) = omega2*B2",
+        model=proportional_model,
+        follows="mf65 and mf66",
+    ),
+    Trial(
+        label="mf68",
+        printed="K1 = omega2*B2/(omega1^2 + omega2^2)*Omega1; K2 = omega2*B2/(omega1^2 + omega2^2)*Omega2",
+        model=circle_model,
+        follows="mf67 and the last equation of mf65",
+    ),
+    Trial(
+        label="mf69",
+        printed="dOmega1 = phip*Omega2; dOmega2 = -phip*Omega1;"
+        " phip = (1 - I)*omega3 + (2 - I)*B3 - I*B2*omega2*omega3/(omega1^2 + omega2^2)",
+        model=precession_model,
+        follows="mf65 and mf68",
+        defines=("phip",),
+    ),
+    Trial(
+        label="mf70",
+        printed="nu1 = phi*Omega2; nu2 = -phi*Omega1; phi = omega3 - B3*(omega1^2 + omega2^2)/(B2*omega2)",
+        model=precession_model,
+        follows="mf66 and mf68; nu is the rate of Omega that they give",
+        defines=("phi",),
+    ),
+    Trial(
+        label="mf71",
+        printed="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2"
+        " - I*B2^2*omega2^2*omega3/(omega1^2 + omega2^2) = 0",
+        model=agreement_model,
+        follows="phi' = phi in mf69, mf70, solved for omega3",
+    ),
+    Trial(label="mf71.1", printed=_MF711, model=condition_model, follows="mf58.1"),
+    Trial(
+        label="mf72",
+        printed=_MF72,
+        model=motion_model,
+        follows="mf71.1 and the last equation of mf65 at t = 0",
+        note="That omega1 = 0 follows from the last equation of mf65; mf71 and mf71.1 do not suffice, see"
+        " text-combining.",
+    ),
+    Trial(
+        label="text-combining",
+        printed="omega1 = 0",
+        model=both_conditions_model,
+        follows="every omega that obeys mf71 and mf71.1",
+        corrected="omega1*omega3 = 0; omega1*(omega1^2 + omega2^2 + (2 - I)*B2*omega2) = 0",
+        corrected_tex=r"\text{(65), (66)}\implies\omega_1=0\quad\text{or}\quad\omega_3=0",
+        note="The circle omega3 = 0, omega1^2 + omega2^2 + (2-I) B'2 omega2 = 0 obeys both conditions too. The"
+        " motions are"
+        " on the hyperbola all the same, by the last equation of mf65 at t = 0.",
+    ),
+    Trial(
+        label="mf73",
+        printed=f"w2^2/C2s - w3^2/C3s = 1; {_plane_axes('(I - 1)')}",
+        model=lambda: canonical_model("above", plane=True),
+        follows="mf61b with omega1 = 0",
+        defines=AXES,
+    ),
+    Trial(
+        label="mf74",
+        printed=f"-w2^2/C2s + w3^2/C3s = 1; {_plane_axes('(1 - I)')}",
+        model=lambda: canonical_model("below", plane=True),
+        follows="mf63 with omega1 = 0",
+        defines=AXES,
+    ),
+    Trial(
+        label="mf75",
+        printed=_MF75,
+        model=degenerate_model,
+        follows="mf62 with omega1 = 0, a2 and a3 as defined in mf60",
+        corrected="w2^2/a2 = w3^2/a3",
+        corrected_tex=r"\frac{\omega'_2}{\sqrt{a_2}}=\pm\frac{\omega'_3}{\sqrt{a_3}}",
+        note="a2 and a3 have a meaning since mf60; here they get another, the roots of the former. With the roots the"
+        " lines are right.",
+    ),
+    Trial(
+        label="mf76",
+        printed="omega3 = B3*omega2*(omega2 + (2 - I)*B2)/(I*B2*(omega2 + B2)); omega2 + B2 != 0",
+        model=motion_model,
+        follows="every omega that obeys mf72",
+        corrected="I*B2*(omega2 + B2)*omega3 = B3*omega2*(omega2 + (2 - I)*B2)",
+        corrected_tex=(
+            r"\begin{aligned} \omega_3&=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}"
+            r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \text{or}\quad\omega_2&=-B'_2,\quad\omega_3\in\mathbb{R}"
+            r"\quad\text{if}\quad I=1 \end{aligned}"
+        ),
+        note="The formula is right where omega2 differs from -B'2. For I = 1 the line omega2 = -B'2 is lost, and"
+        " every point"
+        " of it is a motion, see theorem-ball-line.",
+    ),
+    Trial(
+        label="mf77",
+        printed="phi = omega3 - B3/B2*omega2 = B3*omega2*(1 - I)*(omega2 + 2*B2)/(I*B2*(omega2 + B2))",
+        model=frequency_model,
+        follows="mf69 on the hyperbola mf76",
+    ),
+)

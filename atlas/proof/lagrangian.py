@@ -1,0 +1,248 @@
+"""Section II, first half, on trial: six constrained particles, varied from the action, 1.6 to 1.38.
+
+Six particles are the fewest for which every sum of the paper has more than one term: particle 1, the frame 2, 3, 4, and
+two more. Nothing in the derivation depends on their number.
+"""
+
+from functools import cache
+from typing import Any
+
+import sympy
+
+from atlas.proof.model import Model, Value, cross, dot, matrix, vector
+from atlas.proof.trial import Trial
+
+ALL, FRAME, REST = (1, 2, 3, 4, 5, 6), (2, 3, 4), (5, 6)
+RANGES = {"N": ALL, "M": ALL, "A": FRAME, "C": FRAME, "al": REST}
+
+m = {N: sympy.Symbol(f"m{N}", positive=True) for N in ALL}
+y = {N: vector(f"y{N}_") for N in ALL}
+dy = {N: vector(f"v{N}_") for N in ALL}
+lam = {(A, C): sympy.Symbol(f"lam{min(A, C)}{max(A, C)}", real=True) for A in FRAME for C in FRAME}
+lam |= {(A, N): sympy.Symbol(f"lam{A}{N}", real=True) for A in FRAME for N in REST}
+held = {key: sympy.Symbol(f"a{min(key)}{max(key)}", real=True) for key in lam}
+E, Bf = vector("E"), vector("B")
+mu, c = sympy.symbols("mu c", positive=True)
+COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": held}
+
+
+def potential_energy() -> Value:
+    """Minus U of mf15: for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m."""
+    return sum(mu * m[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
+
+
+def free_action() -> Value:
+    """Kinetic energy, and each constraint with its multiplier."""
+    kinetic = sum(m[N] * dot(dy[N], dy[N]) for N in ALL) / 2
+    inner = {key: dot(y[key[0]] - y[1], y[key[1]] - y[1]) - held[key] for key in lam}
+    return kinetic + sum(lam[key] * inner[key] for key in lam) / 2
+
+
+@cache
+def forces() -> dict[int, Value]:
+    """Return m times acceleration of each particle: the variation of the action, d/dt dL/dv = dL/dy."""
+    L = sympy.expand(free_action() + potential_energy())
+    found = {}
+    for N in ALL:
+        momentum = sympy.Matrix([L.diff(v) for v in dy[N]])
+        drift = sum((momentum.jacobian(y[M]) * dy[M] for M in ALL), sympy.zeros(3, 1))
+        found[N] = (sympy.Matrix([L.diff(x) for x in y[N]]) - drift).applyfunc(sympy.expand)
+    return found
+
+
+@cache
+def action_model() -> Model:
+    """Letters of the action."""
+    return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges={**RANGES, "be": REST})
+
+
+@cache
+def potential_model() -> Model:
+    """Letters of the potential energy."""
+    A0 = {N: dot(y[N], E) for N in ALL}
+    A = {N: cross(Bf, y[N]) / 2 for N in ALL}
+    e = {N: mu * m[N] for N in ALL}
+    return Model({**COMMON, "y": y, "dy": dy, "minusU": potential_energy(), "A0": A0, "A": A, "e": e}, ranges=RANGES)
+
+
+@cache
+def particles_model() -> Model:
+    """Model the particles with accelerations from the action."""
+    ddy = {N: forces()[N] / m[N] for N in ALL}
+    mass = sum(m.values())
+    centre = {"dy0": sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass, "mu0": mass}
+    centre["ddy0"] = sum(forces().values(), sympy.zeros(3, 1)) / mass
+    return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES)
+
+
+@cache
+def relative_model() -> Model:
+    """Model the particles seen from the centre of mass, whose acceleration is that of mf17."""
+    mass = sum(m.values())
+    y0 = sum((m[N] * y[N] for N in ALL), sympy.zeros(3, 1)) / mass
+    v0 = sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass
+    a0 = mu * E + mu / c * cross(v0, Bf)
+    letters = {
+        "x": {N: y[N] - y0 for N in ALL},
+        "dx": {N: dy[N] - v0 for N in ALL},
+        "ddx": {N: forces()[N] / m[N] - a0 for N in ALL},
+        "lami": sympy.zeros(3, 1),  # the paper defines no lambda^i
+        "y": y,
+        "mu0": mass,
+    }
+    return Model({**COMMON, **letters}, ranges=RANGES)
+
+
+def _push(x: dict[int, Value]) -> dict[int, Value]:
+    """Return forces of the constraints on particles at x."""
+    no_field = dict.fromkeys((*E, *Bf), 0)
+    places = {s: value for N in ALL for s, value in zip(y[N], x[N], strict=True)}
+    return {N: forces()[N].xreplace(no_field).xreplace(places) for N in ALL}
+
+
+def _components(x: dict[int, Value]) -> dict[Any, Value]:
+    return {**dict[Any, Value](x), **{(N, i): x[N][i - 1] for N in ALL for i in (1, 2, 3)}}
+
+
+@cache
+def rotation_model() -> Model:
+    """Model the particles at x_N(t) = R x_N(0); R and its rate are any matrices, as linear algebra needs no more."""
+    x = y
+    R, dR = matrix("R"), matrix("W")
+    push = _push(x)
+    spun = {N: R * push[N] + mu * m[N] * E + mu / c * m[N] * cross(dR * x[N], Bf) for N in ALL}
+    letters = {
+        "x": _components(x),
+        "R": R,
+        "dR": dR,
+        "total": sum((m[N] * x[N] for N in ALL), sympy.zeros(3, 1)),
+        "g": sum((m[N] * x[N] * x[N].T for N in ALL), sympy.zeros(3, 3)),
+        "lamM": -sum((x[N] * push[N].T for N in ALL), sympy.zeros(3, 3)),
+        "ddRg": sum((spun[N] * x[N].T for N in ALL), sympy.zeros(3, 3)),
+        "A": sympy.Matrix.hstack(*(-mu / c * cross(dR.col(a), Bf) for a in range(3))),
+    }
+    return Model({**COMMON, **letters}, ranges=RANGES)
+
+
+@cache
+def rigid_model() -> Model:
+    """Model the frame of particles 2, 3, 4 seen from particle 1, as columns of X at t and X0 at 0; R X0 = X."""
+    X, X0 = matrix("X"), matrix("Y")
+    return Model({"X": X, "X0": X0, "R": X * X0.adjugate() / X0.det(), "inverse": X0.adjugate() / X0.det()})
+
+
+_RELATIVE = """m[1]*ddx[1] = -lam[A,C]*(x[C] - x[1]) - 1/2*lam[A,al]*(x[A] + x[al] - 2*x[1]){lost}
++ mu/c*m[1]*cross(dx[1],Bf);
+m[A]*ddx[A] = lam[A,C]*(x[C] - x[1]) + 1/2*lam[A,al]*(x[al] - x[1]){lostA} + mu/c*m[A]*cross(dx[A],Bf);
+m[al]*ddx[al] = 1/2*lam[A,al]*(x[A] - x[1]){lostal} + mu/c*m[al]*cross(dx[al],Bf)"""
+
+_MULTIPLIERS = """lamM[j,k] = -lam[A,C]*(x[1,j]*x[1,k] + x[A,j]*x[C,k] - x[C,j]*x[1,k] - x[C,k]*x[1,j])
+- 1/2*lam[A,al]*(x[al,j]*x[A,k] + x[al,k]*x[A,j] - x[al,j]*x[1,k] - x[al,k]*x[1,j] - x[A,j]*x[1,k] - x[A,k]*x[1,j]
+{sign} 2*x[1,j]*x[1,k])"""
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())
+
+
+TRIALS = (
+    Trial(
+        label="1.6",
+        printed="L = 1/2*m[N]*dot(dy[N],dy[N]) + 1/2*lam[A,C]*(dot(y[A] - y[1], y[C] - y[1]) - a[A,C])"
+        " + 1/2*lam[A,be]*(dot(y[A] - y[1], y[be] - y[1]) - a[A,be])",
+        model=action_model,
+        follows="kinetic energy of six particles, and each constraint with its multiplier",
+    ),
+    Trial(
+        label="mf15",
+        printed="minusU = e[N]*A0[N] + e[N]/c*dot(A[N],dy[N])",
+        model=potential_model,
+        follows="the sum of mf13 over the particles, with the potentials mf12",
+    ),
+    Trial(
+        label="mf16",
+        printed="m[1]*ddy[1] = -lam[A,C]*(y[C] - y[1]) - 1/2*lam[A,al]*(y[A] + y[al] - 2*y[1]) + mu*m[1]*E +"
+        " mu/c*m[1]*cross(dy[1],Bf);"
+        " m[A]*ddy[A] = lam[A,C]*(y[C] - y[1]) + 1/2*lam[A,al]*(y[al] - y[1]) + mu*m[A]*E + mu/c*m[A]*cross(dy[A],Bf);"
+        " m[al]*ddy[al] = 1/2*lam[A,al]*(y[A] - y[1]) + mu*m[al]*E + mu/c*m[al]*cross(dy[al],Bf)",
+        model=particles_model,
+        follows="the variation of the action 1.6, mf15 for six particles",
+    ),
+    Trial(
+        label="mf17",
+        printed="ddy0 = mu*E + mu/c*cross(dy0,Bf)",
+        model=particles_model,
+        follows="the sum of mf16 over six particles",
+    ),
+    Trial(
+        label="text-rigid",
+        printed="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
+        model=rigid_model,
+        follows="the constraints keep the products X^T X of the frame, so that R = X X0^-1 is orthogonal",
+        note="Three fixed products with an independent frame fix every further particle in it.",
+    ),
+    Trial(
+        label="mf18",
+        printed=_line(
+            _RELATIVE.format(
+                lost=" + m[1]*lami + mu*m[1]*E", lostA=" + m[A]*lami + mu*m[A]*E", lostal=" + m[al]*lami + mu*m[al]*E"
+            )
+        ),
+        model=relative_model,
+        follows="mf16 less m_N times mf17, for six particles",
+        corrected=_line(_RELATIVE.format(lost="", lostA="", lostal="")),
+        corrected_tex=(
+            r"\begin{aligned} m_1\ddot{\mathbf{x}}_1&=-\sum_{AB}\lambda_{AB}[\mathbf{x}_B-\mathbf{x}_1]"
+            r"-\frac12\sum_{A\alpha}\lambda_{A\alpha}[\mathbf{x}_A+\mathbf{x}_\alpha-2\mathbf{x}_1]"
+            r"+\frac{\mu}{c}m_1[\dot{\mathbf{x}}_1,\mathbf{B}],\\ "
+            r"m_A\ddot{\mathbf{x}}_A&=\sum_{B}\lambda_{AB}[\mathbf{x}_B-\mathbf{x}_1]"
+            r"+\frac12\sum_{\alpha}\lambda_{A\alpha}[\mathbf{x}_\alpha-\mathbf{x}_1]"
+            r"+\frac{\mu}{c}m_A[\dot{\mathbf{x}}_A,\mathbf{B}],\\ "
+            r"m_\alpha\ddot{\mathbf{x}}_\alpha&=\frac12\sum_{A}\lambda_{A\alpha}[\mathbf{x}_A-\mathbf{x}_1]"
+            r"+\frac{\mu}{c}m_\alpha[\dot{\mathbf{x}}_\alpha,\mathbf{B}] \end{aligned}"
+        ),
+        note="The electric force has gone with the acceleration of the centre of mass, and lambda^i is defined nowhere;"
+        " only lambda^i = -mu E^i would make the printed form right.",
+    ),
+    Trial(
+        label="mf19",
+        printed="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total - A[i,a]*g[a,j]",
+        model=rotation_model,
+        follows="the equations of six particles at x_N = R x_N(0), times x_N^j(0), summed; the electric force kept",
+        corrected="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total[j] - A[i,a]*g[a,j]",
+        corrected_tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_Nx_N^j\Bigr)-A_{ia}g_{aj}",
+        note="The second term lacks its index j. It vanishes about the centre of mass, so nothing later suffers.",
+    ),
+    Trial(
+        label="mf20",
+        printed="A[i,a] = mu/c*eps[i,n,p]*Bf[n]*dR[p,a]",
+        model=rotation_model,
+        follows="the magnetic force on six particles at x_N = R x_N(0)",
+    ),
+    Trial(
+        label="1.32",
+        printed="g[i,j] = m[N]*x[N,i]*x[N,j]",
+        model=rotation_model,
+        follows="the matrix that multiplies the second derivative of R in mf19",
+    ),
+    Trial(
+        label="1.38",
+        printed=_line(_MULTIPLIERS.format(sign="-")),
+        model=rotation_model,
+        follows="the forces of the constraints on six particles, times x_N^j(0), summed",
+        corrected=_line(_MULTIPLIERS.format(sign="+")),
+        corrected_tex=(
+            r"\begin{aligned}"
+            r" \lambda_{jk}=&-\sum_{AB}\lambda_{AB}\left[x_1^jx_1^k+x_A^jx_B^k-x_B^{(j}x_1^{k)}\right]\\ "
+            r"&-\frac12\sum_{A\alpha}\lambda_{A\alpha}\left[x_\alpha^{(j}x_A^{k)}-x_\alpha^{(j}x_1^{k)}-x_A^{(j}x_1^{k)}"
+            r"+2x_1^{j}x_1^{k}\right] \end{aligned}"
+        ),
+        note="The last sign is wrong: the products of x_1 with itself add.",
+    ),
+    Trial(
+        label="text-electric-field",
+        printed="0 = m[N]*(y[N] - m[M]*y[M]/mu0)",
+        model=relative_model,
+        follows="the definition of the centre of mass",
+    ),
+)

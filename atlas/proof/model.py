@@ -1,0 +1,165 @@
+"""What stands before a claim: the letters it may use, what they are, and what they may be."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import sympy
+
+Value = Any
+
+
+class _LeviCivita:
+    def __getitem__(self, at: tuple[int, int, int]) -> Value:
+        return sympy.LeviCivita(*at)
+
+
+class _Kronecker:
+    def __getitem__(self, at: tuple[int, int]) -> Value:
+        return sympy.Integer(at[0] == at[1])
+
+
+def certain(fact: Any) -> None:
+    """Stop if what a model builds on isn't so."""
+    if not fact:
+        raise ArithmeticError("a model builds on something that isn't so")
+
+
+def cross(a: Value, b: Value) -> Value:
+    """Vector product [a, b]."""
+    return a.cross(b)
+
+
+def dot(a: Value, b: Value) -> Value:
+    """Scalar product (a, b)."""
+    return a.dot(b)
+
+
+def entrywise(act: Callable[[Value], Value]) -> Callable[[Value], Value]:
+    """Let a function of one number act on every entry of a matrix too."""
+    return lambda value: value.applyfunc(act) if isinstance(value, sympy.MatrixBase) else act(sympy.sympify(value))
+
+
+COMMON: dict[str, Value] = {
+    "eps": _LeviCivita(),
+    "delta": _Kronecker(),
+    "cross": cross,
+    "dot": dot,
+    "T": lambda matrix: matrix.T,
+    "inv": lambda matrix: matrix.inv(),
+    "tr": lambda matrix: matrix.trace(),
+    "abs": entrywise(sympy.Abs),
+    "norm": lambda vector: sympy.sqrt(sympy.factor(vector.dot(vector))),
+    "hat": lambda v: hat(v),  # noqa: PLW0108  hat is defined below
+    "sqrt": entrywise(lambda x: sympy.sqrt(sympy.factor(x))),
+    "ln": entrywise(sympy.log),
+    "sin": entrywise(sympy.sin),
+    "cos": entrywise(sympy.cos),
+    "tan": entrywise(sympy.tan),
+    "atan": entrywise(sympy.atan),
+    "pi": sympy.pi,
+    "one": sympy.eye(3),
+}
+
+
+def vector(name: str, **assumed: bool) -> Value:
+    """Return a vector of three symbols name1, name2, name3."""
+    return sympy.Matrix(sympy.symbols(f"{name}1:4", **(assumed or {"real": True})))
+
+
+def matrix(name: str) -> Value:
+    """Return a matrix of nine symbols name11 ... name33."""
+    return sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"{name}{i + 1}{j + 1}", real=True))
+
+
+def symmetric(name: str) -> Value:
+    """Return a symmetric matrix of six symbols."""
+    return sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"{name}{min(i, j) + 1}{max(i, j) + 1}", real=True))
+
+
+def hat(v: Value) -> Value:
+    """Return the matrix whose product with x is the vector product [v, x]."""
+    return sympy.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def rotation(name: str = "q") -> Value:
+    """Return every rotation but the half turns, as a rational function of three symbols (Cayley)."""
+    x, y, z = sympy.symbols(f"{name}1:4", real=True)
+    n = 1 + x**2 + y**2 + z**2
+    return (
+        sympy.Matrix(
+            [
+                [1 + x**2 - y**2 - z**2, 2 * (x * y - z), 2 * (x * z + y)],
+                [2 * (x * y + z), 1 - x**2 + y**2 - z**2, 2 * (y * z - x)],
+                [2 * (x * z - y), 2 * (y * z + x), 1 - x**2 - y**2 + z**2],
+            ]
+        )
+        / n
+    )
+
+
+def rotation_symbols(name: str = "R") -> tuple[Value, list[tuple[Value, Value]]]:
+    """Return a matrix of nine symbols, and what they are if it is a rotation."""
+    symbols = matrix(name)
+    return symbols, list(zip(symbols, rotation(), strict=True))
+
+
+def turn(p: Value) -> tuple[Value, Value]:
+    """Cosine and sine of the angle with tan(angle/2) = p: every angle but pi."""
+    return (1 - p**2) / (1 + p**2), 2 * p / (1 + p**2)
+
+
+@dataclass
+class Model:
+    """What stands before a claim.
+
+    letters  what each name of the printed line stands for: expressions, vectors and matrices in symbols, or functions
+    where    what those symbols are in free parameters, in order: each may use the ones before it and the free ones
+    flow     rates in time of the symbols that move; `d` and `d2` of a line follow from it
+    start    values at t = 0 of the symbols that move; `at0` of a line follows from it
+    phases   angles whose cosine and sine are symbols: angle -> (cosine, sine)
+    domains  where the free parameters may lie: a key of `decide.DOMAINS`; real if not said
+    ranges   the values of indices that count particles
+    units    dimensions of the letters as powers of (length, time, mass, charge)
+    """
+
+    letters: dict[str, Value]
+    where: list[tuple[Value, Value]] = field(default_factory=list)
+    flow: Mapping[Value, Value] = field(default_factory=dict)
+    start: Mapping[Value, Value] = field(default_factory=dict)
+    phases: Mapping[Value, tuple[Value, Value]] = field(default_factory=dict)
+    domains: Mapping[str, str] = field(default_factory=dict)
+    ranges: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    units: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Add the letters that every formula may use."""
+        own = {
+            "d": entrywise(self.rate),
+            "d2": entrywise(lambda x: self.rate(self.rate(x))),
+            "at0": entrywise(lambda x: x.subs(dict(self.start), simultaneous=True)),
+        }
+        if self.phases:
+            own["cos"] = entrywise(lambda angle: self._turned(angle)[0])
+            own["sin"] = entrywise(lambda angle: self._turned(angle)[1])
+            own["tan"] = entrywise(lambda angle: self._turned(angle)[1] / self._turned(angle)[0])
+        self.letters = {**COMMON, **own, **self.letters}
+
+    def rate(self, value: Value) -> Value:
+        """Rate in time along the flow."""
+        return sum((sympy.diff(value, x) * rate for x, rate in self.flow.items() if value.has(x)), sympy.Integer(0))
+
+    def _turned(self, angle: Value) -> tuple[Value, Value]:
+        """Cosine and sine of a whole combination of the phases and of pi, as polynomials in their cosines and sines."""
+        c, s = sympy.Integer(1), sympy.Integer(0)
+        for term in sympy.Add.make_args(sympy.expand(angle)):
+            for phase, (cosine, sine) in self.phases.items():
+                times = sympy.cancel(term / phase)
+                if times.is_Integer:
+                    power = sympy.expand((cosine + sympy.I * sine * sympy.sign(times)) ** abs(int(times)))
+                    parts = power.subs(sympy.I, 0), sympy.expand((power - power.subs(sympy.I, 0)) / sympy.I)
+                    break
+            else:
+                parts = sympy.cos(term), sympy.sin(term)
+            c, s = c * parts[0] - s * parts[1], s * parts[0] + c * parts[1]
+        return c, s

@@ -1,0 +1,224 @@
+"""The paper's formulas as lines of plain letters: read, and written out in components.
+
+A line is one or more relations, separated by `;`:
+
+    phi = omega3 - B3/B2*omega2 = B3*omega2*(1 - I)*(omega2 + 2*B2)/(I*B2*(omega2 + B2))
+    d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]
+
+`^` is a power; `cross`, `dot`, `d` (rate in time), `d2`, `T` (transpose), `sqrt`, `sin`, ... are what the model says
+they are. Indices stand in square brackets; one that occurs twice in a product, or once in it but not on the left, is
+summed.
+"""
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import Any, TypeGuard
+
+import sympy
+
+Value = Any  # a SymPy expression or matrix, or a function of such
+
+_SIGNS = {ast.Eq: "=", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
+
+
+class NoMeaningError(ValueError):
+    """A line that cannot be read: its indices or its kinds do not fit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Relation:
+    """One comparison of two formulas, in components: the values of both sides for each set of free indices."""
+
+    text: str
+    letters: tuple[str, ...]
+    sign: str
+    left: tuple[Value, ...]
+    right: tuple[Value, ...]
+
+
+def parse(line: str) -> list[ast.Compare]:
+    """Return the relations of a line as syntax trees."""
+    trees = []
+    for text in line.split(";"):
+        python = re.sub(r"(?<![<>!=])=(?!=)", "==", text.strip()).replace("^", "**")
+        tree = ast.parse(python, mode="eval").body
+        if not isinstance(tree, ast.Compare):
+            raise NoMeaningError(f"{text.strip()!r} relates nothing to anything")
+        trees.append(tree)
+    return trees
+
+
+def write(trees: list[ast.Compare]) -> str:
+    """Return the line of these syntax trees, the inverse of parse."""
+    return "; ".join(ast.unparse(tree).replace("==", "=").replace("**", "^") for tree in trees)
+
+
+def names(node: ast.AST) -> set[str]:
+    """Return the index names that occur in the square brackets of a formula."""
+    found = set()
+    for part in ast.walk(node):
+        if isinstance(part, ast.Subscript):
+            found |= {name.id for name in ast.walk(part.slice) if isinstance(name, ast.Name)}
+    return found
+
+
+def factors(node: ast.expr) -> Iterator[tuple[ast.expr, bool]]:
+    """Yield the factors of a product, each with whether it divides."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult | ast.Div):
+        yield from factors(node.left)
+        divides = isinstance(node.op, ast.Div)
+        yield from ((factor, inverse != divides) for factor, inverse in factors(node.right))
+    else:
+        yield node, False
+
+
+def _is_sum(node: ast.expr) -> TypeGuard[ast.BinOp]:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
+
+
+class Reader:
+    """Reads lines with given letters; indices run over 1, 2, 3 unless `ranges` says otherwise."""
+
+    def __init__(self, letters: Mapping[str, Value], ranges: Mapping[str, tuple[int, ...]] | None = None) -> None:
+        self.letters = letters
+        self.ranges = ranges or {}
+
+    def relations(self, line: str) -> list[Relation]:
+        """Return all relations of a line; a chain a = b = c gives two."""
+        found = []
+        for tree in parse(line):
+            sides = [tree.left, *tree.comparators]
+            free = sorted(self.free(tree.left) | (names(tree.left) & set(self.ranges)))
+            for side in sides[1:]:
+                if not _is_zero(side) and self.free(side) != self.free(tree.left):
+                    raise NoMeaningError(
+                        f"the indices of {ast.unparse(tree.left)} and {ast.unparse(side)} do not balance"
+                    )
+            for left, operator, right in zip(sides, tree.ops, sides[1:], strict=False):
+                sign = _SIGNS[type(operator)]
+                tree_here = ast.Compare(left, [operator], [right])
+                values = [(self.value(left, bound), self.value(right, bound)) for bound in self._all(free)]
+                pairs = [pair for value in values for pair in _entries(*value)]
+                found.append(
+                    Relation(
+                        write([tree_here]),
+                        letters_of(tree_here),
+                        sign,
+                        tuple(a for a, _ in pairs),
+                        tuple(b for _, b in pairs),
+                    )
+                )
+        return found
+
+    def free(self, node: ast.expr) -> set[str]:
+        """Return the free indices of a formula, particles apart; NoMeaningError if terms of a sum differ."""
+        if _is_sum(node):
+            left, right = self.free(node.left), self.free(node.right)
+            if left != right and not _is_zero(node.left) and not _is_zero(node.right):
+                raise NoMeaningError(
+                    f"the indices of {ast.unparse(node.left)} and {ast.unparse(node.right)} do not balance"
+                )
+            return left
+        if isinstance(node, ast.UnaryOp):
+            return self.free(node.operand)
+        parts = [factor for factor, _ in factors(node)]
+        if len(parts) == 1:
+            if isinstance(node, ast.Call):
+                return set().union(*(self.free(argument) for argument in node.args))
+            if isinstance(node, ast.Subscript):
+                inner = [name.id for name in ast.walk(node.slice) if isinstance(name, ast.Name)]
+                return {name for name in inner if inner.count(name) == 1} - set(self.ranges) | self.free(node.value)
+            return set()
+        every = [name for part in parts for name in self.free(part)]
+        return {name for name in every if every.count(name) == 1}
+
+    def value(self, node: ast.expr, bound: Mapping[str, int]) -> Value:
+        """Return the value of a formula, indices in `bound` given, all others summed."""
+        if _is_sum(node):
+            left, right = self.value(node.left, bound), self.value(node.right, bound)
+            return left + right if isinstance(node.op, ast.Add) else left - right
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+            return -self.value(node.operand, bound)
+        parts = list(factors(node))
+        here = set()
+        for name in names(node) - set(bound):
+            holders = [part for part, _ in parts if name in names(part)]
+            if len(holders) > 1 or not _is_sum(holders[0]):
+                here.add(name)
+        terms = list(self._products(parts, here, dict(bound), sympy.Integer(1)))
+        return sum(terms[1:], terms[0]) if terms else sympy.Integer(0)
+
+    def _all(self, indices: list[str]) -> Iterator[dict[str, int]]:
+        for choice in product(*(self.ranges.get(name, (1, 2, 3)) for name in indices)):
+            yield dict(zip(indices, choice, strict=True))
+
+    def _products(
+        self, parts: list[tuple[ast.expr, bool]], sums: set[str], bound: dict[str, int], so_far: Value
+    ) -> Iterator[Value]:
+        """Yield the terms of a sum over indices, factor by factor: what begins with a zero factor is never built."""
+        if not parts:
+            yield so_far
+            return
+        (part, divides), rest = parts[0], parts[1:]
+        new = sorted(names(part) & sums)
+        for more in self._all(new):
+            here = {**bound, **more}
+            value = self._factor(part, here)
+            if new and value == 0 and not divides:
+                continue
+            yield from self._products(rest, sums - set(new), here, so_far / value if divides else so_far * value)
+
+    def _factor(  # noqa: PLR0911  one return for each kind of factor
+        self, node: ast.expr, bound: Mapping[str, int]
+    ) -> Value:
+        if isinstance(node, ast.Constant):
+            return sympy.Integer(node.value)
+        if isinstance(node, ast.Name):
+            if node.id in bound:
+                return bound[node.id]
+            return self.letters[node.id] if node.id in self.letters else sympy.Symbol(node.id, real=True)
+        if isinstance(node, ast.Subscript):
+            base = self._factor(node.value, bound)
+            where = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+            at = tuple(int(self._factor(index, bound)) for index in where)
+            if isinstance(base, sympy.MatrixBase):
+                return base[tuple(index - 1 for index in at)] if len(at) > 1 else base[at[0] - 1]
+            return base[at if len(at) > 1 else at[0]]
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+            base, power = self.value(node.left, bound), self.value(node.right, bound)
+            return base.dot(base) ** (power / 2) if isinstance(base, sympy.MatrixBase) else base**power
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            return self.letters[node.func.id](*(self.value(argument, bound) for argument in node.args))
+        if isinstance(node, ast.List):
+            rows = [entry.elts if isinstance(entry, ast.List) else [entry] for entry in node.elts]
+            return sympy.Matrix([[self.value(entry, bound) for entry in row] for row in rows])
+        return self.value(node, bound)
+
+
+def letters_of(tree: ast.AST) -> tuple[str, ...]:
+    """Return the letters of a formula that aren't indices or functions, in order."""
+    called = {id(part.func) for part in ast.walk(tree) if isinstance(part, ast.Call)}
+    inside = {id(name) for part in ast.walk(tree) if isinstance(part, ast.Subscript) for name in ast.walk(part.slice)}
+    found = [part for part in ast.walk(tree) if isinstance(part, ast.Name) and id(part) not in called | inside]
+    return tuple(dict.fromkeys(name.id for name in sorted(found, key=lambda name: name.col_offset)))
+
+
+def _is_zero(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value == 0
+
+
+def _entries(left: Value, right: Value) -> list[tuple[Value, Value]]:
+    """Pair two values entry by entry; the number 0 stands for a zero matrix of any shape."""
+    matrices = [isinstance(side, sympy.MatrixBase) for side in (left, right)]
+    if not any(matrices):
+        return [(left, right)]
+    if not matrices[1] and right == 0:
+        right = left * 0
+    if not matrices[0] and left == 0:
+        left = right * 0
+    if not isinstance(left, sympy.MatrixBase) or not isinstance(right, sympy.MatrixBase) or left.shape != right.shape:
+        raise NoMeaningError("one side has more components than the other")
+    return list(zip(left, right, strict=True))

@@ -1,0 +1,433 @@
+"""The appendix on trial: a point particle in constant fields, mf1 to mf14."""
+
+from functools import cache
+
+import sympy
+
+from atlas.proof.model import Model, Value, cross, dot, turn, vector
+from atlas.proof.trial import Trial
+
+E, B, y, v = vector("E"), vector("B"), vector("y"), vector("v")
+m, c, b, E2 = sympy.symbols("m c b E2", positive=True)
+e, mu, t, a, omega, omega0 = sympy.symbols("e mu t a omega omega0", real=True)
+cw, sw, c0, s0, p, q = sympy.symbols("cw sw c0 s0 p q", real=True)
+strength = sympy.Symbol("strength", positive=True)
+
+E3 = sympy.Symbol("E3", real=True)
+ALONG_Z, PARALLEL, ACROSS = sympy.Matrix([0, 0, b]), sympy.Matrix([0, 0, E3]), sympy.Matrix([0, E2, 0])
+e1, e2 = sympy.Matrix([1, 0, 0]), sympy.Matrix([0, 1, 0])
+
+# powers of length, time, mass, charge; Gaussian units, where E and B are of one kind and c stands in the force
+_FIELD, _LENGTH, _SPEED = (1, -2, 1, -1), (1, 0, 0, 0), (1, -1, 0, 0)
+UNITS: dict[str, tuple[int, ...]] = {
+    "mu": (0, 0, -1, 1),
+    "c": _SPEED,
+    "e": (0, 0, 0, 1),
+    "m": (0, 0, 1, 0),
+    "t": (0, 1, 0, 0),
+}
+UNITS |= dict.fromkeys(["E", "Bf", "Epar", "Eperp", "E2", "b"], _FIELD)
+UNITS |= dict.fromkeys(["y", "ypar", "yperp", "y1", "y2", "a", "x", "ypar0", "y0"], _LENGTH)
+UNITS |= dict.fromkeys(["v", "dy", "C", "Cpar", "Cperp", "dypar", "dyperp", "dy1", "dy2", "dO"], _SPEED)
+UNITS |= dict.fromkeys(["ddy", "acceleration"], (1, -2, 0, 0))
+UNITS |= {"omega": (0, -1, 0, 0), "omega0": (0, 0, 0, 0), "e1": (0, 0, 0, 0), "e2": (0, 0, 0, 0)}
+UNITS |= {"A0": (2, -2, 1, -1), "A": (2, -2, 1, -1), "L": (2, -2, 1, 0), "U": (2, -2, 1, 0)}
+
+
+def lorentz(spin: Value = v) -> Value:
+    """Acceleration of mf1."""
+    return mu * E + mu / c * cross(spin, B)
+
+
+def euler(lagrangian: Value) -> Value:
+    """Acceleration that a Lagrangian gives: d/dt dL/dv = dL/dy, solved."""
+    momentum = sympy.Matrix([lagrangian.diff(s) for s in v])
+    force = sympy.Matrix([lagrangian.diff(s) for s in y]) - momentum.jacobian(y) * v
+    return (momentum.jacobian(v).inv() * force).applyfunc(sympy.cancel)
+
+
+@cache
+def lagrangian_model() -> Model:
+    """Model the Lagrangian of mf14 with the potentials of mf12, mu = e/m; its acceleration by variation."""
+    A0, A = dot(y, E), cross(B, y) / 2
+    L = m * dot(v, v) / 2 + e * A0 + e / c * dot(A, v)
+    letters = {"m": m, "e": e, "c": c, "E": E, "Bf": B, "y": y, "v": v, "A0": A0, "A": A, "ddy": euler(L), "mu": e / m}
+    letters |= {f"B{n + 1}": B[n] for n in range(3)} | {f"y{n + 1}": y[n] for n in range(3)}
+    letters["acceleration"] = euler
+    letters["force"] = lambda U: -_gradient(U, y) + _gradient(U, v).jacobian(y) * v
+    letters["grad"] = lambda scalar: _gradient(scalar, y)
+    letters["curl"] = lambda field: sympy.Matrix(
+        [
+            field[2].diff(y[1]) - field[1].diff(y[2]),
+            field[0].diff(y[2]) - field[2].diff(y[0]),
+            field[1].diff(y[0]) - field[0].diff(y[1]),
+        ]
+    )
+    letters["partial_t"] = lambda field: field.diff(t)
+    return Model(letters, units={name: power for name, power in UNITS.items() if name != "acceleration"})
+
+
+def _gradient(scalar: Value, place: Value) -> Value:
+    return sympy.Matrix([scalar.diff(s) for s in place])
+
+
+@cache
+def velocity_model() -> Model:
+    """Model A particle whose velocity is what the line says."""
+    C = vector("C")
+    letters = {"mu": mu, "c": c, "E": E, "Bf": B, "C": C, "t": t, "y": y, "dy": v}
+    return Model(letters, flow={t: sympy.Integer(1), **dict(zip(y, v, strict=True))}, units=UNITS)
+
+
+@cache
+def fall_model() -> Model:
+    """B = 0."""
+    C, y0 = vector("C"), vector("yo")
+    letters = {"mu": mu, "E": E, "C": C, "t": t, "y0": y0}
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)}, units=UNITS)
+
+
+def _split() -> dict[str, Value]:
+    C, place = vector("C"), vector("y")
+    flat = sympy.diag(1, 1, 0)
+    up = sympy.diag(0, 0, 1)
+    rate = mu * (ACROSS + PARALLEL) * t + mu / c * cross(place, ALONG_Z) + C
+    parts = {"Cpar": up * C, "Cperp": flat * C, "ypar": up * place, "yperp": flat * place, "y": place}
+    parts |= {"dypar": up * rate, "dyperp": flat * rate, "Epar": PARALLEL, "Eperp": ACROSS, "Bf": ALONG_Z}
+    return {**parts, "mu": mu, "c": c, "t": t, "b": b, "E2": E2}
+
+
+@cache
+def split_model() -> Model:
+    """mf2 with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
+    parts = _split()
+    flow = dict(zip(parts["y"], parts["dypar"] + parts["dyperp"], strict=True))
+    letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
+    start = {t: sympy.Integer(0), parts["y"][2]: letters["ypar0"][2]}
+    return Model(letters, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"}, units=UNITS)
+
+
+@cache
+def parallel_model() -> Model:
+    """Constants of the motion along B."""
+    parts = _split()
+    letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
+    del letters["ypar"]
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)}, units=UNITS)
+
+
+@cache
+def fall_along_model() -> Model:
+    """mf5."""
+    parts = _split()
+    ypar = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)]) + parts["Cpar"] * t + mu * PARALLEL * t**2 / 2
+    return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)}, units=UNITS)
+
+
+@cache
+def helix_model() -> Model:
+    """E = 0: the part across B, from its centre, and the part along B."""
+    place, rise = vector("y"), sympy.Symbol("C3", real=True)
+    across = sympy.diag(1, 1, 0) * place
+    flow = dict(zip(place, mu / c * cross(across, ALONG_Z) + sympy.Matrix([0, 0, rise]), strict=True))
+    return Model({"y2": across, "ypar": sympy.diag(0, 0, 1) * place, "mu": mu, "b": b, "c": c}, flow=flow)
+
+
+@cache
+def orthogonal_model() -> Model:
+    """Any vector orthogonal to B: a product of B with another."""
+    return Model({"Eperp": cross(B, vector("w")), "Bf": B})
+
+
+@cache
+def shifted_model() -> Model:
+    """Model the shifted variables y1 and y2 of the part across B, with the rates that mf4 gives them."""
+    parts = _split()
+    drift = c * cross(ACROSS, ALONG_Z) / b**2
+    second = (c * cross(parts["Cperp"], ALONG_Z) + c**2 * ACROSS) / (mu * b**2)
+    y1 = parts["yperp"]
+    rate1 = mu / c * cross(y1 + drift * t, ALONG_Z) + parts["Cperp"] + mu * ACROSS * t - drift
+    y2 = sympy.diag(1, 1, 0) * vector("z")
+    rate2 = rate1.xreplace(dict(zip(parts["y"], y2 + second, strict=True)))
+    return Model({**parts, "y1": y1, "dy1": rate1, "y2": y2, "dy2": rate2}, units=UNITS)
+
+
+@cache
+def charges_model(choice: str = "any") -> tuple[Model, Model]:
+    """B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
+
+    choice: what C_perp is: any vector across B, or what the text chooses for mf11 or for mf10.1.
+    """
+    cases = []
+    for sign in (1, -1):
+        angles = [(cw, turn(p)[0]), (sw, turn(p)[1]), (c0, turn(q)[0]), (s0, turn(q)[1])]
+        flow = {t: sympy.Integer(1), cw: -omega * sw, sw: omega * cw}
+        letters = {**_split(), "a": a, "omega": omega, "omega0": omega0, "mu": sign * strength, "e1": e1, "e2": e2}
+        del letters["yperp"], letters["y"]
+        drift = c * cross(ACROSS, ALONG_Z) / b**2
+        chosen = {"any": letters["Cperp"], "origin": drift, "trochoid": drift - sign * strength * E2 / omega * e1}
+        letters["Cperp"] = chosen[choice]
+        letters["drift"] = drift
+        where = [(omega, strength * b / c), *angles]
+        start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
+        phases = {omega * t: (cw, sw), omega0: (c0, s0)}
+        cases.append(Model(letters, where, flow, start, phases, units=UNITS))
+    return cases[0], cases[1]
+
+
+@cache
+def signed_model(choice: str = "any") -> tuple[Model, Model]:
+    """Model the same with a frequency that has the sign of the charge."""
+    first, second = charges_model(choice)
+    where = [(omega, -strength * b / c), *second.where[1:]]
+    return first, Model(second.letters, where, second.flow, second.start, second.phases, units=UNITS)
+
+
+@cache
+def start_model() -> tuple[Model, Model]:
+    """mf10 as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
+    first, second = (
+        Model({**model.letters, "yperp": _general(model)}, model.where, model.flow, model.start, units=UNITS)
+        for model in signed_model("origin")
+    )
+    return first, second
+
+
+def _general(model: Model) -> Value:
+    """Return the right side of mf10 with omega0 = 0."""
+    constant = (cross(model.letters["Cperp"], ALONG_Z) + c * ACROSS) / (omega * b)
+    return constant + model.letters["mu"] * E2 / omega * t * e1 + a * (e1 * sw + e2 * cw)
+
+
+_SOLVES = "d(yperp) = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t"
+_MF10 = (
+    "yperp = (cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1"
+    " + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0))"
+)
+_MF11 = "yperp = mu*E2/omega*t*e1 + a*(e1*sin(omega*t) + e2*cos(omega*t))"
+_TROCHOID = "x = mu*E2/omega*t + a*sin(omega*t); yy = mu*E2/{omega} + a*cos(omega*t)"
+_SIGNED = r",\qquad\omega=\frac{\mu\lvert\mathbf{B}\rvert}{c}"
+_SENSE = (
+    "Said for any charge, it holds for mu > 0 only; with omega = mu |B|/c, of the sign of the charge,"
+    " it holds for both."
+)
+
+TRIALS = (
+    Trial(
+        label="mf1",
+        printed="m*ddy = e*E + e/c*cross(v,Bf); ddy = mu*E + mu/c*cross(v,Bf)",
+        model=lagrangian_model,
+        follows="the variation of the Lagrangian mf14",
+    ),
+    Trial(
+        label="mf2",
+        printed="dy = mu*E*t + mu/c*cross(y,Bf) + C",
+        model=velocity_model,
+        follows="its rate is mf1",
+        defines=("dy",),
+        solves="d(dy) = mu*E + mu/c*cross(dy,Bf)",
+    ),
+    Trial(
+        label="text-no-magnetic-field",
+        printed="y = y0 + C*t + 1/2*mu*E*t^2",
+        model=fall_model,
+        follows="mf1 with B = 0 by substitution",
+        defines=("y",),
+        solves="d2(y) = mu*E; at0(y) = y0; at0(d(y)) = C",
+    ),
+    Trial(
+        label="text-helix",
+        printed="d(y2[1]^2 + y2[2]^2) = 0; d2(y2) = -(mu*b/c)^2*y2; d2(ypar) = 0",
+        model=helix_model,
+        follows="mf2 with E = 0, y2 counted from the axis",
+    ),
+    Trial(label="mf3", printed="dypar = Cpar + mu*Epar*t", model=split_model, follows="mf2 projected on B"),
+    Trial(
+        label="mf4",
+        printed="dyperp = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t",
+        model=split_model,
+        follows="mf2 projected across B",
+    ),
+    Trial(
+        label="mf5",
+        printed="ypar = ypar0 + Cpar*t + 1/2*mu*Epar*t^2",
+        model=parallel_model,
+        follows="mf3 by substitution",
+        defines=("ypar",),
+        solves="d(ypar) = Cpar + mu*Epar*t; at0(ypar) = ypar0",
+    ),
+    Trial(
+        label="text-parallel-acceleration",
+        printed="dot(d2(ypar),d2(ypar)) = mu^2*dot(Eperp,Eperp)",
+        model=fall_along_model,
+        follows="mf5",
+        corrected="dot(d2(ypar),d2(ypar)) = mu^2*dot(Epar,Epar)",
+        corrected_tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\Vert}\rvert",
+        note="The wrong part of E.",
+    ),
+    Trial(
+        label="text-double-product",
+        printed="Eperp = -cross(cross(Eperp,Bf),Bf)/dot(Bf,Bf)",
+        model=orthogonal_model,
+        follows="(E_perp, B) = 0",
+    ),
+    Trial(
+        label="mf6",
+        printed="dyperp = mu/c*cross(yperp - c*t*cross(Eperp,Bf)/b^2,Bf) + Cperp",
+        model=split_model,
+        follows="mf4",
+    ),
+    Trial(
+        label="mf7",
+        printed="dy1 = mu/c*cross(y1,Bf) + Cperp - c*cross(Eperp,Bf)/b^2;"
+        " dy1 = mu/c*cross(y1 - (c*cross(Cperp,Bf) + c^2*Eperp)/(mu*b^2),Bf)",
+        model=shifted_model,
+        follows="mf4 for y1 = y_perp - c t [E_perp, B]/B^2",
+    ),
+    Trial(
+        label="mf8",
+        printed="dy2 = -mu/c*cross(Bf,y2)",
+        model=shifted_model,
+        follows="mf4 for the twice shifted variable",
+    ),
+    Trial(
+        label="mf9",
+        printed="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = abs(mu*b)/c",
+        model=charges_model,
+        follows="mf8 by substitution, for either sign of the charge",
+        defines=("y2", "omega"),
+        solves="d(y2) = -mu/c*cross(Bf,y2)",
+        corrected="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = mu*b/c",
+        corrected_tex=(
+            r"\mathbf{y}_2(t)=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}"
+            + _SIGNED
+        ),
+        note=f"{_SENSE} A negative charge turns the other way.",
+    ),
+    Trial(
+        label="text-drift-direction",
+        printed="cross(Eperp,Bf) = E2*b*e1",
+        model=charges_model,
+        follows="B along e3, E_perp along e2",
+    ),
+    Trial(
+        label="mf10",
+        printed=_MF10,
+        model=charges_model,
+        follows="mf4 by substitution, for either sign of the charge, omega of mf9",
+        defines=("yperp",),
+        solves=_SOLVES,
+        corrected=_MF10 + "; omega = mu*b/c",
+        corrected_model=signed_model,
+        corrected_tex=(
+            r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}"
+            r"+\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
+            r"+a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}" + _SIGNED
+        ),
+        note=_SENSE,
+    ),
+    Trial(
+        label="text-first-two-terms",
+        printed="(cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1 = 0",
+        model=lambda: signed_model("origin"),
+        follows="C_perp = c [E_perp, B]/B^2",
+        corrected="(cross(Cperp,Bf) + c*Eperp)/(omega*b) = 0",
+        corrected_tex=r"\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0",
+        note="Only the first term vanishes, both summands of its numerator together; the drift stays, as mf11 has it.",
+    ),
+    Trial(
+        label="text-initial-position",
+        printed="at0(yperp) = a*e2",
+        model=start_model,
+        follows="mf10 as corrected with that C_perp and omega0 = 0",
+    ),
+    Trial(
+        label="mf11",
+        printed=_MF11,
+        model=lambda: charges_model("origin"),
+        follows="mf4 by substitution, for either sign of the charge, omega of mf9",
+        defines=("yperp",),
+        solves=f"{_SOLVES}; at0(yperp) = a*e2",
+        corrected=_MF11 + "; omega = mu*b/c",
+        corrected_model=lambda: signed_model("origin"),
+        corrected_tex=(
+            r"\mathbf{y}_{\bot}(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
+            r"+a\left\{\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}" + _SIGNED
+        ),
+        note=_SENSE,
+    ),
+    Trial(
+        label="text-drift",
+        printed="drift = mu*E2/omega*e1",
+        model=charges_model,
+        follows="the uniform motion that mf6 takes away, for either sign of the charge, omega of mf9",
+        corrected="drift = c*cross(Eperp,Bf)/b^2",
+        corrected_tex=r"\dot{\mathbf{O}}=\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}",
+        note="The drift doesn't depend on the charge; with the positive omega of mf9 a negative one would drift"
+        " backwards.",
+    ),
+    Trial(
+        label="text-trochoid-constant",
+        printed="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2*e1",
+        model=lambda: signed_model("trochoid"),
+        follows="the shift of the trochoid by a length along e2",
+        corrected="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2/omega*e1",
+        corrected_tex=(
+            r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}"
+            r"-\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}\mathbf{e}_1"
+        ),
+        note="An acceleration is taken from a velocity. With the factor put right the constant is zero.",
+    ),
+    Trial(
+        label="mf10.1",
+        printed=_TROCHOID.format(omega="omega").replace("yy", "y"),
+        model=lambda: charges_model("trochoid"),
+        follows="mf10 with the constant chosen there; dimensions",
+        defines=("x", "y"),
+        solves="d(x) = mu/c*b*y + dot(Cperp,e1); d(y) = -mu/c*b*x + mu*E2*t",
+        corrected=_TROCHOID.format(omega="omega^2").replace("yy", "y") + "; omega = mu*b/c",
+        corrected_model=lambda: signed_model("trochoid"),
+        corrected_tex=(
+            r"x(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t,\qquad"
+            r"y(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^2}+a\cos\omega t" + _SIGNED
+        ),
+        note="The shift of y must be a length, mu |E_perp|/omega^2, as C_perp must be a velocity; and, as in mf9,"
+        " omega takes"
+        " the sign of the charge.",
+    ),
+    Trial(label="mf10.2", printed="y = ypar + yperp", model=split_model, follows="the projections on B and across it"),
+    Trial(
+        label="mf12",
+        printed="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - b1*y3, B1*y2 - B2*y1]",
+        model=lagrangian_model,
+        follows="the vector product in components",
+        corrected="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - B1*y3, B1*y2 - B2*y1]",
+        corrected_tex=(
+            r"A_0(\mathbf{y})=(\mathbf{y},\mathbf{E}),\qquad\mathbf{A}(\mathbf{y})=\frac12[\mathbf{B},\mathbf{y}]="
+            r"\frac12\begin{pmatrix}B_2y_3-B_3y_2\\B_3y_1-B_1y_3\\B_1y_2-B_2y_1\end{pmatrix}"
+        ),
+        note="A lower-case b_1 that means nothing here stands for B_1.",
+    ),
+    Trial(
+        label="text-potentials",
+        printed="E = grad(A0) - 1/c*partial_t(A); Bf = curl(A)",
+        model=lagrangian_model,
+        follows="the potentials mf12",
+    ),
+    Trial(
+        label="mf13",
+        printed="U = -(e*A0 + e/c*dot(A,v))",
+        model=lagrangian_model,
+        follows="its generalised force -dU/dy + d/dt dU/dv is the Lorentz force",
+        defines=("U",),
+        solves="force(U) = e*E + e/c*cross(v,Bf)",
+    ),
+    Trial(
+        label="mf14",
+        printed="L = m/2*dot(v,v) + e*A0 + e/c*dot(A,v) = m/2*dot(v,v) + e*dot(y,E) + e/(2*c)*dot(cross(y,v),Bf)",
+        model=lagrangian_model,
+        follows="the potentials mf12, and mf1 by variation",
+        defines=("L",),
+        solves="m*acceleration(L) = e*E + e/c*cross(v,Bf)",
+    ),
+)

@@ -1,0 +1,309 @@
+"""Section IV, first half, on trial: the symmetric body and the cubic pseudo-oscillator, mf41.0 to mf57."""
+
+from functools import cache
+
+import sympy
+
+from atlas.proof import euler_poisson as general
+from atlas.proof.model import Model, Value, cross, dot, hat, rotation_symbols, turn, vector
+from atlas.proof.trial import Trial
+
+Omega, K = vector("Omega"), vector("K")
+I2, I3 = sympy.symbols("I2 I3", positive=True)
+B2, B3 = sympy.symbols("B2 B3", positive=True)
+omega1, omega2, omega3 = omega = vector("omega")
+tensor, mass = sympy.diag(I2, I2, I3), sympy.diag(I3, I3, 2 * I2 - I3) / 2
+ratio = I3 / I2
+
+FLOW = dict(
+    zip(
+        [*Omega, *K],
+        [*(tensor.inv() * (cross(tensor * Omega, Omega) - 2 * cross(mass * K, Omega))), *(-cross(Omega, K))],
+        strict=True,
+    )
+)
+START = dict(zip([*Omega, *K], [*omega, 0, B2, B3], strict=True))
+
+RATE, RATE2, NUMBER = (0, -1, 0, 0), (0, -2, 0, 0), (0, 0, 0, 0)
+UNITS = dict.fromkeys(
+    ["Omega1", "Omega2", "Omega3", "K1", "K2", "K3", "omega1", "omega2", "omega3", "B2", "B3", "c3"], RATE
+)
+UNITS |= {"c5": RATE2, "E": RATE2, "I": NUMBER, "phi": RATE, "u": RATE, "f0": NUMBER, "a0": (0, -3, 0, 0), "a1": RATE2}
+UNITS |= {"a2": RATE, "a3": NUMBER, "Phi": NUMBER, "phi0": NUMBER}
+
+
+def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
+    """E', c3, c5 at a point: twice the energy over I2, and what mf48 and mf49 conserve."""
+    c3 = field[2] + spin[2]
+    return {
+        "E": spin[0] ** 2 + spin[1] ** 2 + scale * spin[2] ** 2,
+        "c3": c3,
+        "c5": spin[0] * field[0] + spin[1] * field[1] - spin[2] ** 2 + (2 - scale) * c3 * spin[2],
+    }
+
+
+def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Value]:
+    """Coefficients of the cubic, mf56 as corrected; square is that of the field."""
+    E, c3, c5 = values["E"], values["c3"], values["c5"]
+    return {
+        "a0": ((2 - scale) * c5 + E) * c3,
+        "a1": -2 * c5 + (scale - (2 - scale) ** 2) * c3**2 - E - scale * square,
+        "a2": 6 * (1 - scale) * c3,
+        "a3": -2 * (1 - scale),
+    }
+
+
+@cache
+def state_model() -> Model:
+    """Any state Omega, K of the system mf42, mf43 in vectors; E' and c3, c5 as what they are at that state."""
+    energy = (tensor * Omega).dot(Omega) / 2
+    letters = {f"Omega{n + 1}": Omega[n] for n in range(3)} | {f"K{n + 1}": K[n] for n in range(3)}
+    letters |= {f"omega{n + 1}": omega[n] for n in range(3)}
+    letters |= {"Omega": Omega, "K": K, "B2": B2, "B3": B3, "I": ratio, **integrals(Omega, K, ratio)}
+    letters |= {"E": 2 * energy / I2, "energy": energy, "I2": I2, "I3": I3, "Bsquare": dot(K, K)}
+    letters |= cubic({name: letters[name] for name in ("E", "c3", "c5")}, dot(K, K), ratio)
+    P = letters["c5"] + Omega[2] ** 2 - (2 - ratio) * letters["c3"] * Omega[2]
+    N = letters["E"] - ratio * Omega[2] ** 2
+    letters["phi"] = (1 - ratio) * Omega[2] + (2 - ratio) * K[2] - ratio * Omega[2] * P / N
+    letters["f"] = sympy.log(N) / 2
+    letters["rank"] = lambda functions: (
+        functions.jacobian([*Omega, *K]).subs({s: n for n, s in enumerate([*Omega, *K], 1)}).rank()
+    )
+    return Model(letters, flow=FLOW, start=START, units=UNITS)
+
+
+@cache
+def bare_model() -> Model:
+    """Model the same without the coefficients of the cubic."""
+    whole = state_model()
+    letters = {name: value for name, value in whole.letters.items() if name not in {"a0", "a1", "a2", "a3"}}
+    return Model(letters, flow=FLOW, start=START, units=UNITS)
+
+
+@cache
+def field_model() -> Model:
+    """mf27 and mf21 with K = mu/(2c) R^T B and a symmetric body."""
+    (R, where), B = rotation_symbols(), vector("B")
+    mu, c = general.mu, general.c
+    seen = mu / (2 * c) * R.T * B
+    rate = cross(tensor * Omega, Omega) - mu / c * cross(mass * R.T * B, Omega)
+    letters = {"I": tensor, "g": mass, "Omega": Omega, "IdOmega": rate, "K": seen, "R": R, "Bf": B, "mu": mu, "c": c}
+    letters |= {"dK": mu / (2 * c) * (R * hat(Omega)).T * B, "Bprime": mu / (2 * c) * B}
+    for n in range(3):
+        letters[f"K{n + 1}"] = sum((letters["Bprime"][i] * R[i, n] for i in range(3)), sympy.Integer(0))
+    return Model(letters, where)
+
+
+@cache
+def frame_model() -> Model:
+    """B' = (0, B'2, B'3), K = R^T B' with B = 2c/mu B', and R = 1 at t = 0."""
+    mu, c = general.mu, general.c
+    field = sympy.Matrix([0, 2 * c * B2 / mu, 2 * c * B3 / mu])
+    (R, where), w = rotation_symbols(), vector("w")
+    seen = sympy.Matrix(
+        [sum((mu / (2 * c) * field[i] * R[i, n] for i in range(3)), sympy.Integer(0)) for n in range(3)]
+    )
+    letters = {
+        "Bf": field,
+        "Bprime": sympy.Matrix([0, B2, B3]),
+        "K": seen,
+        "R": R,
+        "mu": mu,
+        "c": c,
+        "B2": B2,
+        "B3": B3,
+        "w": w,
+    }
+    letters["BR"] = lambda vector_, matrix_: matrix_.T * vector_
+    return Model({**letters, "Omega": R.T * w}, where, start=dict(zip(R, sympy.eye(3), strict=True)))
+
+
+@cache
+def symmetric_body_model() -> Model:
+    """I1 = I2 and I = tr(g) - g."""
+    g1, g3 = sympy.symbols("g1 g3", positive=True)
+    return Model({"g1": g1, "g2": g1, "g3": g3, "I2": g1 + g3, "I3": 2 * g1})
+
+
+@cache
+def quadrature_model() -> Model:
+    """Omega3 = u is any function of time with u' = w; N = n^2 stands for E' - I u^2; Phi' = phi."""
+    u, w, E, phi, Phi, phi0, f0 = sympy.symbols("u w E phi Phi phi0 f0", real=True)
+    I, n = sympy.symbols("I n", positive=True)
+    c1, s1, c2, s2, p, q = sympy.symbols("c1 s1 c2 s2 p q", real=True)
+    letters = {"u": u, "E": E, "I": I, "phi": phi, "Phi": Phi, "phi0": phi0, "f0": f0}
+    letters["f"] = sympy.log(E - I * u**2) / 2
+    where = [(E, n**2 + I * u**2), (c1, turn(p)[0]), (s1, turn(p)[1]), (c2, turn(q)[0]), (s2, turn(q)[1])]
+    flow = {u: w, c1: -phi * s1, s1: phi * c1}
+    letters["sqrt"] = sympy.sqrt
+    return Model(letters, where, flow, phases={Phi: (c1, s1), phi0: (c2, s2)}, units=UNITS)
+
+
+@cache
+def initial_model() -> Model:
+    """Model the cubic mf55, mf56 as proved, with its integrals at t = 0: Omega = omega, K = B'."""
+    u, field = sympy.Symbol("Omega3", real=True), sympy.Matrix([0, B2, B3])
+    a = cubic(integrals(omega, field, ratio), dot(field, field), ratio)
+    letters = {f"omega{n + 1}": omega[n] for n in range(3)} | {"Omega3": u, "B2": B2, "B3": B3, "I": ratio}
+    letters |= {"Bsquare": B2**2 + B3**2, "ddOmega3": a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3}
+    return Model(letters, units={**UNITS, "ddOmega3": (0, -3, 0, 0), "Bsquare": RATE2})
+
+
+_P = "(Omega3^2 - (2 - I)*c3*Omega3 + c5)"
+_MF51 = "d(Omega1) = phi*Omega2 + d(f)*Omega1; d(Omega2) = -phi*Omega1 + d(f)*Omega2"
+_MF54 = (
+    "d2(Omega3) = (-2*Omega3 + (2 - I)*c3)*(Omega1*K1 + Omega2*{K}) - I*Omega3*(K1^2 + K2^2)"
+    " + (c3 - Omega3)*(Omega1^2 + Omega2^2)"
+)
+_MF55 = "d2(Omega3) = a0 + a1*Omega3 + a2*Omega3^2 + a3*Omega3^3"
+_MF56 = (
+    "a0 = ((2 - I)*c5 + E)*c3; a1 = -2*c5 + (I - (2 - {x})^2)*c3^2 - E - I*Bsquare; a2 = 6*(1 - I)*c3; a3 = -2*(1 - I)"
+)
+_C5 = "Omega1*K1 + Omega2*K2 - Omega3^2 + (2 - I)*c3*Omega3"
+
+TRIALS = (
+    Trial(
+        label="text-mass-matrix",
+        printed="g1 = 1/2*I3; g2 = 1/2*I3; g3 = 1/2*(2*I2 - I3)",
+        model=symmetric_body_model,
+        follows="I = tr(g) - g with I1 = I2",
+    ),
+    Trial(
+        label="mf41.0",
+        printed="at0(Omega) = at0(R*Omega) = w",
+        model=frame_model,
+        follows="Omega = R^T omega and R(0) = 1",
+    ),
+    Trial(
+        label="mf41",
+        printed="Bprime = mu/(2*c)*Bf = [0, B2, B3]; K = mu/(2*c)*BR(Bf,R) = BR(Bprime,R); at0(K) = Bprime",
+        model=frame_model,
+        follows="K_j = B'_i R_ij and R(0) = 1",
+    ),
+    Trial(
+        label="mf41.1",
+        printed="I = I3/I2; E = 2*energy/I2",
+        model=state_model,
+        follows="the energy is (I2 Omega1^2 + I2 Omega2^2 + I3 Omega3^2)/2 and makes mf44",
+        defines=("I", "E"),
+        solves="Omega1^2 + Omega2^2 + I*Omega3^2 = E",
+    ),
+    Trial(
+        label="mf42",
+        printed="IdOmega = cross(I*Omega,Omega) - 2*cross(g*K,Omega)",
+        model=field_model,
+        follows="mf27 and mf41",
+    ),
+    Trial(label="mf43", printed="dK = -cross(Omega,K)", model=field_model, follows="mf21 and mf41"),
+    Trial(
+        label="mf44",
+        printed="Omega1^2 + Omega2^2 + I*Omega3^2 = E; d(Omega1^2 + Omega2^2 + I*Omega3^2) = 0;"
+        " at0(E) = omega1^2 + omega2^2 + I*omega3^2",
+        model=state_model,
+        follows="mf42, mf43",
+    ),
+    Trial(
+        label="mf45",
+        printed="d(K1^2 + K2^2 + K3^2) = 0; at0(K1^2 + K2^2 + K3^2) = B2^2 + B3^2",
+        model=state_model,
+        follows="mf43",
+    ),
+    Trial(
+        label="mf46",
+        printed="d(Omega1) = (1 - I)*Omega3*Omega2 - I*Omega3*K2 + (2 - I)*Omega2*K3;"
+        " d(Omega2) = -(1 - I)*Omega3*Omega1 + I*Omega3*K1 - (2 - I)*Omega1*K3; d(Omega3) = Omega1*K2 - Omega2*K1",
+        model=state_model,
+        follows="mf42 in components",
+    ),
+    Trial(
+        label="mf47",
+        printed="d(K1) = Omega3*K2 - Omega2*K3; d(K2) = -Omega3*K1 + Omega1*K3; d(K3) = -(Omega1*K2 - Omega2*K1)",
+        model=state_model,
+        follows="mf43 in components",
+    ),
+    Trial(
+        label="mf48",
+        printed="K3 + Omega3 = c3; d(K3 + Omega3) = 0; at0(c3) = omega3 + B3",
+        model=state_model,
+        follows="mf46 and mf47",
+    ),
+    Trial(
+        label="mf49",
+        printed=f"{_C5} = c5; d({_C5}) = 0; at0(c5) = omega2*B2 - omega3^2 + (2 - I)*(omega3 + B3)*omega3",
+        model=state_model,
+        follows="mf46 and mf47",
+    ),
+    Trial(
+        label="text-four-integrals",
+        printed=f"F = [Omega1^2 + Omega2^2 + I*Omega3^2, K1^2 + K2^2 + K3^2, K3 + Omega3, {_C5}]",
+        model=state_model,
+        defines=("F",),
+        solves="rank(F) = 4; d(F) = 0",
+        follows="their rates, and their gradients at one point, Omega = (1, 2, 3), K = (4, 5, 6)",
+        note="Independent at one point, so at all but those of a set of measure zero.",
+    ),
+    Trial(
+        label="mf50",
+        printed=f"K1 = (Omega1*{_P} - Omega2*d(Omega3))/(E - I*Omega3^2);"
+        f" K2 = (Omega2*{_P} + Omega1*d(Omega3))/(E - I*Omega3^2); K3 = -Omega3 + c3",
+        model=state_model,
+        follows="mf46, mf48 and mf49",
+    ),
+    Trial(label="mf51", printed=_MF51, model=state_model, follows="mf46 with K of mf50, phi and f of mf52"),
+    Trial(
+        label="mf52",
+        printed="phi = ((2 - I)*c3*E - (E + I*c5)*Omega3)/(E - I*Omega3^2); f = ln(sqrt(E - I*Omega3^2))",
+        model=state_model,
+        follows="mf51 by substitution",
+        defines=("phi", "f"),
+        solves=_MF51,
+        note="f counts up to a constant: the logarithm of a quantity with a dimension.",
+    ),
+    Trial(
+        label="mf53",
+        printed="Omega1 = f0*sqrt(E - I*u^2)*sin(Phi + phi0); Omega2 = f0*sqrt(E - I*u^2)*cos(Phi + phi0)",
+        model=quadrature_model,
+        follows="mf51 by substitution, with two constants",
+        defines=("Omega1", "Omega2"),
+        solves=_MF51,
+        note="General for mf51 alone; mf44 then leaves f0^2 = 1.",
+    ),
+    Trial(
+        label="mf54",
+        printed=_MF54.format(K="k2"),
+        model=state_model,
+        follows="the rate of the last equation of mf46, with mf46, mf47 and mf48",
+        corrected=_MF54.format(K="K2"),
+        corrected_tex=(
+            r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1K_1+\Omega_2K_2)-I\Omega_3(K_1^2+K_2^2)"
+            r"+[c_3-\Omega_3](\Omega_1^2+\Omega_2^2)"
+        ),
+        note="A lower-case k_2 that means nothing here stands for K_2.",
+    ),
+    Trial(
+        label="mf55", printed=_MF55, model=state_model, follows="mf54 and the four integrals, with mf56 as corrected"
+    ),
+    Trial(
+        label="mf56",
+        printed=_MF56.format(x="1"),
+        model=bare_model,
+        follows="mf54 and the four integrals",
+        defines=("a0", "a1", "a2", "a3"),
+        solves=_MF55,
+        corrected=_MF56.format(x="I"),
+        corrected_tex=(
+            r"\begin{aligned} a_0&=[(2-I)c_5+E']c_3,&a_1&=-2c_5+[I-(2-I)^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ "
+            r"a_2&=6(1-I)c_3,&a_3&=-2(1-I) \end{aligned}"
+        ),
+        note="A 1 stands for I.",
+    ),
+    Trial(
+        label="mf57",
+        printed="ddOmega3 = ((2 - I)*B3 - I*omega3 + 2*(omega3 - Omega3))"
+        "*(omega2*B2 - (omega3^2 - Omega3^2) + (2 - I)*(B3 + omega3)*(omega3 - Omega3))"
+        " - I*Omega3*(Bsquare - (B3 + (omega3 - Omega3))^2)"
+        " + (B3 + (omega3 - Omega3))*(omega1^2 + omega2^2 + I*(omega3^2 - Omega3^2))",
+        model=initial_model,
+        follows="mf55, mf56 as corrected, and the integrals at t = 0",
+    ),
+)

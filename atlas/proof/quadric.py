@@ -1,0 +1,317 @@
+"""Section IV, second half, on trial: the surface of constant solutions, mf58.1 to mf63."""
+
+from collections.abc import Iterable
+from functools import cache
+from typing import Any
+
+import sympy
+
+from atlas.proof.decide import Outcome
+from atlas.proof.model import Model, Value, certain, turn, vector
+from atlas.proof.notation import Reader
+from atlas.proof.pseudo_oscillator import NUMBER, RATE, UNITS, cubic, integrals, state_model
+from atlas.proof.trial import Trial
+
+omega1, omega2, omega3 = vector("omega")
+I, B2, B3 = sympy.symbols("I B2 B3", positive=True)
+x, p, s = sympy.symbols("x p s", real=True)
+delta = sympy.Symbol("delta", real=True)
+cd, sd = sympy.symbols("cd sd", real=True)
+excess = sympy.Symbol("e", positive=True)
+
+LETTERS = {"omega1": omega1, "omega2": omega2, "omega3": omega3, "I": I, "B2": B2, "B3": B3}
+DIMENSIONS = {**UNITS, "w1": RATE, "w2": RATE, "w3": RATE, "a2": NUMBER, "a3": NUMBER, "beta": NUMBER, "pi": NUMBER}
+DIMENSIONS |= {"C1s": (0, -2, 0, 0), "C2s": (0, -2, 0, 0), "C3s": (0, -2, 0, 0), "one": NUMBER}
+
+RESTING = sympy.Symbol("omega3_of_cubic", real=True)
+
+
+def _at_start(u: Value) -> Value:
+    """Return the cubic of mf55, mf56 as corrected, at Omega3 = u and with its integrals at t = 0."""
+    field = sympy.Matrix([0, B2, B3])
+    a = cubic(integrals(sympy.Matrix([omega1, omega2, omega3]), field, I), field.dot(field), I)
+    return a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3
+
+
+@cache
+def constant_omega3() -> Value:
+    """Return the omega3 for which Omega3 = omega3 makes the cubic vanish: the condition is linear in it."""
+    condition = sympy.Poly(sympy.expand(_at_start(omega3)), omega3)
+    slope, rest = condition.all_coeffs()
+    return sympy.factor(-rest / slope)
+
+
+@cache
+def lines_case() -> list[tuple[Value, Value]]:
+    """Return the points omega2 = -B2, where omega3 has the coefficient 0: omega1 = s B2, I = 1 - s^2, omega3 free."""
+    return [(omega2, -B2), (omega1, s * B2), (I, 1 - s**2)]
+
+
+@cache
+def condition_model() -> tuple[Model, Model]:
+    """Model all points where Omega3 = omega3 is constant: those resolved for omega3, and the lines omega2 = -B2."""
+    certain(sympy.expand(_at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
+    return Model(LETTERS, [(omega3, constant_omega3())], units=DIMENSIONS), Model(
+        LETTERS, lines_case(), domains={"s": "unit"}, units=DIMENSIONS
+    )
+
+
+@cache
+def origin_model() -> Model:
+    """Model the origin."""
+    zero = sympy.Integer(0)
+    return Model({**LETTERS, "omega1": zero, "omega2": zero, "omega3": zero}, units=DIMENSIONS)
+
+
+def _angles() -> list[tuple[Value, Value]]:
+    """Delta = beta/2 + pi/4 by the tangent of its half; B3 from tan(beta) = B3/(I B2), beta = 2 delta - pi/2."""
+    return [(B3, -I * B2 * (cd**2 - sd**2) / (2 * cd * sd)), (cd, turn(p)[0]), (sd, turn(p)[1])]
+
+
+BETA = {"beta": 2 * delta - sympy.pi / 2}
+PHASES = {delta: (cd, sd)}
+
+
+@cache
+def coordinates_model() -> Model:
+    """Model the quadratic form of mf58, and what its canonical form must be."""
+    form = omega1**2 + (omega2 + B2) ** 2 - I * B2 / B3 * (omega2 + B2) * (omega3 + B3)
+    length = omega1**2 + (omega2 + B2) ** 2 + (omega3 + B3) ** 2
+    sine = -(cd**2 - sd**2)
+    letters = {**LETTERS, **BETA, "form": form, "length": length}
+    letters |= {"a2": 2 * sine / (1 - sine), "a3": 2 * sine / (1 + sine)}
+    return Model(letters, _angles(), phases=PHASES, domains={"p": "oblique"}, units=DIMENSIONS)
+
+
+@cache
+def _axes() -> tuple[Value, Value]:
+    """Return unit eigenvectors of the form mf58 in the plane (omega2, omega3), checked to be such."""
+    cotangent = I * B2 / B3
+    form = sympy.Matrix([[1, -cotangent / 2], [-cotangent / 2, 0]])
+    first, second = sympy.Matrix([cd, sd]), sympy.Matrix([-sd, cd])
+    for axis in (first, second):
+        image = form * axis
+        residue = image[0] * axis[1] - image[1] * axis[0]
+        for symbol, value in _angles():
+            residue = residue.subs(symbol, value)
+        certain(sympy.cancel(residue) == 0)
+    return first, second
+
+
+@cache
+def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
+    """Points of the quadric in the coordinates along its own eigenvectors, centre -B'."""
+    first, second = _axes()
+    shifted = sympy.Matrix([omega2 + B2, omega3 + B3])
+    sine = -(cd**2 - sd**2)
+    letters = {**LETTERS, **BETA, "w1": omega1, "w2": first.dot(shifted), "w3": second.dot(shifted)}
+    letters |= {"a2": 2 * sine / (1 - sine), "a3": 2 * sine / (1 + sine)}
+    scale = {"any": [], "one": [(I, sympy.Integer(1))], "above": [(I, 1 + excess)], "below": [(I, 1 / (1 + excess))]}[
+        ratio
+    ]
+    where = [(omega3, constant_omega3()), *_angles(), *scale, *([(omega1, sympy.Integer(0))] if plane else [])]
+    return Model(letters, where, phases=PHASES, domains={"p": "oblique"}, units=DIMENSIONS)
+
+
+@cache
+def axes_model(above: bool) -> Model:
+    """Sin(beta) anywhere between 0 and 1."""
+    sine = 1 / (1 + sympy.Symbol("r", positive=True))
+    I = 1 + excess if above else 1 / (1 + excess)
+    a2, a3, first = 2 * sine / (1 - sine), 2 * sine / (1 + sine), (I - 1 if above else 1 - I) * B2**2
+    return Model({"I": I, "B2": B2, "a2": a2, "a3": a3, "C1s": first, "C2s": first * a2, "C3s": first * a3})
+
+
+@cache
+def angle_model() -> Model:
+    """I^-1 B' = r (0, cos beta, sin beta)."""
+    I2, I3, r = sympy.symbols("I2 I3 r", positive=True)
+    letters = {"I": I3 / I2, "B2": I2 * r * cd, "B3": I3 * r * sd, "beta": delta}
+    return Model(letters, [(cd, turn(p)[0]), (sd, turn(p)[1])], phases=PHASES)
+
+
+@cache
+def range_model() -> Model:
+    """Beta, which runs over the open interval from 0 to pi/2 as B3/(I B2) runs over the positive numbers."""
+    return Model({"beta": sympy.Symbol("beta", positive=True)})
+
+
+def decide_linear(
+    line: str, model: Model, *, defines: Iterable[str] = (), solves: str = "", **options: bool
+) -> Outcome:
+    """Decide inequalities that are linear in beta on 0 < beta < pi/2: what is positive at both ends is so between."""
+    del defines, solves, options
+    beta = model.letters["beta"]
+    for relation in Reader(model.letters).relations(line):
+        difference = relation.right[0] - relation.left[0]
+        sign = -1 if relation.sign.startswith(">") else 1
+        ends = [sign * difference.subs(beta, end) for end in (0, sympy.pi / 2)]
+        if sympy.diff(difference, beta, 2) != 0:
+            return Outcome("undecided", "not linear in beta")
+        if min(ends) < 0 or (min(ends) == 0 and max(ends) == 0):
+            near = sympy.Rational(1, 1000) if ends[0] == min(ends) else sympy.Rational(1570, 1000)
+            values: dict[str, Any] = {"beta": near, "left": relation.left[0], "right": relation.right[0]}
+            shown = {name: str(sympy.sympify(value).subs(beta, near).n(12)) for name, value in values.items()}
+            return Outcome("refuted", "exact counterexample", {**shown, "relation": relation.text})
+    return Outcome("proved", "linear in beta, and true at both ends")
+
+
+@cache
+def shell_model() -> Model:
+    """Moments of a cylindrical surface of mass M, by integration over the surface."""
+    r, h, z, w, M = sympy.symbols("r h z w M", positive=True)
+    density = M / (2 * sympy.pi * h)
+    bounds = ((w, 0, 2 * sympy.pi), (z, -h / 2, h / 2))
+    I2 = sympy.integrate(density * ((r * sympy.sin(w)) ** 2 + z**2), *bounds)
+    I3 = sympy.integrate(density * r**2, *bounds)
+    return Model({"I": sympy.cancel(I3 / I2), "r": r, "h": h})
+
+
+@cache
+def plane_body_model() -> Model:
+    """I1 = I2."""
+    g1, g3 = sympy.symbols("g1 g3", positive=True)
+    return Model({"I": 2 * g1 / (g1 + g3), "g3": g3, "I2": g1 + g3})
+
+
+@cache
+def loop_model() -> Model:
+    """Points of the quadric for I = 2."""
+    return Model(
+        {**LETTERS, "I": sympy.Integer(2)}, [(omega3, constant_omega3()), (I, sympy.Integer(2))], units=DIMENSIONS
+    )
+
+
+_MF581 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
+_MF58 = "omega1^2 + (omega2 + B2)^2 - I*B2/B3*(omega2 + B2)*(omega3 + B3) = (1 - I)*B2^2"
+_A2, _A3 = "2*sin(beta)/(1 - sin(beta))", "2*sin(beta)/(1 + sin(beta))"
+
+
+def axes_line(factor: str) -> str:
+    """Return the definitions of the squared semi-axes."""
+    first, double = f"{factor}*B2^2", f"2*{factor}*B2^2*sin(beta)"
+    return f"C1s = {first}; C2s = {double}/(1 - sin(beta)); C3s = {double}/(1 + sin(beta))"
+
+
+AXES = ("C1s", "C2s", "C3s")
+
+TRIALS = (
+    Trial(
+        label="mf58.1",
+        printed=_MF581,
+        model=condition_model,
+        follows="mf57 with Omega3 = omega3: every omega for which the cubic vanishes",
+    ),
+    Trial(label="mf58", printed=_MF58, model=condition_model, follows="mf58.1"),
+    Trial(label="text-quadric-origin", printed=_MF58, model=origin_model, follows="mf58 at omega = 0"),
+    Trial(
+        label="mf59",
+        printed="omega3 = B3*(omega1^2 + omega2^2 + (2 - I)*B2*omega2)/(I*B2*(omega2 + B2)); omega2 + B2 != 0",
+        model=condition_model,
+        follows="every omega that obeys mf58.1",
+        corrected="I*B2*(omega2 + B2)*omega3 = B3*(omega1^2 + omega2^2 + (2 - I)*B2*omega2)",
+        corrected_tex=(
+            r"\begin{aligned} \omega_3&=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2+B'_2)}"
+            r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \text{or}\quad\omega_2&=-B'_2,\quad\omega_1=\pm\sqrt{1-I}\,B'_2,"
+            r"\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1 \end{aligned}"
+        ),
+        note="The formula is right where omega2 differs from -B'2. It is not all of mf58.1: for I <= 1 the lines"
+        " omega2 = -B'2, omega1 = ±sqrt(1-I) B'2 with any omega3 are lost.",
+    ),
+    Trial(
+        label="mf61a",
+        printed="w1 = omega1; w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3 + B3)*sin(beta/2 + pi/4);"
+        " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
+        model=coordinates_model,
+        follows="lengths from the centre -B' are kept, and the form mf58 becomes that of mf60",
+        defines=("w1", "w2", "w3"),
+        solves="w1^2 + w2^2 + w3^2 = length; w1^2 - w2^2/a2 + w3^2/a3 = form",
+    ),
+    Trial(
+        label="text-beta",
+        printed="tan(beta) = B3/(I*B2)",
+        model=angle_model,
+        follows="I^-1 B' = r (0, cos beta, sin beta)",
+    ),
+    Trial(
+        label="text-beta-range",
+        printed="pi/4 < beta/2 + pi/4 < pi/2",
+        model=range_model,
+        follows="tan(beta) > 0",
+        check=decide_linear,
+    ),
+    Trial(
+        label="mf60",
+        printed=f"w1^2 - w2^2/a2 + w3^2/a3 = (1 - I)*B2^2; a2 = {_A2}; a3 = {_A3}",
+        model=canonical_model,
+        follows="mf58 in the coordinates along its own eigenvectors",
+        defines=("a2", "a3"),
+    ),
+    Trial(
+        label="mf61b",
+        printed=f"w1^2/C1s - w2^2/C2s + w3^2/C3s = -1; {axes_line('(I - 1)')}",
+        model=lambda: canonical_model("above"),
+        follows="mf60",
+        defines=AXES,
+    ),
+    Trial(
+        label="text-two-sheets",
+        printed="C1s = (I - 1)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
+        model=lambda: axes_model(above=True),
+        follows="mf61b, 0 < sin(beta) < 1 and I > 1",
+    ),
+    Trial(
+        label="text-short-cylinder",
+        printed="I = 12*r^2/(6*r^2 + h^2); I - 1 = (6*r^2 - h^2)/(6*r^2 + h^2)",
+        model=shell_model,
+        follows="the moments of the surface, integrated",
+    ),
+    Trial(
+        label="text-plane-body", printed="2 - I = 2*g3/I2", model=plane_body_model, follows="I = tr(g) - g with I1 = I2"
+    ),
+    Trial(
+        label="text-tangent-planes",
+        printed="(omega3 + B3)^2 - B3^2"
+        " = B3^2*(omega1^2 + omega2^2)*(omega1^2 + (omega2 + 2*B2)^2)/(4*B2^2*(omega2 + B2)^2)",
+        model=loop_model,
+        follows="mf58.1 with I = 2",
+        note="Never negative, and zero only at omega = 0 and at omega = -2 B': there the sheets touch the planes"
+        " omega3 = 0 and omega3 = -2 B'3.",
+    ),
+    Trial(
+        label="mf62",
+        printed="w1^2 + w3^2/a3 = w2^2/a2",
+        model=lambda: canonical_model("one"),
+        follows="mf60 with I = 1, a2 and a3 as there",
+    ),
+    Trial(
+        label="text-cone-semi-axes",
+        printed="w1^2 + w3^2/a3^2 = w2^2/a2^2",
+        model=lambda: canonical_model("one"),
+        follows="mf60 with I = 1",
+        corrected="w1^2 + w3^2/a3 = w2^2/a2",
+        corrected_tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{(\sqrt{a_3})^2}=\frac{{\omega'_2}^2}{(\sqrt{a_2})^2}",
+        note="The semi-axes are the roots of a2 and a3; mf75 then uses the same letters for the roots.",
+    ),
+    Trial(
+        label="mf63",
+        printed=f"w1^2/C1s - w2^2/C2s + w3^2/C3s = 1; {axes_line('(1 - I)')}",
+        model=lambda: canonical_model("below"),
+        follows="mf60",
+        defines=AXES,
+    ),
+    Trial(
+        label="text-one-sheet",
+        printed="C1s = (1 - I)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
+        model=lambda: axes_model(above=False),
+        follows="mf63, 0 < sin(beta) < 1 and I < 1",
+    ),
+    Trial(
+        label="text-not-all",
+        printed="at0(d(Omega3)) = omega1*B2",
+        model=state_model,
+        follows="the last equation of mf46 at t = 0, where K = B'",
+        note="So a point of the quadric with omega1 different from 0 starts with a rate of Omega3: it is no motion with"
+        " a constant Omega3.",
+    ),
+)

@@ -1,0 +1,113 @@
+"""The recorded verdicts, kept beside the proofs: a page is drawn from them and never waits for a proof.
+
+`source(label)` is a fingerprint of everything that a proof depends on: the files of the machinery, the file of the
+topic and the topics that it builds on, comments and blank lines aside. A recorded verdict is current if its
+fingerprint is.
+"""
+
+import hashlib
+import json
+import re
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from atlas.errors import AtlasError
+from atlas.paper import EQUATIONS, topic
+from atlas.proof.verdict import Sensitivity, Verdict
+
+FOLDER = Path(__file__).resolve().parent
+VERDICTS = FOLDER / "verdicts.json"
+MUTANTS = FOLDER / "mutants.json"
+MACHINERY = ("notation", "dimensions", "model", "decide", "trial")
+
+
+@cache
+def _normal(stem: str) -> str:
+    lines = (FOLDER / f"{stem}.py").read_text("utf-8").splitlines()
+    return "\n".join(line.rstrip() for line in lines if line.strip() and not line.lstrip().startswith("#"))
+
+
+@cache
+def _reach(stem: str) -> frozenset[str]:
+    """Return the files of this folder that a topic imports, itself among them."""
+    text = _normal(stem)
+    direct = set(re.findall(r"^from atlas\.proof\.(\w+) import", text, re.MULTILINE))
+    for names in re.findall(r"^from atlas\.proof import (.+)$", text, re.MULTILINE):
+        direct |= {name.split(" as ")[0].strip() for name in names.split(",")}
+    return frozenset({stem}).union(*(_reach(name) for name in direct))
+
+
+@cache
+def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
+    parts = [_normal(name) for name in sorted(_reach(stem) | set(machinery))]
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+def source(label: str, *, changes: bool = False) -> str:
+    """Return the fingerprint of the proof of an entry of the ledger, or of that and of the changes tried on it."""
+    return _fingerprint(topic(label), MACHINERY + (("changes", "survivors") if changes else ()))
+
+
+def load(path: Path = VERDICTS) -> dict[str, Verdict]:
+    """Return the recorded verdicts by label, in the ledger's order."""
+    recorded = {entry["label"]: Verdict(**entry) for entry in _read(path)}
+    return {label: recorded[label] for label in EQUATIONS if label in recorded}
+
+
+def load_mutants(path: Path = MUTANTS) -> dict[str, Sensitivity]:
+    """Return the recorded mutants by label, in the ledger's order."""
+    recorded = {}
+    for entry in _read(path):
+        survivors = tuple(tuple(survivor) for survivor in entry.pop("survivors"))
+        recorded[entry["label"]] = Sensitivity(**entry, survivors=survivors)
+    return {label: recorded[label] for label in EQUATIONS if label in recorded}
+
+
+def _read(path: Path) -> list[dict[str, Any]]:
+    try:
+        entries: list[dict[str, Any]] = json.loads(path.read_text("utf-8"))
+    except FileNotFoundError:
+        return []
+    except json.JSONDecodeError as reason:
+        raise AtlasError(
+            f"{path.name} holds no valid record ({reason}); `atlas verify --record` writes a new one"
+        ) from None
+    return entries
+
+
+def save(found: Iterable[Verdict | Sensitivity], path: Path = VERDICTS) -> None:
+    """Write records, over those of the same labels that are there; seconds change only where the proof did."""
+    old = {entry["label"]: entry for entry in _read(path)}
+    for record in found:
+        entry = record.as_dict()
+        before = old.get(record.label)
+        if before and before["source"] == entry["source"]:
+            entry["seconds"] = before["seconds"]
+        old[record.label] = entry
+    ordered = [old[label] for label in EQUATIONS if label in old]
+    path.write_text(json.dumps(ordered, indent=1, ensure_ascii=False) + "\n", "utf-8")
+
+
+def stale(recorded: Mapping[str, Verdict] | Mapping[str, Sensitivity] | None = None) -> list[str]:
+    """Return the labels of the ledger without a verdict, or whose proof has changed since its verdict was recorded."""
+    records = load() if recorded is None else recorded
+    changes = any(isinstance(entry, Sensitivity) for entry in records.values())
+    return [name for name in EQUATIONS if name not in records or records[name].source != source(name, changes=changes)]
+
+
+def differs(found: Iterable[Verdict], recorded: Mapping[str, Verdict] | None = None) -> list[tuple[str, str, str]]:
+    """Return (label, recorded, found) wherever a verdict, or that on its corrected form, isn't the recorded one."""
+    records = load() if recorded is None else recorded
+    changed = []
+    for verdict in found:
+        before = records.get(verdict.label)
+        was = _both(before) if before else "not recorded"
+        if was != _both(verdict):
+            changed.append((verdict.label, was, _both(verdict)))
+    return changed
+
+
+def _both(verdict: Verdict) -> str:
+    return verdict.verdict + (f", corrected form {verdict.corrected_verdict}" if verdict.corrected_verdict else "")
