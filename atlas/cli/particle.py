@@ -83,7 +83,7 @@ def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
     }[options["units"]]
     drift = f"({', '.join(texts['drift'])})" if texts["drift"] else "-"
     lines = [
-        Line("omega", "cyclotron frequency |mu B|/c", texts["cyclotron_frequency"], time, "mf9"),
+        Line("omega", "cyclotron frequency mu |B|/c, with the sign of mu", texts["cyclotron_frequency"], time, "mf9"),
         Line("drift", "c [E, B]/B^2", drift, speed if texts["drift"] else "", "mf6"),
     ]
     rows = [

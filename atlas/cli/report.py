@@ -1,35 +1,57 @@
 """``atlas report``: HTML pages and a PDF from a report definition."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from atlas.cli.options import Command, examples, out_option
+from atlas.cli.present import Sheet, show
 from atlas.cli.progress import bar
+
+if TYPE_CHECKING:
+    from atlas.build.report import Built
 
 
 @click.command(
     "report",
     cls=Command,
     short_help="Build a report.",
-    epilog=examples("atlas report", "atlas report short_solenoid", "atlas report my_paper.toml --out paper"),
+    epilog=examples("atlas report", "atlas report short_solenoid --explain", "atlas report my_paper.toml --out paper"),
 )
 @click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
 @out_option("build/report")
-def command(name: str, out: Path) -> int:
+@click.option("--jobs", "-j", type=click.IntRange(min=1), help="Figures drawn at once; else one a core.")
+@click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken, and what it cost.")
+def command(name: str, out: Path, jobs: int | None, explain: bool) -> int:
     """Build a report: HTML pages that open from disk, and a PDF with the same content.
 
-    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. A figure that fails
-    leaves a framed note in its place, and then the exit status is 1.
+    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
+    something that has changed is built. A figure that fails leaves a framed note in its place, and then the exit status
+    is 1. Beside the PDF, NAME.costs.json says what each figure cost.
     """
     from atlas.build.report import build_report
 
     with bar("report") as tell:
-        built = build_report(name, out, progress=tell)
+        built = build_report(name, out, tell, jobs=jobs)
     click.echo(built.index)
     click.echo(built.pdf)
+    if explain:
+        _explain(built)
     for note in built.notes:
         click.echo(f"atlas: {note}", err=True)
     for recipe, reason in built.failures:
         click.echo(f"atlas: figure {recipe} failed: {reason}", err=True)
     return 0 if built.ok else 1
+
+
+def _explain(built: "Built") -> None:
+    """Show why each part was made or taken, and what the figures cost."""
+    rows = [[what, name, reason] for what, name, reason in built.reasons]
+    show(Sheet("why", heading=("part", "name", "reason"), rows=rows, justify="left"))
+    if built.ledger is not None:
+        from atlas.build.ledger import table
+
+        heading, rows = table(built.ledger)
+        note = "A figure from the store shows what it cost when it was drawn."
+        show(Sheet("what the figures cost", heading=heading, rows=rows, notes=[note]))

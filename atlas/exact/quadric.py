@@ -73,10 +73,18 @@ class Quadric:
     @property
     def axes(self) -> list[list[Real]]:
         """The directions of omega'_1..3 as rows, mf61a: the angle beta/2 + pi/4 in the plane (e2, e3)."""
-        angle = arb(self.beta) / 2 + arb.pi() / 4
-        s, c = angle.sin_cos()
+        s, c = self._angle()
         zero, one = fmpq(0), fmpq(1)
         return [[one, zero, zero], [zero, c, s], [zero, -s, c]]
+
+    def _angle(self) -> tuple[Real, Real]:
+        """Return sine and cosine of beta/2 + pi/4, exactly where sin(beta) is rational: 2 cos^2 = 1 - sin(beta)."""
+        sine = self.sin_beta
+        if isinstance(sine, fmpq):
+            s, c = root((1 + sine) / 2), root((1 - sine) / 2)
+            return (-s if self.B2 < 0 and self.B3 < 0 else s), (-c if self.B2 < 0 else c)
+        s, c = (arb(self.beta) / 2 + arb.pi() / 4).sin_cos()
+        return s, c
 
     def residual(self, omega: Any) -> fmpq:
         """Return the left-hand side of mf58.1 at a point."""
