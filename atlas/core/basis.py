@@ -33,20 +33,18 @@ class Basis:
 
     def __init__(self, phases: Phases, size: int, count: int = 3) -> None:
         self.phases = phases
-        self.times = np.empty(size)
-        self.work = np.empty((5, phases.words.shape[1], size))
+        self.work = np.empty((8, phases.words.shape[1], size))
         self.rows = np.empty((count, size))
 
     def at(self, t: FloatArray) -> FloatArray:
         """Return the functions over SCALE, shape (count, m); valid until the next call."""
-        rows, times, work = self.rows, self.times, self.work
-        if t.size < times.size:
-            rows, times, work = rows[:, : t.size], times[: t.size], work[:, :, : t.size]
-        np.add(t, 0.0, out=times)
+        rows, work = self.rows, self.work
+        if t.size < rows.shape[1]:
+            rows, work = rows[:, : t.size], work[:, :, : t.size]
         if len(rows) == 3:
-            self.phases.circle(times, work, rows[0:1], rows[1:2], rows[2])
+            self.phases.circle(t, work, rows[0:1], rows[1:2], rows[2])
             return rows
-        self.phases.circle(times, work, rows[6::-6], rows[7::-6], rows[8])
+        self.phases.circle(t, work, rows[6::-6], rows[7::-6], rows[8])
         np.multiply(rows[6:8], rows[0], out=rows[2:4])
         np.multiply(rows[6:8], rows[1], out=rows[4:6])
         if len(rows) == 11:
@@ -62,7 +60,7 @@ def rodrigues(axis: Axis) -> FloatArray:
 
 
 def generators(axis: Axis) -> FloatArray:
-    """Return n n^T and 1 - n n^T, whose sum is 1 exactly, since R(0) is; [n, .]; and n n^T, each element rounded once."""
+    """Return n n^T and 1 - n n^T, with the sum 1 exactly, since R(0) is; [n, .]; and n n^T, elements rounded once."""
     _, across, dyad = rodrigues(axis)
     along = dyad.copy()
     for i, n in enumerate(axis):

@@ -1,8 +1,8 @@
 """Rotation matrices on a uniform grid, near the speed at which memory can be filled.
 
-With the functions F_r and the matrices L_r, Q_r of `basis`, R(s + tau) = sum over r of F_r(s) (L_r R(tau) Q_r). So a coarse
-table of F and a fine table of L R(tau) Q give every matrix of the grid by one product of rank nine, which writes the
-result in place.
+With the functions F_r and the matrices L_r, Q_r of `basis`, R(s + tau) = sum over r of F_r(s) (L_r R(tau) Q_r). So a
+coarse table of F and a fine table of L R(tau) Q give every matrix of the grid by one product of rank nine, which writes
+the result in place.
 """
 
 from fractions import Fraction
@@ -89,7 +89,7 @@ def fine_table(turning: DoubleRotation, step: Wide) -> FloatArray:
     Its errors would be those of every matrix of the grid: so it is made in long doubles, where the machine has them.
     """
     phases = indexed(turning, step)
-    half, left_out, sign, _ = phases.angles(np.arange(float(FINE)), np.empty((5, 2, FINE)))
+    half, left_out, sign, _ = phases.angles(np.arange(float(FINE)), np.empty((8, 2, FINE)))
     x = half.astype(np.longdouble) + left_out
     versine = 2 * np.sin(x) ** 2
     a, C = sign * (1 - versine)

@@ -41,7 +41,8 @@ class Phases:
     """Phases of one or two frequencies, and what is needed to evaluate them at times t.
 
     `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
-    `words` (2, n, 1) are the frequencies in half turns, P0 + P1, to 2^-107 of themselves.
+    `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
+    (2, 1, n, 1) are those of P0.
     """
 
     def __init__(self, turns: Sequence[Wide], origins: Sequence[Wide] | None = None) -> None:
@@ -49,10 +50,10 @@ class Phases:
         ordinary = any(halves) and all(abs(p.magnitude) <= SAFE for p in halves if p)
         exponents = [0 if ordinary else p.magnitude if p else NEVER for p in halves]
         self.exponents = None if ordinary else np.array(exponents)[:, None]
-        self.words = _columns([p.scaled(-x).words(2) for p, x in zip(halves, exponents, strict=True)])
-        scaled = self.words[0] * SPLITTER
-        self.head = scaled - (scaled - self.words[0])
-        self.tail = self.words[0] - self.head
+        P0, P1 = _columns([p.scaled(-x).words(2) for p, x in zip(halves, exponents, strict=True)])
+        head = P0 * SPLITTER - (P0 * SPLITTER - P0)
+        self.words = np.array([-P0, P1])
+        self.halves = np.array([head, P0 - head])[:, None]
         self.reach = min((_reach(p) for p in turns if p), default=float("inf"))
         self.enough = min(self.reach * self.reach, float(np.finfo(float).max))
         self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
@@ -60,11 +61,11 @@ class Phases:
     def circle(self, t: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
         """Fill cos(x)/2 and sin(x)/2 (n, m), and (1 - cos x)/2 of the first phase (m,), for x = f t.
 
-        `t` (m,) finite; `work` (5, n, m) is overwritten. Halves, since they come free of a rounding. The versine keeps its
-        digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
+        `t` (m,) finite; `work` (8, n, m) is overwritten. Halves, since they come free of a rounding. The versine keeps
+        its digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
         """
         u, e, sign, square = self.angles(t, work)
-        # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; then what rounding x left out
+        # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; u then gets what x lacks
         np.tan(u, out=u)
         np.multiply(u, u, out=square)
         square += 1.0
@@ -78,46 +79,41 @@ class Phases:
         cos *= sign
         sin *= sign
         np.multiply(half[0], sign[0], out=versine)
-        np.subtract(1.0, sign[0], out=e[0])
-        e[0] *= 0.5
-        versine += e[0]
+        versine += sign[0] < 0
 
     def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
         """Return x/2 for x = f t less whole half turns, |x| <= pi/2, what rounding left out of it, and the turns' sign.
 
         The three are (n, m), in radians, and lie in `work`; the fourth array returned is free.
         """
-        product, rest, x, y, z = work
-        with np.errstate(over="ignore"):
-            if not t.dot(t) <= self.enough:
-                self._check(t)
+        if not np.vdot(t, t) <= self.enough:
+            self._check(t)
         if self.exponents is not None:
             t = np.ldexp(t, self.exponents)
-        P0, P1 = self.words
-        upper, lower = (x, y) if t.ndim > 1 else (x[0], y[0])
+        # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
+        parts, rest, coarse = work[:6], work[6], work[7]
+        halves = work[6:] if t.ndim > 1 else work[6:, :1]
+        upper, lower = halves
         np.multiply(t, SPLITTER, out=upper)
         np.subtract(upper, t, out=lower)
         upper -= lower
         np.subtract(t, upper, out=lower)
-        # rest = P0 t - product, by Dekker, without error; then P1 t
-        np.multiply(P0, t, out=product)
-        np.multiply(self.head, upper, out=rest)
-        rest -= product
-        rest += np.multiply(self.head, lower, out=z)
-        rest += np.multiply(self.tail, upper, out=z)
-        rest += np.multiply(self.tail, lower, out=z)
-        rest += np.multiply(P1, t, out=z)
-        np.add(product, ROUNDER, out=z)
-        np.subtract(z, ROUNDER, out=x)
-        product -= x
-        # in half turns the phase is coarse + rest, coarse a multiple of 2^-25
-        coarse = np.add(product, QUANTUM, out=x)
+        np.multiply(self.words, t, out=parts[::5])
+        np.multiply(self.halves, halves, out=parts[1:5].reshape(2, 2, *rest.shape))
+        np.add.reduce(parts, axis=0, out=rest)
+        # `whole` half turns and `product`, what is left of them, come with the sign turned round
+        product, whole, y = parts[:3]
+        np.add(product, ROUNDER, out=whole)
+        np.subtract(whole, ROUNDER, out=coarse)
+        product -= coarse
+        # in half turns the phase is rest - coarse, coarse a multiple of 2^-25
+        np.add(product, QUANTUM, out=coarse)
         coarse -= QUANTUM
         product -= coarse
-        rest += product
-        parity = z.view(np.int64)
+        rest -= product
+        parity = whole.view(np.int64)
         if self.origins is not None:
-            coarse += self.origins[0]
+            coarse -= self.origins[0]
             rest += self.origins[1]
             np.add(coarse, ROUNDER, out=y)
             parity += y.view(np.int64)
@@ -126,21 +122,21 @@ class Phases:
         np.left_shift(parity, 63, out=parity)
         np.bitwise_or(parity, ONE_BITS, out=parity)
         # in radians, and halved: coarse QUARTER_HEAD is exact, y is small
-        np.multiply(coarse, QUARTER_TAIL, out=y)
+        np.multiply(coarse, -QUARTER_TAIL, out=y)
         rest *= QUARTER_WHOLE
         y += rest
-        coarse *= QUARTER_HEAD
+        coarse *= -QUARTER_HEAD
         np.add(coarse, y, out=product)
         coarse -= product
         coarse += y
-        return product, coarse, z, rest
+        return product, coarse, whole, rest
 
     def _check(self, t: FloatArray) -> None:
         """Raise AtlasError for a time that is out of reach."""
         far = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
         if far.size:
             raise AtlasError(
-                f"A time is {far[0]}, but the phases are known for |t| <= {self.reach:.6g} only, where one reaches 2^50."
+                f"A time is {far[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is lost."
             )
 
 

@@ -66,8 +66,8 @@ class Quadric:
     @cached_property
     def centre(self) -> FloatArray:
         """Centre -B' = (0, -B2, -B3), shape (..., 3)."""
-        B2, B3 = self.field
-        return 0.0 - np.stack(np.broadcast_arrays(0.0, B2, B3), -1)
+        _, I3, B2, B3 = self._inputs
+        return 0.0 - np.stack(np.broadcast_arrays(0.0, B2, B3, I3)[:3], -1)
 
     @cached_property
     def axes(self) -> FloatArray:

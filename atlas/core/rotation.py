@@ -11,8 +11,9 @@ from atlas.core.threads import shared
 from atlas.core.wide import TURN, Wide
 from atlas.errors import AtlasError
 
-BLOCK = 2048
-"""Times evaluated at once: what they need stays in the second-level cache."""
+BLOCK, PART = 6000, 3000
+"""Times evaluated at once, so that what they need stays in the second-level cache, and matrices made from them at once,
+so few that the library does not thread the product. No powers of two, whose multiples a cache takes for one another."""
 
 PARTS = slice(None), slice(1), slice(1, None)
 """Both frequencies, that of the precession, that of the proper rotation."""
@@ -21,9 +22,9 @@ PARTS = slice(None), slice(1), slice(1, None)
 class DoubleRotation:
     """Rotation matrix R(t) = R_n(k t) R_z(phi t), mf90, of a body that precesses about n and turns about its axis.
 
-    `axis` n is a unit vector, `precession` k and `proper` phi are frequencies, all exact. If `inverse`, the matrix is the
-    transposed one, as for the ball, mf38. Each entry is a constant linear combination of functions of time, see `basis`:
-    one small matrix product makes all of them.
+    `axis` n is a unit vector, `precession` k and `proper` phi are frequencies, all exact. If `inverse`, the matrix is
+    the transposed one, as for the ball, mf38. Each entry is a constant linear combination of functions of time, see
+    `basis`: one small matrix product makes all of them.
     """
 
     def __init__(self, axis: Axis, precession: Wide, proper: Wide, *, inverse: bool = False) -> None:
@@ -74,7 +75,9 @@ def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...]
         basis = Basis(phases, min(high - low, BLOCK), len(weights))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
-            np.matmul(basis.at(flat[i:j]).T, weights, out=rows[i:j])
+            functions, part = basis.at(flat[i:j]), rows[i:j]
+            for k in range(0, j - i, PART):
+                np.matmul(functions[:, k : k + PART].T, weights, out=part[k : k + PART])
 
     shared(fill, times.size)
     return out
