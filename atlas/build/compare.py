@@ -1,0 +1,460 @@
+"""Two built reports compared by what their builds recorded: numbers, words, figures, and what came or went.
+
+Numbers are decimal texts and are compared exactly, whatever signs and spaces they are printed with; prose is compared
+by its digest, pictures by theirs.
+"""
+
+import hashlib
+import re
+from base64 import b64encode
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal
+from functools import partial
+from itertools import groupby, takewhile
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from atlas.errors import AtlasError
+from atlas.places import folder
+
+FORMAT = 1
+RECORD = "record.json"
+KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
+SPACES = dict.fromkeys(map(ord, "\u00a0\u2007\u2009\u200a\u202f"))
+NUMBER = re.compile(
+    r"(?P<digits>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))"
+    r"(?:e(?P<e>[+-]?[0-9]{1,15})| *[×·] *10(?:\^\{?(?P<ten>[+-]?[0-9]{1,15})\}?|(?P<raised>[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,15})))?"
+    r"(?P<mark>\??)",
+    re.IGNORECASE,
+)
+"""A decimal with a power of ten that Decimal can hold, and the mark of a number that lacks proven digits."""
+FORMULA = re.compile(r"(\$[^$]+\$)")
+LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
+
+
+class Page(msgspec.Struct, frozen=True):
+    """A page: its title, the digest of its prose, captions and formulas."""
+
+    title: str
+    text: str
+
+
+class Table(msgspec.Struct, frozen=True):
+    """A table as printed: heads, units and cells as texts."""
+
+    page: str
+    caption: str
+    columns: list[str]
+    units: list[str]
+    rows: list[list[str]]
+
+
+class Figure(msgspec.Struct, frozen=True):
+    """A figure: what it was drawn from, its picture and the digest of that; neither where drawing failed."""
+
+    page: str
+    caption: str
+    recipe: str
+    renderer: str
+    parameters: dict[str, Any]
+    file: str | None
+    sha256: str | None
+
+
+class Record(msgspec.Struct, frozen=True):
+    """What a build records of a report."""
+
+    format: int
+    name: str
+    title: str
+    pages: dict[str, Page]
+    tables: dict[str, Table]
+    figures: dict[str, Figure]
+    versions: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Report:
+    """A built report: its folder and what its build recorded."""
+
+    folder: Path
+    record: Record
+
+    def picture(self, figure: Figure) -> Path | None:
+        """Return the file of a figure's picture, None when it failed or is not in the folder."""
+        path = (self.folder / (figure.file or ".")).resolve()
+        return path if path.is_relative_to(self.folder.resolve()) and path.is_file() else None
+
+    def damage(self) -> str:
+        """Say which pictures are not those that the build recorded, or nothing."""
+        bad = [
+            figure.file
+            for figure in self.record.figures.values()
+            if figure.file and not ((path := self.picture(figure)) and _digest(path) == figure.sha256)
+        ]
+        return f"{self.folder}: lost or altered since the build: {', '.join(bad)}." if bad else ""
+
+
+def read(place: Path) -> Report:
+    """Read the record of a built report, given by its folder or by the index.html or record.json in it."""
+    where = place.parent if place.name in {"index.html", RECORD} else place
+    try:
+        content = (where / RECORD).read_bytes()
+    except OSError as error:
+        raise AtlasError(
+            f"{place} is not a built report, a folder such as build/report/atlas with a {RECORD}: {error.strerror}."
+        ) from error
+    try:
+        found = msgspec.json.decode(content, type=dict[str, Any]).get("format")
+        if found != FORMAT:
+            raise AtlasError(f"{where / RECORD} has format {found!r}; this atlas reads format {FORMAT}.")
+        record = msgspec.json.decode(content, type=Record)
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise AtlasError(f"{where / RECORD} is not the record of a report: {error}.") from error
+    for name, table in record.tables.items():
+        if any(len(cells) != len(table.columns) for cells in (table.units, *table.rows)):
+            raise AtlasError(f"{where / RECORD}: in table {name} not every row has {len(table.columns)} cells.")
+    for name, figure in record.figures.items():
+        if (figure.file is None) != (figure.sha256 is None):
+            raise AtlasError(f"{where / RECORD}: figure {name} has only one of file and sha256.")
+        if figure.file is not None and Path(figure.file).suffix not in KINDS:
+            raise AtlasError(f"{where / RECORD}: the file of figure {name} is neither SVG nor PNG.")
+    return Report(where, record)
+
+
+@dataclass(frozen=True)
+class Amount:
+    """By how much a number changed.
+
+    `difference` is new - old, exact unless the two are many powers of ten apart; `relative` is its size over that of
+    old, None for old = 0. `digits` counts the leading digits, of those that both print, in which they agree: they are
+    the same or, across a carry such as 0.9999 and 1.0001, the numbers lie within half a unit of the last of them.
+    """
+
+    difference: Decimal
+    relative: Decimal | None
+    digits: int
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell of a table that changed; with an amount when both are numbers."""
+
+    table: str
+    page: str
+    row: str
+    column: str
+    unit: str
+    old: str
+    new: str
+    amount: Amount | None
+
+
+@dataclass(frozen=True)
+class Change:
+    """Anything else that changed: what it belongs to, what it is, and both texts where there are any."""
+
+    where: str
+    what: str
+    old: str = ""
+    new: str = ""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A figure that changed, came or went."""
+
+    id: str
+    old: Figure | None
+    new: Figure | None
+    changes: tuple[Change, ...]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All that differs between two reports."""
+
+    old: Report
+    new: Report
+    cells: tuple[Cell, ...]
+    figures: tuple[Drawing, ...]
+    others: tuple[Change, ...]
+
+    @property
+    def numbers(self) -> tuple[Cell, ...]:
+        """The cells that are numbers in both reports."""
+        return tuple(cell for cell in self.cells if cell.amount is not None)
+
+    @property
+    def words(self) -> tuple[Cell, ...]:
+        """The cells that are not."""
+        return tuple(cell for cell in self.cells if cell.amount is None)
+
+    @property
+    def changed(self) -> bool:
+        """Whether anything differs."""
+        return bool(self.cells or self.figures or self.others)
+
+    @property
+    def extent(self) -> str:
+        """How much was compared, in words."""
+        record = self.new.record
+        counts = {"table": len(record.tables), "figure": len(record.figures), "page": len(record.pages)}
+        return ", ".join(f"{count} {name}{'s' * (count != 1)}" for name, count in counts.items())
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the reader should know of the two folders."""
+        return tuple(note for note in (self.old.damage(), self.new.damage()) if note)
+
+
+def compare(old: Path, new: Path) -> Comparison:
+    """Compare two built reports; raise AtlasError, in one sentence, where there is none."""
+    one, two = read(old), read(new)
+    a, b = one.record, two.record
+    cells: list[Cell] = []
+    others = [*_changes("report", _facts(a, "title", "name"), _facts(b, "title", "name"))]
+    for slug, page, after in _paired(a.pages, b.pages):
+        others += _changes(f"page {slug}", _facts(page, "title"), _facts(after, "title"))
+        if page and after and page.text != after.text:
+            others.append(Change(f"page {slug}", "text"))
+    for name, table, then in _paired(a.tables, b.tables):
+        others += _changes(name, _facts(table, "caption", "page"), _facts(then, "caption", "page"))
+        if table and then:
+            others += _columns(name, table, then)
+            found, moved = _rows(name, table, then)
+            cells += found
+            others += moved
+    others += _changes("versions", a.versions, b.versions)
+    figures = [
+        Drawing(name, figure, then, changes)
+        for name, figure, then in _paired(a.figures, b.figures)
+        if (changes := tuple(_figure(name, figure, then)))
+    ]
+    return Comparison(one, two, tuple(cells), tuple(figures), tuple(others))
+
+
+def number(text: str) -> tuple[Decimal, bool] | None:
+    """Return a printed number exactly, and whether it lacks proven digits; None for words."""
+    plain = text.translate(SPACES).replace("\N{MINUS SIGN}", "-").replace(r"\times", "×").strip().strip("$")
+    match = NUMBER.fullmatch(plain)
+    if match is None:
+        return None
+    power = match["e"] or match["ten"] or (match["raised"] or "0").translate(LOWERED)
+    return Decimal(f"{match['digits']}e{power}"), bool(match["mark"])
+
+
+def amount(old: Decimal, new: Decimal) -> Amount:
+    """Measure the change of a number."""
+    digits, others = old.as_tuple().digits, new.as_tuple().digits
+    printed = min(len(digits), len(others))
+    context = Context(prec=len(digits) + len(others) + 30, Emin=MIN_EMIN, Emax=MAX_EMAX)
+    difference = context.subtract(new, old)
+    if not difference:
+        return Amount(difference, difference if old else None, printed)
+    same = 0
+    if old.is_signed() == new.is_signed() and old.adjusted() == new.adjusted():
+        same = _agreeing(digits, others)
+    size = context.abs(difference)
+    near = context.max_mag(old, new).adjusted() - context.add(size, size).adjusted()
+    relative = context.divide(size, context.abs(old)) if old else None
+    return Amount(difference, relative, min(max(same, near, 0), printed))
+
+
+def _agreeing(old: Iterable[Any], new: Iterable[Any]) -> int:
+    """Count the leading items that are the same."""
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(old, new, strict=False)))
+
+
+def _columns(name: str, old: Table, new: Table) -> Iterator[Change]:
+    """Go through the columns that came, went or changed their unit or place."""
+    before, after = _heads(old), _heads(new)
+    for key, i, j in _paired(before, after):
+        if i is None or j is None:
+            yield Change(name, "column added", "", key[0]) if i is None else Change(name, "column removed", key[0])
+        elif old.units[i] != new.units[j]:
+            yield Change(name, f"unit of {key[0]}", old.units[i], new.units[j])
+    if [key for key in before if key in after] != [key for key in after if key in before]:
+        yield Change(name, "order of columns")
+
+
+def _rows(name: str, old: Table, new: Table) -> tuple[list[Cell], list[Change]]:
+    """Compare the rows of a table in the columns that both have."""
+    before, after = _heads(old), _heads(new)
+    shared = [key for key in before if key in after]
+    left = [[row[before[key]] for key in shared] for row in old.rows]
+    right = [[row[after[key]] for key in shared] for row in new.rows]
+    pairs = _matched(left, right)
+    cells = [
+        Cell(name, new.page, label, key[0], new.units[after[key]], x, y, found)
+        for i, (j, depth) in sorted(pairs.items())
+        for label in [", ".join(filter(None, left[i][:depth])) or next(filter(None, left[i]), f"row {i + 1}")]
+        for key, x, y in zip(shared, left[i], right[j], strict=True)
+        for differs, found in [_cell(x, y)]
+        if differs
+    ]
+    taken = [j for _, (j, _) in sorted(pairs.items())]
+    moved = [Change(name, "row removed", " | ".join(row)) for i, row in enumerate(old.rows) if i not in pairs]
+    moved += [Change(name, "row added", "", " | ".join(row)) for j, row in enumerate(new.rows) if j not in taken]
+    return cells, moved + [Change(name, "order of rows")] * (taken != sorted(taken))
+
+
+def _matched(left: list[list[str]], right: list[list[str]]) -> dict[int, tuple[int, int]]:
+    """Pair rows: for a row of the left one on the right, and how many of its first cells tell it apart.
+
+    A row is known by its first cell; where several share it, by as many of the cells that follow as are needed. What
+    is left is paired where it stands at the same place.
+    """
+    pairs: dict[int, tuple[int, int]] = {}
+    width = len(left[0]) if left else 0
+    for depth in range(1, width + 1):
+        ours = _places(left, depth, set(pairs))
+        theirs = _places(right, depth, {j for j, _ in pairs.values()})
+        for key, places in ours.items():
+            others = theirs.get(key, [])
+            if depth == width or len(places) == len(others) == 1:
+                pairs |= {i: (j, depth) for i, j in zip(places, others, strict=False)}
+    taken = {j for j, _ in pairs.values()}
+    return pairs | {i: (i, 1) for i in range(min(len(left), len(right))) if i not in pairs and i not in taken}
+
+
+def _places(rows: list[list[str]], depth: int, without: set[int]) -> dict[Hashable, list[int]]:
+    """Return where the rows with the same first cells stand."""
+    places: dict[Hashable, list[int]] = {}
+    for i, row in enumerate(rows):
+        if i not in without:
+            key = tuple(found[0] if (found := number(cell)) else cell for cell in row[:depth])
+            places.setdefault(key, []).append(i)
+    return places
+
+
+def _cell(old: str, new: str) -> tuple[bool, Amount | None]:
+    """Tell whether two cells differ, and by how much; signs and spaces of another kind are no difference."""
+    one, two = number(old), number(new)
+    if one is None or two is None:
+        return old != new, None
+    same = one[0].as_tuple() == two[0].as_tuple() and one[1] == two[1]
+    return not same, amount(one[0], two[0])
+
+
+def _heads(table: Table) -> dict[tuple[str, int], int]:
+    """Return the place of each column by its head and by how many columns before it have the same."""
+    return {(head, table.columns[:i].count(head)): i for i, head in enumerate(table.columns)}
+
+
+def _figure(name: str, old: Figure | None, new: Figure | None) -> Iterator[Change]:
+    """Go through what changed about a figure."""
+    names = ("caption", "page", "recipe", "renderer")
+    yield from _changes(name, _facts(old, *names), _facts(new, *names))
+    if old and new:
+        yield from _changes(name, old.parameters, new.parameters)
+        if old.sha256 != new.sha256:
+            states = ["drawn" if figure.file else "failed" for figure in (old, new)]
+            yield Change(name, "picture", *(states if "failed" in states else ()))
+
+
+def _changes(where: str, old: Mapping[str, Any] | None, new: Mapping[str, Any] | None) -> Iterator[Change]:
+    """Go through the values that differ; without one of the two, the thing was added or removed, with its first."""
+    if old is None or new is None:
+        first = str(next(iter((old or new or {}).values())))
+        yield Change(where, "added", "", first) if old is None else Change(where, "removed", first)
+        return
+    for what, x, y in _paired(old, new):
+        if x != y:
+            yield Change(where, what, _text(x), _text(y))
+
+
+def _facts(thing: Any, *names: str) -> dict[str, Any] | None:
+    return None if thing is None else {name: getattr(thing, name) for name in names}
+
+
+def _paired(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> Iterator[tuple[Any, Any, Any]]:
+    """Go through the keys of both, with None where there is no such key."""
+    for key in {**old, **new}:
+        yield key, old.get(key), new.get(key)
+
+
+def _text(value: Any) -> str:
+    if value is None or isinstance(value, str):
+        return value or ""
+    return msgspec.json.encode(value).decode()
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def as_page(comparison: Comparison) -> str:
+    """Set a comparison as one page that needs no other file: style, fonts and pictures are inside."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    from atlas.report.fonts import FACES, all_subsets
+
+    environment = Environment(
+        loader=FileSystemLoader(folder("templates") / "html"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    prose = _Prose()
+    environment.filters |= {"prose": prose, "rounded": rounded, "apart": _apart}
+    tables = {name: [*cells] for name, cells in groupby(comparison.numbers, lambda cell: cell.table)}
+    template = environment.get_template("diff.html")
+    render = partial(template.render, found=comparison, tables=tables, picture=_picture, faces={})
+    render(fonts=())
+    prose.set()
+    subsets = all_subsets([render(fonts=())])
+    return render(fonts=[(face, _inside(subsets[f"{name}.woff2"], "font/woff2")) for name, face in FACES.items()])
+
+
+class _Prose:
+    """Texts with their formulas set, all in one call: a first rendering shows which there are."""
+
+    def __init__(self) -> None:
+        self.formulas: dict[str, str] = {}
+
+    def __call__(self, text: str) -> Any:
+        """Return a text with its formulas."""
+        from markupsafe import Markup, escape
+
+        pieces = [
+            Markup(self.formulas.setdefault(piece, "")) if odd % 2 else escape(piece)  # noqa: S704  from pandoc
+            for odd, piece in enumerate(FORMULA.split(text))
+        ]
+        return Markup("").join(pieces)
+
+    def set(self) -> None:
+        """Set the formulas that were asked for."""
+        from atlas.report.formulas import Manuscript
+
+        manuscript = Manuscript()
+        for formula in self.formulas:
+            manuscript.add(formula, "the comparison", inline=True)
+        if self.formulas:
+            self.formulas = dict(zip(self.formulas, manuscript.set("html", lambda name, _: name), strict=True))
+
+
+def rounded(value: Decimal | None) -> str:
+    """Return three digits of a difference, for people."""
+    return "" if value is None else f"{value:.3g}".replace("-", "\N{MINUS SIGN}")
+
+
+def _apart(cell: Cell) -> tuple[str, str, str]:
+    """Cut the texts of a number at the first character that differs."""
+    old, new = (text.replace("-", "\N{MINUS SIGN}") for text in (cell.old, cell.new))
+    same = _agreeing(old, new)
+    return old[:same], old[same:], new[same:]
+
+
+def _picture(report: Report, figure: Figure) -> str:
+    """Return a picture as a data URI, empty when there is none."""
+    path = report.picture(figure)
+    return _inside(path.read_bytes(), KINDS[path.suffix]) if path else ""
+
+
+def _inside(content: bytes, kind: str) -> str:
+    return f"data:{kind};base64,{b64encode(content).decode()}"
