@@ -16,8 +16,8 @@ def build_figure(
     **parameters: Any,
 ) -> list[Path]:
     """Draw the recipe `name` into out/NAME.FORMAT for each format, each file whole or not at all; return the files."""
-    from atlas.render import draw
+    from atlas.render import draw_all
     from atlas.scene import recipes
 
     scene = recipes.load(name).scene(**parameters)
-    return [draw(scene, out / f"{name}.{kind}", kind, renderer).path for kind in formats]
+    return [drawn.path for drawn in draw_all(scene, {out / f"{name}.{kind}": kind for kind in formats}, renderer)]

@@ -22,6 +22,7 @@ from atlas.report.numbers import shown
 
 DRAWERS = {"vector": ("numpy", "matplotlib"), "shaded": ("numpy", "matplotlib", "pyvista", "vtk")}
 STEM = "plate"
+KINDS: Mapping[str, tuple[str, ...]] = {"shaded": ("png",), "vector": ("svg", "pdf")}
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,10 +92,10 @@ def data_files(recipe: str) -> list[Path]:
     return [path for path in sorted(data.glob("*.json")) if path.name in text or path.stem in text]
 
 
-def make(recipe: str, renderer: str, parameters: dict[str, Any], into: Path) -> dict[str, Any]:
+def make(recipe: str, renderer: Any, parameters: dict[str, Any], into: Path) -> dict[str, Any]:
     """Make the scene, draw it into a folder, and return what there is to note about it."""
     from atlas.build import meter
-    from atlas.render import draw
+    from atlas.render import choose, draw_all
     from atlas.scene import recipes
 
     start = time.perf_counter()
@@ -102,12 +103,8 @@ def make(recipe: str, renderer: str, parameters: dict[str, Any], into: Path) -> 
     with meter.counting() as counts:
         scene = loaded.scene(**parameters)
     computed = time.perf_counter()
-    kinds = ("png",) if renderer == "shaded" else ("svg", "pdf")
-    drawn = [draw(scene, into / f"{STEM}.{kind}", renderer=renderer) for kind in kinds]  # type: ignore[arg-type]
-    if renderer == "shaded" and drawn[0].renderer == "vector":
-        drawn[0].path.unlink()
-        drawn = [draw(scene, into / f"{STEM}.{kind}") for kind in ("svg", "pdf")]
-    note = next((one.note for one in drawn if one.note), "")
+    used, note = choose(scene, renderer)
+    drawn = draw_all(scene, {into / f"{STEM}.{kind}": kind for kind in KINDS[used]}, used)
     files = {"html": drawn[0].path.name, "pdf": drawn[-1].path.name}
     return {
         "title": scene.title,
@@ -115,7 +112,7 @@ def make(recipe: str, renderer: str, parameters: dict[str, Any], into: Path) -> 
         "alt": scene.alt,
         "size": list(scene.size),
         "parameters": {name: shown(value) for name, value in scene.parameters.items()},
-        "renderer": drawn[0].renderer,
+        "renderer": used,
         "note": note,
         "files": files,
         "cost": {

@@ -4,7 +4,7 @@ Translucent surfaces need depth peeling, which VTK gives up without a word when 
 drawn at twice the size without it and averaged down, and peeling is asserted. `atlas.render.gl` must have said yes.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -33,9 +33,9 @@ _PEELS = 10
 _GRAZE = 2.2
 
 
-def save(scene: Scene, path: Path, *, dpi: float = vector.DPI) -> None:
+def save(scene: Scene, files: Mapping[Path, str], *, dpi: float = vector.DPI) -> None:
     """Draw a scene into a PNG, its panels in space shaded."""
-    vector.save(scene, path, "png", dpi=dpi, paint=_paint)
+    vector.save(scene, files, dpi=dpi, paint=_paint)
 
 
 def _paint(axes: "Axes", panel: Space) -> None:
@@ -94,12 +94,28 @@ def _picture(view: Stage, width: int, height: int) -> NDArray[np.uint8]:
         for sheet in _glass(surface, view):
             plotter.add_mesh(sheet, scalars="rgba", rgb=True, render=False, **_GLASS)
     _look(plotter, view)
-    plotter.render()
-    raw = plotter.screenshot(return_img=True)
+    plotter.render_window.Render()
+    raw = _pixels(plotter)
     if view.surfaces and not plotter.renderer.GetLastRenderingUsedDepthPeeling():
         raise AtlasError("VTK drew the translucent surfaces without depth peeling, so the picture would be wrong")
-    tall = raw[..., :3].reshape(height, _OVER, width, _OVER, 3).astype(np.float64)
-    return np.round(tall.mean(axis=(1, 3))).astype(np.uint8)
+    tall = np.ascontiguousarray(raw[..., :3]).reshape(height, _OVER, width, _OVER, 3)
+    total = sum(tall[:, i, :, j].astype(np.uint16) for i in range(_OVER) for j in range(_OVER))
+    return np.asarray((total + _OVER * _OVER // 2) // (_OVER * _OVER), dtype=np.uint8)
+
+
+def _pixels(plotter: "pv.Plotter") -> NDArray[np.uint8]:
+    """Return what was rendered, without rendering it once more as a screenshot would."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(plotter.render_window)
+    grab.ShouldRerenderOff()
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    image = grab.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return np.asarray(vtk_to_numpy(image.GetPointData().GetScalars())).reshape(height, width, -1)[::-1]
 
 
 def _look(plotter: "pv.Plotter", view: Stage) -> None:

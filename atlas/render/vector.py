@@ -1,6 +1,6 @@
 """A scene on paper: Matplotlib's SVG, PDF and PNG canvases, one drawing for all three."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +16,12 @@ FORMATS = ("svg", "pdf", "png")
 DPI = 300.0
 
 
-def save(scene: Scene, path: Path, kind: str, *, dpi: float = DPI, paint: Callable[..., None] = draw_space) -> None:
-    """Draw a scene into a file of that kind; ``paint`` draws the panels in space."""
+def save(scene: Scene, files: Mapping[Path, str], *, dpi: float = DPI, paint: Callable[..., None] = draw_space) -> None:
+    """Draw a scene once into files, each of its kind; ``paint`` draws the panels in space."""
     with house_style():
         figure = compose(scene, dpi=dpi, paint=paint)
-        figure.savefig(path, format=kind, dpi=dpi, metadata=_metadata(scene, kind))
+        for path, kind in files.items():
+            figure.savefig(path, format=kind, dpi=dpi, metadata=_metadata(scene, kind))
 
 
 def compose(scene: Scene, *, dpi: float = DPI, paint: Callable[..., None] = draw_space) -> "Figure":
