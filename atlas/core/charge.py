@@ -150,7 +150,7 @@ class Charge:
         """Write the three components, block by block."""
         for start in range(0, t.size, BLOCK):
             piece = t[start : start + BLOCK]
-            halves, work = np.empty((3, 1, piece.size)), np.empty((5, 1, piece.size))
+            halves, work = np.empty((3, 1, piece.size)), np.empty((8, 1, piece.size))
             self._phases.circle(piece, work, halves[0], halves[1], halves[2, 0])
             functions = gyration(self.rate * piece, *(2 * halves[:, 0]))
             for i in range(3):
