@@ -20,15 +20,15 @@ Axis = tuple[Wide, Wide, Wide]
 
 E, J, E33 = np.diag([1.0, 1, 0]), np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]), np.diag([0.0, 0, 1])
 
-SCALE = np.array([2.0, 2, 4, 4, 4, 4, 2, 2, 2, 4, 4])
+SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
 """What the functions of a basis have to be multiplied by: they come as halves, and as products of halves."""
 
 
 class Basis:
     """The functions F_r of up to `size` times, for both phases; or cos, sin and 1 - cos of one.
 
-    In the order of `resolution`: cos phi t, sin phi t, their products with cos kt and with sin kt; cos kt, sin kt,
-    1 - cos kt; and, if there are 11, the products of the latter with cos phi t, sin phi t.
+    In the order of `resolution`: cos kt, cos phi t, sin kt, sin phi t, 1 - cos kt; cos kt and sin kt times cos phi t,
+    the same times sin phi t; and, if there are 11, 1 - cos kt times cos phi t and sin phi t.
     """
 
     def __init__(self, phases: Phases, size: int, count: int = 3) -> None:
@@ -44,11 +44,11 @@ class Basis:
         if len(rows) == 3:
             self.phases.circle(t, work, rows[0:1], rows[1:2], rows[2])
             return rows
-        self.phases.circle(t, work, rows[6::-6], rows[7::-6], rows[8])
-        np.multiply(rows[6:8], rows[0], out=rows[2:4])
-        np.multiply(rows[6:8], rows[1], out=rows[4:6])
+        self.phases.circle(t, work, rows[0:2], rows[2:4], rows[4])
+        np.multiply(rows[0:3:2], rows[1], out=rows[5:7])
+        np.multiply(rows[0:3:2], rows[3], out=rows[7:9])
         if len(rows) == 11:
-            np.multiply(rows[8], rows[0:2], out=rows[9:11])
+            np.multiply(rows[4], rows[1:4:2], out=rows[9:11])
         return rows
 
 
@@ -87,7 +87,7 @@ def resolution(parts: NDArray[Any], *, third_row: bool) -> tuple[NDArray[Any], F
     one = np.eye(3)
     upper = E if third_row else one
     C, aC = upper @ along, upper @ rest + (one - upper)
-    pairs = [(C, E), (C, J), (aC, E), (across, E), (aC, J), (across, J), (one, E33), (across, E33), (dyad, E33)]
+    pairs = [(one, E33), (C, E), (across, E33), (C, J), (dyad, E33), (aC, E), (across, E), (aC, J), (across, J)]
     if third_row:
         pairs += [(E33 @ dyad, E), (E33 @ dyad, J)]
     return np.array([pair[0] for pair in pairs]), np.array([pair[1] for pair in pairs])
