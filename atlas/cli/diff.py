@@ -134,7 +134,7 @@ def _place(cell: Any) -> dict[str, str]:
 def _sentence(change: "Change") -> str:
     """Say a change of a figure in a few words."""
     old, new = _shortened(change.old, change.new)
-    return f"{change.what} {old} → {new}" if old or new else change.what
+    return f"{change.what} {old} → {new}" if old and new else f"{change.what} {old or new}".rstrip()
 
 
 def _shortened(old: str, new: str) -> tuple[str, str]:
