@@ -388,7 +388,7 @@ TRIALS = (
         corrected=_TROCHOID.format(omega="omega^2").replace("yy", "y") + "; omega = mu*b/c",
         corrected_model=lambda: signed_model("trochoid"),
         corrected_tex=(
-            r"x(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t,\qquad"
+            r"x(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t,\qquad "
             r"y(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^2}+a\cos\omega t" + _SIGNED
         ),
         note="The shift of y must be a length, mu |E_perp|/omega^2, as C_perp must be a velocity; and, as in mf9,"
