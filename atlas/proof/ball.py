@@ -18,6 +18,7 @@ LARMOR = {ca: -alpha * sa, sa: alpha * ca}
 TURNING = {cg: -gamma * sg, sg: gamma * cg}
 START = {ca: 1, sa: 0, cg: 1, sg: 0}
 ANGLES = [(ca, turn(p)[0]), (sa, turn(p)[1]), (cg, turn(q)[0]), (sg, turn(q)[1])]
+UPRIGHT = {"alpha": "positive"}
 AXIS = [(k2, turn(h)[1]), (k3, turn(h)[0])]
 
 
@@ -123,7 +124,8 @@ def constants_model() -> tuple[Model, Model]:
     """All initial data: m2, m3 + alpha I0 = s (sin, cos) with s > 0, and the point s = 0."""
     known = {"alpha": alpha, "I0": I0}
     anywhere = {**known, "m2": size * turn(h)[1], "m3": size * turn(h)[0] - alpha * I0}
-    return Model(anywhere), Model({**known, "m2": sympy.Integer(0), "m3": -alpha * I0})
+    rest = {**known, "m2": sympy.Integer(0), "m3": -alpha * I0}
+    return Model(anywhere, domains=UPRIGHT), Model(rest, domains=UPRIGHT)
 
 
 @cache
@@ -143,7 +145,7 @@ def parallel_model() -> tuple[Model, Model]:
     cases = []
     for sign in (1, -1):
         axis = {"k2": sympy.Integer(0), "k3": -sympy.Integer(sign), "gamma": size / I0}
-        cases.append(Model({"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}))
+        cases.append(Model({"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}, domains=UPRIGHT))
     return cases[0], cases[1]
 
 

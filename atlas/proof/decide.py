@@ -1,8 +1,7 @@
 """Decides whether a line holds in a model: an exact identity, an exact counterexample, or undecided.
 
-Every model is made of rational functions of free parameters (rotations by Cayley's formula, angles by the tangent of
-the half, roots by parameters that make them rational), so that `left = right` is a polynomial identity: it holds if and
-only if the numerator of the difference expands to nothing. One exact rational point where it doesn't vanish refutes it.
+Every model is made of rational functions of free parameters, so that `left = right` is a polynomial identity, which
+`identity` decides. One exact rational point where the sides differ refutes it.
 """
 
 import random
@@ -12,9 +11,9 @@ from fractions import Fraction
 from typing import Any, Literal
 
 import sympy
-from sympy.polys.rings import ring
 
 from atlas.proof.dimensions import unbalanced
+from atlas.proof.identity import ordered, positive, resolved, vanishes
 from atlas.proof.model import Model
 from atlas.proof.notation import NoMeaningError, Reader, Relation, letters_of, parse, write
 
@@ -66,23 +65,21 @@ def decide(
     models = [cases] if isinstance(cases, Model) else list(cases)
     methods: list[str] = []
     for model in models:
-        if model.units:
-            wrong = unbalanced(line, model.units)
-            if wrong:
-                return Outcome("refuted", "dimensions", wrong)
+        wrong = unbalanced(line, model.units) if model.units else {}
+        if wrong:
+            return Outcome("refuted", "dimensions", wrong)
         try:
             relations, letters, where = _read(line, model, tuple(defines), solves)
-        except (NoMeaningError, TypeError, AttributeError, IndexError, KeyError, ValueError) as reason:
-            return Outcome("refuted", "indices", {"reason": f"the line cannot be read: {reason}"})
+        except NoMeaningError as reason:
+            return Outcome("refuted", "indices", reason.example)
         here = replace(model, letters=letters, where=where)
-        names = tuple(
-            dict.fromkeys(name for tree in parse(f"{line}; {solves}" if solves else line) for name in letters_of(tree))
+        trees = parse(f"{line}; {solves}" if solves else line)
+        found = _counterexample(
+            relations, here, tuple(name for tree in trees for name in letters_of(tree)), shrink=shrink
         )
-        found = _counterexample(relations, here, names, shrink=shrink)
         if found:
             return Outcome("refuted", "exact counterexample", found)
-        if not sample_only:
-            methods += [_prove(relation, here) for relation in relations]
+        methods += [] if sample_only else [_prove(relation, here) for relation in relations]
     if sample_only:
         return Outcome("supported", f"{SAMPLES * len(models)} exact points")
     if all(methods):
@@ -94,6 +91,17 @@ def _read(
     line: str, model: Model, defines: tuple[str, ...], solves: str
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
     """Return the relations to be checked, and the model's letters and `where` with what the line defines."""
+    try:
+        return _understand(line, model, defines, solves)
+    except NoMeaningError:
+        raise
+    except (TypeError, AttributeError, IndexError, KeyError, ValueError, SyntaxError) as reason:
+        raise NoMeaningError(f"the formula has no meaning: {reason}") from reason
+
+
+def _understand(
+    line: str, model: Model, defines: tuple[str, ...], solves: str
+) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
     letters, where = dict(model.letters), list(model.where)
     kept = []
     for tree in parse(line):
@@ -115,10 +123,13 @@ def _read(
     return relations + (reader.relations(solves) if solves else []), letters, where
 
 
-def _parameters(relations: list[Relation], model: Model) -> list[Value]:
-    found: set[Value] = set()
-    for value in [side for relation in relations for side in (*relation.left, *relation.right)]:
-        found |= sympy.sympify(value).free_symbols
+def _parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
+    """Return the free parameters on which the relations and the letters with these names depend."""
+    values = [side for relation in relations for side in (*relation.left, *relation.right)]
+    values += [
+        model.letters[name] for name in names if isinstance(model.letters.get(name), sympy.Expr | sympy.MatrixBase)
+    ]
+    found: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
     while True:
         more = found | {
             s for symbol, value in model.where if symbol in found for s in sympy.sympify(value).free_symbols
@@ -132,26 +143,11 @@ def _parameters(relations: list[Relation], model: Model) -> list[Value]:
 def _complete(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
     """Add what the symbols of `where` are at a point; each may use any other that doesn't depend on it."""
     point = dict(values)
-    for symbol, value in _ordered(model.where):
+    for symbol, value in ordered(model.where):
         found = sympy.sympify(value).xreplace(point)
         if not found.free_symbols:
             point[symbol] = found
     return point
-
-
-def _ordered(where: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
-    """Sort definitions so that each comes after those that it uses."""
-    left, result = list(where), list[tuple[Value, Value]]()
-    done: set[Value] = set()
-    names = {symbol for symbol, _ in where}
-    while left:
-        for entry in left:
-            if not (sympy.sympify(entry[1]).free_symbols & names) - done - {entry[0]}:
-                break
-        left.remove(entry)
-        done.add(entry[0])
-        result.append(entry)
-    return result
 
 
 def _points(parameters: list[Value], model: Model) -> Iterator[dict[Value, Value]]:
@@ -192,7 +188,7 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
 
     names  the letters to be shown, where they have a value at that point
     """
-    parameters = _parameters(relations, model)
+    parameters = _parameters(relations, model, names)
     valued = [False] * len(relations)
     free: dict[Value, Value] = {}
     for free in _points(parameters, model):
@@ -207,7 +203,8 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
                     return _describe(relation, entry, model, names, values)
     for number, relation in enumerate(relations):
         if not valued[number] and relation.left:
-            shown = _describe(relation, 0, model, names, _complete(free, model))
+            ones = {symbol: sympy.Rational(_SIMPLE[_domain(symbol, model)][-2]) for symbol in free}
+            shown = _describe(relation, 0, model, names, _complete(ones, model))
             return {**shown, "left": "no value: 0/0", "right": "no value: 0/0"}
     return {}
 
@@ -281,62 +278,3 @@ def _prove(relation: Relation, model: Model) -> str:
         if not how:
             return ""
     return how
-
-
-def resolved(where: list[tuple[Value, Value]]) -> dict[Value, Value]:
-    """Return what each symbol of `where` is in free parameters alone."""
-    found: dict[Value, Value] = {}
-    for symbol, value in _ordered(where):
-        found[symbol] = sympy.cancel(sympy.sympify(value).xreplace(found))
-    return found
-
-
-def vanishes(difference: Value, where: dict[Value, Value] | None = None) -> bool:
-    """Whether a rational function is zero identically: the numerator, as a polynomial in free parameters, is nothing.
-
-    A symbol that is N/n in free parameters becomes N times a symbol for 1/n; at the end each power of that is cleared
-    by the power of n that is missing. So no fraction is ever expanded.
-    """
-    numerator = sympy.numer(sympy.together(difference))
-    used = {symbol: value for symbol, value in (where or {}).items() if numerator.has(symbol)}
-    inverses: dict[Value, Value] = {}
-    swap = {}
-    for symbol, value in used.items():
-        top, bottom = sympy.fraction(value)
-        swap[symbol] = top if bottom.is_number else top * inverses.setdefault(bottom, sympy.Dummy())
-        if bottom.is_number:
-            swap[symbol] = top / bottom
-    polynomial = numerator.xreplace(swap)
-    symbols = sorted(polynomial.free_symbols | {s for n in inverses for s in n.free_symbols}, key=str)
-    if polynomial.is_number or not symbols:
-        return bool(sympy.expand(polynomial) == 0)
-    try:
-        algebra = ring(symbols, sympy.QQ)[0]
-        element = algebra.from_expr(polynomial)
-    except (ValueError, sympy.polys.polyerrors.CoercionFailed):
-        return bool(sympy.expand(sympy.numer(sympy.together(numerator.xreplace(used)))) == 0)
-    for bottom, inverse in inverses.items():
-        element = (
-            _cleared(element, symbols.index(inverse), algebra.from_expr(bottom), algebra)
-            if inverse in symbols
-            else element
-        )
-    return not element
-
-
-def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value:
-    """Multiply a polynomial in s = 1/n by the power of n that clears s."""
-    by_power: dict[int, dict[tuple[int, ...], Value]] = {}
-    for powers, coefficient in element.terms():
-        by_power.setdefault(powers[place], {})[(*powers[:place], 0, *powers[place + 1 :])] = coefficient
-    result = algebra.zero
-    for power in range(max(by_power, default=0) + 1):
-        result = result * bottom + algebra.from_dict(by_power.get(power, {}))
-    return result
-
-
-def positive(value: Value, *, strict: bool) -> bool:
-    """Whether a function of symbols of known sign is positive (nonnegative): factor by factor, or term by term."""
-    value = sympy.factor(sympy.together(value))
-    forms = [value, sympy.expand(sympy.numer(value)) / sympy.expand(sympy.denom(value))]
-    return any(form.is_positive or (not strict and form.is_nonnegative) for form in forms)

@@ -25,7 +25,11 @@ _SIGNS = {ast.Eq: "=", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">",
 
 
 class NoMeaningError(ValueError):
-    """A line that cannot be read: its indices or its kinds do not fit."""
+    """A line that has no meaning: its indices do not balance, or a vector stands where a number should."""
+
+    def __init__(self, reason: str, left: str = "", right: str = "") -> None:
+        super().__init__(reason)
+        self.example = {"reason": reason} | ({"left": left, "right": right} if left else {})
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +89,7 @@ class Reader:
     def __init__(self, letters: Mapping[str, Value], ranges: Mapping[str, tuple[int, ...]] | None = None) -> None:
         self.letters = letters
         self.ranges = ranges or {}
+        self._fixed: dict[str, Value] = {}  # parts without indices, which sums would build again and again
 
     def relations(self, line: str) -> list[Relation]:
         """Return all relations of a line; a chain a = b = c gives two."""
@@ -118,9 +123,7 @@ class Reader:
         if _is_sum(node):
             left, right = self.free(node.left), self.free(node.right)
             if left != right and not _is_zero(node.left) and not _is_zero(node.right):
-                raise NoMeaningError(
-                    f"the indices of {ast.unparse(node.left)} and {ast.unparse(node.right)} do not balance"
-                )
+                raise self._imbalance(node.left, node.right)
             return left
         if isinstance(node, ast.UnaryOp):
             return self.free(node.operand)
@@ -135,8 +138,22 @@ class Reader:
         every = [name for part in parts for name in self.free(part)]
         return {name for name in every if every.count(name) == 1}
 
+    def _imbalance(self, *sides: ast.expr) -> NoMeaningError:
+        says = []
+        for side in sides:
+            free = sorted(self.free(side))
+            says.append(
+                f"{ast.unparse(side)} has {'the free index ' + ' and '.join(free) if free else 'no free index'}"
+            )
+        return NoMeaningError("the indices do not balance", *says)
+
     def value(self, node: ast.expr, bound: Mapping[str, int]) -> Value:
         """Return the value of a formula, indices in `bound` given, all others summed."""
+        if bound and not names(node) and not isinstance(node, ast.Constant | ast.Name):
+            key = ast.dump(node)
+            if key not in self._fixed:
+                self._fixed[key] = self.value(node, {})
+            return self._fixed[key]
         if _is_sum(node):
             left, right = self.value(node.left, bound), self.value(node.right, bound)
             return left + right if isinstance(node.op, ast.Add) else left - right

@@ -20,7 +20,7 @@ from atlas.proof.verdict import Sensitivity, Verdict
 FOLDER = Path(__file__).resolve().parent
 VERDICTS = FOLDER / "verdicts.json"
 MUTANTS = FOLDER / "mutants.json"
-MACHINERY = ("notation", "dimensions", "model", "decide", "trial")
+MACHINERY = ("notation", "dimensions", "model", "identity", "decide", "trial")
 
 
 @cache

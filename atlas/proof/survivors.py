@@ -7,7 +7,6 @@ REASONS = {
     "1.6": _SYMMETRIC,
     "1.32": _SYMMETRIC,
     "1.38": _SYMMETRIC,
-    "mf16": _SYMMETRIC,
     "mf18": _SYMMETRIC,
     "mf19": _SYMMETRIC,
     "The.1": _SYMMETRIC,

@@ -21,7 +21,7 @@ mf61a mf60 mf61b mf62 mf63
 mf64 mf65 mf66 mf67 mf68 mf69 mf70 mf71 mf71.1 mf72 mf73 mf74 mf75 mf76 mf77 mf78 mf79 mf80 mf81 mf82 mf83 mf84 mf85
 mf86 mf87 mf88 mf89 mf90 mf91 mf92 mf93
 mf1 mf2 mf3 mf4 mf5 mf6 mf7 mf8 mf9 mf10 mf11 mf10.1 mf10.2 mf12 mf13 mf14
-""".split()  # noqa: SIM905  a hundred labels read best as they stand
+""".split()
 
 CITED = re.compile(r"\bmf\d+(?:\.\d+)?[ab]?\b|\bThe\.1\b|\bAff100\b|\btext-[a-z0-9-]+|\btheorem-[a-z-]+")
 

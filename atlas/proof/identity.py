@@ -1,0 +1,86 @@
+"""Decides identities and signs of rational functions of free parameters.
+
+Rotations are written by Cayley's formula, angles by the tangent of the half, roots by parameters that make them
+rational. Then two sides are equal if and only if the numerator of their difference expands to nothing.
+"""
+
+from typing import Any
+
+import sympy
+from sympy.polys.rings import ring
+
+Value = Any
+
+
+def ordered(where: list[tuple[Value, Value]]) -> list[tuple[Value, Value]]:
+    """Sort definitions so that each comes after those that it uses."""
+    left, result = list(where), list[tuple[Value, Value]]()
+    done: set[Value] = set()
+    names = {symbol for symbol, _ in where}
+    while left:
+        for entry in left:
+            if not (sympy.sympify(entry[1]).free_symbols & names) - done - {entry[0]}:
+                break
+        left.remove(entry)
+        done.add(entry[0])
+        result.append(entry)
+    return result
+
+
+def resolved(where: list[tuple[Value, Value]]) -> dict[Value, Value]:
+    """Return what each symbol of `where` is in free parameters alone."""
+    found: dict[Value, Value] = {}
+    for symbol, value in ordered(where):
+        found[symbol] = sympy.cancel(sympy.sympify(value).xreplace(found))
+    return found
+
+
+def vanishes(difference: Value, where: dict[Value, Value] | None = None) -> bool:
+    """Whether a rational function is zero identically: the numerator, as a polynomial in free parameters, is nothing.
+
+    A symbol that is N/n in free parameters becomes N times a symbol for 1/n; at the end each power of that is cleared
+    by the power of n that is missing. So no fraction is ever expanded.
+    """
+    numerator = sympy.numer(sympy.together(difference))
+    used = {symbol: value for symbol, value in (where or {}).items() if numerator.has(symbol)}
+    inverses: dict[Value, Value] = {}
+    swap = {}
+    for symbol, value in used.items():
+        top, bottom = sympy.fraction(value)
+        swap[symbol] = top if bottom.is_number else top * inverses.setdefault(bottom, sympy.Dummy())
+        if bottom.is_number:
+            swap[symbol] = top / bottom
+    polynomial = numerator.xreplace(swap)
+    symbols = sorted(polynomial.free_symbols | {s for n in inverses for s in n.free_symbols}, key=str)
+    if polynomial.is_number or not symbols:
+        return bool(sympy.expand(polynomial) == 0)
+    try:
+        algebra = ring(symbols, sympy.QQ)[0]
+        element = algebra.from_expr(polynomial)
+    except (ValueError, sympy.polys.polyerrors.CoercionFailed):
+        return bool(sympy.expand(sympy.numer(sympy.together(numerator.xreplace(used)))) == 0)
+    for bottom, inverse in inverses.items():
+        element = (
+            _cleared(element, symbols.index(inverse), algebra.from_expr(bottom), algebra)
+            if inverse in symbols
+            else element
+        )
+    return not element
+
+
+def _cleared(element: Value, place: int, bottom: Value, algebra: Value) -> Value:
+    """Multiply a polynomial in s = 1/n by the power of n that clears s."""
+    by_power: dict[int, dict[tuple[int, ...], Value]] = {}
+    for powers, coefficient in element.terms():
+        by_power.setdefault(powers[place], {})[(*powers[:place], 0, *powers[place + 1 :])] = coefficient
+    result = algebra.zero
+    for power in range(max(by_power, default=0) + 1):
+        result = result * bottom + algebra.from_dict(by_power.get(power, {}))
+    return result
+
+
+def positive(value: Value, *, strict: bool) -> bool:
+    """Whether a function of symbols of known sign is positive (nonnegative): factor by factor, or term by term."""
+    value = sympy.factor(sympy.together(value))
+    forms = [value, sympy.expand(sympy.numer(value)) / sympy.expand(sympy.denom(value))]
+    return any(form.is_positive or (not strict and form.is_nonnegative) for form in forms)

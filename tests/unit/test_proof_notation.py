@@ -1,0 +1,72 @@
+"""Printed formulas are read as a physicist reads them."""
+
+import pytest
+import sympy
+
+from atlas.paper import EQUATIONS
+from atlas.proof.model import COMMON, matrix, vector
+from atlas.proof.notation import NoMeaningError, Reader, parse, write
+from atlas.proof.run import trial
+
+R, S, v, w = matrix("R"), matrix("S"), vector("v"), vector("w")
+LETTERS = {
+    **COMMON,
+    "R": R,
+    "S": S,
+    "v": v,
+    "w": w,
+    "x": sympy.Symbol("x"),
+    "m": {1: sympy.Integer(2), 2: sympy.Integer(5)},
+}
+
+
+def _both(line: str, **ranges: tuple[int, ...]) -> list[tuple[object, object]]:
+    return [
+        pair for found in Reader(LETTERS, ranges).relations(line) for pair in zip(found.left, found.right, strict=True)
+    ]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "(R*S)[i,j] = R[i,k]*S[k,j]",
+        "cross(v,w)[i] = eps[i,j,k]*v[j]*w[k]",
+        "dot(v,w) = v[i]*w[i]",
+        "T(R)[i,j] = R[j,i]",
+        "tr(R) = R[a,a]",
+        "v[i] = delta[i,j]*v[j]",
+        "one[i,j] = delta[i,j]",
+        "v^2 = v[1]*v[1] + v[2]*v[2] + v[3]*v[3]",
+        "R*v = [R[1,a]*v[a], R[2,a]*v[a], R[3,a]*v[a]]",
+        "7 = m[N]",
+        "x - 2*x/4 = x/2",
+        "0 = x*0",
+    ],
+)
+def test_index_formulas_mean_what_they_say(line: str) -> None:
+    """Repeated indices are summed, free ones run over all values, matrices multiply."""
+    for left, right in _both(line, N=(1, 2)):
+        assert sympy.expand(left - right) == 0
+
+
+def test_a_chain_is_several_relations() -> None:
+    """A = b = c says a = b and b = c."""
+    assert [found.text for found in Reader(LETTERS).relations("x = 2*x = 3*x; x < 4")] == [
+        "x = 2 * x",
+        "2 * x = 3 * x",
+        "x < 4",
+    ]
+
+
+@pytest.mark.parametrize("line", ["R[i,j] = v[i]", "v[i] = v[i] + w[j]", "x = v", "R = v", "x"])
+def test_what_does_not_balance_has_no_meaning(line: str) -> None:
+    """Sides of different kinds are refused, not broadcast."""
+    with pytest.raises((NoMeaningError, TypeError)):
+        Reader(LETTERS).relations(line)
+
+
+@pytest.mark.parametrize("label", EQUATIONS)
+def test_every_printed_line_is_written_as_it_is_read(label: str) -> None:
+    """Writing a line that was read gives one that reads the same."""
+    line = write(parse(trial(label).printed))
+    assert write(parse(line)) == line
