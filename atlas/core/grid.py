@@ -13,19 +13,22 @@ import numpy as np
 from atlas.core.basis import SCALE, Basis, extended, resolution
 from atlas.core.inputs import FloatArray
 from atlas.core.phase import LIMIT, Phases
-from atlas.core.rotation import BLOCK, DoubleRotation
+from atlas.core.rotation import DoubleRotation
 from atlas.core.threads import shared
 from atlas.core.wide import Wide
 from atlas.errors import AtlasError
 
-FINE = 96
+FINE = 64
 """Times in the fine table."""
 
 FEW = 8192
 """Shorter grids are evaluated time by time: their tables would cost more."""
 
-ROWS = 32
+ROWS = 48
 """Coarse times a product: large enough to pay for its call, small enough that the library does not thread it."""
+
+COARSE = 40 * ROWS
+"""Coarse times whose functions are evaluated at once."""
 
 
 def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArray) -> None:
@@ -67,16 +70,16 @@ def run(turning: DoubleRotation, origin: Wide, step: Wide, out: FloatArray, *, b
 
     def fill(low: int, high: int) -> None:
         """Fill the blocks low to high, counted from the origin."""
-        basis = Basis(coarse, min(BLOCK, high - low), size)
-        for i in range(low, high, BLOCK):
-            j = min(i + BLOCK, high)
+        basis = Basis(coarse, min(COARSE, high - low), size)
+        for i in range(low, high, COARSE):
+            j = min(i + COARSE, high)
             functions = basis.at(np.arange(float(i), float(j))).T
             if backward:
                 product(functions[::-1], table, out[count - j * FINE : count - i * FINE])
             else:
                 product(functions, table, out[i * FINE : j * FINE])
 
-    shared(fill, blocks, FINE)
+    shared(fill, blocks, COARSE, FINE)
     if rest:
         functions = Basis(coarse, 1, size).at(np.array([float(blocks)])).T
         part, end = (slice(-9 * rest, None), slice(0, rest)) if backward else (slice(9 * rest), slice(-rest, None))

@@ -79,7 +79,7 @@ def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...]
             for k in range(0, j - i, PART):
                 np.matmul(functions[:, k : k + PART].T, weights, out=part[k : k + PART])
 
-    shared(fill, times.size)
+    shared(fill, times.size, BLOCK)
     return out
 
 

@@ -8,12 +8,13 @@ ENOUGH = 100_000
 """Matrices from which on a second thread is worth its start."""
 
 
-def shared(work: Callable[[int, int], None], count: int, weight: int = 1) -> None:
+def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int = 1) -> None:
     """Do work(0, count), in two halves at once if it is long and this process may use two processors.
 
-    `weight` is the number of matrices in one unit of work.
+    `grain` is how many units are done at once: the cut is a multiple, so that it changes no bit. `weight` is the number
+    of matrices in one unit.
     """
-    half = count // 2
+    half = (count // 2 + grain - 1) // grain * grain
     if count * weight < ENOUGH or processors() < 2:
         work(0, count)
         return

@@ -29,7 +29,7 @@ def test_the_grid_is_that_of_exact_real_times(
     """Each matrix is within 4 ulp(1) of that at start + i step, and orthogonal to that; with tables and without."""
     monkeypatch.setattr(grid, "FEW", 0 if tables else 10**6)
     R = ElementaryMotion(I, (B2, B3), OMEGA2).rotation_grid(start, step, 1000)
-    for i in (0, 1, 12, 13, 95, 96, 97, 499, 500, 501, 767, 999):
+    for i in (0, 1, 12, 13, 63, 64, 65, 499, 500, 501, 767, 999):
         with mp.workdps(40):
             ours = mp.matrix(R[i].tolist())
             assert max(abs(x) for x in ours - true(start, step, i)) <= 4 * ULP1
@@ -63,7 +63,7 @@ def test_grids_of_every_length_end_where_they_should(monkeypatch: pytest.MonkeyP
     """Whole and broken blocks, forward and backward, agree with single times."""
     monkeypatch.setattr(grid, "FEW", 0)
     motion = ElementaryMotion(I, (B2, B3), OMEGA2)
-    for count in (0, 1, 2, 95, 96, 97, 192, 3071, 3072, 3100):
+    for count in (0, 1, 2, 63, 64, 65, 128, 3071, 3072, 3100):
         for start, step in ((0.0, 2.0**-7), (-(2.0**-7) * (count // 3), 2.0**-7), (1.0, -(2.0**-7))):
             t = start + step * np.arange(count)
             assert np.abs(motion.rotation_grid(start, step, count) - motion.rotation(t)).max(initial=0) <= 4 * ULP1

@@ -164,7 +164,7 @@ def test_a_time_without_an_answer_is_an_error(t: Any) -> None:
 
 def test_two_threads_give_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether a second thread helps changes no bit."""
-    motion, t = ElementaryMotion(*MOTION), np.linspace(0, 1e4, 120_001)
+    motion, t = ElementaryMotion(*MOTION), np.linspace(0, 1e4, 123_457)
     monkeypatch.setattr("atlas.core.threads.processors", lambda: 2)
     two = motion.rotation(t)
     monkeypatch.setattr("atlas.core.threads.processors", lambda: 1)
