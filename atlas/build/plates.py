@@ -5,8 +5,6 @@ files it reads, its parameters, the renderer, and the versions of the libraries 
 """
 
 import multiprocessing
-import resource
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass, field
@@ -14,6 +12,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from atlas.build.drawing import make
 from atlas.build.sources import PACKAGE, Sources, digest
 from atlas.build.store import Store, place
 from atlas.places import folder
@@ -21,8 +20,6 @@ from atlas.report.gallery import Gallery
 from atlas.report.numbers import shown
 
 DRAWERS = {"vector": ("numpy", "matplotlib"), "shaded": ("numpy", "matplotlib", "pyvista", "vtk")}
-STEM = "plate"
-KINDS: Mapping[str, tuple[str, ...]] = {"shaded": ("png",), "vector": ("svg", "pdf")}
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,12 +70,13 @@ class Made:
 def key_of(request: Request, sources: Sources, gl: str | None) -> tuple[str, dict[str, str]]:
     """Return the key of a plate and the parts that it is made of, by name."""
     used = request.renderer if request.renderer == "vector" or gl else "vector"
-    roots = [PACKAGE / "build" / "plates.py", PACKAGE / "scene" / "style.py", PACKAGE / "render" / f"{used}.py"]
+    roots = [PACKAGE / "build" / "drawing.py", PACKAGE / "scene" / "style.py", PACKAGE / "render" / f"{used}.py"]
+    other = [PACKAGE / "render" / "shaded.py"] if used == "vector" else []  # the door to both imports both
     parts = {
         "parameters": digest(request.parameters),
         "recipe and kernels": sources.closure([folder("figures") / f"{request.recipe}.py"]),
         "data": sources.closure(data_files(request.recipe)),
-        "drawing code": sources.closure(roots),
+        "drawing code": sources.closure(roots, without=other),
         "libraries": digest([[name, _version(name)] for name in DRAWERS[used]]),
         "renderer": digest([request.renderer, gl if request.renderer == "shaded" else None]),
     }
@@ -90,41 +88,6 @@ def data_files(recipe: str) -> list[Path]:
     data = folder("reports") / "data"
     text = (folder("figures") / f"{recipe}.py").read_text(encoding="utf-8")
     return [path for path in sorted(data.glob("*.json")) if path.name in text or path.stem in text]
-
-
-def make(recipe: str, renderer: Any, parameters: dict[str, Any], into: Path) -> dict[str, Any]:
-    """Make the scene, draw it into a folder, and return what there is to note about it."""
-    from atlas.build import meter
-    from atlas.render import choose, draw_all
-    from atlas.scene import recipes
-
-    start = time.perf_counter()
-    loaded = recipes.load(recipe)
-    with meter.counting() as counts:
-        scene = loaded.scene(**parameters)
-    computed = time.perf_counter()
-    used, note = choose(scene, renderer)
-    drawn = draw_all(scene, {into / f"{STEM}.{kind}": kind for kind in KINDS[used]}, used)
-    files = {"html": drawn[0].path.name, "pdf": drawn[-1].path.name}
-    return {
-        "title": scene.title,
-        "caption": scene.caption,
-        "alt": scene.alt,
-        "size": list(scene.size),
-        "parameters": {name: shown(value) for name, value in scene.parameters.items()},
-        "renderer": used,
-        "note": note,
-        "files": files,
-        "cost": {
-            "quantities": dict(sorted(counts.items())),
-            "points": meter.points(scene),
-            "faces": meter.faces(scene),
-            "compute_s": computed - start,
-            "draw_s": time.perf_counter() - computed,
-            "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
-            "bytes": sum((into / name).stat().st_size for name in set(files.values())),
-        },
-    }
 
 
 def draw_gallery(

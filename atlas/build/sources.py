@@ -38,23 +38,24 @@ class Sources:
             except (OSError, ValueError):
                 self._known = {}  # nothing remembered, or not readable: everything is digested anew
 
-    def reached(self, roots: Iterable[Path]) -> tuple[Path, ...]:
-        """Return the files and every module of ours that they import, sorted."""
+    def reached(self, roots: Iterable[Path], without: Iterable[Path] = ()) -> tuple[Path, ...]:
+        """Return the files and every module of ours that they import, sorted; not ``without`` nor through it."""
+        closed = {Path(path).resolve() for path in without}
         found: set[Path] = set()
         waiting = [Path(root).resolve() for root in roots]
         while waiting:
             path = waiting.pop()
-            if path not in found:
+            if path not in found and path not in closed:
                 found.add(path)
                 waiting.extend(Path(name) for name in self._facts(path)["imports"])
         return tuple(sorted(found))
 
-    def closure(self, roots: Iterable[Path]) -> str:
-        """Return one digest of the files and of every module of ours that they import.
+    def closure(self, roots: Iterable[Path], without: Iterable[Path] = ()) -> str:
+        """Return one digest of the files and of every module of ours that they import, but for ``without``.
 
         It does not depend on where the checkout is.
         """
-        return digest([[_place(path), self._facts(path)["digest"]] for path in self.reached(roots)])
+        return digest([[_place(path), self._facts(path)["digest"]] for path in self.reached(roots, without)])
 
     def save(self) -> None:
         """Remember the digests for the next run."""

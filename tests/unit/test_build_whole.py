@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build import build_report
+from atlas.build.report import build_report
 from atlas.build.whole import PREFIX, publish, staging, write
 from atlas.errors import AtlasError
 from atlas.report import pdf
@@ -24,7 +24,7 @@ text = "x"
 """
 KILLED = """
 import os, signal, sys
-from atlas.build import build_report
+from atlas.build.report import build_report
 def tell(done, total, what):
     if what == "PDF":
         os.kill(os.getpid(), signal.SIGKILL)

@@ -1,0 +1,167 @@
+"""The records that a report shows: verdicts of the trial, the benchmark, the worst errors of the stress runs.
+
+They are read, never made anew: `atlas verify --record`, `atlas bench` and `atlas stress` make them.
+"""
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Mapping
+from pathlib import Path
+
+from atlas.build.sources import PACKAGE
+from atlas.paper import EQUATIONS
+from atlas.report.appendices import Appendices, Finding
+from atlas.report.letters import typeset
+from atlas.report.numbers import Number
+from atlas.report.records import Errata, Ledger, Recorded, Report
+from atlas.report.tables.model import Column, Data
+
+FILES = tuple(PACKAGE / name for name in ("proof/verdicts.json", "proof/mutants.json", "study/ratchet.json"))
+"""The records that lie beside the code; those of reports/data are found by their folder."""
+
+_CITED = re.compile(r"\bmf\d+(?:\.\d+)?[ab]?\b|\bThe\.1\b|\bAff100\b|\btext-[a-z0-9-]+|\btheorem-[a-z-]+")
+_DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+_POWER = re.compile(r"1e\+?(-?)0*(\d+)")
+_SECTIONS = {"VII": "Appendix", "Atlas": "Atlas"}
+
+
+def gather(report: Report) -> Appendices:
+    """Read what the blocks of a report show, and nothing else."""
+    blocks = [block for page in report.pages for block in page.blocks]
+    trial = any(isinstance(block, Ledger | Errata) for block in blocks)
+    wanted = {block.source for block in blocks if isinstance(block, Recorded)}
+    tables: dict[str, Data] = {}
+    for source, read in {"trial": _trial, "bench": _bench, "stress": _stress}.items():
+        if source in wanted:
+            tables |= {f"{source}: {name}": data for name, data in read().items()}
+    return Appendices(_findings() if trial else {}, tables)
+
+
+def _findings() -> dict[str, Finding]:
+    """Return what the trial recorded on each entry."""
+    from atlas.proof import record
+
+    mutants, modules = record.load_mutants(), _modules()
+    findings = {}
+    for label, verdict in record.load().items():
+        changed = mutants.get(label)
+        findings[label] = Finding(
+            verdict.verdict,
+            verdict.method,
+            verdict.follows,
+            verdict.corrected_tex,
+            verdict.corrected_verdict,
+            verdict.counterexample,
+            verdict.note,
+            changed.tried if changed else 0,
+            changed.noticed if changed else 0,
+            changed.reason if changed else "",
+            modules.get(label, ()),
+        )
+    return findings
+
+
+def _modules() -> dict[str, tuple[str, ...]]:
+    """Return for each label the modules of the kernels and of the balls whose docstrings cite it."""
+    found: defaultdict[str, list[str]] = defaultdict(list)
+    for floor in ("core", "exact"):
+        for path in sorted((PACKAGE / floor).rglob("*.py")):
+            text = " ".join(_DOCSTRING.findall(path.read_text("utf-8")))
+            for label in dict.fromkeys(_CITED.findall(text)):
+                found[label].append(path.relative_to(PACKAGE).as_posix())
+    return {label: tuple(paths) for label, paths in found.items()}
+
+
+def _trial() -> dict[str, Data]:
+    """Return the verdicts in numbers, section by section, and what survived the changes."""
+    from atlas.proof import record
+
+    verdicts, mutants = record.load(), record.load_mutants()
+    kinds = [kind for kind in ("proved", "refuted", "supported", "undecided")]
+    totals: defaultdict[str, Counter[str]] = defaultdict(Counter)
+    for label, entry in EQUATIONS.items():
+        changed = mutants.get(label)
+        for key in (entry.section, "all"):
+            totals[key]["entries"] += 1
+            totals[key][verdicts[label].verdict if label in verdicts else "undecided"] += 1
+            totals[key]["tried"] += changed.tried if changed else 0
+            totals[key]["noticed"] += changed.noticed if changed else 0
+    whole = totals.pop("all")
+    columns = ("Section", "Entries", *(kind.capitalize() for kind in kinds), "Changes tried", "Noticed", "Survivors")
+    rows = tuple(
+        (_SECTIONS.get(key, key), *(Number(str(count[kind])) for kind in ("entries", *kinds, "tried", "noticed")),
+         Number(str(count["tried"] - count["noticed"])))
+        for key, count in [*totals.items(), ("All", whole)]
+    )
+    reasons: defaultdict[str, list[str]] = defaultdict(list)
+    for label, changed in mutants.items():
+        if changed.survivors:
+            reasons[changed.reason or "Not explained."].append(f"@{label} ({len(changed.survivors)})")
+    return {
+        "totals": Data(tuple(map(Column, columns)), rows, "The trial in numbers."),
+        "survivors": Data(
+            (Column("Why they survive"), Column("Entries, with the number of survivors")),
+            tuple((typeset(reason), ", ".join(labels)) for reason, labels in reasons.items()),
+            "Changed forms that the trial does not refute.",
+        ),
+    }
+
+
+def _bench() -> dict[str, Data]:
+    """Return the tables of the stored benchmark by their titles."""
+    from atlas.study.bench import record, tables
+
+    stored = record.read()
+    line = f"Measured on {tables.machine_line(stored)}."
+    return {
+        table.title: Data(
+            tuple(Column(_power(head)) for head in table.heading),
+            tuple(tuple(_cell(cell) for cell in row) for row in table.rows),
+            f"{table.title}.",
+            " ".join([*table.notes, line]),
+        )
+        for table in tables.tables(stored)
+    }
+
+
+def _stress() -> dict[str, Data]:
+    """Return the worst error of each quantity on record, and the regime in which it was met."""
+    from atlas.study.stress import LIMITS, LONG, SHORT, read_ratchet
+
+    worst: dict[str, tuple[float, str]] = {}
+    for name, ulps in read_ratchet().items():
+        quantity, _, regime = name.partition(" | ")
+        worst[quantity] = max(worst.get(quantity, (-1.0, "")), (ulps, regime))
+    order = [*(name for name in LIMITS if name in worst), *(name for name in worst if name not in LIMITS)]
+    rows = tuple(
+        (
+            typeset(name),
+            Number(f"{worst[name][0]:.3f}" if worst[name][0] else "0"),
+            Number(f"{LIMITS[name]:g}") if name in LIMITS else "–",
+            typeset(worst[name][1]) if worst[name][0] > 0.5 else "–",
+        )
+        for name in order
+    )
+    note = (
+        f"Worst of {LONG[0]:,} values (seed {LONG[1]}) and of {SHORT[0]:,} (seed {SHORT[1]}), rounded up. Half a unit "
+        "is on record where less was found."
+    )
+    columns = (Column("Quantity"), Column("Worst error", "ulp"), Column("Limit", "ulp"), Column("Met where"))
+    return {"worst errors": Data(columns, rows, "Worst errors on record.", note)}
+
+
+def _cell(text: str) -> str | Number:
+    """Return a cell as a number where it is one."""
+    return Number(text) if _NUMBER.fullmatch(text) else _words(text)
+
+
+def _power(head: str) -> str:
+    """Write a power of ten at the head of a column as one."""
+    return _words(_POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", head))
+
+
+def _words(text: str) -> str:
+    """Write out what is plain in a terminal."""
+    text = re.sub(r"\(us\b", "(µs", text)
+    return _POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", text)
