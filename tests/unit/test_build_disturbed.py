@@ -1,0 +1,164 @@
+"""Builds that are killed, doubled, starved or moved: whole or not at all, and the same bytes in the end."""
+
+import hashlib
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+REPORT = r"""
+name = "small"
+title = "A Small Report"
+authors = ["A. Author"]
+abstract = "A formula, $R(t)$."
+
+[parameters.bodies.shell]
+title = "shell"
+ratio = 1.5
+
+[parameters.fields.oblique]
+title = "oblique field"
+prime = [1.0, 2.0]
+
+[[pages]]
+slug = "index"
+title = "The page"
+
+[[pages.blocks]]
+kind = "prose"
+text = "The vector $\\mathbf{B}'$ and @mf76."
+
+[[pages.blocks]]
+kind = "equation"
+label = "mf76"
+
+[[pages.blocks]]
+kind = "figure"
+recipe = "hyperbola"
+body = "shell"
+field = "oblique"
+
+[[pages.blocks]]
+kind = "figure"
+recipe = "trochoids"
+
+[[pages.blocks]]
+kind = "table"
+table = "points"
+body = "shell"
+field = "oblique"
+parameters = { omega2 = [0.7] }
+"""
+
+
+def command(folder: Path, *words: str) -> list[str]:
+    """Write the report's file into a folder and return the command that builds it there."""
+    folder.mkdir(exist_ok=True)
+    (folder / "small.toml").write_text(REPORT)
+    return [sys.executable, "-m", "atlas", "report", str(folder / "small.toml"), "--out", str(folder / "out"), *words]
+
+
+def run(words: list[str], **more: object) -> subprocess.CompletedProcess[str]:
+    """Run a build to its end."""
+    return subprocess.run(words, capture_output=True, text=True, check=False, **more)  # type: ignore[call-overload,no-any-return]
+
+
+def content(folder: Path) -> dict[str, str]:
+    """Return the digests of what a reader gets: the pages, the figures, the fonts, the PDF."""
+    out = folder / "out"
+    files = [path for path in [*(out / "small").rglob("*"), out / "small.pdf"] if path.is_file()]
+    return {path.relative_to(out).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Build once in peace."""
+    folder = tmp_path_factory.mktemp("peace")
+    result = run(command(folder))
+    assert result.returncode == 0, result.stderr
+    found = content(folder)
+    assert {"small/index.html", "small/record.json", "small.pdf"} <= found.keys()
+    return found
+
+
+def test_killed_at_random_moments_it_heals(undisturbed: dict[str, str], tmp_path: Path) -> None:
+    """However often a build is killed, what is there is whole, and the next one ends in the same bytes."""
+    words, chance = command(tmp_path, "-j", "2"), random.Random(11)  # noqa: S311  reproducible, not secret
+    for _ in range(10):
+        with subprocess.Popen(
+            words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+        ) as build:
+            time.sleep(chance.uniform(0.05, 2.5))
+            os.killpg(build.pid, signal.SIGKILL)
+        found = content(tmp_path)
+        assert found.items() <= undisturbed.items()
+    assert run(words).returncode == 0
+    assert content(tmp_path) == undisturbed
+
+
+def test_two_builds_at_once_do_no_harm(undisturbed: dict[str, str], tmp_path: Path) -> None:
+    """Two builds of the same report into the same folder both end well, with the same bytes."""
+    words = command(tmp_path)
+    both = [subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+    for build in both:
+        _, complaint = build.communicate()
+        assert build.returncode == 0, complaint
+    assert content(tmp_path) == undisturbed
+
+
+def test_folder_jobs_locale_and_time_zone_change_no_byte(undisturbed: dict[str, str], tmp_path: Path) -> None:
+    """Elsewhere, one figure at a time, in another language and time zone, the bytes are the same."""
+    folder = tmp_path / "another place"
+    abroad = os.environ | {"LC_ALL": "C", "TZ": "Pacific/Apia", "LANG": "de_DE.UTF-8", "PYTHONHASHSEED": "7"}
+    assert run(command(folder, "-j", "1"), env=abroad, cwd=tmp_path).returncode == 0
+    assert content(folder) == undisturbed
+
+
+def test_a_full_disk_is_one_line_and_the_last_good_report_stays(undisturbed: dict[str, str], tmp_path: Path) -> None:
+    """When a file cannot be written in full, the command says so in one line and leaves what was there."""
+    words = command(tmp_path)
+    assert run(words).returncode == 0
+    (tmp_path / "small.toml").write_text(REPORT.replace("A Small Report", "Another Title"))
+
+    def starve() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+    result = run(words, preexec_fn=starve)
+    assert result.returncode == 1, result.stderr
+    assert result.stderr.count("\n") == 1
+    assert "Traceback" not in result.stderr
+    assert content(tmp_path) == undisturbed
+
+
+def test_a_folder_that_cannot_be_is_one_line(tmp_path: Path) -> None:
+    """Where a file stands in the place of the folder, the command says so in one line."""
+    words = command(tmp_path)
+    (tmp_path / "out").write_text("in the way")
+    result = run(words)
+    assert result.returncode in {1, 2}
+    assert result.stderr.count("\n") == 1
+    assert str(tmp_path / "out") in result.stderr
+    assert (tmp_path / "out").read_text() == "in the way"
+
+
+def test_nothing_changed_means_nothing_built(tmp_path: Path) -> None:
+    """A second build takes the report as it is; one that lost a file or was touched is made good again."""
+    words = command(tmp_path)
+    assert run(words).returncode == 0
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    again = run([*words, "--explain"])
+    assert "nothing it depends on has changed" in again.stdout
+    after = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    assert {path for path in before if before[path] != after.get(path)} == set()
+    victim = tmp_path / "out" / "small" / "index.html"
+    good = victim.read_bytes()
+    victim.write_text("spoiled")
+    assert run(words).returncode == 0
+    assert victim.read_bytes() == good
