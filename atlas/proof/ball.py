@@ -5,6 +5,7 @@ from functools import cache
 import sympy
 
 from atlas.proof import euler_poisson as general
+from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, hat, rotation_symbols, turn, vector
 from atlas.proof.trial import Trial
 
@@ -62,7 +63,7 @@ def ball_model() -> Model:
     rates = {n + 1: dR.col(n) for n in range(3)}
     letters = {"R": R, "dR": dR, "Rj": columns, "dRj": rates, "Bf": Bf, "mu": mu, "c": c, "I0": I0}
     letters |= {"Omega": Omega, "dOmega": rate, "m": spin, "dm": dm}
-    return Model(letters, ROTATION)
+    return Model(letters, ROTATION, units=units.BALL)
 
 
 @cache
@@ -78,7 +79,7 @@ def larmor_model() -> Model:
     b = sympy.Symbol("b", positive=True)
     letters = {"alpha": alpha, "t": t, "m2": m2, "m3": m3, "mu": mu, "c": c, "b": b}
     where = [(alpha, mu * b / (2 * c)), *ANGLES[:2]]
-    return Model(letters, where, LARMOR, START, {alpha * t: (ca, sa)})
+    return Model(letters, where, LARMOR, START, {alpha * t: (ca, sa)}, units=units.BALL)
 
 
 @cache
@@ -88,14 +89,14 @@ def larmor_frequency_model() -> Model:
     field = sympy.Matrix([0, 0, b])
     dm = -mu / (2 * c) * cross(field, m)
     rate = -cross(m, dm)[2] / (m[0] ** 2 + m[1] ** 2)
-    return Model({"alpha": sympy.cancel(rate), "mu": mu, "c": c, "b": b}, units={})
+    return Model({"alpha": sympy.cancel(rate), "mu": mu, "c": c, "b": b}, units=units.BALL)
 
 
 def _motion(spin: Value, where: list[tuple[Value, Value]]) -> Model:
     letters = {"alpha": alpha, "gamma": gamma, "t": t, "k2": k2, "k3": k3, "I0": I0, "m": spin, "m2": m2, "m3": m3}
     phases = {alpha * t: (ca, sa), gamma * t: (cg, sg)}
     letters["rod"] = rodrigues
-    return Model(letters, where, {**LARMOR, **TURNING}, START, phases)
+    return Model(letters, where, {**LARMOR, **TURNING}, START, phases, units=units.BALL)
 
 
 def rodrigues(axis: Value, cosine: Value, sine: Value) -> Value:
@@ -125,7 +126,7 @@ def constants_model() -> tuple[Model, Model]:
     known = {"alpha": alpha, "I0": I0}
     anywhere = {**known, "m2": size * turn(h)[1], "m3": size * turn(h)[0] - alpha * I0}
     rest = {**known, "m2": sympy.Integer(0), "m3": -alpha * I0}
-    return Model(anywhere, domains=UPRIGHT), Model(rest, domains=UPRIGHT)
+    return Model(anywhere, domains=UPRIGHT, units=units.BALL), Model(rest, domains=UPRIGHT, units=units.BALL)
 
 
 @cache
@@ -145,7 +146,9 @@ def parallel_model() -> tuple[Model, Model]:
     cases = []
     for sign in (1, -1):
         axis = {"k2": sympy.Integer(0), "k3": -sympy.Integer(sign), "gamma": size / I0}
-        cases.append(Model({"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}, domains=UPRIGHT))
+        cases.append(
+            Model({"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}, domains=UPRIGHT, units=units.BALL)
+        )
     return cases[0], cases[1]
 
 
@@ -155,7 +158,7 @@ def parallel_motion_model() -> Model:
     angle = m3 * t / I0
     flow = {cg: -m3 / I0 * sg, sg: m3 / I0 * cg}
     letters = {"m3": m3, "I0": I0, "t": t, "m": sympy.Matrix([0, 0, m3])}
-    return Model(letters, ANGLES[2:], flow, START, {angle: (cg, sg)})
+    return Model(letters, ANGLES[2:], flow, START, {angle: (cg, sg)}, units=units.BALL)
 
 
 _EXPANDED = (

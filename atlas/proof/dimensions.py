@@ -12,7 +12,7 @@ Dimension = tuple[Fraction, ...]
 _NONE: Dimension = (Fraction(0),) * 4
 _NAMES = ("length", "time", "mass", "charge")
 _SAME = {"T", "norm", "abs", "at0"}
-_KNOWN = _SAME | {"cross", "dot", "d", "d2", "sqrt", "sin", "cos", "tan"}
+_KNOWN = _SAME | {"inv", "cross", "dot", "d", "d2", "sqrt", "sin", "cos", "tan"}
 
 
 class _ClashError(ValueError):
@@ -77,8 +77,8 @@ def _dimension(node: ast.expr, known: Mapping[str, Dimension]) -> Dimension | No
         return None if node.value == 0 else _NONE
     if isinstance(node, ast.Name):
         return known[node.id]
-    if isinstance(node, ast.UnaryOp):
-        return _dimension(node.operand, known)
+    if isinstance(node, ast.UnaryOp | ast.Subscript):
+        return _dimension(node.operand if isinstance(node, ast.UnaryOp) else node.value, known)
     if isinstance(node, ast.List):
         result = None
         for entry in node.elts:
@@ -114,6 +114,8 @@ def _call(node: ast.Call, known: Mapping[str, Dimension]) -> Dimension | None:
         return tuple(sum(powers, Fraction(0)) for powers in zip(*inner, strict=True))
     if name in {"d", "d2"} and inner[0] is not None:
         return (inner[0][0], inner[0][1] - (1 if name == "d" else 2), *inner[0][2:])
+    if name == "inv" and inner[0] is not None:
+        return tuple(-x for x in inner[0])
     if name == "sqrt" and inner[0] is not None:
         return tuple(x / 2 for x in inner[0])
     if name in {"sin", "cos", "tan"}:

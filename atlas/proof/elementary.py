@@ -4,6 +4,7 @@ from functools import cache
 
 import sympy
 
+from atlas.proof import units
 from atlas.proof.ball import rodrigues
 from atlas.proof.model import Model, Value, cross, hat, turn, vector
 from atlas.proof.quadric import I, constant_omega3, omega1, omega2, omega3
@@ -48,7 +49,7 @@ PROPER = sympy.Matrix([[cf, -sf, 0], [sf, cf, 0], [0, 0, 1]])
 def _model(
     letters: dict[str, Value], where: list[tuple[Value, Value]], flow: dict[Value, Value] | None = None
 ) -> Model:
-    return Model({**CONSTANTS, **letters}, where, flow or FLOW, START, PHASES, DOMAINS)
+    return Model({**CONSTANTS, **letters}, where, flow or FLOW, START, PHASES, DOMAINS, units=units.ELEMENTARY)
 
 
 @cache

@@ -4,6 +4,7 @@ from functools import cache
 
 import sympy
 
+from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, hat, matrix, rotation, rotation_symbols, symmetric, vector
 from atlas.proof.trial import Trial
 
@@ -32,7 +33,9 @@ def multiplier_model() -> Model:
     solved = -(moments * slope.inv()).applyfunc(sympy.cancel) * rest
     ddRg = R * (hat(Omega) ** 2 + hat(w)) * g
     return Model(
-        {**COMMON, "A": A, "g": g, "I": moments, "Lam": Lam, "w": w, "IdOmega": solved, "ddRg": ddRg}, ROTATION
+        {**COMMON, "A": A, "g": g, "I": moments, "Lam": Lam, "w": w, "IdOmega": solved, "ddRg": ddRg},
+        ROTATION,
+        units=units.BODY,
     )
 
 
@@ -44,7 +47,7 @@ def magnetic_model() -> Model:
     model = multiplier_model()
     free = model.letters["A"]
     rate = model.letters["IdOmega"].xreplace(dict(zip(free, A, strict=True)))
-    return Model({**COMMON, "A": A, "dR": dR, "g": g, "I": moments, "IdOmega": rate}, ROTATION)
+    return Model({**COMMON, "A": A, "dR": dR, "g": g, "I": moments, "IdOmega": rate}, ROTATION, units=units.BODY)
 
 
 def euler(tensor: Value, mass: Value, field: Value) -> Value:
@@ -68,7 +71,7 @@ def momentum_model() -> Model:
         "M": M,
         "m": R * M,
     }
-    return Model({**COMMON, **letters, "dm": R * (cross(spin, M) + rate), "dM": rate}, ROTATION)
+    return Model({**COMMON, **letters, "dm": R * (cross(spin, M) + rate), "dM": rate}, ROTATION, units=units.BODY)
 
 
 @cache
@@ -118,7 +121,9 @@ def grioli_model() -> Model:
     b = sympy.Symbol("b", positive=True)
     field = R.T * sympy.Matrix([0, 0, b])
     return Model(
-        {**COMMON, "I": moments, "g": g, "b": b, "G3": R.row(2).T, "IdOmega": euler(moments, g, field)}, ROTATION
+        {**COMMON, "I": moments, "g": g, "b": b, "G3": R.row(2).T, "IdOmega": euler(moments, g, field)},
+        ROTATION,
+        units=units.BODY,
     )
 
 

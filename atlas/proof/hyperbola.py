@@ -4,8 +4,9 @@ from functools import cache
 
 import sympy
 
+from atlas.proof import units
 from atlas.proof.model import Model, Value, certain, cross, turn
-from atlas.proof.pseudo_oscillator import I2, I3, RATE, RATE2, UNITS, mass, ratio, tensor
+from atlas.proof.pseudo_oscillator import I2, I3, mass, ratio, tensor
 from atlas.proof.quadric import (
     AXES,
     B2,
@@ -24,7 +25,6 @@ from atlas.proof.trial import Trial
 
 Omega1, Omega2, K1, K2 = sympy.symbols("Omega1 Omega2 K1 K2", real=True)
 kappa, p, s = sympy.symbols("kappa p s", real=True)
-_DIMENSIONS = {**UNITS, "dOmega1": RATE2, "dOmega2": RATE2, "dOmega3": RATE2, "dK1": RATE2, "dK2": RATE2, "phip": RATE}
 _STATE = {"Omega1": Omega1, "Omega2": Omega2, "K1": K1, "K2": K2, "I": ratio, "B2": B2, "B3": B3}
 _STATE |= {"omega1": omega1, "omega2": omega2, "omega3": omega3}
 
@@ -42,7 +42,7 @@ def constant_model() -> Model:
     letters = {f"dOmega{n + 1}": dOmega[n] for n in range(3)} | {f"dK{n + 1}": dK[n] for n in range(2)}
     letters["K3"] = (omega3 + B3) - omega3
     start = {Omega1: omega1, Omega2: omega2}
-    return Model({**_STATE, **letters}, flow={omega3: sympy.Integer(0)}, start=start, units=_DIMENSIONS)
+    return Model({**_STATE, **letters}, flow={omega3: sympy.Integer(0)}, start=start, units=units.OSCILLATOR)
 
 
 @cache
@@ -51,7 +51,7 @@ def proportional_model() -> Model:
     dOmega, dK = _rates()
     flow = {Omega1: dOmega[0], Omega2: dOmega[1], K1: dK[0], K2: dK[1]}
     start = {Omega1: omega1, Omega2: omega2, K1: sympy.Integer(0), K2: B2}
-    return Model(_STATE, [(K1, kappa * Omega1), (K2, kappa * Omega2)], flow, start, units=_DIMENSIONS)
+    return Model(_STATE, [(K1, kappa * Omega1), (K2, kappa * Omega2)], flow, start, units=units.OSCILLATOR)
 
 
 @cache
@@ -60,7 +60,7 @@ def circle_model() -> Model:
     cosine, sine = turn(p)
     where = [(Omega1, cosine * omega1 + sine * omega2), (Omega2, cosine * omega2 - sine * omega1)]
     where += [(B2, kappa * (omega1**2 + omega2**2) / omega2), (K1, kappa * Omega1), (K2, kappa * Omega2)]
-    return Model(_STATE, where, units=_DIMENSIONS)
+    return Model(_STATE, where, units=units.OSCILLATOR)
 
 
 @cache
@@ -70,7 +70,7 @@ def precession_model() -> Model:
     swap = {K1: factor * Omega1, K2: factor * Omega2}
     euler, field = (rates.xreplace(swap) for rates in _rates())
     letters = {"dOmega1": euler[0], "dOmega2": euler[1], "nu1": field[0] / factor, "nu2": field[1] / factor}
-    return Model({**_STATE, **letters}, units=_DIMENSIONS)
+    return Model({**_STATE, **letters}, units=units.OSCILLATOR)
 
 
 def _frequencies() -> tuple[Value, Value]:
@@ -85,7 +85,7 @@ def agreement_model() -> Model:
     euler, field = _frequencies()
     condition = sympy.Poly(sympy.numer(sympy.together((euler - field).subs(I3, I * I2))), omega3)
     slope, rest = condition.all_coeffs()
-    return Model(LETTERS, [(omega3, sympy.cancel(-rest / slope))], units=_DIMENSIONS)
+    return Model(LETTERS, [(omega3, sympy.cancel(-rest / slope))], units=units.OSCILLATOR)
 
 
 @cache
@@ -93,7 +93,9 @@ def motion_model() -> tuple[Model, Model]:
     """Omega1 K2 = Omega2 K1 at t = 0 says omega1 B2 = 0; then mf71.1, resolved or, for I = 1, at omega2 = -B2."""
     zero = (omega1, sympy.Integer(0))
     ball = [zero, (omega2, -B2), (I, sympy.Integer(1))]
-    return Model(LETTERS, [(omega3, constant_omega3()), zero], units=UNITS), Model(LETTERS, ball, units=UNITS)
+    return Model(LETTERS, [(omega3, constant_omega3()), zero], units=units.QUADRIC), Model(
+        LETTERS, ball, units=units.QUADRIC
+    )
 
 
 @cache
@@ -123,7 +125,7 @@ def frequency_model() -> Model:
     """Phi' of mf69 at omega1 = 0, on the hyperbola."""
     phi = _frequencies()[0].subs(I3, I * I2)
     where = [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]
-    return Model({**LETTERS, "phi": phi}, where, units=UNITS)
+    return Model({**LETTERS, "phi": phi}, where, units=units.QUADRIC)
 
 
 _MF711 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"

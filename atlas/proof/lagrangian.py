@@ -9,6 +9,7 @@ from typing import Any
 
 import sympy
 
+from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, matrix, vector
 from atlas.proof.trial import Trial
 
@@ -53,7 +54,7 @@ def forces() -> dict[int, Value]:
 @cache
 def action_model() -> Model:
     """Letters of the action."""
-    return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges={**RANGES, "be": REST})
+    return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges={**RANGES, "be": REST}, units=units.PARTICLES)
 
 
 @cache
@@ -72,7 +73,7 @@ def particles_model() -> Model:
     mass = sum(m.values())
     centre = {"dy0": sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass, "mu0": mass}
     centre["ddy0"] = sum(forces().values(), sympy.zeros(3, 1)) / mass
-    return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES)
+    return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES, units=units.PARTICLES)
 
 
 @cache
@@ -90,7 +91,7 @@ def relative_model() -> Model:
         "y": y,
         "mu0": mass,
     }
-    return Model({**COMMON, **letters}, ranges=RANGES)
+    return Model({**COMMON, **letters}, ranges=RANGES, units=units.PARTICLES)
 
 
 def _push(x: dict[int, Value]) -> dict[int, Value]:
@@ -121,7 +122,7 @@ def rotation_model() -> Model:
         "ddRg": sum((spun[N] * x[N].T for N in ALL), sympy.zeros(3, 3)),
         "A": sympy.Matrix.hstack(*(-mu / c * cross(dR.col(a), Bf) for a in range(3))),
     }
-    return Model({**COMMON, **letters}, ranges=RANGES)
+    return Model({**COMMON, **letters}, ranges=RANGES, units=units.PARTICLES)
 
 
 @cache

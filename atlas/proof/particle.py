@@ -4,6 +4,7 @@ from functools import cache
 
 import sympy
 
+from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, turn, vector
 from atlas.proof.trial import Trial
 
@@ -16,22 +17,6 @@ strength = sympy.Symbol("strength", positive=True)
 E3 = sympy.Symbol("E3", real=True)
 ALONG_Z, PARALLEL, ACROSS = sympy.Matrix([0, 0, b]), sympy.Matrix([0, 0, E3]), sympy.Matrix([0, E2, 0])
 e1, e2 = sympy.Matrix([1, 0, 0]), sympy.Matrix([0, 1, 0])
-
-# powers of length, time, mass, charge; Gaussian units, where E and B are of one kind and c stands in the force
-_FIELD, _LENGTH, _SPEED = (1, -2, 1, -1), (1, 0, 0, 0), (1, -1, 0, 0)
-UNITS: dict[str, tuple[int, ...]] = {
-    "mu": (0, 0, -1, 1),
-    "c": _SPEED,
-    "e": (0, 0, 0, 1),
-    "m": (0, 0, 1, 0),
-    "t": (0, 1, 0, 0),
-}
-UNITS |= dict.fromkeys(["E", "Bf", "Epar", "Eperp", "E2", "b"], _FIELD)
-UNITS |= dict.fromkeys(["y", "ypar", "yperp", "y1", "y2", "a", "x", "ypar0", "y0"], _LENGTH)
-UNITS |= dict.fromkeys(["v", "dy", "C", "Cpar", "Cperp", "dypar", "dyperp", "dy1", "dy2", "dO"], _SPEED)
-UNITS |= dict.fromkeys(["ddy", "acceleration"], (1, -2, 0, 0))
-UNITS |= {"omega": (0, -1, 0, 0), "omega0": (0, 0, 0, 0), "e1": (0, 0, 0, 0), "e2": (0, 0, 0, 0)}
-UNITS |= {"A0": (2, -2, 1, -1), "A": (2, -2, 1, -1), "L": (2, -2, 1, 0), "U": (2, -2, 1, 0)}
 
 
 def lorentz(spin: Value = v) -> Value:
@@ -64,7 +49,7 @@ def lagrangian_model() -> Model:
         ]
     )
     letters["partial_t"] = lambda field: field.diff(t)
-    return Model(letters, units={name: power for name, power in UNITS.items() if name != "acceleration"})
+    return Model(letters, units=units.PARTICLE)
 
 
 def _gradient(scalar: Value, place: Value) -> Value:
@@ -76,7 +61,7 @@ def velocity_model() -> Model:
     """Model A particle whose velocity is what the line says."""
     C = vector("C")
     letters = {"mu": mu, "c": c, "E": E, "Bf": B, "C": C, "t": t, "y": y, "dy": v}
-    return Model(letters, flow={t: sympy.Integer(1), **dict(zip(y, v, strict=True))}, units=UNITS)
+    return Model(letters, flow={t: sympy.Integer(1), **dict(zip(y, v, strict=True))}, units=units.PARTICLE)
 
 
 @cache
@@ -84,7 +69,7 @@ def fall_model() -> Model:
     """B = 0."""
     C, y0 = vector("C"), vector("yo")
     letters = {"mu": mu, "E": E, "C": C, "t": t, "y0": y0}
-    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)}, units=UNITS)
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)}, units=units.PARTICLE)
 
 
 def _split() -> dict[str, Value]:
@@ -104,7 +89,7 @@ def split_model() -> Model:
     flow = dict(zip(parts["y"], parts["dypar"] + parts["dyperp"], strict=True))
     letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
     start = {t: sympy.Integer(0), parts["y"][2]: letters["ypar0"][2]}
-    return Model(letters, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"}, units=UNITS)
+    return Model(letters, flow={t: sympy.Integer(1), **flow}, start=start, domains={"mu": "real"}, units=units.PARTICLE)
 
 
 @cache
@@ -113,7 +98,7 @@ def parallel_model() -> Model:
     parts = _split()
     letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
     del letters["ypar"]
-    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)}, units=UNITS)
+    return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)}, units=units.PARTICLE)
 
 
 @cache
@@ -121,7 +106,7 @@ def fall_along_model() -> Model:
     """mf5."""
     parts = _split()
     ypar = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)]) + parts["Cpar"] * t + mu * PARALLEL * t**2 / 2
-    return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)}, units=UNITS)
+    return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)}, units=units.PARTICLE)
 
 
 @cache
@@ -149,7 +134,7 @@ def shifted_model() -> Model:
     rate1 = mu / c * cross(y1 + drift * t, ALONG_Z) + parts["Cperp"] + mu * ACROSS * t - drift
     y2 = sympy.diag(1, 1, 0) * vector("z")
     rate2 = rate1.xreplace(dict(zip(parts["y"], y2 + second, strict=True)))
-    return Model({**parts, "y1": y1, "dy1": rate1, "y2": y2, "dy2": rate2}, units=UNITS)
+    return Model({**parts, "y1": y1, "dy1": rate1, "y2": y2, "dy2": rate2}, units=units.PARTICLE)
 
 
 @cache
@@ -171,7 +156,7 @@ def charges_model(choice: str = "any") -> tuple[Model, Model]:
         where = [(omega, strength * b / c), *angles]
         start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
         phases = {omega * t: (cw, sw), omega0: (c0, s0)}
-        cases.append(Model(letters, where, flow, start, phases, units=UNITS))
+        cases.append(Model(letters, where, flow, start, phases, units=units.PARTICLE))
     return cases[0], cases[1]
 
 
@@ -180,14 +165,14 @@ def signed_model(choice: str = "any") -> tuple[Model, Model]:
     """Model the same with a frequency that has the sign of the charge."""
     first, second = charges_model(choice)
     where = [(omega, -strength * b / c), *second.where[1:]]
-    return first, Model(second.letters, where, second.flow, second.start, second.phases, units=UNITS)
+    return first, Model(second.letters, where, second.flow, second.start, second.phases, units=units.PARTICLE)
 
 
 @cache
 def start_model() -> tuple[Model, Model]:
     """mf10 as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
     first, second = (
-        Model({**model.letters, "yperp": _general(model)}, model.where, model.flow, model.start, units=UNITS)
+        Model({**model.letters, "yperp": _general(model)}, model.where, model.flow, model.start, units=units.PARTICLE)
         for model in signed_model("origin")
     )
     return first, second

@@ -5,6 +5,7 @@ from functools import cache
 import sympy
 
 from atlas.proof import euler_poisson as general
+from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, hat, rotation_symbols, turn, vector
 from atlas.proof.trial import Trial
 
@@ -23,13 +24,6 @@ FLOW = dict(
     )
 )
 START = dict(zip([*Omega, *K], [*omega, 0, B2, B3], strict=True))
-
-RATE, RATE2, NUMBER = (0, -1, 0, 0), (0, -2, 0, 0), (0, 0, 0, 0)
-UNITS = dict.fromkeys(
-    ["Omega1", "Omega2", "Omega3", "K1", "K2", "K3", "omega1", "omega2", "omega3", "B2", "B3", "c3"], RATE
-)
-UNITS |= {"c5": RATE2, "E": RATE2, "I": NUMBER, "phi": RATE, "u": RATE, "f0": NUMBER, "a0": (0, -3, 0, 0), "a1": RATE2}
-UNITS |= {"a2": RATE, "a3": NUMBER, "Phi": NUMBER, "phi0": NUMBER}
 
 
 def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
@@ -69,7 +63,7 @@ def state_model() -> Model:
     letters["rank"] = lambda functions: (
         functions.jacobian([*Omega, *K]).subs({s: n for n, s in enumerate([*Omega, *K], 1)}).rank()
     )
-    return Model(letters, flow=FLOW, start=START, units=UNITS)
+    return Model(letters, flow=FLOW, start=START, units=units.OSCILLATOR)
 
 
 @cache
@@ -77,7 +71,7 @@ def bare_model() -> Model:
     """Model the same without the coefficients of the cubic."""
     whole = state_model()
     letters = {name: value for name, value in whole.letters.items() if name not in {"a0", "a1", "a2", "a3"}}
-    return Model(letters, flow=FLOW, start=START, units=UNITS)
+    return Model(letters, flow=FLOW, start=START, units=units.OSCILLATOR)
 
 
 @cache
@@ -136,7 +130,7 @@ def quadrature_model() -> Model:
     where = [(E, n**2 + I * u**2), (c1, turn(p)[0]), (s1, turn(p)[1]), (c2, turn(q)[0]), (s2, turn(q)[1])]
     flow = {u: w, c1: -phi * s1, s1: phi * c1}
     letters["sqrt"] = sympy.sqrt
-    return Model(letters, where, flow, phases={Phi: (c1, s1), phi0: (c2, s2)}, units=UNITS)
+    return Model(letters, where, flow, phases={Phi: (c1, s1), phi0: (c2, s2)}, units=units.OSCILLATOR)
 
 
 @cache
@@ -146,7 +140,7 @@ def initial_model() -> Model:
     a = cubic(integrals(omega, field, ratio), dot(field, field), ratio)
     letters = {f"omega{n + 1}": omega[n] for n in range(3)} | {"Omega3": u, "B2": B2, "B3": B3, "I": ratio}
     letters |= {"Bsquare": B2**2 + B3**2, "ddOmega3": a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3}
-    return Model(letters, units={**UNITS, "ddOmega3": (0, -3, 0, 0), "Bsquare": RATE2})
+    return Model(letters, units=units.OSCILLATOR)
 
 
 _P = "(Omega3^2 - (2 - I)*c3*Omega3 + c5)"

@@ -6,10 +6,11 @@ from typing import Any
 
 import sympy
 
+from atlas.proof import units
 from atlas.proof.decide import Outcome
 from atlas.proof.model import Model, Value, certain, turn, vector
 from atlas.proof.notation import Reader
-from atlas.proof.pseudo_oscillator import NUMBER, RATE, UNITS, cubic, integrals, state_model
+from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
 from atlas.proof.trial import Trial
 
 omega1, omega2, omega3 = vector("omega")
@@ -20,8 +21,6 @@ cd, sd = sympy.symbols("cd sd", real=True)
 excess = sympy.Symbol("e", positive=True)
 
 LETTERS = {"omega1": omega1, "omega2": omega2, "omega3": omega3, "I": I, "B2": B2, "B3": B3}
-DIMENSIONS = {**UNITS, "w1": RATE, "w2": RATE, "w3": RATE, "a2": NUMBER, "a3": NUMBER, "beta": NUMBER, "pi": NUMBER}
-DIMENSIONS |= {"C1s": (0, -2, 0, 0), "C2s": (0, -2, 0, 0), "C3s": (0, -2, 0, 0), "one": NUMBER}
 
 RESTING = sympy.Symbol("omega3_of_cubic", real=True)
 
@@ -51,8 +50,8 @@ def lines_case() -> list[tuple[Value, Value]]:
 def condition_model() -> tuple[Model, Model]:
     """Model all points where Omega3 = omega3 is constant: those resolved for omega3, and the lines omega2 = -B2."""
     certain(sympy.expand(_at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
-    return Model(LETTERS, [(omega3, constant_omega3())], units=DIMENSIONS), Model(
-        LETTERS, lines_case(), domains={"s": "unit"}, units=DIMENSIONS
+    return Model(LETTERS, [(omega3, constant_omega3())], units=units.QUADRIC), Model(
+        LETTERS, lines_case(), domains={"s": "unit"}, units=units.QUADRIC
     )
 
 
@@ -60,7 +59,7 @@ def condition_model() -> tuple[Model, Model]:
 def origin_model() -> Model:
     """Model the origin."""
     zero = sympy.Integer(0)
-    return Model({**LETTERS, "omega1": zero, "omega2": zero, "omega3": zero}, units=DIMENSIONS)
+    return Model({**LETTERS, "omega1": zero, "omega2": zero, "omega3": zero}, units=units.QUADRIC)
 
 
 def _angles() -> list[tuple[Value, Value]]:
@@ -80,7 +79,7 @@ def coordinates_model() -> Model:
     sine = -(cd**2 - sd**2)
     letters = {**LETTERS, **BETA, "form": form, "length": length}
     letters |= {"a2": 2 * sine / (1 - sine), "a3": 2 * sine / (1 + sine)}
-    return Model(letters, _angles(), phases=PHASES, domains={"p": "oblique"}, units=DIMENSIONS)
+    return Model(letters, _angles(), phases=PHASES, domains={"p": "oblique"}, units=units.QUADRIC)
 
 
 @cache
@@ -110,7 +109,7 @@ def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
         ratio
     ]
     where = [(omega3, constant_omega3()), *_angles(), *scale, *([(omega1, sympy.Integer(0))] if plane else [])]
-    return Model(letters, where, phases=PHASES, domains={"p": "oblique"}, units=DIMENSIONS)
+    return Model(letters, where, phases=PHASES, domains={"p": "oblique"}, units=units.QUADRIC)
 
 
 @cache
@@ -178,7 +177,7 @@ def plane_body_model() -> Model:
 def loop_model() -> Model:
     """Points of the quadric for I = 2."""
     return Model(
-        {**LETTERS, "I": sympy.Integer(2)}, [(omega3, constant_omega3()), (I, sympy.Integer(2))], units=DIMENSIONS
+        {**LETTERS, "I": sympy.Integer(2)}, [(omega3, constant_omega3()), (I, sympy.Integer(2))], units=units.QUADRIC
     )
 
 

@@ -44,6 +44,16 @@ class Verdict:
         return asdict(self)
 
     @property
+    def example(self) -> str:
+        """The counterexample as one line to retype; empty if there is none."""
+        shown = dict(self.counterexample)
+        relation = shown.pop("relation", "")
+        sides = [f"{side}: {shown.pop(side)}" for side in ("left", "right") if side in shown]
+        reason = shown.pop("reason", "")
+        letters = ", ".join(f"{name} = {value}" for name, value in shown.items())
+        return "; ".join(part for part in (reason, letters, relation, *sides) if part)
+
+    @property
     def sound(self) -> bool:
         """Whether it stands: the printed form is proved, or refuted with a corrected form that is proved."""
         return self.verdict == "proved" or (self.verdict == "refuted" and self.corrected_verdict == "proved")
