@@ -6,7 +6,6 @@ They are read, never made anew: `atlas verify --record`, `atlas bench` and `atla
 import re
 from collections import Counter, defaultdict
 from collections.abc import Mapping
-from pathlib import Path
 
 from atlas.build.sources import PACKAGE
 from atlas.paper import EQUATIONS
@@ -15,9 +14,6 @@ from atlas.report.letters import typeset
 from atlas.report.numbers import Number
 from atlas.report.records import Errata, Ledger, Recorded, Report
 from atlas.report.tables.model import Column, Data
-
-FILES = tuple(PACKAGE / name for name in ("proof/verdicts.json", "proof/mutants.json", "study/ratchet.json"))
-"""The records that lie beside the code; those of reports/data are found by their folder."""
 
 _CITED = re.compile(r"\bmf\d+(?:\.\d+)?[ab]?\b|\bThe\.1\b|\bAff100\b|\btext-[a-z0-9-]+|\btheorem-[a-z-]+")
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
@@ -90,8 +86,11 @@ def _trial() -> dict[str, Data]:
     whole = totals.pop("all")
     columns = ("Section", "Entries", *(kind.capitalize() for kind in kinds), "Changes tried", "Noticed", "Survivors")
     rows = tuple(
-        (_SECTIONS.get(key, key), *(Number(str(count[kind])) for kind in ("entries", *kinds, "tried", "noticed")),
-         Number(str(count["tried"] - count["noticed"])))
+        (
+            _SECTIONS.get(key, key),
+            *(Number(str(count[kind])) for kind in ("entries", *kinds, "tried", "noticed")),
+            Number(str(count["tried"] - count["noticed"])),
+        )
         for key, count in [*totals.items(), ("All", whole)]
     )
     reasons: defaultdict[str, list[str]] = defaultdict(list)

@@ -21,6 +21,8 @@ LIBRARIES = (
     "ziamath",
     "fonttools",
 )
+RECORDS = tuple(PACKAGE / name for name in ("proof/verdicts.json", "proof/mutants.json", "study/ratchet.json"))
+"""The recorded results that lie beside the code; those of reports/data are found by their folder."""
 
 
 def key(file: Path, sources: Sources) -> str:
@@ -31,6 +33,7 @@ def key(file: Path, sources: Sources) -> str:
         *folder("figures").glob("*.py"),
         *(path for path in folder("templates").rglob("*") if path.is_file()),
         *(folder("reports") / "data").glob("*.json"),
+        *RECORDS,
         file,
     ]
     found = sources.closure(roots)

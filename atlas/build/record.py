@@ -58,6 +58,8 @@ def _texts(block: views.View) -> list[int]:
             return [block.title, block.text]
         case views.FigureView():
             return [block.caption]
+        case views.LedgerView() | views.ErrataView():
+            return [number for entry in block.entries for number in entry.texts]
         case views.TableView():
             return [block.caption, *([] if block.note is None else [block.note])]
 

@@ -86,6 +86,7 @@ def _build(
 ) -> Built:
     """Build a report that is not up to date."""
     from atlas.build import ledger
+    from atlas.build.appendices import gather
     from atlas.build.plates import draw_gallery
     from atlas.build.record import record_of
     from atlas.report import html, pdf
@@ -105,7 +106,7 @@ def _build(
         sources.save()
         tell(total - 3, total, "tables")
         times = {"figures": time.perf_counter()}
-        document = compose(report, wanted)
+        document = compose(report, wanted, gather(report))
         document.manuscript.recall = partial(_recall, store)
         described = colophon(report)
         tell(total - 2, total, "pages")

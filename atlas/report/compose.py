@@ -1,21 +1,23 @@
 """From the records of a report to what the templates see: numbers given, citations resolved, texts collected."""
 
 import re
+from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from atlas.errors import AtlasError
-from atlas.report import records, views
+from atlas.report import records, trial, views
+from atlas.report.appendices import Appendices
 from atlas.report.colophon import colophon
-from atlas.report.formulas import Manuscript, Target
+from atlas.report.formulas import Manuscript, Target, cited
 from atlas.report.gallery import Gallery, plate_name, renderers, settings_of
 from atlas.report.load import nearest
 from atlas.report.numbers import Number, room
 from atlas.report.tables import compute
 from atlas.report.tables.model import Column, Data, Request
 
-_LABEL = re.compile(r"(?<![@\w])(mf\d+(?:\.\d)?[ab]?)\b")
+_LABEL = re.compile(r"(?<![@\w])(mf\d+(?:\.\d)?[ab]?|theorem-[a-z-]+[a-z])\b")
 """A label of the ledger as the captions of recipes have it; here it becomes a citation."""
 
 
@@ -31,11 +33,18 @@ class Document:
     abstract: int = 0
     given: list[int] = field(default_factory=list)
     equations: dict[str, str] = field(default_factory=dict)
+    ledger: dict[str, str] = field(default_factory=dict)
+    errata: str = ""
+    uses: defaultdict[str, list[views.Use]] = field(default_factory=lambda: defaultdict(list))
 
     def cite(self, target: Target) -> Callable[[str, str], str]:
         """Return the function that puts a link in the place of a citation."""
 
         def link(name: str, where: str) -> str:
+            if name in self.ledger:
+                printed = _ledger()[name].number is not None
+                words = f"({name})" if printed else self.equations.get(name, f"({name})")
+                return f"[{words}]({f'{self.ledger[name]}.html' if target == 'html' else ''}#ledger-{name})"
             if name in self.targets:
                 file, anchor, words = self.targets[name]
                 return f"[{words}]({file if target == 'html' else ''}#{anchor})"
@@ -46,18 +55,19 @@ class Document:
         return link
 
 
-def compose(report: records.Report, plates: Gallery) -> Document:
+def compose(report: records.Report, plates: Gallery, appendices: Appendices | None = None) -> Document:
     """Count the blocks of a report, compute its tables, take in the words of its plates, and collect its texts.
 
-    A plate that failed keeps its place with the reason; anything else that is wrong raises AtlasError.
+    `appendices` holds the recorded results that its blocks show. A citation leads to the entry of the ledger where the
+    report has that, else to the first display of the equation. A plate that failed keeps its place with the reason; anything else that is wrong raises AtlasError.
     """
-    document = Document(report, plates)
+    document = Document(report, plates, ledger=trial.pages_of(report))
     document.abstract = document.manuscript.add(report.abstract, "the abstract")
     for line in colophon(report).parameters:
         document.given.append(document.manuscript.add(line, "the parameters", inline=True))
-    composer = _Composer(document)
+    composer = _Composer(document, appendices or Appendices())
     for number, page in enumerate(report.pages, 1):
-        composer.page = page
+        composer.turn_to(page)
         blocks = []
         for place, block in enumerate(page.blocks, 1):
             composer.where = f"page {page.slug!r}, block {place} ({block.__struct_config__.tag})"
@@ -66,22 +76,57 @@ def compose(report: records.Report, plates: Gallery) -> Document:
             except AtlasError as error:
                 raise AtlasError(f"{composer.where}: {error}") from error
         document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
-        document.pages.append(views.PageView(number, page.slug, page.title, page.summary, tuple(blocks)))
+        document.pages.append(views.PageView(number, page.slug, page.title, page.summary, tuple(blocks), page.part))
     return document
 
 
 class _Composer:
     """Goes through the blocks in order and counts."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: Document, appendices: Appendices) -> None:
         self.document = document
-        self.page: records.Page = document.report.pages[0]
+        self.appendices = appendices
         self.where = ""
         self.figures = self.tables = self.own = 0
+        self.turn_to(document.report.pages[0])
+
+    def turn_to(self, page: records.Page) -> None:
+        """Go on to a page."""
+        self.page = page
+        self.cited: set[str] = set()
 
     def text(self, markdown: str, *, inline: bool = False) -> int:
         """Take a text into the manuscript."""
         return self.document.manuscript.add(markdown, self.where, inline=inline)
+
+    def prose(self, markdown: str) -> int:
+        """Take in paragraphs; the first citation of an equation on a page is an anchor for its entry in the ledger."""
+
+        def mark(name: str) -> str:
+            if name in self.cited or name not in self.document.ledger:
+                return f"@{name}"
+            self.cited.add(name)
+            anchor = f"cite-{self.page.slug}-{name}"
+            self.use(name, anchor, "text")
+            return f"[@{name}]{{#{anchor}}}"
+
+        return self.text(cited(markdown, mark))
+
+    def legend(self, markdown: str, anchor: str, words: str) -> int:
+        """Take in a caption; what it cites is used by its figure or table."""
+
+        def note(name: str) -> str:
+            if name in self.document.ledger:
+                self.use(name, anchor, words)
+            return f"@{name}"
+
+        return self.text(cited(markdown, note), inline=True)
+
+    def use(self, label: str, anchor: str, words: str) -> None:
+        """Note that a place of this page uses an equation, once."""
+        place = views.Use(self.page.title, f"{self.page.slug}.html", anchor, words)
+        if place not in self.document.uses[label]:
+            self.document.uses[label].append(place)
 
     def target(self, name: str, anchor: str, words: str) -> bool:
         """Let a name lead to an anchor of this page; return whether it is the first to do so."""
@@ -94,9 +139,9 @@ class _Composer:
         """Turn a record into its view."""
         match block:
             case records.Prose():
-                return views.ProseView(self.text(block.text))
+                return views.ProseView(self.prose(block.text))
             case records.Note():
-                return views.NoteView(self.text(block.title, inline=True), self.text(block.text))
+                return views.NoteView(self.text(block.title, inline=True), self.prose(block.text))
             case records.Equation():
                 return self.equation(block)
             case records.Figure():
@@ -110,6 +155,20 @@ class _Composer:
                         raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
                 columns = tuple(Column(head) for head in block.columns)
                 return self.table(block, Data(columns, block.rows, block.caption), "")
+            case records.Recorded():
+                known, name = self.appendices.tables, f"{block.source}: {block.table}"
+                if name not in known:
+                    raise AtlasError(f"there is no recorded table {name!r}{nearest(name, list(known))}.")
+                return self.table(block, known[name], "")
+            case records.Ledger():
+                return views.LedgerView(self.entries(lambda entry, _: entry.section == block.section))
+            case records.Errata():
+                self.document.errata = self.page.slug
+                return views.ErrataView(self.entries(lambda _, found: found.verdict == "refuted"), self.document.ledger)
+
+    def entries(self, wanted: Callable[[Any, Any], bool]) -> tuple[views.EntryView, ...]:
+        """Return the entries of the ledger that are wanted."""
+        return trial.entries(wanted, self.appendices.findings, self.text, self.document.uses)
 
     def equation(self, block: records.Equation) -> views.EquationView:
         """Take an equation from the ledger, or number one of the report's own."""
@@ -130,7 +189,10 @@ class _Composer:
         number = number or words
         first = self.target(label, f"eq-{label}", words)
         self.document.equations.setdefault(label, number)
-        return views.EquationView(label, number, self.text(f"$${tex.strip()}$$"), block.scale, first)
+        ledger = self.document.ledger.get(label, "")
+        if ledger:
+            self.use(label, f"eq-{label}" if first else f"page-{self.page.slug}", "display")
+        return views.EquationView(label, number, self.text(f"$${tex.strip()}$$"), block.scale, first, ledger)
 
     def figure(self, block: records.Figure) -> views.FigureView:
         """Show the plates of a figure, or say why there are none."""
@@ -147,7 +209,7 @@ class _Composer:
             self.figures,
             f"fig-{name}",
             plates,
-            self.text(_LABEL.sub(r"@\1", caption), inline=True),
+            self.legend(_LABEL.sub(r"@\1", caption), f"fig-{name}", f"Figure {self.figures}"),
             first.alt or first.failure,
             shown,
             height * shown / width,
@@ -156,7 +218,9 @@ class _Composer:
             ),
         )
 
-    def table(self, block: records.Table | records.Listing, data: Data, name: str) -> views.TableView:
+    def table(
+        self, block: records.Table | records.Listing | records.Recorded, data: Data, name: str
+    ) -> views.TableView:
         """Set a table out in columns, aligned on the decimal point."""
         self.tables += 1
         shown = block.id or f"{self.tables}"
@@ -175,8 +239,9 @@ class _Composer:
                 )
             )
         rows = tuple(tuple(self.cell(value) for value in row) for row in data.rows)
-        note = self.text(data.note, inline=True) if data.note else None
-        caption = self.text(block.caption or data.caption, inline=True)
+        where = f"tab-{shown}", f"Table {self.tables}"
+        note = self.legend(data.note, *where) if data.note else None
+        caption = self.legend(block.caption or data.caption, *where)
         return views.TableView(self.tables, f"tab-{shown}", tuple(columns), rows, caption, note, name)
 
     def cell(self, value: str | Number) -> views.Cell:

@@ -7,7 +7,7 @@ formula and its place. Its output is mended where it is known to differ from TeX
 import json
 import re
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
@@ -26,6 +26,7 @@ _TEX = re.compile(r"\$\$(.+?)\$\$|(?<![\\$])\$([^$]+?)\$", re.DOTALL)
 _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 """How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
 _CODE = re.compile(r"`[^`]*`")
+_CITATION = re.compile(r"(?<![\w\\])@([a-z]+:[\w-]+|\w+(?:[.-]\w+)*)")
 
 
 Recall: TypeAlias = Callable[[Sequence[object], Callable[[], str]], str]
@@ -85,22 +86,30 @@ class Manuscript:
         ]
 
 
+def cited(markdown: str, replace: Callable[[str], str]) -> str:
+    """Replace the citations of a text; what stands in code or in a formula is none."""
+    return "".join(
+        piece if kept else _CITATION.sub(lambda match: replace(match[1]), piece) for kept, piece in _pieces(markdown)
+    )
+
+
 def _prepared(text: Text, target: Target, cite: Callable[[str, str], str]) -> str:
-    """Resolve the citations outside code and formulas, and write TeX as pandoc reads it best."""
-    parts: list[str] = []
+    """Resolve the citations, and write TeX as pandoc reads it best."""
+    linked = cited(text.markdown, lambda name: cite(name, text.where))
+    return "".join(_tex(piece, target) if kept else piece for kept, piece in _pieces(linked))
+
+
+def _pieces(markdown: str) -> Iterator[tuple[bool, str]]:
+    """Cut a text into prose and what is kept as it is: code and formulas."""
     end = 0
-    keep = sorted((m.span() for p in (_TEX, _CODE) for m in p.finditer(text.markdown)), key=lambda span: span[0])
-    for start, stop in keep:
-        if start < end:
-            continue
-        parts += [_cited(text.markdown[end:start], text.where, cite), _tex(text.markdown[start:stop], target)]
-        end = stop
-    return "".join([*parts, _cited(text.markdown[end:], text.where, cite)])
-
-
-def _cited(markdown: str, where: str, cite: Callable[[str, str], str]) -> str:
-    """Put links in the place of citations."""
-    return re.sub(r"(?<![\w\\])@([a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", lambda match: cite(match[1], where), markdown)
+    for start, stop in sorted(
+        (m.span() for p in (_TEX, _CODE) for m in p.finditer(markdown)), key=lambda span: span[0]
+    ):
+        if start >= end:
+            yield False, markdown[end:start]
+            yield True, markdown[start:stop]
+            end = stop
+    yield False, markdown[end:]
 
 
 def _tex(tex: str, target: Target) -> str:

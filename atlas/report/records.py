@@ -105,16 +105,36 @@ class Listing(Record, frozen=True, tag_field="kind", tag="listing"):
     id: str | None = None
 
 
-Block: TypeAlias = Prose | Note | Equation | Figure | Table | Listing
+class Ledger(Record, frozen=True, tag_field="kind", tag="ledger"):
+    """The entries of one section of the paper, each with what the trial found: "II", ..., "VII", or "Atlas"."""
+
+    section: str
+
+
+class Errata(Record, frozen=True, tag_field="kind", tag="errata"):
+    """Every entry of the ledger that the trial refuted: as printed, as corrected, and a counterexample."""
+
+
+class Recorded(Record, frozen=True, tag_field="kind", tag="recorded"):
+    """A table of recorded results: ``source`` is trial, bench or stress, ``table`` its name there."""
+
+    source: Literal["trial", "bench", "stress"]
+    table: str
+    id: str | None = None
+    caption: str | None = None
+
+
+Block: TypeAlias = Prose | Note | Equation | Figure | Table | Listing | Ledger | Errata | Recorded
 
 
 class Page(Record, frozen=True):
-    """One page of the HTML, one section of the PDF."""
+    """One page of the HTML, one section of the PDF; pages of one part stand together in the contents."""
 
     slug: str
     title: str
     blocks: tuple[Block, ...]
     summary: str = ""
+    part: str = ""
 
 
 class Report(Record, frozen=True):

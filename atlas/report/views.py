@@ -24,7 +24,10 @@ class NoteView:
 
 @dataclass(frozen=True)
 class EquationView:
-    """A displayed equation; only the first display of a label is the one that links lead to."""
+    """A displayed equation; only the first display of a label is the one that links lead to.
+
+    `ledger` is the page of its entry in the ledger, where the report has that.
+    """
 
     kind: ClassVar[str] = "equation"
     label: str
@@ -32,6 +35,7 @@ class EquationView:
     text: int
     scale: float
     anchor: bool
+    ledger: str = ""
 
 
 @dataclass
@@ -116,7 +120,79 @@ class TableView:
     name: str
 
 
-View: TypeAlias = ProseView | NoteView | EquationView | FigureView | TableView
+@dataclass(frozen=True)
+class Use:
+    """A place of the report that cites an entry of the ledger: page, anchor, and what it is."""
+
+    page: str
+    file: str
+    anchor: str
+    words: str
+
+
+@dataclass(frozen=True)
+class Counterexample:
+    """Values of the letters, the relation that they break and what its two sides are; or why it has no meaning."""
+
+    values: tuple[tuple[str, str], ...]
+    relation: str
+    left: str
+    right: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class EntryView:
+    """An entry of the ledger with its verdict; texts are places in the manuscript.
+
+    `uses` fills while the report is gone through. `wide` tells that two such formulas do not fit side by side.
+    """
+
+    label: str
+    number: str
+    section: str
+    kind: str
+    verdict: str
+    says: int
+    formula: int
+    assumptions: int | None
+    how: int
+    corrected: int | None
+    corrected_verdict: str
+    note: int | None
+    counterexample: Counterexample | None
+    tried: int
+    noticed: int
+    survivors: int | None
+    modules: tuple[str, ...]
+    uses: list[Use]
+    wide: bool
+
+    @property
+    def texts(self) -> list[int]:
+        """The places in the manuscript of all its texts."""
+        every = (self.says, self.formula, self.assumptions, self.how, self.corrected, self.note, self.survivors)
+        return [number for number in every if number is not None]
+
+
+@dataclass(frozen=True)
+class LedgerView:
+    """The entries of one section of the paper; on the first such page stands how to read them."""
+
+    kind: ClassVar[str] = "ledger"
+    entries: tuple[EntryView, ...]
+
+
+@dataclass(frozen=True)
+class ErrataView:
+    """The entries that were refuted, and the page of each in the ledger."""
+
+    kind: ClassVar[str] = "errata"
+    entries: tuple[EntryView, ...]
+    ledger: Mapping[str, str]
+
+
+View: TypeAlias = ProseView | NoteView | EquationView | FigureView | TableView | LedgerView | ErrataView
 
 
 @dataclass(frozen=True)
@@ -128,6 +204,7 @@ class PageView:
     title: str
     summary: str
     blocks: tuple[View, ...]
+    part: str = ""
 
     @property
     def file(self) -> str:
