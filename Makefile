@@ -42,7 +42,7 @@ verify: setup
 	@$(ATLAS) verify --record
 
 bench: setup $(VENV)/.bench
-	@$(ATLAS) bench
+	@env -u OPENBLAS_CORETYPE $(ATLAS) bench   # so that OpenBLAS chooses the kernels of this processor
 
 stress: setup
 	@$(ATLAS) stress

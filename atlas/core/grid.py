@@ -18,7 +18,7 @@ from atlas.core.threads import shared
 from atlas.core.wide import Wide
 from atlas.errors import AtlasError
 
-FINE = 64
+FINE = 128
 """Times in the fine table."""
 
 FEW = 8192

@@ -83,14 +83,18 @@ class Hyperbola:
         `omega3`.
         """
         I2, I3, B2, B3 = self._exact
-        one_less = (I2 - I3) / I2
+        B22, I = B2 * B2, I3 / I2
 
         def squared(w2: float) -> float:
-            """Return the stability at one point, through X = omega2 + B2."""
-            X = self._regular(w2) + B2
-            X2, Y2, B22 = X * X, B3 * B3, B2 * B2
-            even = (B22 + Y2) * X2 * X2 + (one_less * X2 * (Y2 + Y2 - B22) + one_less * one_less * Y2 * B22) * B22
-            return float(even / (B22 * X2))
+            """Return the stability at one point, as [B3^2 a^2 + X^2 B2^2 b]/(B2 X)^2 with X = omega2 + B2.
+
+            a = X^2 + (1-I) B2^2 and b = X^2 - (1-I) B2^2 without what cancels in them; the sum of powers above loses
+            every digit where B3 and omega2 are far apart.
+            """
+            omega2 = self._regular(w2)
+            X, p = omega2 + B2, omega2 * (omega2 + B2 + B2)
+            a, b = p + B22 + B22 - I * B22, p + I * B22
+            return float((B3 * B3 * a * a + X * X * B22 * b) / (B22 * X * X))
 
         return over(squared, real(omega2, "omega2"))
 

@@ -15,7 +15,7 @@ def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int
     of matrices in one unit.
     """
     half = (count // 2 + grain - 1) // grain * grain
-    if count * weight < ENOUGH or processors() < 2:
+    if half >= count or count * weight < ENOUGH or processors() < 2:
         work(0, count)
         return
     with ThreadPoolExecutor(1) as other:

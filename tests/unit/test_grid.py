@@ -69,6 +69,17 @@ def test_grids_of_every_length_end_where_they_should(monkeypatch: pytest.MonkeyP
             assert np.abs(motion.rotation_grid(start, step, count) - motion.rotation(t)).max(initial=0) <= 4 * ULP1
 
 
+@pytest.mark.parametrize("count", [99_999, 100_000, 110_000, 122_881, 245_759, 245_761, 300_001])
+def test_a_grid_of_any_length_is_cut_well(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+    """Where the work is cut for two threads, also next to the smallest length that is worth it, no value is lost."""
+    motion = ElementaryMotion(I, (B2, B3), OMEGA2)
+    monkeypatch.setattr("atlas.core.threads.processors", lambda: 2)
+    grid = motion.rotation_grid(0.0, 1e-3, count)
+    some = np.linspace(0, count - 1, 50).astype(int)
+    exact = motion.rotation(some * 1e-3)
+    assert np.abs(grid[some] - exact).max() < 1e-12
+
+
 def test_two_threads_give_the_same_grid(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether a second thread helps changes no bit."""
     motion = ElementaryMotion(I, (B2, B3), OMEGA2)
