@@ -14,7 +14,7 @@ import sympy
 
 from atlas.proof.dimensions import unbalanced
 from atlas.proof.identity import ordered, positive, resolved, vanishes
-from atlas.proof.model import Model
+from atlas.proof.model import COMMON, Model
 from atlas.proof.notation import NoMeaningError, Reader, Relation, letters_of, parse, write
 
 Value = Any
@@ -243,7 +243,8 @@ def _describe(
                 found[f"any other {name}"] = "0"
         elif isinstance(value, sympy.MatrixBase | sympy.Expr) and value.free_symbols <= set(values):
             found[name] = _show(value, values)
-    found |= {str(s): _text(v) for s, v in values.items() if str(s) in model.letters and str(s) not in found}
+    own = set(model.letters) - set(COMMON) - set(found)
+    found |= {str(symbol): _text(value) for symbol, value in values.items() if str(symbol) in own}
     sides = [_text(sympy.sympify(side[entry]).xreplace(values)) for side in (relation.left, relation.right)]
     at = f" (component {entry + 1})" if len(relation.left) > 1 else ""
     return {**found, "relation": relation.text + at, "left": sides[0], "right": sides[1]}

@@ -64,7 +64,12 @@ def origin_model() -> Model:
 
 def _angles() -> list[tuple[Value, Value]]:
     """Delta = beta/2 + pi/4 by the tangent of its half; B3 from tan(beta) = B3/(I B2), beta = 2 delta - pi/2."""
-    return [(B3, -I * B2 * (cd**2 - sd**2) / (2 * cd * sd)), (cd, turn(p)[0]), (sd, turn(p)[1])]
+    return [
+        (B3, -I * B2 * (cd**2 - sd**2) / (2 * cd * sd)),
+        (cd, turn(p)[0]),
+        (sd, turn(p)[1]),
+        (delta, 2 * sympy.atan(p)),
+    ]
 
 
 BETA = {"beta": 2 * delta - sympy.pi / 2}
@@ -126,7 +131,7 @@ def angle_model() -> Model:
     """I^-1 B' = r (0, cos beta, sin beta)."""
     I2, I3, r = sympy.symbols("I2 I3 r", positive=True)
     letters = {"I": I3 / I2, "B2": I2 * r * cd, "B3": I3 * r * sd, "beta": delta}
-    return Model(letters, [(cd, turn(p)[0]), (sd, turn(p)[1])], phases=PHASES)
+    return Model(letters, [(cd, turn(p)[0]), (sd, turn(p)[1]), (delta, 2 * sympy.atan(p))], phases=PHASES)
 
 
 @cache
