@@ -5,7 +5,7 @@ They are read, never made anew: `atlas verify --record`, `atlas bench` and `atla
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 from atlas.build.sources import PACKAGE
 from atlas.paper import EQUATIONS
@@ -19,6 +19,8 @@ _CITED = re.compile(r"\bmf\d+(?:\.\d+)?[ab]?\b|\bThe\.1\b|\bAff100\b|\btext-[a-z
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 _POWER = re.compile(r"1e\+?(-?)0*(\d+)")
+BEST, HUGE, SMALL = 0.5, 1e3, 1e-3
+"""Half an ulp is as good as a rounded number can be; beyond the other two a power of ten is written."""
 _SECTIONS = {"VII": "Appendix", "Atlas": "Atlas"}
 
 
@@ -74,7 +76,7 @@ def _trial() -> dict[str, Data]:
     from atlas.proof import record
 
     verdicts, mutants = record.load(), record.load_mutants()
-    kinds = [kind for kind in ("proved", "refuted", "supported", "undecided")]
+    kinds = ("proved", "refuted", "supported", "undecided")
     totals: defaultdict[str, Counter[str]] = defaultdict(Counter)
     for label, entry in EQUATIONS.items():
         changed = mutants.get(label)
@@ -83,22 +85,19 @@ def _trial() -> dict[str, Data]:
             totals[key][verdicts[label].verdict if label in verdicts else "undecided"] += 1
             totals[key]["tried"] += changed.tried if changed else 0
             totals[key]["noticed"] += changed.noticed if changed else 0
-    whole = totals.pop("all")
-    columns = ("Section", "Entries", *(kind.capitalize() for kind in kinds), "Changes tried", "Noticed", "Survivors")
-    rows = tuple(
-        (
-            _SECTIONS.get(key, key),
-            *(Number(str(count[kind])) for kind in ("entries", *kinds, "tried", "noticed")),
-            Number(str(count["tried"] - count["noticed"])),
-        )
-        for key, count in [*totals.items(), ("All", whole)]
-    )
+    totals["All"] = totals.pop("all")
+    heads = ("Section", "Entries", *(kind.capitalize() for kind in kinds), "Changes tried", "Noticed", "Survivors")
+    rows: list[tuple[str | Number, ...]] = []
+    for key, count in totals.items():
+        count["left"] = count["tried"] - count["noticed"]
+        numbers = (Number(str(count[name])) for name in ("entries", *kinds, "tried", "noticed", "left"))
+        rows.append((_SECTIONS.get(key, key), *numbers))
     reasons: defaultdict[str, list[str]] = defaultdict(list)
     for label, changed in mutants.items():
         if changed.survivors:
             reasons[changed.reason or "Not explained."].append(f"@{label} ({len(changed.survivors)})")
     return {
-        "totals": Data(tuple(map(Column, columns)), rows, "The trial in numbers."),
+        "totals": Data(tuple(map(Column, heads)), tuple(rows), "The trial in numbers."),
         "survivors": Data(
             (Column("Why they survive"), Column("Entries, with the number of survivors")),
             tuple((typeset(reason), ", ".join(labels)) for reason, labels in reasons.items()),
@@ -113,15 +112,16 @@ def _bench() -> dict[str, Data]:
 
     stored = record.read()
     line = f"Measured on {tables.machine_line(stored)}."
-    return {
-        table.title: Data(
-            tuple(Column(_power(head)) for head in table.heading),
-            tuple(tuple(_cell(cell) for cell in row) for row in table.rows),
+    found = {}
+    for table in tables.tables(stored):
+        columns = [_column(values) for values in zip(*table.rows, strict=True)]
+        found[table.title] = Data(
+            tuple(map(_head, table.heading)),
+            tuple(zip(*columns, strict=True)),
             f"{table.title}.",
             " ".join([*table.notes, line]),
         )
-        for table in tables.tables(stored)
-    }
+    return found
 
 
 def _stress() -> dict[str, Data]:
@@ -133,12 +133,12 @@ def _stress() -> dict[str, Data]:
         quantity, _, regime = name.partition(" | ")
         worst[quantity] = max(worst.get(quantity, (-1.0, "")), (ulps, regime))
     order = [*(name for name in LIMITS if name in worst), *(name for name in worst if name not in LIMITS)]
-    rows = tuple(
+    rows: tuple[tuple[str | Number, ...], ...] = tuple(
         (
             typeset(name),
-            Number(f"{worst[name][0]:.3f}" if worst[name][0] else "0"),
-            Number(f"{LIMITS[name]:g}") if name in LIMITS else "–",
-            typeset(worst[name][1]) if worst[name][0] > 0.5 else "–",
+            _ulps(worst[name][0]),
+            Number(f"{LIMITS[name]:g}") if name in LIMITS else "none",
+            typeset(worst[name][1]) if worst[name][0] > BEST else "",
         )
         for name in order
     )
@@ -150,14 +150,25 @@ def _stress() -> dict[str, Data]:
     return {"worst errors": Data(columns, rows, "Worst errors on record.", note)}
 
 
-def _cell(text: str) -> str | Number:
-    """Return a cell as a number where it is one."""
-    return Number(text) if _NUMBER.fullmatch(text) else _words(text)
+def _ulps(worst: float) -> Number:
+    """Write an error in ulps; one beyond all bounds with its power of ten."""
+    if not worst:
+        return Number("0")
+    return Number(f"{worst:.3f}" if worst < HUGE else f"{worst:.1e}")
 
 
-def _power(head: str) -> str:
-    """Write a power of ten at the head of a column as one."""
-    return _words(_POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", head))
+def _column(texts: Sequence[str]) -> list[str | Number]:
+    """Return the cells of a column, numbers where they are such; where one is small, all in powers of ten."""
+    values = [float(text) for text in texts if _NUMBER.fullmatch(text)]
+    form = ".1e" if any(0 < abs(value) < SMALL for value in values) else ""
+    return [
+        Number(f"{float(text):{form}}" if form else text) if _NUMBER.fullmatch(text) else _words(text) for text in texts
+    ]
+
+
+def _head(text: str) -> Column:
+    """Return the head of a column."""
+    return Column(_words(text[:1].upper() + text[1:]))
 
 
 def _words(text: str) -> str:

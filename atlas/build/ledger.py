@@ -23,10 +23,30 @@ def write(path: Path, name: str, made: Sequence[Made], ends: Mapping[str, float]
         "steps": steps,
         "scenes": [scene(one) for one in made],
     }
+    _whole(path, record)
+    return path
+
+
+def _whole(path: Path, record: Mapping[str, Any]) -> None:
+    """Write a record whole or not at all."""
     beside = path.with_name(f".{path.name}.{os.getpid()}")
     beside.write_text(json.dumps(record, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
     beside.replace(path)
-    return path
+
+
+def keep(path: Path, data: Path | None = None) -> Path:
+    """Keep the ledger of a build as the record of which the figure `build_cost` is drawn, with the machine."""
+    from atlas.places import folder
+    from atlas.study.bench.record import machine, today, versions
+
+    here = machine()
+    found = json.loads(path.read_text(encoding="utf-8"))
+    found["machine"] = f"{here.processor}, {here.cores} cores, {here.system}"
+    found["versions"] = {name: number for name, number in versions().items() if name in {"python", "numpy"}}
+    found["date"] = today()
+    kept = data or folder("reports") / "data" / "build_costs.json"
+    _whole(kept, found)
+    return kept
 
 
 def scene(made: Made) -> dict[str, Any]:

@@ -38,6 +38,9 @@ def draw_plane(axes: "Axes", panel: Plane) -> None:
         axes.set_xlim(*panel.x_limits)
     if panel.y_limits is not None:
         axes.set_ylim(*panel.y_limits)
+    if panel.y_names:
+        axes.set_yticks(range(1, len(panel.y_names) + 1), [typeset(name) for name in panel.y_names])
+        axes.tick_params(axis="y", which="both", length=0)
     if panel.legend == "beside":
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
     elif panel.legend:

@@ -59,7 +59,8 @@ def compose(report: records.Report, plates: Gallery, appendices: Appendices | No
     """Count the blocks of a report, compute its tables, take in the words of its plates, and collect its texts.
 
     `appendices` holds the recorded results that its blocks show. A citation leads to the entry of the ledger where the
-    report has that, else to the first display of the equation. A plate that failed keeps its place with the reason; anything else that is wrong raises AtlasError.
+    report has that, else to the first display of the equation. A plate that failed keeps its place with the reason;
+    anything else that is wrong raises AtlasError.
     """
     document = Document(report, plates, ledger=trial.pages_of(report))
     document.abstract = document.manuscript.add(report.abstract, "the abstract")
@@ -99,7 +100,11 @@ class _Composer:
         """Take a text into the manuscript."""
         return self.document.manuscript.add(markdown, self.where, inline=inline)
 
-    def prose(self, markdown: str) -> int:
+    def prose(self, block: records.Prose) -> views.ProseView:
+        """Take in the text."""
+        return views.ProseView(self.paragraphs(block.text))
+
+    def paragraphs(self, markdown: str) -> int:
         """Take in paragraphs; the first citation of an equation on a page is an anchor for its entry in the ledger."""
 
         def mark(name: str) -> str:
@@ -137,34 +142,40 @@ class _Composer:
 
     def view(self, block: records.Block) -> views.View:
         """Turn a record into its view."""
-        match block:
-            case records.Prose():
-                return views.ProseView(self.prose(block.text))
-            case records.Note():
-                return views.NoteView(self.text(block.title, inline=True), self.prose(block.text))
-            case records.Equation():
-                return self.equation(block)
-            case records.Figure():
-                return self.figure(block)
-            case records.Table():
-                request = Request(settings_of(block, self.document.report), block.parameters, block.digits)
-                return self.table(block, compute(block.table, request), block.table)
-            case records.Listing():
-                for row in block.rows:
-                    if len(row) != len(block.columns):
-                        raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
-                columns = tuple(Column(head) for head in block.columns)
-                return self.table(block, Data(columns, block.rows, block.caption), "")
-            case records.Recorded():
-                known, name = self.appendices.tables, f"{block.source}: {block.table}"
-                if name not in known:
-                    raise AtlasError(f"there is no recorded table {name!r}{nearest(name, list(known))}.")
-                return self.table(block, known[name], "")
-            case records.Ledger():
-                return views.LedgerView(self.entries(lambda entry, _: entry.section == block.section))
-            case records.Errata():
-                self.document.errata = self.page.slug
-                return views.ErrataView(self.entries(lambda _, found: found.verdict == "refuted"), self.document.ledger)
+        make: Callable[[Any], views.View] = getattr(self, str(block.__struct_config__.tag))
+        return make(block)
+
+    def note(self, block: records.Note) -> views.NoteView:
+        """Take in a remark."""
+        return views.NoteView(self.text(block.title, inline=True), self.paragraphs(block.text))
+
+    def listing(self, block: records.Listing) -> views.TableView:
+        """Set out a table of words."""
+        for row in block.rows:
+            if len(row) != len(block.columns):
+                raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
+        return self.columns(block, Data(tuple(map(Column, block.columns)), block.rows, block.caption))
+
+    def table(self, block: records.Table) -> views.TableView:
+        """Compute a table."""
+        request = Request(settings_of(block, self.document.report), block.parameters, block.digits)
+        return self.columns(block, compute(block.table, request), block.table)
+
+    def recorded(self, block: records.Recorded) -> views.TableView:
+        """Set out a table of recorded results."""
+        known, name = self.appendices.tables, f"{block.source}: {block.table}"
+        if name not in known:
+            raise AtlasError(f"there is no recorded table {name!r}{nearest(name, list(known))}.")
+        return self.columns(block, known[name])
+
+    def ledger(self, block: records.Ledger) -> views.LedgerView:
+        """Set out the entries of one section."""
+        return views.LedgerView(self.entries(lambda entry, _: entry.section == block.section))
+
+    def errata(self, _block: records.Errata) -> views.ErrataView:
+        """Set out the entries that were refuted."""
+        self.document.errata = self.page.slug
+        return views.ErrataView(self.entries(lambda _, found: found.verdict == "refuted"), self.document.ledger)
 
     def entries(self, wanted: Callable[[Any, Any], bool]) -> tuple[views.EntryView, ...]:
         """Return the entries of the ledger that are wanted."""
@@ -218,8 +229,8 @@ class _Composer:
             ),
         )
 
-    def table(
-        self, block: records.Table | records.Listing | records.Recorded, data: Data, name: str
+    def columns(
+        self, block: records.Table | records.Listing | records.Recorded, data: Data, name: str = ""
     ) -> views.TableView:
         """Set a table out in columns, aligned on the decimal point."""
         self.tables += 1

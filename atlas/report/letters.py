@@ -46,7 +46,7 @@ def typeset(text: str, *, scalar_omega: bool = False) -> str:
 def _is_formula(word: str, before: str, after: str, run: list[str]) -> bool:
     """Whether a word belongs to a formula; `run` is what stands directly before it in one."""
     core = word.strip("()[]|,:;.")
-    if core in EQUATIONS or not core and not _open(run):
+    if core in EQUATIONS or (not core and not _open(run)):
         return False
     if core == "a" or (core == "A" and (not before or before[-1] in ".:;") and re.fullmatch("(?!is$)[a-z1-]+", after)):
         return bool(_PART.fullmatch(before) or _PART.fullmatch(after) or _open(run))
@@ -119,7 +119,7 @@ def _tex(plain: str, scalar_omega: bool) -> str:
 
 def _letter(name: str, scalar_omega: bool) -> str:
     """Write a letter with its prime and its index."""
-    base, primes, index = _SPLIT.fullmatch(name).groups()  # type: ignore[union-attr]  the tokens are of this form
+    base, primes, index = (str(part) for part in _SPLIT.findall(name)[0])
     letter = base if len(base) == 1 else r"\varepsilon" if base == "eps" else rf"\{base}"
     vector = base + primes in _VECTORS and not index and not (base == "omega" and scalar_omega)
     if vector or (index and base in _POINTS and not primes):

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable, Mapping
 
-
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import Equation
