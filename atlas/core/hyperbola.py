@@ -1,5 +1,7 @@
 """The hyperbola of elementary motions, mf72 to mf77, sampled by hyperbolic parameter, and its stability."""
 
+from fractions import Fraction
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -79,22 +81,22 @@ class Hyperbola:
         """Nutation frequency squared -p'(omega3), p the cubic of mf55, in 1/time^2: negative where unstable.
 
         With x = (omega2 + B2)/B2 and tau = B3/B2 it is
-        B2^2 [(1 + tau^2) x^4 + (1-I)(2 tau^2 - 1) x^2 + tau^2 (1-I)^2]/x^2; not in the paper. DomainError as for
-        `omega3`.
+        B2^2 [(1 + tau^2) x^4 + (1-I)(2 tau^2 - 1) x^2 + tau^2 (1-I)^2]/x^2
+        = tau^2 [X^2 + (1-I) B2^2]^2/X^2 + X^2 - (1-I) B2^2 with X = omega2 + B2; not in the paper. DomainError as for
+        `omega3`; inf where it overflows.
         """
-        I2, I3, B2, B3 = self._exact
-        B22, I = B2 * B2, I3 / I2
+        B2, B3, I = Fraction(self.B2), Fraction(self.B3), Fraction(self.I3) / Fraction(self.I2)
+        less = (1 - I) * B2**2
 
         def squared(w2: float) -> float:
-            """Return the stability at one point, as [B3^2 a^2 + X^2 B2^2 b]/(B2 X)^2 with X = omega2 + B2.
-
-            a = X^2 + (1-I) B2^2 and b = X^2 - (1-I) B2^2 without what cancels in them; the sum of powers above loses
-            every digit where B3 and omega2 are far apart.
-            """
-            omega2 = self._regular(w2)
-            X, p = omega2 + B2, omega2 * (omega2 + B2 + B2)
-            a, b = p + B22 + B22 - I * B22, p + I * B22
-            return float((B3 * B3 * a * a + X * X * B22 * b) / (B22 * X * X))
+            """Return the stability at one point, exact but for one rounding: its terms may cancel to any depth."""
+            self._regular(w2)
+            X2 = (Fraction(w2) + B2) ** 2
+            value = (B3 * (X2 + less)) ** 2 / (B2**2 * X2) + X2 - less
+            try:
+                return float(value)
+            except OverflowError:
+                return inf if value > 0 else -inf
 
         return over(squared, real(omega2, "omega2"))
 

@@ -82,7 +82,7 @@ class Quadric:
         sine = self.sin_beta
         if isinstance(sine, fmpq):
             s, c = root((1 + sine) / 2), root((1 - sine) / 2)
-            return (-s if self.B2 < 0 and self.B3 < 0 else s), (-c if self.B2 < 0 else c)
+            return (s, -c) if self.B2 < 0 <= self.B3 else (-s, c) if self.B2 < 0 else (s, c)
         s, c = (arb(self.beta) / 2 + arb.pi() / 4).sin_cos()
         return s, c
 

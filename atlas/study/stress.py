@@ -35,7 +35,7 @@ LIMITS: Mapping[str, float] = {
     "R": 4, "R at one time": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R(0) = 1": 0,
     "columns 1, 2": 4, "R13, R23 for |kt| < 1": 8,
     "R under scaling by 2^n": 0, "third axis": 4, "k": 4, "phi": 4, "omega3": 4, "Omega": 8, "K": 8, "m": 8,
-    "beta": 4, "a2": 4, "a3": 4, "semi-axes": 4, "canonical axes": 4, "omega3 of the hyperbola": 4,
+    "beta": 4, "a2": 4, "a3": 4, "semi-axes": 4, "canonical axes": 4, "omega3 of the hyperbola": 4, "stability": 4,
     "k of the hyperbola": 4, "phi of the hyperbola": 4, "points of the hyperbola": 4,
     "ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8,
     "free R": 4, "free k": 4, "free phi": 4, "free Omega": 8,
