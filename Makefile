@@ -40,6 +40,7 @@ build/figures/%: FORCE | setup
 
 verify: setup
 	@$(ATLAS) verify --record
+	@$(ATLAS) verify --mutants --record
 
 bench: setup $(VENV)/.bench
 	@env -u OPENBLAS_CORETYPE $(ATLAS) bench   # so that OpenBLAS chooses the kernels of this processor

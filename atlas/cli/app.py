@@ -7,7 +7,21 @@ from collections.abc import Sequence
 import click
 
 from atlas import __version__
-from atlas.cli import ball, bench, check, classify, diff, figure, hyperbola, listing, motion, particle, report, stress
+from atlas.cli import (
+    ball,
+    bench,
+    check,
+    classify,
+    diff,
+    figure,
+    hyperbola,
+    listing,
+    motion,
+    particle,
+    report,
+    stress,
+    verify,
+)
 from atlas.errors import AtlasError
 
 
@@ -21,7 +35,21 @@ def atlas() -> None:
     """Group the commands."""
 
 
-for module in (report, diff, figure, listing, classify, hyperbola, motion, ball, particle, check, bench, stress):
+for module in (
+    report,
+    diff,
+    figure,
+    listing,
+    classify,
+    hyperbola,
+    motion,
+    ball,
+    particle,
+    check,
+    verify,
+    bench,
+    stress,
+):
     atlas.add_command(module.command)
 
 

@@ -1,0 +1,92 @@
+"""``atlas verify``: the paper's equations on trial, and whether the trial would notice a slip."""
+
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import click
+
+from atlas.cli.options import Command, examples
+from atlas.cli.present import Sheet, dump, show
+from atlas.cli.progress import bar
+
+COLUMNS = ("label", "number", "section", "kind", "verdict", "printed", "corrected", "counterexample", "seconds")
+
+
+@click.command(
+    "verify",
+    cls=Command,
+    short_help="Put the paper's equations on trial.",
+    epilog=examples("atlas verify mf56 mf76", "atlas verify --json", "atlas verify --mutants mf89"),
+)
+@click.argument("labels", nargs=-1, metavar="[LABEL...]")
+@click.option("--mutants", is_flag=True, help="Change each true form in one place at a time: does the trial notice?")
+@click.option("--record", is_flag=True, help="Keep what was found as the recorded verdicts that reports draw.")
+@click.option("--anew", is_flag=True, help="Try everything, also what was tried before with the same proof.")
+@click.option("--jobs", "-j", type=click.IntRange(min=1), default=1, show_default=True, help="Trials side by side.")
+@click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
+def command(labels: tuple[str, ...], mutants: bool, record: bool, anew: bool, jobs: int, as_json: bool) -> int:
+    """Try equations and claims of the paper, all if none is named, on the form as printed.
+
+    A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided or
+    supported. The exit status is 1 if a verdict differs from the recorded one, or a mutant survives without a reason.
+    """
+    if record and labels:
+        raise click.UsageError("--record keeps the verdicts of all equations: name none.")
+    from atlas import proof
+    from atlas.proof.run import CACHE
+
+    options: dict[str, Any] = {"jobs": jobs, "cache_folder": None if anew else Path(CACHE)}
+    with bar("trials") as tell:
+        run = proof.mutants if mutants else proof.verify
+        found = run(labels or None, lambda label, done, total: tell(done, total, label), **options)
+    status = _mutants(found, as_json) if mutants else _verdicts(found, as_json, record)
+    if record:
+        proof.record.save(found, *([proof.record.MUTANTS] if mutants else []))
+    return status
+
+
+def _verdicts(found: Any, as_json: bool, record: bool) -> int:
+    """Show verdicts and what differs from the record; return the exit status."""
+    from atlas.proof.record import differs
+
+    different = differs(found)
+    if as_json:
+        equations = [{name: one.as_dict()[name] for name in COLUMNS} | {"example": one.example} for one in found]
+        dump({"equations": equations, "different": [list(row) for row in different]})
+    else:
+        heading = ("label", "number", "verdict", "corrected form", "method", "s")
+        rows = [
+            [one.label, str(one.number or ""), one.verdict, one.corrected_verdict, one.method, f"{one.seconds:.1f}"]
+            for one in found
+        ]
+        show(Sheet("the paper's equations on trial, as printed", heading=heading, rows=rows, justify="left"))
+        for one in found:
+            if one.verdict == "refuted":
+                words = {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
+                click.echo("\n".join([one.label, *(f"  {name + ':':16}{text}" for name, text in words.items())]))
+        totals = Counter(one.verdict for one in found)
+        seconds = sum(one.seconds for one in found)
+        click.echo(f"{', '.join(f'{n} {name}' for name, n in totals.most_common())}; {seconds:.0f} s of trials")
+    for label, was, now in different:
+        click.echo(f"atlas: {label} was recorded as {was} and is found {now}", err=True)
+    return int(bool(different) and not record)
+
+
+def _mutants(found: Any, as_json: bool) -> int:
+    """Show what became of the mutants; return the exit status."""
+    unexplained = [one for one in found if one.survivors and not one.reason]
+    if as_json:
+        dump({"mutants": [one.as_dict() for one in found]})
+    else:
+        rows = [[one.label, str(one.tried), str(one.noticed), str(len(one.survivors)), one.reason] for one in found]
+        heading = ("label", "mutants", "noticed", "survive", "because")
+        show(Sheet("forms changed in one place", heading=heading, rows=rows, justify="left"))
+        for one in found:
+            for what, line, decision in one.survivors:
+                click.echo(f"{one.label} survives {what}: {line} ({decision})")
+        tried, noticed = sum(one.tried for one in found), sum(one.noticed for one in found)
+        click.echo(f"{tried} mutants, {noticed} noticed, {tried - noticed} survive")
+    for one in unexplained:
+        click.echo(f"atlas: a mutant of {one.label} survives and no reason is on record", err=True)
+    return int(bool(unexplained))
