@@ -69,7 +69,7 @@ def panel(names: list[str], entries: list[dict[str, Any]]) -> Plane:
     times = np.array([[1e3 * entry["compute_s"], 1e3 * entry["draw_s"]] for entry in entries])
     left, right = 10.0 ** np.floor(np.log10(times.min())), 2.0 * times.max()
     layers: list[Layer] = []
-    for column, role, half, label in ((1, "region", THICK, "drawing"), (0, "ball", THIN, "computing")):
+    for column, role, half, label in ((1, "surface", THICK, "drawing"), (0, "body", THIN, "computing")):
         for row, end in enumerate(times[:, column], 1):
             corners = np.array([(left, row - half), (end, row - half), (end, row + half), (left, row + half)])
             layers.append(Region(corners, role, label if row == 1 else ""))
