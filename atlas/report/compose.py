@@ -108,7 +108,7 @@ class _Composer:
         """Take in paragraphs; the first citation of an equation on a page is an anchor for its entry in the ledger."""
 
         def mark(name: str) -> str:
-            if name in self.cited or name not in self.document.ledger:
+            if name in self.cited or self.document.ledger.get(name, self.page.slug) == self.page.slug:
                 return f"@{name}"
             self.cited.add(name)
             anchor = f"cite-{self.page.slug}-{name}"

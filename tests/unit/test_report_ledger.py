@@ -1,0 +1,274 @@
+"""The ledger and the errata in a report: every entry with its verdict, every use linked both ways."""
+
+import re
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from urllib.parse import unquote
+
+import pytest
+from lxml import html as reader
+from pypdf import PdfReader
+
+from atlas.build.appendices import gather
+from atlas.build.fresh import RECORDS
+from atlas.build.report import Built, build_report
+from atlas.errors import AtlasError
+from atlas.paper import EQUATIONS
+from atlas.proof import record
+from atlas.report.appendices import Appendices, Finding
+from atlas.report.compose import compose
+from atlas.report.load import load
+from atlas.report.tables.model import Data
+from atlas.study import stress
+
+HEAD = r"""
+name = "mine"
+title = "A Small Report"
+
+[parameters.bodies.ball]
+title = "ball"
+ratio = 1.0
+
+[parameters.fields.oblique]
+title = "oblique field"
+prime = [1.0, 2.0]
+
+[[pages]]
+slug = "index"
+title = "The first page"
+
+[[pages.blocks]]
+kind = "prose"
+text = "The frequency @mf77 and again @mf77, the theorem @theorem-points, a claim in words, @text-ball-limit."
+
+[[pages.blocks]]
+kind = "equation"
+label = "mf76"
+
+[[pages.blocks]]
+kind = "equation"
+label = "theorem-ball-line"
+
+[[pages.blocks]]
+kind = "note"
+text = "See @theorem-ball-line and `@mf1`."
+
+[[pages.blocks]]
+kind = "table"
+table = "points"
+id = "points"
+body = "ball"
+field = "oblique"
+caption = "Points of @mf72."
+parameters = { omega2 = [0.7] }
+
+[[pages]]
+slug = "slips"
+title = "Slips"
+
+[[pages.blocks]]
+kind = "errata"
+"""
+LEDGER = "\n".join(
+    f'[[pages]]\nslug = "ledger-{section.lower()}"\ntitle = "Section {section}"\npart = "Ledger"\n\n'
+    f'[[pages.blocks]]\nkind = "ledger"\nsection = "{section}"\n'
+    for section in ("II", "III", "IV", "V", "VII", "Atlas")
+)
+RECORDED = """
+[[pages]]
+slug = "records"
+title = "Records"
+""" + "".join(
+    f'[[pages.blocks]]\nkind = "recorded"\nsource = "{source}"\ntable = "{table}"\n'
+    for source, table in (
+        ("trial", "totals"),
+        ("trial", "survivors"),
+        ("bench", "Limits of speed"),
+        ("stress", "worst errors"),
+    )
+)
+
+
+@pytest.fixture(scope="module")
+def toml(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write the report's file."""
+    file = tmp_path_factory.mktemp("source") / "mine.toml"
+    file.write_text(HEAD + LEDGER + RECORDED, encoding="utf-8")
+    return file
+
+
+@pytest.fixture(scope="module")
+def built(toml: Path, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    """Build the report once."""
+    return build_report(toml, tmp_path_factory.mktemp("out"))
+
+
+@pytest.fixture(scope="module")
+def pages(built: Built) -> dict[str, reader.HtmlElement]:
+    """Parse each page."""
+    return {
+        path.name: reader.fromstring(path.read_text(encoding="utf-8")) for path in built.index.parent.glob("*.html")
+    }
+
+
+def entries(pages: dict[str, reader.HtmlElement]) -> Iterator[tuple[str, str, reader.HtmlElement]]:
+    """Go through the entries of the ledger: label, page, element."""
+    for name, page in pages.items():
+        for element in page.xpath("//section[starts-with(@id, 'ledger-')]"):
+            yield element.get("id").removeprefix("ledger-"), name, element
+
+
+def links(element: reader.HtmlElement, page: str) -> list[tuple[str, str]]:
+    """Return the file and anchor of each link inside an element."""
+    parts = [unquote(link).partition("#") for link in element.xpath(".//@href")]
+    return [(file or page, anchor) for file, _, anchor in parts]
+
+
+def test_every_entry_stands_once_with_its_verdict(pages: dict[str, reader.HtmlElement]) -> None:
+    """All entries of the ledger are there, each with the verdict on record and the number in print."""
+    verdicts = record.load()
+    found = {label: element for label, _, element in entries(pages)}
+    assert Counter(label for label, _, _ in entries(pages)) == Counter(list(EQUATIONS))
+    for label, element in found.items():
+        (shown,) = element.xpath(".//h2/span[contains(@class, 'verdict')]")
+        assert shown.text == verdicts[label].verdict
+        heading = element.xpath("string(.//h2)")
+        assert label in heading
+        if EQUATIONS[label].number is not None:
+            assert f"({EQUATIONS[label].number})" in heading
+        assert element.xpath(".//*[local-name()='math']")
+
+
+def test_every_use_and_its_entry_link_to_each_other(pages: dict[str, reader.HtmlElement]) -> None:
+    """From the entry to the place that uses it, and from there back to the entry; no use is forgotten."""
+    uses = set()
+    for label, page, element in entries(pages):
+        for file, anchor in links(element.xpath(".//dl")[0], page):
+            if file != "index.html":
+                continue
+            (place,) = pages[file].xpath(f"//*[@id='{anchor}']")
+            assert (page, f"ledger-{label}") in links(place, file)
+            uses.add(label)
+    assert uses == {"mf77", "theorem-points", "text-ball-limit", "mf76", "theorem-ball-line", "mf72"}
+    cited = {anchor for _, anchor in links(pages["index.html"], "index.html") if anchor.startswith("ledger-")}
+    assert cited == {f"ledger-{label}" for label in uses}
+
+
+def test_modules_that_cite_an_entry_are_named(pages: dict[str, reader.HtmlElement]) -> None:
+    """The frequency of proper rotation is computed where the docstrings say so."""
+    (found,) = [element for label, _, element in entries(pages) if label == "mf77"]
+    assert "core/hyperbola.py" in found.xpath(".//code/text()")
+
+
+def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dict[str, reader.HtmlElement]) -> None:
+    """As many errata as refuted verdicts, each with both forms and with what breaks the printed one."""
+    refuted = {label: verdict for label, verdict in record.load().items() if verdict.verdict == "refuted"}
+    found = {e.get("id").removeprefix("erratum-"): e for e in pages["slips.html"].xpath("//section[@id]")}
+    assert list(found) == list(refuted)
+    for label, element in found.items():
+        sides = element.xpath("./div[contains(@class, 'sides')]/div")
+        assert [len(side.xpath(".//*[local-name()='math']")) > 0 for side in sides] == [True, True]
+        assert refuted[label].corrected_verdict in sides[1].xpath("string(./p)")
+        example = element.xpath("string(./div[@class='counterexample'])")
+        counter = refuted[label].counterexample
+        assert counter.get("relation", counter.get("reason")) in example
+        back = {anchor for _, anchor in links(element.xpath("./h2")[0], "slips.html")}
+        assert back == {f"ledger-{label}"}
+
+
+def test_links_lead_somewhere_and_no_markup_is_left(pages: dict[str, reader.HtmlElement]) -> None:
+    """Every anchor exists, no id stands twice, and no TeX or Markdown is left outside code."""
+    anchors = {name: page.xpath("//@id") for name, page in pages.items()}
+    for name, page in pages.items():
+        assert len(anchors[name]) == len(set(anchors[name]))
+        for file, anchor in links(page, name):
+            assert not anchor or anchor in anchors[file], (name, file, anchor)
+        text = " ".join(page.xpath("//main//text()[not(ancestor::code)]"))
+        assert not re.search(r"\\[a-zA-Z]+|\$|\{\{|\}\}|\{%|@\w|\*\*|\{#", text), name
+
+
+def test_the_pdf_holds_every_entry(built: Built) -> None:
+    """Every label is printed, and every link of the PDF leads to a place in it."""
+    pdf = PdfReader(built.pdf)
+    text = re.sub(r"\s+", "", "".join(page.extract_text() for page in pdf.pages)).replace("\xad", "")
+    assert [label for label in EQUATIONS if label not in text] == []
+    assert text.count("Counterexample") >= 2 * sum(v.verdict == "refuted" for v in record.load().values())
+
+
+def test_totals_are_those_of_the_record(pages: dict[str, reader.HtmlElement]) -> None:
+    """The last row of the totals counts all verdicts and all changed forms."""
+    verdicts = Counter(verdict.verdict for verdict in record.load().values())
+    mutants = record.load_mutants().values()
+    tried, noticed = sum(one.tried for one in mutants), sum(one.noticed for one in mutants)
+    (row,) = pages["records.html"].xpath("//figure[@id='tab-2']//tr[td[1]='All']")
+    numbers = [int(cell.text_content()) for cell in row.xpath("td")[1:]]
+    kinds = ("proved", "refuted", "supported", "undecided")
+    assert numbers == [len(EQUATIONS), *(verdicts[kind] for kind in kinds), tried, noticed, tried - noticed]
+
+
+def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatch, toml: Path) -> None:
+    """An error on record that breaks a promise says so in its row; one that keeps it does not."""
+    found = {"R | ordinary": 5.0, "beta | I near 1": 1.25, "k | ordinary": 0.5}
+    monkeypatch.setattr(stress, "read_ratchet", lambda: found)
+    data = gather(load(toml)).tables["stress: worst errors"]
+    assert isinstance(data, Data)
+    met = {str(row[0]): str(row[3]) for row in data.rows}
+    assert met == {"$R$": "**limit exceeded:** ordinary", r"$\beta$": "$I$ near 1", "$k$": ""}
+
+
+def test_an_entry_without_a_verdict_is_undecided(toml: Path) -> None:
+    """What the record does not hold is not passed off as proved."""
+    document = compose(load(toml), {}, _with(Finding("supported", "1000 samples", "mf76")))
+    shown = [entry for page in document.pages for block in page.blocks for entry in getattr(block, "entries", ())]
+    assert {entry.label: entry.verdict for entry in shown} == dict.fromkeys(EQUATIONS, "undecided") | {
+        "mf77": "supported"
+    }
+
+
+def test_a_report_without_a_ledger_reads_no_record(tmp_path: Path) -> None:
+    """Nothing is read that no block shows, and citations lead to the displayed equation."""
+    file = tmp_path / "mine.toml"
+    file.write_text(HEAD.partition('[[pages]]\nslug = "slips"')[0], encoding="utf-8")
+    report = load(file)
+    assert gather(report) == Appendices()
+    document = compose(report, {})
+    assert document.cite("html")("mf76", "") == "[(mf76)](index.html#eq-mf76)"
+    assert document.cite("html")("mf77", "") == "(mf77)"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [('section = "II"', "IIX"), ('table = "totals"', "total"), ('source = "bench"', "benches")],
+)
+def test_a_misspelt_record_is_an_error(tmp_path: Path, wrong: str, right: str) -> None:
+    """A section, table or source that there is not is told with the nearest name."""
+    key, _, name = wrong.partition(" = ")
+    file = tmp_path / "mine.toml"
+    file.write_text((HEAD + LEDGER + RECORDED).replace(wrong, f'{key} = "{right}"', 1), encoding="utf-8")
+    with pytest.raises(AtlasError, match=name.strip('"')):
+        compose(report := load(file), {}, gather(report))
+
+
+def test_pages_of_recorded_results_load_no_algebra(toml: Path, tmp_path: Path) -> None:
+    """A report never waits for a proof or an integrator: neither SymPy nor SciPy is loaded."""
+    script = (
+        "import sys; from pathlib import Path; from atlas.build.report import build_report;"
+        f"build_report(Path({str(toml)!r}), Path({str(tmp_path)!r}));"
+        "print([name for name in ('sympy', 'scipy', 'mpmath', 'vtk') if name in sys.modules])"
+    )
+    assert subprocess.check_output([sys.executable, "-c", script], text=True).strip() == "[]"
+
+
+def test_the_records_are_among_the_sources_of_a_report() -> None:
+    """A new verdict makes a report out of date."""
+    assert {path.name for path in RECORDS} == {"verdicts.json", "mutants.json", "ratchet.json"}
+    assert all(path.is_file() for path in RECORDS)
+
+
+def _with(finding: Finding) -> Appendices:
+    """Return appendices with one finding and empty tables."""
+    names = ("trial: totals", "trial: survivors", "bench: Limits of speed", "stress: worst errors")
+    return Appendices({"mf77": finding}, {name: Data((), (), name) for name in names})
