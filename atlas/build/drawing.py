@@ -15,7 +15,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {"shaded": ("png",), "vector": ("svg", "p
 def make(recipe: str, renderer: Any, parameters: dict[str, Any], into: Path) -> dict[str, Any]:
     """Make the scene, draw it into a folder, and return what there is to note about it."""
     from atlas.build import meter
-    from atlas.render import choose, draw_all
+    from atlas.render.drawing import choose, draw_all
     from atlas.scene import recipes
 
     start = time.perf_counter()

@@ -16,7 +16,7 @@ def build_figure(
     **parameters: Any,
 ) -> list[Path]:
     """Draw the recipe `name` into out/NAME.FORMAT for each format, each file whole or not at all; return the files."""
-    from atlas.render import draw_all
+    from atlas.render.drawing import draw_all
     from atlas.scene import recipes
 
     scene = recipes.load(name).scene(**parameters)

@@ -57,7 +57,7 @@ def command(file: Path, **options: Any) -> None:
         threshold=options["threshold"],
     )
     if options["figure"] is not None:
-        from atlas.render import draw
+        from atlas.render.drawing import draw
 
         draw(found.scene(), options["figure"])
     if options["as_json"]:

@@ -1,6 +1,5 @@
 """``atlas list``: what there is to draw, to report and to give as a body."""
 
-import tomllib
 from typing import Any
 
 import click
@@ -35,6 +34,8 @@ def command(as_json: bool) -> None:
 
 def reports() -> dict[str, str]:
     """Return the reports by name with their titles."""
+    import tomllib
+
     from atlas.places import folder
 
     files = sorted(folder("reports").glob("*.toml"))

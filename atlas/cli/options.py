@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from fractions import Fraction
 from pathlib import Path
-from typing import Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import click
+
+if TYPE_CHECKING:
+    from fractions import Fraction
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -18,14 +20,20 @@ class Typed(float):
 
     def __new__(cls, text: str) -> Self:
         """Read a decimal, a fraction such as 2/3 or a hexadecimal float such as 0x1.8p0."""
-        value = float.fromhex(text) if "0x" in text.lower() else float(Fraction(text) if "/" in text else text)
+        value = float.fromhex(text) if "0x" in text.lower() else float(_fraction(text) if "/" in text else text)
         number = super().__new__(cls, value)
         number.text = text
         return number
 
-    def exactly(self) -> Fraction:
+    def exactly(self) -> "Fraction":
         """Return the number that was typed, not the double nearest to it."""
-        return Fraction(float(self)) if "0x" in self.text.lower() else Fraction(self.text)
+        return _fraction(float(self) if "0x" in self.text.lower() else self.text)
+
+
+def _fraction(value: str | float) -> "Fraction":
+    from fractions import Fraction
+
+    return Fraction(value)
 
 
 class Real(click.ParamType[Typed]):

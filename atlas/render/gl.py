@@ -17,6 +17,7 @@ from pathlib import Path
 VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 CHOICE = "ATLAS_GL"
 WINDOWS = {"egl": "vtkEGLRenderWindow", "osmesa": "vtkOSOpenGLRenderWindow"}
+DRIVERS = ("lib/dri", "lib64/dri", *(f"lib/{machine}-linux-gnu/dri" for machine in ("x86_64", "aarch64")))
 PACKAGES = ("libegl1", "libgl1-mesa-dri")
 
 _TRIAL = """
@@ -112,7 +113,7 @@ def _note() -> Path:
     """Where a yes is remembered: a file named after all that the answer depends on."""
     seen = [sys.prefix, sys.platform, str(_vtk()), *os.uname()[1:5:3]] if hasattr(os, "uname") else [sys.prefix]
     seen += [f"{key}={os.environ.get(key, '')}" for key in ("LD_LIBRARY_PATH", "LIBGL_DRIVERS_PATH", "DISPLAY")]
-    for place in (Path("/etc/ld.so.cache"), *sorted(Path("/usr").glob("lib*/**/dri"))[:4], Path("/dev/dri")):
+    for place in (Path("/etc/ld.so.cache"), *(Path("/usr") / name for name in DRIVERS), Path("/dev/dri")):
         state = place.stat() if place.exists() else None
         seen.append(f"{place} {(state.st_mtime_ns, state.st_size) if state else None}")
     key = hashlib.sha256("\n".join(seen).encode()).hexdigest()[:20]

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from atlas import DomainError, ElementaryMotion, Hyperbola, Quadric, SymmetricBody
-from atlas.render import draw
+from atlas.render.drawing import draw
 from atlas.scene import Arrow, Curve, Label, Points, Scene, Surface, recipes
 from atlas.scene.quadrics import quadric_matrix
 from atlas.scene.style import style
@@ -208,7 +208,7 @@ def test_a_scene_loads_no_drawing_library() -> None:
 def test_a_figure_on_paper_loads_no_vtk_and_no_pyplot(tmp_path: Any) -> None:
     """Matplotlib's canvases are enough."""
     program = (
-        "from atlas.scene import recipes; from atlas.render import draw\n"
+        "from atlas.scene import recipes; from atlas.render.drawing import draw\n"
         f"draw(recipes.load('cone').scene(), r'{tmp_path / 'cone.svg'}')"
     )
     assert heavy(program) == {"matplotlib"}
@@ -217,7 +217,7 @@ def test_a_figure_on_paper_loads_no_vtk_and_no_pyplot(tmp_path: Any) -> None:
 def test_a_flat_figure_asked_for_shaded_loads_no_vtk(tmp_path: Any) -> None:
     """There is nothing to shade in a panel with two axes."""
     program = (
-        "import numpy as np; from atlas.scene import Curve, Plane, Scene; from atlas.render import draw\n"
+        "import numpy as np; from atlas.scene import Curve, Plane, Scene; from atlas.render.drawing import draw\n"
         "panel = Plane((Curve(np.eye(2), 'main'),), 'x', 'y')\n"
         f"draw(Scene('t', 'c', 'a', (panel,)), r'{tmp_path / 'flat.png'}', renderer='shaded')"
     )

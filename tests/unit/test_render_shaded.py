@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from atlas.render import draw, gl
+from atlas.render import gl
+from atlas.render.drawing import draw
 from atlas.scene import Arrow, Curve, Points, Scene, Space, recipes, solids
 
 pytestmark = pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
@@ -98,7 +99,7 @@ def test_without_peeling_there_is_no_picture(tmp_path: Path) -> None:
         "import pyvista as pv\n"
         "pv.Plotter.enable_depth_peeling = lambda *_: None\n"
         "from atlas.errors import AtlasError\n"
-        "from atlas.render import draw\n"
+        "from atlas.render.drawing import draw\n"
         "from atlas.scene import recipes\n"
         "try:\n"
         "    draw(recipes.load('cone').scene(), sys.argv[1], renderer='shaded', dpi=40)\n"

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from atlas import AtlasError
-from atlas.render import draw, gl, vector
+from atlas.render import gl, vector
+from atlas.render.drawing import draw
 from atlas.render.house import house_style
 from atlas.render.labels import Tag, place
 from atlas.render.space import silhouette
@@ -62,7 +63,7 @@ def test_a_scene_drawn_twice_has_the_same_bytes(tmp_path: Path, kind: str, make:
 def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
     """The seed of hashing, the locale and the time zone do not matter."""
     program = (
-        "import sys; from atlas.scene import recipes; from atlas.render import draw; "
+        "import sys; from atlas.scene import recipes; from atlas.render.drawing import draw; "
         "scene = recipes.load('cone').scene(); [draw(scene, sys.argv[1] + kind) for kind in ('.svg', '.pdf')]"
     )
     scene = recipes.load("cone").scene()
