@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from atlas import places
 from atlas.errors import AtlasError
-from atlas.places import folder
 from atlas.scene import Layer, Plane, Points, Region, Scene
 from atlas.scene.words import title
 
@@ -45,7 +45,7 @@ def scene() -> Scene:
 
 def read() -> dict[str, Any]:
     """Read the stored ledger."""
-    path = folder("reports") / "data" / "build_costs.json"
+    path = places.folder("reports") / "data" / "build_costs.json"
     try:
         found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError as error:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from atlas.build.appendices import gather
 from atlas.errors import AtlasError
 from atlas.report.compose import compose
 from atlas.report.gallery import gallery
@@ -82,7 +83,7 @@ def test_every_report_of_the_folder_is_sound(name: str) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""
     report = load(find(name))
     plates = gallery(report)
-    document = compose(report, plates)
+    document = compose(report, plates, gather(report))
     assert report.name == name
     for plate in plates.values():
         assert not plate.failure
