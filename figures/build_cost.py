@@ -61,7 +61,7 @@ def named(scenes: list[str]) -> list[str]:
     for name in names:
         seen[name] += 1
         counted.append(f"{name} ({seen[name]})" if many[name] > 1 else name)
-    return [name.replace("_", " ") for name in counted]
+    return counted
 
 
 def panel(names: list[str], entries: list[dict[str, Any]]) -> Plane:
