@@ -6,13 +6,14 @@ so is the text that pandoc made from the same prose.
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from atlas.build import fresh
+from atlas.build.memory import Memory
 from atlas.build.sources import Sources, digest
 from atlas.build.store import Store
 from atlas.build.whole import publish, staging, write
@@ -107,17 +108,18 @@ def _build(
         tell(total - 3, total, "tables")
         times = {"figures": time.perf_counter()}
         document = compose(report, wanted, gather(report))
-        document.manuscript.recall = partial(_recall, store)
+        document.manuscript.memory = memory = Memory(store.root / f"{report.name}.texts.json")
         described = colophon(report)
         tell(total - 2, total, "pages")
         times["tables"] = time.perf_counter()
-        pages = html.pages(document, described)
+        pages = html.pages(document, described, partial(_recall, store))
         for page, content in pages.items():
             write(folder / page, content)
         tell(total - 1, total, "PDF")
         times["pages"] = time.perf_counter()
         write(stage / f"{report.name}.pdf", pdf.compile_pdf(pdf.source(document, described), folder))
         times["PDF"] = time.perf_counter()
+        memory.save()
         write(folder / "record.json", record_of(document, described, folder))
         figures = [f"{report.name}/{plate.files['html']}" for plate in wanted.values() if plate.files]
         files = [*figures, *(f"{report.name}/{one}" for one in (*pages, "record.json")), f"{report.name}.pdf"]
@@ -140,15 +142,15 @@ def _build(
     )
 
 
-def _recall(store: Store, parts: Any, make: Callable[[], str]) -> str:
-    """Return a text that was made from the same parts before, or make and keep it."""
-    key = digest("text", parts)
+def _recall(store: Store, parts: Sequence[str], make: Callable[[], bytes]) -> bytes:
+    """Return what was made from the same parts before, or make and keep it."""
+    key = digest("made", list(parts))
     entry = store.take(key)
     if entry is None:
 
         def maker(folder: Path) -> dict[str, Any]:
-            (folder / "text").write_text(make(), encoding="utf-8")
+            (folder / "content").write_bytes(make())
             return {}
 
         entry = store.make(key, maker)
-    return entry.file("text").read_text(encoding="utf-8")
+    return entry.file("content").read_bytes()

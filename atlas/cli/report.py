@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 @out_option("build/report")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), help="Figures drawn at once; else one a core.")
 @click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken, and what it cost.")
-def command(name: str, out: Path, jobs: int | None, explain: bool) -> int:
+@click.option("--keep-costs", is_flag=True, help="Store what this build cost where the report's own chart reads it.")
+def command(name: str, out: Path, jobs: int | None, explain: bool, keep_costs: bool) -> int:
     """Build a report: HTML pages that open from disk, and a PDF with the same content.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
@@ -38,6 +39,10 @@ def command(name: str, out: Path, jobs: int | None, explain: bool) -> int:
     click.echo(built.pdf)
     if explain:
         _explain(built)
+    if keep_costs and built.ledger is not None:
+        from atlas.build.ledger import keep
+
+        click.echo(keep(built.ledger))
     for note in built.notes:
         click.echo(f"atlas: {note}", err=True)
     for recipe, reason in built.failures:

@@ -5,12 +5,15 @@ that radicals, brackets and accents grow to. Text is set in STIXGeneral, the fac
 """
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from html import unescape
+from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
+from typing import TypeAlias
 
 from atlas.errors import AtlasError
 
@@ -96,10 +99,23 @@ def subset(face: Face, wanted: str) -> bytes:
     return out.getvalue()
 
 
-def all_subsets(pages: Iterable[str]) -> dict[str, bytes]:
-    """Cut every face for some pages; the keys are file names."""
+Recall: TypeAlias = Callable[[Sequence[str], Callable[[], bytes]], bytes]
+
+
+def anew(_parts: Sequence[str], make: Callable[[], bytes]) -> bytes:
+    """Recall nothing."""
+    return make()
+
+
+def all_subsets(pages: Iterable[str], recall: Recall = anew) -> dict[str, bytes]:
+    """Cut every face for some pages; the keys are file names.
+
+    `recall` may return what was made from the same parts before: the face, its package and the characters.
+    """
     text, formulas = characters(pages)
-    return {
-        f"{name}.woff2": subset(face, ALWAYS + (formulas + GROWING if name == "math" else text))
-        for name, face in FACES.items()
-    }
+    subsets = {}
+    for name, face in FACES.items():
+        wanted = ALWAYS + (formulas + GROWING if name == "math" else text)
+        parts = ["font", face.file, version(face.package), version("fonttools"), version("brotli"), wanted]
+        subsets[f"{name}.woff2"] = recall(parts, partial(subset, face, wanted))
+    return subsets

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Literal, TypeAlias
+from typing import Literal, Protocol, TypeAlias
 
 from atlas.errors import AtlasError
 from atlas.report.mathml import mend_all
@@ -29,12 +29,12 @@ _CODE = re.compile(r"`[^`]*`")
 _CITATION = re.compile(r"(?<![\w\\])@([a-z]+:[\w-]+|\w+(?:[.-]\w+)*)")
 
 
-Recall: TypeAlias = Callable[[Sequence[object], Callable[[], str]], str]
+class Memory(Protocol):
+    """What pandoc made of a source before, by that source."""
 
-
-def _anew(_parts: Sequence[object], make: Callable[[], str]) -> str:
-    """Recall nothing."""
-    return make()
+    def __contains__(self, source: str, /) -> bool: ...
+    def __getitem__(self, source: str, /) -> str: ...
+    def __setitem__(self, source: str, text: str, /) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ class Manuscript:
     """The texts of one report, collected so that they are set together."""
 
     texts: list[Text] = field(default_factory=list)
-    recall: Recall = field(default=_anew)
-    """What pandoc made of the same source before may be recalled here; the parts name it."""
+    memory: Memory = field(default_factory=dict[str, str])
+    """Texts that pandoc has set before are taken from here."""
 
     def add(self, markdown: str, where: str, *, inline: bool = False) -> int:
         """Take in a text and return its number."""
@@ -65,14 +65,12 @@ class Manuscript:
         `cite` (citation, place) gives the Markdown of a citation such as ``@mf72``. Raises AtlasError for a formula
         that pandoc can't read.
         """
-        mark = "\n\n```{{={0}}}\n{1}\n```\n\n"
-        source = "".join(
-            mark.format(target, _MARK[target].format(number).rstrip()) + _prepared(text, target, cite)
-            for number, text in enumerate(self.texts)
-        )
-        parts = ["pandoc", version("pypandoc_binary"), _READ, _WRITE[target], source]
-        output = self.recall(parts, lambda: _pandoc(source, target, self.texts))
-        pieces = re.split(re.escape(_MARK[target]).replace(r"\{\}", r"\d+").rstrip("\n\\") + r"\s*", output)[1:]
+        sources = [_prepared(text, target, cite) for text in self.texts]
+        setting = json.dumps([version("pypandoc_binary"), _READ, _WRITE[target]])
+        new = [number for number, source in enumerate(sources) if setting + source not in self.memory]
+        for number, piece in zip(new, _pieces_set([sources[n] for n in new], target, self.texts), strict=True):
+            self.memory[setting + sources[number]] = piece
+        pieces = [self.memory[setting + source] for source in sources]
         if target == "typst":
             for piece, text in zip(pieces, self.texts, strict=True):
                 if _CHAIN.search(piece):
@@ -116,6 +114,16 @@ def _tex(tex: str, target: Target) -> str:
     r"""Avoid what pandoc gets wrong: words in ``\mathrm`` are spaced out, a small fraction below a fraction is lost."""
     tex = re.sub(r"\\mathrm\{([A-Za-z]{2,})\}", r"\\text{\1}", tex)
     return re.sub(r"\\[td]frac\b", r"\\frac", tex) if target == "typst" else tex
+
+
+def _pieces_set(sources: Sequence[str], target: Target, texts: Sequence[Text]) -> list[str]:
+    """Set some texts in one call of pandoc, between marks that it leaves alone."""
+    if not sources:
+        return []
+    mark = "\n\n```{{={0}}}\n{1}\n```\n\n"
+    marked = (mark.format(target, _MARK[target].format(n).rstrip()) + source for n, source in enumerate(sources))
+    output = _pandoc("".join(marked), target, texts)
+    return re.split(re.escape(_MARK[target]).replace(r"\{\}", r"\d+").rstrip("\n\\") + r"\s*", output)[1:]
 
 
 def _pandoc(source: str, target: Target, texts: Sequence[Text]) -> str:

@@ -9,10 +9,10 @@ from markupsafe import Markup
 from atlas.places import folder
 from atlas.report.colophon import Colophon
 from atlas.report.compose import Document
-from atlas.report.fonts import FACES, all_subsets
+from atlas.report.fonts import FACES, Recall, all_subsets, anew
 
 
-def pages(document: Document, colophon: Colophon) -> dict[str, str | bytes]:
+def pages(document: Document, colophon: Colophon, recall: Recall = anew) -> dict[str, str | bytes]:
     """Set a document as pages; the keys are file names, the stylesheet and the fonts among them."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "html"),
@@ -29,7 +29,7 @@ def pages(document: Document, colophon: Colophon) -> dict[str, str | bytes]:
         for before, page, after in _neighbours(document.pages)
     }
     style = environment.get_template("style.css").render(faces=FACES)
-    fonts = {f"fonts/{name}": content for name, content in all_subsets(set_pages.values()).items()}
+    fonts = {f"fonts/{name}": content for name, content in all_subsets(set_pages.values(), recall).items()}
     return {**fonts, "style.css": style, **set_pages}
 
 

@@ -1,0 +1,43 @@
+"""Texts that were set before, by a digest of what they were set from; a plain file beside the store."""
+
+import hashlib
+import json
+import os
+from pathlib import Path
+
+
+class Memory:
+    """A mapping from the source of a text to the text, read from a file and written back whole.
+
+    What is not asked for any more is forgotten when it is saved.
+    """
+
+    def __init__(self, file: Path) -> None:
+        self._file = file
+        try:
+            self._known: dict[str, str] = json.loads(file.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            self._known = {}  # nothing remembered, or not readable: everything is set anew
+        self._used: dict[str, str] = {}
+
+    def __contains__(self, source: str) -> bool:
+        return _key(source) in self._known
+
+    def __getitem__(self, source: str) -> str:
+        key = _key(source)
+        self._used[key] = self._known[key]
+        return self._used[key]
+
+    def __setitem__(self, source: str, text: str) -> None:
+        self._known[_key(source)] = text
+
+    def save(self) -> None:
+        """Write down what was used."""
+        self._file.parent.mkdir(parents=True, exist_ok=True)
+        beside = self._file.with_name(f"{self._file.name}.{os.getpid()}")
+        beside.write_text(json.dumps(self._used, ensure_ascii=False), encoding="utf-8")
+        beside.replace(self._file)
+
+
+def _key(source: str) -> str:
+    return hashlib.sha256(source.encode()).hexdigest()
