@@ -98,7 +98,9 @@ def _build(
     report = load(file)
     if report.name != file.stem:
         raise AtlasError(f"{file}: the report's name is {report.name!r}, but its file is called {file.stem!r}.")
-    wanted = gallery(report)
+    wanted, recorded = gallery(report), gather(report)
+    draft = compose(report, wanted, recorded)  # what is misspelt is told before anything is drawn
+    draft.manuscript.check(draft.cite("html"))
     total = len(wanted) + 3
     with staging(out) as stage:
         store.sweep()
@@ -107,7 +109,7 @@ def _build(
         sources.save()
         tell(total - 3, total, "tables")
         times = {"figures": time.perf_counter()}
-        document = compose(report, wanted, gather(report))
+        document = compose(report, wanted, recorded)
         document.manuscript.memory = memory = Memory(store.root / f"{report.name}.texts.json")
         described = colophon(report)
         tell(total - 2, total, "pages")

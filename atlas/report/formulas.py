@@ -59,6 +59,11 @@ class Manuscript:
         self.texts.append(Text(markdown, where, inline))
         return len(self.texts) - 1
 
+    def check(self, cite: Callable[[str, str], str]) -> None:
+        """Resolve every citation; `cite` raises AtlasError for one that leads nowhere."""
+        for text in self.texts:
+            _prepared(text, "html", cite)
+
     def set(self, target: Target, cite: Callable[[str, str], str]) -> list[str]:
         """Set all texts for a target, in their order.
 
