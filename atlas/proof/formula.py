@@ -1,5 +1,7 @@
 """The true form of an equation as something to compute with, so that other floors can be held against the ledger."""
 
+import ast
+from itertools import product
 from typing import Any
 
 import sympy
@@ -7,35 +9,58 @@ import sympy
 from atlas.errors import AtlasError
 from atlas.paper import equation
 from atlas.proof.model import COMMON
-from atlas.proof.notation import Reader, parse
+from atlas.proof.notation import Reader, letters_of, parse
 from atlas.proof.run import trial
 
 
-def value(label: str, letter: str, **letters: Any) -> Any:
-    """Evaluate what an equation says that a letter is, in the form that has been proved.
+def value(label: str, side: str, /, **letters: Any) -> Any:
+    """Evaluate what an equation says that one of its sides is, in the form that has been proved.
 
-    letters  the values of the other letters: numbers (floats are taken as exact), sequences as vectors, SymPy objects
+    side     a letter, or a whole side as the trial writes it: "omega3", "d(Omega1)", "0"
+    letters  the values of the letters on the other side: numbers (floats are taken as exact), sequences as vectors and
+             nested ones as matrices, SymPy objects, functions such as d
 
         value("mf76", "omega3", omega2=0.7, I=1.5, B2=1.0, B3=2.0)
 
-    The corrected form is read first; the printed one where that only adds cases. Returns an exact SymPy number, or a
-    matrix of such. AtlasError if the equation defines no such letter or lacks a value.
+    The corrected form is read first; the printed one where that only adds cases. Of a chain a = b = c the last side
+    counts that has no other letters. Returns an exact SymPy number; a vector or a matrix of such where the side is
+    one, or has one or two free indices. AtlasError if the equation has no such side or lacks a value.
     """
     case = trial(equation(label).label)
     known = {**COMMON, **{name: _exact(given) for name, given in letters.items()}}
+    wanted = ast.dump(parse(f"{side} = 0")[0].left)
+    lacking: list[str] = []
     for tree in [tree for line in (case.corrected, case.printed) if line for tree in parse(line)]:
-        if getattr(tree.left, "id", None) == letter:
-            found = Reader(known).value(tree.comparators[-1], {})
-            missing = sorted(str(symbol) for symbol in getattr(found, "free_symbols", ()) if str(symbol) not in letters)
-            if missing:
-                raise AtlasError(f"{label} needs the value of {', '.join(missing)} too")
-            return found
-    raise AtlasError(f"{label} does not say what {letter!r} is; it reads {case.corrected or case.printed}")
+        sides = [tree.left, *tree.comparators]
+        if not all(isinstance(sign, ast.Eq) for sign in tree.ops) or wanted not in map(ast.dump, sides):
+            continue
+        for other in reversed([other for other in sides if ast.dump(other) != wanted]):
+            missing = sorted({*letters_of(other), *_functions(other)} - set(known))
+            if not missing:
+                return _components(Reader(known), other)
+            lacking = lacking or missing
+    if lacking:
+        raise AtlasError(f"{label} needs the value of {', '.join(lacking)} too")
+    raise AtlasError(f"{label} does not say what {side!r} is; it reads {case.corrected or case.printed}")
+
+
+def _components(reader: Reader, side: ast.expr) -> Any:
+    """Evaluate a side for all values of its free indices."""
+    free = sorted(reader.free(side))
+    if not free:
+        return reader.value(side, {})
+    entries = [reader.value(side, dict(zip(free, at, strict=True))) for at in product((1, 2, 3), repeat=len(free))]
+    return sympy.Matrix(3, 3 ** (len(free) - 1), entries)
+
+
+def _functions(side: ast.expr) -> set[str]:
+    """Return the names of the functions in a formula."""
+    return {part.func.id for part in ast.walk(side) if isinstance(part, ast.Call) and isinstance(part.func, ast.Name)}
 
 
 def _exact(given: Any) -> Any:
-    if isinstance(given, sympy.Basic | sympy.MatrixBase):
+    if isinstance(given, sympy.Basic | sympy.MatrixBase) or callable(given):
         return given
     if hasattr(given, "__len__"):
-        return sympy.Matrix([_exact(entry) for entry in given])
+        return sympy.Matrix([[_exact(x) for x in row] if hasattr(row, "__len__") else [_exact(row)] for row in given])
     return sympy.Rational(given)

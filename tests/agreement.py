@@ -1,0 +1,295 @@
+"""Ties between the floors: what `atlas.core` and `atlas.exact` compute, and the proved form of a ledger entry.
+
+A tie names one quantity, reads it from a floor at seeded random points, and says by `proof.formula.value` what the
+ledger makes it. `agree` compares: a double within a few ulp, a ball that contains the value.
+"""
+
+import ast
+import dataclasses
+import inspect
+import math
+import pkgutil
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from fractions import Fraction
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from flint import arb, fmpq
+
+from atlas.core.body import SymmetricBody
+from atlas.exact.digits import enclosed, numbers
+from atlas.proof.formula import value
+
+DIGITS = 50
+"""Decimal digits of the ledger's value where it isn't rational; a ball has a few more."""
+
+FLOORS = ("core", "exact")
+
+
+class Floor:
+    """A floor of the package: its classes by name, and its modules, which hold functions."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __getattr__(self, name: str) -> Any:
+        """Return the class or the module of that name."""
+        return getattr(self.module(name), name) if name[0].isupper() else import_module(f"atlas.{self.name}.{name}")
+
+    def module(self, cls: str) -> Any:
+        """Return the module in which a class is defined."""
+        return import_module(f"atlas.{self.name}.{_homes(self.name)[cls]}")
+
+    def owner(self, quantity: str) -> tuple[Any, str]:
+        """Return the class or the module that has a quantity, and its name there."""
+        owner, name = quantity.split(".")
+        return getattr(self, owner), name
+
+
+@cache
+def _homes(floor: str) -> dict[str, str]:
+    """Return the module of each class of a floor."""
+    return {
+        node.name: path.stem
+        for path in modules(floor).values()
+        for node in ast.parse(path.read_text("utf-8")).body
+        if isinstance(node, ast.ClassDef)
+    }
+
+
+def modules(floor: str) -> dict[str, Path]:
+    """Return the files of a floor by the names of their modules."""
+    folder = Path(import_module(f"atlas.{floor}").__path__[0])
+    return {module.name: folder / f"{module.name}.py" for module in pkgutil.iter_modules([str(folder)])}
+
+
+class Ledger:
+    """Evaluates proved forms and notes their labels."""
+
+    def __init__(self) -> None:
+        self.labels: set[str] = set()
+
+    def __call__(self, label: str, side: str, /, **letters: Any) -> Any:
+        """Return what an equation says that a side is, see `proof.formula.value`."""
+        self.labels.add(label)
+        return value(label, side, **letters)
+
+
+Size = Callable[[list[Fraction], Any], float]
+
+
+def own(_true: list[Fraction], _point: Any) -> float | None:
+    """Measure every number by itself."""
+    return None
+
+
+def length(true: list[Fraction], _point: Any) -> float:
+    """Measure the components of a vector by the largest of them."""
+    return float(max(abs(x) for x in true))
+
+
+def unit(_true: list[Fraction], _point: Any) -> float:
+    """Measure the entries of a rotation by 1."""
+    return 1.0
+
+
+def power(degree: int) -> Size:
+    """Measure by a power of the largest frequency of the point."""
+    return lambda _true, p: float(p.scale**degree)
+
+
+@dataclasses.dataclass(frozen=True)
+class Tie:
+    """One quantity, the labels that it is tied to, and how.
+
+    quantity  "Class.name" or "module.function"
+    labels    of the ledger's entries that `truth` evaluates
+    read      (floor, point) -> the quantity on a floor; `exact` where the exact floor is asked in another way
+    truth     (ledger, point) -> what the entries make it
+    points    where they are compared
+    size, ulps  how near a double must be: `ulps` units in the last place of a number of that size
+    """
+
+    quantity: str
+    labels: str
+    read: Callable[[Any, Any], Any]
+    truth: Callable[[Ledger, Any], Any]
+    points: Sequence[Any]
+    size: Callable[[list[Fraction], Any], float | None] = own
+    ulps: float = 4.0
+    floors: tuple[str, ...] = FLOORS
+    exact: Callable[[Any, Any], Any] | None = None
+
+    def __str__(self) -> str:
+        return f"{self.quantity} {self.labels}"
+
+
+def each(ties: Iterable[Tie]) -> Any:
+    """Run a test for every tie on every floor that has its quantity."""
+    cases = [pytest.param(tie, floor, id=f"{floor} {tie}") for tie in ties for floor in tie.floors]
+    return pytest.mark.parametrize(("tie", "floor"), cases)
+
+
+def agree(tie: Tie, floor: str, points: Sequence[Any] | None = None) -> None:
+    """Hold a floor against the ledger at all points of a tie."""
+    for point in tie.points if points is None else points:
+        ledger = Ledger()
+        true = [_fraction(x) for x in _flat(tie.truth(ledger, point))]
+        assert ledger.labels == set(tie.labels.split())
+        if floor == "core":
+            _compare_doubles(tie, point, true)
+        else:
+            _compare_balls(tie, point, true)
+
+
+def disagree(ties: Iterable[Tie], *quantities: str, floor: str = "core") -> None:
+    """Check that the agreement of these quantities, of all their ties, is gone."""
+    found = [tie for tie in ties if tie.quantity in quantities and floor in tie.floors]
+    assert {tie.quantity for tie in found} == set(quantities)
+    for tie in found:
+        with pytest.raises(AssertionError):
+            agree(tie, floor)
+
+
+def _compare_doubles(tie: Tie, point: Any, true: list[Fraction]) -> None:
+    found = [Fraction(x) for x in _flat(tie.read(Floor("core"), point))]
+    assert len(found) == len(true), tie
+    size = tie.size(true, point)
+    for x, y in zip(found, true, strict=True):
+        near = math.ulp(abs(float(y)) if size is None else size)
+        assert abs(x - y) <= tie.ulps * near, (str(tie), float(x), float(y), float(abs(x - y)) / near)
+
+
+def _compare_balls(tie: Tie, point: Any, true: list[Fraction]) -> None:
+    read = tie.exact or tie.read
+    found = list(numbers(enclosed(lambda: read(Floor("exact"), point), 200)))
+    assert len(found) == len(true), tie
+    for ball, y in zip(found, true, strict=True):
+        middle, radius = (_dyadic(ball.mid()), _dyadic(ball.rad())) if isinstance(ball, arb) else (_dyadic(ball), 0)
+        assert radius <= abs(middle) * Fraction(2) ** -199, tie
+        assert abs(middle - y) <= radius + abs(y) * Fraction(10) ** (1 - DIGITS), (str(tie), float(middle), float(y))
+
+
+def _dyadic(x: arb | fmpq) -> Fraction:
+    if isinstance(x, fmpq):
+        return Fraction(int(x.p), int(x.q))
+    mantissa, exponent = x.man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def _fraction(x: Any) -> Fraction:
+    """Return a real SymPy number exactly where it is rational, else to DIGITS digits."""
+    x = sympy.sympify(x)
+    if x.is_Rational:
+        return Fraction(int(x.p), int(x.q))
+    number = x.evalf(DIGITS, maxn=1000)
+    assert number.is_Float, x
+    sign, mantissa, exponent, _ = number._mpf_
+    return (-1) ** sign * Fraction(int(mantissa)) * Fraction(2) ** exponent
+
+
+def _flat(value: Any) -> Iterator[Any]:
+    """Go through the numbers of whatever a quantity comes as."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        value = dataclasses.astuple(value)
+    if isinstance(value, dict):
+        value = value.values()
+    if isinstance(value, np.ndarray):
+        yield from value.ravel().tolist()
+    elif isinstance(value, sympy.MatrixBase) or (hasattr(value, "__iter__") and not isinstance(value, sympy.Basic)):
+        for part in value:
+            yield from _flat(part)
+    else:
+        yield value
+
+
+def negated(value: Any) -> Any:
+    """Return a quantity with the sign of every number turned round; of a motion, all that it says later."""
+    if isinstance(value, dict):
+        return {name: negated(part) for name, part in value.items()}
+    if isinstance(value, list | tuple):
+        return type(value)(negated(part) for part in value)
+    if dataclasses.is_dataclass(value):
+        return dataclasses.replace(value, **{name: negated(x) for name, x in dataclasses.asdict(value).items()})
+    return -value if hasattr(value, "__neg__") else _Mirror(value)
+
+
+class _Mirror:
+    """A motion whose methods return the opposite."""
+
+    def __init__(self, motion: Any) -> None:
+        self._motion = motion
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a method that negates."""
+        return lambda *arguments: negated(getattr(self._motion, name)(*arguments))
+
+
+def negate(monkeypatch: pytest.MonkeyPatch, quantity: str, floor: str) -> None:
+    """Put a quantity of a floor under the wrong sign."""
+    owner, name = Floor(floor).owner(quantity)
+    was = inspect.getattr_static(owner, name, None)
+    if was is None:
+        _negate_attribute(monkeypatch, owner, name)
+    elif isinstance(was, classmethod):
+        wrong = classmethod(lambda cls, *a, **k: negated(was.__func__(cls, *a, **k)))
+        monkeypatch.setattr(owner, name, wrong)
+    elif callable(was):
+        monkeypatch.setattr(owner, name, lambda *a, **k: negated(was(*a, **k)))
+    else:
+        monkeypatch.setattr(owner, name, property(lambda self: negated(was.__get__(self, type(self)))))
+
+
+def _negate_attribute(monkeypatch: pytest.MonkeyPatch, owner: Any, name: str) -> None:
+    """Negate what `__init__` makes."""
+    begin = owner.__init__
+
+    def begin_wrongly(self: Any, *arguments: Any, **named: Any) -> None:
+        begin(self, *arguments, **named)
+        object.__setattr__(self, name, negated(getattr(self, name)))
+
+    monkeypatch.setattr(owner, "__init__", begin_wrongly)
+
+
+def signed(draw: np.random.Generator) -> float:
+    """Return a number of either sign, of the size of 1."""
+    return float(draw.choice((-1, 1)) * draw.uniform(0.1, 4))
+
+
+def vector(draw: np.random.Generator) -> tuple[float, ...]:
+    """Return three such numbers."""
+    return tuple(signed(draw) for _ in range(3))
+
+
+def bodies(seed: int, count: int = 6, **fixed: Any) -> list[Any]:
+    """Return states of symmetric bodies in a field: letters as in the paper, B2 and B3 of either sign.
+
+    The body is a ratio, 1 and 2 among them, or its two moments, which no double has the quotient of; `I` is exact.
+    `fixed` are letters with the same value at every point, or with that of a function of the point.
+    """
+    draw, found = np.random.default_rng(seed), []
+    for n in range(count):
+        I2 = draw.uniform(0.5, 3)
+        body = (draw.uniform(0.05, 2), SymmetricBody(I2, I2 * draw.uniform(0.05, 1.95)), 1.0, 2.0)[n % 4]
+        p = SimpleNamespace(body=body, B2=signed(draw), B3=signed(draw), t=5 * signed(draw), u=signed(draw))
+        p.omega, p.K, p.point = vector(draw), vector(draw), vector(draw)
+        for name, given in fixed.items():
+            setattr(p, name, given(p) if callable(given) else given)
+        moments = (p.body.I2, p.body.I3) if isinstance(p.body, SymmetricBody) else (1.0, p.body)
+        p.I2, p.I3 = (sympy.Rational(x) for x in moments)
+        p.I, p.field = p.I3 / p.I2, (p.B2, p.B3)
+        p.omega1, p.omega2, p.omega3 = p.omega
+        p.scale = max(map(abs, (*p.omega, *p.K, *p.field, p.u)))
+        found.append(p)
+    return found
+
+
+def letters(p: Any, names: str) -> dict[str, Any]:
+    """Return the values of some letters of a point."""
+    return {name: getattr(p, name) for name in names.split()}

@@ -1,0 +1,141 @@
+"""Quadric: core and exact say what the ledger's mf58 to mf63 say."""
+
+from typing import Any
+
+import pytest
+import sympy
+from agreement import Ledger, Tie, agree, bodies, disagree, each, length, letters
+
+from atlas.core import quadric
+from atlas.core.wide import Wide
+
+POINTS = bodies(58, 8)
+TWO_SHEETS = bodies(61, 3, body=1.7)
+ONE_SHEET = bodies(63, 3, body=0.3)
+
+
+def beta(say: Ledger, p: Any) -> Any:
+    """Angle of I^-1 B', whose tangent text-beta gives, in the quadrant of (I B2, B3)."""
+    acute = sympy.atan(say("text-beta", "tan(beta)", **letters(p, "I B2 B3")))
+    return acute if p.B2 > 0 else acute + (sympy.pi if p.B3 > 0 else -sympy.pi)
+
+
+def coordinates(say: Ledger, p: Any, omega: Any) -> list[Any]:
+    """Coordinates mf61a of a point."""
+    at = dict(zip(("omega1", "omega2", "omega3"), omega, strict=True))
+    return [say("mf61a", name, beta=beta(say, p), **at, **letters(p, "B2 B3")) for name in ("w1", "w2", "w3")]
+
+
+def axes(say: Ledger, p: Any) -> Any:
+    """Rows of mf61a: what the coordinates gain along e1, e2, e3."""
+    steps = [[int(i == j) - sympy.Rational(b) for j, b in enumerate((0, p.B2, p.B3))] for i in range(3)]
+    return sympy.Matrix([coordinates(say, p, omega) for omega in steps]).T
+
+
+def centre(say: Ledger, p: Any) -> Any:
+    """Point whose coordinates are zero, by those of the origin."""
+    return -axes(say, p).T * sympy.Matrix(coordinates(say, p, (0, 0, 0)))
+
+
+def semi_axes(say: Ledger, p: Any) -> list[Any]:
+    """Roots of the squares of mf61b or mf63, which have the sign of B3."""
+    label = "mf61b" if p.I > 1 else "mf63"
+    squares = [say(label, name, beta=beta(say, p), **letters(p, "I B2")) for name in ("C1s", "C2s", "C3s")]
+    return [sympy.sqrt(abs(square)) for square in squares]
+
+
+def off_canonical(say: Ledger, p: Any) -> Any:
+    """Left side of mf60 less the right one, times B3: what mf58.1 has on its left."""
+    w = dict(zip(("w1", "w2", "w3"), coordinates(say, p, p.omega), strict=True))
+    a = {name: say("mf60", name, beta=beta(say, p)) for name in ("a2", "a3")}
+    left = say("mf60", "(1 - I)*B2^2", **w, **a)
+    return ((left - (1 - p.I) * sympy.Rational(p.B2) ** 2) * sympy.Rational(p.B3)).evalf(60)
+
+
+TIES = (
+    Tie("Quadric.beta", "text-beta", lambda f, p: f.Quadric(p.body, p.field).beta, beta, POINTS),
+    Tie(
+        "Quadric.sin_beta",
+        "text-beta",
+        lambda f, p: f.Quadric(p.body, p.field).sin_beta,
+        lambda say, p: sympy.sin(beta(say, p)),
+        POINTS,
+        floors=("exact",),
+    ),
+    Tie(
+        "Quadric.a2",
+        "mf60 text-beta",
+        lambda f, p: f.Quadric(p.body, p.field).a2,
+        lambda say, p: say("mf60", "a2", beta=beta(say, p)),
+        POINTS,
+    ),
+    Tie(
+        "Quadric.a3",
+        "mf60 text-beta",
+        lambda f, p: f.Quadric(p.body, p.field).a3,
+        lambda say, p: say("mf60", "a3", beta=beta(say, p)),
+        POINTS,
+    ),
+    Tie(
+        "Quadric.semi_axes",
+        "mf61b text-beta",
+        lambda f, p: f.Quadric(p.body, p.field).semi_axes,
+        semi_axes,
+        TWO_SHEETS,
+    ),
+    Tie(
+        "Quadric.semi_axes",
+        "mf63 text-beta",
+        lambda f, p: f.Quadric(p.body, p.field).semi_axes,
+        semi_axes,
+        ONE_SHEET,
+    ),
+    Tie("Quadric.centre", "mf61a text-beta", lambda f, p: f.Quadric(p.body, p.field).centre, centre, POINTS),
+    Tie("Quadric.axes", "mf61a text-beta", lambda f, p: f.Quadric(p.body, p.field).axes, axes, POINTS),
+    Tie(
+        "Quadric.canonical",
+        "mf61a text-beta",
+        lambda f, p: f.Quadric(p.body, p.field).canonical(p.omega),
+        lambda say, p: coordinates(say, p, p.omega),
+        POINTS,
+        size=length,
+    ),
+    Tie(
+        "Quadric.residual",
+        "mf58.1",
+        lambda f, p: f.Quadric(p.body, p.field).residual(p.omega),
+        lambda say, p: say("mf58.1", "0", **letters(p, "I B2 B3 omega1 omega2 omega3")),
+        POINTS,
+    ),
+    Tie(
+        "Quadric.residual",
+        "mf60 mf61a text-beta",
+        lambda f, p: f.Quadric(p.body, p.field).residual(p.omega),
+        off_canonical,
+        POINTS[:3],
+    ),
+)
+
+
+@each(TIES)
+def test_the_quadric_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+    """Its shape, its frame and what it leaves of any point."""
+    agree(tie, floor)
+
+
+def test_a_wrong_sign_in_the_eigenvalues_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """1 - sin(beta) for 1 + sin(beta), and the other way round."""
+    right = quadric._less
+    monkeypatch.setattr(quadric, "_less", lambda x, y, h: right(x, -y, h))
+    disagree(TIES, "Quadric.a2", "Quadric.a3", "Quadric.semi_axes", "Quadric.axes", "Quadric.canonical")
+
+
+def test_a_wrong_sign_in_the_quadric_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """(2 + I) for (2 - I) in mf58.1: its two ties are both gone."""
+    right = quadric.residual
+
+    def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, w1: Wide, w2: Wide, w3: Wide) -> Wide:
+        return right(I2, I3, B2, B3, w1, w2, w3) + (I3 + I3) / I2 * B2 * B3 * w2
+
+    monkeypatch.setattr(quadric, "residual", wrong)
+    disagree(TIES, "Quadric.residual")
