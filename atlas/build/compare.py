@@ -4,25 +4,18 @@ Numbers are decimal texts and are compared exactly, whatever signs and spaces th
 by its digest, pictures by theirs.
 """
 
-import hashlib
 import re
-from base64 import b64encode
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal
-from functools import partial
-from itertools import groupby, takewhile
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from atlas.errors import AtlasError
-from atlas.places import folder
+from atlas.build.reading import Figure, Report, Table, read
 
-FORMAT = 1
-RECORD = "record.json"
-KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
 SPACES = dict.fromkeys(map(ord, "\u00a0\u2007\u2009\u200a\u202f"))
 NUMBER = re.compile(
     r"(?P<digits>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))"
@@ -31,98 +24,7 @@ NUMBER = re.compile(
     re.IGNORECASE,
 )
 """A decimal with a power of ten that Decimal can hold, and the mark of a number that lacks proven digits."""
-FORMULA = re.compile(r"(\$[^$]+\$)")
 LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
-
-
-class Page(msgspec.Struct, frozen=True):
-    """A page: its title, the digest of its prose, captions and formulas."""
-
-    title: str
-    text: str
-
-
-class Table(msgspec.Struct, frozen=True):
-    """A table as printed: heads, units and cells as texts."""
-
-    page: str
-    caption: str
-    columns: list[str]
-    units: list[str]
-    rows: list[list[str]]
-
-
-class Figure(msgspec.Struct, frozen=True):
-    """A figure: what it was drawn from, its picture and the digest of that; neither where drawing failed."""
-
-    page: str
-    caption: str
-    recipe: str
-    renderer: str
-    parameters: dict[str, Any]
-    file: str | None
-    sha256: str | None
-
-
-class Record(msgspec.Struct, frozen=True):
-    """What a build records of a report."""
-
-    format: int
-    name: str
-    title: str
-    pages: dict[str, Page]
-    tables: dict[str, Table]
-    figures: dict[str, Figure]
-    versions: dict[str, str]
-
-
-@dataclass(frozen=True)
-class Report:
-    """A built report: its folder and what its build recorded."""
-
-    folder: Path
-    record: Record
-
-    def picture(self, figure: Figure) -> Path | None:
-        """Return the file of a figure's picture, None when it failed or is not in the folder."""
-        path = (self.folder / (figure.file or ".")).resolve()
-        return path if path.is_relative_to(self.folder.resolve()) and path.is_file() else None
-
-    def damage(self) -> str:
-        """Say which pictures are not those that the build recorded, or nothing."""
-        bad = [
-            figure.file
-            for figure in self.record.figures.values()
-            if figure.file and not ((path := self.picture(figure)) and _digest(path) == figure.sha256)
-        ]
-        return f"{self.folder}: lost or altered since the build: {', '.join(bad)}." if bad else ""
-
-
-def read(place: Path) -> Report:
-    """Read the record of a built report, given by its folder or by the index.html or record.json in it."""
-    where = place.parent if place.name in {"index.html", RECORD} else place
-    try:
-        content = (where / RECORD).read_bytes()
-    except OSError as error:
-        raise AtlasError(
-            f"{place} is not a built report, a folder such as build/report/atlas with a {RECORD}: {error.strerror}."
-        ) from error
-    try:
-        found = msgspec.json.decode(content, type=dict[str, Any]).get("format")
-        if found != FORMAT:
-            raise AtlasError(f"{where / RECORD} has format {found!r}; this atlas reads format {FORMAT}.")
-        record = msgspec.json.decode(content, type=Record)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise AtlasError(f"{where / RECORD} is not the record of a report: {error}.") from error
-    for name, table in record.tables.items():
-        if any(len(cells) != len(table.columns) for cells in (table.units, *table.rows)):
-            raise AtlasError(f"{where / RECORD}: in table {name} not every row has {len(table.columns)} cells.")
-    for name, figure in record.figures.items():
-        if (figure.file is None) != (figure.sha256 is None):
-            raise AtlasError(f"{where / RECORD}: figure {name} has only one of file and sha256.")
-        if figure.file is not None and Path(figure.file).suffix not in KINDS:
-            raise AtlasError(f"{where / RECORD}: the file of figure {name} is neither SVG nor PNG.")
-    return Report(where, record)
 
 
 @dataclass(frozen=True)
@@ -257,14 +159,14 @@ def amount(old: Decimal, new: Decimal) -> Amount:
         return Amount(difference, difference if old else None, printed)
     same = 0
     if old.is_signed() == new.is_signed() and old.adjusted() == new.adjusted():
-        same = _agreeing(digits, others)
+        same = agreeing(digits, others)
     size = context.abs(difference)
     near = context.max_mag(old, new).adjusted() - context.add(size, size).adjusted()
     relative = context.divide(size, context.abs(old)) if old else None
     return Amount(difference, relative, min(max(same, near, 0), printed))
 
 
-def _agreeing(old: Iterable[Any], new: Iterable[Any]) -> int:
+def agreeing(old: Iterable[Any], new: Iterable[Any]) -> int:
     """Count the leading items that are the same."""
     return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(old, new, strict=False)))
 
@@ -381,80 +283,3 @@ def _text(value: Any) -> str:
     if value is None or isinstance(value, str):
         return value or ""
     return msgspec.json.encode(value).decode()
-
-
-def _digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def as_page(comparison: Comparison) -> str:
-    """Set a comparison as one page that needs no other file: style, fonts and pictures are inside."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    from atlas.report.fonts import FACES, all_subsets
-
-    environment = Environment(
-        loader=FileSystemLoader(folder("templates") / "html"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    prose = _Prose()
-    environment.filters |= {"prose": prose, "rounded": rounded, "apart": _apart}
-    tables = {name: [*cells] for name, cells in groupby(comparison.numbers, lambda cell: cell.table)}
-    template = environment.get_template("diff.html")
-    render = partial(template.render, found=comparison, tables=tables, picture=_picture, faces={})
-    render(fonts=())
-    prose.set()
-    subsets = all_subsets([render(fonts=())])
-    return render(fonts=[(face, _inside(subsets[f"{name}.woff2"], "font/woff2")) for name, face in FACES.items()])
-
-
-class _Prose:
-    """Texts with their formulas set, all in one call: a first rendering shows which there are."""
-
-    def __init__(self) -> None:
-        self.formulas: dict[str, str] = {}
-
-    def __call__(self, text: str) -> Any:
-        """Return a text with its formulas."""
-        from markupsafe import Markup, escape
-
-        pieces = [
-            Markup(self.formulas.setdefault(piece, "")) if odd % 2 else escape(piece)  # noqa: S704  from pandoc
-            for odd, piece in enumerate(FORMULA.split(text))
-        ]
-        return Markup("").join(pieces)
-
-    def set(self) -> None:
-        """Set the formulas that were asked for."""
-        from atlas.report.formulas import Manuscript
-
-        manuscript = Manuscript()
-        for formula in self.formulas:
-            manuscript.add(formula, "the comparison", inline=True)
-        if self.formulas:
-            self.formulas = dict(zip(self.formulas, manuscript.set("html", lambda name, _: name), strict=True))
-
-
-def rounded(value: Decimal | None) -> str:
-    """Return three digits of a difference, for people."""
-    return "" if value is None else f"{value:.3g}".replace("-", "\N{MINUS SIGN}")
-
-
-def _apart(cell: Cell) -> tuple[str, str, str]:
-    """Cut the texts of a number at the first character that differs."""
-    old, new = (text.replace("-", "\N{MINUS SIGN}") for text in (cell.old, cell.new))
-    same = _agreeing(old, new)
-    return old[:same], old[same:], new[same:]
-
-
-def _picture(report: Report, figure: Figure) -> str:
-    """Return a picture as a data URI, empty when there is none."""
-    path = report.picture(figure)
-    return _inside(path.read_bytes(), KINDS[path.suffix]) if path else ""
-
-
-def _inside(content: bytes, kind: str) -> str:
-    return f"data:{kind};base64,{b64encode(content).decode()}"

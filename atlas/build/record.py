@@ -10,6 +10,7 @@ from atlas.report.colophon import Colophon
 from atlas.report.compose import Document
 
 FORMAT = 1
+RECORD = "record.json"
 
 
 def record_of(document: Document, colophon: Colophon, folder: Path) -> str:
@@ -69,7 +70,7 @@ def _cell(cell: views.Cell, texts: Any) -> str:
     if cell.text is not None:
         return str(texts[cell.text].markdown)
     power = f"e{cell.power}" if cell.power else ""
-    return cell.whole + cell.fraction + power + ("" if cell.proven or not cell.whole else "?")
+    return cell.whole + cell.fraction + power + ("" if cell.proven or cell.whole in {"", "?"} else "?")
 
 
 def _digest(content: bytes) -> str:

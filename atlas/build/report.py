@@ -89,7 +89,7 @@ def _build(
     from atlas.build import ledger
     from atlas.build.appendices import gather
     from atlas.build.plates import draw_gallery
-    from atlas.build.record import record_of
+    from atlas.build.record import RECORD, record_of
     from atlas.report import html, pdf
     from atlas.report.colophon import colophon
     from atlas.report.compose import compose
@@ -122,9 +122,9 @@ def _build(
         write(stage / f"{report.name}.pdf", pdf.compile_pdf(pdf.source(document, described), folder))
         times["PDF"] = time.perf_counter()
         memory.save()
-        write(folder / "record.json", record_of(document, described, folder))
+        write(folder / RECORD, record_of(document, described, folder))
         figures = [f"{report.name}/{plate.files['html']}" for plate in wanted.values() if plate.files]
-        files = [*figures, *(f"{report.name}/{one}" for one in (*pages, "record.json")), f"{report.name}.pdf"]
+        files = [*figures, *(f"{report.name}/{one}" for one in (*pages, RECORD)), f"{report.name}.pdf"]
         publish(stage, out, files, [report.name])
     tell(total, total, "done")
     failures = tuple((plate.recipe, plate.failure) for plate in wanted.values() if plate.failure)

@@ -41,10 +41,11 @@ def command(old: Path, new: Path, page: Path | None, as_json: bool) -> int:
 
     The exit status is 0 if nothing changed, 1 if something did, 2 if one of the two is not a built report.
     """
-    from atlas.build.compare import as_page, compare
+    from atlas.build.compare import compare
 
     found = compare(old, new)
     if page is not None:
+        from atlas.build.compare_page import as_page
         from atlas.build.whole import staging, write
 
         with staging(page.parent) as stage:
@@ -89,7 +90,7 @@ def record(found: "Comparison") -> dict[str, Any]:
 
 def tables(found: "Comparison") -> None:
     """Print a comparison: one line when nothing changed."""
-    from atlas.build.compare import rounded
+    from atlas.build.compare_page import rounded
 
     if not found.changed:
         click.echo(f"The two reports are the same: {found.extent}.")

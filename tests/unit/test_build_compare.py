@@ -16,7 +16,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from atlas.build import record as recorded
-from atlas.build.compare import FORMAT, Comparison, amount, as_page, compare, number, read
+from atlas.build.compare import Comparison, amount, compare, number
+from atlas.build.compare_page import as_page
+from atlas.build.reading import read
+from atlas.build.record import FORMAT
 from atlas.errors import AtlasError
 
 THIN = "\N{NARROW NO-BREAK SPACE}"
