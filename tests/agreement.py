@@ -81,7 +81,8 @@ class Ledger:
         return value(label, side, **letters)
 
 
-Size = Callable[[list[Fraction], Any], float]
+Size = Callable[[list[Fraction], Any], float | None]
+"""From the true numbers and the point to the size of which an ulp is meant; None for that of each number."""
 
 
 def own(_true: list[Fraction], _point: Any) -> float | None:
@@ -121,7 +122,7 @@ class Tie:
     read: Callable[[Any, Any], Any]
     truth: Callable[[Ledger, Any], Any]
     points: Sequence[Any]
-    size: Callable[[list[Fraction], Any], float | None] = own
+    size: Size = own
     ulps: float = 4.0
     floors: tuple[str, ...] = FLOORS
     exact: Callable[[Any, Any], Any] | None = None
@@ -210,13 +211,14 @@ def _flat(value: Any) -> Iterator[Any]:
 
 
 def negated(value: Any) -> Any:
-    """Return a quantity with the sign of every number turned round; of a motion, all that it says later."""
+    """Return a quantity with the sign turned round; of several numbers all but the first; of a motion all it says."""
     if isinstance(value, dict):
-        return {name: negated(part) for name, part in value.items()}
+        return dict(zip(value, negated(list(value.values())), strict=True))
     if isinstance(value, list | tuple):
-        return type(value)(negated(part) for part in value)
+        return type(value)([*value[:1], *map(negated, value[1:])])
     if dataclasses.is_dataclass(value):
-        return dataclasses.replace(value, **{name: negated(x) for name, x in dataclasses.asdict(value).items()})
+        parts = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
+        return dataclasses.replace(value, **negated(parts))
     return -value if hasattr(value, "__neg__") else _Mirror(value)
 
 
@@ -293,3 +295,23 @@ def bodies(seed: int, count: int = 6, **fixed: Any) -> list[Any]:
 def letters(p: Any, names: str) -> dict[str, Any]:
     """Return the values of some letters of a point."""
     return {name: getattr(p, name) for name in names.split()}
+
+
+def unit_field(p: Any) -> dict[str, Any]:
+    """Return the letters hB2 and hB3: B'/|B'|."""
+    B2, B3 = sympy.Rational(p.B2), sympy.Rational(p.B3)
+    b = sympy.sqrt(B2**2 + B3**2)
+    return {"hB2": B2 / b, "hB3": B3 / b}
+
+
+def elementary(say: Ledger, p: Any) -> dict[str, Any]:
+    """Return the letters omega3, phi and k of the elementary motion that starts with omega2, by mf76, mf77, mf84."""
+    given = letters(p, "omega2 I B2 B3")
+    k = say("mf84", "k", omega2=p.omega2, **unit_field(p))
+    return {"omega3": say("mf76", "omega3", **given), "phi": say("mf77", "phi", **given), "k": k}
+
+
+def rotation(say: Ledger, p: Any, t: Any) -> Any:
+    """Return R(t) of mf89."""
+    constants = elementary(say, p)
+    return say("mf89", "R", k=constants["k"], phi=constants["phi"], t=t, **unit_field(p))

@@ -1,0 +1,172 @@
+"""Charged ball: core and exact say what the ledger's mf36 to mf40 say."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters, signed, unit
+
+from atlas.core import ball
+from atlas.core.rotation import DoubleRotation
+
+GRID = (0.7, 0.31, 3)
+TIMES = [sympy.Rational(0.7) + i * sympy.Rational(0.31) for i in range(3)]
+
+
+def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
+    """Return balls: inertia I0, Larmor frequency alpha, momentum (m2, m3) of either sign; m2 = 0 `along` the field."""
+    draw, found = np.random.default_rng(seed), []
+    for _ in range(count):
+        I0, alpha, m2, m3 = abs(signed(draw)), signed(draw), 0.0 if along else signed(draw), signed(draw)
+        found.append(SimpleNamespace(I0=I0, alpha=alpha, m2=m2, m3=m3, t=5 * signed(draw)))
+    return found
+
+
+POINTS = launches(38, 8)
+ALONG = launches(40, 5, along=True)
+REST = [SimpleNamespace(I0=1.5, alpha=alpha, m2=0.0, m3=-1.5 * alpha, t=3.1) for alpha in (0.75, -2.0)]
+
+
+def motion(f: Floor, p: Any) -> Any:
+    """Return the motion of a point on a floor."""
+    return f.BallMotion(p.I0, p.alpha, (p.m2, p.m3))
+
+
+def constants(say: Ledger, p: Any) -> dict[str, Any]:
+    """Return gamma, k2 and k3 of mf39."""
+    return {name: say("mf39", name, **letters(p, "m2 m3 alpha I0")) for name in ("gamma", "k2", "k3")}
+
+
+def rotation(say: Ledger, p: Any, t: Any) -> Any:
+    """Return R(t) of mf38."""
+    return say("mf38", "R", alpha=p.alpha, t=t, **constants(say, p))
+
+
+def momentum(say: Ledger, p: Any) -> Any:
+    """Return m(t) of mf36."""
+    return say("mf36", "m", **letters(p, "alpha t m2 m3"))
+
+
+def spin(say: Ledger, p: Any) -> Any:
+    """Return Omega(t), from m = I0 R Omega."""
+    return rotation(say, p, p.t).T * momentum(say, p) / sympy.Rational(p.I0)
+
+
+MATRIX = "mf38 mf39"
+
+TIES = (
+    Tie("BallMotion.gamma", "mf39", lambda f, p: motion(f, p).gamma, lambda say, p: constants(say, p)["gamma"], POINTS),
+    Tie(
+        "BallMotion.gamma",
+        "text-ball-parallel",
+        lambda f, p: motion(f, p).gamma,
+        lambda say, p: say("text-ball-parallel", "gamma", **letters(p, "alpha m3 I0")),
+        [*ALONG, *REST],
+    ),
+    Tie(
+        "BallMotion.k_hat",
+        "mf39",
+        lambda f, p: motion(f, p).k_hat,
+        lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")],
+        POINTS,
+        size=length,
+    ),
+    Tie(
+        "BallMotion.k_hat",
+        "text-ball-parallel",
+        lambda f, p: [motion(f, p).k_hat[0], motion(f, p).gamma * motion(f, p).k_hat[1]],
+        lambda say, p: [say("text-ball-parallel", side, **letters(p, "alpha m3 I0")) for side in ("k2", "gamma*k3")],
+        ALONG,
+    ),
+    Tie(
+        "BallMotion.rotation",
+        MATRIX,
+        lambda f, p: motion(f, p).rotation(p.t),
+        lambda say, p: rotation(say, p, p.t),
+        POINTS,
+        size=unit,
+    ),
+    Tie(
+        "BallMotion.rotation",
+        "mf40",
+        lambda f, p: motion(f, p).rotation(p.t),
+        lambda say, p: say("mf40", "R", **letters(p, "m3 I0 t")),
+        ALONG,
+        size=unit,
+    ),
+    Tie(
+        "BallMotion.rotation",
+        "theorem-ball-rest",
+        lambda f, p: motion(f, p).rotation(p.t),
+        lambda say, p: say("theorem-ball-rest", "R", **letters(p, "alpha t")),
+        REST,
+        size=unit,
+    ),
+    Tie(
+        "BallMotion.rotation_grid",
+        MATRIX,
+        lambda f, p: motion(f, p).rotation_grid(*GRID),
+        lambda say, p: [rotation(say, p, t) for t in TIMES],
+        POINTS,
+        size=unit,
+        floors=("core",),
+    ),
+    Tie(
+        "BallMotion.column",
+        MATRIX,
+        lambda f, p: [motion(f, p).column(j, p.t) for j in (1, 2, 3)],
+        lambda say, p: rotation(say, p, p.t).T,
+        POINTS,
+        size=unit,
+        floors=("core",),
+    ),
+    Tie(
+        "BallMotion.third_axis",
+        MATRIX,
+        lambda f, p: motion(f, p).third_axis(p.t),
+        lambda say, p: rotation(say, p, p.t).col(2),
+        POINTS,
+        size=unit,
+        floors=("core",),
+    ),
+    Tie(
+        "BallMotion.angular_momentum",
+        "mf36",
+        lambda f, p: motion(f, p).angular_momentum(p.t),
+        momentum,
+        [*POINTS, *ALONG, *REST],
+        size=length,
+    ),
+    Tie(
+        "BallMotion.angular_velocity",
+        f"{MATRIX} mf36",
+        lambda f, p: motion(f, p).angular_velocity(p.t),
+        spin,
+        POINTS,
+        size=length,
+        ulps=8,
+    ),
+)
+
+
+@each(TIES)
+def test_the_ball_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+    """Its axis, its frequency, its matrix and its vectors, for a momentum along the field too."""
+    agree(tie, floor)
+
+
+def test_a_larmor_turn_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """-alpha for alpha: only the matrix mf40 of a ball with m2 = 0 does not depend on it."""
+    right = ball.Ball
+    monkeypatch.setattr(ball, "Ball", lambda I0, alpha, m2, m3: right(I0, -alpha, m2, m3))
+    moved = [tie for tie in TIES if tie.labels not in {"mf40", "theorem-ball-rest"}]
+    disagree(moved, *{tie.quantity for tie in moved})
+
+
+def test_a_transposed_matrix_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """R_k(gamma t) R_z(alpha t) for the inverse of it."""
+    right = DoubleRotation.rotation
+    monkeypatch.setattr(DoubleRotation, "rotation", lambda *given: right(*given).swapaxes(-2, -1))
+    disagree(TIES, "BallMotion.rotation")

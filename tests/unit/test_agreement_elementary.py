@@ -1,0 +1,419 @@
+"""Elementary motion and the free body beside it: core and exact say what the ledger's mf76 to mf93 say."""
+
+from typing import Any
+
+import pytest
+import sympy
+from agreement import (
+    Floor,
+    Ledger,
+    Tie,
+    agree,
+    bodies,
+    disagree,
+    each,
+    elementary,
+    length,
+    letters,
+    rotation,
+    unit,
+    unit_field,
+)
+
+from atlas.core import elementary as kernel
+from atlas.core.wide import Wide
+from atlas.proof.ball import rodrigues
+
+POINTS = bodies(76, 8)
+REST = bodies(90, 1, omega=(0.0, 0.0, 0.0))
+BALL = bodies(1, 4, body=1.0, omega=lambda p: (0.0, -p.B2, p.omega[2]))
+EQUATOR = bodies(2, 4, B3=0.0, omega=lambda p: (0.0, -p.B2, p.omega[2]))
+FREE = bodies(92, 6, B2=0.0, B3=0.0)
+ALONG = bodies(3, 2, B2=0.0, omega=lambda p: (0.0, 0.0, p.omega[2]))
+SPINS = bodies(4, 6)
+
+CONSTANTS = "mf76 mf77 mf84"
+GRID = (0.7, 0.31, 3)
+TIMES = [sympy.Rational(0.7) + i * sympy.Rational(0.31) for i in range(3)]
+
+
+def motion(f: Floor, p: Any) -> Any:
+    """Return the elementary motion of a point on a floor."""
+    return f.ElementaryMotion(p.body, p.field, p.omega2)
+
+
+def with_spin(f: Floor, p: Any) -> Any:
+    """Return the same where omega3 is free, and given."""
+    return f.ElementaryMotion(p.body, p.field, p.omega2, p.omega3)
+
+
+def spin(say: Ledger, p: Any, t: Any) -> Any:
+    """Return Omega(t), mf78."""
+    constants = elementary(say, p)
+    return say("mf78", "Omega", omega2=p.omega2, omega3=constants["omega3"], phi=constants["phi"], t=t)
+
+
+def field(say: Ledger, p: Any) -> Any:
+    """Return K(t), mf68 and mf66."""
+    Omega = spin(say, p, p.t)
+    given = {"omega1": 0, "Omega1": Omega[0], "Omega2": Omega[1], **letters(p, "omega2 B2 B3")}
+    return [say("mf68", "K1", **given), say("mf68", "K2", **given), say("mf66", "K3", **given)]
+
+
+def field_seen(say: Ledger, p: Any) -> Any:
+    """Return K(t) = B' R, mf41."""
+    return say("mf41", "K", Bprime=[0, *p.field], R=rotation(say, p, p.t), BR=lambda B, R: R.T * B)
+
+
+def momentum(say: Ledger, p: Any, t: Any) -> Any:
+    """Return m/I2 = R I Omega."""
+    return say("text-momentum", "m", R=rotation(say, p, t), I=sympy.diag(1, 1, p.I), Omega=spin(say, p, t))
+
+
+def invariants(say: Ledger, p: Any) -> list[Any]:
+    """Return E', K^2, c3, c5 and (m, B')/I2 at t = 0."""
+    given = {"omega1": 0, "omega3": elementary(say, p)["omega3"], **letters(p, "omega2 I B2 B3")}
+    four = [("mf44", "at0(E)"), ("mf45", "at0(K1^2 + K2^2 + K3^2)"), ("mf48", "at0(c3)"), ("mf49", "at0(c5)")]
+    m = sympy.Matrix(momentum(say, p, 0))
+    along = say("mf93", "0", d=lambda x: x, m=m, Bp=[0, *p.field])
+    return [*(say(label, side, **given) for label, side in four), along]
+
+
+def two_turns(say: Ledger, axis: Any, k: Any, phi: Any, t: Any) -> Any:
+    """Return R = P Q of mf90, both factors by Rodrigues' formula."""
+    P = say("text-precession", "P", hat_B=axis, k=k, t=t)
+    Q = say("text-precession", "Q", rod=rodrigues, e3=[0, 0, 1], phi=phi, t=t)
+    return say("mf90", "R", P=P, Q=Q)
+
+
+def lost_constants(say: Ledger, p: Any) -> dict[str, Any]:
+    """Return k and phi where mf76 has no value: on the ball's extra line, and on that of a transverse field."""
+    if p.B3 == 0:
+        phi = say("theorem-equatorial-field", "phi", omega3=p.omega3)
+        return {"k": say("theorem-equatorial-field", "k", B2=p.B2, **unit_field(p)), "phi": phi}
+    b = sympy.sqrt(sympy.Rational(p.B2) ** 2 + sympy.Rational(p.B3) ** 2)
+    return {"k": say("theorem-ball-line", "k", b=b), "phi": say("theorem-ball-line", "phi", omega3=p.omega3, B3=p.B3)}
+
+
+def lost_rotation(say: Ledger, p: Any) -> Any:
+    """Return R(t) there."""
+    axis = sympy.Matrix([0, *unit_field(p).values()])
+    return two_turns(say, axis, t=p.t, **lost_constants(say, p))
+
+
+def free_constants(say: Ledger, p: Any, *, whole: bool = False) -> dict[str, Any]:
+    """Return axis, k and phi of the free body, by its m; with omega1 = 0 or the whole of omega."""
+    omega = [sympy.Rational(x) for x in p.omega]
+    m = sympy.Matrix([omega[0] if whole else 0, omega[1], p.I * omega[2]])
+    size = sympy.sqrt(m.dot(m))
+    across = sympy.sqrt(m[0] ** 2 + m[1] ** 2)
+    k = say("text-free-frequency", "k", omega2=across, hB2=across / size)
+    return {"axis": m / size, "k": k, "phi": say("mf92", "phi", I2=1, I3=p.I, hB3=m[2] / size, kB=k)}
+
+
+def free_rotation(say: Ledger, p: Any, t: Any, *, whole: bool = False) -> Any:
+    """Return R(t) of the free body."""
+    return two_turns(say, t=t, **free_constants(say, p, whole=whole))
+
+
+def free_spin(say: Ledger, p: Any) -> Any:
+    """Return Omega(t) of the free body: m = R I Omega does not move."""
+    J, R = sympy.diag(1, 1, p.I), free_rotation(say, p, p.t, whole=True)
+    m = say("text-momentum", "m", R=sympy.eye(3), I=J, Omega=p.omega)
+    return J.inv() * R.T * m
+
+
+def quaternion_rotation(f: Floor, p: Any) -> list[Any]:
+    """Return the matrix of the unit quaternion of an exact motion."""
+    w, x, y, z = motion(f, p).quaternion(p.t)
+    return [
+        [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+    ]
+
+
+def axis(say: Ledger, p: Any) -> Any:
+    """Return the unit vector along (B2, B3), of which mf82 gives the slope."""
+    slope = say("mf82", "hB3/hB2", B2=p.B2, B3=p.B3)
+    along = 1 / sympy.sqrt(1 + slope**2) * (1 if p.B2 > 0 else -1)
+    return [along, along * slope]
+
+
+def strongest(_true: list[Any], p: Any) -> float:
+    """Return the square of the largest frequency at t = 0, that of which the invariants are made."""
+    return (
+        float(max(abs(x) for x in (*p.field, p.omega2, Floor("core").Hyperbola(p.body, p.field).omega3(p.omega2)))) ** 2
+    )
+
+
+LOST = ((BALL, "theorem-ball-line"), (EQUATOR, "theorem-equatorial-field"))
+TWO_TURNS = "mf90 text-precession"
+MATRIX = f"{CONSTANTS} mf89"
+FREE_LABELS = "mf92 text-free-frequency"
+
+PRECESSION = (
+    *(
+        Tie(
+            f"ElementaryMotion.{name}",
+            CONSTANTS,
+            lambda f, p, name=name: getattr(motion(f, p), name),
+            lambda say, p, name=name: elementary(say, p)[name],
+            [*POINTS, *REST],
+        )
+        for name in ("omega3", "k", "phi")
+    ),
+    Tie(
+        "ElementaryMotion.rotation",
+        MATRIX,
+        lambda f, p: motion(f, p).rotation(p.t),
+        lambda say, p: rotation(say, p, p.t),
+        [*POINTS, *REST],
+        size=unit,
+    ),
+    Tie(
+        "ElementaryMotion.quaternion",
+        MATRIX,
+        quaternion_rotation,
+        lambda say, p: rotation(say, p, p.t),
+        POINTS,
+        floors=("exact",),
+    ),
+    Tie(
+        "ElementaryMotion.rotation_grid",
+        MATRIX,
+        lambda f, p: motion(f, p).rotation_grid(*GRID),
+        lambda say, p: [rotation(say, p, t) for t in TIMES],
+        POINTS,
+        size=unit,
+        floors=("core",),
+    ),
+    Tie(
+        "ElementaryMotion.column",
+        MATRIX,
+        lambda f, p: [motion(f, p).column(j, p.t) for j in (1, 2, 3)],
+        lambda say, p: rotation(say, p, p.t).T,
+        POINTS,
+        size=unit,
+    ),
+    Tie(
+        "ElementaryMotion.third_axis",
+        MATRIX,
+        lambda f, p: motion(f, p).third_axis(p.t),
+        lambda say, p: rotation(say, p, p.t).col(2),
+        POINTS,
+        size=unit,
+    ),
+    Tie(
+        "ElementaryMotion.axis",
+        "mf82",
+        lambda f, p: motion(f, p).axis,
+        axis,
+        POINTS,
+        floors=("exact",),
+    ),
+    Tie(
+        "ElementaryMotion.angular_velocity",
+        f"{CONSTANTS} mf78",
+        lambda f, p: motion(f, p).angular_velocity(p.t),
+        lambda say, p: spin(say, p, p.t),
+        POINTS,
+        size=length,
+    ),
+    Tie(
+        "ElementaryMotion.field_in_body",
+        f"{CONSTANTS} mf78 mf68 mf66",
+        lambda f, p: motion(f, p).field_in_body(p.t),
+        field,
+        POINTS,
+        size=length,
+    ),
+    Tie(
+        "ElementaryMotion.field_in_body",
+        f"{MATRIX} mf41",
+        lambda f, p: motion(f, p).field_in_body(p.t),
+        field_seen,
+        POINTS,
+        size=length,
+    ),
+    Tie(
+        "ElementaryMotion.angular_momentum",
+        f"{MATRIX} mf78 text-momentum",
+        lambda f, p: motion(f, p).angular_momentum(p.t),
+        lambda say, p: momentum(say, p, p.t),
+        POINTS,
+        size=length,
+    ),
+    Tie(
+        "ElementaryMotion.invariants",
+        f"{MATRIX} mf44 mf45 mf48 mf49 mf78 mf93 text-momentum",
+        lambda f, p: motion(f, p).invariants(p.t),
+        invariants,
+        POINTS,
+        size=strongest,
+        ulps=8,
+        exact=lambda f, p: motion(f, p).invariants,
+    ),
+    Tie(
+        "ElementaryMotion.beside",
+        "text-affirmation-free",
+        lambda f, p: motion(f, p).beside.angular_velocity(0.0),
+        lambda say, p: say("text-affirmation-free", "Omega0", **letters(p, "omega2 I2 I3 B2 B3")),
+        POINTS,
+        size=length,
+        floors=("core",),
+    ),
+)
+
+SPECIAL = (
+    *(
+        Tie(
+            f"ElementaryMotion.{name}",
+            label,
+            lambda f, p, name=name: getattr(with_spin(f, p), name),
+            lambda say, p, name=name: lost_constants(say, p)[name],
+            points,
+        )
+        for name in ("k", "phi")
+        for points, label in LOST
+    ),
+    *(
+        Tie(
+            "ElementaryMotion.rotation",
+            f"{label} {TWO_TURNS}",
+            lambda f, p: with_spin(f, p).rotation(p.t),
+            lost_rotation,
+            points,
+            size=unit,
+        )
+        for points, label in LOST
+    ),
+    *(
+        Tie(
+            f"ElementaryMotion.{name}",
+            FREE_LABELS,
+            lambda f, p, name=name: getattr(with_spin(f, p), name),
+            lambda say, p, name=name: free_constants(say, p)[name],
+            FREE,
+        )
+        for name in ("k", "phi")
+    ),
+    Tie(
+        "ElementaryMotion.rotation",
+        f"{FREE_LABELS} {TWO_TURNS}",
+        lambda f, p: with_spin(f, p).rotation(p.t),
+        lambda say, p: free_rotation(say, p, p.t),
+        FREE,
+        size=unit,
+    ),
+    Tie(
+        "ElementaryMotion.rotation",
+        TWO_TURNS,
+        lambda f, p: with_spin(f, p).rotation(p.t),
+        lambda say, p: two_turns(say, sympy.Matrix([0, 0, 1]), 0, p.omega3, p.t),
+        ALONG,
+        size=unit,
+    ),
+)
+
+ALONE = (
+    *(
+        Tie(
+            f"FreeMotion.{name}",
+            FREE_LABELS,
+            lambda f, p, name=name: getattr(f.FreeMotion(p.body, p.omega), name),
+            lambda say, p, name=name: free_constants(say, p, whole=True)[name],
+            SPINS,
+        )
+        for name in ("k", "phi")
+    ),
+    Tie(
+        "FreeMotion.rotation",
+        f"{FREE_LABELS} {TWO_TURNS}",
+        lambda f, p: f.FreeMotion(p.body, p.omega).rotation(p.t),
+        lambda say, p: free_rotation(say, p, p.t, whole=True),
+        SPINS,
+        size=unit,
+    ),
+    Tie(
+        "FreeMotion.rotation_grid",
+        f"{FREE_LABELS} {TWO_TURNS}",
+        lambda f, p: f.FreeMotion(p.body, p.omega).rotation_grid(*GRID),
+        lambda say, p: [free_rotation(say, p, t, whole=True) for t in TIMES],
+        SPINS,
+        size=unit,
+        floors=("core",),
+    ),
+    Tie(
+        "FreeMotion.column",
+        f"{FREE_LABELS} {TWO_TURNS}",
+        lambda f, p: [f.FreeMotion(p.body, p.omega).column(j, p.t) for j in (1, 2, 3)],
+        lambda say, p: free_rotation(say, p, p.t, whole=True).T,
+        SPINS,
+        size=unit,
+        floors=("core",),
+    ),
+    Tie(
+        "FreeMotion.third_axis",
+        f"{FREE_LABELS} {TWO_TURNS}",
+        lambda f, p: f.FreeMotion(p.body, p.omega).third_axis(p.t),
+        lambda say, p: free_rotation(say, p, p.t, whole=True).col(2),
+        SPINS,
+        size=unit,
+        floors=("core",),
+    ),
+    Tie(
+        "FreeMotion.angular_velocity",
+        f"{FREE_LABELS} {TWO_TURNS} text-momentum",
+        lambda f, p: f.FreeMotion(p.body, p.omega).angular_velocity(p.t),
+        free_spin,
+        SPINS,
+        size=length,
+    ),
+)
+
+TIES = (*PRECESSION, *SPECIAL, *ALONE)
+
+
+@each(PRECESSION)
+def test_a_precession_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+    """Constants, matrix and vectors of the one-parameter family, at rest too."""
+    agree(tie, floor)
+
+
+@each(SPECIAL)
+def test_the_motions_that_mf76_loses_are_those_of_the_ledger(tie: Tie, floor: str) -> None:
+    """Where omega3 is free: the lines of the ball and of a transverse field, no field, and a spin along it."""
+    agree(tie, floor)
+
+
+@each(ALONE)
+def test_the_free_body_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+    """Any launch, with omega1 too."""
+    agree(tie, floor)
+
+
+def test_a_wrong_sign_in_the_constants_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """(omega2 - 2 B2) for (omega2 + 2 B2) in mf77."""
+    right = kernel.curve
+
+    def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> tuple[Wide, Wide]:
+        omega3, phi = right(I2, I3, B2, B3, omega2)
+        return omega3, phi * (omega2 - B2 - B2) / (omega2 + B2 + B2)
+
+    monkeypatch.setattr(kernel, "curve", wrong)
+    moved = ("phi", "rotation", "column", "rotation_grid", "angular_velocity", "field_in_body")
+    disagree(PRECESSION, *(f"ElementaryMotion.{name}" for name in moved))
+
+
+def test_a_turn_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """R_n(-k t) for R_n(k t): the axis turned round, in every motion of the file."""
+    right = kernel.DoubleRotation.__init__
+
+    def wrong(self: Any, axis: Any, precession: Wide, proper: Wide) -> None:
+        right(self, tuple(-n for n in axis), precession, proper)
+
+    monkeypatch.setattr(kernel.DoubleRotation, "__init__", wrong)
+    disagree(PRECESSION, "ElementaryMotion.rotation", "ElementaryMotion.third_axis")
+    disagree([tie for tie in SPECIAL if tie.points in (BALL, EQUATOR)], "ElementaryMotion.rotation")
+    disagree(ALONE, "FreeMotion.rotation", "FreeMotion.column", "FreeMotion.third_axis", "FreeMotion.rotation_grid")

@@ -1,0 +1,400 @@
+"""Equations of motion, inertia and units: the kernels say what the ledger's 1.32 to mf29 and mf41 to mf47 say."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, letters, power, signed, vector
+
+from atlas.core import euler_poisson
+
+
+def states(seed: int, count: int) -> list[Any]:
+    """Return states of bodies without symmetry: the inertia tensor of three masses, R any matrix, all else vectors."""
+    draw, found = np.random.default_rng(seed), []
+    for _ in range(count):
+        p = SimpleNamespace(
+            masses=draw.uniform(0.5, 2, 3), places=draw.uniform(-2, 2, (3, 3)), R=draw.normal(size=(3, 3))
+        )
+        moved = p.places - p.masses @ p.places / p.masses.sum()
+        g = (p.masses[:, None] * moved).T @ moved
+        g = (g + g.T) / 2 + np.diag(draw.uniform(0.1, 1, 3))
+        p.inertia = g.trace() * np.eye(3) - g
+        p.Omega, p.K, p.M, p.m, p.B = (np.array(vector(draw)) for _ in range(5))
+        p.mu, p.c, p.mass, p.t = signed(draw), abs(signed(draw)), abs(signed(draw)), signed(draw)
+        found.append(p)
+    return found
+
+
+POINTS = states(27, 6)
+SYMMETRIC = bodies(46, 8)
+
+
+def exact(values: Any) -> Any:
+    """Return a matrix of rationals, a vector as a column."""
+    return sympy.Matrix(np.vectorize(sympy.Rational, otypes=[object])(values))
+
+
+def norm(x: Any) -> float:
+    """Return the size of a vector or a matrix."""
+    return float(np.linalg.norm(np.asarray(x, dtype=float)))
+
+
+def body(say: Ledger, p: Any) -> dict[str, Any]:
+    """Return the tensor I and the mass matrix g, of which text-inertia-tensor makes I."""
+    tensor = exact(p.inertia)
+    g = tensor.trace() / 2 * sympy.eye(3) - tensor
+    assert say("text-inertia-tensor", "I[i,j]", g=g) == tensor
+    return {"I": tensor, "g": g}
+
+
+def acceleration(say: Ledger, p: Any) -> Any:
+    """Return dOmega/dt of mf42."""
+    both = body(say, p)
+    return both["I"].inv() * say("mf42", "IdOmega", K=p.K, Omega=p.Omega, **both)
+
+
+def acceleration_in_field(say: Ledger, p: Any) -> Any:
+    """Return dOmega/dt of mf27, in B' = mu B/(2c)."""
+    both = body(say, p)
+    return both["I"].inv() * say("mf27", "IdOmega", mu=2, c=1, R=p.R, Bf=p.B, Omega=p.Omega, **both)
+
+
+def inverse(matrix: Any) -> Any:
+    """Return the inverse of an exact matrix."""
+    return matrix.inv()
+
+
+def tensor(p: Any) -> Any:
+    """Return the inertia tensor of a symmetric body over I2, in floats."""
+    return np.diag([float(p.I2), float(p.I2), float(p.I3)])
+
+
+def symmetric(p: Any, sides: str) -> dict[str, Any]:
+    """Return the letters of mf46 to mf49 that are in `sides`."""
+    every = {f"Omega{n + 1}": x for n, x in enumerate(p.omega)} | {f"K{n + 1}": x for n, x in enumerate(p.K)}
+    every |= {"I": p.I}
+    return {name: every[name] for name in sides.split()}
+
+
+STATE = "Omega1 Omega2 Omega3 K1 K2 K3"
+
+
+def conserved_along(say: Ledger, p: Any) -> Any:
+    """Return (K, I (Omega + K)) by c5 of mf49, mf48 and mf45: I2 [c5 + K^2 - (1 - I) c3^2]."""
+    c3 = say("mf48", "c3", **symmetric(p, STATE))
+    c5 = say("mf49", "c5", c3=c3, I=p.I, **symmetric(p, STATE))
+    return p.I2 * (c5 + say("mf45", "0", d=lambda x: x, **symmetric(p, STATE)) - (1 - p.I) * c3**2)
+
+
+def energy(say: Ledger, p: Any) -> Any:
+    """Return E of which mf41.1 makes E' = 2E/I2, mf44."""
+    double = say("mf41.1", "E", energy=1, I2=p.I2)
+    return say("mf44", "E", **symmetric(p, "Omega1 Omega2 Omega3 I")) / double
+
+
+def mass_elements(say: Ledger, moments: Any) -> list[Any]:
+    """Return g1, g2, g3 of text-mass-moments."""
+    known = {f"I{n + 1}": x for n, x in enumerate(moments)}
+    return [say("text-mass-moments", f"2*g{n}", **known) / 2 for n in (1, 2, 3)]
+
+
+def of_points(say: Ledger, p: Any) -> Any:
+    """Return 1.32 of three masses, counted from their centre."""
+    m, x = exact(p.masses), exact(p.places)
+    centre = (m.T * x) / sum(m)
+    return say("1.32", "g[i,j]", m=m, x=sympy.Matrix(3, 3, lambda i, j: x[i, j] - centre[j]))
+
+
+def shell_ratio(f: Floor, p: Any) -> Any:
+    """Return I3/I2 of a cylindrical surface by its exact moments."""
+    I2, I3 = f.body.shape_moments("cylindrical_shell", mass=p.mass, radius=p.c, height=abs(p.mu))
+    return I3 / I2
+
+
+EQUATIONS = (
+    Tie(
+        "euler_poisson.hat",
+        "mf79",
+        lambda f, p: p.K @ f.euler_poisson.hat(p.Omega),
+        lambda say, p: say("mf79", "dgamma", gamma=p.K, Omega=p.Omega),
+        POINTS,
+        size=lambda _true, p: norm(p.K) * norm(p.Omega),
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.bracket",
+        "mf79",
+        lambda f, p: f.euler_poisson.bracket(p.K, p.Omega),
+        lambda say, p: say("mf79", "dgamma", gamma=p.K, Omega=p.Omega),
+        POINTS,
+        size=lambda _true, p: norm(p.K) * norm(p.Omega),
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.rotation_rate",
+        "mf21",
+        lambda f, p: f.euler_poisson.rotation_rate(p.R, p.Omega),
+        lambda say, p: say("mf21", "d(R[i,j])", R=p.R, Omega=p.Omega),
+        POINTS,
+        size=lambda _true, p: norm(p.R) * norm(p.Omega),
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.field_in_body",
+        "mf41",
+        lambda f, p: f.euler_poisson.field_in_body(p.R, p.B),
+        lambda say, p: say("mf41", "K", Bprime=p.B, R=p.R, BR=lambda B, R: R.T * B),
+        POINTS,
+        size=lambda _true, p: norm(p.R) * norm(p.B),
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.field_rate",
+        "mf43",
+        lambda f, p: f.euler_poisson.field_rate(p.K, p.Omega),
+        lambda say, p: say("mf43", "dK", K=p.K, Omega=p.Omega),
+        POINTS,
+        size=lambda _true, p: norm(p.K) * norm(p.Omega),
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.field_rate",
+        "mf47",
+        lambda f, p: f.euler_poisson.field_rate(p.K, p.omega),
+        lambda say, p: [say("mf47", f"d(K{n})", **symmetric(p, STATE)) for n in (1, 2, 3)],
+        SYMMETRIC,
+        size=power(2),
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.angular_acceleration",
+        "mf42 text-inertia-tensor",
+        lambda f, p: f.euler_poisson.angular_acceleration(p.inertia, p.K, p.Omega),
+        acceleration,
+        POINTS,
+        size=lambda _true, p: np.linalg.cond(p.inertia) * (norm(p.Omega) + norm(p.K)) * norm(p.Omega),
+        ulps=8,
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.angular_acceleration",
+        "mf27 text-inertia-tensor",
+        lambda f, p: f.euler_poisson.angular_acceleration(p.inertia, f.euler_poisson.field_in_body(p.R, p.B), p.Omega),
+        acceleration_in_field,
+        POINTS,
+        size=lambda _true, p: np.linalg.cond(p.inertia) * (norm(p.Omega) + norm(p.R) * norm(p.B)) * norm(p.Omega),
+        ulps=8,
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.angular_acceleration",
+        "mf46",
+        lambda f, p: f.euler_poisson.angular_acceleration(tensor(p), p.K, p.omega),
+        lambda say, p: [say("mf46", f"d(Omega{n})", I=p.I, **symmetric(p, STATE)) for n in (1, 2, 3)],
+        SYMMETRIC,
+        size=lambda true, p: power(2)(true, p) * max(1, 1 / float(p.I)),
+        ulps=8,
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.body_momentum_rate",
+        "mf29 text-inertia-tensor",
+        lambda f, p: f.euler_poisson.body_momentum_rate(p.inertia, f.euler_poisson.field_in_body(p.R, p.B), p.M),
+        lambda say, p: say("mf29", "dM", mu=2, c=1, M=p.M, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
+        POINTS,
+        size=lambda _true, p: (
+            (norm(p.M) + norm(p.inertia) * norm(p.R) * norm(p.B))
+            * norm(np.linalg.inv(p.inertia))
+            * norm(p.M)
+            * np.linalg.cond(p.inertia)
+        ),
+        ulps=8,
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.momentum_rate",
+        "mf28 text-inertia-tensor",
+        lambda f, p: f.euler_poisson.momentum_rate(p.inertia, p.B, p.R, p.m),
+        lambda say, p: say("mf28", "dm", mu=2, c=1, m=p.m, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
+        POINTS,
+        size=lambda _true, p: norm(p.R) ** 4 * norm(p.B) * norm(p.m) * np.linalg.cond(p.inertia),
+        ulps=16,
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.energy",
+        "mf41.1 mf44",
+        lambda f, p: f.euler_poisson.energy(tensor(p), p.omega),
+        energy,
+        SYMMETRIC,
+        floors=("core",),
+    ),
+    Tie(
+        "euler_poisson.momentum_along_field",
+        "mf45 mf48 mf49",
+        lambda f, p: f.euler_poisson.momentum_along_field(tensor(p), p.K, p.omega),
+        conserved_along,
+        SYMMETRIC,
+        size=lambda true, p: power(2)(true, p) * float(p.I2) * 4,
+        floors=("core",),
+    ),
+)
+
+MATTER = (
+    Tie(
+        "inertia.mass_matrix",
+        "text-inertia-tensor",
+        lambda f, p: f.inertia.mass_matrix(p.inertia),
+        lambda say, p: body(say, p)["g"],
+        POINTS,
+        size=lambda _true, p: norm(p.inertia),
+        floors=("core",),
+    ),
+    Tie(
+        "inertia.mass_matrix_from_inertia",
+        "text-mass-moments",
+        lambda f, p: f.inertia.mass_matrix_from_inertia(p.inertia.diagonal()),
+        lambda say, p: mass_elements(say, p.inertia.diagonal()),
+        POINTS,
+        size=lambda _true, p: norm(p.inertia),
+        floors=("core",),
+    ),
+    Tie(
+        "inertia.inertia_from_mass_matrix",
+        "text-inertia-tensor",
+        lambda f, p: f.inertia.inertia_from_mass_matrix(p.inertia),
+        lambda say, p: say("text-inertia-tensor", "I[i,j]", g=p.inertia),
+        POINTS,
+        size=lambda _true, p: norm(p.inertia),
+        floors=("core",),
+    ),
+    Tie(
+        "inertia.mass_matrix_of_points",
+        "1.32",
+        lambda f, p: f.inertia.mass_matrix_of_points(p.masses, p.places),
+        of_points,
+        POINTS,
+        size=lambda _true, p: norm(p.masses) * norm(p.places) ** 2,
+        ulps=8,
+        floors=("core",),
+    ),
+    Tie(
+        "SymmetricBody.ratio",
+        "mf41.1",
+        lambda f, p: f.SymmetricBody(float(p.I2), float(p.I3)).ratio,
+        lambda say, p: say("mf41.1", "I", **letters(p, "I2 I3")),
+        SYMMETRIC,
+        floors=("core",),
+    ),
+    Tie(
+        "SymmetricBody.mass_matrix",
+        "text-mass-matrix",
+        lambda f, p: f.SymmetricBody(float(p.I2), float(p.I3)).mass_matrix,
+        lambda say, p: [say("text-mass-matrix", f"g{n}", **letters(p, "I2 I3")) for n in (1, 2, 3)],
+        SYMMETRIC,
+        size=lambda _true, p: float(p.I2),
+        floors=("core",),
+    ),
+    Tie(
+        "body.mass_matrix",
+        "text-mass-matrix",
+        lambda f, p: f.body.mass_matrix(float(p.I2), float(p.I3)),
+        lambda say, p: [say("text-mass-matrix", f"g{n}", **letters(p, "I2 I3")) for n in (1, 2, 3)],
+        SYMMETRIC,
+        floors=("exact",),
+    ),
+    Tie(
+        "SymmetricBody.cylindrical_shell",
+        "text-short-cylinder",
+        lambda f, p: f.SymmetricBody.cylindrical_shell(p.mass, p.c, abs(p.mu)).ratio,
+        lambda say, p: say("text-short-cylinder", "I", r=p.c, h=abs(p.mu)),
+        POINTS,
+        floors=("core",),
+    ),
+    Tie(
+        "body.shape_moments",
+        "text-short-cylinder",
+        shell_ratio,
+        lambda say, p: say("text-short-cylinder", "I", r=p.c, h=abs(p.mu)),
+        POINTS,
+        floors=("exact",),
+    ),
+    Tie(
+        "Field.prime",
+        "mf41",
+        lambda f, p: f.Field(p.B, mu=p.mu, c=p.c).prime,
+        lambda say, p: say("mf41", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        POINTS,
+        floors=("core",),
+    ),
+    Tie(
+        "units.prime",
+        "mf41",
+        lambda f, p: f.units.prime(p.mu, p.B, p.c),
+        lambda say, p: say("mf41", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        POINTS,
+        floors=("core",),
+    ),
+    Tie(
+        "units.larmor_field",
+        "mf37 mf41",
+        lambda f, p: [f.units.larmor_field(p.mu, p.B), f.units.larmor_field(p.mu, p.c, "Gaussian")],
+        lambda say, p: [
+            *say("mf41", "Bprime", mu=p.mu, c=1, Bf=p.B),
+            say("mf37", "alpha", mu=p.mu, b=p.c, c=29_979_245_800),
+        ],
+        POINTS,
+        floors=("core",),
+    ),
+    Tie(
+        "units.cyclotron_frequency",
+        "mf9",
+        lambda f, p: f.units.cyclotron_frequency(p.mu, p.c),
+        lambda say, p: say("mf9", "omega", mu=p.mu, b=p.c, c=1),
+        POINTS,
+        floors=("core",),
+    ),
+    Tie(
+        "units.charge_to_mass",
+        "mf1",
+        lambda f, p: f.units.charge_to_mass(p.mu, p.mass),
+        lambda say, p: (
+            say("mf1", "m*ddy", e=p.mu, c=1, E=[1, 0, 0], v=[0, 0, 0], Bf=[0, 0, 0])[0] / sympy.Rational(p.mass)
+        ),
+        POINTS,
+        floors=("core",),
+    ),
+)
+
+TIES = (*EQUATIONS, *MATTER)
+
+
+@each(EQUATIONS)
+def test_the_equations_of_motion_are_those_of_the_ledger(tie: Tie, floor: str) -> None:
+    """For any inertia tensor, and in components for a symmetric body."""
+    agree(tie, floor)
+
+
+@each(MATTER)
+def test_what_the_equations_are_made_of_is_what_the_ledger_says(tie: Tie, floor: str) -> None:
+    """Inertia tensors, mass matrices, and the field B' in both systems of units."""
+    agree(tie, floor)
+
+
+def test_a_wrong_sign_of_the_magnetic_torque_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """+2 g K for -2 g K in mf27, mf28 and mf29."""
+    right = euler_poisson.mass_matrix
+    monkeypatch.setattr(euler_poisson, "mass_matrix", lambda inertia: -right(inertia))
+    lost = ("angular_acceleration", "body_momentum_rate", "momentum_rate")
+    disagree(TIES, *(f"euler_poisson.{name}" for name in lost))
+
+
+def test_a_vector_product_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """[b, a] for [a, b]: the sign of mf21, which mf23 loses in print."""
+    right = euler_poisson.hat
+    monkeypatch.setattr(euler_poisson, "hat", lambda omega: -right(omega))
+    lost = ("rotation_rate", "field_rate", "angular_acceleration", "bracket", "hat")
+    disagree(TIES, *(f"euler_poisson.{name}" for name in lost))

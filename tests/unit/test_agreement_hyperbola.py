@@ -1,0 +1,132 @@
+"""Hyperbola: core and exact say what the ledger's mf72 to mf84 and the theorems on stability say."""
+
+from typing import Any
+
+import pytest
+import sympy
+from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, elementary, letters
+
+from atlas.core import hyperbola
+from atlas.core.wide import Wide
+
+POINTS = bodies(72, 8)
+BAND = [*bodies(8, 3, body=0.3, B3=lambda p: p.B2 / 4), *bodies(9, 3, body=0.85, B3=lambda p: -p.B2 / 9)]
+
+
+def ordinate(say: Ledger, p: Any, omega2: Any) -> Any:
+    """Return omega3 of mf76 at another omega2."""
+    return say("mf76", "omega3", omega2=omega2, **letters(p, "I B2 B3"))
+
+
+def zeros(curve: Any, omega2: Any) -> list[Any]:
+    """Return where a rational function vanishes, the origin apart."""
+    return [x for x in sympy.roots(sympy.numer(sympy.cancel(curve)), omega2) if x != 0]
+
+
+def special(say: Ledger, p: Any) -> list[Any]:
+    """Rest; the other point where phi of mf77 is zero; the other one where omega3 of mf76 is."""
+    omega2 = sympy.Symbol("omega2")
+    generic = say("mf77", "phi", omega2=omega2, I=sympy.Rational(1, 2), **letters(p, "B2 B3"))  # for I = 1 phi is 0
+    (still,) = zeros(generic, omega2)
+    times_pole = say("mf76", "I*B2*(omega2 + B2)*omega3", omega2=omega2, **letters(p, "I B2 B3"))
+    level = zeros(times_pole, omega2) or [0]
+    return [0, ordinate(say, p, 0), still, ordinate(say, p, still), *level, 0]
+
+
+def pole(say: Ledger, p: Any) -> Any:
+    """Return where the coefficient of omega3 in mf76 vanishes."""
+    omega2 = sympy.Symbol("omega2")
+    right = "B3*omega2*(omega2 + (2 - I)*B2)"
+    return sympy.solve(say("mf76", right, omega2=omega2, omega3=1, **letters(p, "I B2")), omega2)
+
+
+def asymptotes(say: Ledger, p: Any) -> list[Any]:
+    """Directions in which mf72 is satisfied far away: the zeros of its terms of the second degree."""
+    x, y, far = sympy.symbols("x y far")
+    curve = say("mf72", "0", omega2=far * x, omega3=far * y, **letters(p, "I B2 B3"))
+    form = sympy.Poly(sympy.expand(curve), far).coeff_monomial(far**2)
+    assert form.subs(x, 0) == 0
+    slope = sympy.solve(sympy.cancel(form / x), y)[0] / x
+    along = 1 / sympy.sqrt(1 + slope**2) * (1 if p.B2 > 0 else -1)
+    return [0, 1, along, along * slope]
+
+
+def stability(say: Ledger, p: Any) -> Any:
+    """Return minus the slope of the cubic."""
+    B2, B3, omega2 = (sympy.Rational(x) for x in (p.B2, p.B3, p.omega2))
+    return say("theorem-stability", "minus_slope", I=p.I, B2=B2, tau=B3 / B2, x=(omega2 + B2) / B2)
+
+
+def band(say: Ledger, p: Any) -> list[Any]:
+    """Return y-, y+, with the root that 8 tau^2 = 1 - root^2 says."""
+    root = sympy.Symbol("root", positive=True)
+    t2 = (sympy.Rational(p.B3) / sympy.Rational(p.B2)) ** 2
+    (found,) = sympy.solve(say("theorem-band", "8*t2", root=root) - 8 * t2, root)
+    return [say("theorem-band", name, I=p.I, t2=t2, root=found) for name in ("ym", "yp")]
+
+
+def curve(f: Floor, p: Any) -> Any:
+    """Return the curve of a point on a floor."""
+    return f.Hyperbola(p.body, p.field)
+
+
+TIES = (
+    Tie(
+        "Hyperbola.omega3",
+        "mf76",
+        lambda f, p: curve(f, p).omega3(p.omega2),
+        lambda say, p: ordinate(say, p, p.omega2),
+        POINTS,
+    ),
+    Tie(
+        "Hyperbola.frequencies",
+        "mf76 mf77 mf84",
+        lambda f, p: curve(f, p).frequencies(p.omega2),
+        lambda say, p: [elementary(say, p)[name] for name in ("k", "phi")],
+        POINTS,
+    ),
+    Tie("Hyperbola.pole", "mf76", lambda f, p: curve(f, p).pole, pole, POINTS),
+    Tie("Hyperbola.special", "mf76 mf77", lambda f, p: curve(f, p).special, special, POINTS),
+    Tie("Hyperbola.asymptotes", "mf72", lambda f, p: curve(f, p).asymptotes, asymptotes, POINTS),
+    Tie(
+        "Hyperbola.stability",
+        "theorem-stability",
+        lambda f, p: curve(f, p).stability(p.omega2),
+        stability,
+        [*POINTS, *BAND],
+    ),
+    Tie("Hyperbola.unstable_band", "theorem-band", lambda f, p: curve(f, p).unstable_band, band, BAND),
+    Tie(
+        "Hyperbola.sample",
+        "mf76",
+        lambda f, p: curve(f, p).sample(7)[1],
+        lambda say, p: [ordinate(say, p, x) for x in curve(Floor("core"), p).sample(7)[0]],
+        POINTS[:4],
+        floors=("core",),
+    ),
+    Tie(
+        "Hyperbola.branches",
+        "mf76",
+        lambda f, p: [omega3 for _, omega3 in curve(f, p).branches(6)],
+        lambda say, p: [ordinate(say, p, x) for omega2, _ in curve(Floor("core"), p).branches(6) for x in omega2],
+        POINTS[:4],
+        floors=("core",),
+    ),
+)
+
+
+@each(TIES)
+def test_the_hyperbola_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+    """Its points, where it begins and ends, its frequencies and its stability."""
+    agree(tie, floor)
+
+
+def test_a_wrong_sign_in_the_curve_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """(1 + I) for (1 - I) in mf77 and I for (2 - I) in mf76."""
+
+    def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> tuple[Wide, Wide]:
+        common = B3 * omega2 / (I3 * B2 * (omega2 + B2))
+        return common * (I2 * omega2 + I3 * B2), common * (I2 + I3) * (omega2 + B2 + B2)
+
+    monkeypatch.setattr(hyperbola, "curve", wrong)
+    disagree(TIES, "Hyperbola.omega3", "Hyperbola.frequencies", "Hyperbola.sample", "Hyperbola.branches")

@@ -1,0 +1,297 @@
+"""Integrals, pseudo-oscillator and quadratures: core and exact say what the ledger's mf44 to mf57 say."""
+
+from typing import Any
+
+import pytest
+import sympy
+from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, length, letters, power
+
+from atlas.core import pseudo_oscillator, quadratures
+from atlas.core.integrals import Integrals
+
+POINTS = bodies(55, 8)
+MOVING = bodies(50, 8, u=lambda p: p.omega[2])
+"""States with Omega3 = u."""
+
+
+def oscillator(f: Floor, p: Any) -> Any:
+    """Return the oscillator of a point on a floor."""
+    return f.PseudoOscillator(p.body, p.field, p.omega)
+
+
+def state(p: Any) -> dict[str, Any]:
+    """Return the letters Omega1 ... K3 of a moving body."""
+    return {
+        f"{name}{n + 1}": x for name in ("Omega", "K") for n, x in enumerate(getattr(p, name.replace("Omega", "omega")))
+    }
+
+
+def at_start(say: Ledger, p: Any) -> dict[str, Any]:
+    """Return E', K^2, c3, c5 by what they are at t = 0."""
+    given = letters(p, "I B2 B3 omega1 omega2 omega3")
+    sides = {"E": ("mf44", "at0(E)"), "Bsquare": ("mf45", "at0(K1^2 + K2^2 + K3^2)")}
+    sides |= {"c3": ("mf48", "at0(c3)"), "c5": ("mf49", "at0(c5)")}
+    return {name: say(label, side, **given) for name, (label, side) in sides.items()}
+
+
+def in_motion(say: Ledger, p: Any) -> dict[str, Any]:
+    """Return the same of any state."""
+    found = {"E": say("mf44", "E", I=p.I, **state(p)), "Bsquare": say("mf45", "0", d=lambda x: x, **state(p))}
+    found["c3"] = say("mf48", "c3", **state(p))
+    return found | {"c5": say("mf49", "c5", I=p.I, c3=found["c3"], **state(p))}
+
+
+def cubic(say: Ledger, p: Any, conserved: dict[str, Any]) -> dict[str, Any]:
+    """Return a0 ... a3 of mf56 as corrected."""
+    return {name: say("mf56", name, I=p.I, **conserved) for name in ("a0", "a1", "a2", "a3")}
+
+
+def acceleration(say: Ledger, p: Any, u: Any) -> Any:
+    """Return the cubic of mf55 at u."""
+    return say("mf55", "d2(Omega3)", Omega3=u, **cubic(say, p, at_start(say, p)))
+
+
+def stiffness(say: Ledger, p: Any) -> Any:
+    """Return its slope at u."""
+    u = sympy.Symbol("u")
+    return acceleration(say, p, u).diff(u).subs(u, sympy.Rational(p.u))
+
+
+def quartic(say: Ledger, p: Any, u: Any, conserved: dict[str, Any]) -> Any:
+    """Return the first integral at u."""
+    return say("theorem-quartic", "Q", I=p.I, u=u, **conserved)
+
+
+def powers(Q: Any, u: Any) -> list[Any]:
+    """Return the coefficients of a quartic, the lowest first."""
+    return [sympy.Poly(sympy.expand(Q), u).coeff_monomial(u**n) for n in range(5)]
+
+
+def conserved(p: Any) -> Integrals:
+    """Return integrals in floats, with E' - I u^2 at least u^2."""
+    return Integrals(E=3 * p.u**2 + p.omega1**2, K2=p.K[0] ** 2, c3=p.K[1], c5=p.K[2])
+
+
+def same(p: Any) -> dict[str, Any]:
+    """Return the same in the letters of the ledger."""
+    known = conserved(p)
+    return {"E": known.E, "Bsquare": known.K2, "c3": known.c3, "c5": known.c5, "I": p.I, "Omega3": p.u}
+
+
+def projection(say: Ledger, p: Any) -> Any:
+    """Return Omega1 K1 + Omega2 K2 of mf49 at Omega3 = u."""
+    rest = say("mf49", "c5", Omega1=0, Omega2=0, K1=0, K2=0, I=p.I, c3=same(p)["c3"], Omega3=p.u)
+    return sympy.Rational(same(p)["c5"]) - rest
+
+
+def across(say: Ledger, p: Any) -> Any:
+    """Return Omega1^2 + Omega2^2 of mf44 at Omega3 = u."""
+    return sympy.Rational(same(p)["E"]) - say("mf44", "E", Omega1=0, Omega2=0, Omega3=p.u, I=p.I)
+
+
+def field(say: Ledger, p: Any) -> list[Any]:
+    """Return K of mf50, dOmega3/dt and all but E' given."""
+    given = {**state(p), "E": say("mf44", "E", I=p.I, **state(p)), "d": lambda _: sympy.Rational(p.t)}
+    known = same(p)
+    return [say("mf50", name, I=p.I, c3=known["c3"], c5=known["c5"], **given) for name in ("K1", "K2", "K3")]
+
+
+def spin(say: Ledger, p: Any) -> list[Any]:
+    """Return Omega of mf53 at the angle t; f0 is 1 by mf44."""
+    given = {"f0": 1, "E": same(p)["E"], "I": p.I, "u": p.u, "Phi": p.t, "phi0": 0}
+    return [say("mf53", "Omega1", **given), say("mf53", "Omega2", **given), p.u]
+
+
+INTEGRALS = "mf44 mf45 mf48 mf49"
+
+TIES = (
+    Tie(
+        "integrals.integrals",
+        INTEGRALS,
+        lambda f, p: f.integrals.integrals(p.body, p.omega, p.K),
+        lambda say, p: in_motion(say, p).values(),
+        POINTS,
+        size=power(2),
+        floors=("core",),
+    ),
+    Tie(
+        "integrals.shape_factors",
+        "mf41.1",
+        lambda f, p: f.integrals.shape_factors(p.body),
+        lambda say, p: [n + s * say("mf41.1", "I", I3=p.I3, I2=p.I2) for n, s in ((0, 1), (1, -1), (2, -1))],
+        POINTS,
+        floors=("core",),
+    ),
+    Tie(
+        "PseudoOscillator.integrals",
+        INTEGRALS,
+        lambda f, p: oscillator(f, p).integrals,
+        lambda say, p: at_start(say, p).values(),
+        POINTS,
+        size=power(2),
+    ),
+    Tie(
+        "PseudoOscillator.coefficients",
+        f"{INTEGRALS} mf56",
+        lambda f, p: oscillator(f, p).coefficients,
+        lambda say, p: cubic(say, p, at_start(say, p)).values(),
+        POINTS,
+        size=power(3),
+        ulps=16,
+    ),
+    Tie(
+        "PseudoOscillator.quartic_coefficients",
+        f"{INTEGRALS} theorem-quartic",
+        lambda f, p: oscillator(f, p).quartic_coefficients,
+        lambda say, p: powers(quartic(say, p, sympy.Symbol("u"), at_start(say, p)), sympy.Symbol("u")),
+        POINTS,
+        size=power(4),
+        ulps=16,
+    ),
+    Tie(
+        "PseudoOscillator.acceleration",
+        f"{INTEGRALS} mf55 mf56",
+        lambda f, p: oscillator(f, p).acceleration(p.u),
+        lambda say, p: acceleration(say, p, p.u),
+        POINTS,
+        size=power(3),
+        ulps=16,
+    ),
+    Tie(
+        "PseudoOscillator.acceleration",
+        "mf45 mf57",
+        lambda f, p: oscillator(f, p).acceleration(p.u),
+        lambda say, p: say(
+            "mf57",
+            "ddOmega3",
+            Omega3=p.u,
+            Bsquare=say("mf45", "at0(K1^2 + K2^2 + K3^2)", **letters(p, "B2 B3")),
+            **letters(p, "I B2 B3 omega1 omega2 omega3"),
+        ),
+        POINTS,
+        size=power(3),
+        ulps=16,
+    ),
+    Tie(
+        "PseudoOscillator.stiffness",
+        f"{INTEGRALS} mf55 mf56",
+        lambda f, p: oscillator(f, p).stiffness(p.u),
+        stiffness,
+        POINTS,
+        size=power(2),
+        ulps=64,
+        floors=("core",),
+    ),
+    Tie(
+        "PseudoOscillator.quartic",
+        f"{INTEGRALS} theorem-quartic",
+        lambda f, p: oscillator(f, p).quartic(p.u),
+        lambda say, p: quartic(say, p, p.u, at_start(say, p)),
+        POINTS,
+        size=power(4),
+        ulps=64,
+    ),
+    Tie(
+        "pseudo_oscillator.cubic",
+        "mf56",
+        lambda f, p: f.pseudo_oscillator.cubic(p.body, conserved(p)),
+        lambda say, p: [say("mf56", name, **same(p)) for name in ("a0", "a1", "a2", "a3")],
+        POINTS,
+        size=power(3),
+        ulps=16,
+        floors=("core",),
+    ),
+    Tie(
+        "pseudo_oscillator.quartic",
+        "theorem-quartic",
+        lambda f, p: f.pseudo_oscillator.quartic(p.body, conserved(p)),
+        lambda say, p: powers(say("theorem-quartic", "Q", u=sympy.Symbol("u"), **same(p)), sympy.Symbol("u")),
+        POINTS,
+        size=power(4),
+        ulps=16,
+        floors=("core",),
+    ),
+    Tie(
+        "quadratures.transverse_square",
+        "mf44",
+        lambda f, p: f.quadratures.transverse_square(p.body, conserved(p), p.u),
+        across,
+        POINTS,
+        size=power(2),
+        floors=("core",),
+    ),
+    Tie(
+        "quadratures.field_projection",
+        "mf49",
+        lambda f, p: f.quadratures.field_projection(p.body, conserved(p), p.u),
+        projection,
+        POINTS,
+        size=power(2),
+        floors=("core",),
+    ),
+    Tie(
+        "quadratures.field_in_body",
+        "mf44 mf50",
+        lambda f, p: f.quadratures.field_in_body(p.body, conserved(p), p.omega, p.t),
+        field,
+        MOVING,
+        size=lambda _true, p: 4 * p.scale**2 * max(p.scale, abs(p.t)) / (p.omega1**2 + p.omega2**2),
+        floors=("core",),
+    ),
+    Tie(
+        "quadratures.frequency",
+        "mf52",
+        lambda f, p: f.quadratures.frequency(p.body, conserved(p), p.u),
+        lambda say, p: say("mf52", "phi", **same(p)),
+        POINTS,
+        size=lambda _true, p: 4 * p.scale**3 / (p.u**2 + p.omega1**2),
+        floors=("core",),
+    ),
+    Tie(
+        "quadratures.angular_velocity",
+        "mf53",
+        lambda f, p: f.quadratures.angular_velocity(p.body, conserved(p), p.u, p.t),
+        spin,
+        POINTS,
+        size=length,
+        floors=("core",),
+    ),
+)
+
+
+@each(TIES)
+def test_the_motion_of_omega3_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+    """Its integrals, its cubic and its quartic, and the rest of the motion by quadrature."""
+    agree(tie, floor)
+
+
+def test_a_wrong_sign_of_one_less_the_ratio_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """I - 1 for 1 - I in the cubic."""
+    right = pseudo_oscillator.shape_factors
+    monkeypatch.setattr(
+        pseudo_oscillator, "shape_factors", lambda ratio: (right(ratio)[0], -right(ratio)[1], right(ratio)[2])
+    )
+    lost = ("coefficients", "quartic_coefficients", "stiffness")
+    disagree(
+        TIES, *(f"PseudoOscillator.{name}" for name in lost), "pseudo_oscillator.cubic", "pseudo_oscillator.quartic"
+    )
+
+
+def test_the_paper_s_slip_in_mf56_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """(2-1)^2 for (2-I)^2, as printed: the kernel holds the corrected form, and so does the ledger."""
+    right = pseudo_oscillator.cubic
+
+    def printed(ratio: Any, known: Integrals) -> Any:
+        a0, _, a2, a3 = right(ratio, known)
+        I, _, _ = pseudo_oscillator.shape_factors(ratio)
+        return a0, -2 * known.c5 + (I - 1) * known.c3**2 - known.E - I * known.K2, a2, a3
+
+    monkeypatch.setattr(pseudo_oscillator, "cubic", printed)
+    disagree(TIES, "PseudoOscillator.coefficients", "PseudoOscillator.stiffness", "pseudo_oscillator.cubic")
+
+
+def test_a_wrong_sign_in_the_quadratures_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """2 + I for 2 - I in mf49, mf50 and mf52."""
+    right = quadratures.shape_factors
+    monkeypatch.setattr(quadratures, "shape_factors", lambda ratio: (*right(ratio)[:2], 2 + right(ratio)[0]))
+    disagree(TIES, *(f"quadratures.{name}" for name in ("field_projection", "field_in_body", "frequency")))

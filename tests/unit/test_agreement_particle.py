@@ -1,0 +1,295 @@
+"""Point particle and flight: core and exact say what the ledger's mf1 to mf11 say, for either sign of the charge."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from agreement import (
+    Floor,
+    Ledger,
+    Tie,
+    agree,
+    bodies,
+    disagree,
+    each,
+    elementary,
+    length,
+    rotation,
+    signed,
+    unit,
+    vector,
+)
+
+from atlas.core import charge
+
+
+def launches(seed: int, count: int, **fixed: Any) -> list[Any]:
+    """Return particles in oblique fields: mu of either sign, c, E, B, position y, velocity v and radius a."""
+    draw, found = np.random.default_rng(seed), []
+    for _ in range(count):
+        p = SimpleNamespace(mu=signed(draw), c=abs(signed(draw)), E=vector(draw), B=vector(draw), t=signed(draw))
+        p.y, p.v, p.a = vector(draw), vector(draw), abs(signed(draw))
+        for name, given in fixed.items():
+            setattr(p, name, given)
+        found.append(p)
+    return found
+
+
+POINTS = launches(10, 8)
+DARK = launches(2, 3, B=(0.0, 0.0, 0.0))
+BODIES = bodies(17, 4, mu=2.0, c=1.0, y=(0.5, -1.0, 2.0), v=(1.0, 0.25, -0.5), E=(0.75, 1.5, -0.5), a=0.0)
+for _p in BODIES:
+    _p.B = (0.0, *_p.field)
+
+
+def exact(values: Any) -> Any:
+    """Return a vector of rationals."""
+    return sympy.Matrix([sympy.Rational(x) for x in values])
+
+
+def split(p: Any) -> dict[str, Any]:
+    """Return the fields in the letters of the appendix: parts along B and across it, and their sizes."""
+    B, E = exact(p.B), exact(p.E)
+    along = B * B.dot(E) / B.dot(B)
+    across = E - along
+    b, E2 = sympy.sqrt(B.dot(B)), sympy.sqrt(across.dot(across))
+    return {"Bf": B, "E": E, "Epar": along, "Eperp": across, "b": b, "E2": E2}
+
+
+def frame(say: Ledger, p: Any) -> Any:
+    """Return e1, e2, e3 of figure Magn: text-drift-direction gives e1."""
+    s = split(p)
+    e1 = say("text-drift-direction", "E2*b*e1", Eperp=s["Eperp"], Bf=s["Bf"]) / (s["E2"] * s["b"])
+    return [e1, s["Eperp"] / s["E2"], s["Bf"] / s["b"]]
+
+
+def frequency(say: Ledger, p: Any) -> Any:
+    """Return omega of mf9, with the sign of the charge."""
+    return say("mf9", "omega", mu=p.mu, b=split(p)["b"], c=p.c)
+
+
+def drift(say: Ledger, p: Any) -> Any:
+    """Return c [E, B]/B^2."""
+    s = split(p)
+    return say("text-drift", "drift", c=p.c, **{name: s[name] for name in ("Eperp", "Bf", "b")})
+
+
+def constants(say: Ledger, p: Any) -> Any:
+    """Return C of mf2 in its two parts, from y and v at t = 0."""
+    s = split(p)
+    C = exact(p.v) - say("mf2", "dy", mu=p.mu, E=s["E"], t=0, c=p.c, y=p.y, Bf=s["Bf"], C=[0, 0, 0])
+    along = s["Bf"] * s["Bf"].dot(C) / s["Bf"].dot(s["Bf"])
+    return along, C - along
+
+
+def across(say: Ledger, p: Any, t: Any, a: Any, omega0: Any) -> Any:
+    """Return y_perp(t) of mf10, on a circle of radius a that begins at the angle omega0."""
+    s = split(p)
+    e1, e2, _ = frame(say, p)
+    given = {"Cperp": constants(say, p)[1], "omega": frequency(say, p), "e1": e1, "e2": e2, "mu": p.mu, "c": p.c}
+    return say(
+        "mf10", "yperp", a=a, omega0=omega0, t=t, **given, **{name: s[name] for name in ("Bf", "Eperp", "b", "E2")}
+    )
+
+
+def circle(say: Ledger, p: Any) -> tuple[Any, Any]:
+    """Return a and omega0 of mf10 from the position at t = 0."""
+    y, B = exact(p.y), exact(p.B)
+    arm = y - B * B.dot(y) / B.dot(B) - across(say, p, 0, 0, 0)
+    e1, e2, _ = frame(say, p)
+    return sympy.sqrt(arm.dot(arm)), sympy.atan2(arm.dot(e1).evalf(80), arm.dot(e2).evalf(80))
+
+
+def along(say: Ledger, p: Any) -> Any:
+    """Return y_par(t) of mf5."""
+    y, B = exact(p.y), exact(p.B)
+    C, start = constants(say, p)[0], B * B.dot(y) / B.dot(B)
+    return say("mf5", "ypar", ypar0=start, Cpar=C, t=p.t, mu=p.mu, Epar=split(p)["Epar"])
+
+
+def place(say: Ledger, p: Any) -> Any:
+    """Return y(t), mf10.2."""
+    return say("mf10.2", "y", ypar=along(say, p), yperp=across(say, p, p.t, *circle(say, p)))
+
+
+def velocity(say: Ledger, p: Any) -> Any:
+    """Return dy/dt, mf2."""
+    s, C = split(p), sum(constants(say, p), sympy.zeros(3, 1))
+    return say("mf2", "dy", mu=p.mu, E=s["E"], t=p.t, c=p.c, y=place(say, p), Bf=s["Bf"], C=C)
+
+
+def centre(say: Ledger, p: Any) -> Any:
+    """Return O(t): y(t) on a circle of radius 0."""
+    return say("mf10.2", "y", ypar=along(say, p), yperp=across(say, p, p.t, 0, 0))
+
+
+def trochoid(say: Ledger, p: Any) -> Any:
+    """Return y(t) of mf11, and mf5 from rest."""
+    s = split(p)
+    e1, e2, _ = frame(say, p)
+    yperp = say("mf11", "yperp", mu=p.mu, E2=s["E2"], omega=frequency(say, p), t=p.t, a=p.a, e1=e1, e2=e2)
+    ypar = say("mf5", "ypar", ypar0=[0, 0, 0], Cpar=[0, 0, 0], t=p.t, mu=p.mu, Epar=s["Epar"])
+    return say("mf10.2", "y", ypar=ypar, yperp=yperp)
+
+
+def fall(say: Ledger, p: Any) -> Any:
+    """Return y(t) without a magnetic field."""
+    return say("text-no-magnetic-field", "y", y0=p.y, C=p.v, t=p.t, mu=p.mu, E=p.E)
+
+
+def turned(say: Ledger, p: Any) -> Any:
+    """Return R(t) x of a point of the body."""
+    return rotation(say, p, p.t) * exact(p.point)
+
+
+def swept(say: Ledger, p: Any) -> Any:
+    """Return dR/dt x, mf21, with Omega of mf78."""
+    constants = elementary(say, p)
+    Omega = say("mf78", "Omega", omega2=p.omega2, omega3=constants["omega3"], phi=constants["phi"], t=p.t)
+    return say("mf21", "d(R[i,j])", R=rotation(say, p, p.t), Omega=Omega) * exact(p.point)
+
+
+def motion(f: Floor, p: Any) -> Any:
+    """Return the motion of a point on a floor."""
+    return f.ParticleMotion(p.mu, p.E, p.B, p.y, p.v, p.c)
+
+
+def flight(f: Floor, p: Any) -> Any:
+    """Return the flight of a point of an elementary motion's body, the field B' = B its own."""
+    return f.Flight(motion(f, p), f.ElementaryMotion(p.body, p.field, p.omega2), p.point)
+
+
+def travelled(_true: list[Any], p: Any) -> float:
+    """Return the size of the terms of which a path is made."""
+    y, v, E, B = (float(np.linalg.norm(x)) for x in (p.y, p.v, p.E, p.B))
+    drifting = p.c * E / B + p.a * abs(p.mu) * B / p.c if B else 0.0
+    return y + p.a + (v + drifting + abs(p.mu) * E * abs(p.t)) * abs(p.t)
+
+
+def quick(_true: list[Any], p: Any) -> float:
+    """Return the size of the terms of which a velocity is made."""
+    v, E, B = (float(np.linalg.norm(x)) for x in (p.v, p.E, p.B))
+    return v + p.c * E / B + abs(p.mu) * E * abs(p.t)
+
+
+def swinging(true: list[Any], p: Any) -> float:
+    """Return the same with the velocity of the point about the centre."""
+    return quick(true, p) + 3 * float(max(map(abs, p.point))) * float(
+        max(abs(x) for x in (*p.field, p.omega2, Floor("core").Hyperbola(p.body, p.field).omega3(p.omega2)))
+    )
+
+
+ACROSS = "mf2 mf9 mf10 text-drift-direction"
+PATH = f"{ACROSS} mf5 mf10.2"
+MATRIX = "mf76 mf77 mf84 mf89"
+
+TIES = (
+    Tie("ParticleMotion.cyclotron_frequency", "mf9", lambda f, p: motion(f, p).cyclotron_frequency, frequency, POINTS),
+    Tie(
+        "ParticleMotion.period",
+        "mf9",
+        lambda f, p: motion(f, p).period,
+        lambda say, p: 2 * sympy.pi / abs(frequency(say, p)),
+        POINTS,
+    ),
+    Tie(
+        "ParticleMotion.prime",
+        "mf41",
+        lambda f, p: motion(f, p).prime,
+        lambda say, p: say("mf41", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        POINTS,
+        floors=("core",),
+    ),
+    Tie("ParticleMotion.drift", "text-drift", lambda f, p: motion(f, p).drift, drift, POINTS, size=length),
+    Tie(
+        "ParticleMotion.radius",
+        ACROSS,
+        lambda f, p: motion(f, p).radius,
+        lambda say, p: circle(say, p)[0],
+        POINTS,
+    ),
+    Tie(
+        "ParticleMotion.axes",
+        "text-drift-direction",
+        lambda f, p: motion(f, p).axes,
+        frame,
+        POINTS,
+        size=unit,
+        floors=("core",),
+    ),
+    Tie("ParticleMotion.position", PATH, lambda f, p: motion(f, p).position(p.t), place, POINTS, size=travelled),
+    Tie(
+        "ParticleMotion.position",
+        "text-no-magnetic-field",
+        lambda f, p: motion(f, p).position(p.t),
+        fall,
+        DARK,
+        size=travelled,
+    ),
+    Tie("ParticleMotion.velocity", PATH, lambda f, p: motion(f, p).velocity(p.t), velocity, POINTS, size=quick, ulps=8),
+    Tie(
+        "ParticleMotion.guiding_centre",
+        PATH,
+        lambda f, p: motion(f, p).guiding_centre(p.t),
+        centre,
+        POINTS,
+        size=travelled,
+    ),
+    Tie(
+        "ParticleMotion.trochoid",
+        "mf5 mf9 mf10.2 mf11 text-drift-direction",
+        lambda f, p: f.ParticleMotion.trochoid(p.mu, p.E, p.B, p.a, p.c).position(p.t),
+        trochoid,
+        POINTS,
+        size=travelled,
+        floors=("core",),
+    ),
+    Tie(
+        "Flight.arm",
+        MATRIX,
+        lambda f, p: flight(f, p).arm(p.t),
+        turned,
+        BODIES,
+        size=length,
+        floors=("core",),
+    ),
+    Tie(
+        "Flight.position",
+        f"{PATH} {MATRIX}",
+        lambda f, p: flight(f, p).position(p.t),
+        lambda say, p: place(say, p) + turned(say, p),
+        BODIES,
+        size=travelled,
+    ),
+    Tie(
+        "Flight.velocity",
+        f"{PATH} {MATRIX} mf78 mf21",
+        lambda f, p: flight(f, p).velocity(p.t),
+        lambda say, p: velocity(say, p) + swept(say, p),
+        BODIES,
+        size=swinging,
+        ulps=8,
+        floors=("core",),
+    ),
+)
+
+
+@each(TIES)
+def test_the_particle_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
+    """Its path, the circle and the drift of which it is made, and the path of a point of a body."""
+    agree(tie, floor)
+
+
+def test_a_force_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """[B, v] for [v, B]."""
+    right = charge.cross
+    monkeypatch.setattr(charge, "cross", lambda a, b: right(b, a))
+    disagree(TIES, "ParticleMotion.drift", "ParticleMotion.velocity", "ParticleMotion.guiding_centre")
+
+
+def test_the_paper_s_sense_of_rotation_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """mf9 as printed, omega = |mu B|/c: right for mu > 0 only."""
+    monkeypatch.setattr(charge.Charge, "cyclotron_frequency", property(lambda self: self.rate))
+    disagree(TIES, "ParticleMotion.cyclotron_frequency", "ParticleMotion.trochoid")

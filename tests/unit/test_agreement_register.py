@@ -1,0 +1,136 @@
+"""Register of agreement: no public quantity of core or exact without a tie to the ledger, no tie that sees nothing."""
+
+import ast
+import dataclasses
+import runpy
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from agreement import FLOORS, Floor, Tie, agree, modules, negate
+
+import atlas
+from atlas.errors import DomainError
+
+TOPICS = [path for path in sorted(Path(__file__).parent.glob("test_agreement_*.py")) if path != Path(__file__)]
+TIES: list[Tie] = [tie for path in TOPICS for tie in runpy.run_path(str(path))["TIES"]]
+
+FORMULAS = {
+    "core": {"body", "euler_poisson", "inertia", "integrals", "pseudo_oscillator", "quadratures", "units"},
+    "exact": {"body"},
+}
+"""Modules whose functions are public quantities; of the others the classes are."""
+
+MACHINERY = {
+    "core": set("basis charge ensemble grid gyration inputs motion phase rational rotation threads wide".split()),
+    "exact": {"digits", "inputs"},
+}
+"""Modules that compute for the others, and hold no formula of their own."""
+
+GIVEN, AXES, NAME = "what was given, or another way to give it", "a choice of axes, not in the ledger", "no number"
+
+UNTIED = {
+    "Quadric.kind": NAME,
+    "ElementaryMotion.case": NAME,
+    "ElementaryMotion.omega2": GIVEN,
+    "ParticleMotion.case": NAME,
+    "ParticleMotion.kind": NAME,
+    "ParticleMotion.in_field": GIVEN,
+    "Field.si": GIVEN,
+    "Field.gaussian": GIVEN,
+    "Field.frame": GIVEN,
+    "LaboratoryFrame.alignment": NAME,
+    "LaboratoryFrame.field": AXES,
+    "LaboratoryFrame.matrix": AXES,
+    "LaboratoryFrame.to_laboratory": AXES,
+    "LaboratoryFrame.to_user": AXES,
+    "LaboratoryFrame.rotation_to_user": AXES,
+    "SymmetricBody.inertia": GIVEN,
+    "SymmetricBody.from_point_masses": GIVEN,
+    "SymmetricBody.from_mass_matrix": GIVEN,
+    **{
+        f"SymmetricBody.{shape}": "a moment of inertia from a textbook, not in the ledger"
+        for shape in "ring disk solid_cylinder thin_rod sphere spherical_shell spheroid".split()
+    },
+    "body.moments": GIVEN,
+    "body.ratio_of": GIVEN,
+    "body.from_shape": GIVEN,
+    "body.float_text": NAME,
+    "inertia.inertia_tensor": GIVEN,
+    "inertia.diagonal_or_matrices": GIVEN,
+    "units.system": NAME,
+}
+"""Public names without a tie, and why."""
+
+
+def defined(floor: str) -> Iterator[tuple[str, ast.ClassDef | ast.FunctionDef]]:
+    """Go through the public classes and functions of a floor, with their modules."""
+    for module, path in modules(floor).items():
+        for node in ast.parse(path.read_text("utf-8")).body:
+            if isinstance(node, ast.ClassDef | ast.FunctionDef) and not node.name.startswith("_"):
+                yield module, node
+
+
+def public_classes(floor: str) -> set[str]:
+    """Return the classes whose members are quantities: those that the package exports, and their like on the floor."""
+    exported = {name for name, home in atlas._HOMES.items() if home.startswith("atlas.core")} | {"PseudoOscillator"}
+    return exported & {node.name for _, node in defined(floor) if isinstance(node, ast.ClassDef)}
+
+
+def quantities(floor: str) -> set[str]:
+    """Return every public quantity of a floor."""
+    found = {
+        f"{module}.{node.name}"
+        for module, node in defined(floor)
+        if isinstance(node, ast.FunctionDef) and module in FORMULAS[floor]
+    }
+    for name in public_classes(floor):
+        cls: Any = getattr(Floor(floor), name)
+        ours = [base for base in cls.__mro__ if base.__module__.startswith("atlas.")]
+        members = {member for base in ours for member in vars(base) if not member.startswith("_")}
+        if dataclasses.is_dataclass(cls):
+            members -= {field.name for field in dataclasses.fields(cls) if field.init}
+            members |= {field.name for field in dataclasses.fields(cls) if not field.init}
+        found |= {f"{name}.{member}" for member in members}
+    return found
+
+
+@pytest.mark.parametrize("floor", FLOORS)
+def test_every_public_quantity_is_tied_to_the_ledger(floor: str) -> None:
+    """A new kernel needs a tie in the file of its topic, or a reason in UNTIED."""
+    tied = {tie.quantity for tie in TIES if floor in tie.floors}
+    assert quantities(floor) - tied - set(UNTIED) == set()
+    assert tied & set(UNTIED) == set()
+
+
+def test_what_is_registered_exists() -> None:
+    """No tie and no reason outlives its quantity."""
+    existing = quantities("core") | quantities("exact")
+    assert {tie.quantity for tie in TIES} | set(UNTIED) <= existing
+
+
+@pytest.mark.parametrize("floor", FLOORS)
+def test_a_new_kernel_is_noticed(floor: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One more public property is one more quantity."""
+    before = quantities(floor)
+    monkeypatch.setattr(Floor(floor).Quadric, "volume", property(lambda _: 1.0), raising=False)
+    assert quantities(floor) - before == {"Quadric.volume"}
+
+
+@pytest.mark.parametrize("floor", FLOORS)
+def test_every_module_of_a_floor_is_known_here(floor: str) -> None:
+    """A module holds quantities, or is machinery."""
+    homes = {Floor(floor).module(name).__name__.split(".")[-1] for name in public_classes(floor)}
+    assert homes | FORMULAS[floor] | MACHINERY[floor] == set(modules(floor))
+    assert MACHINERY[floor] & (homes | FORMULAS[floor]) == set()
+
+
+@pytest.mark.parametrize(
+    ("tie", "floor"), [pytest.param(tie, floor, id=f"{floor} {tie}") for tie in TIES for floor in tie.floors]
+)
+def test_a_quantity_under_the_wrong_sign_is_noticed(tie: Tie, floor: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every tie reads the quantity that it is named after, and cannot do with its opposite: a body even less."""
+    negate(monkeypatch, tie.quantity, floor)
+    with pytest.raises((AssertionError, DomainError)):
+        agree(tie, floor)
