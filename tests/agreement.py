@@ -192,7 +192,7 @@ def _fraction(x: Any) -> Fraction:
     number = x.evalf(DIGITS, maxn=1000)
     assert number.is_Float, x
     sign, mantissa, exponent, _ = number._mpf_
-    return (-1) ** sign * Fraction(int(mantissa)) * Fraction(2) ** exponent
+    return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** int(exponent)
 
 
 def _flat(value: Any) -> Iterator[Any]:
@@ -216,7 +216,7 @@ def negated(value: Any) -> Any:
         return dict(zip(value, negated(list(value.values())), strict=True))
     if isinstance(value, list | tuple):
         return type(value)([*value[:1], *map(negated, value[1:])])
-    if dataclasses.is_dataclass(value):
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
         parts = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
         return dataclasses.replace(value, **negated(parts))
     return -value if hasattr(value, "__neg__") else _Mirror(value)

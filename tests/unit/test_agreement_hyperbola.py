@@ -1,5 +1,6 @@
 """Hyperbola: core and exact say what the ledger's mf72 to mf84 and the theorems on stability say."""
 
+import dataclasses
 from typing import Any
 
 import pytest
@@ -8,6 +9,8 @@ from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, element
 
 from atlas.core import hyperbola
 from atlas.core.wide import Wide
+from atlas.proof import formula
+from atlas.proof.run import trial
 
 POINTS = bodies(72, 8)
 BAND = [*bodies(8, 3, body=0.3, B3=lambda p: p.B2 / 4), *bodies(9, 3, body=0.85, B3=lambda p: -p.B2 / 9)]
@@ -130,3 +133,13 @@ def test_a_wrong_sign_in_the_curve_is_noticed(monkeypatch: pytest.MonkeyPatch) -
 
     monkeypatch.setattr(hyperbola, "curve", wrong)
     disagree(TIES, "Hyperbola.omega3", "Hyperbola.frequencies", "Hyperbola.sample", "Hyperbola.branches")
+
+
+def test_a_wrong_sign_in_the_ledger_is_noticed_on_both_floors(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The floors are held together from either end: (omega2 - 2 B2) for (omega2 + 2 B2) in what is tried as mf77."""
+    right = formula.trial("mf77")
+    wrong = dataclasses.replace(right, printed=right.printed.replace("omega2 + 2*B2", "omega2 - 2*B2"))
+    assert wrong.printed != right.printed
+    monkeypatch.setattr(formula, "trial", lambda label: wrong if label == "mf77" else trial(label))
+    disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special")
+    disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special", floor="exact")

@@ -39,9 +39,18 @@ def launches(seed: int, count: int, **fixed: Any) -> list[Any]:
 
 POINTS = launches(10, 8)
 DARK = launches(2, 3, B=(0.0, 0.0, 0.0))
-BODIES = bodies(17, 4, mu=2.0, c=1.0, y=(0.5, -1.0, 2.0), v=(1.0, 0.25, -0.5), E=(0.75, 1.5, -0.5), a=0.0)
-for _p in BODIES:
-    _p.B = (0.0, *_p.field)
+BODIES = bodies(
+    17,
+    4,
+    mu=2.0,
+    c=1.0,
+    y=(0.5, -1.0, 2.0),
+    v=(1.0, 0.25, -0.5),
+    a=0.0,
+    E=(0.75, 1.5, -0.5),
+    B=lambda p: (0.0, p.B2, p.B3),
+)
+"""Bodies that fly in the laboratory frame, mu/(2c) = 1."""
 
 
 def exact(values: Any) -> Any:
