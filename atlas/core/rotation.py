@@ -35,21 +35,23 @@ class DoubleRotation:
             *resolution(generators(axis), third_row=inverse)
         )
         self.weights = np.ascontiguousarray(weights.swapaxes(1, 2)) if inverse else weights
+        self.entries = self.weights.reshape(-1, 9)
+        self.rodrigues = 2 * rodrigues(axis)
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), mf89, shape (..., 3, 3)."""
-        return evaluate(self.phases, self.weights.reshape(-1, 9), t, (3, 3), out)
+        return evaluate(self.phases, self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the column R_j(t), j = 1, 2, 3: the body's axis j in the laboratory, shape (..., 3)."""
         if j == 3 and not self.inverse:
-            return self.turned((0.0, 0.0, 1.0), t, out)
+            return evaluate(self.precession, self.rodrigues[:, :, 2], t, (3,), out)
         return evaluate(self.phases, np.ascontiguousarray(self.weights[:, :, j - 1]), t, (3,), out)
 
     def turned(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_n(k t) v for a constant v, shape (..., 3): one phase is evaluated, not two."""
         with np.errstate(over="ignore", invalid="ignore"):
-            weights = 2 * (rodrigues(self.axis) @ np.asarray(vector))
+            weights = self.rodrigues @ np.asarray(vector)
         if not np.isfinite(weights).all():
             raise AtlasError(f"The vector {vector} that is to be turned is too large for a float: choose larger units.")
         return evaluate(self.precession, weights, t, (3,), out)
@@ -69,6 +71,9 @@ def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...]
     out = target(out, full)
     rows = out.reshape(-1, weights.shape[1])
     flat = times.reshape(-1) if times.flags.c_contiguous else times.flat
+    if times.size <= PART:
+        np.matmul(Basis(phases, times.size, len(weights)).at(flat[:]).T, weights, out=rows)
+        return out
 
     def fill(low: int, high: int) -> None:
         """Fill the rows low to high, a block at a time."""
