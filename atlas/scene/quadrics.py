@@ -1,17 +1,20 @@
 """The quadric of constant Omega_3, mf58, as surfaces to draw: sheets cut across their axis."""
 
+from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from atlas.core.quadric import Quadric
-from atlas.scene import conics, sample, solids
+from atlas.scene import conics, mesh, sample, solids
 from atlas.scene.layers import Surface
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
-_WIRES = 12
+_Line: TypeAlias = Callable[[FloatArray], FloatArray]
+
+_WIRES, _PARALLELS = 12, 5
 
 
 def quadric_matrix(I: float, field: tuple[float, float]) -> FloatArray:
@@ -36,13 +39,13 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
 
     With D = (1, -1/a2, 1/a3), negative for the axis w of the sheets, the cross section at w is the ellipse
     D_i x_i^2 + D_j x_j^2 = |D_w| w^2 + (1 - I) B2^2; ``low`` and ``high`` lie on one sheet. The parameter along the
-    sheet is hyperbolic, so that the cells shrink towards the vertex, where it bends most.
+    sheet is hyperbolic. It is cut where its steepest and flattest meridians and its narrowest and widest rings bend.
     """
     D = np.array([1.0, -1.0 / quadric.a2, 1.0 / quadric.a3])
     w = sheet_axis(quadric)
     i, j = (k for k in range(3) if k != w)
     centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
-    rest = -float(centre_value(Q, centre))
+    rest = 0.0 if quadric.kind == "cone" else -float(centre_value(Q, centre))
     C = float(np.sqrt(abs(rest / D[w])))
     sign = 1.0 if high > -low else -1.0
 
@@ -68,15 +71,25 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
         return centre + canonical @ axes
 
     a, b = parameter(low), parameter(high)
-    u, v = np.linspace(a, b, 49), np.linspace(0.0, solids.TURN, 97)
+
+    def meridian(v: float) -> _Line:
+        return lambda s: point(s, np.full_like(s, v))
+
+    def ring(s: float) -> _Line:
+        return lambda v: point(np.full_like(v, s), v)
+
+    if rest == 0.0:  # straight, but the apex has no normal: it colours a speck only
+        u = np.unique(np.clip([a, -tolerance, 0.0, tolerance, b], a, b))
+    else:
+        u = mesh.cuts(Q, [meridian(0.0), meridian(0.25 * solids.TURN)], a, b, tolerance)
+    rings = [ring(s) for s in (a, 0.0, b) if a <= s <= b and (s or rest > 0.0)]
+    v = mesh.cuts(Q, rings, 0.0, solids.TURN, tolerance)
     grid = point(u[:, None], v[None, :])
-    meridians = [
-        sample.curve(lambda s, t=t: point(s, np.full_like(s, t)), a, b, tolerance)  # type: ignore[misc]
-        for t in solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
-    ]
-    parallels = [_ring(point, float(s), tolerance) for s in u[8:-1:8]]
+    angles = solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
+    meridians = [sample.curve(meridian(float(t)), a, b, tolerance) for t in angles]
+    parallels = [_round(ring(float(s)), tolerance) for s in np.linspace(a, b, _PARALLELS + 2)[1:-1]]
     edges = [h for h in (low, high) if not (rest < 0.0 and abs(h) <= C * (1.0 + 1e-9)) and h != 0.0]
-    rims = [_ring(point, parameter(h), tolerance) for h in edges]
+    rims = [_round(ring(parameter(h)), tolerance) for h in edges]
     n, middle = axes[w], float(axes[w] @ centre)
     clip = np.array([[*n, middle + high], [*(-n), -middle - low]])
     return Surface(Q, clip, (grid,), (*meridians, *parallels), tuple(rims), role=role)
@@ -96,6 +109,6 @@ def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatAr
     return conics.section(Q, np.array([1.0, 0.0, 0.0]), 0.0, surface.clip, (middle, radius), tolerance)
 
 
-def _ring(point, s: float, tolerance: float) -> FloatArray:  # type: ignore[no-untyped-def]  # noqa: ANN001  a closure
-    """Return the closed curve of the surface at the parameter s."""
-    return sample.curve(lambda v: point(np.full_like(v, s), v), 0.0, solids.TURN, tolerance)
+def _round(line: _Line, tolerance: float) -> FloatArray:
+    """Return a closed curve of a surface."""
+    return sample.curve(line, 0.0, solids.TURN, tolerance)

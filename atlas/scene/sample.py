@@ -8,8 +8,14 @@ from numpy.typing import NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
-_ROUNDS = 24
+_ROUNDS = 40
 _INCH = 25.4
+_LOOKS = np.array([0.2, 0.45, 0.75])[:, None]
+"""Where a piece is looked at: each plain bend, turned over or not, shows 93 of 100 parts of its sag at one of them."""
+_LEAVE, _AIM = 0.9, 0.8
+"""A piece is left at so much of the tolerance, and cut for so much of it."""
+_ARC, _EVEN, _FEW = 0.2, 1.5, 3
+"""What sags less than a fifth of its length, and by one parabola at all looks, is cut at once in all that it needs."""
 
 
 def quarter_pixel(extent: float, millimetres: float, dpi: float = 300.0) -> float:
@@ -29,9 +35,28 @@ def curve(
     """Sample ``function`` from ``start`` to ``stop`` so that no chord is further than ``tolerance`` from the curve.
 
     ``function`` takes parameters (N,) and returns points (N, D); it is first cut into ``pieces`` equal parts, each of
-    which is halved until two inner points of it (at 0.35 and 0.61 of its length, so that no symmetry deceives) lie on
-    the chord. Parts that lie wholly on one outer side of ``box`` = (lowest, highest corner) are left as they are.
+    which is cut again until three inner points of it, placed so that no symmetry deceives, lie on the chord. Parts that
+    lie wholly on one outer side of ``box`` = (lowest, highest corner) are left as they are.
     """
+    return _cut(function, start, stop, tolerance, pieces, box)[1]
+
+
+def knots(
+    function: Callable[[FloatArray], FloatArray], start: float, stop: float, tolerance: float, pieces: int = 8
+) -> FloatArray:
+    """Return the parameters of the points of `curve`."""
+    return _cut(function, start, stop, tolerance, pieces, None)[0]
+
+
+def _cut(
+    function: Callable[[FloatArray], FloatArray],
+    start: float,
+    stop: float,
+    tolerance: float,
+    pieces: int,
+    box: tuple[FloatArray, FloatArray] | None,
+) -> tuple[FloatArray, FloatArray]:
+    """Return parameters and points; the sag of an arc falls with the square of its parts, which tells their number."""
     s = np.linspace(start, stop, pieces + 1)
     x = function(s)
     open_ = np.ones(pieces, dtype=bool)
@@ -39,22 +64,28 @@ def curve(
         i = np.flatnonzero(open_)
         if i.size == 0:
             break
-        a, b = s[i], s[i + 1]
-        inner = [function(a + w * (b - a)) for w in (0.35, 0.61)]
-        bent = np.zeros(i.size, dtype=bool)
-        for y in inner:
-            bent |= _distance(y, x[i], x[i + 1]) > tolerance
+        inner = function((s[i] + _LOOKS * (s[i + 1] - s[i])).ravel()).reshape(len(_LOOKS), i.size, -1)
+        sags = np.stack([_distance(y, x[i], x[i + 1]) for y in inner])
+        sag, bend = sags.max(axis=0), sags / (_LOOKS * (1.0 - _LOOKS))
+        plain = bend.max(axis=0) < _EVEN * bend.min(axis=0)
+        plain &= sag < _ARC * np.linalg.norm(x[i + 1] - x[i], axis=1)
+        bent = sag > _LEAVE * tolerance
         if box is not None:
-            corners = np.stack([x[i], *inner, x[i + 1]])
+            corners = np.concatenate([x[None, i], inner, x[None, i + 1]])
             out = np.all(corners < box[0], axis=0) | np.all(corners > box[1], axis=0)
             bent &= ~np.any(out, axis=1)
-        open_[i] = bent
-        cut = i[bent]
-        middle = 0.5 * (s[cut] + s[cut + 1])
-        s = np.insert(s, cut + 1, middle)
-        x = np.insert(x, cut + 1, function(middle), axis=0)
-        open_ = np.insert(open_, cut + 1, True)
-    return x
+        wanted = np.ceil(np.sqrt(sag / (_AIM * tolerance)))
+        parts = np.ones(len(open_), dtype=int)
+        parts[i[bent]] = np.maximum(np.where(plain, wanted, np.minimum(wanted, _FEW))[bent], 2)
+        owner = np.repeat(np.arange(len(parts)), parts)
+        part = np.arange(len(owner)) - np.repeat(np.cumsum(parts) - parts, parts)
+        fresh = np.flatnonzero(part)
+        at = s[owner] + part / parts[owner] * (s[owner + 1] - s[owner])
+        points = np.concatenate([x[owner], x[-1:]])
+        if fresh.size:
+            points[fresh] = function(at[fresh])
+        s, x, open_ = np.append(at, s[-1]), points, parts[owner] > 1
+    return s, x
 
 
 def _distance(y: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:

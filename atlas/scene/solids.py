@@ -1,16 +1,16 @@
 """Pieces of simple quadrics: sphere, cone, cylinder with its lids, disk, rectangle."""
 
+from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.scene import sample
+from atlas.scene import mesh, sample
 from atlas.scene.layers import Surface
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
-_ROUND, _LONG = 97, 33
 TURN = 2.0 * np.pi
 
 
@@ -32,9 +32,19 @@ def arc(
     centre: FloatArray, first: FloatArray, second: FloatArray, start: float, stop: float, tolerance: float
 ) -> FloatArray:
     """Return centre + first cos s + second sin s for s from start to stop."""
-    return sample.curve(
-        lambda s: centre + np.cos(s)[:, None] * first + np.sin(s)[:, None] * second, start, stop, tolerance
-    )
+    return sample.curve(ellipse(centre, first, second), start, stop, tolerance)
+
+
+def ellipse(centre: FloatArray, first: FloatArray, second: FloatArray) -> Callable[[FloatArray], FloatArray]:
+    """Return the function centre + first cos s + second sin s of s."""
+    return lambda s: centre + np.cos(s)[:, None] * first + np.sin(s)[:, None] * second
+
+
+def around(
+    quadric: FloatArray, centre: FloatArray, first: FloatArray, second: FloatArray, tolerance: float
+) -> FloatArray:
+    """Return the angles at which a round surface is cut along its axis; the ellipse given is its widest."""
+    return mesh.cuts(quadric, [ellipse(centre, first, second)], 0.0, TURN, tolerance)
 
 
 def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
@@ -47,10 +57,12 @@ def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
 
 def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sphere") -> Surface:
     """Return a sphere with a light net of parallels and meridians."""
-    east, north = np.linspace(0.0, TURN, _ROUND), np.linspace(-0.5 * np.pi, 0.5 * np.pi, 49)
+    e1, e2, e3 = np.eye(3)
+    Q = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
+    east = around(Q, centre, radius * e1, radius * e2, tolerance)
+    north = mesh.cuts(Q, [ellipse(centre, radius * e1, radius * e3)], -0.5 * np.pi, 0.5 * np.pi, tolerance)
     v, u = np.meshgrid(east, north)
     grid = centre + radius * np.stack([np.cos(u) * np.cos(v), np.cos(u) * np.sin(v), np.sin(u)], axis=-1)
-    e1, e2, e3 = np.eye(3)
     wires = [
         circle(centre + radius * np.sin(h) * e3, e3, radius * np.cos(h), tolerance)
         for h in np.radians([-60.0, -30.0, 0.0, 30.0, 60.0])
@@ -59,7 +71,6 @@ def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sph
         arc(centre, radius * (np.cos(w) * e1 + np.sin(w) * e2), radius * e3, -0.5 * np.pi, 0.5 * np.pi, tolerance)
         for w in np.arange(12) * np.pi / 6.0
     ]
-    Q = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     return Surface(Q, np.empty((0, 4)), (grid,), tuple(wires), role=role)
 
 
@@ -67,10 +78,11 @@ def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolera
     """Return the cone of half-angle ``angle`` around the unit vector ``axis``, its side ``length`` long."""
     c, s = float(np.cos(angle)), float(np.sin(angle))
     first, second = across(axis)
-    v, w = np.meshgrid(np.linspace(0.0, TURN, _ROUND), np.linspace(0.0, length, 9))
-    direction = c * axis + s * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
     form = c * c * np.eye(3) - np.outer(axis, axis)
     Q = matrix(form, -2.0 * form @ apex, float(apex @ form @ apex))
+    angles = around(Q, apex + c * length * axis, s * length * first, s * length * second, tolerance)
+    v, w = np.meshgrid(angles, [0.0, tolerance, length])  # the apex has no normal: it colours a speck only
+    direction = c * axis + s * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
     height = float(axis @ apex)
     sign = 1.0 if c >= 0.0 else -1.0
     clip = np.array([[*(-sign * axis), -sign * height], [*(sign * axis), sign * (height + c * length)]])
@@ -81,10 +93,10 @@ def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolera
 def disk(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float, role: str = "body") -> Surface:
     """Return a disk whose outer side is the one that ``axis`` points to."""
     first, second = across(axis)
-    v, r = np.meshgrid(np.linspace(0.0, TURN, _ROUND), np.linspace(0.0, radius, 5))
-    grid = centre + r[..., None] * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
     ball = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     Q = matrix(np.zeros((3, 3)), axis, -float(axis @ centre))
+    v, r = np.meshgrid(around(Q, centre, radius * first, radius * second, tolerance), [0.0, radius])
+    grid = centre + r[..., None] * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
     rim = circle(centre, axis, radius, tolerance)
     return Surface(Q, np.empty((0, 4)), (grid,), (), (rim,), (ball,), role=role)
 
@@ -94,10 +106,10 @@ def cylinder(
 ) -> Surface:
     """Return the side of a cylinder around the unit vector ``axis``."""
     first, second = across(axis)
-    v, w = np.meshgrid(np.linspace(0.0, TURN, _ROUND), np.linspace(-0.5 * height, 0.5 * height, _LONG))
-    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
     form = np.eye(3) - np.outer(axis, axis)
     Q = matrix(form, -2.0 * form @ centre, float(centre @ form @ centre) - radius * radius)
+    v, w = np.meshgrid(around(Q, centre, radius * first, radius * second, tolerance), [-0.5 * height, 0.5 * height])
+    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
     middle = float(axis @ centre)
     clip = np.array([[*axis, middle + 0.5 * height], [*(-axis), -middle + 0.5 * height]])
     rims = tuple(circle(centre + s * height * axis, axis, radius, tolerance) for s in (-0.5, 0.5))
@@ -112,7 +124,7 @@ def rectangle(
     normal = np.cross(units[0], units[1])
     sides = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
     rim = centre + sides[:, :1] * first + sides[:, 1:] * second
-    b, a = np.meshgrid(np.linspace(-1.0, 1.0, 9), np.linspace(-1.0, 1.0, 9))
+    b, a = np.meshgrid([-1.0, 1.0], [-1.0, 1.0])
     grid = centre + a[..., None] * first + b[..., None] * second
     clip = np.array(
         [
