@@ -69,17 +69,17 @@ $(VENV)/.ready: pyproject.toml requirements.lock
 	  else echo 'this Python has no venv; install it: sudo apt-get install python3-venv'; exit 2; fi; }
 	@echo 'setting up $(VENV) from requirements.lock (once)'
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	@$(BIN)/python -m pip install -q --disable-pip-version-check --require-hashes -r requirements.lock
-	@$(BIN)/python -m pip install -q --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes -r requirements.lock
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check --no-deps --no-build-isolation -e .
 	@$(BIN)/python -m atlas.render.gl --install
 	@touch $@
 
 $(VENV)/.bench: requirements-bench.lock | setup
-	@$(BIN)/python -m pip install -q --disable-pip-version-check --require-hashes -r requirements-bench.lock || echo 'heyoka could not be installed: the benchmark goes on without that peer'
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes -r requirements-bench.lock || echo 'heyoka could not be installed: the benchmark goes on without that peer'
 	@touch $@
 
 # Rewrites the locks from pyproject.toml, for every Python from 3.11 up.
 lock: | setup
-	@$(BIN)/python -m pip install -q --disable-pip-version-check 'uv==0.13.8'
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check 'uv==0.13.8'
 	@$(BIN)/uv pip compile -q --universal --python-version 3.11 --generate-hashes --no-header --no-annotate --extra test pyproject.toml -o requirements.lock
 	@$(BIN)/uv pip compile -q --universal --python-version 3.11 --generate-hashes --no-header --no-annotate --extra bench -c requirements.lock pyproject.toml -o requirements-bench.lock
