@@ -5,6 +5,7 @@ body turns about it by the elementary motion mf89. Both feel one magnetic field,
 """
 
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -19,8 +20,10 @@ from atlas.scene.family import components
 from atlas.scene.sample import curve, quarter_pixel
 from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
-WIDTH, HEIGHT, MARGIN = 178.0, 88.0, 16.0
+WIDTH, HEIGHT = 178.0, 88.0
+VIEW = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")
 MANY = 200
+Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def scene(
@@ -51,6 +54,8 @@ def scene(
     spun = (abs(motion.k) + abs(motion.phi)) * stop / (2 * np.pi) + stop / particle.period
     if not spun < MANY:
         raise DomainError(f"In this flight the body makes {spun:.3g} turns, and more than {MANY} cannot be drawn.")
+    axes = across(flight, B)
+    drawn = paths(flight, axes, stop)
     return Scene(
         title=title(__doc__),
         caption=(
@@ -71,43 +76,51 @@ def scene(
             f"projected on "
             "the plane across the magnetic field."
         ),
-        panels=(space(flight, B, stop), projection(flight, B, stop, unit)),
+        panels=(space(flight, B, drawn), projection(flight, axes, drawn, unit)),
         columns=2,
         size=(WIDTH, HEIGHT),
     )
 
 
-def paths(flight: Flight, stop: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the path of the centre of mass, that of the point, and the arms between them, (M, 2, 3)."""
+def across(flight: Flight, B: FloatArray) -> FloatArray:
+    """Return the axes of panel (b) as columns: x along the drift [E, B], or along e1 where there is none."""
+    drifts = bool(flight.particle.drift.any())
+    first = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])
+    return np.stack([first, np.cross(B / np.linalg.norm(B), first)], axis=1)
+
+
+def paths(flight: Flight, axes: FloatArray, stop: float) -> Paths:
+    """Return the path of the centre of mass, that of the point, and the arms between them, (M, 2, 3), for both panels.
+
+    They are as fine as the panel asks for in which they are larger.
+    """
     rough = flight.position(np.linspace(0.0, stop, 257))
-    size = quarter_pixel(float(np.ptp(rough, axis=0).max()), HEIGHT - MARGIN)
-    centre = curve(flight.particle.position, 0.0, stop, size, pieces=64)
-    point = curve(flight.position, 0.0, stop, size, pieces=64)
+    extents = (np.ptp(rough @ seen, axis=0) / [WIDTH / 2, HEIGHT] for seen in (frame(VIEW)[:2].T, axes))
+    fine = quarter_pixel(min(float(extent.max()) for extent in extents), 1.0)
+    centre = curve(flight.particle.position, 0.0, stop, fine, pieces=64)
+    point = curve(flight.position, 0.0, stop, fine, pieces=64)
     times = np.linspace(0.0, stop, 33)
     return centre, point, np.stack([flight.particle.position(times), flight.position(times)], axis=1)
 
 
-def space(flight: Flight, B: FloatArray, stop: float) -> Space:
+def space(flight: Flight, B: FloatArray, drawn: Paths) -> Space:
     """Panel (a): the paths in space, with the directions of the fields in the lower left corner."""
-    view = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")
-    layers, seen = bundle(*paths(flight, stop))
-    eye = frame(view)
+    layers, seen = bundle(*drawn)
+    eye = frame(VIEW)
     flat = seen @ eye.T
     length = 0.3 * float(np.ptp(flat, axis=0).max())
     corner = np.array([flat[:, 0].min(), flat[:, 1].min() - 0.5 * length, 0.0]) @ eye
     for field, role, name in ((B, "field", r"$\mathbf{B}$"), (flight.particle.E, "electric", r"$\mathbf{E}$")):
         if np.any(field):
             layers.append(Arrow(corner, corner + length * field / np.linalg.norm(field), role, name))
-    return replace(view, layers=tuple(layers))
+    return replace(VIEW, layers=tuple(layers))
 
 
-def projection(flight: Flight, B: FloatArray, stop: float, unit: str) -> Plane:
-    """Panel (b): the paths on the plane across B; x runs along the drift [E, B], or along e1 where there is none."""
-    drifts = bool(np.cross(flight.particle.E, B).any())
-    first = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])
-    axes = np.stack([first, np.cross(B / np.linalg.norm(B), first)], axis=1)
-    centre, point, arms = (path @ axes for path in paths(flight, stop))
+def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Plane:
+    """Panel (b): the paths on the plane across B."""
+    centre, point, arms = (path @ axes for path in drawn)
     layers, _ = bundle(centre, point, arms, ("centre of mass", "point"))
+    drifts = bool(flight.particle.drift.any())
     along = r"[\mathbf{E},\mathbf{B}]" if drifts else r"\mathbf{e}_1"
     across = r"\mathbf{E}_\perp" if drifts else r"[\hat{\mathbf{B}},\mathbf{e}_1]"
     return Plane(

@@ -14,7 +14,7 @@ from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.family import Window, components, graph
 from atlas.scene.words import plain, plain_setting, tex_equals, tex_setting, title
 
-WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 14.0
+WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
 CLOSE = 1e-9
 """Nearer to the pole than this part of B2, a float omega2 does not tell phi well enough to draw."""
 
@@ -86,7 +86,7 @@ def frequencies(hyperbola: Hyperbola, field: tuple[float, float], ends: tuple[fl
         # phi ~ x - 1/x: as large at 1/x as at x, so it leaves the window nearer to the pole than this
         x = abs(1 + ends[1] / B2)
         near = max(1 / (x * (1 + 2 * top / float(np.abs(phi).min()))), CLOSE)
-        pieces = graph(proper, B2, view, near, WIDTH - MARGIN)
+        pieces = graph(proper, B2, view, near, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN))
         layers.append(Curve(view.upright(-B2), "pole"))
         layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B_2$", "note", (4.0, 5.0)))
     else:
@@ -114,7 +114,8 @@ def quotients(field: tuple[float, float], ends: tuple[float, float], free: float
             return np.asarray(free * (1 + 1 / x))
 
         layers += [Curve(view.upright(-B2), "pole"), Curve(view.level(free), "reference", "free body")]
-        layers += [Curve(piece, "main") for piece in graph(quotient, B2, view, 0.1, WIDTH - MARGIN)]
+        pieces = graph(quotient, B2, view, 0.1, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN))
+        layers += [Curve(piece, "main") for piece in pieces]
     else:
         layers.append(Curve(view.level(0.0), "main"))
     layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))

@@ -12,7 +12,7 @@ from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.family import asymptote, branches, components, places, unstable, window
 from atlas.scene.words import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting, title
 
-WIDTH, MARGIN = 86.0, 14.0
+WIDTH, HEIGHT, MARGIN = 86.0, 82.0, 10.0
 
 
 def scene(
@@ -27,7 +27,7 @@ def scene(
     centre = np.array([-B2, -B3])
     bands = unstable(ratio, field)
     named = places(ratio, field)
-    pieces = branches(ratio, field, view, WIDTH - MARGIN)
+    pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))
     layers: list[Layer] = [Region(view.band(*interval), "unstable_region") for interval in bands if B3]
     layers += [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     if B2 and B3:
@@ -65,7 +65,7 @@ def scene(
                 y_limits=view.y,
             ),
         ),
-        size=(WIDTH, WIDTH - 4.0),
+        size=(WIDTH, HEIGHT),
     )
 
 

@@ -11,7 +11,7 @@ from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.family import asymptote, branches, components, places, window
 from atlas.scene.words import body_name, listed, plain, plain_vector, quotient, tex, tex_vector, title
 
-WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 14.0
+WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 10.0
 ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 
 
@@ -34,7 +34,7 @@ def scene(
         layers += [Curve(asymptote(ratio, field, view), "asymptote") for ratio in ratios]
     for ratio, role in zip(ratios if B2 and B3 else ratios[:1], ROLES, strict=False):
         name = f"$I={tex(quotient(ratio))}$" if B2 and B3 else "every $I$"
-        pieces = branches(ratio, field, view, WIDTH - MARGIN)
+        pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))
         layers += [Curve(piece, role, "" if order else name) for order, piece in enumerate(pieces)]
     common = places(ratios[0], field)[:2]
     layers.append(Points(centre[None], "centre"))

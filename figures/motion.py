@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
-from atlas.core.inputs import FloatArray, positive
+from atlas.core.inputs import positive
 from atlas.core.integrals import shape_factors
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space
 from atlas.scene.sample import curve, quarter_pixel
 from atlas.scene.solids import cone, sphere
 from atlas.scene.words import plain, plain_setting, tex, tex_equals, tex_setting, title
 
-WIDTH, HEIGHT, MARGIN = 178.0, 140.0, 16.0
+WIDTH, HEIGHT, MARGIN = 178.0, 140.0, 10.0
 FEW = 25.0
 LONG = 1e8
 """The last panel goes on for so many units of the others' time."""
@@ -133,24 +133,22 @@ def course(
     low, high = float(marks.min()), float(marks.max())
     pad = 0.14 * (high - low) or 0.5 * abs(high) or 1.0
     limits = (low - pad, high + pad)
-    scale = np.array([(limits[1] - limits[0]) / stop, 1.0])
-    size = quarter_pixel(limits[1] - limits[0], HEIGHT / 2 - MARGIN)
+    wide, high = (WIDTH / 2 - MARGIN) / stop, (HEIGHT / 2 - MARGIN) / (limits[1] - limits[0])
+    scale, fine = np.array([wide, high, high, high]), quarter_pixel(1.0, 1.0)
+    path = curve(lambda t: np.column_stack([t, vector(t)]), 0.0, stop, fine, pieces=32, scale=scale)
     layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
     if level is not None:
         layers.append(Curve(np.array([[0.0, level], [stop, level]]), "reference", r"$(\mathbf{m},\hat{\mathbf{B}})$"))
-    for i, (name, role) in enumerate(zip(names, ("main", "second", "third"), strict=True)):
-
-        def component(t: FloatArray, i: int = i) -> FloatArray:
-            return np.asarray(np.stack([t, vector(t)[:, i]], axis=1) * scale)
-
-        line = curve(component, 0.0, stop, size, pieces=32) / scale
+    for i, (name, role) in enumerate(zip(names, ("main", "second", "third"), strict=True), 1):
+        line = path[:, [0, i]]
         layers += [Curve(line, role), Label(line[0.86 * stop <= line[:, 0]][0], name, role, (0.0, 4.0))]
     return Plane(tuple(layers), x_label, y_label, (0.0, stop), limits, title=heading)
 
 
 def residuals(motion: ElementaryMotion, stop: float, unit: str) -> Plane:
     """Panel (d): the running maximum of what each invariant has changed by, in units of 1e-16 of its terms."""
-    times = np.geomspace(1e-2 * stop, LONG * stop, 4001)
+    fine = quarter_pixel(1.0, WIDTH / 2 - MARGIN)
+    times = np.geomspace(1e-2 * stop, LONG * stop, round(1.0 / fine) + 1)
     first, later, sizes = motion.invariants(), motion.invariants(times), term_sizes(motion)
     layers: list[Layer] = []
     top = 1.0

@@ -12,10 +12,11 @@ from atlas.core.inputs import FloatArray
 from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
 from atlas.scene.libration import Libration
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.sample import flat
 from atlas.scene.words import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
-WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 16.0
+WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
+SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)
 
 
 def scene(
@@ -123,10 +124,8 @@ def course(libration: Libration, turns: float, view: tuple[float, float], unit: 
     if high == low:
         line = np.array([[0.0, low], [1.0, low]])
     else:
-        size = quarter_pixel(limits[1] - limits[0], HEIGHT - MARGIN)
-        stretch = (limits[1] - limits[0]) / (turns * libration.period)
-        scaled = curve(lambda s: libration.path(s) * [stretch, 1.0], 0.0, turns, size, pieces=max(8, round(8 * turns)))
-        line = scaled / [stretch, 1.0]
+        window = ((0.0, turns * libration.period), limits)
+        line = flat(libration.path, 0.0, turns, window, SIZE, pieces=max(8, round(8 * turns)))
     ends = (float(line[0, 0]), float(line[-1, 0]))
     layers: tuple[Layer, ...] = (
         *(Curve(np.array([[ends[0], u], [ends[1], u]]), "reference") for u in dict.fromkeys(libration.range)),
@@ -146,8 +145,4 @@ def graph(
     function: Callable[[FloatArray], FloatArray], view: tuple[float, float], limits: tuple[float, float]
 ) -> FloatArray:
     """Return the graph of a function inside a window."""
-    scale = np.array([1.0, (view[1] - view[0]) / (limits[1] - limits[0])])
-    box = (np.array([view[0], limits[0]]) * scale, np.array([view[1], limits[1]]) * scale)
-    tolerance = quarter_pixel(view[1] - view[0], WIDTH / 3 - MARGIN)
-    points = curve(lambda u: np.stack([u, function(u)], axis=1) * scale, *view, tolerance, pieces=32, box=box)
-    return np.asarray(points / scale)
+    return flat(lambda u: np.stack([u, function(u)], axis=1), *view, (view, limits), SIZE, pieces=32)

@@ -15,10 +15,12 @@ from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.libration import Libration
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.sample import curve, flat, quarter_pixel
 from atlas.scene.words import listed, plain, plain_setting, tex, tex_equals, tex_setting, title
 
-WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 16.0
+WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 10.0
+DEEP = 0.02
+"""How far down panel (b) goes at least, as a part of the largest departure."""
 ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 
 
@@ -90,16 +92,11 @@ def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: flo
     lowest, highest = min(0.0, *(x.below for x in librations)), max(0.0, *(x.above for x in librations))
     pad = 0.16 * (highest - lowest)
     limits = (lowest - pad, highest + pad)
-    scale = np.array([(highest - lowest) / stop, 1.0])
-    size = quarter_pixel(highest - lowest, HEIGHT - MARGIN)
+    size = (WIDTH / 2 - MARGIN, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
     for libration, value, role in zip(librations, omega1, ROLES, strict=False):
-        whole = stop / libration.period
-
-        def path(s: FloatArray, libration: Libration = libration) -> FloatArray:
-            return np.asarray(libration.departure(s) * scale)
-
-        line = curve(path, 0.0, 1.05 * whole, size, pieces=max(8, round(10 * whole))) / scale
+        whole, window = stop / libration.period, ((0.0, stop), limits)
+        line = flat(libration.departure, 0.0, 1.05 * whole, window, size, pieces=max(8, round(10 * whole)))
         far = int(np.argmax(np.abs(line[line[:, 0] < 0.9 * stop, 1])))
         side = float(np.sign(line[far, 1]))
         tangent = np.array([[0.0, 0.0], [1.0, libration.speed]]) * min(stop, reach / abs(libration.speed)) * 0.5
@@ -134,12 +131,12 @@ def departures(
         moved = [Libration(start(ratio, field, float(value), omega2)) for value in 10.0**logarithm]
         return np.stack([logarithm, [np.log10(max(x.above, -x.below)) for x in moved]], axis=1)
 
-    span = float(np.log10(ends[1] / ends[0]))
-    line = 10.0 ** curve(departure, np.log10(ends[0]), np.log10(ends[1]), quarter_pixel(span, WIDTH / 2), pieces=6)
+    decade = max((WIDTH / 2 - MARGIN) / np.log10(ends[1] / ends[0]), (HEIGHT - MARGIN) / np.log10(3.0 / DEEP))
+    line = 10.0 ** curve(departure, np.log10(ends[0]), np.log10(ends[1]), quarter_pixel(1.0, decade), pieces=6)
     dots = np.array([[a, max(x.above, -x.below)] for a, x in zip(size, librations, strict=True)])
     layers: list[Layer] = [Curve(line, "main"), Points(dots, "start")]
     top = float(line[:, 1].max())
-    limits = (min(0.5 * float(line[:, 1].min()), 0.02 * top), 3.0 * top)
+    limits = (min(0.5 * float(line[:, 1].min()), DEEP * top), 3.0 * top)
     if nu2 > 0:
         slope = abs(field[0]) / float(np.sqrt(nu2))
         law = np.array([[x, slope * x] for x in (ends[0], min(ends[1], 2.0 * top / slope))])

@@ -18,10 +18,10 @@ from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.family import Window, components, graph, seen, unstable
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.sample import flat
 from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
 
-WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 16.0
+WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 10.0
 HIGH, WIDE = 1.6, 1.0
 """The map shows |x| up to HIGH, and tau up to WIDE or a little beyond that of the field."""
 ROLES = ("third", "second", "main", "fourth", "sixth", "seventh", "eighth")
@@ -91,7 +91,7 @@ def course(
     def squared(x: FloatArray) -> FloatArray:
         return np.asarray(hyperbola.stability(B2 * (x - 1)))
 
-    pieces = graph(squared, B2, view, max(pole, 1e-6), WIDTH / 2 - MARGIN)
+    pieces = graph(squared, B2, view, max(pole, 1e-6), (WIDTH / 2 - MARGIN, HEIGHT - MARGIN))
     layers += [Curve(piece, "main") for piece in pieces]
     if bands:
         layers.append(Points(np.array([[edge, 0.0] for interval in bands for edge in interval]), "point"))
@@ -153,7 +153,7 @@ def level(value: float, one_less: float, view: Window) -> list[FloatArray]:
         return np.stack([x * height * np.cos(s) / np.abs(x * x + one_less), x], axis=1)
 
     gap = float(np.arcsin(min(1.0, np.sqrt(max(0.0, -one_less)) / height)))
-    tolerance = quarter_pixel(view.x[1], WIDTH / 2 - MARGIN)
+    size = (WIDTH / 2 - MARGIN, HEIGHT - MARGIN)
     ends = ((0.0, gap * (1 - 1e-6)), (gap * (1 + 1e-6) or 1e-9, np.pi / 2))
-    pieces = [curve(point, *pair, tolerance, pieces=32, box=view.box) for pair in ends if pair[1] > pair[0]]
+    pieces = [flat(point, *pair, (view.x, view.y), size, pieces=32) for pair in ends if pair[1] > pair[0]]
     return [piece[shown] for piece in pieces if (shown := seen(piece, view)).any()]

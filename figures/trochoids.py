@@ -43,7 +43,7 @@ def scene(
         def path(t: Any, particle: ParticleMotion = particle) -> Any:
             return particle.position(t) @ plane.T
 
-        tolerance = quarter_pixel(1.12 * span, WIDTH - MARGIN)
+        tolerance = quarter_pixel(1.1 * span, 0.9 * WIDTH)
         points = curve(path, 0.0, turns * period, tolerance, pieces=max(8, round(8 * turns)))
         paths.append((speed, points, path(period * np.arange(1.0, turns + 0.5))))
     left = min(0.0, *(float(points[:, 0].min()) for _, points, _ in paths))

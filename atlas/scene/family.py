@@ -12,7 +12,7 @@ from atlas.core.inputs import FloatArray, number
 from atlas.core.integrals import shape_factors
 from atlas.core.motion import components as parts
 from atlas.errors import DomainError
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.sample import flat
 
 NAMES = ("B2", "B3")
 _CLOSE = 1e-6
@@ -63,8 +63,8 @@ def window(field: Any, reach: float = 2.6) -> Window:
     return Window((-B2 - half[0], -B2 + half[0]), (-B3 - half[1], -B3 + half[1]))
 
 
-def branches(ratio: Any, field: Any, view: Window, millimetres: float) -> tuple[FloatArray, ...]:
-    """Return the pieces (N, 2) of the curve mf72 that the window shows, drawn ``millimetres`` wide.
+def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, float]) -> tuple[FloatArray, ...]:
+    """Return the pieces (N, 2) of the curve mf72 that the window shows, drawn ``millimetres`` wide and high.
 
     With x = (omega2 + B2)/B2 the curve is omega3 + B3 = (B3/I)(x - (1-I)/x), mf76; each branch runs in log |x| from the
     edge of the window to where it has left the window at the pole. For I = 1, B3 = 0 or B2 = 0 it is straight lines.
@@ -90,27 +90,23 @@ def branches(ratio: Any, field: Any, view: Window, millimetres: float) -> tuple[
 
 
 def graph(
-    function: Callable[[FloatArray], Any], B2: float, view: Window, near: float, millimetres: float
+    function: Callable[[FloatArray], Any], B2: float, view: Window, near: float, millimetres: tuple[float, float]
 ) -> tuple[FloatArray, ...]:
     """Return the pieces (N, 2) that the window shows of a graph over omega2 with the pole -B2.
 
     ``function`` is of x = (omega2 + B2)/B2, which is sampled in log |x| from ``near``, where the graph has left the
     window at the pole.
     """
-    stretch = np.array([1.0, view.half[0] / view.half[1]])
-    tolerance = quarter_pixel(2 * view.half[0], millimetres)
-    low, high = view.box
-    far = max(abs(low[0] + B2), abs(high[0] + B2)) / abs(B2)
+    far = max(abs(edge + B2) for edge in view.x) / abs(B2)
     near = min(near, far / 2)
     pieces = []
     for side in (1.0, -1.0):
 
         def points(s: FloatArray, side: float = side) -> FloatArray:
             x = side * np.exp(s)
-            return np.asarray(np.stack([B2 * (x - 1), function(x)], axis=1) * stretch)
+            return np.stack([B2 * (x - 1), function(x)], axis=1)
 
-        box = (low * stretch, high * stretch)
-        found = curve(points, float(np.log(near)), float(np.log(far)), tolerance, pieces=16, box=box) / stretch
+        found = flat(points, float(np.log(near)), float(np.log(far)), (view.x, view.y), millimetres, pieces=16)
         pieces.append(found[seen(found, view)])
     return tuple(piece for piece in pieces if len(piece))
 

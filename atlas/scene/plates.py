@@ -49,7 +49,7 @@ def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = 
     """Return the drawn pieces of a quadric that has sheets: 'both', or the one alone on which the 'origin' lies."""
     Q = quadrics.quadric_matrix(I, field)
     high = extent(quadric, field)
-    fine = tolerance(high)
+    fine = tolerance(high if which == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
     if quadric.kind != "two-sheet hyperboloid":
         return [quadrics.sheet(quadric, Q, -high, high, fine)]
     w = quadrics.sheet_axis(quadric)

@@ -91,7 +91,9 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     edges = [h for h in (low, high) if not (rest < 0.0 and abs(h) <= C * (1.0 + 1e-9)) and h != 0.0]
     rims = [_round(ring(parameter(h)), tolerance) for h in edges]
     n, middle = axes[w], float(axes[w] @ centre)
-    clip = np.array([[*n, middle + high], [*(-n), -middle - low]])
+    # a plane that touched the sheet in its vertex would cut, or not, as it is rounded: one through the centre keeps off
+    top, bottom = (h if h in edges else 0.0 for h in (high, low))
+    clip = np.array([[*n, middle + top], [*(-n), -middle - bottom]])
     return Surface(Q, clip, (grid,), (*meridians, *parallels), tuple(rims), role=role)
 
 

@@ -31,21 +31,41 @@ def curve(
     *,
     pieces: int = 8,
     box: tuple[FloatArray, FloatArray] | None = None,
+    scale: FloatArray | float = 1.0,
 ) -> FloatArray:
     """Sample ``function`` from ``start`` to ``stop`` so that no chord is further than ``tolerance`` from the curve.
 
     ``function`` takes parameters (N,) and returns points (N, D); it is first cut into ``pieces`` equal parts, each of
     which is cut again until three inner points of it, placed so that no symmetry deceives, lie on the chord. Parts that
-    lie wholly on one outer side of ``box`` = (lowest, highest corner) are left as they are.
+    lie wholly on one outer side of ``box`` = (lowest, highest corner) are left as they are. Distances are those of the
+    points times ``scale`` (D,).
     """
-    return _cut(function, start, stop, tolerance, pieces, box)[1]
+    return _cut(function, start, stop, tolerance, pieces, box, scale)[1]
+
+
+def flat(
+    function: Callable[[FloatArray], FloatArray],
+    start: float,
+    stop: float,
+    limits: tuple[tuple[float, float], tuple[float, float]],
+    millimetres: tuple[float, float],
+    *,
+    pieces: int = 8,
+) -> FloatArray:
+    """Sample a curve (N, 2) of a panel with these ``limits`` of x and y to a quarter of a pixel, and only inside it.
+
+    ``millimetres`` are the panel's width and height on paper.
+    """
+    low, high = np.array(limits).T
+    scale = np.array(millimetres) / (high - low)
+    return curve(function, start, stop, quarter_pixel(1.0, 1.0), pieces=pieces, box=(low, high), scale=scale)
 
 
 def knots(
     function: Callable[[FloatArray], FloatArray], start: float, stop: float, tolerance: float, pieces: int = 8
 ) -> FloatArray:
     """Return the parameters of the points of `curve`."""
-    return _cut(function, start, stop, tolerance, pieces, None)[0]
+    return _cut(function, start, stop, tolerance, pieces, None, 1.0)[0]
 
 
 def _cut(
@@ -55,6 +75,7 @@ def _cut(
     tolerance: float,
     pieces: int,
     box: tuple[FloatArray, FloatArray] | None,
+    scale: FloatArray | float,
 ) -> tuple[FloatArray, FloatArray]:
     """Return parameters and points; the sag of an arc falls with the square of its parts, which tells their number."""
     s = np.linspace(start, stop, pieces + 1)
@@ -65,10 +86,11 @@ def _cut(
         if i.size == 0:
             break
         inner = function((s[i] + _LOOKS * (s[i + 1] - s[i])).ravel()).reshape(len(_LOOKS), i.size, -1)
-        sags = np.stack([_distance(y, x[i], x[i + 1]) for y in inner])
+        a, b = x[i] * scale, x[i + 1] * scale
+        sags = np.stack([_distance(y * scale, a, b) for y in inner])
         sag, bend = sags.max(axis=0), sags / (_LOOKS * (1.0 - _LOOKS))
         plain = bend.max(axis=0) < _EVEN * bend.min(axis=0)
-        plain &= sag < _ARC * np.linalg.norm(x[i + 1] - x[i], axis=1)
+        plain &= sag < _ARC * np.linalg.norm(b - a, axis=1)
         bent = sag > _LEAVE * tolerance
         if box is not None:
             corners = np.concatenate([x[None, i], inner, x[None, i + 1]])

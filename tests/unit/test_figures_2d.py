@@ -183,7 +183,7 @@ def test_branches_reach_the_edges_of_the_window_and_stop_there() -> None:
     for ratio in (1.5, 0.5):
         view = window((1.0, 2.0))
         low, high = view.box
-        for piece in branches(ratio, (1.0, 2.0), view, 72.0):
+        for piece in branches(ratio, (1.0, 2.0), view, (72.0, 72.0)):
             assert ((piece[1:-1] >= low) & (piece[1:-1] <= high)).all()
             for end in (piece[0], piece[-1]):
                 assert ((end <= low) | (end >= high)).any()
@@ -191,7 +191,7 @@ def test_branches_reach_the_edges_of_the_window_and_stop_there() -> None:
 
 def test_branches_are_sampled_by_their_bends() -> None:
     """Neither branch is starved, and a quarter pixel takes no more than some hundred points."""
-    pieces = branches(1.5, (1.0, 2.0), window((1.0, 2.0)), 72.0)
+    pieces = branches(1.5, (1.0, 2.0), window((1.0, 2.0)), (72.0, 72.0))
     assert len(pieces) == 2
     assert all(20 < len(piece) < 400 for piece in pieces)
 
