@@ -3,6 +3,7 @@
 import ast
 import inspect
 import sys
+import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
@@ -32,7 +33,15 @@ class Recipe:
             if name not in self.parameters:
                 raise _unknown("parameter", name, self.parameters, f"the figure {self.name!r}")
         used = {name: _like(parameters.get(name, default), default) for name, default in self.parameters.items()}
-        return replace(self.make(**used), parameters=used)
+        try:
+            scene = self.make(**used)
+        except AtlasError:
+            raise
+        except Exception as error:
+            raise _broken(self.source, error) from error
+        if not isinstance(scene, Scene):
+            raise AtlasError(f"{_short(self.source)}: scene() must return a Scene, not {type(scene).__name__}")
+        return replace(scene, parameters=used)
 
 
 def names() -> list[str]:
@@ -42,7 +51,11 @@ def names() -> list[str]:
 
 def title(name: str) -> str:
     """Return the title of a recipe, the first line of its docstring, without running it."""
-    docstring = ast.get_docstring(ast.parse(_source(name).read_text(encoding="utf-8")))
+    source = _source(name)
+    try:
+        docstring = ast.get_docstring(ast.parse(source.read_text(encoding="utf-8"), str(source)))
+    except (SyntaxError, ValueError) as error:
+        raise _broken(source, error) from error
     if not docstring:
         raise AtlasError(f"figures/{name}.py has no docstring; its first line would be the title of the figure")
     return docstring.splitlines()[0].rstrip(".")
@@ -57,7 +70,12 @@ def load(name: str) -> Recipe:
         raise AtlasError(f"{source} cannot be loaded as Python")
     module = module_from_spec(spec)
     sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
+    try:
+        spec.loader.exec_module(module)
+    except AtlasError:
+        raise
+    except Exception as error:
+        raise _broken(source, error) from error
     make = getattr(module, "scene", None)
     if make is None:
         raise AtlasError(f"figures/{name}.py has no function scene(); a recipe is one that returns a Scene")
@@ -75,6 +93,22 @@ def _source(name: str) -> Path:
     if name not in known:
         raise _unknown("figure", name, known, "figures/")
     return folder("figures") / f"{name}.py"
+
+
+def _broken(source: Path, error: Exception) -> AtlasError:
+    """Say in one sentence what went wrong in a recipe, and in which of its lines."""
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(source)]
+    if isinstance(error, SyntaxError):
+        lines, error_text = [error.lineno], error.msg
+    else:
+        error_text = str(error)
+    where = f", line {lines[-1]}" if lines and lines[-1] else ""
+    return AtlasError(f"{_short(source)}{where}: {type(error).__name__}: {error_text}")
+
+
+def _short(source: Path) -> str:
+    """Name a recipe's file as the user knows it."""
+    return f"figures/{source.name}"
 
 
 def _unknown(what: str, name: str, known: Iterable[str], where: str) -> AtlasError:

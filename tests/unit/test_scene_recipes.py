@@ -67,6 +67,37 @@ def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
         recipes.title("mute")
 
 
+@pytest.mark.parametrize(
+    ("text", "tells"),
+    [
+        (b'"""Broken."""\ndef scene(:\n', r"figures/broken\.py, line 2: SyntaxError: invalid syntax"),
+        (
+            b'"""Broken."""\nimport no_such_module\n',
+            r"figures/broken\.py, line 2: ModuleNotFoundError: .*no_such_module",
+        ),
+        (b'"""Broken."""\ndef scene():\n    return 1 / 0\n', r"figures/broken\.py, line 3: ZeroDivisionError"),
+        (
+            b'"""Broken."""\ndef scene(): return None\n',
+            r"figures/broken\.py: scene\(\) must return a Scene, not NoneType",
+        ),
+        (b"\xff\xfe", r"figures/broken\.py, line 1: SyntaxError"),
+    ],
+)
+def test_a_broken_recipe_is_told_with_its_line(folder: Path, text: bytes, tells: str) -> None:
+    """Whatever goes wrong inside a recipe is one sentence that says where."""
+    (folder / "broken.py").write_bytes(text)
+    with pytest.raises(AtlasError, match=tells):
+        recipes.load("broken").scene()
+
+
+@pytest.mark.parametrize("text", [b'"""Broken."""\ndef scene(:\n', b"\xff\xfe"])
+def test_a_title_that_cannot_be_read_is_told(folder: Path, text: bytes) -> None:
+    """A recipe that is no Python has no title, and the error names it."""
+    (folder / "broken.py").write_bytes(text)
+    with pytest.raises(AtlasError, match=r"figures/broken\.py"):
+        recipes.title("broken")
+
+
 def test_an_unknown_role_is_named_with_the_nearest() -> None:
     """The error says which role is meant."""
     with pytest.raises(AtlasError, match=r"'hyperbolla'; nearest is 'hyperbola'"):
