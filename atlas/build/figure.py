@@ -2,7 +2,10 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    from atlas.render.drawing import Drawn
 
 OUT = Path("build/figures")
 
@@ -14,10 +17,13 @@ def build_figure(
     *,
     renderer: Literal["vector", "shaded"] = "vector",
     **parameters: Any,
-) -> list[Path]:
-    """Draw the recipe `name` into out/NAME.FORMAT for each format, each file whole or not at all; return the files."""
+) -> "list[Drawn]":
+    """Draw the recipe `name` into out/NAME.FORMAT for each format, each file whole or not at all.
+
+    Return for each format the file, and a line to tell if another renderer drew it than the one asked for.
+    """
     from atlas.render.drawing import draw_all
     from atlas.scene import recipes
 
     scene = recipes.load(name).scene(**parameters)
-    return [drawn.path for drawn in draw_all(scene, {out / f"{name}.{kind}": kind for kind in formats}, renderer)]
+    return draw_all(scene, {out / f"{name}.{kind}": kind for kind in formats}, renderer)

@@ -55,6 +55,8 @@ for module in (
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and end the process: 0 well, 1 something failed, 2 a wrong input, 130 interrupted."""
+    if sys.stdout is None:
+        sys.exit(complain("standard output is closed", 1))
     try:
         status = atlas.main(args=None if arguments is None else list(arguments), standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:

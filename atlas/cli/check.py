@@ -26,7 +26,7 @@ from atlas.cli.present import Sheet, dump, show
         "atlas check mine.csv --figure mine.pdf --json",
     ),
 )
-@click.argument("file", type=click.Path(path_type=Path), metavar="FILE.csv")
+@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="FILE.csv")
 @body_options
 @field_options
 @click.option("--omega2", type=REAL, help="Second component of the initial angular velocity.")
@@ -63,8 +63,11 @@ def command(file: Path, **options: Any) -> None:
     if options["as_json"]:
         dump(found.record())
         return
-    title = f"{found.file}: {found.rows} rows, case {found.case}"
+    title = f"{found.file}: {found.rows} row{'s' * (found.rows != 1)}, case {found.case}"
     heading, rows = found.column_table()
     show(Sheet(title, heading=heading, rows=rows))
     heading, rows = found.drift_table()
-    show(Sheet("what should not change", heading=heading, rows=rows, justify="left"))
+    if rows:
+        show(Sheet("what should not change", heading=heading, rows=rows, justify="left"))
+    if options["figure"] is not None:
+        click.echo(options["figure"])

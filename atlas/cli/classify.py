@@ -84,7 +84,7 @@ def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
     for index in range(3):
         rows = texts["axes"]
         lines.append(_line(f"e'_{index + 1}", rows and _tuple(rows[index]), "", "canonical axis", "mf61a"))
-    notes = [*texts.get("missing", {}).values(), certificate(options)]
+    notes = [*dict.fromkeys(texts.get("missing", {}).values()), certificate(options)]
     return Sheet(title=texts["kind"], lines=lines, notes=notes)
 
 

@@ -58,16 +58,20 @@ def command(
         raise click.UsageError("name the figures, or say --all; `atlas list` names them.")
     wanted = recipes.names() if everything else list(dict.fromkeys(names))
     parameters = dict(setting(text) for text in settings)
+    known = recipes.names()
     for name in wanted:
-        recipes.load(name)
+        if name not in known:
+            recipes.load(name)  # says which there are, before anything is drawn
     kinds = formats or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
     failed = 0
+    notes: dict[str, None] = {}  # each once, in order
     with bar("figures") as tell:
         for done, name in enumerate(wanted):
             tell(done, len(wanted), name)
             try:
-                for path in build_figure(name, kinds, out, renderer=renderer, **parameters):
-                    click.echo(path)
+                for drawn in build_figure(name, kinds, out, renderer=renderer, **parameters):
+                    click.echo(drawn.path)
+                    notes |= {drawn.note: None} if drawn.note else {}
             except AtlasError as error:
                 if len(wanted) == 1:
                     raise
@@ -75,6 +79,8 @@ def command(
                 failed = 1
         tell(len(wanted), len(wanted), "")
     sys.stdout.flush()
+    for note in notes:
+        click.echo(f"atlas: {note}", err=True)
     return failed
 
 

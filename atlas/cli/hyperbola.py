@@ -21,6 +21,7 @@ from atlas.cli.options import (
 )
 from atlas.cli.present import Line, Sheet, show
 
+CROSS = "With B3 = 0 the curve is this line and another, omega2 = -B2, on which omega3 is free."
 COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 
 
@@ -45,7 +46,7 @@ def command(**options: Any) -> None:
     from atlas.core.hyperbola import Hyperbola
 
     curve = Hyperbola(chosen_body(options), chosen_field(options))
-    points = list(options["omega2"]) or [float(x) for x in curve.sample(options["count"])[0]]
+    points = list(options["omega2"]) or sampled(curve, options["count"])
 
     def floats() -> dict[str, Any]:
         k, phi = along(curve.frequencies, points)
@@ -62,7 +63,14 @@ def command(**options: Any) -> None:
 
     texts = answer(options, body_parameters(options), floats, balls)
     if texts is not None:
-        show(sheet(texts, options))
+        show(sheet(texts, options, [] if curve.B3 else [CROSS]))
+
+
+def sampled(curve: Any, count: int) -> list[float]:
+    """Return omega2 of points on both branches; for B3 = 0 on the line omega3 = 0, without its crossing, the pole."""
+    if curve.B3:
+        return [float(x) for x in curve.sample(count)[0]]
+    return [float(x) for x in curve.branches(2 * count)[0][0] if x != curve.pole]
 
 
 def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
@@ -71,13 +79,15 @@ def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
     return {"pole": curve.pole, "unstable_band": curve.unstable_band, "points": rows}
 
 
-def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
+def sheet(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -> Sheet:
     """Lay the certified texts out, a row a point."""
     band = texts["unstable_band"]
     lines = [
         Line("-B2", "pole of omega3(omega2)", texts["pole"], "1/time", "mf76"),
-        Line("y", "unstable where ((omega2 + B2)/B2)^2 is in", f"({band[0]}, {band[1]})" if band else "nowhere"),
+        Line(
+            "y", "((omega2 + B2)/B2)^2 where the motion is unstable", f"({band[0]}, {band[1]})" if band else "nowhere"
+        ),
     ]
     heading = [f"{name} [1/time]" for name in COLUMNS[:-1]] + ["nutation^2 [1/time^2]"]
     rows = [[f"{float(row['omega2'])!r}", *(row[name] for name in COLUMNS[1:])] for row in texts["points"]]
-    return Sheet("hyperbola of elementary motions, mf72", lines, heading, rows, [certificate(options)])
+    return Sheet("hyperbola of elementary motions, mf72", lines, heading, rows, [*notes, certificate(options)])

@@ -1,28 +1,43 @@
 """``atlas list``: what there is to draw, to report and to give as a body."""
 
+from collections.abc import Callable
 from typing import Any
 
 import click
 
 from atlas.cli.options import Command
 from atlas.cli.present import Sheet, dump, show
+from atlas.errors import AtlasError
 
 
 @click.command("list", cls=Command, short_help="Name the figures, reports and shapes.")
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
-def command(as_json: bool) -> None:
-    """Name the figures with their titles, the reports, and the shapes of bodies with their dimensions."""
+def command(as_json: bool) -> int:
+    """Name the figures with their titles, the reports, and the shapes of bodies with their dimensions.
+
+    A recipe or a report that cannot be read does not hide the others; then the exit status is 1.
+    """
     from atlas.core.body import SHAPES
     from atlas.scene import recipes
 
+    figures, broken = titles(recipes.names(), recipes.title)
+    documents, also = titles(*reports())
     record: dict[str, Any] = {
-        "figures": {name: recipes.title(name) for name in recipes.names()},
-        "reports": reports(),
+        "figures": figures,
+        "reports": documents,
         "shapes": {name.replace("_", "-"): [n for n in names if n != "mass"] for name, (_, names) in SHAPES.items()},
     }
     if as_json:
         dump(record)
-        return
+    else:
+        lay_out(record)
+    for reason in broken + also:
+        click.echo(f"atlas: {reason}", err=True)
+    return 1 if broken or also else 0
+
+
+def lay_out(record: dict[str, Any]) -> None:
+    """Show the three lists as tables."""
     shapes = [[name, " ".join(f"--{size}" for size in sizes)] for name, sizes in record["shapes"].items()]
     for heading, rows in (
         (("figure", "title"), list(record["figures"].items())),
@@ -32,11 +47,30 @@ def command(as_json: bool) -> None:
         show(Sheet("", heading=heading, rows=rows, justify="left"))
 
 
-def reports() -> dict[str, str]:
-    """Return the reports by name with their titles."""
+def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str], list[str]]:
+    """Return the titles by name, and in a sentence each why the others have none."""
+    found, broken = {}, []
+    for name in names:
+        try:
+            found[name] = title(name)
+        except AtlasError as error:
+            broken.append(str(error))
+    return found, broken
+
+
+def reports() -> tuple[list[str], Callable[[str], str]]:
+    """Return the names of the reports, and what finds the title of one."""
     import tomllib
 
     from atlas.places import folder
 
-    files = sorted(folder("reports").glob("*.toml"))
-    return {path.stem: str(tomllib.loads(path.read_text(encoding="utf-8")).get("title", "")) for path in files}
+    place = folder("reports")
+
+    def title(name: str) -> str:
+        """Return the title of a report."""
+        try:
+            return str(tomllib.loads((place / f"{name}.toml").read_text(encoding="utf-8")).get("title", ""))
+        except ValueError as error:  # not TOML, or not UTF-8
+            raise AtlasError(f"reports/{name}.toml is not TOML: {error}") from error
+
+    return sorted(path.stem for path in place.glob("*.toml")), title

@@ -22,6 +22,13 @@ from atlas.cli.options import (
 )
 from atlas.cli.present import Line, Sheet, show
 
+LABELS = {
+    "precession": ("mf76", "mf84", "mf77"),
+    "at rest": ("mf76", "mf84", "mf77"),
+    "free body": ("given", "mf92", "mf92"),
+}
+"""Equations of omega3, k and phi by case; where omega3 is free, the paper has none."""
+
 
 @click.command(
     "motion",
@@ -75,10 +82,12 @@ def described(motion: Any, times: list[float], R: Any, Omega: Any, m: Any) -> di
 
 def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
     """Lay the certified texts out, three rows a time."""
+    omega3, k, phi = LABELS.get(texts["case"], ("given", "", ""))
+    axis = "m" if texts["case"] == "free body" else "B"
     lines = [
-        Line("omega3", "third component of Omega, constant", texts["omega3"], "1/time", "mf76"),
-        Line("k", "frequency of precession about B", texts["k"], "1/time", "mf84"),
-        Line("phi", "frequency of proper rotation", texts["phi"], "1/time", "mf77"),
+        Line("omega3", "third component of Omega, constant", texts["omega3"], "1/time", omega3),
+        Line("k", f"frequency of precession about {axis}", texts["k"], "1/time", k),
+        Line("phi", "frequency of proper rotation", texts["phi"], "1/time", phi),
     ]
     rows = [
         [f"{float(sample['t'])!r}" if i == 0 else "", *sample["R"][i], sample["Omega"][i], sample["m"][i]]

@@ -165,11 +165,18 @@ def chosen_body(options: dict[str, Any]) -> Any:
         raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
     if options["ratio"] is not None:
         return options["ratio"]
-    from atlas.core.body import SymmetricBody, from_shape
+    from atlas.core.body import SHAPES, SymmetricBody, from_shape
 
     if options["inertia"] is not None:
         return SymmetricBody(*options["inertia"])
-    return from_shape(options["shape"].replace("-", "_"), mass=1.0, **sizes)
+    shape = options["shape"].replace("_", "-")
+    shapes = {name.replace("_", "-"): [size for size in names if size != "mass"] for name, (_, names) in SHAPES.items()}
+    if shape not in shapes:
+        raise click.UsageError(f"there is no shape {shape!r}; the shapes are {', '.join(shapes)}.")
+    if set(sizes) != set(shapes[shape]):
+        wanted, found = (" ".join(f"--{size}" for size in names) or "none" for names in (shapes[shape], sizes))
+        raise click.UsageError(f"the shape {shape} takes {wanted}; found {found}.")
+    return from_shape(shape.replace("-", "_"), mass=1.0, **sizes)
 
 
 def exact_body(options: dict[str, Any]) -> Any:
@@ -188,11 +195,14 @@ def exact_body(options: dict[str, Any]) -> Any:
 def chosen_field(options: dict[str, Any]) -> tuple[float, float]:
     """Return (B2, B3) of B' in 1/time, from --field or from --magnetic and --mu.
 
-    Raises click.UsageError when neither or both are given.
+    Raises click.UsageError when neither or both are given, or what belongs to the one stands beside the other.
     """
     if (options["field"] is None) == (options["magnetic"] is None):
         raise click.UsageError("the field is one of --field (components of B') and --magnetic with --mu.")
     if options["field"] is not None:
+        idle = "mu" if options["mu"] is not None else "units" if options["units"] != "natural" else ""
+        if idle:
+            raise click.UsageError(f"--{idle} goes with --magnetic only: --field holds B', in 1/time.")
         return tuple(options["field"])
     if options["mu"] is None:
         raise click.UsageError("--magnetic needs --mu, the charge-to-mass ratio.")

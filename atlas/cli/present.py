@@ -5,9 +5,13 @@ import math
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
 
 
 @dataclass(frozen=True)
@@ -34,7 +38,7 @@ class Sheet:
 
 
 def show(sheet: Sheet) -> None:
-    """Print a sheet, as wide as the terminal, or as wide as it needs when the output is a file or a pipe."""
+    """Print a sheet, as wide as the terminal, and wider where digits would be cut; in a file or a pipe as it needs."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
@@ -45,18 +49,32 @@ def show(sheet: Sheet) -> None:
         console.print(sheet.title, style="bold", markup=False)
     if sheet.lines:
         table = Table(box=None, show_header=False, pad_edge=False)
-        for line in sheet.lines:
-            table.add_row(*(Text(cell) for cell in (line.symbol, line.value, line.unit, line.says, line.label)))
-        console.print(table)
+        quantities = [(line.symbol, line.value, line.unit, line.says, line.label) for line in sheet.lines]
+        for index, cells in enumerate(zip(*quantities, strict=True)):
+            words = index == 3
+            table.add_column(no_wrap=not words, min_width=None if words else max(map(len, cells)))
+        for cells in quantities:
+            table.add_row(*(Text(cell) for cell in cells))
+        _print(console, table)
     if sheet.heading:
         table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-        for name in sheet.heading:
-            table.add_column(Text(name), justify=sheet.justify, no_wrap=True)
+        for index, name in enumerate(sheet.heading):
+            width = max(map(len, (name, *(row[index] for row in sheet.rows))))
+            table.add_column(Text(name), justify=sheet.justify, no_wrap=True, min_width=width)
         for row in sheet.rows:
             table.add_row(*(Text(cell) for cell in row))
-        console.print(table)
+        _print(console, table)
     for note in sheet.notes:
         console.print(note, style="dim", markup=False)
+
+
+def _print(console: "Console", table: "Table") -> None:
+    """Print a table and cut none of its numbers: where they need more room than there is, the lines get longer."""
+    from rich.measure import Measurement
+
+    room = console.options.update_width(1_000_000)
+    console.width = max(console.width, Measurement.get(console, room, table).minimum)
+    console.print(table)
 
 
 def dump(record: Any) -> None:

@@ -1,7 +1,7 @@
 """The hyperbola of elementary motions, mf72 to mf77, sampled by hyperbolic parameter, and its stability."""
 
 from fractions import Fraction
-from math import inf
+from math import inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -132,6 +132,8 @@ class Hyperbola:
         """
         b = float(length(*self._exact[2:]))
         extent = positive(reach, "reach") * b
+        if not isfinite(extent):
+            raise DomainError(f"The field must be smaller: {reach} times |B'| = {b} is beyond the largest float.")
         if b == 0:
             raise DomainError("With B = 0 every point (omega2, omega3) is a motion: there is no curve to sample.")
         if self.B2 and self.B3:
@@ -155,6 +157,8 @@ class Hyperbola:
             return s, s
         B2, tangent = abs(self.B2), abs(self.I2 * self.B3) / (self.I3 * abs(self.B2))
         scale = self._scale()
+        if not 0 < tangent * B2 / extent < inf:
+            raise DomainError(f"B2 = {self.B2} and B3 = {self.B3} are too far apart: B3/(I B2) must be a float.")
         high = np.log(extent / scale)
         low = np.log(scale / B2) + np.log(tangent * B2 / extent) if self.I2 != self.I3 else high - np.log(1e3)
         first, second = (np.linspace(min(low, high - 1), high, n) for n in _halves(points))

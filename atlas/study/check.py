@@ -68,8 +68,8 @@ class Check:
         rows = [
             [
                 c.name,
-                f"{c.median:.1f}",
-                f"{c.worst:.1f}",
+                f"{c.median:z.1f}",
+                f"{c.worst:z.1f}",
                 f"{c.worst_time:g}",
                 "-" if c.fails_at is None else f"{c.fails_at:g}",
             ]
