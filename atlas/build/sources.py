@@ -2,7 +2,7 @@
 
 A Python file is reached when it is named or imported, at any depth and also inside a function, from a file that is
 reached. Its digest is that of its syntax tree, so that a comment or a line break changes nothing, and a changed
-docstring does (the title of a figure is one). Any other file is digested byte by byte.
+docstring does (the title of a figure is one). Any other file, and one that is no Python, is digested byte by byte.
 """
 
 import ast
@@ -78,11 +78,20 @@ class Sources:
 
 
 def _read(path: Path) -> dict[str, Any]:
-    if path.suffix != ".py":
-        return {"digest": hashlib.sha256(path.read_bytes()).hexdigest(), "imports": []}
-    tree = ast.parse(path.read_bytes(), filename=str(path))
+    content = path.read_bytes()
+    tree = _tree(content) if path.suffix == ".py" else None
+    if tree is None:
+        return {"digest": hashlib.sha256(content).hexdigest(), "imports": []}
     imports = sorted({str(module) for name in _names(tree) for module in _files(name)})
     return {"digest": hashlib.sha256(ast.dump(tree).encode()).hexdigest(), "imports": imports}
+
+
+def _tree(content: bytes) -> ast.AST | None:
+    """Return the syntax tree of a module, or None if it is no Python: who loads it will say so."""
+    try:
+        return ast.parse(content)
+    except (SyntaxError, ValueError):
+        return None
 
 
 def _names(tree: ast.AST) -> Iterator[str]:

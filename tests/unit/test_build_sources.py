@@ -81,3 +81,12 @@ def test_a_digest_knows_values_from_one_another() -> None:
     values = [1, 1.5, "1.5", [1.5], [1.5, 2], [2, 1.5], 1.5000000000000002, None, True, {"a": 1}, {"b": 1}]
     assert len({digest(value) for value in values}) == len(values)
     assert digest({"a": 1, "b": 2}) == digest({"b": 2, "a": 1})
+
+
+@pytest.mark.parametrize("text", ["def scene(:\n", "x = '\x00'\n"])
+def test_a_file_that_is_no_python_has_a_digest(tmp_path: Path, text: str) -> None:
+    """A slip in one recipe stops no other figure: its digest is that of its bytes, and changes with them."""
+    recipe = write(tmp_path / "recipe.py", text)
+    assert Sources().reached([recipe]) == (recipe,)
+    before = Sources().closure([recipe])
+    assert Sources().closure([write(recipe, text + "# mended?\n")]) != before
