@@ -1,6 +1,7 @@
 """Options that several commands share: the body, the field, the times, the form of the output."""
 
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
@@ -49,6 +50,8 @@ class Real(click.ParamType[Typed]):
             self.fail(f"{value!r} is not a number; write 1.5, 3/2 or 1e-3.", param, ctx)
         if not math.isfinite(number):
             self.fail(f"{value!r} is not finite.", param, ctx)
+        if re.search(r"e[+-]?0*[1-9]\d{4}", number.text.lower()) and "0x" not in number.text.lower():
+            self.fail(f"{value!r} has an exponent of more than four digits.", param, ctx)
         return number
 
 

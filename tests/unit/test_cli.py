@@ -119,6 +119,7 @@ def test_floats_in_json_read_back_the_same() -> None:
         ("hyperbola --ratio 1.5 --field 1e-300 1e300", "too far apart"),
         ("hyperbola --ratio 1.5 --field 1e308 1e308", "beyond the largest float"),
         ("check nosuch.csv", "nosuch.csv"),
+        ("classify --ratio 1e-9999999999 --field 1 2 --decimal", "exponent"),
         ("motion --ratio 1.5 --field 1 2 --omega2 -1 --times 0", "-1"),
         ("motion --ratio 1.5 --field 1 2 --omega2 1 --times", "--times"),
         ("motion --ratio 1.5 --field 1 2 --omega2 1 --times 0 --grid 0 1 5", "--grid"),
