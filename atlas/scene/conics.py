@@ -13,6 +13,8 @@ FloatArray: TypeAlias = NDArray[np.float64]
 
 _Flat: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 _Arc: TypeAlias = tuple[_Flat, float, float]
+Arc: TypeAlias = tuple[Callable[[FloatArray], FloatArray], float, float]
+"""A curve in space as a function of a parameter, with both ends of the parameter."""
 
 _FLAT = 1e-12
 _LOOKS, _HALVINGS = 257, 60
@@ -32,6 +34,14 @@ def section(
     Without half spaces they reach at least as far as the ball (centre, radius). All kinds are met: ellipse, hyperbola,
     parabola, two lines, one line; a single point or nothing gives an empty list.
     """
+    found = arcs(quadric, normal, distance, half_spaces, ball)
+    return [sample.curve(point, start, stop, tolerance) for point, start, stop in found]
+
+
+def arcs(
+    quadric: FloatArray, normal: FloatArray, distance: float, half_spaces: FloatArray, ball: tuple[FloatArray, float]
+) -> list[Arc]:
+    """Return the curves of `section` before they are sampled."""
     centre, radius = ball
     n = normal / np.linalg.norm(normal)
     foot = centre + (distance / float(np.linalg.norm(normal)) - n @ centre) * n
@@ -44,7 +54,7 @@ def section(
     l1, l2 = (float(v) for v in lengths[order])
     m1, m2 = (float(v) for v in (form[2, :2] @ turn)[order])
     axes = (turn.T @ across)[order]
-    curves: list[FloatArray] = []
+    found: list[Arc] = []
     for arc, start, stop in _arcs(l1, l2, m1, m2, float(form[2, 2]), radius):
 
         def point(s: FloatArray, arc: _Flat = arc) -> FloatArray:
@@ -52,8 +62,8 @@ def section(
             points: FloatArray = foot + x[:, None] * axes[0] + y[:, None] * axes[1]
             return points
 
-        curves += [sample.curve(point, a, b, tolerance) for a, b in spans(point, start, stop, half_spaces)]
-    return curves
+        found += [(point, a, b) for a, b in spans(point, start, stop, half_spaces)]
+    return found
 
 
 def spans(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.sample import curve, flat, knots, quarter_pixel
 
 FloatArray = NDArray[np.float64]
 
@@ -54,3 +54,38 @@ def test_what_lies_outside_the_box_is_not_refined() -> None:
 def test_quarter_pixel_of_an_inch() -> None:
     """An inch at 300 dots has 1200 quarters of a pixel."""
     assert quarter_pixel(1.0, 25.4) == pytest.approx(1.0 / 1200.0, rel=1e-15)
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3])
+def test_a_bend_and_its_counterbend_do_not_deceive(tolerance: float) -> None:
+    """An S crosses its chord in the middle; its two bellies are found all the same."""
+    points = curve(lambda s: np.stack([s, s * (s * s - 1.0)], axis=-1), -1.0, 1.0, tolerance, pieces=1)
+    s = np.linspace(-1.0, 1.0, 4001)
+    drawn = np.interp(s, *points.T)
+    assert np.abs(drawn - s * (s * s - 1.0)).max() < 1.6 * tolerance  # upright, where it is steeper than 45 degrees
+
+
+def test_knots_are_where_the_points_are() -> None:
+    """The parameters and the points belong together."""
+    assert (spiral(knots(spiral, 0.0, 4.0, 1e-3)) == curve(spiral, 0.0, 4.0, 1e-3)).all()
+
+
+def test_distances_are_measured_on_paper() -> None:
+    """A scale that stretches one axis asks for more points, and changes no coordinate."""
+    wide, tall = (curve(spiral, 0.0, 4.0, 1e-3, scale=np.array([1.0, stretch, 1.0])) for stretch in (1.0, 100.0))
+    assert len(tall) > 1.5 * len(wide)
+    assert (tall[[0, -1]] == wide[[0, -1]]).all()
+
+
+def test_a_flat_curve_knows_paper_and_view() -> None:
+    """Drawn twice as wide and high it takes more points; what its limits do not show takes none."""
+    circle = lambda s: np.stack([np.cos(s), np.sin(s)], axis=-1)  # noqa: E731  a curve in one line
+    whole, upper = ((-1.0, 1.0), (-1.0, 1.0)), ((-1.0, 1.0), (0.0, 1.0))
+    one = flat(circle, 0.0, 2.0 * np.pi, whole, (40.0, 40.0))
+    four = flat(circle, 0.0, 2.0 * np.pi, whole, (160.0, 160.0))
+    half = flat(circle, 0.0, 2.0 * np.pi, upper, (40.0, 20.0))
+    assert len(four) == pytest.approx(2 * len(one), rel=0.1)
+    assert (half[:, 1] > 0.1).sum() == pytest.approx((one[:, 1] > 0.1).sum(), rel=0.1)
+    assert (half[:, 1] < -0.1).sum() < (one[:, 1] < -0.1).sum() / 3
+    sag = 1.0 - np.cos(np.diff(np.unwrap(np.arctan2(one[:, 1], one[:, 0]))).max() / 2.0)
+    assert 0.5 < sag * 20.0 / 25.4 * 300.0 / 0.25 < 1.0

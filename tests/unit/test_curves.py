@@ -1,0 +1,213 @@
+"""What is drawn is as near to the true curve as asked, takes no more points than needed, and asks for nothing else."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from itertools import pairwise
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from atlas.build.meter import counting
+from atlas.errors import AtlasError
+from atlas.render import vector
+from atlas.render.house import house_style
+from atlas.render.stage import _parts, stage
+from atlas.scene import Curve, Plane, Points, Region, Scene, Surface, recipes, sample
+from atlas.study import curves
+
+FloatArray = NDArray[np.float64]
+
+DPI = 300.0
+DRAWN = list(curves.curves())
+
+
+def distance(points: FloatArray, line: FloatArray) -> float:
+    """Return the largest distance of points from the nearest place of a polyline."""
+    nearest = np.full(len(points), np.inf)
+    for a, b in pairwise(line):
+        chord = b - a
+        along = np.clip((points - a) @ chord / (float(chord @ chord) or 1.0), 0.0, 1.0)
+        nearest = np.minimum(nearest, np.linalg.norm(points - a - along[:, None] * chord, axis=1))
+    return float(nearest.max())
+
+
+@pytest.mark.parametrize("tolerance", curves.TOLERANCES)
+@pytest.mark.parametrize("drawn", DRAWN, ids=lambda drawn: drawn.name)
+def test_the_drawn_curve_is_as_near_as_asked(drawn: curves.Drawn, tolerance: float) -> None:
+    """Against a dense sampling that knows nothing of the cuts, the error is below the tolerance, and as measured."""
+    line = sample.curve(drawn.point, drawn.start, drawn.stop, tolerance, pieces=drawn.pieces)
+    error = distance(drawn.point(np.linspace(drawn.start, drawn.stop, 5003)), line)
+    assert error < tolerance
+    s = drawn.knots(tolerance)
+    assert len(s) == len(line)
+    assert error == pytest.approx(drawn.error(s), rel=0.05)
+
+
+def test_the_record_is_what_is_measured() -> None:
+    """The stored record holds what the code of today measures."""
+    stored, fresh = curves.read(), curves.measure()
+    assert list(stored.curves) == list(fresh.curves) == [drawn.name for drawn in DRAWN]
+    for name, rows in fresh.curves.items():
+        for row, kept in zip(rows, stored.curves[name], strict=True):
+            assert (row.tolerance, row.points, row.even_points) == (kept.tolerance, kept.points, kept.even_points)
+            assert row.error == pytest.approx(kept.error, rel=1e-3)
+            assert row.even_error == pytest.approx(kept.even_error, rel=1e-3)
+
+
+def test_fewer_points_than_equal_steps_for_the_same_error() -> None:
+    """From a quarter of a pixel down; where the curve bends evenly, on a circle, there is nothing to win."""
+    for name, rows in curves.read().curves.items():
+        for row in rows:
+            if row.tolerance > 0.25:
+                continue
+            if name == "trace of the third axis":
+                assert row.points == row.even_points
+            else:
+                assert row.points < row.even_points
+                assert row.error < row.even_error
+            if name == "branch of the hyperbola":
+                assert row.points < row.even_points / 2
+
+
+def test_a_missing_or_foreign_record_is_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Any) -> None:
+    """One sentence says what to do."""
+    monkeypatch.setattr(curves, "stored", lambda: tmp_path / "curves.json")
+    with pytest.raises(AtlasError, match=r"python -m atlas\.study\.curves"):
+        curves.read()
+    (tmp_path / "curves.json").write_text('{"format": 1}', encoding="utf-8")
+    with pytest.raises(AtlasError, match="not a record"):
+        curves.read()
+
+
+def test_the_record_survives_the_file(monkeypatch: pytest.MonkeyPatch, tmp_path: Any) -> None:
+    """What is written is what is read."""
+    record = curves.read()
+    curves.write(record, tmp_path / "curves.json")
+    monkeypatch.setattr(curves, "stored", lambda: tmp_path / "curves.json")
+    assert curves.read() == record
+
+
+def test_the_figure_draws_every_row_in_view() -> None:
+    """One panel a curve: its errors, its tolerances and equal steps, all inside the limits."""
+    scene = recipes.load("curve_points").scene()
+    for panel, rows in zip(scene.panels, curves.read().curves.values(), strict=True):
+        assert isinstance(panel, Plane)
+        found = {layer.role: layer.points for layer in panel.layers if isinstance(layer, Curve | Points)}
+        assert found["main"].tolist() == [[row.points, row.error] for row in rows]
+        assert found["rest"].tolist() == [[row.points, row.tolerance] for row in rows]
+        assert found["second"].tolist() == [[row.points, row.even_error] for row in rows]
+        for points in found.values():
+            for column, limits in enumerate((panel.x_limits, panel.y_limits)):
+                assert limits is not None
+                assert ((points[:, column] >= limits[0]) & (points[:, column] <= limits[1])).all()
+    assert "$" not in scene.alt
+
+
+@pytest.mark.parametrize("name", ["motion", "motion_sphere"])
+def test_a_trace_asks_for_one_column(name: str) -> None:
+    """The figures of a motion never ask for the whole rotation, and not twice for what two layers share."""
+    with counting() as counts:
+        recipes.load(name).scene()
+    assert counts["ElementaryMotion.third_axis"] > 0
+    assert counts["ElementaryMotion.rotation"] == 0
+    assert max(counts.values()) < 10
+
+
+def test_the_third_axis_is_one_column_inside_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the whole rotation out of order the sphere is still drawn."""
+
+    def never(*_: Any) -> None:
+        raise AssertionError
+
+    from atlas.core.elementary import ElementaryMotion
+
+    for owner in ElementaryMotion.__mro__:
+        for door in ("rotation", "rotation_grid"):
+            if door in vars(owner):
+                monkeypatch.setattr(owner, door, never)
+    assert recipes.load("motion_sphere").scene().panels
+
+
+def test_panels_share_a_path() -> None:
+    """Both panels of a flight are drawn from one set of points."""
+    with counting() as counts:
+        recipes.load("flight").scene()
+    assert counts["Flight.position"] < 10
+
+
+def dense(function: Callable[[FloatArray], FloatArray], start: float, stop: float, *_: Any, **__: Any) -> FloatArray:
+    """Stand in for the sampling: equal steps, far too many, whatever the tolerance."""
+    return function(np.linspace(start, stop, 3001))
+
+
+def true_scene(name: str, parameters: dict[str, Any]) -> Scene:
+    """Return the scene of a recipe with all its curves sampled densely."""
+    recipe = recipes.load(name)
+    with ExitStack() as stack:
+        stack.enter_context(patch.object(sample, "curve", dense))
+        for module in [m for key, m in sys.modules.items() if key.startswith(("atlas_figures.", "atlas.scene."))]:
+            if "curve" in vars(module) and module is not sample:
+                stack.enter_context(patch.object(module, "curve", dense))
+        return recipe.scene(**parameters)
+
+
+def lines(panel: Any) -> Iterator[FloatArray]:
+    """Yield all curves of a panel."""
+    for layer in panel.layers:
+        if isinstance(layer, Curve | Region):
+            yield layer.points
+        elif isinstance(layer, Surface):
+            yield from (*layer.wires, *layer.rims)
+
+
+def views(scene: Scene) -> Iterator[tuple[Callable[[FloatArray], FloatArray], FloatArray | None]]:
+    """Yield for each panel what brings its points to final pixels, and the window of a panel with two axes."""
+    with house_style():
+        figure = vector.compose(scene, dpi=DPI)
+        for axes, panel in zip(figure.axes, scene.panels, strict=False):
+            if isinstance(panel, Plane):
+                yield axes.transData.transform, np.asarray(axes.get_window_extent().extents)
+                continue
+            shown = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
+            low, high = shown.min(axis=0), shown.max(axis=0)
+            view, middle, size = stage(axes, panel), 0.5 * (low + high), float((high - low).max())
+            yield lambda x, v=view, m=middle, s=size: v.on_paper((x - m) / s) * DPI / 72.0, None  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters"),
+    [
+        ("flight", {}),
+        ("frequencies", {}),
+        ("hyp_a", {}),
+        ("hyperbola", {}),
+        ("hyperbolas", {}),
+        ("magn", {}),
+        ("motion", {}),
+        ("motion_sphere", {}),
+        ("pseudo_oscillator", {}),
+        ("quadric", {"ratio": 0.3, "field": (-2.0, 0.7)}),
+        ("quadric_leak", {}),
+        ("stability", {"ratio": 1.5, "field": (1.0, 2.0)}),
+        ("trochoids", {}),
+    ],
+)
+def test_every_recipe_draws_to_a_quarter_of_a_pixel(name: str, parameters: dict[str, Any]) -> None:
+    """In final pixels, inside the view, the same curves sampled densely lie that near to what is drawn."""
+    scene, true = recipes.load(name).scene(**parameters), true_scene(name, parameters)
+    compared = 0
+    for panel, model, (pixels, window) in zip(scene.panels, true.panels, views(scene), strict=True):
+        for line, exact in zip(lines(panel), lines(model), strict=True):
+            if len(exact) < 1000:
+                continue
+            points = pixels(exact)
+            if window is not None:
+                points = points[((points >= window[:2]) & (points <= window[2:])).all(axis=1)]
+            if len(points):
+                assert distance(points, pixels(line)) < 0.25
+                compared += 1
+    assert compared
