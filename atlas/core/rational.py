@@ -49,9 +49,12 @@ def root(q: Fraction, sign: Fraction | int = 1) -> float:
         return 0.0
     # q 4^shift has at least 128 bits, so its integer root has at least 64: the float of it is the rounded root.
     shift = 64 - (q.numerator.bit_length() - q.denominator.bit_length()) // 2
-    scaled = (q.numerator << 2 * max(shift, 0)) // (q.denominator << 2 * max(-shift, 0))
+    scaled, rest = divmod(q.numerator << 2 * max(shift, 0), q.denominator << 2 * max(-shift, 0))
+    whole = isqrt(scaled)
+    # a last bit says that something follows, so that a root just above the middle of two floats is not rounded down
+    marked = whole << 1 | bool(rest or whole * whole != scaled)
     try:
-        return ldexp(isqrt(scaled), -shift) if sign > 0 else -ldexp(isqrt(scaled), -shift)
+        return ldexp(marked, -shift - 1) if sign > 0 else -ldexp(marked, -shift - 1)
     except OverflowError as error:
         raise DomainError("A length or a frequency is too large for a float: choose larger units.") from error
 

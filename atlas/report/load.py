@@ -31,7 +31,10 @@ def find(name: str) -> Path:
 
 def load(path: Path) -> Report:
     """Read a report file. Raises AtlasError, in one sentence, for whatever is wrong with it."""
-    text = path.read_text(encoding="utf-8")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise AtlasError(f"{path} is not a text in UTF-8: {error.reason} at byte {error.start}.") from error
     try:
         raw = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

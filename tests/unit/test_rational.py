@@ -3,7 +3,7 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from mpmath import mp
 
@@ -22,6 +22,7 @@ def test_the_root_of_an_exact_square_is_exact(x: float) -> None:
     assert root(Fraction(0)) == 0
 
 
+@example(2.9290553229492476e20, 0.001)  # the root lies just above the middle of two floats
 @given(st.floats(1e-300, 1e300), st.floats(1e-3, 1e3))
 def test_a_root_is_rounded_once(p: float, q: float) -> None:
     """The root of a fraction is the float nearest to it."""
