@@ -36,7 +36,7 @@ def scene(
         ),
         panels=panels(record, cases, horizon),
         columns=columns,
-        size=(columns * 140.0, -(-len(cases) // columns) * 70.0),
+        size=(columns * 140.0, -(-len(cases) // columns) * 66.0),
     )
 
 

@@ -263,3 +263,18 @@ def test_text_is_escaped_for_html(tmp_path: Path) -> None:
     assert heading
     assert unescape(heading[1]) == title
     assert title in " ".join(PdfReader(BytesIO(made.pdf.read_bytes())).pages[2].extract_text().split())
+
+
+def test_a_citation_that_leads_nowhere_is_told_before_anything_is_drawn(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A misspelt citation stops the build before the first figure."""
+
+    def never(*_: object) -> None:
+        raise AssertionError("a figure was drawn")
+
+    monkeypatch.setattr("atlas.build.plates.draw_gallery", never)
+    file = tmp_path / "mine.toml"
+    file.write_text(MINE.replace("@mf76", "@mf7666"), encoding="utf-8")
+    with pytest.raises(AtlasError, match="mf7666"):
+        build_report(file, tmp_path / "out")
