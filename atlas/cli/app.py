@@ -3,26 +3,22 @@
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
 
 import click
 
 from atlas import __version__
-from atlas.cli import (
-    ball,
-    bench,
-    check,
-    classify,
-    diff,
-    figure,
-    hyperbola,
-    listing,
-    motion,
-    particle,
-    report,
-    stress,
-    verify,
-)
 from atlas.errors import AtlasError
+
+
+class Door(click.Command):
+    """A command that is loaded when it is called: until then its name and one line of help are known."""
+
+    def make_context(self, *arguments: Any, **more: Any) -> click.Context:
+        """Load the command and let it read its arguments."""
+        command: click.Command = import_module(f"atlas.cli.{self.name}").command
+        return command.make_context(*arguments, **more)
 
 
 @click.group(
@@ -35,22 +31,22 @@ def atlas() -> None:
     """Group the commands."""
 
 
-for module in (
-    report,
-    diff,
-    figure,
-    listing,
-    classify,
-    hyperbola,
-    motion,
-    ball,
-    particle,
-    check,
-    verify,
-    bench,
-    stress,
-):
-    atlas.add_command(module.command)
+for name, says in {
+    "report": "Build a report.",
+    "diff": "Compare two built reports.",
+    "figure": "Draw figures.",
+    "list": "Name the figures, reports and shapes.",
+    "classify": "Name the quadric of constant Omega3.",
+    "hyperbola": "Sample the hyperbola mf72.",
+    "motion": "Compute an elementary motion.",
+    "ball": "Rotate a charged ball (mf36 to mf39).",
+    "particle": "Move a point charge.",
+    "check": "Grade a trajectory of your own.",
+    "verify": "Put the paper's equations on trial.",
+    "bench": "Measure error against time.",
+    "stress": "Hunt for the worst errors.",
+}.items():
+    atlas.add_command(Door(name, short_help=says))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

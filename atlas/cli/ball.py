@@ -14,7 +14,6 @@ NAMES = ("inertia", "larmor", "momentum")
 @click.command(
     "ball",
     cls=Command,
-    short_help="Rotate a charged ball (mf36 to mf39).",
     epilog=examples(
         "atlas ball --larmor 0.5 --momentum 0.3 -0.7 --times 0 1 10",
     ),

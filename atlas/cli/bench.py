@@ -13,7 +13,6 @@ from atlas.cli.progress import bar
 @click.command(
     "bench",
     cls=Command,
-    short_help="Measure error against time.",
     epilog=examples(
         "atlas bench", "atlas bench --quick --case elementary", "atlas bench --read reports/data/bench.json"
     ),

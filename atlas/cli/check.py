@@ -20,7 +20,6 @@ from atlas.cli.present import Sheet, dump, show
 @click.command(
     "check",
     cls=Command,
-    short_help="Grade a trajectory of your own.",
     epilog=examples(
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega2 0.7",
         "atlas check mine.csv --figure mine.pdf --json",

@@ -25,7 +25,6 @@ QUANTITIES = ("beta", "a2", "a3", "semi_axes", "centre", "axes")
 @click.command(
     "classify",
     cls=Command,
-    short_help="Name the quadric of constant Omega3.",
     epilog=examples(
         "atlas classify --ratio 1.5 --field 1 2",
         "atlas classify --shape cylindrical-shell --radius 1 --height 0.5 --field 1 2 --json",
@@ -39,19 +38,18 @@ def command(**options: Any) -> None:
 
     The kind is decided on I3 against I2 and the components of the field as given.
     """
-    from atlas.core.quadric import Quadric
+
+    def floats() -> dict[str, Any]:
+        from atlas.core.quadric import Quadric
+
+        return described(Quadric(chosen_body(options), chosen_field(options)))
 
     def balls() -> dict[str, Any]:
-        from atlas.exact.quadric import Quadric as CertifiedQuadric
+        from atlas.exact.quadric import Quadric
 
-        return described(CertifiedQuadric(exact_body(options), exact_field(options)))
+        return described(Quadric(exact_body(options), exact_field(options)))
 
-    texts = answer(
-        options,
-        body_parameters(options),
-        lambda: described(Quadric(chosen_body(options), chosen_field(options))),
-        balls,
-    )
+    texts = answer(options, body_parameters(options), floats, balls)
     if texts is not None:
         show(sheet(texts, options))
 

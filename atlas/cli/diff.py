@@ -18,7 +18,6 @@ ROOM = 44
 @click.command(
     "diff",
     cls=Command,
-    short_help="Compare two built reports.",
     epilog=examples(
         "atlas diff build/report/atlas /tmp/before/atlas",
         "atlas diff OLD NEW --page diff.html",

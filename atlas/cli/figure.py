@@ -14,7 +14,6 @@ from atlas.errors import AtlasError
 @click.command(
     "figure",
     cls=Command,
-    short_help="Draw figures.",
     epilog=examples(
         "atlas figure hyp_a hyp_b",
         "atlas figure quadric --set ratio=0.5 field=1,0.1 --format pdf --out plots",

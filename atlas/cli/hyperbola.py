@@ -28,7 +28,6 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 @click.command(
     "hyperbola",
     cls=Command,
-    short_help="Sample the hyperbola mf72.",
     epilog=examples(
         "atlas hyperbola --ratio 0.5 --field 1 0.1 --count 20",
         "atlas hyperbola --ratio 1.5 --field 1 2 --omega2 -2 -0.5 0.7 --json",
@@ -43,27 +42,32 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 @output_options
 def command(**options: Any) -> None:
     """Sample the hyperbola mf72: omega3, the frequencies k and phi, and the nutation frequency squared."""
-    from atlas.core.hyperbola import Hyperbola
-
-    curve = Hyperbola(chosen_body(options), chosen_field(options))
-    points = list(options["omega2"]) or sampled(curve, options["count"])
+    points = list(options["omega2"]) or sampled(curve_of(options), options["count"])
 
     def floats() -> dict[str, Any]:
+        curve = curve_of(options)
         k, phi = along(curve.frequencies, points)
         return described(curve, points, along(curve.omega3, points), k, phi, along(curve.stability, points))
 
     def balls() -> dict[str, Any]:
-        from atlas.exact.hyperbola import Hyperbola as CertifiedHyperbola
+        from atlas.exact.hyperbola import Hyperbola
 
-        exact = CertifiedHyperbola(exact_body(options), exact_field(options))
+        curve = Hyperbola(exact_body(options), exact_field(options))
         at = [exactly(x, options) for x in points]
-        pairs = [exact.frequencies(x) for x in at]
-        columns = ([p[0] for p in pairs], [p[1] for p in pairs], [exact.stability(x) for x in at])
-        return described(exact, points, [exact.omega3(x) for x in at], *columns)
+        pairs = [curve.frequencies(x) for x in at]
+        columns = ([p[0] for p in pairs], [p[1] for p in pairs], [curve.stability(x) for x in at])
+        return described(curve, points, [curve.omega3(x) for x in at], *columns)
 
     texts = answer(options, body_parameters(options), floats, balls)
     if texts is not None:
-        show(sheet(texts, options, [] if curve.B3 else [CROSS]))
+        show(sheet(texts, options, [] if chosen_field(options)[1] else [CROSS]))
+
+
+def curve_of(options: dict[str, Any]) -> Any:
+    """Return the curve in floats."""
+    from atlas.core.hyperbola import Hyperbola
+
+    return Hyperbola(chosen_body(options), chosen_field(options))
 
 
 def sampled(curve: Any, count: int) -> list[float]:

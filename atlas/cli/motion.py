@@ -33,7 +33,6 @@ LABELS = {
 @click.command(
     "motion",
     cls=Command,
-    short_help="Compute an elementary motion.",
     epilog=examples(
         "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 2.5 --json",
         "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1e6 --digits 50",

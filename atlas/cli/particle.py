@@ -20,7 +20,6 @@ def _vector(name: str, text: str, **more: Any) -> Callable[[F], F]:
 @click.command(
     "particle",
     cls=Command,
-    short_help="Move a point charge.",
     epilog=examples(
         "atlas particle --mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1 2",
     ),
@@ -41,10 +40,8 @@ def _vector(name: str, text: str, **more: Any) -> Callable[[F], F]:
 @output_options
 def command(**options: Any) -> None:
     """Position and velocity of a point charge in any constant E and B (mf5 to mf11)."""
-    from atlas.core.units import system
-
     times = chosen_times(options)
-    c = 1.0 if options["units"] == "natural" else system(options["units"]).c
+    c = speed_of_light(options["units"])
 
     def floats() -> dict[str, Any]:
         from atlas.core.particle import ParticleMotion
@@ -65,6 +62,15 @@ def command(**options: Any) -> None:
     texts = answer(options, parameters, floats, balls)
     if texts is not None:
         show(sheet(texts, options))
+
+
+def speed_of_light(units: str) -> float:
+    """Return the factor c of mf5 in a system of units."""
+    if units == "natural":
+        return 1.0
+    from atlas.core.units import system
+
+    return system(units).c
 
 
 def described(motion: Any, times: list[float], y: Any, v: Any) -> dict[str, Any]:

@@ -77,21 +77,29 @@ def _print(console: "Console", table: "Table") -> None:
     console.print(table)
 
 
-def dump(record: Any) -> None:
-    """Print JSON: floats with the shortest digits that read back the same; no NaN, no infinity (they become null)."""
-    click.echo(json.dumps(plain(record), ensure_ascii=False, allow_nan=False, indent=None))
+def dump(record: dict[str, Any]) -> None:
+    """Print JSON: floats with the shortest digits that read back the same.
+
+    JSON has no infinity and no NaN: such a float becomes null, and the reason stands under its place in "missing".
+    """
+    reasons: dict[str, str] = dict(record.get("missing", {}))
+    found = plain(record, "", reasons) | ({"missing": reasons} if reasons else {})
+    click.echo(json.dumps(found, ensure_ascii=False, allow_nan=False, indent=None))
 
 
-def plain(value: Any) -> Any:
-    """Return the value in lists, dictionaries, strings and Python numbers."""
+def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:
+    """Return the value in lists, dictionaries, strings and Python numbers; tell where and why a float is left out."""
+    if isinstance(value, float):
+        if math.isfinite(value):
+            return float(value)
+        reasons[place] = "not a number" if math.isnan(value) else "beyond the largest float"
+        return None
     if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
+        return {str(key): plain(item, f"{place}.{key}".lstrip("."), reasons) for key, item in value.items()}
     if isinstance(value, bool) or value is None or isinstance(value, str | int):
         return value
     if hasattr(value, "tolist"):
-        return plain(value.tolist())
-    if isinstance(value, float):
-        return float(value) if math.isfinite(value) else None
+        return plain(value.tolist(), place, reasons)
     if isinstance(value, Iterable):
-        return [plain(item) for item in value]
+        return [plain(item, f"{place}[{index}]", reasons) for index, item in enumerate(value)]
     raise TypeError(f"no JSON for {type(value).__name__}")

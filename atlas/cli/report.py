@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 @click.command(
     "report",
     cls=Command,
-    short_help="Build a report.",
     epilog=examples("atlas report", "atlas report short_solenoid --explain", "atlas report my_paper.toml --out paper"),
 )
 @click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")

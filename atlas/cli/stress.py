@@ -12,7 +12,6 @@ from atlas.cli.progress import bar
 @click.command(
     "stress",
     cls=Command,
-    short_help="Hunt for the worst errors.",
     epilog=examples("atlas stress", "atlas stress --samples 20000 --seed 7 --json"),
 )
 @click.option("--samples", type=click.IntRange(min=1), default=3_000_000, show_default=True, help="Values to judge.")

@@ -16,7 +16,6 @@ COLUMNS = ("label", "number", "section", "kind", "verdict", "printed", "correcte
 @click.command(
     "verify",
     cls=Command,
-    short_help="Put the paper's equations on trial.",
     epilog=examples("atlas verify mf56 mf76", "atlas verify --json", "atlas verify --mutants mf89"),
 )
 @click.argument("labels", nargs=-1, metavar="[LABEL...]")

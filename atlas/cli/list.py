@@ -10,7 +10,7 @@ from atlas.cli.present import Sheet, dump, show
 from atlas.errors import AtlasError
 
 
-@click.command("list", cls=Command, short_help="Name the figures, reports and shapes.")
+@click.command("list", cls=Command)
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
 def command(as_json: bool) -> int:
     """Name the figures with their titles, the reports, and the shapes of bodies with their dimensions.
