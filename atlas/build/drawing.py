@@ -1,47 +1,64 @@
-"""One plate drawn into a folder, and what there is to note about it: its words, its files, what it cost."""
+"""One plate drawn into the store, and what there is to note about it: its words, its files, what it cost."""
 
 import resource
+import shutil
 import time
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from atlas.report.numbers import shown
+from atlas.build.store import Entry, Store
 
+if TYPE_CHECKING:
+    from atlas.render.drawing import Renderer
+    from atlas.scene import Scene
+
+Drawn: TypeAlias = dict[str, Entry]
 STEM = "plate"
-KINDS: Mapping[str, tuple[str, ...]] = {"shaded": ("png",), "vector": ("svg", "pdf")}
+KINDS: Mapping[str, Mapping[str, str]] = {
+    "vector": {"html": "svg", "pdf": "pdf", "svg": "svg", "png": "png"},
+    "shaded": {"html": "png", "pdf": "png", "png": "png"},
+}
+"""The kind of file that a renderer makes for a target: for pages, for a PDF, or of a certain format."""
 
 
-def make(recipe: str, renderer: Any, parameters: dict[str, Any], into: Path) -> dict[str, Any]:
-    """Make the scene, draw it into a folder, and return what there is to note about it."""
-    from atlas.build import meter
-    from atlas.render.drawing import choose, draw_all
-    from atlas.scene import recipes
+@dataclass(frozen=True, eq=False)
+class Task:
+    """A scene to be drawn by a renderer, a key of the store for each target, and what is known of the plate already."""
 
-    start = time.perf_counter()
-    loaded = recipes.load(recipe)
-    with meter.counting() as counts:
-        scene = loaded.scene(**parameters)
-    computed = time.perf_counter()
-    used, note = choose(scene, renderer)
-    drawn = draw_all(scene, {into / f"{STEM}.{kind}": kind for kind in KINDS[used]}, used)
-    files = {"html": drawn[0].path.name, "pdf": drawn[-1].path.name}
-    return {
-        "title": scene.title,
-        "caption": scene.caption,
-        "alt": scene.alt,
-        "size": list(scene.size),
-        "parameters": {name: shown(value) for name, value in scene.parameters.items()},
-        "renderer": used,
-        "note": note,
-        "files": files,
-        "cost": {
-            "quantities": dict(sorted(counts.items())),
-            "points": meter.points(scene),
-            "faces": meter.faces(scene),
-            "compute_s": computed - start,
-            "draw_s": time.perf_counter() - computed,
-            "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
-            "bytes": sum((into / name).stat().st_size for name in set(files.values())),
-        },
-    }
+    scene: "Scene"
+    renderer: "Renderer"
+    keys: Mapping[str, str]
+    store: Path
+    facts: Mapping[str, Any]
+
+    def draw(self) -> Drawn:
+        """Draw the scene once, and put a file for each target into the store."""
+        from atlas.render.drawing import draw_all
+
+        start = time.perf_counter()
+        store, kinds = Store(self.store), {target: KINDS[self.renderer][target] for target in self.keys}
+        with store.room() as folder:
+            files = {kind: folder / f"{STEM}.{kind}" for kind in kinds.values()}
+            draw_all(self.scene, {path: kind for kind, path in files.items()}, self.renderer)
+            cost = {
+                **self.facts["cost"],
+                "draw_s": time.perf_counter() - start,
+                "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+                "bytes": sum(path.stat().st_size for path in files.values()),
+            }
+            facts = {**self.facts, "cost": cost}
+            return {
+                target: store.make(self.keys[target], _copying(files[kind], facts)) for target, kind in kinds.items()
+            }
+
+
+def _copying(file: Path, facts: Mapping[str, Any]) -> Any:
+    """Return a maker of the store that takes over a file."""
+
+    def make(into: Path) -> dict[str, Any]:
+        shutil.copyfile(file, into / file.name)
+        return {**facts, "file": file.name}
+
+    return make

@@ -2,6 +2,7 @@
 
 import json
 import os
+from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -43,22 +44,34 @@ def key(file: Path, sources: Sources) -> str:
     return digest(found, [[name, _version(name)] for name in LIBRARIES], gl.library())
 
 
-def read(out: Path, name: str, wanted: str) -> dict[str, Any] | None:
+def read(out: Path, name: str, wanted: str, formats: Sequence[str]) -> dict[str, Any] | None:
     """Return what was noted of a report that is up to date: its key is the one wanted and its files are untouched."""
+    note = _read(out, name, wanted)
     try:
-        note: dict[str, Any] = json.loads(_note(out, name).read_text())
-        same = note["key"] == wanted and all(_stamp(out / file) == stamp for file, stamp in note["files"].items())
-    except (OSError, ValueError, KeyError):
+        stamps = {file: stamp for one in formats for file, stamp in note["files"][one].items()}
+        same = all(_stamp(out / file) == stamp for file, stamp in stamps.items())
+    except (OSError, KeyError):
         return None
     return note if same else None
 
 
-def write(out: Path, name: str, made: str, files: list[str], **facts: Any) -> None:
-    """Note a report that was built whole, with the state of its files."""
+def write(out: Path, name: str, made: str, files: Mapping[str, Sequence[str]], **facts: Any) -> None:
+    """Note a report that was built whole, with the state of its files of each format."""
+    stamps = {one: {file: _stamp(out / file) for file in names} for one, names in files.items()}
+    stamps = _read(out, name, made).get("files", {}) | stamps
     note = _note(out, name)
     beside = note.with_name(f"{note.name}.{os.getpid()}")
-    beside.write_text(json.dumps({"key": made, "files": {file: _stamp(out / file) for file in files}, **facts}))
+    beside.write_text(json.dumps({"key": made, "files": stamps, **facts}))
     beside.replace(note)
+
+
+def _read(out: Path, name: str, wanted: str) -> dict[str, Any]:
+    """Return the note of a report of that key, or an empty one."""
+    try:
+        note: dict[str, Any] = json.loads(_note(out, name).read_text())
+    except (OSError, ValueError):
+        return {}
+    return note if note.get("key") == wanted else {}
 
 
 def _code(floor: str) -> list[Path]:

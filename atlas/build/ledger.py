@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from atlas.build.plates import Made
+from atlas.build.plates import Plate
 
 
-def write(path: Path, name: str, made: Sequence[Made], ends: Mapping[str, float], began: float, jobs: int) -> Path:
+def write(path: Path, name: str, made: Sequence[Plate], ends: Mapping[str, float], began: float, jobs: int) -> Path:
     """Write the ledger of a build as JSON; `ends` are the clock's readings at the end of each step."""
     steps: dict[str, float] = {}
     before = began
@@ -49,7 +49,7 @@ def keep(path: Path, data: Path | None = None) -> Path:
     return kept
 
 
-def scene(made: Made) -> dict[str, Any]:
+def scene(made: Plate) -> dict[str, Any]:
     """Return the entry of one scene; what it cost when it was made, if it comes from the store."""
     if made.failure:
         return {"scene": made.request.name, "from": "failed", "reason": made.failure}

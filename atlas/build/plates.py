@@ -1,34 +1,38 @@
-"""Figures drawn once: each under a key of all that it depends on, taken from the store or drawn, side by side.
+"""Plates made once: each under a key of all that it depends on, taken from the store or drawn.
 
 The key of a plate holds the recipe's code and that of every module of ours that it reaches, the drawing code, the data
-files it reads, its parameters, the renderer, and the versions of the libraries that draw.
+files it reads, its parameters, the renderer, the target, and the versions of the libraries that draw.
 """
 
-import multiprocessing
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+import time
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from atlas.build.drawing import make
+from atlas.build.drawing import Drawn, Task
 from atlas.build.sources import PACKAGE, Sources, digest
-from atlas.build.store import Store, place
+from atlas.build.store import Entry, Store
+from atlas.errors import AtlasError
 from atlas.places import folder
-from atlas.report.gallery import Gallery
 from atlas.report.numbers import shown
 
+if TYPE_CHECKING:
+    from atlas.scene import Scene
+
 DRAWERS = {"vector": ("numpy", "matplotlib"), "shaded": ("numpy", "matplotlib", "pyvista", "vtk")}
+TAKEN = "nothing it depends on has changed"
 
 
 @dataclass(frozen=True, eq=False)
 class Request:
-    """A figure that is wanted: a recipe, its parameters, a renderer."""
+    """A plate that is wanted: a recipe, its parameters, a renderer, and what for (`atlas.build.drawing.KINDS`)."""
 
     recipe: str
     renderer: str
     parameters: Mapping[str, Any]
+    targets: tuple[str, ...] = ("html", "pdf")
 
     @property
     def name(self) -> str:
@@ -37,16 +41,23 @@ class Request:
         return f"{self.recipe}({settings})" + (" shaded" if self.renderer == "shaded" else "")
 
 
-@dataclass(frozen=True)
-class Made:
-    """A figure that was made: where its files are, what was noted, whether it is new; or why it failed."""
+@dataclass(eq=False)
+class Plate:
+    """What became of a request: what the store has for each target, what is missing and why; or why it failed."""
 
     request: Request
-    folder: Path | None = None
+    why: str
+    missing: dict[str, str] = field(default_factory=dict)
+    """The keys of what must be drawn, by target."""
+    entries: dict[str, Entry] = field(default_factory=dict)
     facts: Mapping[str, Any] = field(default_factory=dict)
-    new: bool = False
-    why: str = ""
+    """What is known of the plate, as soon as its scene is there."""
     failure: str = ""
+
+    @property
+    def new(self) -> bool:
+        """Whether any of its files was drawn just now."""
+        return any(entry.new for entry in self.entries.values())
 
     @property
     def reason(self) -> str:
@@ -61,18 +72,46 @@ class Made:
         return str(self.facts.get("note", ""))
 
     def file(self, target: str) -> Path:
-        """Return the path of the file for a target, html or pdf."""
-        if self.folder is None:
-            raise FileNotFoundError(self.request.name)
-        return self.folder / str(self.facts["files"][target])
+        """Return the path of the file for a target."""
+        entry = self.entries[target]
+        return entry.file(str(entry.facts["file"]))
+
+    def settle(self, outcome: Drawn | str) -> None:
+        """Take in what was drawn, or why it was not."""
+        if isinstance(outcome, str):
+            self.failure = " ".join(outcome.split())
+        else:
+            self.entries |= outcome
+            self.facts = next(iter(outcome.values())).facts
 
 
-def key_of(request: Request, sources: Sources, gl: str | None) -> tuple[str, dict[str, str]]:
-    """Return the key of a plate and the parts that it is made of, by name."""
+def survey(requests: Sequence[Request], store: Store, sources: Sources, gl: str | None) -> list[Plate]:
+    """Look up in the store what there is of each plate, and say why the rest must be drawn."""
+    plates = []
+    for request in requests:
+        parts = parts_of(request, sources, gl)
+        plate = Plate(request, TAKEN)
+        for target in request.targets:
+            key = digest(request.recipe, parts, target)
+            entry = store.take(key)
+            if entry is None:
+                plate.missing[target] = key
+            else:
+                plate.entries[target] = entry
+                plate.facts = entry.facts
+        if plate.missing:
+            plate.why = store.changed(request.name, parts)
+        store.remember(request.name, parts)
+        plates.append(plate)
+    return plates
+
+
+def parts_of(request: Request, sources: Sources, gl: str | None) -> dict[str, str]:
+    """Return what a plate depends on, each part as a digest under its name."""
     used = request.renderer if request.renderer == "vector" or gl else "vector"
     roots = [PACKAGE / "build" / "drawing.py", PACKAGE / "scene" / "style.py", PACKAGE / "render" / f"{used}.py"]
     other = [PACKAGE / "render" / "shaded.py"] if used == "vector" else []  # the door to both imports both
-    parts = {
+    return {
         "parameters": digest(request.parameters),
         "recipe and kernels": sources.closure([folder("figures") / f"{request.recipe}.py"]),
         "data": sources.closure(data_files(request.recipe)),
@@ -80,7 +119,6 @@ def key_of(request: Request, sources: Sources, gl: str | None) -> tuple[str, dic
         "libraries": digest([[name, _version(name)] for name in DRAWERS[used]]),
         "renderer": digest([request.renderer, gl if request.renderer == "shaded" else None]),
     }
-    return digest(request.recipe, parts), parts
 
 
 def data_files(recipe: str) -> list[Path]:
@@ -90,97 +128,57 @@ def data_files(recipe: str) -> list[Path]:
     return [path for path in sorted(data.glob("*.json")) if path.name in text or path.stem in text]
 
 
-def draw_gallery(
-    gallery: Gallery, folder: Path, store: Store, sources: Sources, jobs: int, tell: Callable[[int, str], None]
-) -> list[Made]:
-    """Draw or take every plate of a gallery, put its files into ``folder``/figures, and fill in what is known of it."""
-    from atlas.render import gl
+def tasks(plates: Sequence[Plate], store: Store) -> Iterator[tuple[Plate, Task]]:
+    """Compute the scenes of the plates that must be drawn, what is shaded first, for it takes longest to draw.
 
-    wanted = {Request(plate.recipe, plate.renderer, plate.parameters): plate for plate in gallery.values()}
-    made = []
-    requests = [request for request, plate in wanted.items() if not plate.failure]
-    for one in plates(requests, store, sources, gl=gl.library(), jobs=jobs):
-        made.append(one)
-        tell(len(made), one.request.recipe)
-        plate = wanted[one.request]
-        if one.failure:
-            plate.failure = one.failure
-            continue
-        for target in ("html", "pdf"):
-            source = one.file(target)
-            name = f"figures/{plate.stem}{source.suffix}"
-            place(source, folder / name)
-            plate.files[target] = name
-        plate.caption, plate.alt = one.facts["caption"], one.facts["alt"]
-        width, height = one.facts["size"]
-        plate.size, plate.settings = (width, height), one.facts["parameters"]
-        if one.facts["renderer"] != plate.renderer and one.note:
-            plate.remark = "Drawn by the vector renderer."
-    order = {request: index for index, request in enumerate(requests)}
-    return sorted(made, key=lambda one: order[one.request])
-
-
-def plates(
-    requests: Sequence[Request], store: Store, sources: Sources, *, gl: str | None, jobs: int = 1
-) -> Iterator[Made]:
-    """Go through the plates of the requests as they are ready, each taken from the store or drawn.
-
-    With ``jobs`` > 1 they are drawn side by side, by processes that live as long as there is work, so that each loads
-    the drawing libraries once. A plate that fails is returned with the reason and does not stop the others.
+    Plates of one recipe with the same parameters share their scene. A recipe that raises leaves the reason in its plate
+    and does not stop the others.
     """
-    waiting: list[tuple[Request, str, str]] = []
-    for request in requests:
-        key, parts = key_of(request, sources, gl)
-        entry = store.take(key)
-        if entry is None:
-            waiting.append((request, key, store.changed(request.name, parts)))
-        else:
-            yield Made(request, entry.folder, entry.facts, new=False, why="nothing it depends on has changed")
-        store.remember(request.name, parts)
-    yield from _drawn(waiting, store, jobs)
+    scenes: dict[str, tuple[Scene, dict[str, Any]]] = {}
+    for plate in sorted((one for one in plates if one.missing), key=lambda one: one.request.renderer != "shaded"):
+        same = digest(plate.request.recipe, plate.request.parameters)
+        try:
+            if same not in scenes:
+                scenes[same] = _scene(plate.request)
+            yield plate, _task(plate, *scenes[same], store)
+        except AtlasError as error:
+            plate.failure = " ".join(str(error).split())
 
 
-def _drawn(waiting: list[tuple[Request, str, str]], store: Store, jobs: int) -> Iterator[Made]:
-    """Draw what is not in the store: here, or in processes of their own; shaded plates first, they take longest."""
-    waiting.sort(key=lambda item: item[0].renderer != "shaded")
-    if jobs == 1 or len(waiting) < 2:
-        for request, key, why in waiting:
-            yield _made(request, why, _into_store(store.root, key, request))
-        return
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(jobs, len(waiting)), mp_context=context) as pool:
-        running: dict[Future[Any], tuple[Request, str]] = {
-            pool.submit(_into_store, store.root, key, request): (request, why) for request, key, why in waiting
-        }
-        while running:
-            finished, _ = wait(running, return_when=FIRST_COMPLETED)
-            for future in finished:
-                request, why = running.pop(future)
-                try:
-                    outcome = future.result()
-                except Exception as error:  # noqa: BLE001  a process that died takes its figure along, not the build
-                    outcome = f"{type(error).__name__}: {error}"
-                yield _made(request, why, outcome)
+def _scene(request: Request) -> "tuple[Scene, dict[str, Any]]":
+    """Compute a scene; return it and what that cost."""
+    from atlas.build import meter
+    from atlas.scene import recipes
+
+    start = time.perf_counter()
+    recipe = recipes.load(request.recipe)
+    with meter.counting() as counts:
+        scene = recipe.scene(**request.parameters)
+    cost = {
+        "quantities": dict(sorted(counts.items())),
+        "points": meter.points(scene),
+        "faces": meter.faces(scene),
+        "compute_s": time.perf_counter() - start,
+    }
+    return scene, cost
 
 
-def _into_store(root: Path, key: str, request: Request) -> Any:
-    """Draw one plate into the store; return its folder and facts, or in one sentence why it failed."""
-    try:
-        entry = Store(root).make(
-            key, lambda into: make(request.recipe, request.renderer, dict(request.parameters), into)
-        )
-    except OSError:
-        raise  # no room, or no leave to write: that is not the figure's fault
-    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
-        return f"{type(error).__name__}: {error}"
-    return entry.folder, entry.facts
+def _task(plate: Plate, scene: "Scene", cost: Mapping[str, Any], store: Store) -> Task:
+    """Note what is known of a plate when its scene is there, and return what is left to do."""
+    from atlas.render.drawing import choose
 
-
-def _made(request: Request, why: str, outcome: Any) -> Made:
-    if isinstance(outcome, str):
-        return Made(request, failure=" ".join(outcome.split()))
-    where, facts = outcome
-    return Made(request, where, facts, new=True, why=why)
+    renderer, note = choose(scene, plate.request.renderer)
+    plate.facts = {
+        "title": scene.title,
+        "caption": scene.caption,
+        "alt": scene.alt,
+        "size": list(scene.size),
+        "parameters": {name: shown(value) for name, value in scene.parameters.items()},
+        "renderer": renderer,
+        "note": note,
+        "cost": cost,
+    }
+    return Task(scene, renderer, plate.missing, store.root, plate.facts)
 
 
 def _version(name: str) -> str:

@@ -32,6 +32,8 @@ class Sources:
         self._memory = memory
         self._known: dict[str, dict[str, Any]] = {}
         self._changed = False
+        self._seen: dict[str, dict[str, Any]] = {}
+        self._closures: dict[tuple[frozenset[str], frozenset[str]], str] = {}
         if memory is not None:
             try:
                 self._known = json.loads(memory.read_text())
@@ -40,22 +42,18 @@ class Sources:
 
     def reached(self, roots: Iterable[Path], without: Iterable[Path] = ()) -> tuple[Path, ...]:
         """Return the files and every module of ours that they import, sorted; not ``without`` nor through it."""
-        closed = {Path(path).resolve() for path in without}
-        found: set[Path] = set()
-        waiting = [Path(root).resolve() for root in roots]
-        while waiting:
-            path = waiting.pop()
-            if path not in found and path not in closed:
-                found.add(path)
-                waiting.extend(Path(name) for name in self._facts(path)["imports"])
-        return tuple(sorted(found))
+        return tuple(sorted(map(Path, self._reached(map(_resolved, roots), map(_resolved, without)))))
 
     def closure(self, roots: Iterable[Path], without: Iterable[Path] = ()) -> str:
         """Return one digest of the files and of every module of ours that they import, but for ``without``.
 
         It does not depend on where the checkout is.
         """
-        return digest([[_place(path), self._facts(path)["digest"]] for path in self.reached(roots, without)])
+        asked = frozenset(map(_resolved, roots)), frozenset(map(_resolved, without))
+        if asked not in self._closures:
+            found = sorted(self._reached(*asked))
+            self._closures[asked] = digest([[_place(Path(path)), self._facts(path)["digest"]] for path in found])
+        return self._closures[asked]
 
     def save(self) -> None:
         """Remember the digests for the next run."""
@@ -65,16 +63,32 @@ class Sources:
             beside.write_text(json.dumps(self._known))
             beside.replace(self._memory)
 
-    def _facts(self, path: Path) -> dict[str, Any]:
-        """Return the digest of one file and what it imports."""
-        state = path.stat()
-        stamp = [state.st_mtime_ns, state.st_size]
-        known = self._known.get(str(path))
-        if known is None or known["stamp"] != stamp:
-            known = {"stamp": stamp, **_read(path)}
-            self._known[str(path)] = known
-            self._changed = True
-        return known
+    def _reached(self, roots: Iterable[str], without: Iterable[str]) -> set[str]:
+        closed, found, waiting = set(without), set[str](), list(roots)
+        while waiting:
+            path = waiting.pop()
+            if path not in found and path not in closed:
+                found.add(path)
+                waiting.extend(self._facts(path)["imports"])
+        return found
+
+    def _facts(self, path: str) -> dict[str, Any]:
+        """Return the digest of one file and what it imports; a file is looked at once."""
+        if path not in self._seen:
+            state = os.stat(path)  # noqa: PTH116  hundreds of times a build
+            stamp = [state.st_mtime_ns, state.st_size]
+            known = self._known.get(path)
+            if known is None or known["stamp"] != stamp:
+                known = {"stamp": stamp, **_read(Path(path))}
+                self._known[path] = known
+                self._changed = True
+            self._seen[path] = known
+        return self._seen[path]
+
+
+@lru_cache(maxsize=4096)
+def _resolved(path: Path) -> str:
+    return str(path.resolve())
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -11,13 +11,17 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+STORE = ".store"
+"""The name of a store beside what is built from it."""
 CONTENTS = "contents.json"
 STALE = 24 * 3600.0  # seconds after which a half-written entry belongs to a build that was killed
+UNUSED = 90 * 24 * 3600.0  # seconds after which an entry that nobody has taken makes room
 
 
 @dataclass(frozen=True)
@@ -37,7 +41,7 @@ class Store:
     """A folder of entries by key."""
 
     def __init__(self, root: Path) -> None:
-        self.root = root
+        self.root = root.absolute()
 
     def take(self, key: str) -> Entry | None:
         """Return the entry of that key if it is there and whole."""
@@ -45,25 +49,35 @@ class Store:
         try:
             contents = json.loads((folder / CONTENTS).read_text())
             whole = all(_digest(folder / name) == value for name, value in contents["files"].items())
+            if whole and time.time() - (folder / CONTENTS).stat().st_mtime > STALE:
+                os.utime(folder / CONTENTS)  # so that it is known to be of use
         except (OSError, ValueError, KeyError):
             return None
         return Entry(folder, contents["facts"], new=False) if whole else None
 
     def make(self, key: str, maker: Callable[[Path], dict[str, Any]]) -> Entry:
         """Make the entry of that key: ``maker`` writes files into an empty folder and returns facts to note."""
-        waiting = self.root / "unfinished"
-        waiting.mkdir(parents=True, exist_ok=True)
-        beside = Path(tempfile.mkdtemp(dir=waiting, prefix=key[:12] + "-"))
-        try:
+        with self.room() as beside:
             facts = maker(beside)
             files = {path.name: _digest(path) for path in sorted(beside.iterdir())}
             (beside / CONTENTS).write_text(json.dumps({"files": files, "facts": facts}))
             folder = self._folder(key)
             folder.parent.mkdir(parents=True, exist_ok=True)
             self._settle(beside, folder)
-        finally:
-            shutil.rmtree(beside, ignore_errors=True)
         return Entry(folder, facts, new=True)
+
+    @contextmanager
+    def room(self) -> Iterator[Path]:
+        """Give an empty folder to work in; it is gone afterwards, whatever happens."""
+        waiting = self.root / "unfinished"
+        waiting.mkdir(parents=True, exist_ok=True)
+        if not (self.root / ".gitignore").exists():
+            (self.root / ".gitignore").write_text("*\n")
+        folder = Path(tempfile.mkdtemp(dir=waiting))
+        try:
+            yield folder
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
 
     def changed(self, name: str, parts: Mapping[str, str]) -> str:
         """Say in words which parts of a thing's key differ from those remembered under its name."""
@@ -83,10 +97,16 @@ class Store:
         beside.replace(note)
 
     def sweep(self) -> None:
-        """Remove what killed builds left half-written."""
+        """Remove what killed builds left half-written, and what nobody has taken for a long time."""
+        now = time.time()
         for left in (self.root / "unfinished").glob("*"):
-            if time.time() - left.stat().st_mtime > STALE:
-                shutil.rmtree(left, ignore_errors=True)
+            with suppress(FileNotFoundError):
+                if now - left.stat().st_mtime > STALE:
+                    shutil.rmtree(left, ignore_errors=True)
+        for contents in self.root.glob(f"??/*/{CONTENTS}"):
+            with suppress(FileNotFoundError):  # another build has removed it
+                if now - contents.stat().st_mtime > UNUSED:
+                    shutil.rmtree(contents.parent, ignore_errors=True)
 
     def _settle(self, beside: Path, folder: Path) -> None:
         """Rename a finished folder to its place; a broken entry there makes way, a whole one is as good."""

@@ -6,7 +6,8 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import Command, Many, examples, out_option
+from atlas.cli.options import Command, Many, examples, jobs_option, out_option
+from atlas.cli.present import explained, show
 from atlas.cli.progress import bar
 from atlas.errors import AtlasError
 
@@ -38,49 +39,53 @@ from atlas.errors import AtlasError
     help="On paper with hidden lines, or shaded (PNG).",
 )
 @out_option("build/figures")
+@jobs_option
+@click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken.")
 def command(
     names: tuple[str, ...],
     everything: bool,
     settings: tuple[str, ...],
     formats: tuple[str, ...],
-    renderer: Any,
+    renderer: str,
     out: Path,
+    jobs: int | None,
+    explain: bool,
 ) -> int:
     """Draw figures as SVG, PDF and PNG, each written whole or not at all; `atlas list` names them.
 
-    A figure that fails does not stop the others; then the exit status is 1.
+    What was drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
+    others; then the exit status is 1.
     """
-    from atlas.build.figure import build_figure
+    from atlas.build.figure import build_figures
     from atlas.scene import recipes
 
     if everything == bool(names):
         raise click.UsageError("name the figures, or say --all; `atlas list` names them.")
     wanted = recipes.names() if everything else list(dict.fromkeys(names))
-    parameters = dict(setting(text) for text in settings)
     known = recipes.names()
     for name in wanted:
         if name not in known:
             recipes.load(name)  # says which there are, before anything is drawn
-    kinds = formats or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
-    failed = 0
-    notes: dict[str, None] = {}  # each once, in order
+    kinds = dict.fromkeys(formats) or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
+    parameters = dict(setting(text) for text in settings)
     with bar("figures") as tell:
-        for done, name in enumerate(wanted):
-            tell(done, len(wanted), name)
-            try:
-                for drawn in build_figure(name, kinds, out, renderer=renderer, **parameters):
-                    click.echo(drawn.path)
-                    notes |= {drawn.note: None} if drawn.note else {}
-            except AtlasError as error:
-                if len(wanted) == 1:
-                    raise
-                click.echo(f"atlas: figure {name}: {error}", err=True)
-                failed = 1
-        tell(len(wanted), len(wanted), "")
+        figures = list(
+            build_figures(wanted, tuple(kinds), out, renderer=renderer, parameters=parameters, jobs=jobs, progress=tell)
+        )
+    failed = [figure for figure in figures if figure.failure]
+    if failed and len(wanted) == 1:
+        raise AtlasError(failed[0].failure)
+    for figure in figures:
+        for file in figure.files:
+            click.echo(file)
+    if explain:
+        show(explained([["figure", figure.name, figure.reason] for figure in figures]))
     sys.stdout.flush()
-    for note in notes:
+    for note in dict.fromkeys(figure.note for figure in figures if figure.note):
         click.echo(f"atlas: {note}", err=True)
-    return failed
+    for figure in failed:
+        click.echo(f"atlas: figure {figure.name}: {figure.failure}", err=True)
+    return 1 if failed else 0
 
 
 def setting(text: str) -> tuple[str, Any]:

@@ -147,6 +147,11 @@ def out_option(standard: str) -> Callable[[F], F]:
     return click.option("--out", type=kind, default=standard, show_default=True, help="Folder for the files.")
 
 
+jobs_option: Callable[[F], F] = click.option(
+    "--jobs", "-j", type=click.IntRange(min=1), help="Figures drawn at once; else one a core."
+)
+
+
 times_options: Callable[[F], F] = stack(
     click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, as many as you like."),
     click.option("--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="A uniform grid of times instead."),

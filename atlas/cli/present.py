@@ -37,6 +37,11 @@ class Sheet:
     justify: Literal["left", "right"] = "right"
 
 
+def explained(reasons: Sequence[Sequence[str]]) -> Sheet:
+    """Return the sheet that says of each part of a build, by kind and name, why it was made or taken."""
+    return Sheet("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
+
+
 def show(sheet: Sheet) -> None:
     """Print a sheet, as wide as the terminal, and wider where digits would be cut; in a file or a pipe as it needs."""
     from rich import box

@@ -2,17 +2,34 @@
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 Progress = Callable[[int, int, str], None]
 
 
 @contextmanager
 def bar(title: str) -> Iterator[Progress]:
-    """Give a function to call with what is done, of how many, and what comes next."""
+    """Give a function to call with what is done, of how many, and what comes next.
+
+    The bar appears at the first call; until then no thread is started, so that a build can still fork.
+    """
     if not sys.stderr.isatty():
         yield lambda _done, _total, _what: None
         return
+    with ExitStack() as stack:
+        shown: list[Progress] = []
+
+        def tell(done: int, total: int, what: str) -> None:
+            if not shown:
+                shown.append(stack.enter_context(_display(title)))
+            shown[0](done, total, what)
+
+        yield tell
+
+
+@contextmanager
+def _display(title: str) -> Iterator[Progress]:
+    """Show a bar."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
     from rich.progress import Progress as Display

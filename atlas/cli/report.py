@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from atlas.cli.options import Command, examples, out_option
-from atlas.cli.present import Sheet, show
+from atlas.cli.options import Command, Many, examples, jobs_option, out_option
+from atlas.cli.present import Sheet, explained, show
 from atlas.cli.progress import bar
 
 if TYPE_CHECKING:
@@ -16,26 +16,39 @@ if TYPE_CHECKING:
 @click.command(
     "report",
     cls=Command,
-    epilog=examples("atlas report", "atlas report short_solenoid --explain", "atlas report my_paper.toml --out paper"),
+    epilog=examples(
+        "atlas report",
+        "atlas report short_solenoid --explain",
+        "atlas report --format html",
+        "atlas report my_paper.toml --out paper",
+    ),
 )
 @click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
 @out_option("build/report")
-@click.option("--jobs", "-j", type=click.IntRange(min=1), help="Figures drawn at once; else one a core.")
+@click.option(
+    "--format",
+    "formats",
+    cls=Many,
+    type=click.Choice(["html", "pdf"]),
+    help="html, pdf; both when left out. What is left out stays as it is.",
+)
+@jobs_option
 @click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken, and what it cost.")
 @click.option("--keep-costs", is_flag=True, help="Store what this build cost where the report's own chart reads it.")
-def command(name: str, out: Path, jobs: int | None, explain: bool, keep_costs: bool) -> int:
+def command(name: str, out: Path, formats: tuple[str, ...], jobs: int | None, explain: bool, keep_costs: bool) -> int:
     """Build a report: HTML pages that open from disk, and a PDF with the same content.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
     something that has changed is built. A figure that fails leaves a framed note in its place, and then the exit status
     is 1. Beside the PDF, NAME.costs.json says what each figure cost.
     """
-    from atlas.build.report import build_report
+    from atlas.build.report import FORMATS, build_report
 
     with bar("report") as tell:
-        built = build_report(name, out, tell, jobs=jobs)
-    click.echo(built.index)
-    click.echo(built.pdf)
+        built = build_report(name, out, tell, formats=formats or FORMATS, jobs=jobs)
+    for one, file in (("html", built.index), ("pdf", built.pdf)):
+        if one in (formats or FORMATS):
+            click.echo(file)
     if explain:
         _explain(built)
     if keep_costs and built.ledger is not None:
@@ -51,8 +64,7 @@ def command(name: str, out: Path, jobs: int | None, explain: bool, keep_costs: b
 
 def _explain(built: "Built") -> None:
     """Show why each part was made or taken, and what the figures cost."""
-    rows = [[what, name, reason] for what, name, reason in built.reasons]
-    show(Sheet("why", heading=("part", "name", "reason"), rows=rows, justify="left"))
+    show(explained(built.reasons))
     if built.ledger is not None:
         from atlas.build.ledger import table
 

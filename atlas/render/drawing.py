@@ -3,7 +3,9 @@
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Literal, TypeAlias
 
 from atlas.errors import AtlasError
@@ -11,8 +13,11 @@ from atlas.scene.layers import Scene, Space
 
 Renderer: TypeAlias = Literal["vector", "shaded"]
 FORMATS = ("svg", "pdf", "png")
+CANVASES = ("matplotlib.figure", "matplotlib.backends.backend_agg")
+LIBRARIES = {"vector": (*CANVASES, "matplotlib.backends.backend_svg"), "shaded": (*CANVASES, "pyvista")}
+"""What each back end draws with; all that it needs later is loaded by these."""
 
-__all__ = ["FORMATS", "Drawn", "Renderer", "choose", "draw", "draw_all"]
+__all__ = ["FORMATS", "Drawn", "Renderer", "choose", "draw", "draw_all", "load"]
 
 
 @dataclass(frozen=True)
@@ -56,11 +61,7 @@ def draw_all(
     try:
         for path in kinds:
             path.parent.mkdir(parents=True, exist_ok=True)
-        if used == "shaded":
-            from atlas.render import shaded as back_end
-        else:
-            from atlas.render import vector as back_end
-        back_end.save(scene, {part: kinds[path] for part, path in parts.items()}, dpi=dpi)
+        load(used).save(scene, {part: kinds[path] for part, path in parts.items()}, dpi=dpi)
         for part, path in parts.items():
             part.replace(path)
     finally:
@@ -69,7 +70,18 @@ def draw_all(
     return [Drawn(path, used, note) for path in kinds]
 
 
-def choose(scene: Scene, renderer: Renderer) -> tuple[Renderer, str]:
+def load(renderer: Renderer) -> ModuleType:
+    """Load a back end with the libraries that it draws with."""
+    for library in LIBRARIES[renderer]:
+        import_module(library)
+    if renderer == "shaded":
+        from atlas.render import shaded as back_end
+    else:
+        from atlas.render import vector as back_end
+    return back_end
+
+
+def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:
     """Return the renderer that will draw a scene when this one is asked for, and a line that says why not, if so."""
     if renderer not in {"vector", "shaded"}:
         raise AtlasError(f"no renderer {renderer!r}; known: vector, shaded")

@@ -40,22 +40,31 @@ def source(document: Document, colophon: Colophon) -> str:
     )
 
 
-def compile_pdf(typst_source: str, where: Path) -> bytes:
-    """Compile Typst source, with its figures under the folder `where`. Raises AtlasError with Typst's reason."""
-    import typst
+class Press:
+    """Sets PDFs with the figures of one folder; what a second one has in common with the first is not set again."""
 
-    file = where / "report.typ"
-    file.write_text(typst_source, encoding="utf-8")
-    folders = sorted({str(path.parent) for path in map(fonts.source, fonts.FACES.values())})
-    try:
-        pdf, warnings = typst.compile_with_warnings(
-            str(file), root=str(where), font_paths=folders, ignore_system_fonts=True, format="pdf"
-        )
-    except typst.TypstError as error:
-        raise AtlasError(f"the PDF could not be set: {_reason(error)}.") from error
-    if warnings:
-        raise AtlasError(f"Typst warns about the PDF: {_reason(warnings[0])}.")
-    return bytes(pdf)
+    def __init__(self, where: Path) -> None:
+        import typst
+
+        folders = sorted({str(path.parent) for path in map(fonts.source, fonts.FACES.values())})
+        where.mkdir(parents=True, exist_ok=True)
+        self._file = where.resolve() / "report.typ"
+        self._compiler = typst.Compiler(root=str(self._file.parent), font_paths=folders, ignore_system_fonts=True)
+
+    def set(self, typst_source: str) -> bytes:
+        """Set Typst source. Raises AtlasError with Typst's reason."""
+        import typst
+
+        self._file.write_text(typst_source, encoding="utf-8")
+        try:
+            pdf, warnings = self._compiler.compile_with_warnings(str(self._file), format="pdf")
+        except typst.TypstError as error:
+            raise AtlasError(f"the PDF could not be set: {_reason(error)}.") from error
+        if warnings:
+            raise AtlasError(f"Typst warns about the PDF: {_reason(warnings[0])}.")
+        if not isinstance(pdf, bytes):
+            raise TypeError("Typst did not return one PDF")
+        return pdf
 
 
 def _reason(error: Any) -> str:

@@ -9,8 +9,9 @@ import atlas.build.plates as plates_module
 import atlas.build.sources as sources_module
 from atlas import places
 from atlas.build import fresh
-from atlas.build.plates import Request, key_of, plates
-from atlas.build.sources import Sources
+from atlas.build.drawers import Drawers
+from atlas.build.plates import Plate, Request, parts_of, survey, tasks
+from atlas.build.sources import Sources, digest
 from atlas.build.store import Store
 
 ROOT = Path(sources_module.PACKAGE).parent
@@ -46,10 +47,23 @@ def checkout(pristine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     sources_module._files.cache_clear()
 
 
+def made(requests: list[Request], store: Store, jobs: int = 1) -> dict[Request, Plate]:
+    """Take or draw plates."""
+    plates = survey(requests, store, Sources(), None)
+    with Drawers(jobs) as drawers:
+        waiting = {}
+        for plate, task in tasks(plates, store):
+            waiting[task] = plate
+            drawers.give(task)
+        for task, outcome in drawers.outcomes():
+            waiting[task].settle(outcome)
+    return {plate.request: plate for plate in plates}
+
+
 def keys(gl: str | None = "egl", **changed: Request) -> dict[str, str]:
     """Return the keys of the wanted plates and of a report, made from the sources as they are now."""
     sources = Sources()
-    found = {name: key_of(request, sources, gl)[0] for name, request in (WANTED | changed).items()}
+    found = {name: digest(parts_of(request, sources, gl)) for name, request in (WANTED | changed).items()}
     return found | {"report": fresh.key(places.folder("reports") / "atlas.toml", sources)}
 
 
@@ -80,8 +94,8 @@ CHANGES = [
     ),
     ("a kernel that one reaches", "atlas/core/charge.py", "\nclass", "\nNEW = 1\n\n\nclass", {"trochoids"}),
     ("the style", "atlas/scene/style.py", '"""', '"""New: ', EVERY),
-    ("the vector renderer", "atlas/render/vector.py", "DPI = 300.0", "DPI = 301.0", EVERY),
-    ("the shaded renderer", "atlas/render/shaded.py", "_OVER = 2", "_OVER = 3", {"quadric"}),
+    ("the vector renderer", "atlas/render/vector.py", '"""', '"""New: ', EVERY),
+    ("the shaded renderer", "atlas/render/shaded.py", '"""', '"""New: ', {"quadric"}),
     ("a stored record", "reports/data/bench.json", '"date"', '"date" ', {"horizon"}),
     ("the prose", "reports/atlas.toml", "title", "title ", set()),
     ("a template", "templates/html/page.html", "<", " <", set()),
@@ -144,34 +158,97 @@ def test_the_place_of_the_checkout_does_not_matter(checkout: Path, monkeypatch: 
 
 def test_a_plate_is_drawn_once_and_says_why(tmp_path: Path) -> None:
     """The first time a plate is drawn, the second time it is taken; both have the same files and facts."""
-    store, sources = Store(tmp_path), Sources()
+    store = Store(tmp_path)
     requests = [Request("trochoids", "vector", {}), Request("trochoids", "vector", {"speeds": (0.5, 1.0)})]
-    first = {plate.request: plate for plate in plates(requests, store, sources, gl=None)}
-    again = {plate.request: plate for plate in plates(requests, store, sources, gl=None)}
+    first, again = made(requests, store), made(requests, store)
     for request in requests:
         assert first[request].new
         assert first[request].why == "it was never made here"
         assert not again[request].new
-        assert again[request].facts == first[request].facts
+        assert again[request].facts["caption"] == first[request].facts["caption"]
+        assert again[request].facts["cost"] == first[request].facts["cost"]
         assert again[request].file("html").read_bytes().startswith(b"<?xml")
         assert again[request].file("pdf").read_bytes().startswith(b"%PDF")
     assert first[requests[0]].file("html").read_bytes() != first[requests[1]].file("html").read_bytes()
 
 
+def test_only_what_a_target_lacks_is_drawn(tmp_path: Path) -> None:
+    """A plate made for the pages is drawn for the PDF alone when that is wanted too."""
+    store = Store(tmp_path)
+    (page,) = made([Request("magn", "vector", {}, ("html",))], store).values()
+    assert page.entries.keys() == {"html"}
+    (both,) = survey([Request("magn", "vector", {})], store, Sources(), None)
+    assert both.missing.keys() == {"pdf"}
+    (drawn,) = made([Request("magn", "vector", {})], store).values()
+    assert {target: entry.new for target, entry in drawn.entries.items()} == {"html": False, "pdf": True}
+
+
+def test_both_renderers_share_a_scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A recipe with the same parameters is computed once for the shaded plate and the line drawing."""
+    counted = []
+    whole = plates_module._scene
+    monkeypatch.setattr(plates_module, "_scene", lambda request: counted.append(request) or whole(request))
+    requests = [
+        Request("cone", "shaded", {}),
+        Request("cone", "vector", {}),
+        Request("cone", "vector", {"field": (2, 1)}),
+    ]
+    plates = survey(requests, Store(tmp_path), Sources(), None)
+    found = [task for _, task in tasks(plates, Store(tmp_path))]
+    assert len(found) == 3
+    assert found[0].scene is found[1].scene
+    assert [request.parameters for request in counted] == [{}, {"field": (2, 1)}]
+
+
 def test_a_plate_that_fails_does_not_stop_the_others(tmp_path: Path) -> None:
-    """A recipe that raises is returned with its reason, in this process and in processes of their own."""
+    """A recipe that raises is returned with its reason, and the others are drawn."""
     requests = [Request("trochoids", "vector", {"mu": 0.0}), Request("magn", "vector", {})]
     for jobs in (1, 2):
-        found = {
-            p.request.recipe: p for p in plates(requests, Store(tmp_path / str(jobs)), Sources(), gl=None, jobs=jobs)
-        }
-        assert found["trochoids"].failure.startswith("DomainError: ")
-        assert found["magn"].new
+        failed, drawn = made(requests, Store(tmp_path / str(jobs)), jobs).values()
+        assert failed.failure
+        assert "Error" not in failed.failure
+        assert drawn.new
+
+
+def test_a_process_that_dies_takes_its_plate_along_and_no_other(tmp_path: Path) -> None:
+    """A drawing process that is killed leaves the reason in its plate; the rest is drawn by those that live."""
+    requests = [Request("trochoids", "vector", {}), Request("magn", "vector", {}), Request("lssc", "vector", {})]
+    plates = survey(requests, Store(tmp_path), Sources(), None)
+    with Drawers(2) as drawers:
+        waiting = {}
+        for plate, task in tasks(plates, Store(tmp_path)):
+            waiting[task] = plate
+            if not drawers._busy:
+                drawers.give(task)
+                drawers._busy[0].process.kill()
+            else:
+                drawers.give(task)
+        for task, outcome in drawers.outcomes():
+            waiting[task].settle(outcome)
+    assert "ended with status -9" in plates[0].failure
+    assert [plate.new for plate in plates[1:]] == [True, True]
+
+
+def test_when_no_process_is_left_it_is_said(tmp_path: Path) -> None:
+    """If all processes have died, what was waiting says so instead of waiting for ever."""
+    plates = survey([Request("magn", "vector", {}), Request("lssc", "vector", {})], Store(tmp_path), Sources(), None)
+    with Drawers(1) as drawers:
+        waiting = {}
+        for plate, task in tasks(plates, Store(tmp_path)):
+            waiting[task] = plate
+            drawers.give(task)
+        drawers._busy[0].process.kill()
+        for task, outcome in drawers.outcomes():
+            waiting[task].settle(outcome)
+    assert [plate.failure for plate in plates] == [
+        "the process that drew it ended with status -9",
+        "no process is left to draw it",
+    ]
 
 
 def test_the_quantities_asked_for_are_counted(tmp_path: Path) -> None:
     """The ledger names what the recipe asked the kernels for, and nothing else."""
-    (plate,) = plates([Request("hyperbola", "vector", {})], Store(tmp_path), Sources(), gl=None)
+    (plate,) = made([Request("hyperbola", "vector", {})], Store(tmp_path)).values()
     asked = plate.facts["cost"]["quantities"]
     assert "Hyperbola.omega3" in asked
     assert not any(name.startswith(("ElementaryMotion", "Quadric", "ParticleMotion")) for name in asked)

@@ -54,10 +54,10 @@ def test_a_failing_pdf_leaves_the_last_good_report(tmp_path: Path, monkeypatch: 
     build_report(report(tmp_path, "Old"), out)
     before = state(out)
 
-    def fail(_source: str, _where: Path) -> bytes:
+    def fail(_press: pdf.Press, _source: str) -> bytes:
         raise AtlasError("no PDF today.")
 
-    monkeypatch.setattr(pdf, "compile_pdf", fail)
+    monkeypatch.setattr(pdf.Press, "set", fail)
     with pytest.raises(AtlasError, match="no PDF today"):
         build_report(report(tmp_path, "New"), out)
     assert state(out) == before

@@ -1,0 +1,191 @@
+"""Processes that draw, side by side: there from the start, each loads what it needs once and lives until the end.
+
+They are forked before anything heavy is loaded, so that they load the drawing libraries while the build still reads
+and computes. Each has a pipe of its own: one that dies takes along the plate that it was drawing and no other, and one
+whose build is gone comes to an end by itself.
+"""
+
+import multiprocessing
+import os
+import signal
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from typing import Any, Self
+
+from atlas.build.drawing import Drawn, Task
+from atlas.errors import AtlasError
+
+MOST = 8
+
+
+def many() -> int:
+    """Return how many processes draw when the user does not say: one a core, within reason."""
+    return min(os.cpu_count() or 1, MOST)
+
+
+class Drawers:
+    """`count` processes for as long as the context lasts."""
+
+    def __init__(self, count: int) -> None:
+        forked = _alone()
+        context = multiprocessing.get_context("fork") if forked else multiprocessing.get_context("spawn")
+        self.count = count
+        self._free: list[_Drawer] = []
+        self._busy: list[_Drawer] = []
+        self._waiting: list[Task] = []
+        self._done: list[tuple[Task, Any]] = []
+        for _ in range(count):
+            here, there = context.Pipe()
+            inherited = [*(drawer.pipe for drawer in self._free), here] if forked else []
+            process = context.Process(target=_serve, args=(there, inherited), daemon=True)
+            process.start()
+            there.close()
+            self._free.append(_Drawer(process, here))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for drawer in self._free + self._busy:
+            drawer.pipe.close()
+        for drawer in self._busy:
+            drawer.process.terminate()
+        for drawer in self._free + self._busy:
+            drawer.process.join()
+
+    def load(self, renderers: Sequence[str]) -> None:
+        """Let idle processes load what so many plates will need: what is shaded is left to one as long as possible."""
+        wanted = sorted(renderers, key=lambda renderer: renderer != "shaded")
+        if "vector" in wanted:
+            wanted = [wanted[0], *wanted[:0:-1]]
+        for drawer, renderer in zip(self._free, wanted, strict=False):
+            drawer.load(renderer)
+
+    def give(self, task: Task) -> None:
+        """Take in a task; it is drawn as soon as a process is free."""
+        self._waiting.append(task)
+        self.turn()
+
+    def turn(self, patience: float | None = 0.0) -> None:
+        """Take in what has been finished, after waiting for it so many seconds, and hand out what is waiting."""
+        self._assign()
+        for pipe in wait([drawer.pipe for drawer in self._busy], patience):
+            drawer = next(one for one in self._busy if one.pipe is pipe)
+            self._busy.remove(drawer)
+            self._done.append(drawer.answer())
+            if drawer.process.is_alive():
+                self._free.append(drawer)
+        self._assign()
+
+    def outcomes(self) -> Iterator[tuple[Task, Drawn | str]]:
+        """Go through the tasks as they are finished, each with what was drawn, or in a sentence why it was not.
+
+        Raises OSError when a process could not write: that is not the plate's fault.
+        """
+        while self._waiting or self._busy or self._done:
+            if not self._done:
+                self.turn(None)
+            if not self._busy and not self._free:
+                self._done += [(task, "no process is left to draw it") for task in self._waiting]
+                self._waiting.clear()
+            for task, outcome in self._done:
+                if isinstance(outcome, OSError):
+                    raise outcome
+                yield task, outcome
+            self._done.clear()
+
+    def _assign(self) -> None:
+        """Give tasks to free processes, such as have what they need where there is a choice."""
+        while self._free and self._waiting:
+            drawer, task = min(
+                ((drawer, task) for task in self._waiting for drawer in self._free),
+                key=lambda pair: pair[0].fits(pair[1]),
+            )
+            self._waiting.remove(task)
+            self._free.remove(drawer)
+            self._busy.append(drawer)
+            drawer.draw(task)
+
+
+class _Drawer:
+    """One process, this end of its pipe, what it has loaded, and what it is drawing."""
+
+    def __init__(self, process: BaseProcess, pipe: "Connection[Any, Any]") -> None:
+        self.process = process
+        self.pipe = pipe
+        self._loaded = ""
+        self._task: Task | None = None
+
+    def load(self, renderer: str) -> None:
+        """Let it load what a renderer needs."""
+        self.pipe.send(renderer)
+        self._loaded = renderer
+
+    def draw(self, task: Task) -> None:
+        """Let it draw."""
+        self._task = task
+        self.pipe.send(task)
+        self._loaded = "shaded" if "shaded" in {self._loaded, task.renderer} else "vector"
+
+    def fits(self, task: Task) -> int:
+        """Say how well a task suits: best what is loaded and no more, worst what must be loaded first."""
+        if task.renderer == "shaded":
+            return 0 if self._loaded == "shaded" else 3
+        return 1 if self._loaded == "vector" else 2
+
+    def answer(self) -> tuple[Task, Any]:
+        """Return its task and what became of it."""
+        task, self._task = self._task, None
+        if task is None:
+            raise AssertionError("a process that was not asked has no answer")
+        try:
+            return task, self.pipe.recv()
+        except (EOFError, OSError):
+            self.process.join()
+            return task, f"the process that drew it ended with status {self.process.exitcode}"
+
+
+def _alone() -> bool:
+    """Whether this process runs a single thread, so that a fork copies no lock that another one holds."""
+    threads = Path("/proc/self/task")
+    return sys.platform.startswith("linux") and threads.is_dir() and len(list(threads.iterdir())) == 1
+
+
+def _serve(pipe: "Connection[Any, Any]", inherited: Sequence["Connection[Any, Any]"]) -> None:
+    """Do what comes through the pipe until its other end is closed; the build decides what an interrupt means."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for other in inherited:
+        other.close()
+    try:
+        while True:
+            asked = pipe.recv()
+            if isinstance(asked, Task):
+                pipe.send(_outcome(asked))
+            else:
+                _load(asked)
+    except (EOFError, ConnectionError):
+        return
+
+
+def _load(renderer: Any) -> None:
+    """Load what a renderer draws with."""
+    from atlas.render import drawing
+
+    with suppress(Exception):  # what can't be loaded now fails again, and is reported, when something is to be drawn
+        drawing.load(renderer)
+
+
+def _outcome(task: Task) -> Drawn | str | OSError:
+    """Draw a plate, or say in a sentence why it can't be."""
+    try:
+        return task.draw()
+    except OSError as error:
+        return error
+    except AtlasError as error:
+        return str(error)
+    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
+        return f"{type(error).__name__}: {error}"
