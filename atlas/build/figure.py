@@ -17,10 +17,11 @@ FORMATS = ("svg", "pdf", "png")
 
 @dataclass(frozen=True)
 class Figure:
-    """What became of a figure: its files, a line to tell the user, why it was drawn or taken; or why it failed."""
+    """What became of a figure: its files, what drew them, a line to tell the user, and why; or why it failed."""
 
     name: str
     files: tuple[Path, ...] = ()
+    renderer: str = ""
     note: str = ""
     reason: str = ""
     failure: str = ""
@@ -72,8 +73,8 @@ def _placed(plate: Plate, out: Path) -> Figure:
     """Put the files of a plate in their places."""
     name = plate.request.recipe
     if plate.failure:
-        return Figure(name, failure=plate.failure)
+        return Figure(name, reason=plate.reason, failure=plate.failure)
     files = tuple(out / f"{name}.{target}" for target in plate.request.targets)
     for target, file in zip(plate.request.targets, files, strict=True):
         place(plate.file(target), file)
-    return Figure(name, files, plate.note, plate.reason)
+    return Figure(name, files, plate.facts["renderer"], plate.note, plate.reason)

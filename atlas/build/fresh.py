@@ -3,11 +3,10 @@
 import json
 import os
 from collections.abc import Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from atlas.build.sources import PACKAGE, Sources, digest
+from atlas.build.sources import PACKAGE, Sources, digest, release
 from atlas.places import folder
 
 LIBRARIES = (
@@ -41,7 +40,7 @@ def key(file: Path, sources: Sources) -> str:
     sources.save()
     from atlas.render import gl
 
-    return digest(found, [[name, _version(name)] for name in LIBRARIES], gl.library())
+    return digest(found, [[name, release(name)] for name in LIBRARIES], gl.library())
 
 
 def read(out: Path, name: str, wanted: str, formats: Sequence[str]) -> dict[str, Any] | None:
@@ -85,10 +84,3 @@ def _stamp(path: Path) -> list[int]:
 
 def _note(out: Path, name: str) -> Path:
     return out / f".{name}.made.json"
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "absent"

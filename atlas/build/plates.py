@@ -7,12 +7,11 @@ files it reads, its parameters, the renderer, the target, and the versions of th
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from atlas.build.drawing import Drawn, Task
-from atlas.build.sources import PACKAGE, Sources, digest
+from atlas.build.sources import PACKAGE, Sources, digest, release
 from atlas.build.store import Entry, Store
 from atlas.errors import AtlasError
 from atlas.places import folder
@@ -116,7 +115,7 @@ def parts_of(request: Request, sources: Sources, gl: str | None) -> dict[str, st
         "recipe and kernels": sources.closure([folder("figures") / f"{request.recipe}.py"]),
         "data": sources.closure(data_files(request.recipe)),
         "drawing code": sources.closure(roots, without=other),
-        "libraries": digest([[name, _version(name)] for name in DRAWERS[used]]),
+        "libraries": digest([[name, release(name)] for name in DRAWERS[used]]),
         "renderer": digest([request.renderer, gl if request.renderer == "shaded" else None]),
     }
 
@@ -179,10 +178,3 @@ def _task(plate: Plate, scene: "Scene", cost: Mapping[str, Any], store: Store) -
         "cost": cost,
     }
     return Task(scene, renderer, plate.missing, store.root, plate.facts)
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "absent"

@@ -14,7 +14,8 @@ from typing import TypeAlias
 from atlas.build import fresh
 from atlas.build.sources import Sources
 from atlas.build.store import STORE, Store
-from atlas.report.load import find
+from atlas.errors import AtlasError
+from atlas.report.load import find, load
 
 OUT = Path("build/report")
 FORMATS = ("html", "pdf")
@@ -71,9 +72,16 @@ def build_report(
     from atlas.build.drawers import Drawers, many
 
     with Drawers(jobs or many()) as drawers:
-        from atlas.build.making import Making
+        report = load(file)
+        if report.name != file.stem:
+            raise AtlasError(f"{file}: the report's name is {report.name!r}, but the file is called {file.stem!r}.")
+        from atlas.build.showing import Showing
 
-        made = Making(file, out, wanted, kept, sources, drawers, progress or _silent).run()
+        showing = Showing(report, wanted, kept, sources, drawers)
+        from atlas.build.making import Making  # here, while the drawers load what they need
+
+        made = Making(report, showing, out, wanted, kept)
+        made.run(drawers, progress or _silent)
     if not made.failures:
         fresh.write(out, file.stem, key, made.files, pages=made.pages, figures=len(made.plates))
     return Built(

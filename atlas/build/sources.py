@@ -10,7 +10,8 @@ import hashlib
 import json
 import os
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
+from functools import cache, lru_cache
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,15 @@ def digest(*parts: Any) -> str:
     """Return the digest of values that JSON can write, the same on every machine."""
     text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+@cache
+def release(library: str) -> str:
+    """Return the version of a library."""
+    try:
+        return version(library)
+    except PackageNotFoundError:
+        return "absent"
 
 
 class Sources:

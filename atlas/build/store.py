@@ -81,20 +81,28 @@ class Store:
 
     def changed(self, name: str, parts: Mapping[str, str]) -> str:
         """Say in words which parts of a thing's key differ from those remembered under its name."""
-        try:
-            before = json.loads(self._note(name).read_text())
-        except (OSError, ValueError):
-            return "it was never made here"
+        before = self._remembered(name)
         different = [part for part, value in parts.items() if before.get(part) != value]
+        if not before:
+            return "it was never made here"
         return f"changed: {', '.join(different)}" if different else "its files were lost or damaged"
 
     def remember(self, name: str, parts: Mapping[str, str]) -> None:
         """Remember the parts of a thing's key under its name."""
+        if self._remembered(name) == parts:
+            return
         note = self._note(name)
         note.parent.mkdir(parents=True, exist_ok=True)
         beside = note.with_name(f"{note.name}.{os.getpid()}")
         beside.write_text(json.dumps(dict(parts)))
         beside.replace(note)
+
+    def _remembered(self, name: str) -> dict[str, str]:
+        try:
+            found: dict[str, str] = json.loads(self._note(name).read_text())
+        except (OSError, ValueError):
+            return {}  # nothing remembered, or not readable
+        return found
 
     def sweep(self) -> None:
         """Remove what killed builds left half-written, and what nobody has taken for a long time."""

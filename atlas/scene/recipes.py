@@ -1,7 +1,10 @@
-"""The recipes in figures/: what there is, what each takes, and the scene it makes."""
+"""The recipes in figures/: what there is, what each takes, and the scene it makes.
+
+What a recipe says of itself, its title and its parameters with their defaults, is read from its source; it runs only
+when its scene is wanted.
+"""
 
 import ast
-import inspect
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
@@ -25,7 +28,6 @@ class Recipe:
     title: str
     parameters: Mapping[str, Any]
     source: Path
-    make: Callable[..., Scene]
 
     def scene(self, **parameters: Any) -> Scene:
         """Make the scene with these parameters, the defaults for the rest, and note them all in it."""
@@ -34,7 +36,7 @@ class Recipe:
                 raise _unknown("parameter", name, self.parameters, f"the figure {self.name!r}")
         used = {name: _like(parameters.get(name, default), default) for name, default in self.parameters.items()}
         try:
-            scene = self.make(**used)
+            scene = _function(self.source)(**used)
         except AtlasError:
             raise
         except Exception as error:
@@ -50,41 +52,67 @@ def names() -> list[str]:
 
 
 def title(name: str) -> str:
-    """Return the title of a recipe, the first line of its docstring, without running it."""
+    """Return the title of a recipe, the first line of its docstring."""
+    return _title(name, _tree(_source(name)))
+
+
+@cache
+def load(name: str) -> Recipe:
+    """Read what a recipe says of itself, without running it."""
     source = _source(name)
+    tree = _tree(source)
+    make = next((node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == "scene"), None)
+    if make is None:
+        raise AtlasError(f"figures/{name}.py has no function scene(); a recipe is one that returns a Scene")
+    given = make.args
+    places = [*given.posonlyargs, *given.args, *given.kwonlyargs]
+    values = [
+        *[None] * (len(places) - len(given.kwonlyargs) - len(given.defaults)),
+        *given.defaults,
+        *given.kw_defaults,
+    ]
+    parameters = {place.arg: _default(name, place.arg, value) for place, value in zip(places, values, strict=True)}
+    return Recipe(name, _title(name, tree), parameters, source)
+
+
+def _tree(source: Path) -> ast.Module:
+    """Parse a recipe."""
     try:
-        docstring = ast.get_docstring(ast.parse(source.read_text(encoding="utf-8"), str(source)))
+        return ast.parse(source.read_bytes(), str(source))
     except (SyntaxError, ValueError) as error:
         raise _broken(source, error) from error
+
+
+def _title(name: str, tree: ast.Module) -> str:
+    docstring = ast.get_docstring(tree)
     if not docstring:
         raise AtlasError(f"figures/{name}.py has no docstring; its first line would be the title of the figure")
     return docstring.splitlines()[0].rstrip(".")
 
 
+def _default(name: str, parameter: str, value: ast.expr | None) -> Any:
+    """Return the default of a parameter."""
+    if value is None:
+        raise AtlasError(f"the parameter {parameter!r} of figures/{name}.py has no default; every parameter needs one")
+    try:
+        return ast.literal_eval(value)
+    except ValueError as error:
+        raise AtlasError(
+            f"the default of the parameter {parameter!r} of figures/{name}.py is not a plain value; write it out"
+        ) from error
+
+
 @cache
-def load(name: str) -> Recipe:
-    """Load a recipe by name."""
-    source = _source(name)
-    spec = spec_from_file_location(f"atlas_figures.{name}", source)
+def _function(source: Path) -> Callable[..., Scene]:
+    """Run a recipe's file and return its function."""
+    spec = spec_from_file_location(f"atlas_figures.{source.stem}", source)
     if spec is None or spec.loader is None:
         raise AtlasError(f"{source} cannot be loaded as Python")
     module = module_from_spec(spec)
     sys.modules[spec.name] = module
-    try:
-        spec.loader.exec_module(module)
-    except AtlasError:
-        raise
-    except Exception as error:
-        raise _broken(source, error) from error
-    make = getattr(module, "scene", None)
-    if make is None:
-        raise AtlasError(f"figures/{name}.py has no function scene(); a recipe is one that returns a Scene")
-    signature = inspect.signature(make)
-    defaults = {key: parameter.default for key, parameter in signature.parameters.items()}
-    for key, default in defaults.items():
-        if default is inspect.Parameter.empty:
-            raise AtlasError(f"the parameter {key!r} of figures/{name}.py has no default; every parameter needs one")
-    return Recipe(name, title(name), defaults, source, make)
+    spec.loader.exec_module(module)
+    make: Callable[..., Scene] = module.scene
+    return make
 
 
 def _source(name: str) -> Path:

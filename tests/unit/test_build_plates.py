@@ -137,11 +137,11 @@ def test_a_library_that_draws_draws_all_again(checkout: Path, monkeypatch: pytes
     before = keys()
     for library, again in (("matplotlib", EVERY), ("vtk", {"quadric"})):
         with monkeypatch.context() as patch:
-            patch.setattr(plates_module, "_version", lambda name, new=library: "99" if name == new else _known(name))
+            patch.setattr(plates_module, "release", lambda name, new=library: "99" if name == new else _known(name))
             assert different(before, keys()) - {"report"} == again
 
 
-_known = plates_module._version
+_known = plates_module.release
 
 
 def test_the_place_of_the_checkout_does_not_matter(checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:

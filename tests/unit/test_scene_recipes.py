@@ -1,5 +1,6 @@
 """Recipes by name."""
 
+import inspect
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -57,6 +58,21 @@ def test_a_parameter_without_default_is_refused(folder: Path) -> None:
         recipes.load("bare")
 
 
+def test_a_default_that_must_be_computed_is_refused(folder: Path) -> None:
+    """What a recipe takes is read without running it, so that its defaults are plain values."""
+    (folder / "clever.py").write_text('"""Clever."""\ndef scene(*, ratio=1.0 + RATIO): ...\n', encoding="utf-8")
+    with pytest.raises(AtlasError, match=r"default of the parameter 'ratio' of figures/clever.py is not a plain value"):
+        recipes.load("clever")
+
+
+def test_what_a_recipe_takes_is_what_its_function_takes() -> None:
+    """The parameters that are read from the source are those of the function, with the same defaults, in its order."""
+    for name in recipes.names():
+        found = inspect.signature(recipes._function(recipes.load(name).source)).parameters
+        assert {key: value.default for key, value in found.items()} == recipes.load(name).parameters
+        assert list(found) == list(recipes.load(name).parameters)
+
+
 def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
     """The error says what is missing."""
     (folder / "empty.py").write_text('"""Empty."""\n', encoding="utf-8")
@@ -72,7 +88,7 @@ def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
     [
         (b'"""Broken."""\ndef scene(:\n', r"figures/broken\.py, line 2: SyntaxError: invalid syntax"),
         (
-            b'"""Broken."""\nimport no_such_module\n',
+            b'"""Broken."""\nimport no_such_module\ndef scene(): ...\n',
             r"figures/broken\.py, line 2: ModuleNotFoundError: .*no_such_module",
         ),
         (b'"""Broken."""\ndef scene():\n    return 1 / 0\n', r"figures/broken\.py, line 3: ZeroDivisionError"),
