@@ -2,6 +2,7 @@
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from importlib import import_module
 from typing import Any
@@ -53,6 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and end the process: 0 well, 1 something failed, 2 a wrong input, 130 interrupted."""
     if sys.stdout is None:
         sys.exit(complain("standard output is closed", 1))
+    if not sys.warnoptions:  # a float that overflows is told by the command that shows it, not by NumPy
+        warnings.simplefilter("ignore", RuntimeWarning)
     try:
         status = atlas.main(args=None if arguments is None else list(arguments), standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:

@@ -5,9 +5,11 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import Command, Many, examples
+from atlas.cli.options import Command, Many, Place, examples
 from atlas.cli.present import Sheet, dump, show
 from atlas.cli.progress import bar
+
+OUT = Path("build/bench.json")
 
 
 @click.command(
@@ -19,17 +21,18 @@ from atlas.cli.progress import bar
 )
 @click.option("--case", "cases", cls=Many, metavar="NAME [...]", help="elementary, ball, particle; all when left out.")
 @click.option("--quick", is_flag=True, help="The short form, under half a minute.")
-@click.option("--read", type=click.Path(path_type=Path), help="Show this record instead of measuring.")
+@click.option("--read", type=click.Path(dir_okay=False, path_type=Path), help="Show this record instead of measuring.")
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
-    default="build/bench.json",
-    show_default=True,
+    type=Place(dir_okay=False, path_type=Path),
+    show_default=str(OUT),
     help="Keep the record here.",
 )
 @click.option("--store", is_flag=True, help="Keep it where figures and reports draw it from.")
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
-def command(cases: tuple[str, ...], quick: bool, read: Path | None, out: Path, store: bool, as_json: bool) -> None:
+def command(
+    cases: tuple[str, ...], quick: bool, read: Path | None, out: Path | None, store: bool, as_json: bool
+) -> None:
     """Measure error and time together, against references that share nothing with what they judge.
 
     The record holds machine, versions and command. Figures and report pages are drawn from the stored record.
@@ -39,12 +42,14 @@ def command(cases: tuple[str, ...], quick: bool, read: Path | None, out: Path, s
     from atlas.study.bench.tables import machine_line, tables
 
     if read is not None:
+        if cases or quick or out or store:
+            raise click.UsageError("--read shows a record that is there: nothing but --json goes with it.")
         found = records.read(read)
     else:
         words = ["atlas bench", *(["--quick"] if quick else []), *(f"--case {case}" for case in cases)]
         with bar("bench") as tell:
             found = run(cases or None, quick, tell, command=" ".join(words))
-        records.write(found, records.stored() if store else out)
+        records.write(found, records.stored() if store else out or OUT)
     if as_json:
         dump(_plain(found))
         return

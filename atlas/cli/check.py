@@ -1,13 +1,14 @@
 """``atlas check``: a user's own trajectory, graded against the certified one."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from atlas.cli.options import (
     REAL,
     Command,
+    Place,
     body_options,
     chosen_body,
     chosen_field,
@@ -15,6 +16,9 @@ from atlas.cli.options import (
     field_options,
 )
 from atlas.cli.present import Sheet, dump, show
+
+if TYPE_CHECKING:
+    from atlas.study.check import Check
 
 
 @click.command(
@@ -34,14 +38,17 @@ from atlas.cli.present import Sheet, dump, show
     "--threshold", type=REAL, default="6", show_default=True, help="Correct digits below which a column fails."
 )
 @click.option(
-    "--figure", type=click.Path(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
+    "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
 )
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
-def command(file: Path, **options: Any) -> None:
+def command(file: Path, **options: Any) -> int:
     """Count the correct digits of a trajectory computed elsewhere, column by column.
 
     FILE.csv has a column t and any of R11 to R33, Omega1 to Omega3, or a quaternion w, x, y, z. The parameters are
     options, or lines such as '# field = 1 2' at the head of the file.
+
+    The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
+    option is wrong.
     """
     from atlas.study.check import check
 
@@ -61,12 +68,21 @@ def command(file: Path, **options: Any) -> None:
         draw(found.scene(), options["figure"])
     if options["as_json"]:
         dump(found.record())
-        return
+    else:
+        tables(found)
+        if options["figure"] is not None:
+            click.echo(options["figure"])
+    failed = [f"{column.name} from t = {column.fails_at:g}" for column in found.columns if column.fails_at is not None]
+    if failed:
+        click.echo(f"atlas: fewer than {found.threshold:g} correct digits in {', '.join(failed)}", err=True)
+    return 1 if failed else 0
+
+
+def tables(found: "Check") -> None:
+    """Show the grades of the columns, and what drifts."""
     title = f"{found.file}: {found.rows} row{'s' * (found.rows != 1)}, case {found.case}"
     heading, rows = found.column_table()
     show(Sheet(title, heading=heading, rows=rows))
     heading, rows = found.drift_table()
     if rows:
         show(Sheet("what should not change", heading=heading, rows=rows, justify="left"))
-    if options["figure"] is not None:
-        click.echo(options["figure"])

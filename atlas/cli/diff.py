@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import Command, examples
+from atlas.cli.options import Command, Place, examples
 from atlas.cli.present import Sheet, dump, show
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ ROOM = 44
 @click.argument("new", type=click.Path(path_type=Path))
 @click.option(
     "--page",
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=Place(dir_okay=False, path_type=Path),
     help="Write an HTML page with both pictures of each figure that changed; it needs no other file.",
 )
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")

@@ -2,14 +2,17 @@
 
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import Command, Many, examples, jobs_option, out_option
+from atlas.cli.options import Command, Many, Typed, examples, jobs_option, out_option
 from atlas.cli.present import explained, show
 from atlas.cli.progress import bar
 from atlas.errors import AtlasError
+
+if TYPE_CHECKING:
+    from atlas.build.figure import Figure
 
 
 @click.command(
@@ -72,24 +75,32 @@ def command(
         figures = list(
             build_figures(wanted, tuple(kinds), out, renderer=renderer, parameters=parameters, jobs=jobs, progress=tell)
         )
-    failed = [figure for figure in figures if figure.failure]
-    if failed and len(wanted) == 1:
-        raise AtlasError(failed[0].failure)
+    if len(wanted) == 1 and figures[0].failure:
+        raise AtlasError(figures[0].failure)
     for figure in figures:
         for file in figure.files:
             click.echo(file)
     if explain:
         show(explained([["figure", figure.name, figure.reason] for figure in figures]))
     sys.stdout.flush()
+    return warned(figures, renderer)
+
+
+def warned(figures: "list[Figure]", renderer: str) -> int:
+    """Tell what was not drawn as it was asked for, and why; return the exit status."""
     for note in dict.fromkeys(figure.note for figure in figures if figure.note):
         click.echo(f"atlas: {note}", err=True)
+    flat = [figure.name for figure in figures if figure.files and figure.renderer != renderer and not figure.note]
+    if flat:
+        click.echo(f"atlas: no panel in space, so drawn by the vector renderer: {', '.join(flat)}", err=True)
+    failed = [figure for figure in figures if figure.failure]
     for figure in failed:
         click.echo(f"atlas: figure {figure.name}: {figure.failure}", err=True)
     return 1 if failed else 0
 
 
 def setting(text: str) -> tuple[str, Any]:
-    """Read KEY=VALUE: a number, a list of numbers a,b,c, true or false, or a word.
+    """Read KEY=VALUE: a number such as 1.5, 3/2 or 1e-3, a list of numbers a,b,c, true or false, or a word.
 
     Raises click.UsageError when there is no "=".
     """
@@ -109,6 +120,6 @@ def _word(text: str) -> Any:
     except ValueError:
         pass  # not a whole number: perhaps a float
     try:
-        return float(text)
-    except ValueError:
+        return float(Typed(text))
+    except (ValueError, ZeroDivisionError, OverflowError):
         return text

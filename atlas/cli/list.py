@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import Command
+from atlas.cli.options import Command, shapes
 from atlas.cli.present import Sheet, dump, show
 from atlas.errors import AtlasError
 
@@ -17,7 +17,6 @@ def command(as_json: bool) -> int:
 
     A recipe or a report that cannot be read does not hide the others; then the exit status is 1.
     """
-    from atlas.core.body import SHAPES
     from atlas.scene import recipes
 
     figures, broken = titles(recipes.names(), recipes.title)
@@ -25,7 +24,7 @@ def command(as_json: bool) -> int:
     record: dict[str, Any] = {
         "figures": figures,
         "reports": documents,
-        "shapes": {name.replace("_", "-"): [n for n in names if n != "mass"] for name, (_, names) in SHAPES.items()},
+        "shapes": shapes(),
     }
     if as_json:
         dump(record)
@@ -38,11 +37,11 @@ def command(as_json: bool) -> int:
 
 def lay_out(record: dict[str, Any]) -> None:
     """Show the three lists as tables."""
-    shapes = [[name, " ".join(f"--{size}" for size in sizes)] for name, sizes in record["shapes"].items()]
+    bodies = [[name, " ".join(f"--{size}" for size in sizes)] for name, sizes in record["shapes"].items()]
     for heading, rows in (
         (("figure", "title"), list(record["figures"].items())),
         (("report", "title"), list(record["reports"].items())),
-        (("shape", "dimensions"), shapes),
+        (("shape", "dimensions"), bodies),
     ):
         show(Sheet("", heading=heading, rows=rows, justify="left"))
 

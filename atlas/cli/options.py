@@ -1,6 +1,7 @@
 """Options that several commands share: the body, the field, the times, the form of the output."""
 
 import math
+import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -58,6 +59,20 @@ class Real(click.ParamType[Typed]):
 REAL = Real()
 
 
+class Place(click.Path):
+    """Where a file or a folder is to be written: in a folder that is there, or that can be made."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Find the folder that is there, and say what is wrong with it before any work is done."""
+        place = Path(os.fsdecode(super().convert(value, param, ctx)))
+        there = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
+        if not there.is_dir():
+            self.fail(f"there is no folder to make {str(value)!r} in: {str(there)!r} is a file.", param, ctx)
+        if not os.access(place if place.is_dir() else there, os.W_OK | os.X_OK):
+            self.fail(f"{str(value)!r} cannot be written: its folder is read-only.", param, ctx)
+        return place
+
+
 class Many(click.Option):
     """An option that takes as many values as follow it: ``--times 0 1 2.5``."""
 
@@ -112,7 +127,7 @@ body_options: Callable[[F], F] = stack(
     click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, cylindrical-shell, ..."),
     click.option("--radius", type=REAL, help="Radius of the shape."),
     click.option("--height", type=REAL, help="Height of a cylinder or cylindrical shell."),
-    click.option("--length", type=REAL, help="Length of a rod."),
+    click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
     click.option("--equatorial", type=REAL, help="Equatorial semi-axis of a spheroid."),
     click.option("--polar", type=REAL, help="Polar semi-axis of a spheroid."),
 )
@@ -143,7 +158,7 @@ output_options: Callable[[F], F] = stack(
 
 def out_option(standard: str) -> Callable[[F], F]:
     """Return the option for the folder that files go to."""
-    kind = click.Path(file_okay=False, path_type=Path)
+    kind = Place(file_okay=False, path_type=Path)
     return click.option("--out", type=kind, default=standard, show_default=True, help="Folder for the files.")
 
 
@@ -156,6 +171,21 @@ times_options: Callable[[F], F] = stack(
     click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, as many as you like."),
     click.option("--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="A uniform grid of times instead."),
 )
+
+
+ROD = "thin-rod"
+ROD_REASON = (
+    "a thin rod has I3 = 0 and so no ratio I = I3/I2 > 0: its turn about its own axis carries no inertia, and Omega3 "
+    "is not determined; give it a radius with --shape solid-cylinder."
+)
+
+
+def shapes() -> dict[str, list[str]]:
+    """Return the shapes that --shape takes, each with the options of its dimensions."""
+    from atlas.core.body import SHAPES
+
+    named = {name.replace("_", "-"): names for name, (_, names) in SHAPES.items()}
+    return {name: [size for size in names if size != "mass"] for name, names in named.items() if name != ROD}
 
 
 def chosen_body(options: dict[str, Any]) -> Any:
@@ -173,17 +203,21 @@ def chosen_body(options: dict[str, Any]) -> Any:
         raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
     if options["ratio"] is not None:
         return options["ratio"]
-    from atlas.core.body import SHAPES, SymmetricBody, from_shape
+    from atlas.core.body import SymmetricBody, from_shape
 
     if options["inertia"] is not None:
         return SymmetricBody(*options["inertia"])
-    shape = options["shape"].replace("_", "-")
-    shapes = {name.replace("_", "-"): [size for size in names if size != "mass"] for name, (_, names) in SHAPES.items()}
-    if shape not in shapes:
-        raise click.UsageError(f"there is no shape {shape!r}; the shapes are {', '.join(shapes)}.")
-    if set(sizes) != set(shapes[shape]):
-        wanted, found = (" ".join(f"--{size}" for size in names) or "none" for names in (shapes[shape], sizes))
+    shape, known = options["shape"].replace("_", "-"), shapes()
+    if shape == ROD:
+        raise click.UsageError(ROD_REASON)
+    if shape not in known:
+        raise click.UsageError(f"there is no shape {shape!r}; the shapes are {', '.join(known)}.")
+    if set(sizes) != set(known[shape]):
+        wanted, found = (" ".join(f"--{size}" for size in names) or "none" for names in (known[shape], sizes))
         raise click.UsageError(f"the shape {shape} takes {wanted}; found {found}.")
+    for name, size in sizes.items():
+        if size and not 1e-150 < abs(size) < 1e150:
+            raise click.UsageError(f"--{name} {size.text} has no square among floats: choose another unit of length.")
     return from_shape(shape.replace("-", "_"), mass=1.0, **sizes)
 
 

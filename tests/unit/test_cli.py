@@ -15,6 +15,7 @@ import pytest
 from click.testing import CliRunner
 
 from atlas.cli.app import atlas as command
+from atlas.cli.figure import setting
 from atlas.cli.options import Typed
 
 ATLAS = [sys.executable, "-m", "atlas"]
@@ -119,6 +120,28 @@ def test_floats_in_json_read_back_the_same() -> None:
         ("hyperbola --ratio 1.5 --field 1e-300 1e300", "too far apart"),
         ("hyperbola --ratio 1.5 --field 1e308 1e308", "beyond the largest float"),
         ("check nosuch.csv", "nosuch.csv"),
+        ("classify --shape thin-rod --length 1 --field 1 2", "I3 = 0"),
+        ("classify --shape thin-rod --field 1 2 --json", "--shape solid-cylinder"),
+        ("classify --shape ring --radius 1e308 --field 1 2", "--radius 1e308"),
+        ("classify --shape ring --radius 1e-200 --field 1 2 --json", "another unit of length"),
+        ("classify --shape ring --radius 0 --field 1 2", "radius must be positive"),
+        ("classify --inertia 1 3 --field 1 2 --json", "at most 2 I2"),
+        ("classify --ratio 1.5 --magnetic 1e308 2 --mu 1e308", "larger units"),
+        ("classify --ratio 1.5 --field 1 2 --digits 1001", "1001"),
+        ("hyperbola --ratio 1.5 --field 0 0", "no curve"),
+        ("hyperbola --ratio 1.5 --field 1 2 --count 1", "--count"),
+        ("ball --larmor 1 --momentum 1 1 --inertia 0", "inertia"),
+        ("particle --mu 1e308 --magnetic 0 0 1e308 --velocity 1 0 0 --times 1 --json", "larger units"),
+        ("verify mf999", "mf999"),
+        ("stress --samples 0", "--samples"),
+        ("bench --read tests", "'tests' is a directory"),
+        ("bench --read reports/data/bench.json --quick", "nothing but --json"),
+        ("diff nosuch nosuch", "nosuch is not a built report"),
+        ("figure", "--all"),
+        ("figure hyperbola --set ratio", "KEY=VALUE"),
+        ("figure hyperbola --set ratio=5/2", "2.5"),
+        ("figure hyperbola --format pdf --renderer shaded", "PNG"),
+        ("figure hyperbola --set field=1e308,1e308", "finite"),
         ("classify --ratio 1e-9999999999 --field 1 2 --decimal", "exponent"),
         ("motion --ratio 1.5 --field 1 2 --omega2 -1 --times 0", "-1"),
         ("motion --ratio 1.5 --field 1 2 --omega2 1 --times", "--times"),
@@ -138,6 +161,69 @@ def test_a_wrong_input_gets_one_line_and_status_two(words: str, tells: str) -> N
     assert result.stdout == ""
     assert result.stderr.count("\n") == 1
     assert tells in result.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "figure lssc --out {}",
+        "report short_solenoid --out {}",
+        "bench --quick --out {}",
+        "check mine.csv --figure {}.svg",
+        "diff old new --page {}.html",
+    ],
+)
+def test_a_place_below_a_file_is_told_before_any_work(words: str, tmp_path: Path) -> None:
+    """What cannot be written is named as it was given, and no hidden file with it; a wrong place is a wrong input."""
+    file = tmp_path / "mine.csv"
+    file.write_text("t,R11\n0,1\n", encoding="utf-8")
+    place = file / "sub" / "x"
+    result = run(*words.replace("mine.csv", str(file), 1).format(place).split())
+    assert (result.returncode, result.stdout) == (2, "")
+    assert result.stderr.count("\n") == 1
+    assert str(place) in result.stderr
+    assert f"'{file}' is a file" in result.stderr
+    assert ".part" not in result.stderr
+
+
+def test_a_read_only_folder_is_told_before_any_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nothing may be written, the folder given is named."""
+    monkeypatch.setattr(os, "access", lambda _path, _mode: False)
+    result = CliRunner().invoke(command, ["figure", "lssc", "--out", str(tmp_path / "new")])
+    assert result.exit_code == 2
+    assert f"'{tmp_path / 'new'}' cannot be written: its folder is read-only" in result.stderr
+
+
+def test_every_shape_that_is_listed_has_a_quadric() -> None:
+    """What `atlas list` names, `atlas classify` takes, with the dimensions that stand beside it."""
+    for shape, sizes in record("list")["shapes"].items():
+        dimensions = [word for size in sizes for word in (f"--{size}", "0.5")]
+        kind = record("classify", "--shape", shape, *dimensions, "--field", "1", "2")["kind"]
+        assert kind in {"two-sheet hyperboloid", "one-sheet hyperboloid", "cone"}
+
+
+@pytest.mark.parametrize(
+    ("words", "places"),
+    [
+        ("hyperbola --ratio 1.5 --field 1 2 --omega2 3 1e200", {"points[1].nutation_squared"}),
+        ("classify --ratio 1.5 --field 1e-320 1", {"a2"}),
+        (
+            "particle --mu 1 --electric 1e308 0 0 --velocity 1e308 0 0 --times 0 1e308",
+            {"samples[1].position[0]", "samples[1].velocity[0]"},
+        ),
+    ],
+)
+def test_no_float_is_left_out_in_silence(words: str, places: set[str]) -> None:
+    """JSON holds no infinity: there is null in its place, and the reason under "missing"; NumPy warns of nothing."""
+    result = run(*words.split(), "--json")
+    assert (result.returncode, result.stderr) == (0, "")
+    found = json.loads(result.stdout)
+    assert found["missing"] == dict.fromkeys(places, "beyond the largest float")
+    for place in places:
+        value = found
+        for key in re.findall(r"\w+", place):
+            value = value[int(key) if key.isdigit() else key]
+        assert value is None
 
 
 def test_no_digit_is_cut_in_a_pipe() -> None:
@@ -206,13 +292,15 @@ def test_a_reason_is_told_once() -> None:
 @pytest.fixture
 def bad_recipe(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Put a recipe that is no Python beside one that draws."""
+    from atlas.build import plates
     from atlas.scene import recipes
 
     folder = tmp_path / "figures"
     folder.mkdir()
     (folder / "aa_bad.py").write_text('"""Bad."""\ndef scene(:\n', encoding="utf-8")
     (folder / "lssc.py").write_text(recipes.load("lssc").source.read_text(encoding="utf-8"), encoding="utf-8")
-    monkeypatch.setattr(recipes, "folder", lambda _kind: folder)
+    for module in (recipes, plates):
+        monkeypatch.setattr(module, "folder", lambda _kind: folder)
     recipes.load.cache_clear()
     yield tmp_path / "out"
     recipes.load.cache_clear()
@@ -241,6 +329,45 @@ def test_without_gl_a_shaded_figure_says_what_it_is(tmp_path: Path, monkeypatch:
     result = CliRunner().invoke(command, words, standalone_mode=False)
     assert result.return_value == 0
     assert result.stderr == f"atlas: {gl.advice()}\n"
+
+
+def test_a_figure_in_the_plane_is_never_shaded(tmp_path: Path) -> None:
+    """Asked for shaded, a figure without a panel in space says in one line what drew it."""
+    words = ["figure", "hyperbola", "--renderer", "shaded", "--out", str(tmp_path)]
+    for _ in ("drawn", "taken from the store"):
+        result = CliRunner().invoke(command, words, standalone_mode=False)
+        assert result.return_value == 0
+        assert result.stderr == "atlas: no panel in space, so drawn by the vector renderer: hyperbola\n"
+    assert (tmp_path / "hyperbola.png").exists()
+
+
+def test_a_figure_that_fails_says_what_its_user_can_mend(bad_recipe: Path) -> None:
+    """A wrong parameter is told in its own sentence; only what nobody expected comes with the name of its class."""
+    (bad_recipe.parent / "figures" / "aa_bad.py").write_text(
+        '"""Bad."""\ndef scene(*, ratio=1.0):\n    return 1 / 0\n', encoding="utf-8"
+    )
+    words = ["figure", "aa_bad", "lssc", "--format", "svg", "--set", "ratio=5/2", "--out", str(bad_recipe)]
+    unexpected, wrong = CliRunner().invoke(command, words, standalone_mode=False).stderr.splitlines()
+    assert unexpected == "atlas: figure aa_bad: figures/aa_bad.py, line 3: ZeroDivisionError: division by zero"
+    assert wrong.startswith("atlas: figure lssc: No body has I = I3/I2 = 2.5")
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("x=3/2", 1.5),
+        ("x=7", 7),
+        ("x=1e-3", 1e-3),
+        ("x=0.5,1/4", (0.5, 0.25)),
+        ("x=[1]", (1,)),
+        ("x=true", True),
+        ("x=1/0", "1/0"),
+        ("x=word", "word"),
+    ],
+)
+def test_a_setting_is_typed_as_a_number_is(text: str, value: object) -> None:
+    """--set reads numbers as every other option does, lists of them, true and false, and words."""
+    assert setting(text) == ("x", value)
 
 
 def test_a_closed_standard_output_is_told() -> None:
@@ -289,3 +416,26 @@ def test_check_shows_what_there_is(tmp_path: Path) -> None:
     file.write_text("t,R11\n0,1\n", encoding="utf-8")
     out = CliRunner().invoke(command, ["check", str(file), *options], catch_exceptions=False).stdout
     assert "what should not change" not in out
+
+
+@pytest.mark.parametrize(
+    ("rows", "more", "status", "says"),
+    [
+        ("t,R11\n0,1\n", "", 0, ""),
+        ("t,R11\n0,1.001\n", "--threshold 2", 0, ""),
+        ("t,R11,R22\n0,1,1\n1,0.5,0.5\n", "", 1, "fewer than 6 correct digits in R11 from t = 1, R22 from t = 1"),
+        ("t,R11\n0,1.001\n", "--json", 1, "fewer than 6 correct digits in R11 from t = 0"),
+        ("t,R11\n0,1e308\n", "", 1, "fewer than 6 correct digits in R11 from t = 0"),
+        ("t,R11\n", "", 2, "no rows"),
+        ("", "", 2, "is empty"),
+    ],
+)
+def test_the_status_of_check_is_its_verdict(tmp_path: Path, rows: str, more: str, status: int, says: str) -> None:
+    """0 if every column has the digits asked for, 1 with one line that names those that fail, 2 for a wrong input."""
+    file = tmp_path / "mine.csv"
+    file.write_text(rows, encoding="utf-8")
+    result = run("check", str(file), *f"--ratio 1.5 --field 1 2 --omega2 0.7 {more}".split())
+    assert result.returncode == status
+    assert says in result.stderr
+    assert result.stderr.count("\n") == bool(says)
+    assert (result.stdout != "") == (status < 2)
