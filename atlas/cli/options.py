@@ -124,7 +124,7 @@ def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
 body_options: Callable[[F], F] = stack(
     click.option("--ratio", type=REAL, help="I = I3/I2, in (0, 2]."),
     click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
-    click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, cylindrical-shell, ..."),
+    click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, disk, ...; see atlas list."),
     click.option("--radius", type=REAL, help="Radius of the shape."),
     click.option("--height", type=REAL, help="Height of a cylinder or cylindrical shell."),
     click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
