@@ -14,9 +14,13 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from atlas.errors import AtlasError
+
 VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 CHOICE = "ATLAS_GL"
 WINDOWS = {"egl": "vtkEGLRenderWindow", "osmesa": "vtkOSOpenGLRenderWindow"}
+KNOWN = (*WINDOWS, "native")
+NONE = "none"
 DRIVERS = ("lib/dri", "lib64/dri", *(f"lib/{machine}-linux-gnu/dri" for machine in ("x86_64", "aarch64")))
 PACKAGES = ("libegl1", "libgl1-mesa-dri")
 
@@ -36,16 +40,23 @@ _APT = "/usr/bin/apt-get"
 
 @cache
 def library() -> str | None:
-    """Return 'egl', 'osmesa', 'native' (not Linux) or None; the variable ATLAS_GL overrides what the trial finds."""
+    """Return 'egl', 'osmesa', 'native' (not Linux) or None; the variable ATLAS_GL overrides what the trial finds.
+
+    Raises AtlasError where that variable is none of these.
+    """
     choice = os.environ.get(CHOICE, "").lower()
+    if choice == NONE:
+        return None
     if choice:
-        return choice if choice in {*WINDOWS, "native"} else None
+        if choice not in KNOWN:
+            raise AtlasError(f"{CHOICE}={choice} names no GL library; known: {', '.join((*KNOWN, NONE))}")
+        return choice
     note = _note()
     try:
         known = json.loads(note.read_text(encoding="utf-8"))["library"]
     except (OSError, ValueError, KeyError, TypeError):
         known = None  # no note, or half a note: ask again
-    if known in {*WINDOWS, "native"}:
+    if known in KNOWN:
         return str(known)
     found = next((name for name in _candidates() if _draws(name)), None)
     if found:
@@ -150,8 +161,12 @@ def _install() -> bool:
 
 
 def main(arguments: list[str]) -> int:
-    """Print in one line what can draw; with --install, bring it first where possible. Never fails."""
-    found = library()
+    """Print in one line what can draw; with --install, bring it first where possible. Only a misspelt choice fails."""
+    try:
+        found = library()
+    except AtlasError as error:
+        print(f"atlas: {error}", file=sys.stderr)  # noqa: T201  the one line
+        return 2
     if found is None and "--install" in arguments and _vtk() is not None and CHOICE not in os.environ and _install():
         library.cache_clear()
         found = library()

@@ -104,6 +104,22 @@ def test_without_gl_one_line_says_what_is_left_out_and_what_brings_it(words: Any
     assert "libegl1 libgl1-mesa-dri" in done.stdout
 
 
+@pytest.mark.parametrize("module", ["atlas.render.gl", "atlas"])
+def test_a_choice_that_is_no_library_is_told(module: str, tmp_path: Path) -> None:
+    """A misspelt ATLAS_GL is one sentence that names the known values, and exit status 2; nothing is drawn."""
+    words = ["figure", "ball", "--renderer", "shaded", "--out", str(tmp_path)] if module == "atlas" else []
+    done = subprocess.run(
+        [sys.executable, "-m", module, *words],
+        env=dict(os.environ, **{gl.CHOICE: "bogus"}),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "atlas: ATLAS_GL=bogus names no GL library; known: egl, osmesa, native, none\n"
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_with_gl_nothing_is_said_at_set_up() -> None:
     """Set-up is quiet where there is nothing to tell."""
     done = run("--install", **{gl.CHOICE: "egl"})
