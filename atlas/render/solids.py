@@ -1,66 +1,63 @@
-"""What is not glass in a shaded picture: round lines, arrows and marked points, each with its colour at every point."""
+"""What is not glass in a shaded picture: round lines, arrows and marked points, all made of rings around an axis."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.render.faces import Faces, colour, lattice
 from atlas.render.space import HEAD_WIDTH, head_base
 from atlas.render.stage import Stage
 from atlas.scene.layers import Arrow, Curve, Layer, Points, Surface
+from atlas.scene.solids import across
 from atlas.scene.style import Style, style
-
-if TYPE_CHECKING:
-    import pyvista as pv
 
 FloatArray = NDArray[np.float64]
 
-_SIDES = 18
+_SIDES = 20
+_ROUND = np.linspace(0.0, 0.5 * np.pi, 6)
+_SHARP = float(np.cos(np.radians(25.0)))
 
 
-def solids(layer: Layer, view: Stage) -> Iterator["pv.PolyData"]:
-    """Yield what is not glass, each with its colour at every point."""
+def solids(layer: Layer, view: Stage) -> Iterator[Faces]:
+    """Yield what is not glass."""
     if isinstance(layer, Surface):
         for rim in layer.rims:
-            yield from tubes(rim, style("rim"), view)
+            yield from _line(rim, style("rim"), view)
     elif isinstance(layer, Curve):
-        yield from tubes(layer.points, style(layer.role), view)
+        yield from _line(layer.points, style(layer.role), view)
     elif isinstance(layer, Arrow):
         yield from _arrow(layer, view)
     elif isinstance(layer, Points):
         look = style(layer.role)
         for point in np.atleast_2d(layer.points):
-            yield _ball(point, 0.5 * look.tube / view.scale, look)
+            yield _ball(point, 0.5 * look.tube / view.scale, view.towards, look)
 
 
-def _painted(mesh: "pv.PolyData", colour: str) -> "pv.PolyData":
-    """Return the mesh with that colour and normals at every point, and nothing else."""
-    import pyvista as pv
-
-    if mesh.point_data.active_normals is None:
-        mesh = mesh.compute_normals(split_vertices=True, feature_angle=40.0)
-    normals = np.asarray(mesh.point_data.active_normals)
-    mesh.clear_data()
-    mesh.point_data.active_normals = normals
-    mesh.point_data["rgb"] = np.tile(np.array(pv.Color(colour).int_rgb, dtype=np.uint8), (mesh.n_points, 1))
-    return mesh
-
-
-def tubes(points: FloatArray, look: Style, view: Stage) -> Iterator["pv.PolyData"]:
-    """Yield a round line; a dashed one in dashes."""
-    import pyvista as pv
-
+def _line(points: FloatArray, look: Style, view: Stage) -> Iterator[Faces]:
+    """Yield a round line with round joints; a dashed one in dashes."""
     if look.tube <= 0.0:
         return
-    for piece in _dashes(points, look, view):
-        keep = np.concatenate([[True], np.linalg.norm(np.diff(piece, axis=0), axis=1) > 1e-9])
-        if keep.sum() > 1:
-            line = pv.lines_from_points(piece[keep])
-            yield _painted(line.tube(radius=0.5 * look.tube / view.scale, n_sides=_SIDES, capping=True), look.colour)
+    for piece in dashes(points, look, view):
+        fine = distinct(piece)
+        if len(fine) < 2:
+            continue
+        step = np.diff(fine, axis=0)
+        step /= np.linalg.norm(step, axis=1, keepdims=True)
+        corners = np.flatnonzero(np.sum(step[1:] * step[:-1], axis=1) < _SHARP) + 1
+        starts, ends = np.concatenate([[0], corners]), np.concatenate([corners, [len(fine) - 1]])
+        for start, end in zip(starts, ends, strict=True):
+            yield _tube(fine[start : end + 1], 0.5 * look.tube / view.scale, look)
+        for corner in fine[corners]:
+            yield _ball(corner, 0.5 * look.tube / view.scale, view.towards, look)
 
 
-def _dashes(points: FloatArray, look: Style, view: Stage) -> list[FloatArray]:
+def distinct(points: FloatArray) -> FloatArray:
+    """Return a polyline without the points that repeat the one before."""
+    return points[np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9])]
+
+
+def dashes(points: FloatArray, look: Style, view: Stage) -> list[FloatArray]:
     """Return the polyline itself, or the dashes of it, measured in points of the paper along the line."""
     if not look.dash:
         return [points]
@@ -77,24 +74,68 @@ def _dashes(points: FloatArray, look: Style, view: Stage) -> list[FloatArray]:
     return pieces
 
 
-def _arrow(arrow: Arrow, view: Stage) -> Iterator["pv.PolyData"]:
-    """Yield a round shaft and a cone."""
-    import pyvista as pv
+def _tube(points: FloatArray, radius: float, look: Style) -> Faces:
+    """Return a round line along a polyline without sharp corners, flat at its ends."""
+    step = np.diff(points, axis=0)
+    step /= np.linalg.norm(step, axis=1, keepdims=True)
+    before, after = np.concatenate([step[:1], step]), np.concatenate([step, step[-1:]])
+    if len(points) > 3 and np.linalg.norm(points[0] - points[-1]) < radius and float(step[0] @ step[-1]) > _SHARP:
+        before[0], after[-1] = step[-1], step[0]
+    axis = before + after
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    count = len(points)
+    which = np.concatenate([[0, 0], np.arange(count), [count - 1, count - 1]])
+    radii = np.full(count + 4, radius)
+    radii[[0, -1]] = 0.0
+    slope = np.zeros(count + 4)
+    slope[:2], slope[-2:] = -0.5 * np.pi, 0.5 * np.pi
+    return _rings(points[which], axis[which], radii, slope, look)
 
+
+def _arrow(arrow: Arrow, view: Stage) -> Iterator[Faces]:
+    """Yield a round shaft and a cone."""
     look = style(arrow.role)
     tail, tip = np.asarray(arrow.tail, dtype=float), np.asarray(arrow.tip, dtype=float)
     base = head_base(tail, tip, look, view.scale)
     head = float(np.linalg.norm(tip - base))
     if head > 0.0:
-        yield from tubes(np.stack([tail, base + 0.02 * (tip - base)]), look, view)
-        middle = 0.5 * (base + tip)
-        cone = pv.Cone(center=middle, direction=tip - base, height=head, radius=HEAD_WIDTH * head, resolution=40)
-        yield _painted(cone, look.colour)
+        yield from _line(np.stack([tail, base + 0.02 * (tip - base)]), look, view)
+        wide, slope = HEAD_WIDTH * head, float(np.arctan(HEAD_WIDTH))
+        axis = np.tile((tip - base) / head, (4, 1))
+        radii, slopes = np.array([0.0, wide, wide, 0.0]), np.array([-0.5 * np.pi, -0.5 * np.pi, slope, slope])
+        yield _rings(np.stack([base, base, base, tip]), axis, radii, slopes, look)
 
 
-def _ball(centre: FloatArray, radius: float, look: Style) -> "pv.PolyData":
+def _ball(centre: FloatArray, radius: float, axis: FloatArray, look: Style) -> Faces:
     """Return a marked point."""
-    import pyvista as pv
+    angle = np.concatenate([-_ROUND[:0:-1], _ROUND])
+    axes = np.tile(axis, (len(angle), 1))
+    return _rings(centre + radius * np.sin(angle)[:, None] * axes, axes, radius * np.cos(angle), angle, look)
 
-    ball = pv.Sphere(radius=radius, center=centre, theta_resolution=32, phi_resolution=24)
-    return _painted(ball, look.colour)
+
+def _rings(centres: FloatArray, axes: FloatArray, radii: FloatArray, slopes: FloatArray, look: Style) -> Faces:
+    """Return the surface through rings of these radii; its normals lean by ``slopes`` from the radius to the axis."""
+    first, second = _frames(axes)
+    turn = np.linspace(0.0, 2.0 * np.pi, _SIDES + 1)
+    spoke = np.cos(turn)[:, None] * first[:, None] + np.sin(turn)[:, None] * second[:, None]
+    points = centres[:, None] + radii[:, None, None] * spoke
+    normals = np.cos(slopes)[:, None, None] * spoke + np.sin(slopes)[:, None, None] * axes[:, None]
+    paint = np.append(colour(look.colour), 255.0).astype(np.uint8)
+    rows, columns = points.shape[:2]
+    return Faces(
+        points.reshape(-1, 3),
+        normals.reshape(-1, 3),
+        np.tile(paint, (rows * columns, 1)),
+        lattice(rows, columns)[:, ::-1],
+    )
+
+
+def _frames(axes: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return two unit vectors across each axis, carried along from one to the next without a twist."""
+    first = np.empty_like(axes)
+    carried = across(axes[0])[0]
+    for k, axis in enumerate(axes):
+        carried = carried - (carried @ axis) * axis
+        carried /= np.sqrt(carried @ carried)
+        first[k] = carried
+    return first, np.cross(axes, first)

@@ -33,7 +33,7 @@ def shown(layers: Any, path: Path, dpi: float = 100.0, **options: Any) -> NDArra
 
 
 def test_a_second_picture_is_like_the_first(tmp_path: Path) -> None:
-    """The one plotter keeps nothing of what it drew before: other things between two equal scenes change no byte."""
+    """The one window keeps nothing of what it drew before: other things between two equal scenes change no byte."""
     ball = [solids.sphere(np.zeros(3), 1.0, 1e-2)]
     first = shown(ball, tmp_path / "a.png")
     shown([Curve(np.eye(3), "main"), solids.rectangle(np.zeros(3), *np.eye(3)[:2])], tmp_path / "b.png", dpi=130.0)
@@ -91,27 +91,50 @@ def test_a_picture_has_the_size_of_the_scene(tmp_path: Path) -> None:
     assert sizes[0] == sizes[1]
 
 
-def test_without_peeling_there_is_no_picture(tmp_path: Path) -> None:
-    """Where VTK gives up depth peeling without a word, we do not: the drawing is refused, and no file is left."""
+def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path: Path) -> None:
+    """A plate has the same bytes alone in a process and after another one, of another size."""
     program = (
         "import sys\n"
-        "from atlas.render import gl; gl.prepare()\n"
-        "import pyvista as pv\n"
-        "pv.Plotter.enable_depth_peeling = lambda *_: None\n"
-        "from atlas.errors import AtlasError\n"
         "from atlas.render.drawing import draw\n"
         "from atlas.scene import recipes\n"
-        "try:\n"
-        "    draw(recipes.load('cone').scene(), sys.argv[1], renderer='shaded', dpi=40)\n"
-        "except AtlasError as error:\n"
-        "    print(error)\n"
+        "for name in sys.argv[2:]:\n"
+        "    draw(recipes.load(name).scene(), f'{sys.argv[1]}/{name}.png', renderer='shaded', dpi=90)\n"
     )
-    path = tmp_path / "cone.png"
-    done = subprocess.run(
-        [sys.executable, "-c", program, str(path)], env=dict(os.environ), capture_output=True, text=True, check=True
+    found = []
+    for names in (["loop"], ["motion_sphere", "loop"]):
+        subprocess.run([sys.executable, "-c", program, str(tmp_path), *names], env=dict(os.environ), check=True)
+        found.append((tmp_path / "loop.png").read_bytes())
+    assert found[0] == found[1]
+
+
+def test_a_shaded_picture_loads_no_plotter(tmp_path: Path) -> None:
+    """PyVista's plotter, readers and charts, and pyplot, would cost more than the picture."""
+    program = (
+        "import sys\n"
+        "from atlas.render.drawing import draw\n"
+        "from atlas.scene import recipes\n"
+        "draw(recipes.load('ball').scene(), sys.argv[1], renderer='shaded', dpi=40)\n"
+        "print({'matplotlib.pyplot', 'pyvista.plotting', 'vtkmodules.all'} & set(sys.modules))\n"
     )
-    assert "without depth peeling" in done.stdout
-    assert list(tmp_path.iterdir()) == []
+    words = [sys.executable, "-c", program, str(tmp_path / "ball.png")]
+    done = subprocess.run(words, env=dict(os.environ), capture_output=True, text=True, check=True)
+    assert done.stdout == "set()\n"
+
+
+def test_a_line_is_as_thick_as_its_style_says_and_round_at_corners(tmp_path: Path) -> None:
+    """A right angle of the heaviest line: its two sides are 5 points thick, and so is the corner across."""
+    sides = np.array([[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0]])
+    image = shown([Curve(sides, "loop")], tmp_path / "angle.png", dpi=288.0)
+    ink = 1.0 - image.min(axis=2) / 255.0 > 0.05
+    height, width = ink.shape
+    thick = 5.0 * 288.0 / 72.0
+    assert ink[:, width // 2].sum() == pytest.approx(thick, abs=1.5)
+    assert ink[height // 2].sum() == pytest.approx(thick, abs=1.5)
+    margin = 4.0 * 288.0 / 72.0  # where the middle of the line is
+    rows, columns = np.nonzero(ink)
+    reach = np.hypot(columns + 0.5 - (width - margin), rows + 0.5 - (height - margin))
+    outside = (columns > width - margin) & (rows > height - margin)
+    assert reach[outside].max() == pytest.approx(0.5 * thick, abs=1.5)
 
 
 @pytest.mark.parametrize("name", ["hyp_b", "loop", "motion_sphere"])
