@@ -14,7 +14,7 @@ from atlas.build.memory import Memory
 from atlas.build.plates import Plate, tasks
 from atlas.build.record import RECORD, record_of
 from atlas.build.showing import Showing
-from atlas.build.sources import digest
+from atlas.build.sources import PACKAGE, Sources, digest
 from atlas.build.store import Store
 from atlas.build.whole import publish, staging, write
 from atlas.report import html, pdf
@@ -27,13 +27,16 @@ from atlas.report.records import Report
 class Making:
     """One build of a report; afterwards what was made: the `plates`, the number of `pages`, `files` by format."""
 
-    def __init__(self, report: Report, showing: Showing, out: Path, formats: tuple[str, ...], store: Store) -> None:
+    def __init__(
+        self, report: Report, showing: Showing, out: Path, formats: tuple[str, ...], store: Store, sources: Sources
+    ) -> None:
         self.report, self.out, self.formats = report, out, formats
         self.plates = showing.plates
         self.pages = 0
         self.files: dict[str, list[str]] = {}
         self._showing, self._store = showing, store
-        self._memory = Memory(store.root / f"{report.name}.texts.json")
+        setter = sources.closure([PACKAGE / "report" / "formulas.py"])
+        self._memory = Memory(store.root / f"{report.name}.texts.json", setter)
         self._colophon = colophon(report)
         self._times: dict[str, float] = {}
 
@@ -112,7 +115,6 @@ class Making:
         """Compute the tables and collect the texts; what is misspelt is told here."""
         document = compose(self.report, self._showing.gallery, recorded)
         document.manuscript.memory = self._memory
-        document.manuscript.check(document.cite("html"))
         return document
 
     def _pages(self, document: Document) -> dict[str, str | bytes]:

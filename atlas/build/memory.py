@@ -9,11 +9,12 @@ from pathlib import Path
 class Memory:
     """A mapping from the source of a text to the text, read from a file and written back whole.
 
-    What is not asked for any more is forgotten when it is saved.
+    ``setter`` is the digest of the code that sets them. What is not asked for any more is forgotten when it is saved.
     """
 
-    def __init__(self, file: Path) -> None:
+    def __init__(self, file: Path, setter: str) -> None:
         self._file = file
+        self._setter = setter
         try:
             self._known: dict[str, str] = json.loads(file.read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -21,15 +22,15 @@ class Memory:
         self._used: dict[str, str] = {}
 
     def __contains__(self, source: str) -> bool:
-        return _key(source) in self._known
+        return self._key(source) in self._known
 
     def __getitem__(self, source: str) -> str:
-        key = _key(source)
+        key = self._key(source)
         self._used[key] = self._known[key]
         return self._used[key]
 
     def __setitem__(self, source: str, text: str) -> None:
-        self._known[_key(source)] = text
+        self._known[self._key(source)] = text
 
     def save(self) -> None:
         """Write down what was used."""
@@ -38,6 +39,5 @@ class Memory:
         beside.write_text(json.dumps(self._used, ensure_ascii=False), encoding="utf-8")
         beside.replace(self._file)
 
-
-def _key(source: str) -> str:
-    return hashlib.sha256(source.encode()).hexdigest()
+    def _key(self, source: str) -> str:
+        return hashlib.sha256(f"{self._setter}{source}".encode()).hexdigest()

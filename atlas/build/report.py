@@ -80,7 +80,7 @@ def build_report(
         showing = Showing(report, wanted, kept, sources, drawers)
         from atlas.build.making import Making  # here, while the drawers load what they need
 
-        made = Making(report, showing, out, wanted, kept)
+        made = Making(report, showing, out, wanted, kept, sources)
         made.run(drawers, progress or _silent)
     if not made.failures:
         fresh.write(out, file.stem, key, made.files, pages=made.pages, figures=len(made.plates))

@@ -30,7 +30,7 @@ _CITATION = re.compile(r"(?<![\w\\])@([a-z]+:[\w-]+|\w+(?:[.-]\w+)*)")
 
 
 class Memory(Protocol):
-    """What pandoc made of a source before, by that source."""
+    """What was made of a source before, by that source."""
 
     def __contains__(self, source: str, /) -> bool: ...
     def __getitem__(self, source: str, /) -> str: ...
@@ -52,17 +52,12 @@ class Manuscript:
 
     texts: list[Text] = field(default_factory=list)
     memory: Memory = field(default_factory=dict[str, str])
-    """Texts that pandoc has set before are taken from here."""
+    """Texts that were set before are taken from here."""
 
     def add(self, markdown: str, where: str, *, inline: bool = False) -> int:
         """Take in a text and return its number."""
         self.texts.append(Text(markdown, where, inline))
         return len(self.texts) - 1
-
-    def check(self, cite: Callable[[str, str], str]) -> None:
-        """Resolve every citation; `cite` raises AtlasError for one that leads nowhere."""
-        for text in self.texts:
-            _prepared(text, "html", cite)
 
     def set(self, target: Target, cite: Callable[[str, str], str]) -> list[str]:
         """Set all texts for a target, in their order.
@@ -70,23 +65,21 @@ class Manuscript:
         `cite` (citation, place) gives the Markdown of a citation such as ``@mf72``. Raises AtlasError for a formula
         that pandoc can't read.
         """
-        sources = [_prepared(text, target, cite) for text in self.texts]
         setting = json.dumps([version("pypandoc_binary"), _READ, _WRITE[target]])
-        new = [number for number, source in enumerate(sources) if setting + source not in self.memory]
+        sources = [_prepared(text, target, cite) for text in self.texts]
+        keys = [f"{setting}{text.inline}{source}" for text, source in zip(self.texts, sources, strict=True)]
+        new = list({key: number for number, key in enumerate(keys) if key not in self.memory}.values())
         for number, piece in zip(new, _pieces_set([sources[n] for n in new], target, self.texts), strict=True):
-            self.memory[setting + sources[number]] = piece
-        pieces = [self.memory[setting + source] for source in sources]
-        if target == "typst":
-            for piece, text in zip(pieces, self.texts, strict=True):
-                if _CHAIN.search(piece):
-                    raise AtlasError(
-                        f"{text.where}: a fraction below a fraction is lost in print; write it with a slash."
-                    )
-        tidy = mend_all if target == "html" else _tidy_typst
-        return [
-            _bare(tidy(piece.strip()), target) if text.inline else tidy(piece.strip())
-            for piece, text in zip(pieces, self.texts, strict=True)
-        ]
+            self.memory[keys[number]] = _finished(piece.strip(), target, self.texts[number])
+        return [self.memory[key] for key in keys]
+
+
+def _finished(piece: str, target: Target, text: Text) -> str:
+    """Mend what pandoc made of a text."""
+    if target == "typst" and _CHAIN.search(piece):
+        raise AtlasError(f"{text.where}: a fraction below a fraction is lost in print; write it with a slash.")
+    tidy = mend_all(piece) if target == "html" else _tidy_typst(piece)
+    return _bare(tidy, target) if text.inline else tidy
 
 
 def cited(markdown: str, replace: Callable[[str], str]) -> str:
