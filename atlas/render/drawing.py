@@ -13,9 +13,9 @@ from atlas.scene.layers import Scene, Space
 
 Renderer: TypeAlias = Literal["vector", "shaded"]
 FORMATS = ("svg", "pdf", "png")
-CANVASES = ("matplotlib.figure", "matplotlib.backends.backend_agg")
-LIBRARIES = {"vector": (*CANVASES, "matplotlib.backends.backend_svg"), "shaded": (*CANVASES, "pyvista")}
-"""What each back end draws with; all that it needs later is loaded by these."""
+LETTERS = ("matplotlib.textpath", "matplotlib.backends.backend_agg")
+LIBRARIES = {"vector": LETTERS, "shaded": (*LETTERS, "pyvista")}
+"""What each back end draws with; that of a PDF file comes when one is asked for."""
 
 __all__ = ["FORMATS", "Drawn", "Renderer", "choose", "draw", "draw_all", "load"]
 

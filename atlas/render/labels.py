@@ -6,11 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.render.paper import Sheet
+
 FloatArray = NDArray[np.float64]
 
 _TURNS = np.radians([0, 20, -20, 40, -40, 65, -65, 90, -90, 120, -120, 150, -150, 180])
 _STEPS = (0.0, 3.0, 7.0, 12.0)
 _AIR, _APART = 1.2, 4.0
+_HEIGHT = 20.0
 
 
 @dataclass(frozen=True)
@@ -28,18 +31,23 @@ class Tag:
     size: float
 
 
-def stand(tag: Tag, turn: float = 0.0, step: float = 0.0) -> FloatArray:
-    """Return the centre of the text when its offset is turned by ``turn`` and lengthened by ``step``."""
+def stand(tag: Tag) -> FloatArray:
+    """Return the centre of the text where it would like to stand."""
+    return _stands(tag, np.zeros(1), np.zeros(1))[0]
+
+
+def _stands(tag: Tag, turns: FloatArray, steps: FloatArray) -> FloatArray:
+    """Return the centres (N, 2) of the text when its offset is turned and lengthened."""
     anchor = np.array(tag.anchor)
     length = float(np.hypot(*tag.offset))
     if length == 0.0:
-        return anchor
-    angle = np.arctan2(tag.offset[1], tag.offset[0]) + turn
-    u = np.array([np.cos(angle), np.sin(angle)])
+        return np.broadcast_to(anchor, (len(turns), 2))
+    angle = np.arctan2(tag.offset[1], tag.offset[0]) + turns
+    u = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     half = 0.5 * np.array(tag.extent)
     with np.errstate(divide="ignore"):
-        reach = np.min(half / np.abs(u))
-    return anchor + (length + step + min(reach, float(np.hypot(*half)))) * u
+        reach = np.minimum((half / np.abs(u)).min(axis=1), np.hypot(*half))
+    return anchor + (length + steps + reach)[:, None] * u
 
 
 def place(
@@ -50,45 +58,50 @@ def place(
     ``ink`` (N, 2) are points of what is drawn and ``weights`` (N,) how much it hurts to cover them; ``window`` is
     (left, bottom, right, top).
     """
-    centres = [stand(tag) for tag in tags]
-    settled = [tag.offset == (0.0, 0.0) for tag in tags]
+    centres = np.array([stand(tag) for tag in tags]).reshape(-1, 2)
+    sizes = np.array([tag.extent for tag in tags]).reshape(-1, 2)
+    fixed = np.array([tag.offset == (0.0, 0.0) for tag in tags], dtype=bool)
+    settled = fixed.copy()
+    steps, turns = (grid.ravel() for grid in np.meshgrid(_STEPS, _TURNS, indexing="ij"))
+    alone = {}
+    for i in np.flatnonzero(~fixed):
+        candidates = _stands(tags[i], turns, steps)
+        cost = _covers(candidates, tags[i].extent, ink, weights, window) + 1.6 * np.abs(turns) + 0.35 * steps
+        alone[i] = candidates, cost
     for _ in range(2):
-        for i, tag in enumerate(tags):
-            if tag.offset == (0.0, 0.0):
-                continue
-            others = [(centres[j], tags[j].extent) for j in range(len(tags)) if j != i and settled[j]]
-            candidates = [(stand(tag, turn, step), turn, step) for step in _STEPS for turn in _TURNS]
-            costs = [
-                _cost(c, tag.extent, others, ink, weights, window) + 1.6 * abs(turn) + 0.35 * step
-                for c, turn, step in candidates
-            ]
-            centres[i] = candidates[int(np.argmin(costs))][0]
+        for i, (candidates, cost) in alone.items():
+            settled[i] = False
+            total = cost + _meets(candidates, tags[i].extent, centres[settled], sizes[settled])
+            centres[i] = candidates[int(np.argmin(total))]
             settled[i] = True
-    return centres
+    return list(centres)
 
 
-def _cost(
-    centre: FloatArray,
+def _covers(
+    centres: FloatArray,
     extent: tuple[float, float],
-    others: Sequence[tuple[FloatArray, tuple[float, float]]],
     ink: FloatArray,
     weights: FloatArray,
     window: tuple[float, float, float, float],
-) -> float:
-    """Return what a text with this centre covers: other texts, ink, and the edge of the window."""
+) -> FloatArray:
+    """Return how much ink a text covers at each of the centres (N, 2), and how far it leaves the window."""
     half = 0.5 * np.array(extent) + _AIR
-    low, high = centre - half, centre + half
-    cost = 0.0
-    for other, size in others:
-        reach = 0.5 * np.array(size) + _APART
-        overlap = np.minimum(high, other + reach) - np.maximum(low, other - reach)
-        if (overlap > 0.0).all():
-            cost += 30.0 + float(overlap.prod())
-    if ink.size:
-        covered = ((ink > low) & (ink < high)).all(axis=1)
-        cost += float(weights[covered].sum())
-    outside = np.maximum(0.0, [window[0] - low[0], window[1] - low[1], high[0] - window[2], high[1] - window[3]])
-    return cost + 40.0 * float(np.sum(outside))
+    low, high = centres - half, centres + half
+    near = ((ink > low.min(axis=0)) & (ink < high.max(axis=0))).all(axis=1)
+    x, y = ink[near].T
+    covered = (x > low[:, :1]) & (x < high[:, :1]) & (y > low[:, 1:]) & (y < high[:, 1:])
+    outside = np.maximum(0.0, np.concatenate([window[:2] - low, high - window[2:]], axis=1)).sum(axis=1)
+    cost: FloatArray = covered @ weights[near] + 40.0 * outside
+    return cost
+
+
+def _meets(centres: FloatArray, extent: tuple[float, float], others: FloatArray, sizes: FloatArray) -> FloatArray:
+    """Return how much a text at each of the centres (N, 2) covers of other texts (M, 2) of their sizes."""
+    half, reach = 0.5 * np.array(extent) + _AIR, 0.5 * sizes + _APART
+    high = np.minimum((centres + half)[:, None], others + reach)
+    overlap = high - np.maximum((centres - half)[:, None], others - reach)
+    cost: FloatArray = np.where((overlap > 0.0).all(axis=2), 30.0 + overlap.prod(axis=2), 0.0).sum(axis=1)
+    return cost
 
 
 def along(points: FloatArray, step: float = 2.0) -> FloatArray:
@@ -100,3 +113,9 @@ def along(points: FloatArray, step: float = 2.0) -> FloatArray:
     count = int(min(max(2.0, np.ceil(length[-1] / step) + 1.0), 4000.0))
     s = np.linspace(0.0, length[-1], count)
     return np.stack([np.interp(s, length, finite[:, k]) for k in range(2)], axis=1)
+
+
+def write(sheet: Sheet, tags: Sequence[Tag], centres: Sequence[FloatArray]) -> None:
+    """Write the texts with a white halo about their centres."""
+    for tag, (x, y) in zip(tags, centres, strict=True):
+        sheet.words(tag.text, (float(x), float(y)), tag.size, tag.colour, _HEIGHT, stand="middle", halo=True)

@@ -1,103 +1,154 @@
-"""A panel with two axes, drawn on Matplotlib axes."""
+"""A panel with two axes on its sheet of paper."""
 
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from atlas.errors import AtlasError
-from atlas.render.house import SMALL_SIZE, TEXT_SIZE
-from atlas.render.labels import Tag, along, place
-from atlas.render.text import extent, typeset, write
+from atlas.render import frame, key, names
+from atlas.render.axis import Axis, limits, linear
+from atlas.render.bar import Bar
+from atlas.render.clip import clipped
+from atlas.render.frame import Frame
+from atlas.render.paper import Sheet
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
 from atlas.scene.style import INK, style
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.transforms import Transform
-
 FloatArray = NDArray[np.float64]
+Places: TypeAlias = Callable[[FloatArray], FloatArray]
 
-_AREAS, _LINES, _MARKS = 1.0, 2.0, 3.0
-_FAR = 1e5
-
-
-def draw_plane(axes: "Axes", panel: Plane) -> None:
-    """Draw everything but the labels; those wait until the layout is settled (see `label_plane`)."""
-    _scales(axes, panel)
-    for order, layer in enumerate(panel.layers):
-        if type(layer) not in _BRUSHES:
-            raise AtlasError(f"a plane panel cannot hold a {type(layer).__name__}; put it in a Space")
-        _BRUSHES[type(layer)](axes, layer, bool(panel.legend), 1e-3 * order)
-    axes.set_xlabel(typeset(panel.x_label))
-    axes.set_ylabel(typeset(panel.y_label))
-    if panel.title:
-        axes.set_title(typeset(panel.title))
-    if panel.x_limits is not None:
-        axes.set_xlim(*panel.x_limits)
-    if panel.y_limits is not None:
-        axes.set_ylim(*panel.y_limits)
-    if panel.y_names:
-        axes.set_yticks(range(1, len(panel.y_names) + 1), [typeset(name) for name in panel.y_names])
-        axes.tick_params(axis="y", which="both", length=0)
-    if panel.legend == "beside":
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
-    elif panel.legend:
-        axes.legend(loc="best")
+_MAP, _AREAS, _LINES, _MARKS = 0.5, 1.0, 2.0, 3.0
+_HEAD, _HEAD_WIDTH = 4.2, 1.6
 
 
-def _name(layer: Any, keyed: bool) -> str:
-    """Return what stands in the key for a layer; an underscore keeps it out."""
-    return (typeset(layer.label) if keyed else "") or "_"
+class Drawing:
+    """A panel whose axes are known; its sheet is found with the room that it needs around it."""
+
+    def __init__(self, panel: Plane) -> None:
+        for layer in panel.layers:
+            if type(layer) not in _BRUSHES:
+                raise AtlasError(f"a plane panel cannot hold a {type(layer).__name__}; put it in a Space")
+        self.panel = panel
+        self.bars = [Bar(layer) for layer in panel.layers if isinstance(layer, Image)]
+        self._x_limits, self._y_limits = _limits(panel, 0), _limits(panel, 1)
+        self._linear = [linear(_drawn(panel, column)) for column in range(2)]
+
+    def margins(self, width: float, height: float) -> tuple[float, float, float, float]:
+        """Return the room needed on the left, below, on the right and above a rectangle that holds the axes."""
+        size = self._shape(width, height)
+        x, y = 0.5 * (width - size[0]), 0.5 * (height - size[1])
+        around = self.frame(*size).margins
+        left, below, right, above = (max(room - air, 0.0) for room, air in zip(around, (x, y, x, y), strict=True))
+        for bar in self.bars:
+            right += bar.room(height)
+        if self.panel.legend == "beside":
+            right = max(right, key.room(self.panel, width))
+        return left, below, right, above
+
+    def frame(self, width: float, height: float) -> Frame:
+        """Return the frame in a size."""
+        panel = self.panel
+        (x0, x1), (y0, y1) = self._x_limits, self._y_limits
+        if panel.equal and not (panel.x_limits and panel.y_limits):
+            scale = min(width / (x1 - x0), height / (y1 - y0))
+            x0, x1 = 0.5 * (x0 + x1 - width / scale), 0.5 * (x0 + x1 + width / scale)
+            y0, y1 = 0.5 * (y0 + y1 - height / scale), 0.5 * (y0 + y1 + height / scale)
+        x = Axis(panel.x_scale, x0, x1, width, frame.x_room(), self._linear[0])
+        y = Axis(panel.y_scale, y0, y1, height, frame.y_room(), self._linear[1])
+        return Frame(x, y, panel.x_label, panel.y_label, panel.title, panel.y_names)
+
+    def _shape(self, width: float, height: float) -> tuple[float, float]:
+        """Return the size of the axes in a rectangle: less of it where both have one scale and given limits."""
+        panel = self.panel
+        if not (panel.equal and panel.x_limits and panel.y_limits):
+            return width, height
+        spans = [high - low for low, high in (panel.x_limits, panel.y_limits)]
+        scale = min(width / spans[0], height / spans[1])
+        return scale * spans[0], scale * spans[1]
+
+    def fitted(self, sheet: Sheet) -> Sheet:
+        """Return the part of a sheet that the axes take up."""
+        (left, bottom), (width, height) = sheet.corner, sheet.size
+        size = self._shape(width, height)
+        return Sheet(sheet.page, (left + 0.5 * (width - size[0]), bottom + 0.5 * (height - size[1])), size)
+
+    def places(self, sheet: Sheet) -> Places:
+        """Return what finds the places (N, 2) of points (N, 2) on a sheet that the axes take up."""
+        around = self.frame(*sheet.size)
+
+        def found(points: FloatArray) -> FloatArray:
+            points = np.atleast_2d(np.asarray(points, dtype=float))
+            return np.stack([around.x.place(points[:, 0]), around.y.place(points[:, 1])], axis=1)
+
+        return found
+
+    def draw(self, sheet: Sheet) -> None:
+        """Draw the panel."""
+        sheet = self.fitted(sheet)
+        places = self.places(sheet)
+        for order, layer in enumerate(self.panel.layers):
+            _BRUSHES[type(layer)](sheet, layer, places, 1e-3 * order)
+        for bar in self.bars:
+            bar.draw(sheet)
+        self.frame(*sheet.size).draw(sheet)
+        if self.panel.legend:
+            key.draw(sheet, self.panel, places)
+        names.write(sheet, self.panel, places)
 
 
-def _curve(axes: "Axes", layer: Curve, keyed: bool, rise: float) -> None:
+def _curve(sheet: Sheet, layer: Curve, places: Places, rise: float) -> None:
     look = style(layer.role)
-    (line,) = axes.plot(*layer.points.T, color=look.colour, linewidth=look.width, zorder=_LINES + rise)
-    line.set_label(_name(layer, keyed))
-    if look.dash:
-        line.set_dashes(look.dash)
+    lines = clipped(places(layer.points), sheet.size)
+    if lines:
+        sheet.stroke(lines, look.colour, look.width, _LINES + rise, dash=look.dash, clip=True)
 
 
-def _points(axes: "Axes", layer: Points, keyed: bool, rise: float) -> None:
-    look = style(layer.role)
+def _points(sheet: Sheet, layer: Points, places: Places, rise: float) -> None:
+    found = places(layer.points)
+    found = found[((found > -10.0) & (found < np.array(sheet.size) + 10.0)).all(axis=1)]
+    if len(found):
+        mark(sheet, found, layer.role, _MARKS + rise)
+
+
+def mark(sheet: Sheet, places: FloatArray, role: str, height: float) -> None:
+    """Mark places in the style of a role."""
+    look = style(role)
     edge = INK if look.colour == "#ffffff" else look.colour
-    (marks,) = axes.plot(*np.atleast_2d(layer.points).T, linestyle="none", zorder=_MARKS + rise)
-    marks.set(marker=look.marker or "o", markersize=look.size, markerfacecolor=look.colour)
-    marks.set(markeredgecolor=edge, markeredgewidth=0.7, label=_name(layer, keyed))
+    shape, size = look.marker or "o", look.size
+    if shape == ".":
+        shape, size = "o", 0.5 * size
+    sheet.marks(places, shape, size, look.colour, height, edge=edge, width=0.7, clip=True)
 
 
-def _region(axes: "Axes", layer: Region, keyed: bool, rise: float) -> None:
+def _region(sheet: Sheet, layer: Region, places: Places, rise: float) -> None:
     look = style(layer.role)
-    (area,) = axes.fill(*layer.points.T, color=look.colour, alpha=look.fill, linewidth=0.0, zorder=_AREAS + rise)
-    area.set_label(_name(layer, keyed))
+    corners = np.clip(places(layer.points), -1e4, 1e4)
+    sheet.fill([corners], look.colour, _AREAS + rise, opacity=look.fill, clip=True)
 
 
-def _arrow(axes: "Axes", layer: Arrow, _keyed: bool, rise: float) -> None:
+def _arrow(sheet: Sheet, layer: Arrow, places: Places, rise: float) -> None:
     look = style(layer.role)
-    shape = {"arrowstyle": "-|>,head_width=0.16,head_length=0.42", "color": look.colour, "lw": look.width}
-    shape |= {"shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 10.0}
-    axes.annotate("", layer.tip, layer.tail, arrowprops=shape, zorder=_LINES + rise)
-    axes.update_datalim(np.stack([layer.tail, layer.tip]))
+    tail, tip = places(np.stack([layer.tail, layer.tip]))
+    along = (tip - tail) / max(float(np.hypot(*(tip - tail))), 1e-9)
+    foot, side = tip - _HEAD * along, _HEAD_WIDTH * np.array([-along[1], along[0]])
+    sheet.stroke([np.stack([tail, foot])], look.colour, look.width, _LINES + rise)
+    sheet.fill([np.stack([tip, foot + side, foot - side])], look.colour, _LINES + rise, edge=look.colour, width=0.3)
 
 
-def _image(axes: "Axes", layer: Image, _keyed: bool, _rise: float) -> None:
-    from matplotlib.colors import LogNorm, Normalize
-
-    low, high = layer.limits or (None, None)
-    norm = LogNorm(low, high) if layer.scale == "log" else Normalize(low, high)
-    mesh = axes.pcolormesh(layer.x, layer.y, layer.values, norm=norm, cmap="cividis", rasterized=True, zorder=0.5)
-    bar = axes.figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30)
-    bar.set_label(typeset(layer.label))
-    bar.outline.set_linewidth(0.5)
+def _image(sheet: Sheet, layer: Image, places: Places, _rise: float) -> None:
+    width, height = sheet.size
+    x = places(np.stack([layer.x, np.full(len(layer.x), layer.y[0])], axis=1))[:, 0]
+    y = places(np.stack([np.full(len(layer.y), layer.x[0]), layer.y], axis=1))[:, 1]
+    sheet.picture(Bar(layer).pixels(x, y, *sheet.dots), (0.0, 0.0, width, height), _MAP)
 
 
-def _later(_axes: "Axes", _layer: Label, _keyed: bool, _rise: float) -> None:
-    """Leave a label for when the layout is settled."""
+def _later(_sheet: Sheet, _layer: Label, _places: Places, _rise: float) -> None:
+    """Leave a name for when all lines are drawn."""
 
 
-_BRUSHES: dict[type, Callable[..., None]] = {
+_BRUSHES: dict[type[Layer], Callable[..., None]] = {
     Curve: _curve,
     Points: _points,
     Region: _region,
@@ -107,73 +158,25 @@ _BRUSHES: dict[type, Callable[..., None]] = {
 }
 
 
-def label_plane(axes: "Axes", panel: Plane) -> None:
-    """Place the labels of a panel whose axes have their final position."""
-    from matplotlib.transforms import Affine2D
+def _drawn(panel: Plane, column: int) -> FloatArray:
+    """Return all coordinates of what is drawn along one axis."""
+    drawn = [layer.points for layer in panel.layers if isinstance(layer, Curve | Points)]
+    return np.concatenate([np.empty(0), *(np.atleast_2d(points)[:, column] for points in drawn)])
 
-    figure = axes.figure
-    per_point = figure.dpi / 72.0
-    to_points = axes.transData + Affine2D().scale(1.0 / per_point)
-    box = axes.get_window_extent().extents / per_point
-    tags = []
+
+def _limits(panel: Plane, column: int) -> tuple[float, float]:
+    """Return the limits of an axis: those given, or such that all is in view."""
+    given, kind = ((panel.x_limits, panel.x_scale), (panel.y_limits, panel.y_scale))[column]
+    if given is not None:
+        return given
+    images = [layer for layer in panel.layers if isinstance(layer, Image)]
+    if images:
+        edges = np.concatenate([(image.x, image.y)[column] for image in images])
+        return float(edges.min()), float(edges.max())
+    found = [_drawn(panel, column)]
     for layer in panel.layers:
-        for text, at, offset, role in _requests(axes, layer, bool(panel.legend)):
-            size = SMALL_SIZE if role == "note" else TEXT_SIZE
-            x, y = to_points.transform(np.asarray(at, dtype=float))
-            tags.append(Tag(text, (float(x), float(y)), offset, extent(figure, text, size), style(role).colour, size))
-    if tags:
-        write(figure, tags, place(tags, *_ink(panel, to_points, box), tuple(box)))
-
-
-def _requests(axes: "Axes", layer: Layer, keyed: bool) -> Iterator[tuple[str, Any, tuple[float, float], str]]:
-    """Yield (text, place, offset, role) for each name that a layer wants written in the panel."""
-    if isinstance(layer, Label):
-        yield layer.text, layer.at, layer.offset, layer.role
-    elif isinstance(layer, Arrow) and layer.label:
-        step = axes.transData.transform(layer.tip) - axes.transData.transform(layer.tail)
-        beyond = 4.0 * step / max(float(np.hypot(*step)), 1e-9)
-        yield layer.label, layer.tip, layer.offset or (float(beyond[0]), float(beyond[1])), layer.role
-    elif isinstance(layer, Image) or keyed or not layer.label:
-        return
-    elif isinstance(layer, Points):
-        yield layer.label, np.atleast_2d(layer.points)[0], (4.0, 4.0), "label"
-    elif isinstance(layer, Curve):
-        (x0, x1), (y0, y1) = sorted(axes.get_xlim()), sorted(axes.get_ylim())
-        x, y = layer.points.T
-        seen = layer.points[(x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)]
-        if len(seen):
-            yield layer.label, seen[-1], (-4.0, 4.0), layer.role
-    elif isinstance(layer, Region):
-        yield layer.label, layer.points.mean(axis=0), (0.0, 0.0), "note"
-
-
-def _ink(panel: Plane, to_points: "Transform", box: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return points of all lines and marks inside the box, and how much it hurts to cover each."""
-    ink, weights = [np.empty((0, 2))], [np.empty(0)]
-    for layer in panel.layers:
-        if isinstance(layer, Curve):
-            points = along(np.clip(to_points.transform(layer.points), -_FAR, _FAR))
-        elif isinstance(layer, Points):
-            points = to_points.transform(np.atleast_2d(layer.points))
+        if isinstance(layer, Region):
+            found.append(layer.points[:, column])
         elif isinstance(layer, Arrow):
-            points = along(to_points.transform(np.array([layer.tail, layer.tip])))
-        else:
-            continue
-        points = points[((points >= box[:2] - 10.0) & (points <= box[2:] + 10.0)).all(axis=1)]
-        ink.append(points)
-        weights.append(np.full(len(points), 6.0 if isinstance(layer, Points) else 1.5))
-    return np.concatenate(ink), np.concatenate(weights)
-
-
-def _scales(axes: "Axes", panel: Plane) -> None:
-    """Set the kind of each axis; a symmetric logarithm turns linear below the smallest value drawn."""
-    drawn = [np.atleast_2d(layer.points) for layer in panel.layers if isinstance(layer, Curve | Points)]
-    for column, (kind, change) in enumerate(((panel.x_scale, axes.set_xscale), (panel.y_scale, axes.set_yscale))):
-        if kind == "symlog":
-            values = np.abs(np.concatenate([np.ones(0), *(points[:, column] for points in drawn)]))
-            sizes = values[np.isfinite(values) & (values > 0.0)]
-            change("symlog", linthresh=10.0 ** np.floor(np.log10(sizes.min())) if sizes.size else 1.0)
-        elif kind == "log":
-            change("log")
-    if panel.equal:
-        axes.set_aspect("equal", adjustable="box" if panel.x_limits and panel.y_limits else "datalim")
+            found.append(np.stack([layer.tail, layer.tip])[:, column])
+    return limits(kind, np.concatenate(found))

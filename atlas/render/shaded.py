@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,16 +10,16 @@ from atlas.render import vector
 from atlas.render.faces import joined
 from atlas.render.glass import glass
 from atlas.render.labels import along
+from atlas.render.paper import Sheet
 from atlas.render.solids import solids
 from atlas.render.space import write_names
 from atlas.render.stage import Stage, stage
 from atlas.render.studio import photograph
 from atlas.scene.layers import Arrow, Curve, Points, Scene, Space, Surface
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 FloatArray = NDArray[np.float64]
+
+_LOWEST = -1.0
 
 
 def save(scene: Scene, files: Mapping[Path, str], *, dpi: float = vector.DPI) -> None:
@@ -28,23 +27,15 @@ def save(scene: Scene, files: Mapping[Path, str], *, dpi: float = vector.DPI) ->
     vector.save(scene, files, dpi=dpi, paint=_paint)
 
 
-def _paint(axes: "Axes", panel: Space) -> None:
+def _paint(sheet: Sheet, panel: Space) -> None:
     """Draw a panel: the picture below, the names above."""
-    view = stage(axes, panel)
-    figure = axes.figure
-    box = axes.get_window_extent()
-    left, bottom = round(box.x0), round(box.y0)
-    width, height = round(box.x1) - left, round(box.y1) - bottom
+    view = stage(sheet, panel)
+    width, height = sheet.dots
     things = joined([solid for layer in view.panel.layers for solid in solids(layer, view)])
     pixel = view.window[1] / (height * view.scale)
-    figure.figimage(
-        photograph(things, glass(view, pixel), view, width, height), left, bottom, origin="upper", zorder=-1.0
-    )
-    axes.set_axis_off()
-    axes.set_xlim(0.0, view.window[0])
-    axes.set_ylim(0.0, view.window[1])
+    sheet.expose(photograph(things, glass(view, pixel), view, width, height), _LOWEST)
     ink = list(_ink(view))
-    write_names(axes, view, [points for points, _ in ink], [np.full(len(points), w) for points, w in ink])
+    write_names(sheet, view, [points for points, _ in ink], [np.full(len(points), w) for points, w in ink])
 
 
 def _ink(view: Stage) -> Iterator[tuple[FloatArray, float]]:

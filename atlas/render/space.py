@@ -1,21 +1,17 @@
 """A panel in space on paper: visible lines solid, hidden ones thin and dashed, surfaces as pale tints."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
 from atlas.render.hidden import hidden, split
-from atlas.render.labels import along, place
+from atlas.render.house import TEXT_SIZE
+from atlas.render.labels import along, place, write
 from atlas.render.outline import areas, facing, shadows
+from atlas.render.paper import Sheet
 from atlas.render.stage import Stage, stage
-from atlas.render.text import write
 from atlas.scene import conics
 from atlas.scene.layers import Arrow, Curve, Points, Space, Surface
 from atlas.scene.style import INK, Style, style
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 FloatArray = NDArray[np.float64]
 
@@ -28,10 +24,10 @@ _SHADE, _DEPTH = "#1d3048", 0.019
 HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
 
 
-def draw_space(axes: "Axes", panel: Space) -> None:
+def draw_space(sheet: Sheet, panel: Space) -> None:
     """Draw a panel with its labels."""
-    view = stage(axes, panel)
-    easel = Easel(axes, view)
+    view = stage(sheet, panel)
+    easel = Easel(sheet, view)
     for order, layer in enumerate(view.panel.layers):
         easel.rise = 1e-3 * order
         if isinstance(layer, Surface):
@@ -42,35 +38,31 @@ def draw_space(axes: "Axes", panel: Space) -> None:
             easel.arrow(layer)
         elif isinstance(layer, Points):
             easel.marks(layer)
-    write_names(axes, view, easel.ink, easel.weights)
+    write_names(sheet, view, easel.ink, easel.weights)
 
 
-def write_names(axes: "Axes", view: Stage, ink: list[FloatArray], weights: list[FloatArray]) -> None:
+def write_names(sheet: Sheet, view: Stage, ink: list[FloatArray], weights: list[FloatArray]) -> None:
     """Write the names and the title of a panel clear of the ink."""
-    figure = axes.figure
-    corner = axes.get_window_extent().transformed(figure.dpi_scale_trans.inverted()).p0 * 72.0
     centres = place(
         view.tags,
         np.concatenate([np.empty((0, 2)), *ink]),
         np.concatenate([np.empty(0), *weights]),
         (1.0, 1.0, view.window[0] - 1.0, view.window[1] - 1.0),
     )
-    write(figure, view.tags, centres, (float(corner[0]), float(corner[1])))
+    write(sheet, view.tags, centres)
     if view.panel.title:
-        axes.text(2.0, view.window[1] - 3.0, view.panel.title, va="top", ha="left", zorder=20.0)
+        at = (2.0, view.window[1] - 3.0)
+        sheet.words(view.panel.title, at, TEXT_SIZE, "#000000", 20.0, align=0.0, stand="top")
 
 
 class Easel:
-    """Matplotlib axes whose units are printer's points, and what has been drawn on them."""
+    """A sheet of paper, and what has been drawn on it."""
 
-    def __init__(self, axes: "Axes", view: Stage) -> None:
-        self.axes, self.view = axes, view
+    def __init__(self, sheet: Sheet, view: Stage) -> None:
+        self.sheet, self.view = sheet, view
         self.ink: list[FloatArray] = []
         self.weights: list[FloatArray] = []
         self.rise = 0.0
-        axes.set_xlim(0.0, view.window[0])
-        axes.set_ylim(0.0, view.window[1])
-        axes.set_axis_off()
 
     def surface(self, surface: Surface) -> None:
         """Tint the two sides, then draw silhouette, edges and wires."""
@@ -115,8 +107,8 @@ class Easel:
         side = np.array([-run[1], run[0]]) / max(float(np.hypot(*run)), 1e-9) * HEAD_WIDTH * length
         seen = not hidden(tip[None], view.surfaces, view.towards)[0]
         corners = np.stack([point, foot + side, foot + 0.12 * run, foot - side])
-        (shape,) = self.axes.fill(*corners.T, facecolor=look.colour if seen else "white", edgecolor=look.colour)
-        shape.set(linewidth=0.3 if seen else 0.5, joinstyle="miter", zorder=_HEAD + self.rise)
+        face, width = (look.colour, 0.3) if seen else ("#ffffff", 0.5)
+        self.sheet.fill([corners], face, _HEAD + self.rise, edge=look.colour, width=width)
 
     def marks(self, points: Points) -> None:
         """Draw marked points; hidden ones are hollow."""
@@ -124,25 +116,19 @@ class Easel:
         places = np.atleast_2d(points.points)
         gone = hidden(places, view.surfaces, view.towards)
         edge = INK if look.colour == "#ffffff" else look.colour
-        for place_, behind in zip(view.on_paper(places), gone, strict=True):
-            (mark,) = self.axes.plot(*place_, linestyle="none", marker=look.marker or "o", markersize=look.size)
-            mark.set(markerfacecolor="white" if behind else look.colour, markeredgecolor=edge, markeredgewidth=0.6)
-            mark.set(zorder=_MARK + self.rise, clip_on=False)
-            self._note(place_[None] + np.array([[0, 0], [1, 1], [-1, 1], [1, -1], [-1, -1]]), 4.0)
+        shape, size = ("o", 0.5 * look.size) if look.marker == "." else (look.marker or "o", look.size)
+        flat = view.on_paper(places)
+        for group, face in ((flat[~gone], look.colour), (flat[gone], "#ffffff")):
+            if len(group):
+                self.sheet.marks(group, shape, size, face, _MARK + self.rise, edge=edge, width=0.6)
+        around = flat[:, None] + np.array([[0, 0], [1, 1], [-1, 1], [1, -1], [-1, -1]])
+        self._note(around.reshape(-1, 2), 4.0)
 
     def _area(self, loops: list[FloatArray], colour: str, opacity: float) -> None:
-        from matplotlib.patches import PathPatch
-        from matplotlib.path import Path
-
-        paths = [Path(self.view.on_paper(np.concatenate([loop, loop[:1]])), closed=True) for loop in loops]
-        patch = PathPatch(Path.make_compound_path(*paths), facecolor=colour, alpha=opacity, linewidth=0.0)
-        patch.set(zorder=_TINT + self.rise, clip_on=False)
-        self.axes.add_patch(patch)
+        self.sheet.fill(map(self.view.on_paper, loops), colour, _TINT + self.rise, opacity=opacity)
 
     def _stroke(self, flat: FloatArray, colour: str, width: float, dash: tuple[float, ...], zorder: float) -> None:
-        (line,) = self.axes.plot(*flat.T, color=colour, linewidth=width, zorder=zorder + self.rise, clip_on=False)
-        if dash:
-            line.set_dashes(dash)
+        self.sheet.stroke([flat], colour, width, zorder + self.rise, dash=dash)
 
     def _note(self, points: FloatArray, weight: float) -> None:
         self.ink.append(points)

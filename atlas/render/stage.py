@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +9,12 @@ from numpy.typing import NDArray
 from atlas.errors import AtlasError
 from atlas.render.house import LABEL_SIZE, TEXT_SIZE
 from atlas.render.labels import Tag, stand
+from atlas.render.paper import Sheet
 from atlas.render.scaling import scaled
 from atlas.render.text import extent
 from atlas.scene.camera import frame
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Points, Region, Space, Surface
 from atlas.scene.style import style
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 FloatArray = NDArray[np.float64]
 
@@ -57,11 +54,9 @@ class Stage:
         return self.scale * (points @ self.frame[:2].T) + self.shift
 
 
-def stage(axes: "Axes", panel: Space) -> Stage:
-    """Fit a panel into its axes: the largest scale at which all that is drawn and written stays inside."""
-    figure = axes.figure
-    inches = axes.get_window_extent().transformed(figure.dpi_scale_trans.inverted())
-    width, height = 72.0 * inches.width, 72.0 * inches.height
+def stage(sheet: Sheet, panel: Space) -> Stage:
+    """Fit a panel into its sheet: the largest scale at which all that is drawn and written stays inside."""
+    width, height = sheet.size
     head = _TITLE if panel.title else 0.0
     shown = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
     low, high = shown.min(axis=0), shown.max(axis=0)
@@ -69,7 +64,7 @@ def stage(axes: "Axes", panel: Space) -> Stage:
     panel, shown = scaled(panel, centre, size), (shown - centre) / size
     eye = frame(panel)
     flat = shown @ eye[:2].T
-    tags = [tag for layer in panel.layers for tag in _tags(figure, layer, eye)]
+    tags = [tag for layer in panel.layers for tag in _tags(layer, eye)]
     inside = np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN - head])
     scale = _fit(flat, tags, inside)
     left, right = _reach(flat, tags, scale)
@@ -93,14 +88,14 @@ def _parts(layer: Layer) -> Iterator[FloatArray]:
         raise AtlasError(f"a panel in space cannot hold a {kind}; put it in a Plane")
 
 
-def _tags(figure, layer: Layer, eye: FloatArray) -> Iterator[Tag]:  # noqa: ANN001  a Matplotlib figure
+def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
     """Yield the names that a layer wants written; their anchors are on paper at scale 1."""
     request = _request(layer, eye)
     if request is not None:
         text, at, offset, role = request
         size = TEXT_SIZE if role == "note" else LABEL_SIZE
         anchor = eye[:2] @ np.asarray(at, dtype=float)
-        yield Tag(text, (float(anchor[0]), float(anchor[1])), offset, extent(figure, text, size), _ink(role), size)
+        yield Tag(text, (float(anchor[0]), float(anchor[1])), offset, extent(text, size), _ink(role), size)
 
 
 def _request(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
@@ -133,19 +128,21 @@ def _ink(role: str) -> str:
 def _fit(flat: FloatArray, tags: list[Tag], inside: FloatArray) -> float:
     """Return the largest scale at which drawing and names stay inside, by bisection."""
     span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
+    corners = np.stack([flat.min(axis=0), flat.max(axis=0)])
     low, high = 0.0, float(np.min(inside / span))
     for _ in range(40):
         middle = 0.5 * (low + high)
-        a, b = _reach(flat, tags, middle)
+        a, b = _reach(corners, tags, middle)
         low, high = (middle, high) if (b - a <= inside).all() else (low, middle)
     return low or high
 
 
 def _reach(flat: FloatArray, tags: list[Tag], scale: float) -> tuple[FloatArray, FloatArray]:
     """Lowest and highest corner of drawing and names at this scale, the origin at (0, 0)."""
-    low, high = scale * flat.min(axis=0), scale * flat.max(axis=0)
-    for tag in tags:
-        centre = stand(replace(tag, anchor=(scale * tag.anchor[0], scale * tag.anchor[1])))
-        half = 0.5 * np.array(tag.extent)
-        low, high = np.minimum(low, centre - half), np.maximum(high, centre + half)
+    anchors = np.array([tag.anchor for tag in tags]).reshape(-1, 2)
+    beside = np.array([stand(replace(tag, anchor=(0.0, 0.0))) for tag in tags]).reshape(-1, 2)
+    half = 0.5 * np.array([tag.extent for tag in tags]).reshape(-1, 2)
+    centres = scale * anchors + beside
+    low = np.concatenate([scale * flat, centres - half]).min(axis=0)
+    high = np.concatenate([scale * flat, centres + half]).max(axis=0)
     return low, high

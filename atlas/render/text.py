@@ -1,19 +1,33 @@
-"""Words on a Matplotlib figure: how large they are, and writing them where they were placed."""
+"""Words as outlines: how large a text is, and the path of its letters, each text set once in a process.
+
+All is in units of the size of the letters, with the origin where the baseline begins, so that one setting serves every
+size and every kind of file.
+"""
 
 import re
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.render.labels import Tag
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+from atlas.render.house import house_style
 
 _MATH = re.compile(r"\$[^$]*\$")
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A line of text: its width, how far it rises above the baseline and how far it hangs below, and its outlines.
+
+    ``points`` (N, 2) and ``codes`` (N,) are those of a `matplotlib.path.Path`. No line is lower than its font asks for.
+    """
+
+    width: float
+    ascent: float
+    descent: float
+    points: NDArray[np.float64]
+    codes: NDArray[np.uint8]
 
 
 def typeset(text: str) -> str:
@@ -21,28 +35,40 @@ def typeset(text: str) -> str:
     return _MATH.sub(lambda math: math[0].replace(r"^{\prime}", "′").replace(r"^\prime", "′").replace("'", "′"), text)
 
 
-def extent(figure: "Figure", text: str, size: float) -> tuple[float, float]:
+def is_math(text: str) -> bool:
+    """Whether a text holds a formula between dollar signs."""
+    return text.count("$") > 1
+
+
+@cache
+def setting(text: str) -> Setting:
+    """Return a text as set in the house style."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import text_to_path
+
+    with house_style():
+        size = text_to_path.FONT_SCALE
+        font = FontProperties(size=size)
+        width, height, descent = text_to_path.get_text_width_height_descent(typeset(text), font, is_math(text))
+        points, codes = text_to_path.get_text_path(font, typeset(text), is_math(text))
+        ascent, depth = _line()
+    outline = np.asarray(points, dtype=float).reshape(-1, 2) / size
+    rise, depth = max((height - descent) / size, ascent), max(descent / size, depth)
+    return Setting(width / size, rise, depth, outline, np.asarray(codes, dtype=np.uint8))
+
+
+@cache
+def _line() -> tuple[float, float]:
+    """Return how far a line of the font of the house reaches above and below its baseline."""
+    from matplotlib.font_manager import findfont, get_font
+
+    with house_style():
+        font = get_font(findfont(None))
+    metrics, unit = font.get_sfnt_table("OS/2"), font.get_sfnt_table("head")["unitsPerEm"]
+    return metrics["sTypoAscender"] / unit, -metrics["sTypoDescender"] / unit
+
+
+def extent(text: str, size: float) -> tuple[float, float]:
     """Width and height of a text in printer's points."""
-    from matplotlib.text import Text
-
-    probe = Text(0.0, 0.0, typeset(text), fontsize=size, figure=figure)
-    box = probe.get_window_extent(figure.canvas.get_renderer())
-    return (box.width * 72.0 / figure.dpi, box.height * 72.0 / figure.dpi)
-
-
-def write(
-    figure: "Figure",
-    tags: Sequence[Tag],
-    centres: Sequence[NDArray[np.float64]],
-    corner: tuple[float, float] = (0.0, 0.0),
-) -> None:
-    """Write the texts with a white halo, centred at places in printer's points from ``corner`` of the figure."""
-    from matplotlib.patheffects import withStroke
-    from matplotlib.transforms import Affine2D
-
-    points = Affine2D().scale(1.0 / 72.0) + figure.dpi_scale_trans
-    for tag, centre in zip(tags, centres, strict=True):
-        x, y = centre[0] + corner[0], centre[1] + corner[1]
-        text = figure.text(x, y, typeset(tag.text), fontsize=tag.size, color=tag.colour, ha="center", va="center")
-        text.set(transform=points, zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground="white")])
-        text.set_in_layout(False)
+    line = setting(text)
+    return (line.width * size, (line.ascent + line.descent) * size)

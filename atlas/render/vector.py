@@ -1,61 +1,91 @@
-"""A scene on paper: Matplotlib's SVG, PDF and PNG canvases, one drawing for all three."""
+"""A scene on paper: one page for SVG, PDF and PNG, its panels row by row."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
-from atlas.render.house import POINTS_PER_MM, house_style
-from atlas.render.plane import draw_plane, label_plane
+from atlas.render.house import POINTS_PER_MM
+from atlas.render.paper import Page, Sheet
+from atlas.render.plane import Drawing
 from atlas.render.space import draw_space
-from atlas.scene.layers import Plane, Scene
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from atlas.scene.layers import Panel, Plane, Scene
 
 FORMATS = ("svg", "pdf", "png")
 DPI = 300.0
 
+_EDGE, _BETWEEN = 2.88, 0.015
+_ROUNDS = 3
+
 
 def save(scene: Scene, files: Mapping[Path, str], *, dpi: float = DPI, paint: Callable[..., None] = draw_space) -> None:
     """Draw a scene once into files, each of its kind; ``paint`` draws the panels in space."""
-    with house_style():
-        figure = compose(scene, dpi=dpi, paint=paint)
-        for path, kind in files.items():
-            figure.savefig(path, format=kind, dpi=dpi, metadata=_metadata(scene, kind))
+    page = compose(scene, dpi=dpi, paint=paint)
+    for path, kind in files.items():
+        if kind == "svg":
+            from atlas.render import svg
 
+            svg.write(page, path, scene.title, scene.alt)
+            continue
+        from atlas.render import canvas
 
-def compose(scene: Scene, *, dpi: float = DPI, paint: Callable[..., None] = draw_space) -> "Figure":
-    """Return the figure with its panels row by row; call it inside `house_style`."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    width, height = (length * POINTS_PER_MM / 72.0 for length in scene.size)
-    figure = Figure(figsize=(width, height), dpi=dpi)
-    FigureCanvasAgg(figure)
-    rows = -(-len(scene.panels) // scene.columns)
-    flat = any(isinstance(panel, Plane) for panel in scene.panels)
-    if flat:
-        figure.set_layout_engine("constrained", w_pad=0.04, h_pad=0.04, wspace=0.03, hspace=0.03)
-    grid = figure.add_gridspec(rows, scene.columns)
-    if not flat:
-        grid.update(left=0.0, right=1.0, bottom=0.0, top=1.0, wspace=0.0, hspace=0.0)
-    frames = [figure.add_subplot(grid[divmod(i, scene.columns)]) for i in range(len(scene.panels))]
-    for axes, panel in zip(frames, scene.panels, strict=True):
-        if isinstance(panel, Plane):
-            draw_plane(axes, panel)
+        if kind == "pdf":
+            canvas.write_pdf(page, path, scene.title)
         else:
-            axes.set_axis_off()
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
-    for axes, panel in zip(frames, scene.panels, strict=True):
-        (label_plane if isinstance(panel, Plane) else paint)(axes, panel)
-    return figure
+            canvas.write_png(page, path, scene.title)
 
 
-def _metadata(scene: Scene, kind: str) -> dict[str, Any]:
-    """Words that travel inside the file; never a date, so that the bytes are the same every time."""
-    if kind == "svg":
-        return {"Date": None, "Title": scene.title, "Description": scene.alt}
-    if kind == "pdf":
-        return {"CreationDate": None, "Title": scene.title}
-    return {"Title": scene.title}
+def compose(scene: Scene, *, dpi: float = DPI, paint: Callable[..., None] = draw_space) -> Page:
+    """Return the page with its panels."""
+    page = blank(scene, dpi)
+    for panel, drawing, sheet in panels(scene, page):
+        if drawing is None:
+            paint(sheet, panel)
+        else:
+            drawing.draw(sheet)
+    return page
+
+
+def blank(scene: Scene, dpi: float = DPI) -> Page:
+    """Return an empty page of the size of a scene."""
+    width, height = (length * POINTS_PER_MM for length in scene.size)
+    return Page(width, height, dpi)
+
+
+def panels(scene: Scene, page: Page) -> list[tuple[Panel, Drawing | None, Sheet]]:
+    """Return the panels, the drawings of those with two axes, and the place of each on the page."""
+    drawings = [Drawing(panel) if isinstance(panel, Plane) else None for panel in scene.panels]
+    return list(zip(scene.panels, drawings, sheets(page, drawings, scene.columns), strict=True))
+
+
+def sheets(page: Page, drawings: list[Drawing | None], columns: int) -> list[Sheet]:
+    """Return the place of each panel: all inner rectangles equally large, with room for the words around them.
+
+    The room depends on the numbers at the ticks, and these on the size; so it is found in rounds.
+    """
+    rows = -(-len(drawings) // columns)
+    flat = any(drawings)
+    edges = (_edges(page.width, columns, flat=flat), _edges(page.height, rows, flat=flat))
+    width, height = page.width / columns, page.height / rows
+    for _ in range(_ROUNDS):
+        rooms = [drawing.margins(width, height) if drawing else (0.0, 0.0, 0.0, 0.0) for drawing in drawings]
+        left = [edges[0][0][c] + max(room[0] for room in rooms[c::columns]) for c in range(columns)]
+        right = [edges[0][1][c] + max(room[2] for room in rooms[c::columns]) for c in range(columns)]
+        lines = [rooms[r * columns : (r + 1) * columns] for r in range(rows)]
+        below = [edges[1][1][r] + max(room[1] for room in lines[r]) for r in range(rows)]
+        above = [edges[1][0][r] + max(room[3] for room in lines[r]) for r in range(rows)]
+        width = max((page.width - sum(left) - sum(right)) / columns, 1.0)
+        height = max((page.height - sum(below) - sum(above)) / rows, 1.0)
+    found = []
+    for index in range(len(drawings)):
+        row, column = divmod(index, columns)
+        x = sum(left[: column + 1]) + sum(right[:column]) + column * width
+        y = page.height - sum(above[: row + 1]) - sum(below[:row]) - (row + 1) * height
+        found.append(Sheet(page, (x, y), (width, height)))
+    return found
+
+
+def _edges(length: float, count: int, *, flat: bool) -> tuple[list[float], list[float]]:
+    """Return the air before and after each of ``count`` panels side by side; a page of pictures in space needs none."""
+    if not flat:
+        return [0.0] * count, [0.0] * count
+    between = max(_EDGE, _BETWEEN * length / count)
+    return [_EDGE] + [between] * (count - 1), [between] * (count - 1) + [_EDGE]

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from atlas.build.meter import counting
 from atlas.errors import AtlasError
 from atlas.render import vector
-from atlas.render.house import house_style
 from atlas.render.stage import _parts, stage
-from atlas.scene import Curve, Plane, Points, Region, Scene, Surface, recipes, sample
+from atlas.scene import Curve, Plane, Points, Region, Scene, Space, Surface, recipes, sample
 from atlas.study import curves
 
 FloatArray = NDArray[np.float64]
@@ -166,16 +165,19 @@ def lines(panel: Any) -> Iterator[FloatArray]:
 
 def views(scene: Scene) -> Iterator[tuple[Callable[[FloatArray], FloatArray], FloatArray | None]]:
     """Yield for each panel what brings its points to final pixels, and the window of a panel with two axes."""
-    with house_style():
-        figure = vector.compose(scene, dpi=DPI)
-        for axes, panel in zip(figure.axes, scene.panels, strict=False):
-            if isinstance(panel, Plane):
-                yield axes.transData.transform, np.asarray(axes.get_window_extent().extents)
-                continue
-            shown = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
-            low, high = shown.min(axis=0), shown.max(axis=0)
-            view, middle, size = stage(axes, panel), 0.5 * (low + high), float((high - low).max())
-            yield lambda x, v=view, m=middle, s=size: v.on_paper((x - m) / s) * DPI / 72.0, None  # type: ignore[misc]
+    pixels = DPI / 72.0
+    for panel, drawing, sheet in vector.panels(scene, vector.blank(scene, DPI)):
+        if drawing is not None:
+            axes = drawing.fitted(sheet)
+            found = drawing.places(axes)
+            window = pixels * np.array([0.0, 0.0, *axes.size])
+            yield lambda x, f=found: pixels * f(x), window  # type: ignore[misc]
+            continue
+        assert isinstance(panel, Space)
+        shown = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
+        low, high = shown.min(axis=0), shown.max(axis=0)
+        view, middle, size = stage(sheet, panel), 0.5 * (low + high), float((high - low).max())
+        yield lambda x, v=view, m=middle, s=size: v.on_paper((x - m) / s) * pixels, None  # type: ignore[misc]
 
 
 @pytest.mark.parametrize(

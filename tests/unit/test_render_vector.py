@@ -13,8 +13,8 @@ import pytest
 from atlas import AtlasError
 from atlas.render import gl, vector
 from atlas.render.drawing import draw
-from atlas.render.house import house_style
 from atlas.render.labels import Tag, place
+from atlas.render.paper import Page, Sheet, Words
 from atlas.render.space import silhouette
 from atlas.render.stage import stage
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
@@ -135,39 +135,35 @@ def test_a_flat_figure_asked_for_shaded_is_drawn_on_paper(tmp_path: Path) -> Non
     assert (done.renderer, done.note) == ("vector", "")
 
 
-def boxes(figure: Any) -> list[tuple[str, Any]]:
-    """Return the boxes of all names of a figure, in dots, with their text."""
-    renderer = figure.canvas.get_renderer()
-    return [(text.get_text(), text.get_window_extent(renderer)) for text in figure.texts]
+def boxes(page: Page) -> list[tuple[str, Any]]:
+    """Return the boxes of all names with a halo on a page, in points, with their text."""
+    return [(item.text, item.box) for item in page if isinstance(item, Words) and item.halo]
 
 
 @pytest.mark.parametrize("name", PLATES)
 def test_names_on_a_plate_stay_on_the_page_and_do_not_overlap(name: str) -> None:
     """Each name of the default figure is inside the page and clear of every other."""
-    with house_style():
-        figure = vector.compose(recipes.load(name).scene(), dpi=100.0)
-        found = boxes(figure)
-    width, height = figure.get_size_inches() * 100.0
+    page = vector.compose(recipes.load(name).scene())
+    found = boxes(page)
     assert len(found) >= 4
-    for text, box in found:
-        assert box.x0 >= 0.0, text
-        assert box.x1 <= width, text
-        assert box.y0 >= 0.0, text
-        assert box.y1 <= height, text
+    for text, (left, bottom, right, top) in found:
+        assert left >= 0.0, text
+        assert right <= page.width, text
+        assert bottom >= 0.0, text
+        assert top <= page.height, text
     for i, (text, a) in enumerate(found):
         for other, b in found[i + 1 :]:
-            overlap = (min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0))
+            overlap = (min(a[2], b[2]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[1], b[1]))
             assert min(overlap) <= 0.0, (text, other)
 
 
 @pytest.mark.parametrize("name", PLATES)
-def test_a_plate_fills_its_page(name: str) -> None:
+def test_a_plate_fills_its_page(name: str, tmp_path: Path) -> None:
     """What is drawn reaches within a tenth of the page's width or height from both edges, and is not cut off."""
-    scene = recipes.load(name).scene()
-    with house_style():
-        figure = vector.compose(scene, dpi=50.0)
-        figure.canvas.draw()
-        ink = np.asarray(figure.canvas.buffer_rgba())[..., :3].min(axis=2) < 250
+    from matplotlib.image import imread
+
+    picture = imread(draw(recipes.load(name).scene(), tmp_path / "plate.png", dpi=50.0).path)
+    ink = picture[..., :3].min(axis=2) < 250.0 / 255.0
     rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
     height, width = ink.shape
     margins = [rows[0] / height, 1.0 - rows[-1] / height, columns[0] / width, 1.0 - columns[-1] / width]
@@ -179,9 +175,9 @@ def test_a_plate_fills_its_page(name: str) -> None:
 def test_the_silhouette_lies_on_the_surface_where_the_line_of_sight_grazes_it(name: str) -> None:
     """Each of its points has F = 0 and grad F . d = 0, to eps times the size of their terms."""
     (panel,) = recipes.load(name).scene().panels
-    with house_style():
-        figure = vector.compose(Scene("t", "c", "a", (panel,)), dpi=50.0)
-        view = stage(figure.axes[0], panel)
+    assert isinstance(panel, Space)
+    page = vector.blank(Scene("t", "c", "a", (panel,)))
+    view = stage(Sheet(page, (0.0, 0.0), (page.width, page.height)), panel)
     found = 0
     for surface in view.surfaces:
         for line in silhouette(surface, view):

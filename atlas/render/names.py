@@ -1,0 +1,72 @@
+"""The names of a panel with two axes, each beside the thing that it belongs to."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.render.house import SMALL_SIZE, TEXT_SIZE
+from atlas.render.labels import Tag, along, place
+from atlas.render.labels import write as write_tags
+from atlas.render.paper import Sheet
+from atlas.render.text import extent
+from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
+from atlas.scene.style import style
+
+FloatArray = NDArray[np.float64]
+Places = Callable[[FloatArray], FloatArray]
+
+_OVER = 10.0
+
+
+def write(sheet: Sheet, panel: Plane, places: Places) -> None:
+    """Write the names of a panel where they cover nothing."""
+    tags = []
+    for layer in panel.layers:
+        for text, (x, y), offset, role in _requests(sheet, layer, places, bool(panel.legend)):
+            size = SMALL_SIZE if role == "note" else TEXT_SIZE
+            tags.append(Tag(text, (float(x), float(y)), offset, extent(text, size), style(role).colour, size))
+    if tags:
+        write_tags(sheet, tags, place(tags, *_ink(sheet, panel, places), (0.0, 0.0, *sheet.size)))
+
+
+def _requests(
+    sheet: Sheet, layer: Layer, places: Places, keyed: bool
+) -> Iterator[tuple[str, Any, tuple[float, float], str]]:
+    """Yield (text, place, offset, role) for each name that a layer wants written in the panel."""
+    if isinstance(layer, Label):
+        yield layer.text, places(layer.at)[0], layer.offset, layer.role
+    elif isinstance(layer, Arrow) and layer.label:
+        tail, tip = places(np.stack([layer.tail, layer.tip]))
+        beyond = 4.0 * (tip - tail) / max(float(np.hypot(*(tip - tail))), 1e-9)
+        yield layer.label, tip, layer.offset or (float(beyond[0]), float(beyond[1])), layer.role
+    elif isinstance(layer, Image) or keyed or not layer.label:
+        return
+    elif isinstance(layer, Points):
+        yield layer.label, places(layer.points)[0], (4.0, 4.0), "label"
+    elif isinstance(layer, Curve):
+        found = places(layer.points)
+        seen = found[((found >= 0.0) & (found <= sheet.size)).all(axis=1)]
+        if len(seen):
+            yield layer.label, seen[-1], (-4.0, 4.0), layer.role
+    elif isinstance(layer, Region):
+        yield layer.label, places(layer.points).mean(axis=0), (0.0, 0.0), "note"
+
+
+def _ink(sheet: Sheet, panel: Plane, places: Places) -> tuple[FloatArray, FloatArray]:
+    """Return points of all lines and marks inside the panel, and how much it hurts to cover each."""
+    ink, weights = [np.empty((0, 2))], [np.empty(0)]
+    for layer in panel.layers:
+        if isinstance(layer, Curve):
+            points = along(places(layer.points))
+        elif isinstance(layer, Points):
+            points = places(layer.points)
+        elif isinstance(layer, Arrow):
+            points = along(places(np.stack([layer.tail, layer.tip])))
+        else:
+            continue
+        points = points[((points >= -_OVER) & (points <= np.array(sheet.size) + _OVER)).all(axis=1)]
+        ink.append(points)
+        weights.append(np.full(len(points), 6.0 if isinstance(layer, Points) else 1.5))
+    return np.concatenate(ink), np.concatenate(weights)
