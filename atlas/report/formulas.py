@@ -10,6 +10,7 @@ import subprocess
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Literal, Protocol, TypeAlias
@@ -126,11 +127,9 @@ def _pieces_set(sources: Sequence[str], target: Target, texts: Sequence[Text]) -
 
 def _pandoc(source: str, target: Target, texts: Sequence[Text]) -> str:
     """Run pandoc once; turn its first warning into an error."""
-    import pypandoc
-
     with TemporaryDirectory() as folder:
         log = Path(folder) / "log.json"
-        command = [pypandoc.get_pandoc_path(), "-f", _READ, *_WRITE[target], "--wrap=none", f"--log={log}"]
+        command = [_program(), "-f", _READ, *_WRITE[target], "--wrap=none", f"--log={log}"]
         run = subprocess.run(  # noqa: S603  the program is the one inside our own locked package
             command, input=source, capture_output=True, text=True, encoding="utf-8", check=False
         )
@@ -145,6 +144,16 @@ def _pandoc(source: str, target: Target, texts: Sequence[Text]) -> str:
             raise AtlasError(f"{place}: the formula ${tex.strip()}$ can't be read: {' '.join(reason.split())}.")
         raise AtlasError(f"pandoc warns of {warning['type']}: {json.dumps(warning, ensure_ascii=False)}.")
     return run.stdout
+
+
+def _program() -> str:
+    """Return the path of the program that its package carries, without loading the package, which takes longer."""
+    spec = find_spec("pypandoc")
+    place = next(iter(spec.submodule_search_locations or ()), None) if spec else None
+    found = next(Path(place or "").glob("files/pandoc*"), None)
+    if place is None or found is None:
+        raise AtlasError("the package pypandoc_binary with its pandoc is not there: install the locked dependencies.")
+    return str(found)
 
 
 def _tidy_typst(typst: str) -> str:

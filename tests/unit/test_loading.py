@@ -121,7 +121,6 @@ recipe = "flight"
 renderer = "shaded"
 """
 PAGES = "msgspec numpy jinja2 typst multiprocessing"
-TEXT = "pypandoc"
 FONTS = "brotli fontTools"
 
 
@@ -135,12 +134,12 @@ class Step(NamedTuple):
 
 
 STEPS = [
-    Step("nothing: the first build", "", "", f"{PAGES} {TEXT} {FONTS} {DRAWING} pyvista vtkmodules"),
+    Step("nothing: the first build", "", "", f"{PAGES} {FONTS} {DRAWING} pyvista vtkmodules"),
     Step("nothing", "", "", "msgspec"),
     Step("a comment", "[[pages]]", "# the only one\n[[pages]]", PAGES),
-    Step("prose", "The rotation matrix", "The old rotation matrix", f"{PAGES} {TEXT}"),
-    Step("a formula", "$R(t)$", "$R(t^2)$", f"{PAGES} {TEXT}"),
-    Step("a parameter of the figure in the plane", "1.5", "1.6", f"{PAGES} {TEXT} {FONTS} {DRAWING}"),
+    Step("prose", "The rotation matrix", "The old rotation matrix", PAGES),
+    Step("a formula", "$R(t)$", "$R(t^2)$", PAGES),
+    Step("a parameter of the figure in the plane", "1.5", "1.6", f"{PAGES} {FONTS} {DRAWING}"),
 ]
 
 
