@@ -85,11 +85,12 @@ class Check:
 
     def scene(self) -> Scene:
         """Draw the error of each group of columns against time."""
-        floor = 10.0**-MOST
+        least, most = 10.0**-MOST, 10.0**MOST
         layers = tuple(
-            Curve(np.column_stack([self.times, np.maximum(errors, floor)]), *LINES[name])
+            Curve(np.column_stack([self.times, np.clip(errors, least, most)]), *LINES[name])
             for name, errors in self.errors.items()
         )
+        beyond = f" Errors beyond {most:g} are drawn there." if max(map(max, self.errors.values())) > most else ""
         limit = 10.0**-self.threshold
         line = Curve(
             np.array([[min(self.times), limit], [max(self.times), limit]]), "limit", f"{self.threshold:g} digits"
@@ -101,7 +102,7 @@ class Check:
                 f"The largest error of each row of {self.file} against the certified motion; of a matrix and of a "
                 f"quaternion in units of 1, of Omega in units of its length. The dotted line marks {self.threshold:g} "
                 f"digits. The worst column is {worst.name}, with {worst.worst:.1f} correct digits at "
-                f"t = {worst.worst_time:g}."
+                f"t = {worst.worst_time:g}.{beyond}"
             ),
             alt=(
                 f"Curves of error against time on a logarithmic scale, for {', '.join(self.errors)}; the worst column, "
@@ -124,9 +125,11 @@ def check(
 ) -> Check:
     """Grade the trajectory in a CSV file, see `atlas.study.trajectory`; arguments override the file's # lines.
 
-    A column fails from the first row on at which it has fewer than ``threshold`` correct digits. The times and the
-    parameters of the file are taken as the doubles nearest to what is written.
+    A column fails from the first row on at which it has fewer than ``threshold`` correct digits, of the 17 that a
+    double can have. The times and the parameters of the file are taken as the doubles nearest to what is written.
     """
+    if not 0 <= threshold <= MOST:
+        raise AtlasError(f"The threshold counts correct digits, from 0 to {MOST:g}; it cannot be {threshold:g}.")
     trajectory = read(path)
     given = dict(trajectory.parameters)
     parameters: dict[str, Any] = {

@@ -83,6 +83,27 @@ def test_a_wrong_value_is_flagged_where_it_stands(write: Writer) -> None:
     assert drifts["E'"].worst < 1e-15
 
 
+@pytest.mark.parametrize("threshold", [-1.0, 17.5, math.inf, math.nan])
+def test_a_threshold_counts_digits(write: Writer, threshold: float) -> None:
+    """It lies between none and the 17 digits of a double."""
+    with pytest.raises(AtlasError, match="from 0 to 17"):
+        graded(write, threshold=threshold)
+
+
+def test_an_error_of_any_size_can_be_drawn(write: Writer) -> None:
+    """What is off by 1e308 has -308 digits and is drawn at 1e17, and the caption says so; what is right is not."""
+    text = SETTING + table(["t", "R11", "Omega1"], [[0.0, 1e308, 0.0], [1.0, 0.5, -1e308]])
+    result = check(write(text))
+    assert [round(column.worst) for column in result.columns] == [-308, -308]
+    scene = result.scene()
+    (panel,) = scene.panels
+    assert isinstance(panel, Plane)
+    drawn = [layer.points[:, 1].max() for layer in panel.layers if isinstance(layer, Curve)]
+    assert drawn == [1e17, 1e17, 1e-6]
+    assert "Errors beyond 1e+17 are drawn there." in scene.caption
+    assert "beyond" not in graded(write).scene().caption
+
+
 def test_drift_of_an_integral_is_relative_and_dated(write: Writer) -> None:
     """Omega that grows by 1e-6 t raises E' by 2e-6 t of itself, most at the end."""
 
