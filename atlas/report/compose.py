@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from atlas.errors import AtlasError
-from atlas.report import records, trial, views
+from atlas.report import records, trial, views, widths
 from atlas.report.appendices import Appendices
 from atlas.report.colophon import colophon
 from atlas.report.formulas import Manuscript, Target, cited
@@ -203,7 +203,10 @@ class _Composer:
         ledger = self.document.ledger.get(label, "")
         if ledger:
             self.use(label, f"eq-{label}" if first else f"page-{self.page.slug}", "display")
-        return views.EquationView(label, number, self.text(f"$${tex.strip()}$$"), block.scale, first, ledger)
+        text = self.text(f"$${tex.strip()}$$")
+        tag = max(widths.line(number) * widths.DISPLAY, widths.line(label) * widths.LABEL) * widths.MILLIMETRES
+        fits = widths.fits(widths.formula(tex), widths.DISPLAY * block.scale, widths.ROOM - 2 * tag - 6.0)
+        return views.EquationView(label, number, text, block.scale, first, ledger, fits)
 
     def figure(self, block: records.Figure) -> views.FigureView:
         """Show the plates of a figure, or say why there are none."""
@@ -237,8 +240,10 @@ class _Composer:
         shown = block.id or f"{self.tables}"
         self.target(f"tab:{shown}", f"tab-{shown}", f"Table {self.tables}")
         columns = []
+        ems = 0.0
         for place, column in enumerate(data.columns):
-            numbers = [row[place].parts() for row in data.rows if isinstance(row[place], Number)]  # type: ignore[union-attr]
+            cells = [row[place] for row in data.rows]
+            numbers = [cell.parts() for cell in cells if isinstance(cell, Number)]
             columns.append(
                 views.ColumnView(
                     self.text(column.head, inline=True),
@@ -249,11 +254,14 @@ class _Composer:
                     any(power for _, _, power in numbers),
                 )
             )
+            words = [column.head, column.unit, *(text for text in cells if isinstance(text, str))]
+            ems += widths.SPACE + max(columns[-1].ems, *map(widths.line, words))
         rows = tuple(tuple(self.cell(value) for value in row) for row in data.rows)
         where = f"tab-{shown}", f"Table {self.tables}"
         note = self.legend(data.note, *where) if data.note else None
         caption = self.legend(block.caption or data.caption, *where)
-        return views.TableView(self.tables, f"tab-{shown}", tuple(columns), rows, caption, note, name)
+        fits = not name or widths.fits(ems, widths.TABLE)  # words are broken into lines
+        return views.TableView(self.tables, f"tab-{shown}", tuple(columns), rows, caption, note, name, fits)
 
     def cell(self, value: str | Number) -> views.Cell:
         """Cut a number at its point, or take in the words."""

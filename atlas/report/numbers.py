@@ -31,9 +31,12 @@ class Number:
         return f"${mantissa}$" if not power else rf"${mantissa}\times 10^{{{int(power)}}}$"
 
 
-def room(text: str) -> float:
-    """Return the width of digits, points, spaces and minus signs in widths of a digit, rounded up a little."""
-    return sum({".": 0.5, THIN: 0.5, MINUS: 1.4}.get(character, 1.0) for character in text)
+def room(text: str, thin: float = 0.5) -> float:
+    """Return the width of digits, points, spaces and minus signs in widths of a digit, as in STIXGeneral.
+
+    That face has no narrow space: `thin` is the width of what stands for it, at most a half in a browser.
+    """
+    return sum({".": 0.5, THIN: thin, MINUS: 1.37}.get(character, 1.0) for character in text)
 
 
 def plain(value: float) -> str:

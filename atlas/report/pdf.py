@@ -9,13 +9,16 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from atlas.errors import AtlasError
 from atlas.places import folder
-from atlas.report import fonts
+from atlas.report import fonts, views, widths
 from atlas.report.colophon import Colophon
 from atlas.report.compose import Document
+from atlas.report.numbers import room
 
 TEXT_FONT = "STIXGeneral"
 MATH_FONT = "STIX Two Math"
 """The faces of the pages and of the figures; see `atlas.report.fonts`."""
+THIN_IN_PRINT = 0.25
+"""What Typst takes for a narrow space, in widths of a digit."""
 
 
 def source(document: Document, colophon: Colophon) -> str:
@@ -34,9 +37,17 @@ def source(document: Document, colophon: Colophon) -> str:
     )
     environment.filters["string"] = _string
     environment.filters["content"] = _content
+    environment.filters["bool"] = lambda value: str(bool(value)).lower()
+    environment.filters["number"] = _number
     texts = document.manuscript.set("typst", document.cite("typst"))
     return environment.get_template("report.typ").render(
-        document=document, report=document.report, texts=texts, colophon=colophon, family=TEXT_FONT, math=MATH_FONT
+        document=document,
+        report=document.report,
+        texts=texts,
+        colophon=colophon,
+        family=TEXT_FONT,
+        math=MATH_FONT,
+        room=widths.ROOM,
     )
 
 
@@ -79,6 +90,20 @@ def _reason(error: Any) -> str:
 def _string(text: str) -> str:
     """Write a Typst string."""
     return json.dumps(str(text), ensure_ascii=False)
+
+
+def _number(cell: views.Cell, column: views.ColumnView) -> str:
+    """Write a number with the spaces that put its point below the others of its column."""
+    before = (column.before - room(cell.whole)) / 2
+    if column.powers:
+        written = (
+            f"num({before:.3f}em, {_string(cell.whole)}, box(width: {column.after / 2 + views.POWER:.3f}em, align("
+        )
+        written += f"left, {_string(cell.fraction)}{f' + power({_string(cell.power)})' if cell.power else ''})))"
+    else:
+        after = (column.after - room(cell.fraction, THIN_IN_PRINT)) / 2
+        written = f"num({before:.3f}em, {_string(cell.whole + cell.fraction)}, h({after:.3f}em))"
+    return written if cell.proven else f"unproven({written})"
 
 
 def _content(text: str) -> str:

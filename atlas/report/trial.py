@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import Equation
-from atlas.report import records, views
+from atlas.report import records, views, widths
 from atlas.report.appendices import Finding
 from atlas.report.letters import typeset
 from atlas.report.load import nearest
@@ -52,6 +52,7 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
     def words(plain: str) -> int | None:
         return keep(typeset(plain, scalar_omega=entry.section == "VII"), inline=True) if plain else None
 
+    printed, corrected = widths.formula(entry.tex), widths.formula(found.corrected)
     how = found.method if not found.follows else f"{found.method}, from {found.follows}"
     return views.EntryView(
         label=entry.label,
@@ -73,6 +74,9 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         modules=found.modules,
         uses=uses,
         wide=max(map(_symbols, (entry.tex, found.corrected))) > NARROW,
+        fits=widths.fits(printed, widths.ENTRY),
+        corrected_fits=widths.fits(corrected, widths.ENTRY, widths.COLUMN),
+        beside=widths.fits(max(printed, corrected), widths.ENTRY, widths.HALF),
     )
 
 

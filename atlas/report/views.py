@@ -4,6 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeAlias
 
+PAGE = 40
+"""As many rows as a table may have to stand on one page of the PDF."""
+POWER = 2.7
+"""The width in ems of a power of ten."""
+
 
 @dataclass(frozen=True)
 class ProseView:
@@ -26,7 +31,8 @@ class NoteView:
 class EquationView:
     """A displayed equation; only the first display of a label is the one that links lead to.
 
-    `ledger` is the page of its entry in the ledger, where the report has that.
+    `ledger` is the page of its entry in the ledger, where the report has that. `fits` tells that it surely finds room
+    on a line of the PDF, in the middle between its number and the margin.
     """
 
     kind: ClassVar[str] = "equation"
@@ -36,6 +42,7 @@ class EquationView:
     scale: float
     anchor: bool
     ledger: str = ""
+    fits: bool = False
 
 
 @dataclass
@@ -105,10 +112,15 @@ class ColumnView:
     after: float = 0.0
     powers: bool = False
 
+    @property
+    def ems(self) -> float:
+        """The width of its numbers in ems."""
+        return (self.before + self.after) / 2 + (POWER if self.powers else 0.0)
+
 
 @dataclass(frozen=True)
 class TableView:
-    """A numbered table, of numbers or of words."""
+    """A numbered table, of numbers or of words; `fits` tells that it surely finds room on a page of the PDF."""
 
     kind: ClassVar[str] = "table"
     number: int
@@ -118,6 +130,12 @@ class TableView:
     caption: int
     note: int | None
     name: str
+    fits: bool = False
+
+    @property
+    def tall(self) -> bool:
+        """Whether it may be longer than a page, and so is broken over two."""
+        return len(self.rows) > PAGE
 
 
 @dataclass(frozen=True)
@@ -145,7 +163,8 @@ class Counterexample:
 class EntryView:
     """An entry of the ledger with its verdict; texts are places in the manuscript.
 
-    `uses` fills while the report is gone through. `wide` tells that two such formulas do not fit side by side.
+    `uses` fills while the report is gone through. `wide` tells that the two formulas are not set side by side; `fits`,
+    `corrected_fits` and `beside` that they surely find room in the PDF: on a line, below the formula, and side by side.
     """
 
     label: str
@@ -167,6 +186,9 @@ class EntryView:
     modules: tuple[str, ...]
     uses: list[Use]
     wide: bool
+    fits: bool = False
+    corrected_fits: bool = False
+    beside: bool = False
 
     @property
     def texts(self) -> list[int]:
