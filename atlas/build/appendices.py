@@ -7,6 +7,7 @@ import math
 import re
 from collections import Counter, defaultdict
 from collections.abc import Sequence
+from statistics import median
 
 from atlas.build.sources import PACKAGE
 from atlas.paper import EQUATIONS
@@ -31,7 +32,7 @@ def gather(report: Report) -> Appendices:
     trial = any(isinstance(block, Ledger | Errata) for block in blocks)
     wanted = {block.source for block in blocks if isinstance(block, Recorded)}
     tables: dict[str, Data] = {}
-    for source, read in {"trial": _trial, "bench": _bench, "stress": _stress}.items():
+    for source, read in {"trial": _trial, "bench": _bench, "stress": _stress, "rebuilds": _rebuilds}.items():
         if source in wanted:
             tables |= {f"{source}: {name}": data for name, data in read().items()}
     return Appendices(_findings() if trial else {}, tables)
@@ -149,6 +150,28 @@ def _stress() -> dict[str, Data]:
     )
     columns = (Column("Quantity"), Column("Worst error", "ulp"), Column("Limit", "ulp"), Column("Met where"))
     return {"worst errors": Data(columns, rows, "Worst errors on record.", note)}
+
+
+def _rebuilds() -> dict[str, Data]:
+    """Return how long changes of many kinds took, and what each made anew."""
+    from atlas.build import rebuilds
+
+    record = rebuilds.read()
+    rows: tuple[tuple[str | Number, ...], ...] = tuple(
+        (
+            one["name"].capitalize(),
+            f"`{one['command']}`",
+            Number(str(one["figures"])),
+            Number(str(one["pages"])),
+            "set" if one["pdf"] else "",
+            Number(f"{median(one['seconds']):.2f}"),
+        )
+        for one in record["changes"]
+    )
+    heads = ("What changed", "Command", "Figures", "Pages", "PDF")
+    columns = (*map(Column, heads), Column("Median time", "s"))
+    note = f"{rebuilds.Cold(**record['cold'])} Measured on {record['machine']}, on {record['date']}."
+    return {"changes": Data(columns, rows, "What a change makes anew, and how long that takes.", note)}
 
 
 def _met(quantity: str, ulps: float, regime: str) -> str:

@@ -7,95 +7,21 @@ import argparse
 import hashlib
 import json
 import os
-import re
 import shutil
 import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, TypeAlias
+from typing import Any
 
+from atlas.build.changes import BUILD, CHANGES, Change
 from atlas.build.sources import PACKAGE
 from atlas.errors import AtlasError
 from atlas.places import folder
-
-Edit: TypeAlias = Callable[[str, int], str]
-RECORD = "rebuilds.json"
-REPORT = "reports/atlas.toml"
-BUILD = ("report", "--out", "{out}")
-PAGES = (*BUILD, "--format", "html")
-DRAW = ("figure", "hyperbola", "--format", "svg", "--out", "{out}/plots", "--set")
-
-
-def parameter(block: str, key: str, value: float) -> Edit:
-    """Return the edit that gives a parameter of a report's block another value each time."""
-
-    def edit(text: str, number: int) -> str:
-        found = re.search(rf'^id = "{block}"$.*?(?=^\n)', text, re.MULTILINE | re.DOTALL)
-        if found is None:
-            raise AtlasError(f"{REPORT} has no block with the id {block!r}.")
-        entry = f"{key} = {value + 0.001 * number:.3f}"
-        body, known = re.subn(r"^parameters = \{[^}]*\}", f"parameters = {{ {entry} }}", found[0], flags=re.MULTILINE)
-        return text.replace(found[0], body if known else f"{body}parameters = {{ {entry} }}\n")
-
-    return edit
-
-
-def line(after: str, new: str) -> Edit:
-    """Return the edit that adds a line, another one each time, after the first one that begins so."""
-
-    def edit(text: str, number: int) -> str:
-        found = re.search(rf"^{re.escape(after)}.*\n", text, re.MULTILINE)
-        if found is None:
-            raise AtlasError(f"no line begins with {after!r}.")
-        return text[: found.end()] + new.format(number) + "\n" + text[found.end() :]
-
-    return edit
-
-
-def blank(text: str, number: int) -> str:
-    """Add blank lines at the end."""
-    return text + "\n" * (number + 1)
-
-
-def nothing(text: str, _number: int) -> str:
-    """Change nothing."""
-    return text
-
-
-@dataclass(frozen=True)
-class Change:
-    """A kind of change: what is said of it, the command that follows, and the edit of a file."""
-
-    name: str
-    command: tuple[str, ...]
-    file: str = REPORT
-    edit: Edit = nothing
-
-
-CHANGES = (
-    Change("nothing", BUILD),
-    Change("a comment in a kernel", BUILD, "atlas/core/hyperbola.py", line("from typing", "# {}")),
-    Change("a sentence", BUILD, REPORT, line("The right branch of @fig:loop", "It was measured {} times.")),
-    Change("a sentence, pages only", PAGES, REPORT, line("The right branch of @fig:loop", "It was seen {} times.")),
-    Change("a template of the pages", BUILD, "templates/html/style.css", line("body", "--number: {};")),
-    Change("a number of a table", BUILD, REPORT, parameter("loop-points", "omega2", 0.7)),
-    Change("a parameter of a 2-D figure", BUILD, REPORT, parameter("loop-hyperbola", "reach", 2.5)),
-    Change("the same, pages only", PAGES, REPORT, parameter("loop-hyperbola", "reach", 2.3)),
-    Change("a parameter of a line drawing in space", BUILD, REPORT, parameter("loop-motion", "omega2", 0.8)),
-    Change("a parameter of a shaded figure", BUILD, REPORT, parameter("short-sphere", "omega2", 0.8)),
-    Change("the same, pages only", PAGES, REPORT, parameter("short-sphere", "omega2", 0.9)),
-    Change("the code of a recipe", BUILD, "figures/stability.py", line("import numpy", "NEW = {}")),
-    Change("a kernel", BUILD, "atlas/core/charge.py", line("import numpy", "NEW = {}")),
-    Change("a record that a figure shows", BUILD, "reports/data/build_costs.json", blank),
-    Change("a figure by itself, drawn", (*DRAW, "reach=2.5{number:03d}")),
-    Change("a figure by itself, taken", (*DRAW, "reach=2.5")),
-    Change("the style of all figures", BUILD, "atlas/scene/style.py", line("from typing", "NEW = {}")),
-)
 
 
 @dataclass(frozen=True)
@@ -138,10 +64,19 @@ class Checkout:
             raise AtlasError(f"atlas {' '.join(words[3:])} ended with {done.returncode}: {done.stderr.strip()}")
         return seconds
 
-    def costs(self) -> dict[str, Any]:
-        """Return the cost ledger of the last build."""
-        found: dict[str, Any] = json.loads((self.out / "atlas.costs.json").read_text())
+    def scenes(self) -> list[dict[str, Any]]:
+        """Return the entries of the cost ledger of the last build."""
+        found: list[dict[str, Any]] = json.loads(self._ledger.read_text())["scenes"]
         return found
+
+    def drawn(self, since: float) -> int:
+        """Return how many figures were drawn since a time, if anything was built since then."""
+        built = self._ledger.stat().st_mtime > since
+        return sum(scene["from"] == "drawn" for scene in self.scenes()) if built else 0
+
+    @property
+    def _ledger(self) -> Path:
+        return self.out / "atlas.costs.json"
 
     def state(self) -> dict[str, str]:
         """Return the digests of what a reader sees."""
@@ -153,21 +88,20 @@ class Checkout:
         """Make a change some times over, each time another one, and build."""
         path = self.place / change.file
         original = path.read_text(encoding="utf-8")
-        seconds, drawn = [], {}
+        seconds, made, figures = [], list[str](), 0
         for number in range(runs + 1):
-            before = self.state()
+            before, began = self.state(), time.time()
             path.write_text(change.edit(original, number), encoding="utf-8")
             elapsed = self.run(change.command, number)
             if number:  # the first one loads what was not used for long
                 seconds.append(elapsed)
-                drawn = {name: key for name, key in self.state().items() if before.get(name) != key}
+                made = [Path(name).suffix for name, key in self.state().items() if before.get(name) != key]
+                figures = self.drawn(began) if change.command[0] == "report" else made.count(".svg")
         path.write_text(original, encoding="utf-8")
         self.run(BUILD)
-        kinds = [Path(name).suffix for name in drawn]
-        figures = sum(kind in {".svg", ".png"} for kind in kinds)
         said = " ".join(("atlas", *change.command)).replace(" --out {out}/plots", "").replace(" --out {out}", "")
         said = said.format(number=0)
-        return Taken(change.name, said, figures, kinds.count(".html"), ".pdf" in kinds, tuple(seconds))
+        return Taken(change.name, said, figures, made.count(".html"), ".pdf" in made, tuple(seconds))
 
 
 def measure(runs: int = 5) -> Iterator[Taken]:
@@ -179,27 +113,75 @@ def measure(runs: int = 5) -> Iterator[Taken]:
             yield checkout.measure(change, runs)
 
 
-def cold(runs: int = 3) -> dict[str, float]:
+@dataclass(frozen=True)
+class Cold:
+    """Medians in seconds: the whole atlas from nothing on one core and on two, and its drawings alone, on one core."""
+
+    one: float
+    two: float
+    drawings: float
+
+    def __str__(self) -> str:
+        """Say it in a sentence."""
+        return (
+            f"The whole atlas from nothing takes {self.two:.1f} s on two cores and {self.one:.1f} s on one, "
+            f"{self.one / self.two:.2f} times as long. Its figures alone take {self.drawings:.1f} s of one core; the "
+            f"whole takes {self.one / self.drawings:.2f} times that."
+        )
+
+
+def cold(runs: int = 3) -> Cold:
     """Build the whole atlas from nothing on one core and on two; compare with the bare time of its drawings."""
     available = sorted(os.sched_getaffinity(0))
-    found: dict[str, list[float]] = {"one": [], "two": [], "drawings": []}
+    whole: list[list[float]] = [[], []]
+    drawings = []
     for _ in range(runs):
-        for name, cores in (("one", set(available[:1])), ("two", set(available[:2]))):
+        for number in (1, 2):
             with TemporaryDirectory() as place:
                 checkout = Checkout(Path(place))
-                jobs = ("--jobs", str(len(cores)))
-                found[name].append(checkout.run((*BUILD, *jobs), cores=cores))
-                if name == "one":
-                    scenes = checkout.costs()["scenes"]
-                    found["drawings"].append(sum(scene["compute_s"] + scene["draw_s"] for scene in scenes))
-    return {name: statistics.median(times) for name, times in found.items()}
+                seconds = checkout.run((*BUILD, "--jobs", str(number)), cores=set(available[:number]))
+                whole[number - 1].append(seconds)
+                if number == 1:
+                    drawings.append(sum(one["compute_s"] + one["draw_s"] for one in checkout.scenes()))
+    one, two = map(statistics.median, whole)
+    return Cold(one, two, statistics.median(drawings))
+
+
+def stored() -> Path:
+    """Return where the record of the repository lies."""
+    return folder("reports") / "data" / "rebuilds.json"
+
+
+def read() -> dict[str, Any]:
+    """Read the stored record."""
+    try:
+        found: dict[str, Any] = json.loads(stored().read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise AtlasError(f"There is no record {stored().name}: run python -m atlas.build.rebuilds --store.") from error
+    return found
+
+
+def store(changes: Sequence[Taken], whole: Cold) -> None:
+    """Keep what was measured, with machine and date, whole or not at all."""
+    from atlas.study.bench.record import machine, today
+
+    here = machine()
+    record = {
+        "date": today(),
+        "machine": f"{here.processor}, {here.cores} cores, {here.system}",
+        "changes": [asdict(one) for one in changes],
+        "cold": asdict(whole),
+    }
+    beside = stored().with_name(f".{stored().name}.{os.getpid()}")
+    beside.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    beside.replace(stored())
 
 
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(prog="python -m atlas.build.rebuilds", description=__doc__)
     parser.add_argument("--runs", type=int, default=5, help="how often each change is made")
-    parser.add_argument("--store", action="store_true", help=f"keep the record as reports/data/{RECORD}")
+    parser.add_argument("--store", action="store_true", help=f"keep the record as {stored().name} in reports/data")
     options = parser.parse_args()
     taken = []
     for one in measure(options.runs):
@@ -207,20 +189,9 @@ def main() -> None:
         made = f"{one.figures} figures, {one.pages} pages{', PDF' if one.pdf else ''}"
         print(f"{statistics.median(one.seconds):6.2f} s  {one.name:42}{made:32}{one.command}", flush=True)  # noqa: T201
     whole = cold()
-    print(  # noqa: T201  what was asked for
-        f"{whole['two']:6.2f} s  everything, on two cores; {whole['one']:.2f} s on one, "
-        f"{whole['one'] / whole['two']:.2f} times as long; its drawings alone {whole['drawings']:.2f} s"
-    )
+    print(whole)  # noqa: T201  what was asked for
     if options.store:
-        from atlas.study.bench.record import machine, today
-
-        here = machine()
-        record: dict[str, Any] = {"date": today(), "machine": f"{here.processor}, {here.cores} cores, {here.system}"}
-        record |= {"changes": [asdict(one) for one in taken], "cold": whole}
-        path = folder("reports") / "data" / RECORD
-        beside = path.with_name(f".{path.name}.{os.getpid()}")
-        beside.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
-        beside.replace(path)
+        store(taken, whole)
 
 
 if __name__ == "__main__":

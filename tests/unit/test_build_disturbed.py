@@ -102,6 +102,31 @@ def test_killed_at_random_moments_it_heals(undisturbed: dict[str, str], tmp_path
     assert content(tmp_path) == undisturbed
 
 
+def test_a_killed_build_leaves_no_process_behind(tmp_path: Path) -> None:
+    """When the build alone is killed, the processes that draw for it come to an end by themselves."""
+    chance = random.Random(5)  # noqa: S311  reproducible, not secret
+    for number in range(3):
+        folder = tmp_path / str(number)
+        with subprocess.Popen(
+            command(folder, "-j", "2"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+        ) as build:
+            time.sleep(chance.uniform(0.3, 1.2))
+            build.kill()
+        deadline = time.monotonic() + 30.0
+        while _alive(build.pid):
+            assert time.monotonic() < deadline, "a process of a killed build lives on"
+            time.sleep(0.05)
+
+
+def _alive(group: int) -> bool:
+    """Whether a process of a group is there."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 def test_two_builds_at_once_do_no_harm(undisturbed: dict[str, str], tmp_path: Path) -> None:
     """Two builds of the same report into the same folder both end well, with the same bytes."""
     words = command(tmp_path)
