@@ -12,7 +12,10 @@ FloatArray = NDArray[np.float64]
 
 _TURNS = np.radians([0, 20, -20, 40, -40, 65, -65, 90, -90, 120, -120, 150, -150, 180])
 _STEPS = (0.0, 3.0, 7.0, 12.0)
+_TURN, _STEP, _ELSEWHERE, _DOUBT = 1.6, 0.35, 0.9, 8.0
 _AIR, _APART = 1.2, 4.0
+_FAR, _SIGHT = 5.0, 30.0
+_KEPT = 100
 _HEIGHT = 20.0
 
 
@@ -20,7 +23,9 @@ _HEIGHT = 20.0
 class Tag:
     """A text of known ``extent`` (width, height) that belongs at ``anchor``; all in printer's points.
 
-    ``offset`` is where it would like to stand as seen from the anchor; (0, 0) means centred there, come what may.
+    ``offset`` is where it would like to stand as seen from the anchor; (0, 0) means centred there, come what may. It
+    may stand ``elsewhere`` too, the less gladly the later the place. It is the name of the ink of its ``owner``, and
+    should be nearer to that than to what belongs to others.
     """
 
     text: str
@@ -29,44 +34,56 @@ class Tag:
     extent: tuple[float, float]
     colour: str
     size: float
+    elsewhere: tuple[tuple[float, float], ...] = ()
+    owner: int = -1
 
 
 def stand(tag: Tag) -> FloatArray:
     """Return the centre of the text where it would like to stand."""
-    return _stands(tag, np.zeros(1), np.zeros(1))[0]
+    return _stands(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
 
 
-def _stands(tag: Tag, turns: FloatArray, steps: FloatArray) -> FloatArray:
-    """Return the centres (N, 2) of the text when its offset is turned and lengthened."""
-    anchor = np.array(tag.anchor)
+def _stands(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray) -> FloatArray:
+    """Return the centres (N, 2) of the text beside anchors (N, 2) when its offset is turned and lengthened."""
     length = float(np.hypot(*tag.offset))
     if length == 0.0:
-        return np.broadcast_to(anchor, (len(turns), 2))
+        return anchors
     angle = np.arctan2(tag.offset[1], tag.offset[0]) + turns
     u = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     half = 0.5 * np.array(tag.extent)
     with np.errstate(divide="ignore"):
         reach = np.minimum((half / np.abs(u)).min(axis=1), np.hypot(*half))
-    return anchor + (length + steps + reach)[:, None] * u
+    return anchors + (length + steps + reach)[:, None] * u
 
 
 def place(
-    tags: Sequence[Tag], ink: FloatArray, weights: FloatArray, window: tuple[float, float, float, float]
+    tags: Sequence[Tag],
+    ink: FloatArray,
+    weights: FloatArray,
+    window: tuple[float, float, float, float],
+    owners: NDArray[np.int64] | None = None,
 ) -> list[FloatArray]:
     """Return the centre of each tag: the cheapest of its candidates, in two rounds, always in the same order.
 
-    ``ink`` (N, 2) are points of what is drawn and ``weights`` (N,) how much it hurts to cover them; ``window`` is
-    (left, bottom, right, top).
+    ``ink`` (N, 2) are points of what is drawn, ``weights`` (N,) how much it hurts to cover them, and ``owners`` (N,)
+    to what they belong; ``window`` is (left, bottom, right, top).
     """
     centres = np.array([stand(tag) for tag in tags]).reshape(-1, 2)
     sizes = np.array([tag.extent for tag in tags]).reshape(-1, 2)
     fixed = np.array([tag.offset == (0.0, 0.0) for tag in tags], dtype=bool)
     settled = fixed.copy()
-    steps, turns = (grid.ravel() for grid in np.meshgrid(_STEPS, _TURNS, indexing="ij"))
     alone = {}
     for i in np.flatnonzero(~fixed):
-        candidates = _stands(tags[i], turns, steps)
-        cost = _covers(candidates, tags[i].extent, ink, weights, window) + 1.6 * np.abs(turns) + 0.35 * steps
+        tag, anchors = tags[i], np.array([tags[i].anchor, *tags[i].elsewhere])
+        where, steps, turns = (g.ravel() for g in np.meshgrid(np.arange(len(anchors)), _STEPS, _TURNS, indexing="ij"))
+        candidates = _stands(tag, anchors[where], turns, steps)
+        cost = _TURN * np.abs(turns) + _STEP * steps + _ELSEWHERE * where
+        beside = np.split(candidates, len(anchors))  # about one anchor there is little ink
+        cost += np.concatenate([_covers(some, tag.extent, ink, weights, window) for some in beside])
+        best = np.argsort(cost, kind="stable")[:_KEPT]
+        candidates, cost = candidates[best], cost[best]
+        if owners is not None and tag.owner >= 0:
+            cost += _doubt(candidates, tag.extent, ink, owners == tag.owner)
         alone[i] = candidates, cost
     for _ in range(2):
         for i, (candidates, cost) in alone.items():
@@ -75,6 +92,25 @@ def place(
             centres[i] = candidates[int(np.argmin(total))]
             settled[i] = True
     return list(centres)
+
+
+def _doubt(centres: FloatArray, extent: tuple[float, float], ink: FloatArray, own: NDArray[np.bool_]) -> FloatArray:
+    """Return how doubtful it is, at each of the centres (N, 2), to which ink a text belongs."""
+    if not own.any() or own.all():
+        return np.zeros(len(centres))
+    half = 0.5 * np.array(extent)
+    mine, foreign = (_gap(centres, half, ink[which]) for which in (own, ~own))
+    return _DOUBT * np.clip(1.0 - (foreign + 1.0) / (mine + 4.0), 0.0, 1.0) + _ELSEWHERE * np.maximum(mine - _FAR, 0.0)
+
+
+def _gap(centres: FloatArray, half: FloatArray, ink: FloatArray) -> FloatArray:
+    """Return the distance of the nearest ink from a box about each of the centres (N, 2)."""
+    reach = half + _SIGHT
+    near = ((ink > centres.min(axis=0) - reach) & (ink < centres.max(axis=0) + reach)).all(axis=1)
+    if not near.any():
+        return np.full(len(centres), _SIGHT)
+    beyond = [np.maximum(np.abs(ink[near, k] - centres[:, k, None]) - half[k], 0.0) for k in range(2)]
+    return np.minimum(np.sqrt(beyond[0] ** 2 + beyond[1] ** 2).min(axis=1), _SIGHT)
 
 
 def _covers(
