@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.render import gl
 from atlas.render.faces import Faces
 from atlas.render.stage import Stage
+from atlas.scene.layers import Space
 
 if TYPE_CHECKING:
     from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer, vtkRenderWindow
@@ -35,7 +37,10 @@ _SOLID = {"Ambient": 0.30, "Diffuse": 0.72, "Specular": 0.35, "SpecularPower": 3
 _GLASS = {"Ambient": AMBIENT, "Diffuse": 0.46, "Specular": 0.28, "SpecularPower": 40.0}
 _ONE, _ONE_MINUS_ALPHA = 1, 0x0303  # as OpenGL numbers them
 _OVER = (_ONE, _ONE_MINUS_ALPHA, _ONE, _ONE_MINUS_ALPHA)
-_PREMULTIPLIED = "//VTK::Light::Impl\n  gl_FragData[0].rgb *= gl_FragData[0].a;\n"
+_PREMULTIPLIED = """//VTK::Light::Impl
+  gl_FragData[0].a = clamp(gl_FragData[0].a, 0.0, 1.0);  // beyond a face's edge it is extrapolated
+  gl_FragData[0].rgb *= gl_FragData[0].a;
+"""
 _DAYLIGHT = (0.68, 0.85, 0.90)
 
 
@@ -60,6 +65,15 @@ def photograph(solids: Faces, glass: Faces, view: Stage, width: int, height: int
     picture = _pixels(window, width, height)
     window.RemoveRenderer(renderer)
     return picture
+
+
+def warm_up() -> None:
+    """Open the window and have its shaders made before there is anything to draw; without a GL library, do nothing."""
+    if gl.prepare() is None:
+        return
+    corner, paint = np.eye(3), np.full((3, 4), 255, dtype=np.uint8)
+    solid, pane = (Faces(corner, corner, paint, np.array([[0, 1, 2]])) for _ in range(2))
+    photograph(solid, pane, Stage(Space(()), np.eye(3), 1.0, np.zeros(2), (2.0, 2.0), ()), 2, 2)
 
 
 @cache

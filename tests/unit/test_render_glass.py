@@ -171,6 +171,34 @@ def test_glass_is_what_sorted_rays_give(case: str, tmp_path: Path, monkeypatch: 
     assert away.mean() < 1.0
 
 
+@pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
+@pytest.mark.parametrize("dpi", [100.0, 300.0, 900.0])
+@pytest.mark.parametrize("slope", [0.0, 0.3, 1.0])
+def test_a_wire_covers_as_much_as_its_style_says(dpi: float, slope: float, tmp_path: Path) -> None:
+    """Across a wire on a pane, thinner than a pixel or wider, the ink adds up to its width, in its unlit colour.
+
+    Up to a tenth is lost where the fading edge covers some samples of a pixel only.
+    """
+    pane = replace(solids.rectangle(O, E2, E3, role="tangent_plane"), rims=())
+    wire = np.array([[0.0, -0.7, -0.7 * slope], [0.0, 0.7, 0.7 * slope]])
+    pictures = []
+    for wires in ((), (wire,)):
+        panel = Space((replace(pane, wires=wires),), azimuth=0.0, elevation=0.0)
+        draw(Scene("t", "c", "a", (panel,), size=(20.0, 20.0)), tmp_path / "a.png", renderer="shaded", dpi=dpi)
+        from matplotlib.image import imread
+
+        pictures.append(255.0 * imread(tmp_path / "a.png")[..., :3].astype(float))
+    middle = pictures[0].shape[1] // 2
+    look = style("wire")
+    pale = pictures[0][middle, middle]
+    full = pale - [int(look.colour[i : i + 2], 16) for i in (1, 3, 5)]
+    columns = slice(middle - middle // 3, middle + middle // 3)
+    ink = (pictures[0] - pictures[1])[:, columns].sum(axis=0).mean(axis=0)
+    width = look.tube * dpi / 72.0 * np.hypot(1.0, slope)
+    assert (0.9 * width * full < ink).all()
+    assert (ink < 1.02 * width * full).all()
+
+
 def random_quadrics(rng: np.random.Generator, count: int) -> list[FloatArray]:
     """Return quadrics and planes through the middle of things, the largest coefficient one."""
     forms = []
@@ -220,17 +248,18 @@ def area(corners: FloatArray) -> float:
 
 
 def test_a_cut_keeps_the_area_and_leaves_no_triangle_across() -> None:
-    """Where a plane is cut by a ball, corners lie inside or outside, the area stays, and the edge is on the ball."""
+    """Triangles of a plane are cut by a ball and by the plane of its outline, none is across, and their area stays."""
     rng = np.random.default_rng(1)
     corners = np.concatenate([rng.uniform(-1.0, 1.0, size=(500, 3, 2)), np.full((500, 3, 1), 0.2)], axis=2)
     plane, ball = np.zeros((4, 4)), np.diag([1.0, 1.0, 1.0, -0.5])
     plane[2, 3] = plane[3, 2] = 0.5
     plane[3, 3] = -0.2
-    pieces = cut(corners, [plane, ball], 0, np.array([0.48, 0.6, 0.64]))
-    height = np.sum(pieces * pieces, axis=2) - 0.5
+    towards = np.array([0.48, 0.6, 0.64])
+    pieces = cut(corners, [plane, ball], 0, towards)
     assert len(pieces) > 1.3 * len(corners)
     assert area(pieces) == pytest.approx(area(corners), rel=1e-12)
-    assert not ((height > 1e-9).any(axis=1) & (height < -1e-9).any(axis=1)).any()
+    for height in (np.sum(pieces * pieces, axis=2) - 0.5, pieces @ towards):
+        assert not ((height > 1e-9).any(axis=1) & (height < -1e-9).any(axis=1)).any()
 
 
 def test_equal_quadrics_count_once() -> None:

@@ -92,11 +92,13 @@ def test_a_picture_has_the_size_of_the_scene(tmp_path: Path) -> None:
 
 
 def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path: Path) -> None:
-    """A plate has the same bytes alone in a process and after another one, of another size."""
+    """A plate has the same bytes alone in a process and after another one, of another size, in a warm studio."""
     program = (
         "import sys\n"
+        "from atlas.render import studio\n"
         "from atlas.render.drawing import draw\n"
         "from atlas.scene import recipes\n"
+        "if len(sys.argv) > 3: studio.warm_up()\n"
         "for name in sys.argv[2:]:\n"
         "    draw(recipes.load(name).scene(), f'{sys.argv[1]}/{name}.png', renderer='shaded', dpi=90)\n"
     )
@@ -105,6 +107,14 @@ def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path: Path) -> N
         subprocess.run([sys.executable, "-c", program, str(tmp_path), *names], env=dict(os.environ), check=True)
         found.append((tmp_path / "loop.png").read_bytes())
     assert found[0] == found[1]
+
+
+def test_without_gl_there_is_nothing_to_warm_up() -> None:
+    """No VTK is loaded where it could not draw."""
+    program = "import sys; from atlas.render import studio; studio.warm_up(); print('vtkmodules' in sys.modules)"
+    environment = dict(os.environ, **{gl.CHOICE: "none"})
+    words = [sys.executable, "-c", program]
+    assert subprocess.run(words, env=environment, capture_output=True, text=True, check=True).stdout == "False\n"
 
 
 def test_a_shaded_picture_loads_no_plotter(tmp_path: Path) -> None:
