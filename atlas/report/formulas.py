@@ -26,6 +26,8 @@ _MARK = {"html": "<!--text {}-->", "typst": "// text {}\n"}
 _TEX = re.compile(r"\$\$(.+?)\$\$|(?<![\\$])\$([^$]+?)\$", re.DOTALL)
 _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 """How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
+SHOWN, NEAR = 90, 20
+"""Characters of a formula that a message shows, and of its part from the mistake on."""
 _CODE = re.compile(r"`[^`]*`")
 _CITATION = re.compile(r"(?<![\w\\])@([a-z]+:[\w-]+|\w+(?:[.-]\w+)*)")
 
@@ -140,8 +142,7 @@ def _pandoc(source: str, target: Target, texts: Sequence[Text]) -> str:
         if warning["type"] == "CouldNotConvertTeXMath":
             tex = warning["contents"]
             place = next((text.where for text in texts if tex.strip() in text.markdown), "somewhere")
-            reason = " ".join(warning["message"].split()[:2] and warning["message"].splitlines()[-2:]).strip()
-            raise AtlasError(f"{place}: the formula ${tex.strip()}$ can't be read: {' '.join(reason.split())}.")
+            raise AtlasError(f"{place}: the formula {_short(f'${tex.strip()}$')} can't be read: {_reason(warning)}.")
         raise AtlasError(f"pandoc warns of {warning['type']}: {json.dumps(warning, ensure_ascii=False)}.")
     return run.stdout
 
@@ -154,6 +155,23 @@ def _program() -> str:
     if place is None or found is None:
         raise AtlasError("the package pypandoc_binary with its pandoc is not there: install the locked dependencies.")
     return str(found)
+
+
+def _reason(warning: dict[str, str]) -> str:
+    """Return what pandoc did not expect; the long list of what it did is left out."""
+    found = re.search(r"^(.*)\n( *)\^\nunexpected (.+)$", warning["message"], re.MULTILINE)
+    if found is None:
+        return "it is no TeX"
+    if found[3].startswith("eof"):
+        return "it breaks off"
+    rest = "" if found[3].startswith("control") else found[1][len(found[2]) :]
+    return f"unexpected {found[3][:SHOWN]}" + (f" at {rest[:NEAR]}" if rest else "")
+
+
+def _short(text: str) -> str:
+    """Cut a text to what finds room in a line."""
+    text = " ".join(text.split())
+    return text if len(text) <= SHOWN else f"{text[: SHOWN - 1]}…"
 
 
 def _tidy_typst(typst: str) -> str:

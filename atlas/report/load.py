@@ -13,6 +13,9 @@ from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.report.records import Figure, Report, Table
 
+MOST = 1000
+"""As many digits of a number as a table may ask for."""
+
 
 def names() -> list[str]:
     """List the reports of the folder ``reports/``."""
@@ -64,6 +67,8 @@ def _consistent(report: Report) -> Report:
             raise AtlasError(f"the slug {page.slug!r} of a page must be of small letters, digits and hyphens.")
         for place, block in enumerate(page.blocks, 1):
             where = f"page {page.slug!r}, block {place}"
+            if isinstance(block, Table) and not 1 <= block.digits <= MOST:
+                raise AtlasError(f"{where} (table): digits must be from 1 to {MOST}, not {block.digits}.")
             for kind, known, called in (
                 ("body", report.parameters.bodies, (getattr(block, "body", None), *getattr(block, "bodies", ()))),
                 ("field", report.parameters.fields, (getattr(block, "field", None),)),

@@ -37,6 +37,22 @@ def test_a_formula_that_cannot_be_read_is_an_error_that_names_it() -> None:
         one(r"$\foo{x}$")
 
 
+@pytest.mark.parametrize(
+    ("tex", "reason"),
+    [
+        (r"\frac{a", "it breaks off"),
+        (r"\begin{pmatrix}a\end{matrix}+b", "unexpected .* at matrix"),
+        (r"\frac{1}{2}+" * 80 + r"\foo", r"unexpected .*\\foo"),
+    ],
+)
+def test_what_is_wrong_with_a_formula_is_told_in_a_line(tex: str, reason: str) -> None:
+    """The message names the formula and the first thing that is wrong, in no more than 200 characters."""
+    with pytest.raises(AtlasError, match=reason) as caught:
+        one(f"${tex}$")
+    assert str(caught.value).startswith("here: the formula $")
+    assert len(str(caught.value)) <= 200
+
+
 def test_a_fraction_below_a_fraction_is_refused_in_print() -> None:
     """Typst would read a/b/c from left to right, so the user is told."""
     with pytest.raises(AtlasError, match="slash"):

@@ -51,6 +51,13 @@ MISTAKES = {
         "no body 'rng'",
         "'ring'",
     ),
+    "too many digits": (
+        HEAD + PAGE + '[[pages.blocks]]\nkind = "table"\ntable = "quadric"\ndigits = 1001',
+        "page 'index', block 1 (table)",
+        "from 1 to 1000",
+        "1001",
+    ),
+    "no digits": (HEAD + PAGE + '[[pages.blocks]]\nkind = "table"\ntable = "quadric"\ndigits = 0', "block 1", "not 0"),
     "no first page": (HEAD + '[[pages]]\nslug = "x"\ntitle = "T"\nblocks = []', "'index'"),
     "two pages of one name": (HEAD + (PAGE + "blocks = []\n") * 2, "'index'", "two"),
     "no TOML": (HEAD + "a =", "not TOML"),
