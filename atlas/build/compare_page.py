@@ -2,6 +2,7 @@
 
 import re
 from base64 import b64encode
+from collections.abc import Mapping
 from decimal import Decimal
 from functools import partial
 from itertools import groupby
@@ -27,7 +28,8 @@ def as_page(comparison: Comparison) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    prose = _Prose()
+    pages = comparison.old.record.pages | comparison.new.record.pages
+    prose = _Prose({slug: page.title for slug, page in pages.items()})
     environment.filters |= {"prose": prose, "rounded": rounded, "apart": _apart}
     tables = {name: [*cells] for name, cells in groupby(comparison.numbers, lambda cell: cell.table)}
     template = environment.get_template("diff.html")
@@ -39,20 +41,34 @@ def as_page(comparison: Comparison) -> str:
 
 
 class _Prose:
-    """Texts with their formulas set, all in one call: a first rendering shows which there are."""
+    """Texts with their formulas set, all in one call: a first rendering shows which there are.
 
-    def __init__(self) -> None:
+    A citation is written as the page shows what it leads to: the label of an equation, the id of a figure or table, the
+    title of a page.
+    """
+
+    def __init__(self, titles: Mapping[str, str]) -> None:
         self.formulas: dict[str, str] = {}
+        self.titles = titles
 
     def __call__(self, text: str) -> Any:
-        """Return a text with its formulas."""
-        from markupsafe import Markup, escape
+        """Return a text with its formulas, its citations and what is emphasised or raised in it."""
+        from markupsafe import Markup
+
+        from atlas.report.formulas import cited
 
         pieces = [
-            Markup(self.formulas.setdefault(piece, "")) if odd % 2 else escape(piece)  # noqa: S704  from pandoc
-            for odd, piece in enumerate(FORMULA.split(text))
+            self.formulas.setdefault(piece, "") if odd % 2 else _marked(piece)
+            for odd, piece in enumerate(FORMULA.split(cited(text, self.cite)))
         ]
-        return Markup("").join(pieces)
+        return Markup("").join(map(Markup, pieces))
+
+    def cite(self, name: str) -> str:
+        """Write a citation in words."""
+        kind, colon, of = name.partition(":")
+        if not colon:
+            return f"({name})"
+        return self.titles.get(of, of) if kind == "page" else f"{kind}-{of}"
 
     def set(self) -> None:
         """Set the formulas that were asked for."""
@@ -63,6 +79,15 @@ class _Prose:
             manuscript.add(formula, "the comparison", inline=True)
         if self.formulas:
             self.formulas = dict(zip(self.formulas, manuscript.set("html", lambda name, _: name), strict=True))
+
+
+def _marked(text: str) -> str:
+    """Escape a text, and mark what Markdown sets bold, in italics or raised."""
+    from markupsafe import escape
+
+    marked = re.sub(r"\*\*(\S|\S.*?\S)\*\*", r"<b>\1</b>", str(escape(text)))
+    marked = re.sub(r"\*(\S|\S.*?\S)\*", r"<i>\1</i>", marked)
+    return re.sub(r"\^([^\s^]+)\^", r"<sup>\1</sup>", marked)
 
 
 def rounded(value: Decimal | None) -> str:

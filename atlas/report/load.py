@@ -11,7 +11,7 @@ from msgspec import inspect
 
 from atlas.errors import AtlasError
 from atlas.places import folder
-from atlas.report.records import Figure, Report, Table
+from atlas.report.records import Figure, Listing, Recorded, Report, Table
 
 MOST = 1000
 """As many digits of a number as a table may ask for."""
@@ -60,8 +60,9 @@ def nearest(word: str, known: list[str]) -> str:
 def _consistent(report: Report) -> Report:
     """Check what the types cannot: that names are unique and that what is called by name exists."""
     _unique([page.slug for page in report.pages], "two pages have the slug")
-    _unique([b.id for p in report.pages for b in p.blocks if isinstance(b, Figure) and b.id], "two figures have the id")
-    _unique([b.id for p in report.pages for b in p.blocks if isinstance(b, Table) and b.id], "two tables have the id")
+    blocks = [block for page in report.pages for block in page.blocks]
+    _unique([b.id for b in blocks if isinstance(b, Figure) and b.id], "two figures have the id")
+    _unique([b.id for b in blocks if isinstance(b, Table | Listing | Recorded) and b.id], "two tables have the id")
     for page in report.pages:
         if not re.fullmatch(r"[a-z0-9][a-z0-9-]*", page.slug):
             raise AtlasError(f"the slug {page.slug!r} of a page must be of small letters, digits and hyphens.")

@@ -9,7 +9,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from atlas.errors import AtlasError
 from atlas.places import folder
-from atlas.report import fonts, views, widths
+from atlas.report import fonts, views
 from atlas.report.colophon import Colophon
 from atlas.report.compose import Document
 from atlas.report.numbers import room
@@ -47,7 +47,7 @@ def source(document: Document, colophon: Colophon) -> str:
         colophon=colophon,
         family=TEXT_FONT,
         math=MATH_FONT,
-        room=widths.ROOM,
+        gutter=views.GUTTER,
     )
 
 

@@ -4,8 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeAlias
 
+from atlas.report.widths import ROOM
+
 PAGE = 40
-"""As many rows as a table may have to stand on one page of the PDF."""
+WORDS = 12
+"""As many rows as a table may have to stand on one page of the PDF, one with numbers and one of words alone."""
+TALL, GUTTER = 160.0, 1.0
+"""The height in millimetres that a figure may have in print, and the space between two plates."""
 POWER = 2.7
 """The width in ems of a power of ten."""
 
@@ -80,6 +85,12 @@ class FigureView:
     settings: int
 
     @property
+    def printed(self) -> tuple[float, float]:
+        """Width and height of each plate in print: side by side within the text, with room below for words."""
+        scale = min(1.0, (ROOM - GUTTER * (len(self.plates) - 1)) / len(self.plates) / self.width, TALL / self.height)
+        return scale * self.width, scale * self.height
+
+    @property
     def failure(self) -> str:
         """Why there is no picture, or nothing."""
         return next((plate.failure for plate in self.plates if plate.failure), "")
@@ -133,9 +144,14 @@ class TableView:
     fits: bool = False
 
     @property
+    def tight(self) -> bool:
+        """Whether its rows are single lines, of numbers or in a long table."""
+        return bool(self.name) or len(self.rows) > 2 * WORDS
+
+    @property
     def tall(self) -> bool:
-        """Whether it may be longer than a page, and so is broken over two."""
-        return len(self.rows) > PAGE
+        """Whether it may be broken over two pages: it is too long for one, or is a long table of nothing but words."""
+        return len(self.rows) > (PAGE if any(column.numeric for column in self.columns) else WORDS)
 
 
 @dataclass(frozen=True)

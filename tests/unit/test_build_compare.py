@@ -523,6 +523,20 @@ def test_the_page_needs_no_other_file(against: Pair) -> None:
     assert 'http-equiv="Content-Security-Policy" content="default-src \'none\'; img-src data:;' in page
 
 
+def test_citations_are_written_in_words(against: Pair) -> None:
+    """No citation is shown as the report's file has it: equations, figures, tables and pages have their names."""
+
+    def change(record: dict[str, Any]) -> None:
+        caption = "The bowl of @mf72 and @theorem-points, see @fig:cup, @tab:points and *@page:loop*, "
+        caption += "10^\N{MINUS SIGN}6^ high."
+        record["figures"]["fig-bowl"]["caption"] = caption
+
+    page = as_page(against(change))
+    assert "The bowl of (mf72) and (theorem-points), see fig-cup, tab-points and <i>The loop</i>, " in page
+    assert "10<sup>\N{MINUS SIGN}6</sup> high." in page
+    assert "@" not in re.sub(r"<style>.*?</style>", "", page, flags=re.DOTALL)
+
+
 def test_the_same_comparison_gives_the_same_page(against: Pair) -> None:
     """A page depends on nothing but the two reports."""
     found = against(bowl="two")

@@ -51,6 +51,14 @@ MISTAKES = {
         "no body 'rng'",
         "'ring'",
     ),
+    "two tables of one id": (
+        HEAD
+        + PAGE
+        + '[[pages.blocks]]\nkind = "listing"\nid = "a"\ncolumns = []\nrows = []\ncaption = ""\n'
+        + '[[pages.blocks]]\nkind = "recorded"\nid = "a"\nsource = "trial"\ntable = "totals"',
+        "two tables",
+        "'a'",
+    ),
     "too many digits": (
         HEAD + PAGE + '[[pages.blocks]]\nkind = "table"\ntable = "quadric"\ndigits = 1001',
         "page 'index', block 1 (table)",
@@ -77,6 +85,14 @@ def test_a_mistake_is_told_in_one_sentence_with_file_place_and_nearest_key(tmp_p
     assert "\n" not in sentence
     for words in expected:
         assert words in sentence
+
+
+@pytest.mark.parametrize("name", names())
+def test_figures_and_tables_have_names_of_their_own(name: str) -> None:
+    """A figure or table keeps its name when another is put before it, so that `atlas diff` finds it again."""
+    for page in load(find(name)).pages:
+        for block in page.blocks:
+            assert not hasattr(block, "id") or block.id, (page.slug, block)
 
 
 def test_an_unknown_report_is_told_with_the_nearest_name() -> None:
