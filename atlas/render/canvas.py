@@ -1,4 +1,4 @@
-"""A page as a PDF or PNG file, drawn by Matplotlib's renderers of these; the letters of a PDF stay letters."""
+"""A page as a PNG file, drawn by Matplotlib's renderer of pixels."""
 
 from functools import cache
 from pathlib import Path
@@ -8,34 +8,16 @@ import numpy as np
 
 from atlas.render.house import house_style
 from atlas.render.paper import Box, Marks, Page, Picture, Shape, Words
-from atlas.render.text import is_math, setting, typeset
+from atlas.render.text import HALO, setting
 
 if TYPE_CHECKING:
     from matplotlib.backend_bases import GraphicsContextBase
     from matplotlib.path import Path as Outline
 
-_HALO = 2.2
 _WHOLE = 1e-6
 
 
-def write_pdf(page: Page, path: Path, title: str) -> None:
-    """Write a page into a PDF file, without a date."""
-    from matplotlib.backends.backend_pdf import PdfFile, RendererPdf
-
-    with house_style():
-        file = PdfFile(path, metadata={"CreationDate": None, "Title": title})
-        try:
-            width, height = page.width / 72.0, page.height / 72.0
-            file.newPage(width, height)
-            renderer = RendererPdf(file, 72.0, height, width)
-            _Painter(renderer, 1.0).paint(page)
-            renderer.finalize()
-            file.finalize()
-        finally:
-            file.close()
-
-
-def write_png(page: Page, path: Path, title: str) -> None:
+def write(page: Page, path: Path, title: str) -> None:
     """Write a page into a PNG file, in the pixels of its pictures."""
     import matplotlib as mpl
     from matplotlib.backends.backend_agg import RendererAgg
@@ -60,7 +42,6 @@ class _Painter:
 
         self.renderer, self.scale = renderer, scale
         self.to_units = Affine2D().scale(scale)
-        self.letters = hasattr(renderer, "file")
 
     def paint(self, page: Page) -> None:
         """Draw all that is on a page, on white."""
@@ -120,36 +101,21 @@ class _Painter:
         from matplotlib.transforms import Affine2D
 
         angle = 90.0 if words.turned else 0.0
-        if self.letters and not words.halo:
-            context = self._context(words.colour, 0.0)
-            context.set_foreground(words.colour)
-            text = typeset(words.text)
-            self.renderer.draw_text(context, *words.at, text, _font(words.size), angle, is_math(text))
-            context.restore()
-            return
         place = Affine2D().scale(words.size).rotate_deg(angle).translate(*words.at) + self.to_units
-        for colour, width in ((("#ffffff", _HALO),) if words.halo else ()) + ((words.colour, 0.0),):
+        for colour, width in ((("#ffffff", HALO),) if words.halo else ()) + ((words.colour, 0.0),):
             context = self._context(colour if width else "", width)
             context.set_joinstyle("round")
             self.renderer.draw_path(context, _outline(words.text), place, _rgb(colour))
             context.restore()
 
     def _picture(self, picture: Picture) -> None:
-        from matplotlib.transforms import Affine2D
-
-        left, bottom, right, top = (self.scale * place for place in picture.box)
+        left, bottom, right, top = (round(self.scale * place) for place in picture.box)
         context, pixels = self._context("", 0.0), picture.pixels[::-1]
         if pixels.shape[2] == len("rgb"):
             pixels = np.concatenate([pixels, np.full((*pixels.shape[:2], 1), 255, dtype=np.uint8)], axis=2)
-        if self.letters:
-            place = Affine2D().scale(right - left, top - bottom)
-            self.renderer.draw_image(context, left, bottom, np.ascontiguousarray(pixels), place)
-        else:
-            rows, columns = round(top) - round(bottom), round(right) - round(left)
-            row = np.arange(rows) * len(pixels) // rows
-            column = np.arange(columns) * pixels.shape[1] // columns
-            fitted = np.ascontiguousarray(pixels[row][:, column])
-            self.renderer.draw_image(context, round(left), round(bottom), fitted)
+        row = np.arange(top - bottom) * len(pixels) // (top - bottom)
+        column = np.arange(right - left) * pixels.shape[1] // (right - left)
+        self.renderer.draw_image(context, left, bottom, np.ascontiguousarray(pixels[row][:, column]))
         context.restore()
 
 
@@ -157,14 +123,6 @@ def _rgb(colour: str) -> tuple[float, float, float]:
     """Return red, green and blue of six hexadecimal digits."""
     red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
     return red, green, blue
-
-
-@cache
-def _font(size: float) -> Any:
-    """Return the font of the house in a size."""
-    from matplotlib.font_manager import FontProperties
-
-    return FontProperties(size=size)
 
 
 @cache

@@ -11,13 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.render.paper import Box, Marks, Page, Picture, Shape, Words
-from atlas.render.text import setting
+from atlas.render.text import HALO, setting
 
 FloatArray = NDArray[np.float64]
 
 _FINE = 100.0
 _EM = 1000.0
-_HALO = 2.2
 _COMMANDS = {1: ("M", 1), 2: ("L", 1), 3: ("Q", 2), 4: ("C", 3), 79: ("Z", 1)}
 
 
@@ -84,7 +83,7 @@ class _Writer:
         scale = words.size * _FINE / _EM
         place = f'transform="translate({x} {y}){"rotate(-90)" if words.turned else ""}scale({scale:g})"'
         if words.halo:
-            halo = f'fill="#ffffff" stroke="#ffffff" stroke-width="{_HALO * _FINE / scale:.0f}" stroke-linejoin="round"'
+            halo = f'fill="#ffffff" stroke="#ffffff" stroke-width="{HALO * _FINE / scale:.0f}" stroke-linejoin="round"'
             yield f'<use xlink:href="#{name}" {place} {halo}/>'
         yield f'<use xlink:href="#{name}" {place} fill="{words.colour}"/>'
 

@@ -24,13 +24,14 @@ def save(scene: Scene, files: Mapping[Path, str], *, dpi: float = DPI, paint: Ca
             from atlas.render import svg
 
             svg.write(page, path, scene.title, scene.alt)
-            continue
-        from atlas.render import canvas
+        elif kind == "pdf":
+            from atlas.render import pdf
 
-        if kind == "pdf":
-            canvas.write_pdf(page, path, scene.title)
+            pdf.write(page, path, scene.title)
         else:
-            canvas.write_png(page, path, scene.title)
+            from atlas.render import canvas
+
+            canvas.write(page, path, scene.title)
 
 
 def compose(scene: Scene, *, dpi: float = DPI, paint: Callable[..., None] = draw_space) -> Page:

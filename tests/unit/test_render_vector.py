@@ -1,6 +1,7 @@
 """Figures on paper: whole files, the same bytes, names that cover nothing."""
 
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -12,11 +13,14 @@ import pytest
 
 from atlas import AtlasError
 from atlas.render import gl, vector
+from atlas.render.clip import clipped
 from atlas.render.drawing import draw
 from atlas.render.labels import Tag, place
 from atlas.render.paper import Page, Sheet, Words
 from atlas.render.space import silhouette
 from atlas.render.stage import stage
+from atlas.render.text import setting
+from atlas.render.truetype import font, subset
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
 from atlas.scene.style import STYLES
 
@@ -61,17 +65,96 @@ def test_a_scene_drawn_twice_has_the_same_bytes(tmp_path: Path, kind: str, make:
 
 
 def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
-    """The seed of hashing, the locale and the time zone do not matter."""
+    """The seed of hashing, the locale, the time zone, a reader's settings and other figures before do not matter."""
     program = (
-        "import sys; from atlas.scene import recipes; from atlas.render.drawing import draw; "
-        "scene = recipes.load('cone').scene(); [draw(scene, sys.argv[1] + kind) for kind in ('.svg', '.pdf')]"
+        "import sys; from pathlib import Path\n"
+        "from atlas.scene import recipes; from atlas.render.drawing import draw_all\n"
+        "for name in ('hyperbola', 'cone'):\n"
+        "    scene = recipes.load(name).scene()\n"
+        "    draw_all(scene, {Path(sys.argv[1]) / f'{name}.{kind}': kind for kind in ('pdf', 'png', 'svg')})\n"
     )
-    scene = recipes.load("cone").scene()
+    theirs = tmp_path / "theirs"
+    theirs.mkdir()
+    (tmp_path / "matplotlibrc").write_text("font.family: monospace\nmathtext.fontset: cm\n", encoding="utf-8")
     environment = dict(os.environ, PYTHONHASHSEED="7", TZ="Pacific/Chatham", LC_ALL="C")
-    subprocess.run([sys.executable, "-c", program, str(tmp_path / "theirs")], env=environment, check=True)
-    for kind in ("svg", "pdf"):
-        ours = draw(scene, tmp_path / f"ours.{kind}").path.read_bytes()
-        assert ours == (tmp_path / f"theirs.{kind}").read_bytes()
+    environment["MATPLOTLIBRC"] = str(tmp_path / "matplotlibrc")
+    subprocess.run([sys.executable, "-c", program, str(theirs)], env=environment, check=True)
+    for name in ("cone", "hyperbola"):
+        scene = recipes.load(name).scene()
+        for kind in ("svg", "pdf", "png"):
+            ours = draw(scene, tmp_path / f"ours.{kind}").path.read_bytes()
+            assert ours == (theirs / f"{name}.{kind}").read_bytes(), (name, kind)
+
+
+def test_neither_svg_nor_pdf_loads_a_canvas(tmp_path: Path) -> None:
+    """Letters are set by Matplotlib; its figures, its canvases and the cutting of fonts stay unloaded."""
+    program = (
+        "import sys; from atlas.scene import recipes; from atlas.render.drawing import draw\n"
+        "scene = recipes.load('hyperbola').scene()\n"
+        "for kind in ('svg', 'pdf'): draw(scene, sys.argv[1] + kind)\n"
+        "heavy = ('matplotlib.figure', 'matplotlib.axes', 'matplotlib.backends.backend_pdf', 'fontTools.subset')\n"
+        "print([name for name in heavy if name in sys.modules])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program, f"{tmp_path}/a."], check=True, capture_output=True, text=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_a_cut_font_holds_the_same_letters() -> None:
+    """Read by another program, each glyph of a cut font has the outline and the width of the whole one."""
+    from io import BytesIO
+
+    from fontTools.pens.recordingPen import DecomposingRecordingPen
+    from fontTools.ttLib import TTFont
+    from matplotlib.font_manager import FontProperties, findfont
+
+    path = findfont(FontProperties(family="STIXGeneral"))
+    whole = TTFont(path)
+    names = [".notdef", *(whole.getBestCmap()[ord(letter)] for letter in "Aé√∞g")]
+    cut = TTFont(BytesIO(subset(font(path), [whole.getGlyphID(name) for name in names])))
+    glyphs = cut.getGlyphSet()
+    for number, name in enumerate(names):
+        pens = []
+        for letters, glyph in ((whole.getGlyphSet(), name), (glyphs, cut.getGlyphName(number))):
+            pen = DecomposingRecordingPen(letters)
+            letters[glyph].draw(pen)
+            pens.append((pen.value, letters[glyph].width))
+        assert pens[0] == pens[1]
+
+
+@pytest.mark.parametrize(("text", "letters"), [("flight", "fl i g h t"), (r"$\omega_2$", "ω 2"), ("time (µs)", None)])
+def test_letters_lie_where_the_outlines_are(text: str, letters: str | None) -> None:
+    """What a PDF writes as letters is what an SVG draws: every outline begins within the width of its letter."""
+    line = setting(text)
+    assert [glyph.letter for glyph in line.glyphs] == (letters.split() if letters else list(text))
+    starts = line.points[line.codes == 1, 0]
+    places = np.array([glyph.x for glyph in line.glyphs])
+    assert all(((start - places > -0.1) & (start - places < 1.0)).any() for start in starts)
+    assert (np.diff(places) > 0.0).all()
+
+
+def test_what_is_no_row_of_letters_is_drawn_as_an_outline(tmp_path: Path) -> None:
+    """A letter with a mark of its own, which the font joins to one, is on the page all the same."""
+    curve, text = Curve(np.eye(2), "main"), "e\N{COMBINING ACUTE ACCENT}"
+    sizes = []
+    for title in ("", text):
+        scene = Scene("t", "c", "a", (Plane((curve,), "x", "y", title=title),))
+        sizes.append(draw(scene, tmp_path / "a.pdf").path.stat().st_size)
+    assert setting(text).glyphs == ()
+    assert len(setting(text).points) > 0
+    assert sizes[1] > sizes[0]
+
+
+def test_what_lies_far_outside_is_not_written(tmp_path: Path) -> None:
+    """A curve that leaves the view is cut off a little beyond its edges, and what is inside stays where it was."""
+    points = np.array([[-1e4, 0.5], [0.2, 0.5], [0.4, 0.6], [np.nan, 0.0], [0.5, 0.5], [0.5, 1e9]])
+    pieces = clipped(100.0 * points, (100.0, 100.0))
+    assert [len(piece) for piece in pieces] == [3, 2]
+    assert pieces[0][1:].tolist() == (100.0 * points[1:3]).tolist()
+    for piece in pieces:
+        assert ((piece >= -4.0) & (piece <= 104.0)).all()
+    panel = Plane((Curve(points, "main"),), "x", "y", x_limits=(0.0, 1.0), y_limits=(0.0, 1.0))
+    text = draw(Scene("t", "c", "a", (panel,)), tmp_path / "a.svg").path.read_text(encoding="utf-8")
+    assert max(len(number) for number in re.findall(r"\d+", text.partition("</defs>")[2])) <= 6
 
 
 def test_the_page_has_the_size_of_the_scene(tmp_path: Path) -> None:
