@@ -66,15 +66,18 @@ def _refined(grid: FloatArray) -> FloatArray:
 
 
 def _ribbon(line: FloatArray, width: float, view: Stage, pixel: float) -> FloatArray:
-    """Return a line of this width as triangles (T, 3, 7) across the ray, its edges fading over one pixel."""
+    """Return a line of this width as triangles (T, 3, 7) across the ray, its edges fading over one pixel.
+
+    One that is thinner than a pixel is drawn as wide as that, and fainter.
+    """
     right, up = view.frame[:2]
     step = np.diff(line @ view.frame[:2].T, axis=0)
     step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
     along = np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
     along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-12)
     side = along[:, :1] * up - along[:, 1:] * right
-    wide, narrow = 0.5 * (width + pixel), 0.5 * abs(width - pixel)
-    reach = np.array([-wide, -narrow, narrow, wide])
+    middle, fade = 0.5 * max(width, pixel), 0.5 * pixel if width > pixel else 0.0
+    reach = np.array([-middle - fade, fade - middle, middle - fade, middle + fade])
     cover = np.array([0.0, 1.0, 1.0, 0.0]) * min(1.0, width / pixel)
     corners = np.empty((len(line), 4, 7))
     corners[..., :3] = line[:, None]
