@@ -52,7 +52,6 @@ class Drawers:
     def __exit__(self, *_: object) -> None:
         for drawer in self._free + self._busy:
             drawer.pipe.close()
-        for drawer in self._busy:
             drawer.process.terminate()
         for drawer in self._free + self._busy:
             drawer.process.join()

@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from jinja2 import FileSystemBytecodeCache
+
 from atlas.build import ledger
 from atlas.build.advance import Advance
 from atlas.build.appendices import gather
@@ -38,6 +40,9 @@ class Making:
         setter = sources.closure([PACKAGE / "report" / "formulas.py"])
         self._memory = Memory(store.root / f"{report.name}.texts.json", setter)
         self._colophon = colophon(report)
+        templates = store.root / "templates"
+        templates.mkdir(parents=True, exist_ok=True)
+        self._compiled = FileSystemBytecodeCache(str(templates))
         self._times: dict[str, float] = {}
 
     @property
@@ -56,7 +61,7 @@ class Making:
             document = self._compose(recorded)
             self._lap("tables")
             drawers.turn()
-            source = pdf.source(document, self._colophon) if "pdf" in self.formats else ""
+            source = self._source(document)
             advance = Advance(folder, source, showing.missing("pdf")) if source else None
             pages = self._pages(document)
             self._lap("pages")
@@ -66,7 +71,7 @@ class Making:
                 failed |= bool(plate.failure)
             if failed:
                 document = self._compose(recorded)
-                source = pdf.source(document, self._colophon) if source else ""
+                source = self._source(document)
                 pages = self._pages(document)
             for plate in self.plates:
                 showing.put(plate, folder)
@@ -119,7 +124,11 @@ class Making:
 
     def _pages(self, document: Document) -> dict[str, str | bytes]:
         """Set the pages, if they are wanted."""
-        return html.pages(document, self._colophon, self._recall) if "html" in self.formats else {}
+        return html.pages(document, self._colophon, self._recall, self._compiled) if "html" in self.formats else {}
+
+    def _source(self, document: Document) -> str:
+        """Write the source of the PDF, if that is wanted."""
+        return pdf.source(document, self._colophon, self._compiled) if "pdf" in self.formats else ""
 
     def _recall(self, parts: Sequence[str], make: Callable[[], bytes]) -> bytes:
         """Return what was made from the same parts before, or make and keep it."""

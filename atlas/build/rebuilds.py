@@ -49,11 +49,12 @@ class Checkout:
     def run(self, command: Sequence[str], number: int = 0, cores: set[int] | None = None) -> float:
         """Run a command of the atlas and return its seconds."""
         words = [sys.executable, "-m", "atlas", *(word.format(out=self.out, number=number) for word in command)]
+        environment = {key: value for key, value in os.environ.items() if key != "PYTHONDONTWRITEBYTECODE"}
         began = time.perf_counter()
         done = subprocess.run(  # noqa: S603  our own program
             words,
             cwd=self.place,
-            env=os.environ | {"PYTHONPATH": str(self.place)},
+            env=environment | {"PYTHONPATH": str(self.place)},
             capture_output=True,
             text=True,
             check=False,

@@ -7,7 +7,7 @@ that radicals, brackets and accents grow to. Text is set in STIXGeneral, the fac
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from html import unescape
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -116,6 +116,12 @@ def all_subsets(pages: Iterable[str], recall: Recall = anew) -> dict[str, bytes]
     subsets = {}
     for name, face in FACES.items():
         wanted = ALWAYS + (formulas + GROWING if name == "math" else text)
-        parts = ["font", face.file, version(face.package), version("fonttools"), version("brotli"), wanted]
+        parts = ["font", face.file, *map(_release, (face.package, "fonttools", "brotli")), wanted]
         subsets[f"{name}.woff2"] = recall(parts, partial(subset, face, wanted))
     return subsets
+
+
+@cache
+def _release(package: str) -> str:
+    """Return the version of a package."""
+    return version(package)

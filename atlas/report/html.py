@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from atlas.places import folder
@@ -12,12 +12,18 @@ from atlas.report.compose import Document
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
 
 
-def pages(document: Document, colophon: Colophon, recall: Recall = anew) -> dict[str, str | bytes]:
-    """Set a document as pages; the keys are file names, the stylesheet and the fonts among them."""
+def pages(
+    document: Document, colophon: Colophon, recall: Recall = anew, compiled: BytecodeCache | None = None
+) -> dict[str, str | bytes]:
+    """Set a document as pages; the keys are file names, the stylesheet and the fonts among them.
+
+    `compiled` may hold templates that were compiled before.
+    """
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "html"),
         autoescape=True,
         undefined=StrictUndefined,
+        bytecode_cache=compiled,
         trim_blocks=True,
         lstrip_blocks=True,
     )

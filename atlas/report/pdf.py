@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined
 
 from atlas.errors import AtlasError
 from atlas.places import folder
@@ -21,12 +21,13 @@ THIN_IN_PRINT = 0.25
 """What Typst takes for a narrow space, in widths of a digit."""
 
 
-def source(document: Document, colophon: Colophon) -> str:
-    """Write the Typst source of a document."""
+def source(document: Document, colophon: Colophon, compiled: BytecodeCache | None = None) -> str:
+    """Write the Typst source of a document; `compiled` may hold templates that were compiled before."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "typst"),
         autoescape=False,  # noqa: S701  the filters below escape for Typst
         undefined=StrictUndefined,
+        bytecode_cache=compiled,
         trim_blocks=True,
         variable_start_string="<$",
         variable_end_string="$>",
