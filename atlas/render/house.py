@@ -1,7 +1,8 @@
-"""The house style of print: fonts, line widths and the settings that make the same bytes twice."""
+"""The house style of print: sizes of letters, and the settings that make the same bytes twice."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from contextvars import ContextVar
 from types import MappingProxyType
 from typing import Any
 
@@ -15,57 +16,29 @@ SETTINGS: Mapping[str, Any] = MappingProxyType(
         "font.family": "STIXGeneral",
         "font.size": TEXT_SIZE,
         "mathtext.fontset": "stix",
-        "axes.labelsize": TEXT_SIZE,
-        "axes.titlesize": TEXT_SIZE,
-        "axes.titlelocation": "left",
-        "axes.titlepad": 5.0,
-        "axes.linewidth": 0.6,
-        "axes.formatter.use_mathtext": True,
         "axes.formatter.limits": (-4, 5),
         "axes.unicode_minus": True,
-        "xtick.direction": "in",
-        "ytick.direction": "in",
-        "xtick.top": True,
-        "ytick.right": True,
-        "xtick.labelsize": SMALL_SIZE,
-        "ytick.labelsize": SMALL_SIZE,
-        "xtick.major.width": 0.5,
-        "ytick.major.width": 0.5,
-        "xtick.minor.width": 0.4,
-        "ytick.minor.width": 0.4,
-        "xtick.major.size": 3.0,
-        "ytick.major.size": 3.0,
-        "xtick.minor.size": 1.6,
-        "ytick.minor.size": 1.6,
-        "legend.fontsize": SMALL_SIZE,
-        "legend.frameon": True,
-        "legend.framealpha": 0.9,
-        "legend.edgecolor": "none",
-        "legend.fancybox": False,
-        "legend.handlelength": 2.4,
-        "legend.borderpad": 0.3,
-        "legend.labelspacing": 0.35,
-        "lines.solid_capstyle": "round",
-        "lines.solid_joinstyle": "round",
-        "lines.dash_capstyle": "butt",
-        "lines.scale_dashes": False,
-        "image.composite_image": False,
-        "figure.dpi": 100.0,
-        "savefig.dpi": 300.0,
-        "svg.fonttype": "path",
-        "svg.hashsalt": "atlas",
-        "pdf.fonttype": 42,
         "path.simplify": True,
     }
 )
 
 
+_AT_HOME = ContextVar("at home", default=False)
+
+
 @contextmanager
 def house_style() -> Iterator[None]:
     """Draw in the house style and leave the reader's own settings as they were."""
+    if _AT_HOME.get():
+        yield
+        return
     import matplotlib as mpl
 
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.rcParams.update(SETTINGS)
-        yield
+    token = _AT_HOME.set(True)
+    try:
+        with mpl.rc_context():
+            mpl.rcdefaults()
+            mpl.rcParams.update(SETTINGS)
+            yield
+    finally:
+        _AT_HOME.reset(token)

@@ -1,11 +1,10 @@
 """A page as an SVG file, in hundredths of a printer's point: whole numbers, and each text's outline once."""
 
-from base64 import b64encode
 from collections.abc import Iterator
 from functools import cache
+from html import escape
 from io import BytesIO
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,8 +41,8 @@ class _Writer:
             '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" version="1.1" '
             f'width="{width:.2f}pt" height="{height:.2f}pt" viewBox="0 0 {width * _FINE:.0f} {height * _FINE:.0f}">'
         )
-        yield f"<title>{escape(title)}</title>"
-        yield f"<desc>{escape(description)}</desc>"
+        yield f"<title>{escape(title, quote=False)}</title>"
+        yield f"<desc>{escape(description, quote=False)}</desc>"
         yield "<defs>"
         for (left, bottom, right, top), name in self.clips.items():
             corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
@@ -88,6 +87,8 @@ class _Writer:
         yield f'<use xlink:href="#{name}" {place} fill="{words.colour}"/>'
 
     def _picture(self, picture: Picture) -> str:
+        from base64 import b64encode
+
         from PIL import Image
 
         left, bottom, right, top = picture.box

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from atlas.render.house import POINTS_PER_MM
+from atlas.render.house import POINTS_PER_MM, house_style
 from atlas.render.paper import Page, Sheet
 from atlas.render.plane import Drawing
 from atlas.render.space import draw_space
@@ -37,11 +37,12 @@ def save(scene: Scene, files: Mapping[Path, str], *, dpi: float = DPI, paint: Ca
 def compose(scene: Scene, *, dpi: float = DPI, paint: Callable[..., None] = draw_space) -> Page:
     """Return the page with its panels."""
     page = blank(scene, dpi)
-    for panel, drawing, sheet in panels(scene, page):
-        if drawing is None:
-            paint(sheet, panel)
-        else:
-            drawing.draw(sheet)
+    with house_style():
+        for panel, drawing, sheet in panels(scene, page):
+            if drawing is None:
+                paint(sheet, panel)
+            else:
+                drawing.draw(sheet)
     return page
 
 

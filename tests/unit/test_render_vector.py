@@ -75,7 +75,9 @@ def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
     )
     theirs = tmp_path / "theirs"
     theirs.mkdir()
-    (tmp_path / "matplotlibrc").write_text("font.family: monospace\nmathtext.fontset: cm\n", encoding="utf-8")
+    (tmp_path / "matplotlibrc").write_text(
+        "font.family: monospace\nmathtext.fontset: cm\naxes.formatter.limits: 0, 0\n", encoding="utf-8"
+    )
     environment = dict(os.environ, PYTHONHASHSEED="7", TZ="Pacific/Chatham", LC_ALL="C")
     environment["MATPLOTLIBRC"] = str(tmp_path / "matplotlibrc")
     subprocess.run([sys.executable, "-c", program, str(theirs)], env=environment, check=True)
