@@ -1,25 +1,24 @@
-"""Processes that draw, side by side: there from the start, each loads what it needs once and lives until the end.
+"""Processes that draw, side by side: each loads what it needs once and lives until the build ends.
 
-They are forked before anything heavy is loaded, so that they load the drawing libraries while the build still reads
-and computes. Each has a pipe of its own: one that dies takes along the plate that it was drawing and no other, and one
-whose build is gone comes to an end by itself.
+The first is there from the start, so that it can load the drawing libraries while the build still reads and computes.
+Each has a pipe of its own: one that dies takes along the plate that it was drawing and no other, and one whose build is
+gone comes to an end by itself.
 """
 
-import multiprocessing
 import os
 import signal
+import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from multiprocessing.connection import Connection, wait
-from multiprocessing.process import BaseProcess
-from pathlib import Path
+from multiprocessing.connection import Connection, Pipe, wait
 from typing import Any, Self
 
 from atlas.build.drawing import Drawn, Task
 from atlas.errors import AtlasError
 
 MOST = 8
+_PROGRAM = "import sys; sys.path[:] = {!r}; from atlas.build.drawers import serve; serve({})"
 
 
 def many() -> int:
@@ -28,36 +27,30 @@ def many() -> int:
 
 
 class Drawers:
-    """`count` processes for as long as the context lasts."""
+    """Up to `count` processes for as long as the context lasts."""
 
     def __init__(self, count: int) -> None:
-        forked = _alone()
-        context = multiprocessing.get_context("fork") if forked else multiprocessing.get_context("spawn")
         self.count = count
-        self._free: list[_Drawer] = []
+        self._free = [_Drawer()] if count else []
         self._busy: list[_Drawer] = []
         self._waiting: list[Task] = []
         self._done: list[tuple[Task, Any]] = []
-        for _ in range(count):
-            here, there = context.Pipe()
-            inherited = [*(drawer.pipe for drawer in self._free), here] if forked else []
-            process = context.Process(target=_serve, args=(there, inherited), daemon=True)
-            process.start()
-            there.close()
-            self._free.append(_Drawer(process, here))
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
         for drawer in self._free + self._busy:
-            drawer.pipe.close()
-            drawer.process.terminate()
+            drawer.stop()
         for drawer in self._free + self._busy:
-            drawer.process.join()
+            drawer.process.wait()
 
     def load(self, renderers: Sequence[str]) -> None:
-        """Let idle processes load what so many plates will need: what is shaded is left to one as long as possible."""
+        """Start as many processes as there are plates, and let each load what it will need.
+
+        What is shaded is left to one of them as long as possible.
+        """
+        self._free += [_Drawer() for _ in renderers[1 : self.count]]
         wanted = sorted(renderers, key=lambda renderer: renderer != "shaded")
         if "vector" in wanted:
             wanted = [wanted[0], *wanted[:0:-1]]
@@ -76,7 +69,7 @@ class Drawers:
             drawer = next(one for one in self._busy if one.pipe is pipe)
             self._busy.remove(drawer)
             self._done.append(drawer.answer())
-            if drawer.process.is_alive():
+            if drawer.process.poll() is None:
                 self._free.append(drawer)
         self._assign()
 
@@ -100,10 +93,8 @@ class Drawers:
     def _assign(self) -> None:
         """Give tasks to free processes, such as have what they need where there is a choice."""
         while self._free and self._waiting:
-            drawer, task = min(
-                ((drawer, task) for task in self._waiting for drawer in self._free),
-                key=lambda pair: pair[0].fits(pair[1]),
-            )
+            pairs = [(drawer, task) for task in self._waiting for drawer in self._free]
+            drawer, task = min(pairs, key=lambda pair: pair[0].fits(pair[1]))
             self._waiting.remove(task)
             self._free.remove(drawer)
             self._busy.append(drawer)
@@ -113,21 +104,30 @@ class Drawers:
 class _Drawer:
     """One process, this end of its pipe, what it has loaded, and what it is drawing."""
 
-    def __init__(self, process: BaseProcess, pipe: "Connection[Any, Any]") -> None:
-        self.process = process
-        self.pipe = pipe
+    def __init__(self) -> None:
+        self.pipe, there = Pipe()
+        with there:
+            program = _PROGRAM.format(sys.path, there.fileno())
+            self.process = subprocess.Popen(  # noqa: S603  our own program, in our own interpreter
+                [sys.executable, "-c", program], pass_fds=[there.fileno()], stdin=subprocess.DEVNULL
+            )
         self._loaded = ""
         self._task: Task | None = None
 
+    def stop(self) -> None:
+        """Let it come to its end at once."""
+        self.pipe.close()
+        self.process.terminate()
+
     def load(self, renderer: str) -> None:
         """Let it load what a renderer needs."""
-        self.pipe.send(renderer)
+        self._send(renderer)
         self._loaded = renderer
 
     def draw(self, task: Task) -> None:
         """Let it draw."""
         self._task = task
-        self.pipe.send(task)
+        self._send(task)
         self._loaded = "shaded" if "shaded" in {self._loaded, task.renderer} else "vector"
 
     def fits(self, task: Task) -> int:
@@ -143,39 +143,39 @@ class _Drawer:
             raise AssertionError("a process that was not asked has no answer")
         try:
             return task, self.pipe.recv()
-        except (EOFError, OSError):
-            self.process.join()
-            return task, f"the process that drew it ended with status {self.process.exitcode}"
+        except (EOFError, ConnectionError):
+            return task, f"the process that drew it ended with status {self.process.wait()}"
+
+    def _send(self, what: str | Task) -> None:
+        """Send something; if the process is gone, that is found out when its answer is awaited."""
+        with suppress(ConnectionError):
+            self.pipe.send(what)
 
 
-def _alone() -> bool:
-    """Whether this process runs a single thread, so that a fork copies no lock that another one holds."""
-    threads = Path("/proc/self/task")
-    return sys.platform.startswith("linux") and threads.is_dir() and len(list(threads.iterdir())) == 1
+def serve(number: int) -> None:
+    """Do what comes through the pipe with that file descriptor until its other end is closed.
 
-
-def _serve(pipe: "Connection[Any, Any]", inherited: Sequence["Connection[Any, Any]"]) -> None:
-    """Do what comes through the pipe until its other end is closed; the build decides what an interrupt means."""
+    The build decides what an interrupt means.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for other in inherited:
-        other.close()
+    pipe: Connection[Any, Any] = Connection(number)
     try:
         while True:
             asked = pipe.recv()
             if isinstance(asked, Task):
                 pipe.send(_outcome(asked))
             else:
-                _load(asked)
+                _prepare(asked)
     except (EOFError, ConnectionError):
         return
 
 
-def _load(renderer: Any) -> None:
+def _prepare(renderer: Any) -> None:
     """Load what a renderer draws with."""
     from atlas.render import drawing
 
     with suppress(Exception):  # what can't be loaded now fails again, and is reported, when something is to be drawn
-        drawing.load(renderer)
+        drawing.prepare(renderer)
 
 
 def _outcome(task: Task) -> Drawn | str | OSError:

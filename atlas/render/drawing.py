@@ -17,7 +17,7 @@ LETTERS = ("matplotlib.textpath", "matplotlib.backends.backend_agg")
 LIBRARIES = {"vector": LETTERS, "shaded": (*LETTERS, "pyvista")}
 """What each back end draws with; that of a PDF file comes when one is asked for."""
 
-__all__ = ["FORMATS", "Drawn", "Renderer", "choose", "draw", "draw_all", "load"]
+__all__ = ["FORMATS", "Drawn", "Renderer", "choose", "draw", "draw_all", "load", "prepare"]
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,15 @@ def load(renderer: Renderer) -> ModuleType:
     else:
         from atlas.render import vector as back_end
     return back_end
+
+
+def prepare(renderer: Renderer) -> None:
+    """Load a back end and make it ready, while there is nothing to draw yet."""
+    load(renderer)
+    if renderer == "shaded":
+        from atlas.render import studio
+
+        studio.warm_up()
 
 
 def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:

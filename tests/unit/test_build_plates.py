@@ -215,14 +215,13 @@ def test_a_process_that_dies_takes_its_plate_along_and_no_other(tmp_path: Path) 
     requests = [Request("trochoids", "vector", {}), Request("magn", "vector", {}), Request("lssc", "vector", {})]
     plates = survey(requests, Store(tmp_path), Sources(), None)
     with Drawers(2) as drawers:
+        drawers.load(["vector"] * 3)
         waiting = {}
         for plate, task in tasks(plates, Store(tmp_path)):
-            waiting[task] = plate
-            if not drawers._busy:
-                drawers.give(task)
+            drawers.give(task)
+            if not waiting:
                 drawers._busy[0].process.kill()
-            else:
-                drawers.give(task)
+            waiting[task] = plate
         for task, outcome in drawers.outcomes():
             waiting[task].settle(outcome)
     assert "ended with status -9" in plates[0].failure
