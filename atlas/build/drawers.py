@@ -11,7 +11,10 @@ import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from importlib import import_module
 from multiprocessing.connection import Connection, Pipe, wait
+from queue import SimpleQueue
+from threading import Thread
 from typing import Any, Self
 
 from atlas.build.drawing import Drawn, Task
@@ -35,14 +38,19 @@ class Drawers:
         self._busy: list[_Drawer] = []
         self._waiting: list[Task] = []
         self._done: list[tuple[Task, Any]] = []
+        self._thread: Thread | None = None
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for drawer in self._free + self._busy:
-            drawer.stop()
-        for drawer in self._free + self._busy:
+        every = self._free + self._busy
+        for drawer in every:
+            drawer.process.terminate()
+        if self._thread:
+            self._thread.join()
+        for drawer in every:
+            drawer.pipe.close()
             drawer.process.wait()
 
     def load(self, renderers: Sequence[str]) -> None:
@@ -60,9 +68,33 @@ class Drawers:
     def give(self, task: Task) -> None:
         """Take in a task; it is drawn as soon as a process is free."""
         self._waiting.append(task)
-        self.turn()
+        self._turn(0.0)
 
-    def turn(self, patience: float | None = 0.0) -> None:
+    def outcomes(self) -> Iterator[tuple[Task, Drawn | str]]:
+        """Have all tasks drawn from now on, whatever the caller does, and go through them as they are finished.
+
+        Each comes with what was drawn, or in a sentence why it was not. Raises OSError when a process could not write:
+        that is not the plate's fault.
+        """
+        found: SimpleQueue[tuple[Task, Any] | None] = SimpleQueue()
+        self._thread = Thread(target=self._hand_out, args=(found,), daemon=True)
+        self._thread.start()
+        return _told(found)
+
+    def _hand_out(self, found: "SimpleQueue[tuple[Task, Any] | None]") -> None:
+        """Hand out tasks and take in what becomes of them until all are done."""
+        while self._waiting or self._busy or self._done:
+            if not self._done:
+                self._turn(None)
+            if not self._busy and not self._free:
+                self._done += [(task, "no process is left to draw it") for task in self._waiting]
+                self._waiting.clear()
+            for outcome in self._done:
+                found.put(outcome)
+            self._done.clear()
+        found.put(None)
+
+    def _turn(self, patience: float | None) -> None:
         """Take in what has been finished, after waiting for it so many seconds, and hand out what is waiting."""
         self._assign()
         for pipe in wait([drawer.pipe for drawer in self._busy], patience):
@@ -73,23 +105,6 @@ class Drawers:
                 self._free.append(drawer)
         self._assign()
 
-    def outcomes(self) -> Iterator[tuple[Task, Drawn | str]]:
-        """Go through the tasks as they are finished, each with what was drawn, or in a sentence why it was not.
-
-        Raises OSError when a process could not write: that is not the plate's fault.
-        """
-        while self._waiting or self._busy or self._done:
-            if not self._done:
-                self.turn(None)
-            if not self._busy and not self._free:
-                self._done += [(task, "no process is left to draw it") for task in self._waiting]
-                self._waiting.clear()
-            for task, outcome in self._done:
-                if isinstance(outcome, OSError):
-                    raise outcome
-                yield task, outcome
-            self._done.clear()
-
     def _assign(self) -> None:
         """Give tasks to free processes, such as have what they need where there is a choice."""
         while self._free and self._waiting:
@@ -99,6 +114,14 @@ class Drawers:
             self._free.remove(drawer)
             self._busy.append(drawer)
             drawer.draw(task)
+
+
+def _told(found: "SimpleQueue[tuple[Task, Any] | None]") -> Iterator[tuple[Task, Drawn | str]]:
+    """Go through what was found, up to the end; an error of the machine ends it."""
+    for task, outcome in iter(found.get, None):
+        if isinstance(outcome, OSError):
+            raise outcome
+        yield task, outcome
 
 
 class _Drawer:
@@ -113,11 +136,6 @@ class _Drawer:
             )
         self._loaded = ""
         self._task: Task | None = None
-
-    def stop(self) -> None:
-        """Let it come to its end at once."""
-        self.pipe.close()
-        self.process.terminate()
 
     def load(self, renderer: str) -> None:
         """Let it load what a renderer needs."""
@@ -158,6 +176,7 @@ def serve(number: int) -> None:
     The build decides what an interrupt means.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    import_module("numpy")  # whatever there will be to draw
     pipe: Connection[Any, Any] = Connection(number)
     try:
         while True:

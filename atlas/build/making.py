@@ -11,7 +11,7 @@ from atlas.build import ledger
 from atlas.build.advance import Advance
 from atlas.build.appendices import gather
 from atlas.build.drawers import Drawers
-from atlas.build.drawing import Task
+from atlas.build.drawing import Drawn, Task
 from atlas.build.memory import Memory
 from atlas.build.plates import Plate, tasks
 from atlas.build.record import RECORD, record_of
@@ -57,16 +57,16 @@ class Making:
             folder = stage / name
             self._store.sweep()
             drawn = self._begin(drawers)
+            outcomes = drawers.outcomes()
             recorded = gather(self.report)
             document = self._compose(recorded)
             self._lap("tables")
-            drawers.turn()
             source = self._source(document)
             advance = Advance(folder, source, showing.missing("pdf")) if source else None
             pages = self._pages(document)
             self._lap("pages")
             failed = False
-            for done, plate in enumerate(self._finished(drawers, drawn), steps - 1 - len(drawn)):
+            for done, plate in enumerate(self._finished(outcomes, drawn), steps - 1 - len(drawn)):
                 tell(done, steps, plate.request.recipe)
                 failed |= bool(plate.failure)
             if failed:
@@ -108,9 +108,9 @@ class Making:
         self._lap("scenes")
         return drawn
 
-    def _finished(self, drawers: Drawers, drawn: Mapping[Task, Plate]) -> Iterator[Plate]:
+    def _finished(self, outcomes: Iterator[tuple[Task, Drawn | str]], drawn: Mapping[Task, Plate]) -> Iterator[Plate]:
         """Go through the plates as they are drawn."""
-        for task, outcome in drawers.outcomes():
+        for task, outcome in outcomes:
             plate = drawn[task]
             plate.settle(outcome)
             self._showing.words(plate)

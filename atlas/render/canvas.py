@@ -1,5 +1,6 @@
 """A page as a PNG file, drawn by Matplotlib's renderer of pixels."""
 
+import zlib
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,7 +32,9 @@ def write(page: Page, path: Path, title: str) -> None:
         words.add_text("Title", title)
         words.add_text("Software", f"Matplotlib version {mpl.__version__}, https://matplotlib.org/")
         pixels = np.asarray(renderer.buffer_rgba())
-        Image.fromarray(pixels[..., :3]).save(path, "png", dpi=(dpi, dpi), pnginfo=words)
+        picture = Image.fromarray(pixels[..., :3])
+        # a third of the time, and a file a twentieth larger
+        picture.save(path, "png", dpi=(dpi, dpi), pnginfo=words, compress_type=zlib.Z_RLE)
 
 
 class _Painter:

@@ -271,8 +271,9 @@ def test_a_citation_that_leads_nowhere_is_told_before_anything_is_waited_for(
 ) -> None:
     """A misspelt citation stops the build while the first figures are being drawn."""
 
-    def never(*_: object) -> None:
+    def never(*_: object) -> Iterator[None]:
         raise AssertionError("the build waited for its figures")
+        yield
 
     monkeypatch.setattr("atlas.build.drawers.Drawers.outcomes", never)
     file = tmp_path / "mine.toml"
