@@ -23,7 +23,11 @@ from atlas.report import html, pdf
 from atlas.report.appendices import Appendices
 from atlas.report.colophon import colophon
 from atlas.report.compose import Document, compose
+from atlas.report.formulas import Target
 from atlas.report.records import Report
+
+TARGETS: Mapping[str, Target] = {"html": "html", "pdf": "typst"}
+"""In which language the texts of each format are set."""
 
 
 class Making:
@@ -60,7 +64,6 @@ class Making:
             outcomes = drawers.outcomes()
             recorded = gather(self.report)
             document = self._compose(recorded)
-            self._lap("tables")
             source = self._source(document)
             advance = Advance(folder, source, showing.missing("pdf")) if source else None
             pages = self._pages(document)
@@ -117,9 +120,12 @@ class Making:
             yield plate
 
     def _compose(self, recorded: Appendices) -> Document:
-        """Compute the tables and collect the texts; what is misspelt is told here."""
+        """Compute the tables and set the texts; what is misspelt is told here."""
         document = compose(self.report, self._showing.gallery, recorded)
         document.manuscript.memory = self._memory
+        self._lap("tables")
+        document.set(*(TARGETS[one] for one in self.formats))
+        self._lap("texts")
         return document
 
     def _pages(self, document: Document) -> dict[str, str | bytes]:

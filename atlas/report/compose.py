@@ -3,6 +3,7 @@
 import re
 from collections import defaultdict
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -35,7 +36,14 @@ class Document:
     equations: dict[str, str] = field(default_factory=dict)
     ledger: dict[str, str] = field(default_factory=dict)
     errata: str = ""
+    texts: dict[Target, list[str]] = field(default_factory=dict)
     uses: defaultdict[str, list[views.Use]] = field(default_factory=lambda: defaultdict(list))
+
+    def set(self, *targets: Target) -> None:
+        """Set all texts for each of the targets, side by side, for pandoc is a program of its own."""
+        with ThreadPoolExecutor(len(targets)) as threads:
+            made = threads.map(lambda target: self.manuscript.set(target, self.cite(target)), targets)
+            self.texts = dict(zip(targets, made, strict=True))
 
     def cite(self, target: Target) -> Callable[[str, str], str]:
         """Return the function that puts a link in the place of a citation."""

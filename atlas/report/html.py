@@ -15,7 +15,7 @@ from atlas.report.fonts import FACES, Recall, all_subsets, anew
 def pages(
     document: Document, colophon: Colophon, recall: Recall = anew, compiled: BytecodeCache | None = None
 ) -> dict[str, str | bytes]:
-    """Set a document as pages; the keys are file names, the stylesheet and the fonts among them.
+    """Set a document, whose texts are set, as pages; the keys are file names, the stylesheet and the fonts among them.
 
     `compiled` may hold templates that were compiled before.
     """
@@ -27,7 +27,7 @@ def pages(
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    texts = [Markup(text) for text in document.manuscript.set("html", document.cite("html"))]  # noqa: S704  from pandoc
+    texts = [Markup(text) for text in document.texts["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
     common: dict[str, Any] = {"document": document, "texts": texts, "colophon": colophon, "report": document.report}
     set_pages = {

@@ -22,7 +22,7 @@ THIN_IN_PRINT = 0.25
 
 
 def source(document: Document, colophon: Colophon, compiled: BytecodeCache | None = None) -> str:
-    """Write the Typst source of a document; `compiled` may hold templates that were compiled before."""
+    """Write the Typst source of a document whose texts are set; `compiled` may hold templates that were compiled before."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "typst"),
         autoescape=False,  # noqa: S701  the filters below escape for Typst
@@ -40,11 +40,10 @@ def source(document: Document, colophon: Colophon, compiled: BytecodeCache | Non
     environment.filters["content"] = _content
     environment.filters["bool"] = lambda value: str(bool(value)).lower()
     environment.filters["number"] = _number
-    texts = document.manuscript.set("typst", document.cite("typst"))
     return environment.get_template("report.typ").render(
         document=document,
         report=document.report,
-        texts=texts,
+        texts=document.texts["typst"],
         colophon=colophon,
         family=TEXT_FONT,
         math=MATH_FONT,

@@ -127,6 +127,7 @@ def document(request: pytest.FixtureRequest) -> Document:
 @pytest.fixture(scope="module")
 def source(document: Document) -> str:
     """Return its Typst source, with frames in the place of the pictures."""
+    document.set("typst")
     return PICTURE + pdf.source(document, colophon(document.report))
 
 
