@@ -22,7 +22,7 @@ THIN_IN_PRINT = 0.25
 
 
 def source(document: Document, colophon: Colophon, compiled: BytecodeCache | None = None) -> str:
-    """Write the Typst source of a document whose texts are set; `compiled` may hold templates that were compiled before."""
+    """Write the Typst source of a document whose texts are set; `compiled` may hold compiled templates."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "typst"),
         autoescape=False,  # noqa: S701  the filters below escape for Typst
