@@ -18,7 +18,7 @@ from atlas.build.record import RECORD, record_of
 from atlas.build.showing import Showing
 from atlas.build.sources import PACKAGE, Sources, digest
 from atlas.build.store import Store
-from atlas.build.whole import publish, write
+from atlas.build.whole import publish, staging, write
 from atlas.report import html, pdf
 from atlas.report.appendices import Appendices
 from atlas.report.colophon import colophon
@@ -54,46 +54,44 @@ class Making:
         """The plates that could not be made."""
         return [plate for plate in self.plates if plate.failure]
 
-    def run(
-        self, stage: Path, drawers: Drawers, advance: Advance | None, tell: Callable[[int, int, str], None]
-    ) -> None:
-        """Make it in the staging folder and publish it; the PDF too if there is an `advance` of it."""
+    def run(self, drawers: Drawers, tell: Callable[[int, int, str], None]) -> None:
+        """Make and publish it."""
         name, showing, steps = self.report.name, self._showing, len(self.plates) + 1
-        folder = stage / name
-        self._store.sweep()
-        drawn = self._begin(drawers)
-        outcomes = drawers.outcomes()
-        recorded = gather(self.report)
-        document = self._compose(recorded)
-        source = self._source(document)
-        if advance:
-            advance.rehearse(source, showing.missing("pdf"))
-        pages = self._pages(document)
-        self._lap("pages")
-        failed = False
-        for done, plate in enumerate(self._finished(outcomes, drawn), steps - 1 - len(drawn)):
-            tell(done, steps, plate.request.recipe)
-            failed |= bool(plate.failure)
-        if failed:
+        with staging(self.out) as stage:
+            folder = stage / name
+            self._store.sweep()
+            drawn = self._begin(drawers)
+            outcomes = drawers.outcomes()
+            recorded = gather(self.report)
             document = self._compose(recorded)
             source = self._source(document)
+            advance = Advance(folder, source, showing.missing("pdf")) if source else None
             pages = self._pages(document)
-        self._lap("figures")
-        tell(steps - 1, steps, "PDF" if advance else "pages")
-        if "html" in self.formats:
-            figures = showing.pictures("html")
-            for figure, path in figures.items():
-                write(folder / figure, path.read_bytes())
-            for page, content in pages.items():
-                write(folder / page, content)
-            write(folder / RECORD, record_of(document, self._colophon, folder))
-            self.files["html"] = [f"{name}/{one}" for one in (*figures, *pages, RECORD)]
-        if advance:
-            write(stage / f"{name}.pdf", advance.finish(source, showing.pictures("pdf")))
-            self.files["pdf"] = [f"{name}.pdf"]
-        self._memory.save()
-        self.pages = len(document.pages)
-        publish(stage, self.out, [file for files in self.files.values() for file in files], [name] if pages else [])
+            self._lap("pages")
+            failed = False
+            for done, plate in enumerate(self._finished(outcomes, drawn), steps - 1 - len(drawn)):
+                tell(done, steps, plate.request.recipe)
+                failed |= bool(plate.failure)
+            if failed:
+                document = self._compose(recorded)
+                source = self._source(document)
+                pages = self._pages(document)
+            for plate in self.plates:
+                showing.put(plate, folder)
+            self._lap("figures")
+            tell(steps - 1, steps, "PDF" if advance else "pages")
+            if advance:
+                write(stage / f"{name}.pdf", advance.finish(source))
+                self.files["pdf"] = [f"{name}.pdf"]
+            if pages:
+                for page, content in pages.items():
+                    write(folder / page, content)
+                write(folder / RECORD, record_of(document, self._colophon, folder))
+                figures = dict.fromkeys(view.files["html"] for view in showing.gallery.values() if view.files)
+                self.files["html"] = [f"{name}/{one}" for one in (*figures, *pages, RECORD)]
+            self._memory.save()
+            self.pages = len(document.pages)
+            publish(stage, self.out, [file for files in self.files.values() for file in files], [name] if pages else [])
         self._lap("PDF")
         tell(steps, steps, "done")
 

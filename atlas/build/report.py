@@ -7,7 +7,6 @@ set from what the scenes already tell, and the PDF in advance.
 
 import time
 from collections.abc import Callable, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
@@ -15,7 +14,6 @@ from typing import TypeAlias
 from atlas.build import fresh
 from atlas.build.sources import Sources
 from atlas.build.store import STORE, Store
-from atlas.build.whole import staging
 from atlas.errors import AtlasError
 from atlas.report.load import find, load
 
@@ -71,14 +69,9 @@ def build_report(
     if found is not None:
         reasons = (("report", file.stem, "taken: nothing it depends on has changed"),)
         return Built(file.stem, *results, found["pages"], found["figures"], reasons=reasons)
-    from atlas.build.advance import Advance
     from atlas.build.drawers import Drawers, many
 
-    with (
-        staging(out) as stage,
-        Drawers(jobs or many()) as drawers,
-        Advance(kept, file.stem) if "pdf" in wanted else nullcontext() as advance,
-    ):
+    with Drawers(jobs or many()) as drawers:
         report = load(file)
         if report.name != file.stem:
             raise AtlasError(f"{file}: the report's name is {report.name!r}, but the file is called {file.stem!r}.")
@@ -88,7 +81,7 @@ def build_report(
         from atlas.build.making import Making  # here, while the drawers load what they need
 
         made = Making(report, showing, out, wanted, kept, sources)
-        made.run(stage, drawers, advance, progress or _silent)
+        made.run(drawers, progress or _silent)
     if not made.failures:
         fresh.write(out, file.stem, key, made.files, pages=made.pages, figures=len(made.plates))
     return Built(

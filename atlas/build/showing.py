@@ -10,7 +10,7 @@ from atlas.build.drawers import Drawers
 from atlas.build.drawing import KINDS
 from atlas.build.plates import Plate, Request, survey
 from atlas.build.sources import Sources
-from atlas.build.store import Store
+from atlas.build.store import Store, place
 from atlas.render import gl
 from atlas.report.gallery import gallery
 from atlas.report.records import Report
@@ -46,10 +46,12 @@ class Showing:
         if facts["renderer"] != view.renderer and plate.note:
             view.remark = "Drawn by the vector renderer."
 
-    def pictures(self, target: str) -> dict[str, Path]:
-        """Return the files for a target that there are, by their names in the report."""
-        whole = (plate for plate in self.plates if not plate.failure)
-        return {self._views[plate.request].files[target]: plate.file(target) for plate in whole}
+    def put(self, plate: Plate, folder: Path) -> None:
+        """Put the files of a plate in their places, if it did not fail."""
+        if plate.failure:
+            return
+        for target, name in self._views[plate.request].files.items():
+            place(plate.file(target), folder / name)
 
     def missing(self, target: str) -> Mapping[str, tuple[float, float]]:
         """Return the files for a target that are still to be drawn, with their sizes in millimetres."""

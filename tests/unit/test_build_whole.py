@@ -10,7 +10,7 @@ import pytest
 from atlas.build.report import build_report
 from atlas.build.whole import PREFIX, publish, staging, write
 from atlas.errors import AtlasError
-from atlas.report.press import Press
+from atlas.report import pdf
 
 PLAIN = """
 name = "plain"
@@ -54,10 +54,10 @@ def test_a_failing_pdf_leaves_the_last_good_report(tmp_path: Path, monkeypatch: 
     build_report(report(tmp_path, "Old"), out)
     before = state(out)
 
-    def fail(_press: Press, _source: str) -> bytes:
+    def fail(_press: pdf.Press, _source: str) -> bytes:
         raise AtlasError("no PDF today.")
 
-    monkeypatch.setattr(Press, "set", fail)
+    monkeypatch.setattr(pdf.Press, "set", fail)
     with pytest.raises(AtlasError, match="no PDF today"):
         build_report(report(tmp_path, "New"), out)
     assert state(out) == before
