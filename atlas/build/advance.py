@@ -35,7 +35,7 @@ class Advance:
         import typst
 
         for name, size in missing.items():
-            kind: Literal["png", "pdf"] = "png" if name.endswith(".png") else "pdf"
+            kind: Literal["png", "svg"] = "png" if name.endswith(".png") else "svg"
             blank = typst.compile(_STAND_IN.format(*size).encode(), format=kind, ppi=_PPI, ignore_system_fonts=True)
             write(folder / name, blank)
         self._press.set(typst_source)

@@ -16,11 +16,12 @@ if TYPE_CHECKING:
 
 Drawn: TypeAlias = dict[str, Entry]
 STEM = "plate"
+PICTURE = "picture"
 KINDS: Mapping[str, Mapping[str, str]] = {
-    "vector": {"html": "svg", "pdf": "pdf", "svg": "svg", "png": "png"},
-    "shaded": {"html": "png", "pdf": "png", "png": "png"},
+    "vector": {PICTURE: "svg", "svg": "svg", "pdf": "pdf", "png": "png"},
+    "shaded": {PICTURE: "png", "png": "png"},
 }
-"""The kind of file that a renderer makes for a target: for pages, for a PDF, or of a certain format."""
+"""The kind of file that a renderer makes for a target: the picture in a report, or a file of a certain format."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -65,7 +65,7 @@ class Making:
             recorded = gather(self.report)
             document = self._compose(recorded)
             source = self._source(document)
-            advance = Advance(folder, source, showing.missing("pdf")) if source else None
+            advance = Advance(folder, source, showing.missing()) if source else None
             pages = self._pages(document)
             self._lap("pages")
             failed = False
@@ -87,7 +87,7 @@ class Making:
                 for page, content in pages.items():
                     write(folder / page, content)
                 write(folder / RECORD, record_of(document, self._colophon, folder))
-                figures = dict.fromkeys(view.files["html"] for view in showing.gallery.values() if view.files)
+                figures = dict.fromkeys(view.file for view in showing.gallery.values() if view.file)
                 self.files["html"] = [f"{name}/{one}" for one in (*figures, *pages, RECORD)]
             self._memory.save()
             self.pages = len(document.pages)

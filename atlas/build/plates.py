@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from atlas.build.drawing import Drawn, Task
+from atlas.build.drawing import PICTURE, Drawn, Task
 from atlas.build.sources import PACKAGE, Sources, digest, release
 from atlas.build.store import Entry, Store
 from atlas.errors import AtlasError
@@ -31,7 +31,7 @@ class Request:
     recipe: str
     renderer: str
     parameters: Mapping[str, Any]
-    targets: tuple[str, ...] = ("html", "pdf")
+    targets: tuple[str, ...] = (PICTURE,)
 
     @property
     def name(self) -> str:

@@ -34,7 +34,7 @@ def record_of(document: Document, colophon: Colophon, folder: Path) -> str:
             elif isinstance(block, views.FigureView):
                 for plate in block.plates:
                     suffix = "" if plate is block.plates[0] else f"-{plate.renderer}"
-                    file = plate.files.get("html")
+                    file = plate.file or None
                     figures[block.id + suffix] = {
                         "page": page.slug,
                         "caption": texts[block.caption].markdown,

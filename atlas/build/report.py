@@ -77,7 +77,7 @@ def build_report(
             raise AtlasError(f"{file}: the report's name is {report.name!r}, but the file is called {file.stem!r}.")
         from atlas.build.showing import Showing
 
-        showing = Showing(report, wanted, kept, sources, drawers)
+        showing = Showing(report, kept, sources, drawers)
         from atlas.build.making import Making  # here, while the drawers load what they need
 
         made = Making(report, showing, out, wanted, kept, sources)

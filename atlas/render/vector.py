@@ -27,7 +27,7 @@ def save(scene: Scene, files: Mapping[Path, str], *, dpi: float = DPI, paint: Ca
         elif kind == "pdf":
             from atlas.render import pdf
 
-            pdf.write(page, path, scene.title)
+            pdf.write(page, path, scene.title, scene.alt)
         else:
             from atlas.render import canvas
 

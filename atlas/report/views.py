@@ -54,7 +54,7 @@ class EquationView:
 class Plate:
     """A figure that is drawn once for all the blocks that show it: what is wanted, and what became of it.
 
-    `size` is in millimetres, `settings` are the parameters as text, `files` are by target, html and pdf.
+    `size` is in millimetres, `settings` are the parameters as text, `file` is its place in the report.
     """
 
     stem: str
@@ -65,7 +65,7 @@ class Plate:
     alt: str = ""
     size: tuple[float, float] = (120.0, 30.0)
     settings: Mapping[str, str] = field(default_factory=dict)
-    files: dict[str, str] = field(default_factory=dict)
+    file: str = ""
     failure: str = ""
     remark: str = ""
 

@@ -167,20 +167,20 @@ def test_a_plate_is_drawn_once_and_says_why(tmp_path: Path) -> None:
         assert not again[request].new
         assert again[request].facts["caption"] == first[request].facts["caption"]
         assert again[request].facts["cost"] == first[request].facts["cost"]
-        assert again[request].file("html").read_bytes().startswith(b"<?xml")
-        assert again[request].file("pdf").read_bytes().startswith(b"%PDF")
-    assert first[requests[0]].file("html").read_bytes() != first[requests[1]].file("html").read_bytes()
+        assert again[request].file("picture").read_bytes().startswith(b"<?xml")
+    assert first[requests[0]].file("picture").read_bytes() != first[requests[1]].file("picture").read_bytes()
 
 
 def test_only_what_a_target_lacks_is_drawn(tmp_path: Path) -> None:
-    """A plate made for the pages is drawn for the PDF alone when that is wanted too."""
+    """A figure that is there as SVG is drawn as PDF alone when that is wanted too."""
     store = Store(tmp_path)
-    (page,) = made([Request("magn", "vector", {}, ("html",))], store).values()
-    assert page.entries.keys() == {"html"}
-    (both,) = survey([Request("magn", "vector", {})], store, Sources(), None)
+    (first,) = made([Request("magn", "vector", {}, ("svg",))], store).values()
+    assert first.entries.keys() == {"svg"}
+    (both,) = survey([Request("magn", "vector", {}, ("svg", "pdf"))], store, Sources(), None)
     assert both.missing.keys() == {"pdf"}
-    (drawn,) = made([Request("magn", "vector", {})], store).values()
-    assert {target: entry.new for target, entry in drawn.entries.items()} == {"html": False, "pdf": True}
+    (drawn,) = made([Request("magn", "vector", {}, ("svg", "pdf"))], store).values()
+    assert {target: entry.new for target, entry in drawn.entries.items()} == {"svg": False, "pdf": True}
+    assert drawn.file("pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_both_renderers_share_a_scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,6 +13,7 @@ from fontTools.ttLib import TTFont
 from lxml import html as reader
 from pypdf import PdfReader
 
+from atlas.build.drawers import Drawers
 from atlas.build.report import Built, build_report
 from atlas.errors import AtlasError
 
@@ -280,6 +281,21 @@ def test_a_citation_that_leads_nowhere_is_told_before_anything_is_waited_for(
     file.write_text(MINE.replace("@mf76", "@mf7666"), encoding="utf-8")
     with pytest.raises(AtlasError, match="mf7666"):
         build_report(file, tmp_path / "out")
+
+
+def test_a_figure_that_fails_while_it_is_drawn_leaves_a_note_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Pages and PDF that were set while it was being drawn are set again, with the reason in its place."""
+    drawn = Drawers.outcomes
+    monkeypatch.setattr(Drawers, "outcomes", lambda drawers: ((task, "it broke.") for task, _ in drawn(drawers)))
+    file = tmp_path / "mine.toml"
+    file.write_text(MINE, encoding="utf-8")
+    made = build_report(file, tmp_path / "out")
+    assert ("hyperbola", "it broke.") in made.failures
+    assert "it broke." in made.index.read_text("utf-8")
+    assert "<img" not in made.index.read_text("utf-8")
+    assert "it broke." in " ".join(page.extract_text() for page in PdfReader(made.pdf).pages)
 
 
 def test_pages_or_the_pdf_alone(tmp_path: Path) -> None:

@@ -88,7 +88,7 @@ CASES = [
     Case("stress --samples 40 --jobs 1 --json", "numpy flint multiprocessing"),
     Case("stress --samples 40 --jobs 2", "numpy flint multiprocessing rich"),
     Case("figure hyperbola --format svg", DRAWING),
-    Case("figure hyp_a --format pdf", DRAWING),
+    Case("figure hyp_a --format pdf", f"{DRAWING} typst"),
     Case("figure flight --renderer shaded", f"{DRAWING} pyvista vtkmodules"),
     Case("diff before/prose after/prose --json", "msgspec numpy", status=1),
     Case("diff before/prose after/prose --page page.html", "msgspec numpy rich jinja2 fontTools brotli", status=1),

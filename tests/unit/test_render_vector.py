@@ -5,22 +5,23 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from pypdf import PdfReader
 
 from atlas import AtlasError
 from atlas.render import gl, vector
 from atlas.render.clip import clipped
 from atlas.render.drawing import draw
+from atlas.render.house import POINTS_PER_MM
 from atlas.render.labels import Tag, place
 from atlas.render.paper import Page, Sheet, Words
 from atlas.render.space import silhouette
 from atlas.render.stage import stage
-from atlas.render.text import setting
-from atlas.render.truetype import font, subset
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
 from atlas.scene.style import STYLES
 
@@ -101,49 +102,18 @@ def test_neither_svg_nor_pdf_loads_a_canvas(tmp_path: Path) -> None:
     assert done.stdout.strip() == "[]"
 
 
-def test_a_cut_font_holds_the_same_letters() -> None:
-    """Read by another program, each glyph of a cut font has the outline and the width of the whole one."""
-    from io import BytesIO
-
-    from fontTools.pens.recordingPen import DecomposingRecordingPen
-    from fontTools.ttLib import TTFont
-    from matplotlib.font_manager import FontProperties, findfont
-
-    path = findfont(FontProperties(family="STIXGeneral"))
-    whole = TTFont(path)
-    names = [".notdef", *(whole.getBestCmap()[ord(letter)] for letter in "Aé√∞g")]
-    cut = TTFont(BytesIO(subset(font(path), [whole.getGlyphID(name) for name in names])))
-    glyphs = cut.getGlyphSet()
-    for number, name in enumerate(names):
-        pens = []
-        for letters, glyph in ((whole.getGlyphSet(), name), (glyphs, cut.getGlyphName(number))):
-            pen = DecomposingRecordingPen(letters)
-            letters[glyph].draw(pen)
-            pens.append((pen.value, letters[glyph].width))
-        assert pens[0] == pens[1]
-
-
-@pytest.mark.parametrize(("text", "letters"), [("flight", "fl i g h t"), (r"$\omega_2$", "ω 2"), ("time (µs)", None)])
-def test_letters_lie_where_the_outlines_are(text: str, letters: str | None) -> None:
-    """What a PDF writes as letters is what an SVG draws: every outline begins within the width of its letter."""
-    line = setting(text)
-    assert [glyph.letter for glyph in line.glyphs] == (letters.split() if letters else list(text))
-    starts = line.points[line.codes == 1, 0]
-    places = np.array([glyph.x for glyph in line.glyphs])
-    assert all(((start - places > -0.1) & (start - places < 1.0)).any() for start in starts)
-    assert (np.diff(places) > 0.0).all()
-
-
-def test_what_is_no_row_of_letters_is_drawn_as_an_outline(tmp_path: Path) -> None:
-    """A letter with a mark of its own, which the font joins to one, is on the page all the same."""
-    curve, text = Curve(np.eye(2), "main"), "e\N{COMBINING ACUTE ACCENT}"
-    sizes = []
-    for title in ("", text):
-        scene = Scene("t", "c", "a", (Plane((curve,), "x", "y", title=title),))
-        sizes.append(draw(scene, tmp_path / "a.pdf").path.stat().st_size)
-    assert setting(text).glyphs == ()
-    assert len(setting(text).points) > 0
-    assert sizes[1] > sizes[0]
+def test_a_pdf_is_a_drawing_of_the_size_of_the_scene(tmp_path: Path) -> None:
+    """It has one page of the scene's size and no picture of pixels, and says its title; what SVG draws is on it."""
+    scene = recipes.load("hyperbola").scene()
+    pdf = PdfReader(draw(scene, tmp_path / "a.pdf").path)
+    (page,) = pdf.pages
+    size = [float(length) for length in page.mediabox[2:]]
+    assert size == pytest.approx([length * POINTS_PER_MM for length in scene.size], abs=0.01)
+    assert pdf.metadata is not None
+    assert pdf.metadata.title == scene.title
+    assert not page.images
+    bare = draw(replace(scene, panels=(Plane((), "x", "y"),)), tmp_path / "b.pdf").path
+    assert (tmp_path / "a.pdf").stat().st_size > 2 * bare.stat().st_size
 
 
 def test_what_lies_far_outside_is_not_written(tmp_path: Path) -> None:

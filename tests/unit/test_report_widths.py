@@ -120,7 +120,7 @@ def document(request: pytest.FixtureRequest) -> Document:
     report = load(find(request.param))
     wanted = gallery(report)
     for plate in wanted.values():
-        plate.files = {"html": "x.svg", "pdf": "x.pdf"}
+        plate.file = "x.svg"
     return compose(report, wanted, gather(report))
 
 
