@@ -21,6 +21,7 @@ HEAVY: Mapping[str, str] = {
     "mpmath": "mpmath",
     "python-flint": "flint",
     "matplotlib": "matplotlib",
+    "pillow": "PIL",
     "pyvista": "pyvista",
     "vtk": "vtkmodules",
     "jinja2": "jinja2",
@@ -63,7 +64,7 @@ class Case(NamedTuple):
 MOTION = "--ratio 1.5 --field 1 2 --omega2 0.7"
 BALL = "--larmor 0.5 --momentum 0.3 -0.7 --times 1"
 PARTICLE = "--mu 1 --magnetic 0 0 1 --velocity 1 0 0 --times 1"
-DRAWING = "matplotlib fontTools numpy multiprocessing"  # Matplotlib itself loads fontTools
+DRAWING = "matplotlib PIL fontTools numpy multiprocessing"  # Matplotlib itself loads Pillow and fontTools
 
 CASES = [
     Case("classify --ratio 1.5 --field 1 2", "flint rich"),
