@@ -83,7 +83,7 @@ CASES = [
     Case("list", "numpy rich"),
     Case("list --json", "numpy"),
     Case(f"check true.csv {MOTION}", "flint rich numpy"),
-    Case(f"check true.csv {MOTION} --json --figure error.svg", "flint matplotlib fontTools numpy"),
+    Case(f"check true.csv {MOTION} --json --figure error.svg", "flint matplotlib PIL fontTools numpy"),
     Case("verify mf76", "sympy mpmath flint rich multiprocessing"),  # SymPy itself loads the next two
     Case("bench --read bench.json", "msgspec numpy flint rich"),
     Case("stress --samples 40 --jobs 1 --json", "numpy flint multiprocessing"),
