@@ -9,7 +9,7 @@ JOBS   ?= 2
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures verify bench stress lint clean setup lock FORCE
+.PHONY: help report test figures verify bench stress rebuilds curves lint clean setup lock FORCE
 
 help:
 	@echo 'make report    build/report/atlas/index.html and build/report/atlas.pdf'
@@ -18,6 +18,7 @@ help:
 	@echo 'make build/figures/NAME.svg|pdf|png   one figure'
 	@echo 'make verify    the proofs about the paper'"'"'s equations'
 	@echo 'make bench     error against time;   make stress   the worst errors found'
+	@echo 'make rebuilds  how long each kind of change takes;   make curves   points drawn against error'
 	@echo 'make lint      ruff, mypy, import-linter;   make clean   removes build/'
 
 # What the report is made from; with nothing changed, make ends without starting Python.
@@ -47,6 +48,12 @@ bench: setup $(VENV)/.bench
 
 stress: setup
 	@$(ATLAS) stress
+
+rebuilds: setup
+	@$(BIN)/python -m atlas.build.rebuilds --store
+
+curves: setup
+	@$(BIN)/python -m atlas.study.curves
 
 lint: setup
 	@$(BIN)/ruff check .
