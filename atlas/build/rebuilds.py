@@ -86,7 +86,7 @@ class Checkout:
         return {str(file.relative_to(self.out)): hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
     def measure(self, change: Change, runs: int) -> Taken:
-        """Make a change some times over, each time another one, and build."""
+        """Make a change some times over, each time another one, and run its command; then undo it."""
         path = self.place / change.file
         original = path.read_text(encoding="utf-8")
         seconds, made, figures = [], list[str](), 0
@@ -99,7 +99,6 @@ class Checkout:
                 made = [Path(name).suffix for name, key in self.state().items() if before.get(name) != key]
                 figures = self.drawn(began) if change.command[0] == "report" else made.count(".svg")
         path.write_text(original, encoding="utf-8")
-        self.run(BUILD)
         said = " ".join(("atlas", *change.command)).replace(" --out {out}/plots", "").replace(" --out {out}", "")
         said = said.format(number=0)
         return Taken(change.name, said, figures, made.count(".html"), ".pdf" in made, tuple(seconds))
@@ -111,7 +110,9 @@ def measure(runs: int = 5) -> Iterator[Taken]:
         checkout = Checkout(Path(place))
         checkout.run(BUILD)
         for change in CHANGES:
-            yield checkout.measure(change, runs)
+            taken = checkout.measure(change, runs)
+            checkout.run(BUILD)
+            yield taken
 
 
 @dataclass(frozen=True)
