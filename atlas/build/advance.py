@@ -7,6 +7,7 @@ with the pictures themselves takes a fraction of the time.
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
+from threading import Event
 from typing import Literal
 
 from atlas.build.whole import write
@@ -14,6 +15,7 @@ from atlas.report.pdf import Press
 
 _STAND_IN = "#set page(width: {}mm, height: {}mm, margin: 0mm)\n"
 _PPI = 18.0
+_MOMENT = 0.15  # seconds: to wait longer would cost more than to begin
 
 
 class Advance:
@@ -21,17 +23,21 @@ class Advance:
 
     def __init__(self, folder: Path, typst_source: str, missing: Mapping[str, tuple[float, float]]) -> None:
         self._press = Press(folder)
+        self._drawn = Event()
         self._thread = ThreadPoolExecutor(1)
         self._first = [self._thread.submit(self._rehearse, folder, typst_source, missing)] if missing else []
 
     def finish(self, typst_source: str) -> bytes:
         """Set the PDF, now that all pictures are there."""
+        self._drawn.set()
         wait(self._first)  # if it went wrong, so does what follows, and that is told
         self._thread.shutdown()
         return self._press.set(typst_source)
 
     def _rehearse(self, folder: Path, typst_source: str, missing: Mapping[str, tuple[float, float]]) -> None:
-        """Set the source with blank pictures."""
+        """Set the source with blank pictures, unless the pictures are there in a moment."""
+        if self._drawn.wait(_MOMENT):
+            return
         import typst
 
         for name, size in missing.items():
