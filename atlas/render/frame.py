@@ -30,6 +30,17 @@ def y_room() -> float:
     return _PER_NUMBER[1] * SMALL_SIZE
 
 
+def title_room(title: str) -> float:
+    """Return how far a title reaches above its panel."""
+    return _TITLE_PAD + setting(title).ascent * TEXT_SIZE if title else 0.0
+
+
+def write_title(sheet: Sheet, title: str) -> None:
+    """Write the title of a panel above its sheet."""
+    if title:
+        sheet.words(title, (0.0, sheet.size[1] + _TITLE_PAD), TEXT_SIZE, BLACK, _WORDS, align=0.0)
+
+
 @dataclass(frozen=True)
 class Frame:
     """Two axes and the words around them; ``y_names`` stand at 1, 2, ... of the y axis instead of numbers."""
@@ -64,6 +75,11 @@ class Frame:
         """How far the numbers of the y axis reach to the left of the frame."""
         return max((_PAD + extent(name, SMALL_SIZE)[0] for _, name in self.y_ticks.long if name), default=0.0)
 
+    @property
+    def _factor_rise(self) -> float:
+        """How far the factor of the y axis stands above the frame: on the line of the title, left of it, if any."""
+        return _TITLE_PAD if self.title else _FACTOR_PAD
+
     @cached_property
     def margins(self) -> tuple[float, float, float, float]:
         """How far the words reach beyond the frame on the left, below, on the right and above."""
@@ -80,10 +96,11 @@ class Frame:
         for place, name in self.y_ticks.long:
             half = 0.5 * extent(name, SMALL_SIZE)[1]
             below, above = max(below, half - place), max(above, half + place - self.y.length)
-        if self.title:
-            above = max(above, _TITLE_PAD + setting(self.title).ascent * TEXT_SIZE)
+        above = max(above, title_room(self.title))
         if self.y_ticks.factor:
-            above = max(above, _FACTOR_PAD + extent(self.y_ticks.factor, SMALL_SIZE)[1])
+            factor = extent(self.y_ticks.factor, SMALL_SIZE)
+            above = max(above, self._factor_rise + factor[1])
+            left = max(left, factor[0] + _PAD) if self.title else left
         return left, below, right, above
 
     def draw(self, sheet: Sheet) -> None:
@@ -100,8 +117,7 @@ class Frame:
             if name:
                 sheet.words(name, (-_PAD, place), SMALL_SIZE, BLACK, _WORDS, align=1.0, stand="digits")
         self._names(sheet)
-        if self.title:
-            sheet.words(self.title, (0.0, height + _TITLE_PAD), TEXT_SIZE, BLACK, _WORDS, align=0.0)
+        write_title(sheet, self.title)
 
     def _names(self, sheet: Sheet) -> None:
         """Write the names of the axes, and the factors of their numbers."""
@@ -110,7 +126,8 @@ class Frame:
             at = (width, -self._below - _FACTOR_PAD)
             sheet.words(self.x_ticks.factor, at, SMALL_SIZE, BLACK, _WORDS, align=1.0, stand="top")
         if self.y_ticks.factor:
-            sheet.words(self.y_ticks.factor, (0.0, height + _FACTOR_PAD), SMALL_SIZE, BLACK, _WORDS, align=0.0)
+            at = (-_PAD if self.title else 0.0, height + self._factor_rise)
+            sheet.words(self.y_ticks.factor, at, SMALL_SIZE, BLACK, _WORDS, align=1.0 if self.title else 0.0)
         if self.x_label:
             at = (0.5 * width, -self._below - _NAME_PAD)
             sheet.words(self.x_label, at, TEXT_SIZE, BLACK, _WORDS, stand="top")

@@ -19,6 +19,8 @@ Places = Callable[[FloatArray], FloatArray]
 _OVER = 10.0
 _BACK, _EVERY = 150, 15
 _WHITE = "#ffffff"
+_FRAME = 1.5
+"""Names keep so far off the frame, clear of its ticks."""
 
 
 def write(sheet: Sheet, panel: Plane, places: Places) -> None:
@@ -31,7 +33,8 @@ def write(sheet: Sheet, panel: Plane, places: Places) -> None:
             tags.append(Tag(text, first, offset, extent(text, size), style(role).colour, size, tuple(elsewhere), owner))
     if tags:
         ink, weights, owners = _ink(sheet, panel, places)
-        write_tags(sheet, tags, place(tags, ink, weights, (0.0, 0.0, *sheet.size), owners))
+        right, top = sheet.size
+        write_tags(sheet, tags, place(tags, ink, weights, (_FRAME, _FRAME, right - _FRAME, top - _FRAME), owners))
 
 
 def _requests(

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.render.frame import write_title
 from atlas.render.hidden import hidden, split
-from atlas.render.house import TEXT_SIZE
 from atlas.render.labels import along, place, write
 from atlas.render.outline import areas, facing, shadows
 from atlas.render.paper import Sheet
@@ -50,9 +50,7 @@ def write_names(sheet: Sheet, view: Stage, ink: list[FloatArray], weights: list[
         (1.0, 1.0, view.window[0] - 1.0, view.window[1] - 1.0),
     )
     write(sheet, view.tags, centres)
-    if view.panel.title:
-        at = (2.0, view.window[1] - 3.0)
-        sheet.words(view.panel.title, at, TEXT_SIZE, "#000000", 20.0, align=0.0, stand="top")
+    write_title(sheet, view.panel.title)
 
 
 class Easel:

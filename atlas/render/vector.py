@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from atlas.render.frame import title_room
 from atlas.render.house import POINTS_PER_MM, house_style
 from atlas.render.paper import Page, Sheet
 from atlas.render.plane import Drawing
@@ -55,20 +56,25 @@ def blank(scene: Scene, dpi: float = DPI) -> Page:
 def panels(scene: Scene, page: Page) -> list[tuple[Panel, Drawing | None, Sheet]]:
     """Return the panels, the drawings of those with two axes, and the place of each on the page."""
     drawings = [Drawing(panel) if isinstance(panel, Plane) else None for panel in scene.panels]
-    return list(zip(scene.panels, drawings, sheets(page, drawings, scene.columns), strict=True))
+    heads = [title_room(panel.title) for panel in scene.panels]
+    return list(zip(scene.panels, drawings, sheets(page, drawings, heads, scene.columns), strict=True))
 
 
-def sheets(page: Page, drawings: list[Drawing | None], columns: int) -> list[Sheet]:
+def sheets(page: Page, drawings: list[Drawing | None], heads: list[float], columns: int) -> list[Sheet]:
     """Return the place of each panel: all inner rectangles equally large, with room for the words around them.
 
-    The room depends on the numbers at the ticks, and these on the size; so it is found in rounds.
+    The room depends on the numbers at the ticks, and these on the size; so it is found in rounds. A panel in space has
+    its title alone around it, and ``heads`` says how far titles reach.
     """
     rows = -(-len(drawings) // columns)
     flat = any(drawings)
     edges = (_edges(page.width, columns, flat=flat), _edges(page.height, rows, flat=flat))
     width, height = page.width / columns, page.height / rows
     for _ in range(_ROUNDS):
-        rooms = [drawing.margins(width, height) if drawing else (0.0, 0.0, 0.0, 0.0) for drawing in drawings]
+        rooms = [
+            drawing.margins(width, height) if drawing else (0.0, 0.0, 0.0, head)
+            for drawing, head in zip(drawings, heads, strict=True)
+        ]
         left = [edges[0][0][c] + max(room[0] for room in rooms[c::columns]) for c in range(columns)]
         right = [edges[0][1][c] + max(room[2] for room in rooms[c::columns]) for c in range(columns)]
         lines = [rooms[r * columns : (r + 1) * columns] for r in range(rows)]
