@@ -16,6 +16,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, ele
             f"figure cone takes B2, B3 both not zero, not field = {field}; figure quadric shows any kind."
         )
     layers = plates.quadric_layers(1.0, field)
+    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"Cone of initial angular velocities with constant $\\Omega_3$ for {tex_setting(1.0, field)}; "
@@ -23,6 +24,6 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, ele
         f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two "
         "straight lines, "
         "one of which passes through the origin.",
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
-        size=(plates.WIDTH, 125.0),
+        (panel,),
+        size=plates.page(panel),
     )

@@ -21,6 +21,7 @@ def scene(
             f"I = {quotient(ratio):g} and field = {field}; figure quadric shows any kind."
         )
     layers = plates.quadric_layers(ratio, field, "origin")
+    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"Upper sheet of the hyperboloid of initial angular velocities with constant $\\Omega_3$ for "
@@ -28,6 +29,6 @@ def scene(
         f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the origin "
         "O, from "
         "which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it at −B'.",
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
-        size=(plates.WIDTH, 112.0),
+        (panel,),
+        size=plates.page(panel),
     )

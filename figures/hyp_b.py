@@ -21,6 +21,7 @@ def scene(
             f"I = {quotient(ratio):g} and field = {field}; figure quadric shows any kind."
         )
     layers = plates.quadric_layers(ratio, field)
+    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"Hyperboloid of initial angular velocities with constant $\\Omega_3$ for {tex_setting(ratio, field)}. "
@@ -28,6 +29,6 @@ def scene(
         f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
         "−B'; both "
         "branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
-        size=(plates.WIDTH, 125.0),
+        (panel,),
+        size=plates.page(panel),
     )

@@ -9,7 +9,7 @@ from atlas.scene import Points, Scene, Space, plates, solids
 from atlas.scene.words import plain_setting, tex_setting, title
 
 
-def scene(*, field: tuple[float, float] = (1.0, 0.8), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
+def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
     """Show both sheets with the planes; ``field`` = (B2, B3) of B'."""
     B2, B3 = field
     if Quadric(2.0, field).kind != "two-sheet hyperboloid":
@@ -24,6 +24,7 @@ def scene(*, field: tuple[float, float] = (1.0, 0.8), azimuth: float = 25.0, ele
     ]
     touching = Points(touch[None], "special", r"$-2\mathbf{B}'$")
     layers = [*plates.quadric_layers(2.0, field), *planes, touching]
+    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"Both sheets of the hyperboloid for {tex_setting(2.0, field)}, and the planes $\\omega_3=0$ and "
@@ -31,6 +32,6 @@ def scene(*, field: tuple[float, float] = (1.0, 0.8), azimuth: float = 25.0, ele
         f"Two bowls, the sheets of a hyperboloid, for {plain_setting(2.0, field)}; the upper rests on a horizontal "
         "plane at "
         "the origin, the lower hangs from another one at −2B'.",
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
-        size=(plates.WIDTH, 108.0),
+        (panel,),
+        size=plates.page(panel),
     )

@@ -17,6 +17,7 @@ def scene(
     """Show the quadric of any kind; ``ratio`` = I3/I2 or a body, ``field`` = (B2, B3) of B', the view in degrees."""
     kind = Quadric(ratio, field).kind
     layers = plates.quadric_layers(ratio, field)
+    panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"The quadric of initial angular velocities with constant $\\Omega_3$ is a {kind} for "
@@ -26,6 +27,6 @@ def scene(
         "B', "
         "its image under the inverse inertia tensor, the canonical axes through −B' and the hyperbola in the plane "
         "e2, e3.",
-        (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
-        size=(105.0, 130.0),
+        (panel,),
+        size=plates.page(panel),
     )

@@ -12,14 +12,13 @@ from atlas.render.labels import Tag, stand
 from atlas.render.paper import Sheet
 from atlas.render.scaling import scaled
 from atlas.render.text import extent
-from atlas.scene.camera import frame
+from atlas.scene.camera import frame, shown
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Points, Region, Space, Surface
 from atlas.scene.style import style
 
 FloatArray = NDArray[np.float64]
 
 _MARGIN = 4.0
-_TITLE = 14.0
 _BEYOND = 4.5
 
 
@@ -57,35 +56,32 @@ class Stage:
 def stage(sheet: Sheet, panel: Space) -> Stage:
     """Fit a panel into its sheet: the largest scale at which all that is drawn and written stays inside."""
     width, height = sheet.size
-    head = _TITLE if panel.title else 0.0
-    shown = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
-    low, high = shown.min(axis=0), shown.max(axis=0)
+    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
+    low, high = seen.min(axis=0), seen.max(axis=0)
     centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
-    panel, shown = scaled(panel, centre, size), (shown - centre) / size
+    panel, seen = scaled(panel, centre, size), (seen - centre) / size
     eye = frame(panel)
-    flat = shown @ eye[:2].T
+    flat = seen @ eye[:2].T
     tags = [tag for layer in panel.layers for tag in _tags(layer, eye)]
-    inside = np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN - head])
+    inside = np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN])
     scale = _fit(flat, tags, inside)
     left, right = _reach(flat, tags, scale)
-    shift = 0.5 * (np.array([width, height - head]) - left - right)
-    moved = (replace(tag, anchor=tuple(scale * np.array(tag.anchor) + shift)) for tag in tags)
-    return Stage(panel, eye, scale, shift, (width, height), tuple(moved))
+    shift = 0.5 * (np.array([width, height]) - left - right)
+
+    def moved(at: tuple[float, float]) -> tuple[float, float]:
+        x, y = scale * np.array(at) + shift
+        return float(x), float(y)
+
+    placed = (replace(tag, anchor=moved(tag.anchor), elsewhere=tuple(map(moved, tag.elsewhere))) for tag in tags)
+    return Stage(panel, eye, scale, shift, (width, height), tuple(placed))
 
 
 def _parts(layer: Layer) -> Iterator[FloatArray]:
     """All the points of a layer that must be seen."""
-    if isinstance(layer, Curve | Points):
-        yield layer.points
-    elif isinstance(layer, Arrow):
-        yield np.stack([layer.tail, layer.tip])
-    elif isinstance(layer, Label):
-        yield layer.at
-    elif isinstance(layer, Surface):
-        yield from (*layer.grids, *layer.rims)
-    elif isinstance(layer, Image | Region):
+    if isinstance(layer, Image | Region):
         kind = "map" if isinstance(layer, Image) else "flat region"
         raise AtlasError(f"a panel in space cannot hold a {kind}; put it in a Plane")
+    yield from shown(layer)
 
 
 def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
@@ -94,8 +90,8 @@ def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
     if request is not None:
         text, at, offset, role = request
         size = TEXT_SIZE if role == "note" else LABEL_SIZE
-        anchor = eye[:2] @ np.asarray(at, dtype=float)
-        yield Tag(text, (float(anchor[0]), float(anchor[1])), offset, extent(text, size), _ink(role), size)
+        first, *elsewhere = ((float(x), float(y)) for x, y in np.atleast_2d(at) @ eye[:2].T)
+        yield Tag(text, first, offset, extent(text, size), _ink(role), size, tuple(elsewhere))
 
 
 def _request(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:

@@ -1,9 +1,11 @@
-"""The eye of a panel in space: which way is right, up and towards the reader."""
+"""The eye of a panel in space: which way is right, up and towards the reader, and what there is to see."""
+
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.scene.layers import Space
+from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Space, Surface
 
 
 def frame(space: Space) -> NDArray[np.float64]:
@@ -13,3 +15,15 @@ def frame(space: Space) -> NDArray[np.float64]:
     right = (-np.sin(a), np.cos(a), 0.0)
     up = (-np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e))
     return np.array([right, up, towards])
+
+
+def shown(layer: Layer) -> Iterator[NDArray[np.float64]]:
+    """Yield all the points (..., 3) of a layer that must be seen."""
+    if isinstance(layer, Curve | Points):
+        yield layer.points
+    elif isinstance(layer, Arrow):
+        yield np.stack([layer.tail, layer.tip])
+    elif isinstance(layer, Label):
+        yield layer.at
+    elif isinstance(layer, Surface):
+        yield from (*layer.grids, *layer.rims)

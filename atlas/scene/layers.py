@@ -48,7 +48,10 @@ class Arrow:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """Text at a place, ``offset`` printer's points away from it; with offset (0, 0) it is centred there and stays."""
+    """Text at a place, ``offset`` printer's points away from it; with offset (0, 0) it is centred there and stays.
+
+    ``at`` may hold several places (N, 2) or (N, 3), the first the best, the others for when it is taken.
+    """
 
     at: FloatArray
     text: str

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from atlas.core.quadric import Quadric
 from atlas.scene import quadrics, solids
-from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Surface
+from atlas.scene.camera import frame, shown
+from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Space, Surface
 from atlas.scene.sample import quarter_pixel
 from atlas.scene.words import quotient
 
@@ -17,6 +18,7 @@ FloatArray: TypeAlias = NDArray[np.float64]
 E1, E2, E3 = np.eye(3)
 O = np.zeros(3)
 WIDTH = 120.0
+_PAGE, _LEAST, _NAMES = np.array([WIDTH, 98.0]), 50.0, np.array([17.0, 14.0])
 _FLAT = 1e-3
 LEGEND = (
     r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. In the plane of "
@@ -29,6 +31,16 @@ LEGEND = (
 def in_plane(second: float, third: float) -> FloatArray:
     """Return the vector (0, second, third)."""
     return np.array([0.0, second, third])
+
+
+def page(panel: Space) -> tuple[float, float]:
+    """Return the size in millimetres of a page that a panel fills: as large as may be, with air around for names."""
+    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in shown(layer)])
+    flat = seen / np.abs(seen).max() @ frame(panel)[:2].T
+    span = np.ptp(flat, axis=0)
+    filled = span * ((_PAGE - _NAMES) / span).min() + _NAMES
+    width, height = np.maximum(np.round(filled), _LEAST)
+    return float(width), float(height)
 
 
 def tolerance(reach: float) -> float:
@@ -83,7 +95,9 @@ def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
     if quadric.kind == "all space":
         return []
     pieces = sheets(I, quadric, field, which)
-    return [*pieces, *hyperbolas(I, pieces, field), *canonical(quadric, 1.14 * extent(quadric, field), 0.75 * b)]
+    below = which == "origin" and float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) < 0.0
+    reach = 0.75 * b if below else 1.14 * extent(quadric, field)
+    return [*pieces, *hyperbolas(I, pieces, field), *canonical(quadric, reach, 0.75 * b)]
 
 
 def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
@@ -130,8 +144,9 @@ def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
 def turn(centre: FloatArray, angle: float, radius: float, name: str) -> list[Layer]:
     """Return an arc in the plane omega_1 = 0 from the direction of e2, with the name of its angle."""
     arc = solids.arc(centre, radius * E2, radius * E3, 0.0, angle, tolerance(2.0 * radius))
-    middle = in_plane(float(np.cos(0.5 * angle)), float(np.sin(0.5 * angle)))
-    label = Label(centre + radius * middle, name, offset=(4.0 * float(middle[1]), 4.0 * float(middle[2])))
+    along = [in_plane(float(np.cos(part * angle)), float(np.sin(part * angle))) for part in (0.5, 0.25, 0.0)]
+    offset = (4.0 * float(along[0][1]), 4.0 * float(along[0][2]))
+    label = Label(centre + radius * np.array(along), name, offset=offset)
     return [Curve(arc, "angle"), label]
 
 
@@ -145,7 +160,7 @@ def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
         back = 0.35 * across
         layers.append(Arrow(centre - back * axes[k], centre + length * axes[k], "canonical", rf"$\omega'_{k + 1}$"))
     layers.append(Points(centre[None], "centre", r"$-\mathbf{B}'$"))
-    radius = 0.62 * across
+    radius = 0.5 * across
     layers.append(Curve(np.stack([centre, centre + 1.25 * radius * E2]), "construction"))
     layers += turn(centre, float(np.arctan2(axes[1, 2], axes[1, 1])), radius, r"$\beta/2+\pi/4$")
     return layers
