@@ -89,8 +89,8 @@ def trace(motion: ElementaryMotion) -> Space:
     layers: list[Layer] = [sphere(origin, 1.0, size)]
     if axis.any():
         along = axis / np.linalg.norm(axis)
-        if 0 < abs(along[2]) < 1 and motion.k:
-            middle = along * np.sign(along[2])
+        if abs(along[2]) < 1 and motion.k:
+            middle = along * np.copysign(1.0, along[2])
             layers.append(cone(origin, middle, float(np.arccos(middle[2])), 1.0, size))
         name, role = (r"$\mathbf{m}$", "momentum") if free else (r"$\mathbf{B}$", "field")
         layers.append(Arrow(origin, 1.45 * along, role, name))

@@ -12,6 +12,7 @@ from atlas.scene.layers import Surface
 FloatArray: TypeAlias = NDArray[np.float64]
 
 TURN = 2.0 * np.pi
+_FLAT = 1e-6
 
 
 def across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -75,8 +76,13 @@ def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sph
 
 
 def cone(apex: FloatArray, axis: FloatArray, angle: float, length: float, tolerance: float) -> Surface:
-    """Return the cone of half-angle ``angle`` around the unit vector ``axis``, its side ``length`` long."""
+    """Return the cone of half-angle ``angle`` around the unit vector ``axis``, its side ``length`` long.
+
+    With a right angle it is a disk: the form of the cone is then a square, which has no normal where it is zero.
+    """
     c, s = float(np.cos(angle)), float(np.sin(angle))
+    if abs(c) < _FLAT:
+        return disk(apex, axis, length, tolerance, role="cone")
     first, second = across(axis)
     form = c * c * np.eye(3) - np.outer(axis, axis)
     Q = matrix(form, -2.0 * form @ apex, float(apex @ form @ apex))
