@@ -20,9 +20,11 @@ from atlas.scene.family import components
 from atlas.scene.sample import curve, quarter_pixel
 from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
-WIDTH, HEIGHT = 178.0, 88.0
+WIDTH, HEIGHT = 178.0, 76.0
 VIEW = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")
 MANY = 200
+CLEAR = 0.15
+"""The arrows of the fields keep off the paths by this part of their length."""
 Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
 
@@ -109,10 +111,11 @@ def space(flight: Flight, B: FloatArray, drawn: Paths) -> Space:
     eye = frame(VIEW)
     flat = seen @ eye.T
     length = 0.3 * float(np.ptp(flat, axis=0).max())
-    corner = np.array([flat[:, 0].min(), flat[:, 1].min() - 0.5 * length, 0.0]) @ eye
-    for field, role, name in ((B, "field", r"$\mathbf{B}$"), (flight.particle.E, "electric", r"$\mathbf{E}$")):
-        if np.any(field):
-            layers.append(Arrow(corner, corner + length * field / np.linalg.norm(field), role, name))
+    named = ((B, "field", r"$\mathbf{B}$"), (flight.particle.E, "electric", r"$\mathbf{E}$"))
+    arrows = [(length * field / np.linalg.norm(field), role, name) for field, role, name in named if np.any(field)]
+    high = max(0.0, *(float(eye[1] @ arrow) for arrow, _, _ in arrows))
+    corner = np.array([flat[:, 0].min(), flat[:, 1].min() - high - CLEAR * length, 0.0]) @ eye
+    layers += [Arrow(corner, corner + arrow, role, name) for arrow, role, name in arrows]
     return replace(VIEW, layers=tuple(layers))
 
 

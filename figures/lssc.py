@@ -47,9 +47,11 @@ def scene(
             Arrow(plates.O, tip, "field", r"$\mathbf{B}$"),
             Curve(np.stack([tip, second]), "construction"),
             Curve(np.stack([tip, third]), "construction"),
-            Label(second, r"$B_2$", offset=(0.0, -5.0)),
-            Label(third, r"$B_3$", offset=(-5.0, 0.0)),
         ]
+    if field[0]:
+        layers.append(Label(second, r"$B_2$", offset=(0.0, -5.0)))
+    if field[1]:
+        layers.append(Label(third, r"$B_3$", offset=(-5.0, 0.0)))
     return Scene(
         title(__doc__),
         f"Laboratory system for {tex_setting(ratio, field)}: $\\mathbf{{e}}_3$ is the third inertia axis "

@@ -13,7 +13,7 @@ from atlas.core.inputs import FloatArray, number
 from atlas.core.integrals import shape_factors
 from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.scene.libration import Libration
 from atlas.scene.sample import curve, flat, quarter_pixel
 from atlas.scene.words import listed, plain, plain_setting, tex, tex_equals, tex_setting, title
@@ -97,13 +97,10 @@ def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: flo
     for libration, value, role in zip(librations, omega1, ROLES, strict=False):
         whole, window = stop / libration.period, ((0.0, stop), limits)
         line = flat(libration.departure, 0.0, 1.05 * whole, window, size, pieces=max(8, round(10 * whole)))
-        far = int(np.argmax(np.abs(line[line[:, 0] < 0.9 * stop, 1])))
-        side = float(np.sign(line[far, 1]))
         tangent = np.array([[0.0, 0.0], [1.0, libration.speed]]) * min(stop, reach / abs(libration.speed)) * 0.5
         layers += [
             Curve(tangent, "reference"),
-            Curve(line, role),
-            Label(line[far], rf"$\omega_1={tex(value)}$", role, (0.0, 4.0 * side)),
+            Curve(line, role, rf"$\omega_1={tex(value)}$"),
         ]
     return Plane(
         tuple(layers),
