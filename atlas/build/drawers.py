@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from importlib import import_module
 from multiprocessing.connection import Connection, Pipe, wait
+from pickle import PickleError
 from queue import SimpleQueue
 from threading import Thread
 from typing import Any, Self
@@ -21,6 +22,8 @@ from atlas.build.drawing import Drawn, Task
 from atlas.errors import AtlasError
 
 MOST = 8
+STDERR = 2
+"""What a recipe or a library prints while it draws is no result."""
 _PROGRAM = "import sys; sys.path[:] = {!r}; from atlas.build.drawers import serve; serve({})"
 
 
@@ -111,9 +114,13 @@ class Drawers:
             pairs = [(drawer, task) for task in self._waiting for drawer in self._free]
             drawer, task = min(pairs, key=lambda pair: pair[0].fits(pair[1]))
             self._waiting.remove(task)
+            try:
+                drawer.draw(task)
+            except (PickleError, AttributeError, TypeError) as error:
+                self._done.append((task, f"its scene holds what no other process can read: {error}"))
+                continue
             self._free.remove(drawer)
             self._busy.append(drawer)
-            drawer.draw(task)
 
 
 def _told(found: "SimpleQueue[tuple[Task, Any] | None]") -> Iterator[tuple[Task, Drawn | str]]:
@@ -132,7 +139,7 @@ class _Drawer:
         with there:
             program = _PROGRAM.format(sys.path, there.fileno())
             self.process = subprocess.Popen(  # noqa: S603  our own program, in our own interpreter
-                [sys.executable, "-c", program], pass_fds=[there.fileno()], stdin=subprocess.DEVNULL
+                [sys.executable, "-c", program], pass_fds=[there.fileno()], stdin=subprocess.DEVNULL, stdout=STDERR
             )
         self._loaded = ""
         self._task: Task | None = None
@@ -144,8 +151,8 @@ class _Drawer:
 
     def draw(self, task: Task) -> None:
         """Let it draw."""
-        self._task = task
         self._send(task)
+        self._task = task
         self._loaded = "shaded" if "shaded" in {self._loaded, task.renderer} else "vector"
 
     def fits(self, task: Task) -> int:

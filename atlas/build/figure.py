@@ -9,6 +9,7 @@ from atlas.build.drawers import Drawers, many
 from atlas.build.plates import Plate, Request, survey, tasks
 from atlas.build.sources import Sources
 from atlas.build.store import STORE, Store, place
+from atlas.build.whole import room
 from atlas.errors import AtlasError
 
 OUT = Path("build/figures")
@@ -66,15 +67,16 @@ def build_figures(
             waiting[task].settle(outcome)
             done += 1
             progress(done, len(plates), waiting[task].request.recipe)
-    yield from (_placed(plate, out) for plate in plates)
+    with room(out) as beside:
+        yield from (_placed(plate, out, beside) for plate in plates)
 
 
-def _placed(plate: Plate, out: Path) -> Figure:
+def _placed(plate: Plate, out: Path, beside: Path) -> Figure:
     """Put the files of a plate in their places."""
     name = plate.request.recipe
     if plate.failure:
         return Figure(name, reason=plate.reason, failure=plate.failure)
     files = tuple(out / f"{name}.{target}" for target in plate.request.targets)
     for target, file in zip(plate.request.targets, files, strict=True):
-        place(plate.file(target), file)
+        place(plate.file(target), file, beside)
     return Figure(name, files, plate.facts["renderer"], plate.note, plate.reason)

@@ -1,11 +1,10 @@
 """Is a report up to date? Decided from its sources and its files, without loading what would build it."""
 
-import json
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from atlas.build import notes
 from atlas.build.sources import PACKAGE, Sources, digest, release
 from atlas.places import folder
 
@@ -20,6 +19,8 @@ LIBRARIES = (
     "pypandoc_binary",
     "ziamath",
     "fonttools",
+    "brotli",
+    "pillow",
 )
 RECORDS = tuple(PACKAGE / name for name in ("proof/verdicts.json", "proof/mutants.json", "study/ratchet.json"))
 """The recorded results that lie beside the code; those of reports/data are found by their folder."""
@@ -32,7 +33,7 @@ def key(file: Path, sources: Sources) -> str:
         *(path for floor in ("build", "report", "render", "scene", "core", "exact", "paper") for path in _code(floor)),
         *folder("figures").glob("*.py"),
         *(path for path in folder("templates").rglob("*") if path.is_file()),
-        *(folder("reports") / "data").glob("*.json"),
+        *(path for path in (folder("reports") / "data").glob("*") if path.is_file()),
         *RECORDS,
         file,
     ]
@@ -58,18 +59,12 @@ def write(out: Path, name: str, made: str, files: Mapping[str, Sequence[str]], *
     """Note a report that was built whole, with the state of its files of each format."""
     stamps = {one: {file: _stamp(out / file) for file in names} for one, names in files.items()}
     stamps = _read(out, name, made).get("files", {}) | stamps
-    note = _note(out, name)
-    beside = note.with_name(f"{note.name}.{os.getpid()}")
-    beside.write_text(json.dumps({"key": made, "files": stamps, **facts}))
-    beside.replace(note)
+    notes.write(noted(out, name), {"key": made, "files": stamps, **facts})
 
 
 def _read(out: Path, name: str, wanted: str) -> dict[str, Any]:
     """Return the note of a report of that key, or an empty one."""
-    try:
-        note: dict[str, Any] = json.loads(_note(out, name).read_text())
-    except (OSError, ValueError):
-        return {}
+    note = notes.read(noted(out, name))
     return note if note.get("key") == wanted else {}
 
 
@@ -82,5 +77,6 @@ def _stamp(path: Path) -> list[int]:
     return [state.st_mtime_ns, state.st_size]
 
 
-def _note(out: Path, name: str) -> Path:
+def noted(out: Path, name: str) -> Path:
+    """Return the note of a report that was built whole."""
     return out / f".{name}.made.json"

@@ -3,13 +3,11 @@
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
-from jinja2 import FileSystemBytecodeCache
-
-from atlas.build import ledger
+from atlas.build import fresh, ledger
 from atlas.build.advance import Advance
 from atlas.build.appendices import gather
+from atlas.build.compiled import Compiled
 from atlas.build.drawers import Drawers
 from atlas.build.drawing import Drawn, Task
 from atlas.build.memory import Memory
@@ -19,6 +17,7 @@ from atlas.build.showing import Showing
 from atlas.build.sources import PACKAGE, Sources, digest
 from atlas.build.store import Store
 from atlas.build.whole import publish, staging, write
+from atlas.errors import AtlasError
 from atlas.report import html, pdf
 from atlas.report.appendices import Appendices
 from atlas.report.colophon import colophon
@@ -44,9 +43,8 @@ class Making:
         setter = sources.closure([PACKAGE / "report" / "formulas.py"])
         self._memory = Memory(store.root / f"{report.name}.texts.json", setter)
         self._colophon = colophon(report)
-        templates = store.root / "templates"
-        templates.mkdir(parents=True, exist_ok=True)
-        self._compiled = FileSystemBytecodeCache(str(templates))
+        self._code = sources.alone([PACKAGE / "report" / f"{one}.py" for one in ("fonts", "html", "pdf")])
+        self._compiled = Compiled(store, self._code)
         self._times: dict[str, float] = {}
 
     @property
@@ -57,6 +55,7 @@ class Making:
     def run(self, drawers: Drawers, tell: Callable[[int, int, str], None]) -> None:
         """Make and publish it."""
         name, showing, steps = self.report.name, self._showing, len(self.plates) + 1
+        self._refuse_foreign()
         with staging(self.out) as stage:
             folder = stage / name
             self._store.sweep()
@@ -76,6 +75,8 @@ class Making:
                 document = self._compose(recorded)
                 source = self._source(document)
                 pages = self._pages(document)
+            if advance:
+                advance.make_way()
             for plate in self.plates:
                 showing.put(plate, folder)
             self._lap("figures")
@@ -86,9 +87,9 @@ class Making:
             if pages:
                 for page, content in pages.items():
                     write(folder / page, content)
-                write(folder / RECORD, record_of(document, self._colophon, folder))
+                write(folder / RECORD, record_of(document, self._colophon, folder))  # by it a report is known as one
                 figures = dict.fromkeys(view.file for view in showing.gallery.values() if view.file)
-                self.files["html"] = [f"{name}/{one}" for one in (*figures, *pages, RECORD)]
+                self.files["html"] = [f"{name}/{one}" for one in (RECORD, *figures, *pages)]
             self._memory.save()
             self.pages = len(document.pages)
             publish(stage, self.out, [file for files in self.files.values() for file in files], [name] if pages else [])
@@ -99,6 +100,13 @@ class Making:
         """Write down what the build cost, and return the file."""
         path = self.out / f"{self.report.name}.costs.json"
         return ledger.write(path, self.report.name, self.plates, self._times, began, jobs)
+
+    def _refuse_foreign(self) -> None:
+        """Refuse a folder for the pages that holds something else: what is no page would be removed from it."""
+        folder = self.out / self.report.name
+        known = (folder / RECORD).exists() or fresh.noted(self.out, self.report.name).exists()
+        if "html" in self.formats and not known and folder.is_dir() and any(folder.iterdir()):
+            raise AtlasError(f"{folder} holds files that are of no report; move them, or choose another --out.")
 
     def _begin(self, drawers: Drawers) -> dict[Task, Plate]:
         """Compute the scenes of what must be drawn, and let the drawers begin."""
@@ -138,16 +146,8 @@ class Making:
 
     def _recall(self, parts: Sequence[str], make: Callable[[], bytes]) -> bytes:
         """Return what was made from the same parts before, or make and keep it."""
-        key = digest("made", list(parts))
-        entry = self._store.take(key)
-        if entry is None:
-
-            def maker(folder: Path) -> dict[str, Any]:
-                (folder / "content").write_bytes(make())
-                return {}
-
-            entry = self._store.make(key, maker)
-        return entry.file("content").read_bytes()
+        key = digest("made", self._code, list(parts))
+        return self._store.recall(key) or self._store.keep(key, make())
 
     def _lap(self, step: str) -> None:
         """Note the time at the end of a step."""

@@ -1,9 +1,9 @@
-"""Texts that were set before, by a digest of what they were set from; a plain file beside the store."""
+"""Texts that were set before, by a digest of what they were set from; one note beside the store."""
 
 import hashlib
-import json
-import os
 from pathlib import Path
+
+from atlas.build import notes
 
 
 class Memory:
@@ -15,10 +15,7 @@ class Memory:
     def __init__(self, file: Path, setter: str) -> None:
         self._file = file
         self._setter = setter
-        try:
-            self._known: dict[str, str] = json.loads(file.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            self._known = {}  # nothing remembered, or not readable: everything is set anew
+        self._known: dict[str, str] = notes.read(file)
         self._used: dict[str, str] = {}
 
     def __contains__(self, source: str) -> bool:
@@ -34,10 +31,7 @@ class Memory:
 
     def save(self) -> None:
         """Write down what was used."""
-        self._file.parent.mkdir(parents=True, exist_ok=True)
-        beside = self._file.with_name(f"{self._file.name}.{os.getpid()}")
-        beside.write_text(json.dumps(self._used, ensure_ascii=False), encoding="utf-8")
-        beside.replace(self._file)
+        notes.write(self._file, self._used)
 
     def _key(self, source: str) -> str:
         return hashlib.sha256(f"{self._setter}{source}".encode()).hexdigest()

@@ -4,8 +4,10 @@ The key of a plate holds the recipe's code and that of every module of ours that
 files it reads, its parameters, the renderer, the target, and the versions of the libraries that draw.
 """
 
+import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import redirect_stdout
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,7 +22,12 @@ from atlas.report.numbers import shown
 if TYPE_CHECKING:
     from atlas.scene import Scene
 
-DRAWERS = {"vector": ("numpy", "matplotlib"), "shaded": ("numpy", "matplotlib", "pyvista", "vtk")}
+DRAWERS = {
+    "vector": ("numpy", "matplotlib", "pillow"),
+    "shaded": ("numpy", "matplotlib", "pillow", "pyvista", "vtk"),
+}
+WRITERS = {"pdf": "typst"}
+"""The library that writes the files for a target alone."""
 TAKEN = "nothing it depends on has changed"
 
 
@@ -90,8 +97,9 @@ def survey(requests: Sequence[Request], store: Store, sources: Sources, gl: str 
     for request in requests:
         parts = parts_of(request, sources, gl)
         plate = Plate(request, TAKEN)
+        writers = {f"{target} writer": release(WRITERS[target]) for target in request.targets if target in WRITERS}
         for target in request.targets:
-            key = digest(request.recipe, parts, target)
+            key = digest(request.recipe, parts, target, writers.get(f"{target} writer"))
             entry = store.take(key)
             if entry is None:
                 plate.missing[target] = key
@@ -99,8 +107,8 @@ def survey(requests: Sequence[Request], store: Store, sources: Sources, gl: str 
                 plate.entries[target] = entry
                 plate.facts = entry.facts
         if plate.missing:
-            plate.why = store.changed(request.name, parts)
-        store.remember(request.name, parts)
+            plate.why = store.changed(request.name, parts | writers)
+        store.remember(request.name, parts | writers)
         plates.append(plate)
     return plates
 
@@ -124,7 +132,7 @@ def data_files(recipe: str) -> list[Path]:
     """Return the files that a recipe reads: those of reports/data that its source names."""
     data = folder("reports") / "data"
     text = (folder("figures") / f"{recipe}.py").read_text(encoding="utf-8")
-    return [path for path in sorted(data.glob("*.json")) if path.name in text or path.stem in text]
+    return [path for path in sorted(data.glob("*")) if path.name in text or path.stem in text]
 
 
 def tasks(plates: Sequence[Plate], store: Store) -> Iterator[tuple[Plate, Task]]:
@@ -141,7 +149,9 @@ def tasks(plates: Sequence[Plate], store: Store) -> Iterator[tuple[Plate, Task]]
                 scenes[same] = _scene(plate.request)
             yield plate, _task(plate, *scenes[same], store)
         except AtlasError as error:
-            plate.failure = " ".join(str(error).split())
+            plate.settle(str(error))
+        except SystemExit as error:
+            plate.settle(f"its recipe ended with exit status {error}")
 
 
 def _scene(request: Request) -> "tuple[Scene, dict[str, Any]]":
@@ -151,7 +161,7 @@ def _scene(request: Request) -> "tuple[Scene, dict[str, Any]]":
 
     start = time.perf_counter()
     recipe = recipes.load(request.recipe)
-    with meter.counting() as counts:
+    with meter.counting() as counts, redirect_stdout(sys.stderr):
         scene = recipe.scene(**request.parameters)
     cost = {
         "quantities": dict(sorted(counts.items())),

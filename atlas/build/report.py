@@ -75,6 +75,8 @@ def build_report(
         report = load(file)
         if report.name != file.stem:
             raise AtlasError(f"{file}: the report's name is {report.name!r}, but the file is called {file.stem!r}.")
+        if report.name.startswith("."):
+            raise AtlasError(f"{file}: the report's name {report.name!r} must not begin with a dot.")
         from atlas.build.showing import Showing
 
         showing = Showing(report, kept, sources, drawers)

@@ -47,7 +47,7 @@ class Showing:
     def put(self, plate: Plate, folder: Path) -> None:
         """Put the file of a plate in its place, if it did not fail."""
         if not plate.failure:
-            place(plate.file(PICTURE), folder / self._views[plate.request].file)
+            place(plate.file(PICTURE), folder / self._views[plate.request].file, folder)
 
     def missing(self) -> Mapping[str, tuple[float, float]]:
         """Return the files that are still to be drawn, with their sizes in millimetres."""

@@ -9,6 +9,7 @@ import ast
 import hashlib
 import json
 import os
+import time
 from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache
 from importlib.metadata import PackageNotFoundError, version
@@ -16,8 +17,15 @@ from pathlib import Path
 from typing import Any
 
 import atlas
+from atlas import _HOMES
+from atlas.build import notes
+from atlas.places import folder
 
 PACKAGE = Path(atlas.__file__).resolve().parent
+OURS = {"atlas", "figures"}
+"""The names that imports of ours begin with."""
+TICK = 2_000_000_000
+"""Nanoseconds within which two changes of a file may bear the same time, on the coarsest of file systems."""
 
 
 def digest(*parts: Any) -> str:
@@ -36,7 +44,10 @@ def release(library: str) -> str:
 
 
 class Sources:
-    """Digests of files and of all that they reach, remembered between runs by the files' times and sizes."""
+    """Digests of files and of all that they reach, remembered between runs by the files' times, sizes and inodes.
+
+    A file that was written just now is not remembered: it could be written again at the same time by the clock.
+    """
 
     def __init__(self, memory: Path | None = None) -> None:
         self._memory = memory
@@ -45,10 +56,7 @@ class Sources:
         self._seen: dict[str, dict[str, Any]] = {}
         self._closures: dict[tuple[frozenset[str], frozenset[str]], str] = {}
         if memory is not None:
-            try:
-                self._known = json.loads(memory.read_text())
-            except (OSError, ValueError):
-                self._known = {}  # nothing remembered, or not readable: everything is digested anew
+            self._known = notes.read(memory)
 
     def reached(self, roots: Iterable[Path], without: Iterable[Path] = ()) -> tuple[Path, ...]:
         """Return the files and every module of ours that they import, sorted; not ``without`` nor through it."""
@@ -61,17 +69,17 @@ class Sources:
         """
         asked = frozenset(map(_resolved, roots)), frozenset(map(_resolved, without))
         if asked not in self._closures:
-            found = sorted(self._reached(*asked))
-            self._closures[asked] = digest([[_place(Path(path)), self._facts(path)["digest"]] for path in found])
+            self._closures[asked] = self.alone(map(Path, sorted(self._reached(*asked))))
         return self._closures[asked]
+
+    def alone(self, files: Iterable[Path]) -> str:
+        """Return one digest of the files themselves."""
+        return digest([[_place(path), self._facts(_resolved(path))["digest"]] for path in files])
 
     def save(self) -> None:
         """Remember the digests for the next run."""
         if self._memory is not None and self._changed:
-            self._memory.parent.mkdir(parents=True, exist_ok=True)
-            beside = self._memory.with_name(f"{self._memory.name}.{os.getpid()}")
-            beside.write_text(json.dumps(self._known))
-            beside.replace(self._memory)
+            notes.write(self._memory, self._known)
 
     def _reached(self, roots: Iterable[str], without: Iterable[str]) -> set[str]:
         closed, found, waiting = set(without), set[str](), list(roots)
@@ -86,13 +94,15 @@ class Sources:
         """Return the digest of one file and what it imports; a file is looked at once."""
         if path not in self._seen:
             state = os.stat(path)  # noqa: PTH116  hundreds of times a build
-            stamp = [state.st_mtime_ns, state.st_size]
+            stamp = [state.st_mtime_ns, state.st_ctime_ns, state.st_size, state.st_ino]
             known = self._known.get(path)
             if known is None or known["stamp"] != stamp:
                 known = {"stamp": stamp, **_read(Path(path))}
-                self._known[path] = known
-                self._changed = True
-            self._seen[path] = known
+                if time.time_ns() - state.st_ctime_ns > TICK:
+                    self._known[path] = known
+                    self._changed = True
+            files = {str(module) for name in known["imports"] for module in _files(name)}
+            self._seen[path] = {"digest": known["digest"], "imports": files}
         return self._seen[path]
 
 
@@ -106,8 +116,7 @@ def _read(path: Path) -> dict[str, Any]:
     tree = _tree(content) if path.suffix == ".py" else None
     if tree is None:
         return {"digest": hashlib.sha256(content).hexdigest(), "imports": []}
-    imports = sorted({str(module) for name in _names(tree) for module in _files(name)})
-    return {"digest": hashlib.sha256(ast.dump(tree).encode()).hexdigest(), "imports": imports}
+    return {"digest": hashlib.sha256(ast.dump(tree).encode()).hexdigest(), "imports": sorted(set(_names(tree)))}
 
 
 def _tree(content: bytes) -> ast.AST | None:
@@ -122,16 +131,32 @@ def _names(tree: ast.AST) -> Iterator[str]:
     """Go through the dotted names of ours that a module imports, anywhere in it."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names if alias.name.split(".")[0] == "atlas")
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "atlas":
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+            yield from (name for alias in node.names for name in _bound(alias) if name.split(".")[0] in OURS)
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] in OURS:
+            yield from (f"{node.module}.{alias.name}".removesuffix(".*") for alias in node.names)
+
+
+def _bound(alias: ast.alias) -> Iterator[str]:
+    """Go through the modules that a name of an import statement makes known."""
+    yield alias.name
+    if alias.asname is None:
+        yield alias.name.split(".")[0]
 
 
 @lru_cache(maxsize=4096)
 def _files(name: str) -> tuple[Path, ...]:
-    """Return the files that importing a dotted name runs: each package on the way and the module itself."""
+    """Return the files that importing a dotted name runs: each package on the way and the module itself.
+
+    A public name of the package brings the module that it comes from, and the bare package brings them all.
+    """
+    first, *parts = name.split(".")
+    if first == "figures":
+        return tuple(path for part in parts[:1] if (path := folder("figures") / f"{part}.py").is_file())
+    homes = {parts[0]} if parts else set(_HOMES)
     files, here = [PACKAGE / "__init__.py"], PACKAGE
-    for part in name.split(".")[1:]:
+    for public in homes & set(_HOMES):
+        files += _files(_HOMES[public])
+    for part in parts:
         package, module = here / part / "__init__.py", here / f"{part}.py"
         if package.is_file():
             files.append(package)

@@ -6,10 +6,8 @@ is made again.
 """
 
 import hashlib
-import json
 import os
 import shutil
-import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -17,11 +15,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from atlas.build import notes
+from atlas.build.whole import room
+
 STORE = ".store"
 """The name of a store beside what is built from it."""
-CONTENTS = "contents.json"
-STALE = 24 * 3600.0  # seconds after which a half-written entry belongs to a build that was killed
-UNUSED = 90 * 24 * 3600.0  # seconds after which an entry that nobody has taken makes room
+CONTENTS, CONTENT = "contents.json", "content"
+DAY = 24 * 3600.0
+UNUSED = 90 * DAY  # seconds after which an entry that nobody has taken makes room
 
 
 @dataclass(frozen=True)
@@ -47,11 +48,11 @@ class Store:
         """Return the entry of that key if it is there and whole."""
         folder = self._folder(key)
         try:
-            contents = json.loads((folder / CONTENTS).read_text())
+            contents = notes.read(folder / CONTENTS)
             whole = all(_digest(folder / name) == value for name, value in contents["files"].items())
-            if whole and time.time() - (folder / CONTENTS).stat().st_mtime > STALE:
+            if whole and time.time() - (folder / CONTENTS).stat().st_mtime > DAY:
                 os.utime(folder / CONTENTS)  # so that it is known to be of use
-        except (OSError, ValueError, KeyError):
+        except (OSError, KeyError):
             return None
         return Entry(folder, contents["facts"], new=False) if whole else None
 
@@ -60,28 +61,39 @@ class Store:
         with self.room() as beside:
             facts = maker(beside)
             files = {path.name: _digest(path) for path in sorted(beside.iterdir())}
-            (beside / CONTENTS).write_text(json.dumps({"files": files, "facts": facts}))
+            notes.put(beside / CONTENTS, {"files": files, "facts": facts})
             folder = self._folder(key)
             folder.parent.mkdir(parents=True, exist_ok=True)
             self._settle(beside, folder)
         return Entry(folder, facts, new=True)
 
+    def recall(self, key: str) -> bytes | None:
+        """Return the bytes that were kept under that key."""
+        entry = self.take(key)
+        return None if entry is None else entry.file(CONTENT).read_bytes()
+
+    def keep(self, key: str, content: bytes) -> bytes:
+        """Keep bytes under that key, and return them."""
+
+        def maker(folder: Path) -> dict[str, Any]:
+            (folder / CONTENT).write_bytes(content)
+            return {}
+
+        self.make(key, maker)
+        return content
+
     @contextmanager
     def room(self) -> Iterator[Path]:
         """Give an empty folder to work in; it is gone afterwards, whatever happens."""
-        waiting = self.root / "unfinished"
-        waiting.mkdir(parents=True, exist_ok=True)
+        self.root.mkdir(parents=True, exist_ok=True)
         if not (self.root / ".gitignore").exists():
             (self.root / ".gitignore").write_text("*\n")
-        folder = Path(tempfile.mkdtemp(dir=waiting))
-        try:
+        with room(self.root / "unfinished") as folder:
             yield folder
-        finally:
-            shutil.rmtree(folder, ignore_errors=True)
 
     def changed(self, name: str, parts: Mapping[str, str]) -> str:
         """Say in words which parts of a thing's key differ from those remembered under its name."""
-        before = self._remembered(name)
+        before = notes.read(self._note(name))
         different = [part for part, value in parts.items() if before.get(part) != value]
         if not before:
             return "it was never made here"
@@ -89,28 +101,12 @@ class Store:
 
     def remember(self, name: str, parts: Mapping[str, str]) -> None:
         """Remember the parts of a thing's key under its name."""
-        if self._remembered(name) == parts:
-            return
-        note = self._note(name)
-        note.parent.mkdir(parents=True, exist_ok=True)
-        beside = note.with_name(f"{note.name}.{os.getpid()}")
-        beside.write_text(json.dumps(dict(parts)))
-        beside.replace(note)
-
-    def _remembered(self, name: str) -> dict[str, str]:
-        try:
-            found: dict[str, str] = json.loads(self._note(name).read_text())
-        except (OSError, ValueError):
-            return {}  # nothing remembered, or not readable
-        return found
+        if notes.read(self._note(name)) != parts:
+            notes.write(self._note(name), parts)
 
     def sweep(self) -> None:
-        """Remove what killed builds left half-written, and what nobody has taken for a long time."""
+        """Remove what nobody has taken for a long time."""
         now = time.time()
-        for left in (self.root / "unfinished").glob("*"):
-            with suppress(FileNotFoundError):
-                if now - left.stat().st_mtime > STALE:
-                    shutil.rmtree(left, ignore_errors=True)
         for contents in self.root.glob(f"??/*/{CONTENTS}"):
             with suppress(FileNotFoundError):  # another build has removed it
                 if now - contents.stat().st_mtime > UNUSED:
@@ -139,17 +135,13 @@ class Store:
         return self.root / key[:2] / key
 
 
-def place(source: Path, target: Path) -> bool:
-    """Put a copy of a file at ``target``, whole or not at all; return whether anything had to be written."""
+def place(source: Path, target: Path, beside: Path) -> bool:
+    """Put a copy of a file at ``target`` by way of a folder beside it; return whether anything had to be written."""
     if target.is_file() and target.stat().st_size == source.stat().st_size and _digest(target) == _digest(source):
         return False
     target.parent.mkdir(parents=True, exist_ok=True)
-    beside = target.with_name(f".{target.name}.{os.getpid()}")
-    try:
-        shutil.copyfile(source, beside)
-        beside.replace(target)
-    finally:
-        beside.unlink(missing_ok=True)
+    shutil.copyfile(source, beside / f".{target.name}")
+    (beside / f".{target.name}").replace(target)
     return True
 
 

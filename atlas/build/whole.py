@@ -6,7 +6,7 @@ A build that is killed leaves the files of the last good one as they were; what 
 import fcntl
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from tempfile import mkdtemp
 
@@ -19,18 +19,33 @@ LOCK = ".lock"
 @contextmanager
 def staging(out: Path) -> Iterator[Path]:
     """Give a folder beside `out`'s files to make new ones in; it is gone afterwards, whatever happens."""
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        _sweep(out)
-        folder = Path(mkdtemp(prefix=PREFIX, dir=out))
-    except OSError as error:
-        raise AtlasError(f"nothing can be written to {out}: {error.strerror}.") from error
-    with (folder / LOCK).open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with ExitStack() as stack:
+        try:
+            folder = stack.enter_context(room(out))
+        except OSError as error:
+            raise AtlasError(f"nothing can be written to {out}: {error.strerror}.") from error
         try:
             yield folder
         except OSError as error:
             raise AtlasError(f"the build in {out} stopped: {error.strerror or error}.") from error
+
+
+@contextmanager
+def room(where: Path) -> Iterator[Path]:
+    """Give an empty folder below `where`; it is gone afterwards, whatever happens, or swept up when the next is given.
+
+    It holds a lock for as long as its process lives. Folders are given and swept up in turns, so that none is swept
+    up before it is locked.
+    """
+    where.mkdir(parents=True, exist_ok=True)
+    with ExitStack() as held:
+        with _turn(where):
+            _sweep(where)
+            folder = Path(mkdtemp(prefix=PREFIX, dir=where))
+            fcntl.flock(held.enter_context((folder / LOCK).open("w")), fcntl.LOCK_EX)
+        try:
+            (folder / "new").mkdir()
+            yield folder / "new"
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 
@@ -41,8 +56,7 @@ def publish(stage: Path, out: Path, files: list[str], owned: list[str]) -> None:
     `owned` are the folders of `out` that hold nothing but this build's files: what else is in them goes.
     Two builds at once take turns here.
     """
-    with (out / LOCK).open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with _turn(out):
         for name in files:
             place = out / name
             place.parent.mkdir(parents=True, exist_ok=True)
@@ -62,14 +76,22 @@ def write(path: Path, content: str | bytes) -> None:
     path.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
-def _sweep(out: Path) -> None:
-    """Remove what killed builds left: staging folders that no living process holds."""
-    for folder in out.glob(f"{PREFIX}*"):
+@contextmanager
+def _turn(where: Path) -> Iterator[None]:
+    """Wait for one's turn in a folder."""
+    with (where / LOCK).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+def _sweep(where: Path) -> None:
+    """Remove what killed builds left: folders that no living process holds."""
+    for folder in where.glob(f"{PREFIX}*"):
         try:
             with (folder / LOCK).open("r") as lock:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 shutil.rmtree(folder, ignore_errors=True)
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):
             shutil.rmtree(folder, ignore_errors=True)
         except BlockingIOError:
             continue

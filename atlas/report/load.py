@@ -29,6 +29,8 @@ def find(name: str) -> Path:
         return path
     if name.endswith(".toml"):
         raise AtlasError(f"There is no report file {name}.")
+    if Path(name).is_file():
+        raise AtlasError(f"{name} is no report: a report is a .toml file.")
     raise AtlasError(f"There is no report {name!r}{nearest(name, names())}; the reports are {', '.join(names())}.")
 
 

@@ -252,3 +252,46 @@ def test_the_quantities_asked_for_are_counted(tmp_path: Path) -> None:
     assert "Hyperbola.omega3" in asked
     assert not any(name.startswith(("ElementaryMotion", "Quadric", "ParticleMotion")) for name in asked)
     assert plate.facts["cost"]["points"] > 0
+
+
+def test_a_library_that_writes_one_format_makes_that_one_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Typst sets the PDF of a figure and nothing else of it, and it is named as the reason."""
+    request, store = Request("magn", "vector", {}, ("svg", "pdf")), Store(tmp_path)
+    made([request], store)
+    monkeypatch.setattr(plates_module, "release", lambda name: "99" if name == "typst" else _known(name))
+    (plate,) = survey([request], store, Sources(), None)
+    assert plate.missing.keys() == {"pdf"}
+    assert plate.why == "changed: pdf writer"
+
+
+MISBEHAVING = '''"""A recipe that does what it should not."""
+
+from dataclasses import replace
+
+from atlas.scene import recipes
+
+
+def scene(*, wrong: str = ""):
+    """Draw what another recipe draws."""
+    print("found it")
+    if wrong == "exit":
+        raise SystemExit(3)
+    drawn = recipes.load("magn").scene()
+    return replace(drawn, caption=lambda: "") if wrong == "function" else drawn
+'''
+
+
+@pytest.mark.parametrize(
+    ("wrong", "complaint"), [("exit", "exit status 3"), ("function", "what no other process can read"), ("", "")]
+)
+def test_a_recipe_that_misbehaves_fails_alone(
+    checkout: Path, capfd: pytest.CaptureFixture[str], wrong: str, complaint: str
+) -> None:
+    """A recipe that ends the program, or makes what cannot be drawn, is told of; what it prints is no result."""
+    (checkout / "figures" / "misbehaving.py").write_text(MISBEHAVING)
+    requests = [Request("misbehaving", "vector", {"wrong": wrong}), Request("trochoids", "vector", {})]
+    plate, other = made(requests, Store(checkout / "store")).values()
+    assert complaint in plate.failure
+    assert bool(plate.failure) is bool(complaint)
+    assert other.new
+    assert capfd.readouterr().out == ""

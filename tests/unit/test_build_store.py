@@ -10,7 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from atlas.build.memory import Memory
 from atlas.build.store import Store, place
+from atlas.build.whole import PREFIX
 
 KEY = "ab" * 32
 OTHER = "cd" * 32
@@ -67,7 +69,7 @@ def test_a_maker_that_fails_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(ZeroDivisionError):
         store.make(KEY, fail)
     assert store.take(KEY) is None
-    assert not list((tmp_path / "unfinished").iterdir())
+    assert not list((tmp_path / "unfinished").glob(f"{PREFIX}*"))
 
 
 def _slow(root: str) -> None:
@@ -127,11 +129,49 @@ def test_placing_writes_only_what_differs(tmp_path: Path) -> None:
     """A file that is already there with the same bytes is left alone, times and all."""
     source, target = tmp_path / "a", tmp_path / "folder" / "b"
     source.write_text("text")
-    assert place(source, target)
+    assert place(source, target, tmp_path)
     before = target.stat().st_mtime_ns
-    assert not place(source, target)
+    assert not place(source, target, tmp_path)
     assert target.stat().st_mtime_ns == before
     source.write_text("next")
-    assert place(source, target)
+    assert place(source, target, tmp_path)
     assert target.read_text() == "next"
     assert json.dumps(sorted(path.name for path in target.parent.iterdir())) == '["b"]'
+
+
+@pytest.mark.parametrize("text", ["[]", "null", '{"files": {}, "facts": {}}', '{"plate.svg": "x"}'])
+def test_contents_of_another_kind_count_as_missing(tmp_path: Path, text: str) -> None:
+    """What was not noted by the store itself, as by an older one, is not taken."""
+    store = Store(tmp_path)
+    store.make(KEY, writer("one")).file("contents.json").write_text(text)
+    assert store.take(KEY) is None
+    assert store.make(KEY, writer("one")).new
+
+
+def test_altered_facts_are_not_taken(tmp_path: Path) -> None:
+    """One letter that is changed in the facts of an entry makes it count as damaged."""
+    store = Store(tmp_path)
+    contents = store.make(KEY, writer("one")).file("contents.json")
+    contents.write_bytes(contents.read_bytes().replace(b'"length": 3', b'"length": 4'))
+    assert store.take(KEY) is None
+
+
+def test_altered_texts_are_set_anew(tmp_path: Path) -> None:
+    """A remembered text that was changed by somebody else is forgotten, and so are the rest."""
+    file = tmp_path / "texts.json"
+    memory = Memory(file, "setter")
+    memory["$x$"] = "<math>x</math>"
+    assert memory["$x$"]
+    memory.save()
+    assert "$x$" in Memory(file, "setter")
+    file.write_bytes(file.read_bytes().replace(b"<math>x", b"<math>y"))
+    assert "$x$" not in Memory(file, "setter")
+
+
+def test_what_is_kept_is_recalled(tmp_path: Path) -> None:
+    """Bytes are recalled under their key only."""
+    store = Store(tmp_path)
+    assert store.recall(KEY) is None
+    assert store.keep(KEY, b"bytes") == b"bytes"
+    assert store.recall(KEY) == b"bytes"
+    assert store.recall(OTHER) is None

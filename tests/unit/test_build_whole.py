@@ -4,11 +4,15 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from threading import Event
 
 import pytest
+import typst
 
+from atlas.build import advance as advance_module
+from atlas.build.record import RECORD
 from atlas.build.report import build_report
-from atlas.build.whole import PREFIX, publish, staging, write
+from atlas.build.whole import PREFIX, publish, room, staging, write
 from atlas.errors import AtlasError
 from atlas.report import pdf
 
@@ -24,6 +28,8 @@ text = "x"
 """
 KILLED = """
 import os, signal, sys
+from atlas.build import advance as advance_module
+from atlas.build.record import RECORD
 from atlas.build.report import build_report
 def tell(done, total, what):
     if what == "PDF":
@@ -107,3 +113,64 @@ def test_a_place_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(AtlasError, match="nothing can be written"), staging(tmp_path / "file" / "out"):
         pass
+
+
+def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
+    """Where a folder of the report's name holds the user's own files, nothing is built over them."""
+    mine = tmp_path / "out" / "plain" / "notes" / "thesis.tex"
+    mine.parent.mkdir(parents=True)
+    mine.write_text("mine")
+    with pytest.raises(AtlasError, match="files that are of no report"):
+        build_report(report(tmp_path, "T"), tmp_path / "out")
+    assert [path for path in (tmp_path / "out" / "plain").rglob("*") if path.is_file()] == [mine]
+
+
+def test_a_report_that_lost_its_record_is_built_again(tmp_path: Path) -> None:
+    """Any file of a built report may be lost, also the one by which it is known as a report."""
+    out = tmp_path / "out"
+    build_report(report(tmp_path, "T"), out)
+    before = state(out)
+    (out / "plain" / RECORD).unlink()
+    build_report(tmp_path / "plain.toml", out)
+    assert state(out) == before
+
+
+def test_a_report_is_not_named_after_the_folder_above(tmp_path: Path) -> None:
+    """A name such as `..` would put the pages, and sweep, outside the folder for the files."""
+    file = tmp_path / "...toml"
+    file.write_text(PLAIN.format("T").replace('"plain"', '".."'))
+    (tmp_path / "mine").write_text("mine")
+    with pytest.raises(AtlasError, match="must not begin with a dot"):
+        build_report(file, tmp_path / "out")
+    assert (tmp_path / "mine").read_text() == "mine"
+
+
+def test_the_folder_of_a_killed_process_is_swept_up_at_once(tmp_path: Path) -> None:
+    """A folder that no living process holds goes when the next one is given, one that is held stays."""
+    program = "import os, sys; from pathlib import Path; from atlas.build.whole import room\n"
+    program += "with room(Path(sys.argv[1])): os.kill(os.getpid(), 9)"
+    subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=False)
+    assert len(list(tmp_path.glob(f"{PREFIX}*"))) == 1
+    with room(tmp_path) as first, room(tmp_path) as second:
+        assert sorted(tmp_path.glob(f"{PREFIX}*")) == sorted([first.parent, second.parent])
+    assert not list(tmp_path.glob(f"{PREFIX}*"))
+
+
+def test_a_stand_in_never_takes_the_place_of_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A blank picture that is late is not written over the one that has been drawn in the meantime."""
+    began, drawn = Event(), Event()
+
+    def slow(*_: object, **__: object) -> bytes:
+        began.set()
+        drawn.wait(10.0)
+        return b"blank"
+
+    monkeypatch.setattr(typst, "compile", slow)
+    monkeypatch.setattr(advance_module, "_MOMENT", 0.0)
+    advance = advance_module.Advance(tmp_path, "text", {"plate.svg": (10.0, 10.0)})
+    assert began.wait(10.0)
+    advance.make_way()
+    (tmp_path / "plate.svg").write_text("drawn")
+    drawn.set()
+    assert advance.finish("text").startswith(b"%PDF")
+    assert (tmp_path / "plate.svg").read_text() == "drawn"
