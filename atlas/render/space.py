@@ -1,5 +1,7 @@
 """A panel in space on paper: visible lines solid, hidden ones thin and dashed, surfaces as pale tints."""
 
+from itertools import cycle
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,7 +22,8 @@ _DASH = (2.6, 1.9)
 _TOLERANCE = 0.06
 _LIGHT = np.array([-0.45, 0.62, 0.64])
 _LEVELS = np.linspace(0.02, 0.92, 14)
-_SHADE, _DEPTH = "#1d3048", 0.019
+_SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
+"""Layers of shade, by turns: a browser blends in whole parts of 255, and at five of them keeps fifths of a colour."""
 HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
 
 
@@ -69,9 +72,9 @@ class Easel:
             colour = look.colour if outer or not look.back else look.back
             self._area(loops, colour, look.fill if near else 0.5 * look.fill)
         light = _LIGHT @ view.frame
-        for loops in shadows(surface, view.towards, light, _LEVELS):
+        for loops, shade in zip(shadows(surface, view.towards, light, _LEVELS), cycle(_SHADES), strict=False):
             if loops:
-                self._area(loops, _SHADE, _DEPTH)
+                self._area(loops, shade, _DEPTH)
         for wire in surface.wires:
             self.line(wire, style("wire"), _WIRE, 0.1)
         for rim in surface.rims:
