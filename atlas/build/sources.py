@@ -24,8 +24,8 @@ from atlas.places import folder
 PACKAGE = Path(atlas.__file__).resolve().parent
 OURS = {"atlas", "figures"}
 """The names that imports of ours begin with."""
-TICK = 2_000_000_000
-"""Nanoseconds within which two changes of a file may bear the same time, on the coarsest of file systems."""
+TICK = 100_000_000
+"""Nanoseconds within which two changes of a file may bear the same time; clocks of file systems tick every 10 ms."""
 
 
 def digest(*parts: Any) -> str:

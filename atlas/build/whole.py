@@ -27,7 +27,7 @@ def staging(out: Path) -> Iterator[Path]:
         try:
             yield folder
         except OSError as error:
-            raise AtlasError(f"the build in {out} stopped: {error.strerror or error}.") from error
+            raise OSError(f"the build in {out} stopped: {error.strerror or error}.") from error
 
 
 @contextmanager
@@ -46,6 +46,10 @@ def room(where: Path) -> Iterator[Path]:
         try:
             (folder / "new").mkdir()
             yield folder / "new"
+        except OSError as error:
+            if error.errno and not error.filename:
+                raise OSError(error.errno, error.strerror, str(where)) from error
+            raise
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 
