@@ -52,7 +52,7 @@ def panels(record: Record, cases: tuple[str, ...], horizon: float) -> tuple[Plan
             layers[case],
             x_label=f"largest error up to $t = {power(horizon)}$",
             y_label="time for one sample (µs)",
-            x_limits=decades((x for some in points for x in some[:, 0]), 0.8, 0.5),
+            x_limits=decades((x for some in points for x in some[:, 0]), 1.6, 0.5),
             y_limits=decades((y for some in points for y in some[:, 1]), 0.5, 0.5),
             x_scale="log",
             y_scale="log",
