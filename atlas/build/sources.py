@@ -11,6 +11,7 @@ import json
 import os
 import time
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from functools import cache, lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -77,9 +78,10 @@ class Sources:
         return digest([[_place(path), self._facts(_resolved(path))["digest"]] for path in files])
 
     def save(self) -> None:
-        """Remember the digests for the next run."""
+        """Remember the digests for the next run, where that can be written: it saves time, and nothing needs it."""
         if self._memory is not None and self._changed:
-            notes.write(self._memory, self._known)
+            with suppress(OSError):
+                notes.write(self._memory, self._known)
 
     def _reached(self, roots: Iterable[str], without: Iterable[str]) -> set[str]:
         closed, found, waiting = set(without), set[str](), list(roots)

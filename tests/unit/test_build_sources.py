@@ -181,3 +181,13 @@ def test_a_memory_of_another_kind_does_no_harm(tmp_path: Path, text: str) -> Non
     recipe, memory = write(tmp_path / "recipe.py", RECIPE), tmp_path / "memory.json"
     memory.write_text(text)
     assert Sources(memory).closure([recipe]) == Sources().closure([recipe])
+
+
+def test_a_memory_that_cannot_be_written_is_done_without(tmp_path: Path) -> None:
+    """Where nothing can be noted, everything is digested anew, to the same digests."""
+    recipe = write(tmp_path / "recipe.py", RECIPE)
+    (tmp_path / "file").write_text("")
+    sources = Sources(tmp_path / "file" / "memory.json")
+    digests = sources.closure([recipe])
+    sources.save()
+    assert Sources().closure([recipe]) == digests
