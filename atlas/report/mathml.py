@@ -13,8 +13,17 @@ _CLOSING = {"mi", "mn", "msub", "msup", "msubsup", "mover", "mfrac", "msqrt"}
 
 
 def mend_all(html: str) -> str:
-    """Mend every formula of a piece of HTML."""
-    return re.sub(r"<math.*?</math>", lambda match: mend(match[0]), html, flags=re.DOTALL)
+    """Mend every formula of a piece of HTML, and keep a comma or a full stop on the line of what it follows."""
+
+    def together(match: re.Match[str]) -> str:
+        formula, sign = mend(match[1]), match[2]
+        return (
+            f'<span class="together">{formula}{sign}</span>'
+            if sign and 'display="inline"' in formula
+            else formula + sign
+        )
+
+    return re.sub(r"(<math.*?</math>)([,.;:)]*)", together, html, flags=re.DOTALL)
 
 
 def mend(math: str) -> str:

@@ -94,3 +94,10 @@ def test_thin_spaces_keep_their_width_in_print() -> None:
     typst = one(r"$a\;b\!c$", "typst")
     assert "#h(0.278em)" in typst
     assert "#h(-0.167em)" in typst
+
+
+def test_a_comma_stays_on_the_line_of_its_formula() -> None:
+    """What follows a formula in a sentence without a space is kept together with it; a display formula stands alone."""
+    assert re.search(r'<span class="together"><math[^>]*>.*</math>,</span> and', one("With $a$, and so on"))
+    assert "together" not in one("With $a$ and so on")
+    assert "together" not in one("$$a$$, and so on")
