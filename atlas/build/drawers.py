@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from importlib import import_module
@@ -183,6 +184,8 @@ def serve(number: int) -> None:
     The build decides what an interrupt means.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if not sys.warnoptions:  # as on the command line: a float that overflows is told by what shows it
+        warnings.simplefilter("ignore", RuntimeWarning)
     import_module("numpy")  # whatever there will be to draw
     pipe: Connection[Any, Any] = Connection(number)
     try:

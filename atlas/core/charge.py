@@ -124,6 +124,7 @@ class Charge:
             return np.asarray(self.y0[i] + t * (v[0] + x.s * v[1] + x.g * v[2] + t * inner))
 
         self._fill(component, t, out)
+        _check(out, "The position")
 
     def fill_velocity(self, t: FloatArray, out: FloatArray) -> None:
         """Write y'(t), mf2, at times (m,) into (m, 3)."""
@@ -133,11 +134,14 @@ class Charge:
             return np.asarray(v[0] + x.cos * v[1] + x.sin * v[2] + t * (a[0] + x.s * a[1] + x.g * a[2]))
 
         self._fill(component, t, out)
+        _check(out, "The velocity")
 
     def fill_centre(self, t: FloatArray, out: FloatArray) -> None:
         """Write O(t) of mf11, carried along B with the particle, at times (m,) into (m, 3)."""
         start, velocity, acceleration = self.centre
-        out[:] = start + t[:, None] * (velocity + t[:, None] * (acceleration / 2))
+        with np.errstate(over="ignore", invalid="ignore"):
+            out[:] = start + t[:, None] * (velocity + t[:, None] * (acceleration / 2))
+        _check(out, "The guiding centre")
 
     def needs_field(self, what: str) -> None:
         """Raise DomainError where there is no magnetic force."""
@@ -153,8 +157,9 @@ class Charge:
             halves, work = np.empty((3, 1, piece.size)), np.empty((8, 1, piece.size))
             self._phases.circle(piece, work, halves[0], halves[1], halves[2, 0])
             functions = gyration(self.rate * piece, *(2 * halves[:, 0]))
-            for i in range(3):
-                out[start : start + BLOCK, i] = component(i, piece, functions)
+            with np.errstate(over="ignore", invalid="ignore"):
+                for i in range(3):
+                    out[start : start + BLOCK, i] = component(i, piece, functions)
 
     @cached_property
     def _phases(self) -> Phases:
@@ -171,3 +176,9 @@ class Charge:
         """Velocity across B less the drift, at t = 0, exact."""
         across = minus(self._v, times(dot(self._w, self._v) / self._w2, self._w))
         return minus(across, self._drift)
+
+
+def _check(out: FloatArray, name: str) -> None:
+    """Raise DomainError where a float is too small for what was computed."""
+    if not np.isfinite(out).all():
+        raise DomainError(f"{name} is too large for a float: choose larger units.")

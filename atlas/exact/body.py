@@ -8,6 +8,11 @@ from flint import fmpq
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.inputs import rational
 
+ROD = (
+    "A thin rod has I3 = 0: its turn about its own axis carries no inertia, so Omega3 is not determined; "
+    "give it a radius."
+)
+
 
 def ratio_of(ratio: Any) -> fmpq:
     """Return I = I3/I2, mf41.1, exactly: of a number, or the quotient of a body's two moments.
@@ -15,6 +20,8 @@ def ratio_of(ratio: Any) -> fmpq:
     Domain: 0 < I <= 2. Raises DomainError outside.
     """
     if hasattr(ratio, "I2") and hasattr(ratio, "I3"):
+        if ratio.I3 == 0:
+            raise DomainError(ROD)
         I = rational(ratio.I3, "I3") / rational(ratio.I2, "I2")
     else:
         I = rational(ratio, "the ratio I = I3/I2")

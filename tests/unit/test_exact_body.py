@@ -6,7 +6,7 @@ import pytest
 from flint import fmpq
 
 from atlas.core.body import SHAPES as CORE_SHAPES
-from atlas.core.body import SymmetricBody, from_shape
+from atlas.core.body import SymmetricBody, from_shape, moments
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.body import SHAPES, mass_matrix, ratio_of, shape_moments
 from atlas.exact.inputs import rational, rationals, root
@@ -72,3 +72,13 @@ def test_the_root_of_a_square_is_rational() -> None:
     assert root(fmpq(25, 9)) == fmpq(5, 3)
     assert root(fmpq(0)) == 0
     assert (root(fmpq(2)) ** 2).contains(2)
+
+
+def test_a_rod_is_refused_for_the_same_reason_as_by_the_kernels() -> None:
+    """Both floors say of a thin rod what is wrong with it, in the same words."""
+    rod = SymmetricBody.thin_rod(1.0, 2.0)
+    with pytest.raises(DomainError) as certified:
+        ratio_of(rod)
+    with pytest.raises(DomainError) as computed:
+        moments(rod)
+    assert str(certified.value) == str(computed.value)

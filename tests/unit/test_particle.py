@@ -252,6 +252,10 @@ def test_what_needs_a_magnetic_force_says_so(name: str) -> None:
         lambda: ParticleMotion(1, [0, 0, 1], [0, 0, 1], ORIGIN, ORIGIN).position(np.nan),
         lambda: ParticleMotion(1, [0, 1, 0], [0, 0, 0], ORIGIN, ORIGIN).guiding_centre(1),
         lambda: ParticleMotion(1, [0, 1e200, 0], [0, 0, 1e-200], ORIGIN, ORIGIN).drift,
+        lambda: ParticleMotion(1, [1e308, 0, 0], ORIGIN, ORIGIN, ORIGIN).position(1e200),
+        lambda: ParticleMotion(1, [1e308, 0, 0], ORIGIN, ORIGIN, ORIGIN).velocity([0.0, 1e200]),
+        lambda: ParticleMotion(1, [1e308, 0, 0], [0, 0, 1e-300], ORIGIN, ORIGIN).position(1e200),
+        lambda: ParticleMotion(1, [0, 0, 1e308], [0, 0, 1], ORIGIN, ORIGIN).guiding_centre(1e200),
     ],
 )
 def test_what_is_no_motion_is_one_sentence(make: Callable[[], object]) -> None:

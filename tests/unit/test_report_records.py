@@ -101,6 +101,13 @@ def test_an_unknown_report_is_told_with_the_nearest_name() -> None:
         find("atls")
 
 
+def test_a_file_of_another_kind_is_no_report(tmp_path: Path) -> None:
+    """A file that is there but bears another ending is told what a report is."""
+    (tmp_path / "data.csv").write_text("1,2\n")
+    with pytest.raises(AtlasError, match=r"data\.csv is no report: a report is a \.toml file\.$"):
+        find(str(tmp_path / "data.csv"))
+
+
 @pytest.mark.parametrize("name", names())
 def test_every_report_of_the_folder_is_sound(name: str) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""
