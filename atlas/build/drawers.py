@@ -1,8 +1,8 @@
 """Processes that draw, side by side: each loads what it needs once and lives until the build ends.
 
 The first is there from the start, so that it can load the drawing libraries while the build still reads and computes.
-Each has a pipe of its own: one that dies takes along the plate that it was drawing and no other, and one whose build is
-gone comes to an end by itself.
+Each has a pipe of its own: one that dies takes along the plate that it was drawing and no other, for another process
+comes in its place; and one whose build is gone comes to an end by itself.
 """
 
 import os
@@ -80,22 +80,22 @@ class Drawers:
         Each comes with what was drawn, or in a sentence why it was not. Raises OSError when a process could not write:
         that is not the plate's fault.
         """
-        found: SimpleQueue[tuple[Task, Any] | None] = SimpleQueue()
+        found: SimpleQueue[tuple[Task, Any] | Exception | None] = SimpleQueue()
         self._thread = Thread(target=self._hand_out, args=(found,), daemon=True)
         self._thread.start()
         return _told(found)
 
-    def _hand_out(self, found: "SimpleQueue[tuple[Task, Any] | None]") -> None:
+    def _hand_out(self, found: "SimpleQueue[tuple[Task, Any] | Exception | None]") -> None:
         """Hand out tasks and take in what becomes of them until all are done."""
-        while self._waiting or self._busy or self._done:
-            if not self._done:
-                self._turn(None)
-            if not self._busy and not self._free:
-                self._done += [(task, "no process is left to draw it") for task in self._waiting]
-                self._waiting.clear()
-            for outcome in self._done:
-                found.put(outcome)
-            self._done.clear()
+        try:
+            while self._waiting or self._busy or self._done:
+                if not self._done:
+                    self._turn(None)
+                for outcome in self._done:
+                    found.put(outcome)
+                self._done.clear()
+        except Exception as error:  # noqa: BLE001  it is raised where the outcomes are awaited
+            found.put(error)
         found.put(None)
 
     def _turn(self, patience: float | None) -> None:
@@ -105,8 +105,10 @@ class Drawers:
             drawer = next(one for one in self._busy if one.pipe is pipe)
             self._busy.remove(drawer)
             self._done.append(drawer.answer())
-            if drawer.process.poll() is None:
-                self._free.append(drawer)
+            if drawer.process.poll() is not None:
+                drawer.pipe.close()
+                drawer = _Drawer()
+            self._free.append(drawer)
         self._assign()
 
     def _assign(self) -> None:
@@ -124,9 +126,12 @@ class Drawers:
             self._busy.append(drawer)
 
 
-def _told(found: "SimpleQueue[tuple[Task, Any] | None]") -> Iterator[tuple[Task, Drawn | str]]:
+def _told(found: "SimpleQueue[tuple[Task, Any] | Exception | None]") -> Iterator[tuple[Task, Drawn | str]]:
     """Go through what was found, up to the end; an error of the machine ends it."""
-    for task, outcome in iter(found.get, None):
+    for item in iter(found.get, None):
+        if isinstance(item, Exception):
+            raise item
+        task, outcome = item
         if isinstance(outcome, OSError):
             raise outcome
         yield task, outcome

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+import atlas.build.drawers as drawers_module
 import atlas.build.plates as plates_module
 import atlas.build.sources as sources_module
 from atlas import places
@@ -228,8 +229,8 @@ def test_a_process_that_dies_takes_its_plate_along_and_no_other(tmp_path: Path) 
     assert [plate.new for plate in plates[1:]] == [True, True]
 
 
-def test_when_no_process_is_left_it_is_said(tmp_path: Path) -> None:
-    """If all processes have died, what was waiting says so instead of waiting for ever."""
+def test_another_process_takes_the_place_of_one_that_died(tmp_path: Path) -> None:
+    """Also if there was but one process, and that has died, what was waiting is drawn."""
     plates = survey([Request("magn", "vector", {}), Request("lssc", "vector", {})], Store(tmp_path), Sources(), None)
     with Drawers(1) as drawers:
         waiting = {}
@@ -239,10 +240,24 @@ def test_when_no_process_is_left_it_is_said(tmp_path: Path) -> None:
         drawers._busy[0].process.kill()
         for task, outcome in drawers.outcomes():
             waiting[task].settle(outcome)
-    assert [plate.failure for plate in plates] == [
-        "the process that drew it ended with status -9",
-        "no process is left to draw it",
-    ]
+    assert [plate.failure for plate in plates] == ["the process that drew it ended with status -9", ""]
+    assert plates[1].new
+
+
+def test_what_goes_wrong_with_the_processes_is_raised(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """If no other process can be started, that is raised instead of waited for without end."""
+
+    def fail() -> None:
+        raise MemoryError("no room for a process")
+
+    plates = survey([Request("magn", "vector", {}), Request("lssc", "vector", {})], Store(tmp_path), Sources(), None)
+    with Drawers(1) as drawers:
+        for _, task in tasks(plates, Store(tmp_path)):
+            drawers.give(task)
+        monkeypatch.setattr(drawers_module, "_Drawer", fail)
+        drawers._busy[0].process.kill()
+        with pytest.raises(MemoryError, match="no room"):
+            list(drawers.outcomes())
 
 
 def test_the_quantities_asked_for_are_counted(tmp_path: Path) -> None:
