@@ -58,11 +58,11 @@ class Drawers:
             drawer.process.wait()
 
     def load(self, renderers: Sequence[str]) -> None:
-        """Start as many processes as there are plates, and let each load what it will need.
+        """Start as many processes as there are plates, and let each load what it will need; idle ones only.
 
         What is shaded is left to one of them as long as possible.
         """
-        self._free += [_Drawer() for _ in renderers[1 : self.count]]
+        self._free += [_Drawer() for _ in range(len(self._free), min(self.count, len(renderers)))]
         wanted = sorted(renderers, key=lambda renderer: renderer != "shaded")
         if "vector" in wanted:
             wanted = [wanted[0], *wanted[:0:-1]]

@@ -16,6 +16,7 @@ from atlas.build.sources import Sources
 from atlas.build.store import STORE, Store
 from atlas.errors import AtlasError
 from atlas.report.load import find, load
+from atlas.report.records import Figure
 
 OUT = Path("build/report")
 FORMATS = ("html", "pdf")
@@ -64,7 +65,8 @@ def build_report(
     wanted = tuple(one for one in FORMATS if one in formats)
     kept = Store(store or out / STORE)
     sources = Sources(kept.root / "sources.json")
-    key = fresh.key(file, sources)
+    before = kept.root.exists() or fresh.noted(out, file.stem).exists()
+    key = fresh.key(file, sources) if before else ""
     found = fresh.read(out, file.stem, key, wanted)
     if found is not None:
         reasons = (("report", file.stem, "taken: nothing it depends on has changed"),)
@@ -77,6 +79,10 @@ def build_report(
             raise AtlasError(f"{file}: the report's name is {report.name!r}, but the file is called {file.stem!r}.")
         if report.name.startswith("."):
             raise AtlasError(f"{file}: the report's name {report.name!r} must not begin with a dot.")
+        if not before:
+            figures = sum(isinstance(block, Figure) for page in report.pages for block in page.blocks)
+            drawers.load(["vector"] * figures)  # all will have to be drawn
+            key = fresh.key(file, sources)
         from atlas.build.showing import Showing
 
         showing = Showing(report, kept, sources, drawers)
