@@ -118,7 +118,7 @@ class Errata(Record, frozen=True, tag_field="kind", tag="errata"):
 class Recorded(Record, frozen=True, tag_field="kind", tag="recorded"):
     """A table of recorded results: ``source`` is trial, bench or stress, ``table`` its name there."""
 
-    source: Literal["trial", "bench", "stress"]
+    source: Literal["trial", "bench", "stress", "rebuilds"]
     table: str
     id: str | None = None
     caption: str | None = None
