@@ -43,19 +43,19 @@ class Drawers:
         self._waiting: list[Task] = []
         self._done: list[tuple[Task, Any]] = []
         self._thread: Thread | None = None
+        self._leaving = False
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        every = self._free + self._busy
-        for drawer in every:
+        self._leaving = True
+        for drawer in self._free + self._busy:
             drawer.process.terminate()
         if self._thread:
             self._thread.join()
-        for drawer in every:
-            drawer.pipe.close()
-            drawer.process.wait()
+        for drawer in self._free + self._busy:
+            drawer.stop()
 
     def load(self, renderers: Sequence[str]) -> None:
         """Start as many processes as there are plates, and let each load what it will need; idle ones only.
@@ -88,7 +88,7 @@ class Drawers:
     def _hand_out(self, found: "SimpleQueue[tuple[Task, Any] | Exception | None]") -> None:
         """Hand out tasks and take in what becomes of them until all are done."""
         try:
-            while self._waiting or self._busy or self._done:
+            while not self._leaving and (self._waiting or self._busy or self._done):
                 if not self._done:
                     self._turn(None)
                 for outcome in self._done:
@@ -105,8 +105,8 @@ class Drawers:
             drawer = next(one for one in self._busy if one.pipe is pipe)
             self._busy.remove(drawer)
             self._done.append(drawer.answer())
-            if drawer.process.poll() is not None:
-                drawer.pipe.close()
+            if drawer.process.poll() is not None and not self._leaving:
+                drawer.stop()
                 drawer = _Drawer()
             self._free.append(drawer)
         self._assign()
@@ -149,6 +149,12 @@ class _Drawer:
             )
         self._loaded = ""
         self._task: Task | None = None
+
+    def stop(self) -> None:
+        """Let it come to its end, and wait for that."""
+        self.process.terminate()
+        self.pipe.close()
+        self.process.wait()
 
     def load(self, renderer: str) -> None:
         """Let it load what a renderer needs."""

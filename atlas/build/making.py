@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from atlas.build import fresh, ledger
@@ -81,15 +82,17 @@ class Making:
                 showing.put(plate, folder)
             self._lap("figures")
             tell(steps - 1, steps, "PDF" if advance else "pages")
-            if advance:
-                write(stage / f"{name}.pdf", advance.finish(source))
-                self.files["pdf"] = [f"{name}.pdf"]
-            if pages:
-                for page, content in pages.items():
+            with ThreadPoolExecutor(1) as thread:
+                fonts = thread.submit(html.fonts, pages, self._recall) if pages else None
+                if advance:
+                    write(stage / f"{name}.pdf", advance.finish(source))
+                    self.files["pdf"] = [f"{name}.pdf"]
+            if fonts:
+                for page, content in (set_pages := fonts.result() | pages).items():
                     write(folder / page, content)
                 write(folder / RECORD, record_of(document, self._colophon, folder))  # by it a report is known as one
                 figures = dict.fromkeys(view.file for view in showing.gallery.values() if view.file)
-                self.files["html"] = [f"{name}/{one}" for one in (RECORD, *figures, *pages)]
+                self.files["html"] = [f"{name}/{one}" for one in (RECORD, *figures, *set_pages)]
             self._memory.save()
             self.pages = len(document.pages)
             publish(stage, self.out, [file for files in self.files.values() for file in files], [name] if pages else [])
@@ -136,9 +139,9 @@ class Making:
         self._lap("texts")
         return document
 
-    def _pages(self, document: Document) -> dict[str, str | bytes]:
+    def _pages(self, document: Document) -> dict[str, str]:
         """Set the pages, if they are wanted."""
-        return html.pages(document, self._colophon, self._recall, self._compiled) if "html" in self.formats else {}
+        return html.pages(document, self._colophon, self._compiled) if "html" in self.formats else {}
 
     def _source(self, document: Document) -> str:
         """Write the source of the PDF, if that is wanted."""

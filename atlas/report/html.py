@@ -1,6 +1,6 @@
 """The pages: plain HTML with MathML, one stylesheet, embedded fonts; no script, nothing from the network."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined
@@ -12,10 +12,8 @@ from atlas.report.compose import Document
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
 
 
-def pages(
-    document: Document, colophon: Colophon, recall: Recall = anew, compiled: BytecodeCache | None = None
-) -> dict[str, str | bytes]:
-    """Set a document, whose texts are set, as pages; the keys are file names, the stylesheet and the fonts among them.
+def pages(document: Document, colophon: Colophon, compiled: BytecodeCache | None = None) -> dict[str, str]:
+    """Set a document, whose texts are set, as pages; the keys are file names, the stylesheet among them.
 
     `compiled` may hold templates that were compiled before.
     """
@@ -35,8 +33,13 @@ def pages(
         for before, page, after in _neighbours(document.pages)
     }
     style = environment.get_template("style.css").render(faces=FACES)
-    fonts = {f"fonts/{name}": content for name, content in all_subsets(set_pages.values(), recall).items()}
-    return {**fonts, "style.css": style, **set_pages}
+    return {"style.css": style, **set_pages}
+
+
+def fonts(set_pages: Mapping[str, str], recall: Recall = anew) -> dict[str, bytes]:
+    """Cut the fonts for the letters of some pages; the keys are file names."""
+    texts = (text for name, text in set_pages.items() if name.endswith(".html"))
+    return {f"fonts/{name}": content for name, content in all_subsets(texts, recall).items()}
 
 
 def _neighbours(pages: Sequence[Any]) -> list[tuple[Any, Any, Any]]:
