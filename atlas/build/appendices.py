@@ -159,7 +159,7 @@ def _rebuilds() -> dict[str, Data]:
     record = rebuilds.read()
     rows: tuple[tuple[str | Number, ...], ...] = tuple(
         (
-            one["name"].capitalize(),
+            one["name"][:1].upper() + one["name"][1:],
             f"`{one['command']}`",
             Number(str(one["figures"])),
             Number(str(one["pages"])),
