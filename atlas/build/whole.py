@@ -4,6 +4,7 @@ A build that is killed leaves the files of the last good one as they were; what 
 """
 
 import fcntl
+import os
 import shutil
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -82,10 +83,13 @@ def write(path: Path, content: str | bytes) -> None:
 
 @contextmanager
 def _turn(where: Path) -> Iterator[None]:
-    """Wait for one's turn in a folder."""
-    with (where / LOCK).open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    """Wait for one's turn in a folder; the lock is on the folder itself, so that nothing is left in it."""
+    folder = os.open(where, os.O_RDONLY)
+    try:
+        fcntl.flock(folder, fcntl.LOCK_EX)
         yield
+    finally:
+        os.close(folder)
 
 
 def _sweep(where: Path) -> None:
