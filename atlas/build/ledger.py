@@ -23,11 +23,11 @@ def write(path: Path, name: str, made: Sequence[Plate], ends: Mapping[str, float
         "steps": steps,
         "scenes": [scene(one) for one in made],
     }
-    _whole(path, record)
+    write_whole(path, record)
     return path
 
 
-def _whole(path: Path, record: Mapping[str, Any]) -> None:
+def write_whole(path: Path, record: Mapping[str, Any]) -> None:
     """Write a record whole or not at all."""
     beside = path.with_name(f".{path.name}.{os.getpid()}")
     beside.write_text(json.dumps(record, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
@@ -45,7 +45,7 @@ def keep(path: Path, data: Path | None = None) -> Path:
     found["versions"] = {name: number for name, number in versions().items() if name in {"python", "numpy"}}
     found["date"] = today()
     kept = data or folder("reports") / "data" / "build_costs.json"
-    _whole(kept, found)
+    write_whole(kept, found)
     return kept
 
 

@@ -19,6 +19,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from atlas.build.changes import BUILD, CHANGES, Change
+from atlas.build.ledger import write_whole
 from atlas.build.sources import PACKAGE
 from atlas.errors import AtlasError
 from atlas.places import folder
@@ -174,9 +175,7 @@ def store(changes: Sequence[Taken], whole: Cold) -> None:
         "changes": [asdict(one) for one in changes],
         "cold": asdict(whole),
     }
-    beside = stored().with_name(f".{stored().name}.{os.getpid()}")
-    beside.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
-    beside.replace(stored())
+    write_whole(stored(), record)
 
 
 def main() -> None:
