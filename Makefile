@@ -6,10 +6,14 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 ATLAS  := $(BIN)/atlas
 JOBS   ?= 2
+FUZZ_EXAMPLES ?= 10000
+PACKAGES ?= core exact study
+COUNT  ?= 60
+SEED   ?= 0
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures verify bench stress rebuilds curves lint clean setup lock FORCE
+.PHONY: help report test figures verify bench stress mutants rebuilds curves lint clean setup lock FORCE
 
 help:
 	@echo 'make report    build/report/atlas/index.html and build/report/atlas.pdf'
@@ -17,7 +21,8 @@ help:
 	@echo 'make figures   every figure as SVG, PDF and PNG in build/figures'
 	@echo 'make build/figures/NAME.svg|pdf|png   one figure'
 	@echo 'make verify    the proofs about the paper'"'"'s equations'
-	@echo 'make bench     error against time;   make stress   the worst errors found'
+	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 hostile calls'
+	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
 	@echo 'make rebuilds  how long each kind of change takes;   make curves   points drawn against error'
 	@echo 'make lint      ruff, mypy, import-linter;   make clean   removes build/'
 
@@ -29,9 +34,14 @@ report: $(MADE)
 	@echo build/report/atlas/index.html
 	@echo build/report/atlas.pdf
 
-$(MADE): $(VENV)/.ready $(SOURCES) $(if $(wildcard build/report/atlas.pdf),$(if $(wildcard build/report/atlas/index.html),,FORCE),FORCE)
+# What is installed may bring a GL library or take it away; so may the variable ATLAS_GL, which stands in the stamp.
+GL      := $(wildcard /etc/ld.so.cache /usr/lib/*/dri /usr/share/glvnd/egl_vendor.d)
+THERE   := $(wildcard build/report/atlas.pdf)$(wildcard build/report/atlas/index.html)
+STAMP   := build/report/atlas.pdfbuild/report/atlas/index.html gl=$(ATLAS_GL)
+
+$(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(if $(filter-out $(THERE) $(shell cat $(MADE) 2>/dev/null),$(STAMP)),FORCE)
 	@$(ATLAS) report >/dev/null
-	@touch $@
+	@echo 'gl=$(ATLAS_GL)' >$@
 
 figures: setup
 	@$(ATLAS) figure --all
@@ -41,16 +51,20 @@ build/figures/%: FORCE | setup
 
 verify: setup
 	@$(ATLAS) verify --record
-	@$(ATLAS) verify --mutants --record
+	@$(ATLAS) verify --mutants --all --record
 
 bench: setup $(VENV)/.bench
 	@env -u OPENBLAS_CORETYPE $(ATLAS) bench   # so that OpenBLAS chooses the kernels of this processor
 
 stress: setup
 	@$(ATLAS) stress
+	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz
+
+mutants: setup
+	@$(BIN)/python tests/mutants.py $(PACKAGES) --count $(COUNT) --seed $(SEED) --jobs $(JOBS)
 
 rebuilds: setup
-	@$(BIN)/python -m atlas.build.rebuilds --store
+	@PYTHONPATH=tests $(BIN)/python -m benchmarks.rebuilds --store
 
 curves: setup
 	@$(BIN)/python -m atlas.study.curves
@@ -69,17 +83,26 @@ clean:
 
 setup: $(VENV)/.ready
 
+# The environment belongs to the folder that stands in .ready: one that was copied, moved or left half-made is made again.
+ifneq ($(shell cat $(VENV)/.ready 2>/dev/null),$(CURDIR))
+$(VENV)/.ready: FORCE
+endif
+
 $(VENV)/.ready: pyproject.toml requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo 'atlas needs Python 3.11 or newer; say make PYTHON=/path/to/python3.11'; exit 2; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
-	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then echo 'installing python3-venv'; apt-get update -qq && apt-get install -y -qq python3-venv >/dev/null; \
+	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then echo 'installing python3-venv'; \
+	    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq python3-venv; } >/dev/null 2>&1 || { echo 'python3-venv could not be installed by apt-get'; exit 2; }; \
 	  else echo 'this Python has no venv; install it: sudo apt-get install python3-venv'; exit 2; fi; }
-	@echo 'setting up $(VENV) from requirements.lock (once)'
-	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes -r requirements.lock
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check --no-deps --no-build-isolation -e .
-	@$(BIN)/python -m atlas.render.gl --install
-	@touch $@
+	@test "$$(cat $@ 2>/dev/null)" = '$(CURDIR)' || rm -rf $(VENV)
+	@rm -f $@
+	@test -d $(VENV) || { echo 'setting up .venv, once: 1.4 GB on disk'; echo '  a virtual environment'; $(PYTHON) -m venv $(VENV); }
+	@if command -v uv >/dev/null; then echo '  the libraries of requirements.lock, by uv' && uv pip install -q --python $(BIN)/python --require-hashes -r requirements.lock; else false; fi || \
+	  { echo '  the libraries of requirements.lock, by pip: half a minute or more' && $(BIN)/python -m pip install -qq --no-compile --disable-pip-version-check --require-hashes -r requirements.lock; }
+	@ln -sfn ../../../../atlas "$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/atlas"
+	@printf '#!/bin/sh\n# The program of the checkout in whose .venv this stands.\nexec "$$(dirname -- "$$(readlink -f -- "$$0")")/python" -P -m atlas "$$@"\n' >$(ATLAS) && chmod +x $(ATLAS)
+	@echo '  GL libraries for shaded figures' && $(BIN)/python -m atlas.draw.gl --install
+	@echo '$(CURDIR)' >$@
 
 $(VENV)/.bench: requirements-bench.lock | setup
 	@$(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes -r requirements-bench.lock || echo 'heyoka could not be installed: the benchmark goes on without that peer'

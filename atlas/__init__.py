@@ -18,10 +18,15 @@ _HOMES = {
     "Hyperbola": "atlas.core.hyperbola",
     "ElementaryMotion": "atlas.core.elementary",
     "FreeMotion": "atlas.core.elementary",
+    "GeneralMotion": "atlas.core.general",
     "BallMotion": "atlas.core.ball",
     "ParticleMotion": "atlas.core.particle",
     "Flight": "atlas.core.flight",
+    "clebsch": "atlas.core.clebsch",
+    "sweep": "atlas.study.sweep.run",
     "simulate": "atlas.study.simulate",
+    "figure": "atlas.draw",
+    "plotter": "atlas.draw",
 }
 
 __all__ = [*_HOMES, "__version__"]  # noqa: PLE0604  the names are strings

@@ -1,5 +1,11 @@
 """What the atlas raises when an input has no answer: one sentence that says what, where, and what would be right."""
 
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+FEW = 30
+"""As many names as an error lists."""
+
 
 class AtlasError(ValueError):
     """An input for which there is no answer; the command line prints the sentence and ends with status 2."""
@@ -7,3 +13,20 @@ class AtlasError(ValueError):
 
 class DomainError(AtlasError):
     """A physical argument outside the domain of the formula."""
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Say which known word was probably meant, or nothing."""
+    close = get_close_matches(word, list(known), 1, 0.5)
+    return f" (did you mean {close[0]!r}?)" if close else ""
+
+
+def unknown(what: str, name: object, known: Iterable[str], where: str = "") -> AtlasError:
+    """Return the error for a name that there is not: there is no table 'point' (did you mean 'points'?); known: ....
+
+    `what` is the kind of the name, `known` are the names that there are, `where` says of what, such as "of the figure
+    'hyperbola'". All known names are listed if they are few.
+    """
+    names = list(known)
+    listed = f"; known: {', '.join(names) or 'none'}" if len(names) <= FEW else ""
+    return AtlasError(f"there is no {what} {name!r}{f' {where}' if where else ''}{nearest(str(name), names)}{listed}.")

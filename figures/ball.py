@@ -7,7 +7,7 @@ B with the Larmor frequency alpha, mf36, while the ball turns about the axis k, 
 import numpy as np
 
 from atlas.core.ball import BallMotion
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, plates, solids
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.words import plain, tex, title
 
 
@@ -22,20 +22,20 @@ def scene(
     """Show a ball with ``inertia`` I0 and ``momentum`` (m2, m3) at t = 0 in a field with the frequency ``larmor``."""
     ball = BallMotion(inertia, larmor, momentum=momentum)
     size = float(np.hypot(*momentum))
-    radius, fine = 0.62, plates.tolerance(2.0)
+    radius, fine = 0.62, quadric_panel.tolerance(2.0)
     layers: list[Layer] = [
-        solids.sphere(plates.O, radius, fine, role="ball"),
-        *plates.basis((1.6, 1.75, 2.0)),
-        Arrow(plates.O, 1.6 * plates.E3, "field", r"$\mathbf{B}$", offset=(-7.0, 0.0)),
-        Points(plates.O[None], "origin", r"$O$"),
+        solids.sphere(quadric_panel.O, radius, fine, role="ball"),
+        *quadric_panel.basis((1.6, 1.75, 2.0)),
+        Arrow(quadric_panel.O, 1.6 * quadric_panel.E3, "field", r"$\mathbf{B}$", offset=(-7.0, 0.0)),
+        Points(quadric_panel.O[None], "origin", r"$O$"),
     ]
-    k = plates.in_plane(*ball.k_hat)
-    layers.append(Arrow(plates.O, 1.35 * k, "turn", r"$\hat{\mathbf{k}}$"))
+    k = quadric_panel.in_plane(*ball.k_hat)
+    layers.append(Arrow(quadric_panel.O, 1.35 * k, "turn", r"$\hat{\mathbf{k}}$"))
     if size > 0.0:
         m2, m3 = (1.65 / size * m for m in momentum)
-        layers.append(Arrow(plates.O, plates.in_plane(m2, m3), "momentum", r"$\mathbf{m}(0)$"))
+        layers.append(Arrow(quadric_panel.O, quadric_panel.in_plane(m2, m3), "momentum", r"$\mathbf{m}(0)$"))
         if m2 != 0.0:
-            layers.append(Curve(solids.circle(m3 * plates.E3, plates.E3, abs(m2), fine), "precession"))
+            layers.append(Curve(solids.circle(m3 * quadric_panel.E3, quadric_panel.E3, abs(m2), fine), "precession"))
             quarter = np.pi / 5.0 * float(np.sign(larmor) or 1.0)
             at = np.array([[m2 * np.sin(s), m2 * np.cos(s), m3] for s in (quarter - 0.24 * np.sign(quarter), quarter)])
             layers.append(Arrow(at[0], at[1], "precession", r"$\mathbf{m}(t)$"))

@@ -14,6 +14,7 @@ from atlas.errors import AtlasError
 from atlas.scene import Layer, Plane, Points, Region, Scene
 from atlas.scene.words import title
 
+RECORDS = ("build_costs.json",)
 ROW, THICK, THIN = 4.2, 0.38, 0.17
 
 
@@ -24,7 +25,7 @@ def scene() -> Scene:
     names = named([entry["scene"] for entry in drawn])
     rows = sorted(zip(names, drawn, strict=True), key=lambda row: row[1]["compute_s"] + row[1]["draw_s"])
     computed, drawing = (sum(entry[key] for entry in drawn) for key in ("compute_s", "draw_s"))
-    taken = sum(entry["from"] == "store" for entry in drawn)
+    taken = sum(entry["from"] != "drawn" for entry in drawn)
     store = f" Circles mark the {taken} scenes that were taken from the store: their cost is that of making them."
     return Scene(
         title=title(__doc__),
@@ -74,7 +75,7 @@ def panel(names: list[str], entries: list[dict[str, Any]]) -> Plane:
             corners = np.array([(left, row - half), (end, row - half), (end, row + half), (left, row + half)])
             layers.append(Region(corners, role, label if row == 1 else ""))
     taken = [(time, row) for row, (time, entry) in enumerate(zip(times[:, 1], entries, strict=True), 1)
-             if entry["from"] == "store"]  # fmt: skip
+             if entry["from"] != "drawn"]  # fmt: skip
     if taken:
         layers.append(Points(np.array(taken), "rest", "from the store"))
     return Plane(

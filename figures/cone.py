@@ -5,7 +5,7 @@ The quadric mf58 for I = 1, mf62: both sheets of the hyperboloid have met in its
 
 from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, Space, plates
+from atlas.scene import Scene, Space, quadric_panel
 from atlas.scene.words import plain_setting, tex_setting, title
 
 
@@ -15,15 +15,15 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, ele
         raise DomainError(
             f"figure cone takes B2, B3 both not zero, not field = {field}; figure quadric shows any kind."
         )
-    layers = plates.quadric_layers(1.0, field)
+    layers = quadric_panel.quadric_layers(1.0, field)
     panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"Cone of initial angular velocities with constant $\\Omega_3$ for {tex_setting(1.0, field)}; "
-        rf"for a ball $\mathbb{{I}}^{{-1}}\mathbf{{B}}'$ is $\mathbf{{B}}'$ itself. {plates.LEGEND}",
+        rf"for a ball $\mathbb{{I}}^{{-1}}\mathbf{{B}}'$ is $\mathbf{{B}}'$ itself. {quadric_panel.LEGEND}",
         f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two "
         "straight lines, "
         "one of which passes through the origin.",
         (panel,),
-        size=plates.page(panel),
+        size=quadric_panel.figure_size(panel),
     )

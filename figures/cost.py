@@ -9,6 +9,7 @@ from atlas.study.bench.methods import title as name
 from atlas.study.bench.plates import decades, line, measured, pairs
 from atlas.study.bench.record import Record, read
 
+RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")
 LARGE = 10_000
 

@@ -10,6 +10,7 @@ from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.words import listed, plain, tex, title
 from atlas.study.curves import Row, read
 
+RECORDS = ("curves.json",)
 DEFAULT = 0.25
 
 

@@ -18,7 +18,9 @@ TIME = r"$t\,|\mathbf{B}'|$"
 def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2: float = 0.7) -> Scene:
     """Draw four maps: over omega2 and over I, for the plain formula and for the atlas."""
     first, second = over_omega2(ratio, field), over_ratio(field, omega2)
-    worst = max(first.ours.max(), second.ours.max())
+    measured = np.concatenate([first.ours.ravel(), second.ours.ravel()])
+    worst = np.nanmax(measured)
+    empty = " A cell without colour has a phase beyond $2^{50}$." if np.isnan(measured).any() else ""
     return Scene(
         title=title(__doc__),
         caption=(
@@ -26,7 +28,7 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
             rf"(c, d) over $I$ at $\omega_2={tex(omega2)}$ in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$. "
             r"(a, c) The formula in double precision as anyone would write it: the error grows with the phase, and "
             r"faster near the pole $\omega_2=-B_2'$ and for small $I$, until no digit is left. (b, d) The atlas: at "
-            rf"most ${tex(float(f'{worst:.1e}'))}$ anywhere in these maps."
+            rf"most ${tex(float(f'{worst:.1e}'))}$ anywhere in these maps.{empty}"
         ),
         alt=(
             "Four maps of error, from 1e-17 to 1, with time upwards on a logarithmic scale. For the plain formula the "

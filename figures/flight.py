@@ -16,7 +16,7 @@ from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
 from atlas.scene.camera import frame
-from atlas.scene.family import components
+from atlas.scene.hyperbola_plane import components
 from atlas.scene.sample import curve, quarter_pixel
 from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 

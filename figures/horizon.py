@@ -12,6 +12,7 @@ from atlas.study.bench.methods import OURS
 from atlas.study.bench.plates import by_method, case_title, decades, line, measured, pairs, runs_of
 from atlas.study.bench.record import Record, Run, read
 
+RECORDS = ("bench.json",)
 LIMIT = 4 * 2.0**-52
 """Four ulp of 1, within which the atlas keeps every entry of a rotation matrix."""
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, Space, plates
+from atlas.scene import Scene, Space, quadric_panel
 from atlas.scene.words import plain_setting, quotient, tex_setting, title
 
 
@@ -20,15 +20,15 @@ def scene(
             f"figure hyp_a shows a hyperboloid of two sheets, which takes I > 1 and B2, B3 both not zero, not "
             f"I = {quotient(ratio):g} and field = {field}; figure quadric shows any kind."
         )
-    layers = plates.quadric_layers(ratio, field, "origin")
+    layers = quadric_panel.quadric_layers(ratio, field, "origin")
     panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"Upper sheet of the hyperboloid of initial angular velocities with constant $\\Omega_3$ for "
-        f"{tex_setting(ratio, field)}. {plates.LEGEND}",
+        f"{tex_setting(ratio, field)}. {quadric_panel.LEGEND}",
         f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the origin "
         "O, from "
         "which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it at −B'.",
         (panel,),
-        size=plates.page(panel),
+        size=quadric_panel.figure_size(panel),
     )

@@ -7,7 +7,7 @@ from typing import Any
 
 from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Scene, Space, plates
+from atlas.scene import Scene, Space, quadric_panel
 from atlas.scene.words import plain_setting, quotient, tex_setting, title
 
 
@@ -20,15 +20,15 @@ def scene(
             f"figure hyp_b shows a hyperboloid of one sheet, which takes I < 1 and B2, B3 both not zero, not "
             f"I = {quotient(ratio):g} and field = {field}; figure quadric shows any kind."
         )
-    layers = plates.quadric_layers(ratio, field)
+    layers = quadric_panel.quadric_layers(ratio, field)
     panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"Hyperboloid of initial angular velocities with constant $\\Omega_3$ for {tex_setting(ratio, field)}. "
-        f"{plates.LEGEND}",
+        f"{quadric_panel.LEGEND}",
         f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
         "−B'; both "
         "branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",
         (panel,),
-        size=plates.page(panel),
+        size=quadric_panel.figure_size(panel),
     )

@@ -9,7 +9,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.integrals import shape_factors
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
-from atlas.scene.family import asymptote, branches, components, places, unstable, window
+from atlas.scene.hyperbola_plane import asymptote, branches, components, places, unstable, window
 from atlas.scene.words import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 86.0, 82.0, 10.0
@@ -85,7 +85,7 @@ def within(piece: FloatArray, intervals: tuple[tuple[float, float], ...]) -> lis
 def free_spin(ratio: float, field: tuple[float, float]) -> float:
     """Return the |omega3| below which the motions with B3 = 0 and omega2 = -B2 are unstable, 0 if none is.
 
-    There -p'(omega3) = I^2 omega3^2 - (1-I) B2^2, by mf56.
+    There -p'(omega3) = I^2 omega3^2 - (1-I) B2^2, theorem-equatorial-stability.
     """
     I, one_less, _ = shape_factors(ratio)
     B2, B3 = components(field)
@@ -113,13 +113,18 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
         )
         zeros = rf"$\omega_3$ is zero at rest and at $\omega_2=-(2-I)B_2={tex((I - 2) * B2)}$."
         sentences.append(zeros if I != 2 else r"Both zeros of $\omega_3$ have met in the state of rest.")
-    where = listed([rf"${tex(a)}<\omega_2<{tex(b)}$" for a, b in bands]) if bands else ""
+    order = r"\le" if B3 else "<"  # the ends of a band belong to it, theorem-band-ends; for B3 = 0 they do not
+    where = listed([rf"${tex(a)}{order}\omega_2{order}{tex(b)}$" for a, b in bands]) if bands else ""
     if bands and B3:
-        sentences.append(f"On the shaded bands, {where}, the motions are unstable against nutation.")
+        sentences.append(f"On the shaded bands, {where}, ends included, the motions are unstable against nutation.")
     elif bands:
         sentences.append(
             rf"Unstable against nutation are those on the first line with {where}, and those on the second with "
             rf"$\lvert\omega_3\rvert<{tex(free_spin(ratio, field))}$."
+        )
+    elif B2 and one_less == 0:
+        sentences.append(
+            r"All these motions are stable against nutation but the one at $-\mathbf{B}'$, where the two lines meet."
         )
     elif B2:
         sentences.append("All these motions are stable against nutation.")
@@ -133,8 +138,7 @@ def alt(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, floa
     unstable_words = (
         "Unstable are the motions with omega 2 from "
         + listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from")
-        + " "
-        "are unstable."
+        + "."
         if bands
         else "No part of the family is marked as unstable."
     )

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.family import asymptote, branches, components, places, window
+from atlas.scene.hyperbola_plane import asymptote, branches, components, places, window
 from atlas.scene.words import body_name, listed, plain, plain_vector, quotient, tex, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 10.0

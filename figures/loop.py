@@ -5,7 +5,7 @@ For I = 2 the sheets of the quadric mf58 touch the planes omega_3 = 0, at the or
 
 from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Points, Scene, Space, plates, solids
+from atlas.scene import Points, Scene, Space, quadric_panel, solids
 from atlas.scene.words import plain_setting, tex_setting, title
 
 
@@ -16,22 +16,22 @@ def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, ele
         raise DomainError(
             f"figure loop takes B2, B3 both not zero, not field = {field}; figure quadric shows any kind."
         )
-    touch = plates.in_plane(-2.0 * B2, -2.0 * B3)
+    touch = quadric_panel.in_plane(-2.0 * B2, -2.0 * B3)
     half = 1.25 * float((B2 * B2 + B3 * B3) ** 0.5)
     planes = [
-        solids.rectangle(point, half * plates.E2, half * plates.E1, role="tangent_plane", label=name)
-        for point, name in ((plates.O, r"$\omega_3=0$"), (touch, r"$\omega_3=-2B'_3$"))
+        solids.rectangle(point, half * quadric_panel.E2, half * quadric_panel.E1, role="tangent_plane", label=name)
+        for point, name in ((quadric_panel.O, r"$\omega_3=0$"), (touch, r"$\omega_3=-2B'_3$"))
     ]
     touching = Points(touch[None], "special", r"$-2\mathbf{B}'$")
-    layers = [*plates.quadric_layers(2.0, field), *planes, touching]
+    layers = [*quadric_panel.quadric_layers(2.0, field), *planes, touching]
     panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"Both sheets of the hyperboloid for {tex_setting(2.0, field)}, and the planes $\\omega_3=0$ and "
-        rf"$\omega_3=-2B'_3$ that they touch at $O$ and at $-2\mathbf{{B}}'$. {plates.LEGEND}",
+        rf"$\omega_3=-2B'_3$ that they touch at $O$ and at $-2\mathbf{{B}}'$. {quadric_panel.LEGEND}",
         f"Two bowls, the sheets of a hyperboloid, for {plain_setting(2.0, field)}; the upper rests on a horizontal "
         "plane at "
         "the origin, the lower hangs from another one at −2B'.",
         (panel,),
-        size=plates.page(panel),
+        size=quadric_panel.figure_size(panel),
     )

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, plates, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.words import plain_setting, quotient, tex_setting, title
 
 LONGEST, TURNS_PER_RADIUS = 3.0, 7.0
@@ -20,31 +20,37 @@ def scene(
     """Show a solenoid with I = I3/I2 = ``ratio`` and the field B with the components ``field`` = (B2, B3)."""
     I = quotient(ratio)
     height = min(LONGEST, float(np.sqrt(max(0.0, 12.0 / I - 6.0))))  # I3/I2 of a shell is 1/(1/2 + h^2/(12 R^2))
-    fine = plates.tolerance(2.5)
+    fine = quadric_panel.tolerance(2.5)
     reach = 0.5 * height
     b = float(np.hypot(*field)) or 1.0
-    tip = plates.in_plane(*field) * (max(2.3, reach + 1.2) / b)
-    second, third = tip[1] * plates.E2, tip[2] * plates.E3
+    tip = quadric_panel.in_plane(*field) * (max(2.3, reach + 1.2) / b)
+    second, third = tip[1] * quadric_panel.E2, tip[2] * quadric_panel.E3
     layers: list[Layer] = []
     if height > 0.0:
-        shell = solids.cylinder(plates.O, plates.E3, 1.0, height, fine, role="body")
+        shell = solids.cylinder(quadric_panel.O, quadric_panel.E3, 1.0, height, fine, role="body")
         count = max(2, round(TURNS_PER_RADIUS * height))
         coils = [
-            solids.circle(h * plates.E3, plates.E3, 1.0, fine) for h in np.linspace(-reach, reach, count + 1)[1:-1]
+            solids.circle(h * quadric_panel.E3, quadric_panel.E3, 1.0, fine)
+            for h in np.linspace(-reach, reach, count + 1)[1:-1]
         ]
         layers.append(shell)
         layers += [Curve(coil, "coil") for coil in coils]
     else:
-        layers.append(Curve(solids.circle(plates.O, plates.E3, 1.0, fine), "loop"))
+        layers.append(Curve(solids.circle(quadric_panel.O, quadric_panel.E3, 1.0, fine), "loop"))
     layers += [
-        Arrow(plates.O, 2.0 * plates.E1, "basis", r"$\mathbf{e}_1$"),
-        Arrow(plates.O, max(2.0, 1.15 * float(tip[1])) * plates.E2, "basis", r"$\mathbf{e}_2$"),
-        Arrow(plates.O, max(reach + 1.0, 1.15 * float(tip[2])) * plates.E3, "basis", r"$\mathbf{e}_3=\mathbf{R}_3(0)$"),
-        Points(plates.O[None], "origin", r"$O$"),
+        Arrow(quadric_panel.O, 2.0 * quadric_panel.E1, "basis", r"$\mathbf{e}_1$"),
+        Arrow(quadric_panel.O, max(2.0, 1.15 * float(tip[1])) * quadric_panel.E2, "basis", r"$\mathbf{e}_2$"),
+        Arrow(
+            quadric_panel.O,
+            max(reach + 1.0, 1.15 * float(tip[2])) * quadric_panel.E3,
+            "basis",
+            r"$\mathbf{e}_3=\mathbf{R}_3(0)$",
+        ),
+        Points(quadric_panel.O[None], "origin", r"$O$"),
     ]
     if any(field):
         layers += [
-            Arrow(plates.O, tip, "field", r"$\mathbf{B}$"),
+            Arrow(quadric_panel.O, tip, "field", r"$\mathbf{B}$"),
             Curve(np.stack([tip, second]), "construction"),
             Curve(np.stack([tip, third]), "construction"),
         ]

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, plates
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel
 from atlas.scene.sample import curve
 from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
 
@@ -30,26 +30,32 @@ def scene(
     particle = ParticleMotion(mu, (0.0, *E), (0.0, 0.0, B), (0.0, 0.0, 0.0), (speed, 0.0, 0.0), c)
     rough = particle.position(np.linspace(0.0, turns * particle.period, 200))
     span = float(np.ptp(rough, axis=0).max()) or 1.0
-    fine = plates.tolerance(0.5 * span)
+    fine = quadric_panel.tolerance(0.5 * span)
     path = curve(particle.position, 0.0, turns * particle.period, fine, pieces=max(8, round(8 * turns)))
     reach = 0.55 * span
     strength = float(np.hypot(*E))
     layers: list[Layer] = [
         Curve(path, "trajectory"),
         Points(path[:1], "start"),
-        Arrow(plates.O, 1.15 * reach * plates.E1, "basis", r"$x,\ \mathbf{e}_1$"),
-        Arrow(plates.O, 1.45 * reach * plates.E2, "basis", r"$y,\ \mathbf{e}_2$"),
-        Arrow(plates.O, 1.75 * reach * plates.E3, "basis", r"$z,\ \mathbf{e}_3$"),
-        Arrow(plates.O, float(np.sign(B)) * 1.3 * reach * plates.E3, "field", r"$\mathbf{B}$", offset=(7.0, 0.0)),
+        Arrow(quadric_panel.O, 1.15 * reach * quadric_panel.E1, "basis", r"$x,\ \mathbf{e}_1$"),
+        Arrow(quadric_panel.O, 1.45 * reach * quadric_panel.E2, "basis", r"$y,\ \mathbf{e}_2$"),
+        Arrow(quadric_panel.O, 1.75 * reach * quadric_panel.E3, "basis", r"$z,\ \mathbf{e}_3$"),
+        Arrow(
+            quadric_panel.O,
+            float(np.sign(B)) * 1.3 * reach * quadric_panel.E3,
+            "field",
+            r"$\mathbf{B}$",
+            offset=(7.0, 0.0),
+        ),
     ]
     if strength > 0.0:
         angle = np.arctan2(E[1], E[0])
         lean = float(angle if abs(E[0]) < 2.0 * abs(E[1]) else np.copysign(0.55, angle if E[1] else 1.0))
-        tip = 1.1 * reach * plates.in_plane(float(np.cos(lean)), float(np.sin(lean)))
-        flat, tall = tip[1] * plates.E2, tip[2] * plates.E3
+        tip = 1.1 * reach * quadric_panel.in_plane(float(np.cos(lean)), float(np.sin(lean)))
+        flat, tall = tip[1] * quadric_panel.E2, tip[2] * quadric_panel.E3
         layers += [
-            Arrow(plates.O, tip, "electric", r"$\mathbf{E}$"),
-            Arrow(plates.O, flat, "component"),
+            Arrow(quadric_panel.O, tip, "electric", r"$\mathbf{E}$"),
+            Arrow(quadric_panel.O, flat, "component"),
             Arrow(flat, tip, "component"),
             Label(0.62 * flat, r"$\mathbf{E}_{\!\perp}$", offset=(0.0, -5.0)),
             Label(flat + 0.5 * tall, r"$\mathbf{E}_{\!\parallel}$", offset=(5.0, 0.0)),

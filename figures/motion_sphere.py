@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, plates, solids
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.sample import curve
 from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
@@ -26,17 +26,17 @@ def scene(
 ) -> Scene:
     """Show ``turns`` periods of the precession; ``omega3`` is given only where mf76 leaves it free."""
     motion = ElementaryMotion(ratio, field, omega2, omega3)
-    pole = plates.in_plane(*field) if any(field) else motion.angular_momentum(0.0)
+    pole = quadric_panel.in_plane(*field) if any(field) else motion.angular_momentum(0.0)
     size = float(np.linalg.norm(pole))
-    axis = pole / size if size else plates.E3
-    fine = plates.tolerance(1.6)
+    axis = pole / size if size else quadric_panel.E3
+    fine = quadric_panel.tolerance(1.6)
     angle = float(np.arctan2(np.hypot(axis[0], axis[1]), axis[2]))
     rate = max(abs(motion.k), abs(motion.phi)) or 1.0
     time = turns * 2.0 * np.pi / (abs(motion.k) or rate)
-    layers: list[Layer] = [solids.sphere(plates.O, 1.0, fine), *plates.basis((1.7, 1.55, 1.45))]
-    layers.append(Arrow(plates.O, 1.65 * axis, "field", r"$\mathbf{B}$" if any(field) else r"$\mathbf{m}$"))
+    layers: list[Layer] = [solids.sphere(quadric_panel.O, 1.0, fine), *quadric_panel.basis((1.7, 1.55, 1.45))]
+    layers.append(Arrow(quadric_panel.O, 1.65 * axis, "field", r"$\mathbf{B}$" if any(field) else r"$\mathbf{m}$"))
     if np.sin(angle) > 1e-9 and motion.k:
-        layers.append(solids.cone(plates.O, axis, angle, 1.0, fine))
+        layers.append(solids.cone(quadric_panel.O, axis, angle, 1.0, fine))
         period = 2.0 * np.pi / abs(motion.k)
         layers.append(Curve(curve(motion.third_axis, 0.0, period, fine), "trace"))
     if rate * time < 400.0:
@@ -44,9 +44,9 @@ def scene(
         layers.append(Curve(curve(lambda t: motion.column(1, t), 0.0, time, fine, pieces=pieces), "second_trace"))
     later = 0.42 * 2.0 * np.pi / (abs(motion.k) or rate)
     layers += [
-        Arrow(plates.O, motion.third_axis(later), "body_axis", r"$\mathbf{R}_3(t)$"),
+        Arrow(quadric_panel.O, motion.third_axis(later), "body_axis", r"$\mathbf{R}_3(t)$"),
         Points(np.array([[0.0, 0.0, 1.0]]), "start"),
-        Points(plates.O[None], "origin"),
+        Points(quadric_panel.O[None], "origin"),
     ]
     name = r"\mathbf{B}" if any(field) else r"\mathbf{m}"
     return Scene(

@@ -7,7 +7,7 @@ canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on 
 from typing import Any
 
 from atlas.core.quadric import Quadric
-from atlas.scene import Scene, Space, plates
+from atlas.scene import Scene, Space, quadric_panel
 from atlas.scene.words import plain_setting, tex_setting, title
 
 
@@ -16,17 +16,17 @@ def scene(
 ) -> Scene:
     """Show the quadric of any kind; ``ratio`` = I3/I2 or a body, ``field`` = (B2, B3) of B', the view in degrees."""
     kind = Quadric(ratio, field).kind
-    layers = plates.quadric_layers(ratio, field)
+    layers = quadric_panel.quadric_layers(ratio, field)
     panel = Space(tuple(layers), azimuth=azimuth, elevation=elevation)
     return Scene(
         title(__doc__),
         f"The quadric of initial angular velocities with constant $\\Omega_3$ is a {kind} for "
         f"{tex_setting(ratio, field)}. "
-        f"{plates.LEGEND}",
+        f"{quadric_panel.LEGEND}",
         f"A {kind} in the space of angular velocities, for {plain_setting(ratio, field)}, with the laboratory axes, "
         "B', "
         "its image under the inverse inertia tensor, the canonical axes through −B' and the hyperbola in the plane "
         "e2, e3.",
         (panel,),
-        size=plates.page(panel),
+        size=quadric_panel.figure_size(panel),
     )

@@ -40,8 +40,8 @@ def scene(
     nu2 = -still.stiffness(still.omega3)
     librations = [Libration(start(ratio, field, number(value, "omega1"), omega2)) for value in omega1]
     law = (
-        rf"dashed: the law $\lvert\omega_1B_2\rvert/\nu$ near the hyperbola, where nutation has the frequency "
-        rf"$\nu{tex_equals(float(np.sqrt(nu2)))}$."
+        rf"dashed: the law $\lvert\omega_1B_2\rvert/\nu_n$ near the hyperbola, where nutation has the frequency "
+        rf"$\nu_n{tex_equals(float(np.sqrt(nu2)))}$."
         if nu2 > 0
         else r"it does not shrink with $\omega_1$, for the point of the hyperbola with this $\omega_2$ is unstable."
     )
@@ -137,7 +137,7 @@ def departures(
     if nu2 > 0:
         slope = abs(field[0]) / float(np.sqrt(nu2))
         law = np.array([[x, slope * x] for x in (ends[0], min(ends[1], 2.0 * top / slope))])
-        layers.insert(0, Curve(law, "reference", r"$|\omega_1B_2|/\nu$"))
+        layers.insert(0, Curve(law, "reference", r"$|\omega_1B_2|/\nu_n$"))
     return Plane(
         tuple(layers),
         rf"$|\omega_1|$ (1/{unit})",

@@ -1,7 +1,7 @@
 """Nutation frequency along the elementary family.
 
-The motions with constant Omega3 are stable against nutation where nu^2 = -p'(omega3) > 0, p being the cubic of mf55. On
-the hyperbola mf72, with x = (omega2 + B2)/B2 and tau = B3/B2,
+The motions with constant Omega3 are stable against nutation where nu^2 = -p'(omega3) > 0, p being the cubic of mf55,
+and unstable where nu^2 <= 0, theorem-band. On the hyperbola mf72, with x = (omega2 + B2)/B2 and tau = B3/B2,
 
     nu^2/B2^2 = (1 + tau^2) x^2 + (1 - I)(2 tau^2 - 1) + tau^2 (1 - I)^2/x^2,
 
@@ -17,7 +17,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
-from atlas.scene.family import Window, components, graph, seen, unstable
+from atlas.scene.hyperbola_plane import Window, components, graph, seen, unstable
 from atlas.scene.sample import flat
 from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
 
@@ -40,7 +40,8 @@ def scene(
     if B2 == 0:
         raise DomainError("With B2 = 0 all elementary motions have omega2 = 0, so nothing can be drawn over omega2.")
     bands = unstable(ratio, field)
-    where = listed([rf"${tex(a)}<\omega_2<{tex(b)}$" for a, b in bands]) if bands else ""
+    order = r"\le" if B3 else "<"  # the ends of a band belong to it, theorem-band-ends; for B3 = 0 they do not
+    where = listed([rf"${tex(a)}{order}\omega_2{order}{tex(b)}$" for a, b in bands]) if bands else ""
     spoken = listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from") if bands else ""
     long = shape_factors(ratio)[1] > 0
     return Scene(
@@ -48,15 +49,19 @@ def scene(
         caption=(
             rf"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
             rf"squared, "
-            rf"$\nu^2=-p'(\omega_3)$ with the cubic $p$ of mf55, along the hyperbola mf72. "
+            rf"$\nu_n^2=-p'(\omega_3)$ with the cubic $p$ of mf55, along the hyperbola mf72. "
             + (
-                f"It is negative, and the motion unstable, on the shaded bands {where}. "
+                f"The motion is unstable on the shaded bands {where}, inside which it is negative. "
                 if bands
                 else "It is positive. "
             )
-            + r"(b) Levels of $\nu^2/B_2^2$ for this body in every field, over $\tau=\lvert B_3/B_2\rvert$ and "
+            + r"(b) Levels of $\nu_n^2/B_2^2$ for this body in every field, over $\tau=\lvert B_3/B_2\rvert$ and "
             r"$\lvert x\rvert=\lvert(\omega_2+B_2)/B_2\rvert$; dotted: the field of (a). "
-            + (r"Shaded: unstable, for $\tau<1/(2\sqrt2)$ only." if long else r"For $I\ge1$ all motions are stable.")
+            + (
+                r"Shaded, its edge included but for $\tau=0$: unstable, for $\tau\le1/(2\sqrt2)$ only."
+                if long
+                else r"For $I\ge1$ all motions of the hyperbola are stable."
+            )
         ),
         alt=(
             f"Two panels for {plain_setting(ratio, field)}. The first shows the nutation frequency squared over omega "
@@ -104,7 +109,7 @@ def course(
     return Plane(
         tuple(layers),
         rf"$\omega_2$ (1/{unit})",
-        rf"$\nu^2$ (1/{unit}$^2$)",
+        rf"$\nu_n^2$ (1/{unit}$^2$)",
         view.x,
         view.y,
         title="(a) nutation frequency squared",
@@ -135,7 +140,7 @@ def chart(ratio: Any, field: tuple[float, float], levels: tuple[float, ...]) -> 
         r"$|x|=|(\omega_2+B_2)/B_2|$",
         view.x,
         view.y,
-        title=r"(b) levels of $\nu^2/B_2^2$",
+        title=r"(b) levels of $\nu_n^2/B_2^2$",
     )
 
 

@@ -14,6 +14,8 @@ from atlas.study.bench.methods import title as name
 from atlas.study.bench.plates import by_method, case_title, decades, line, measured, pairs, power, runs_of
 from atlas.study.bench.record import Record, Run, read
 
+RECORDS = ("bench.json",)
+
 
 def scene(
     *, cases: tuple[str, ...] = ("elementary", "ball", "particle"), horizon: float = 100.0, columns: int = 1

@@ -14,7 +14,7 @@ from typing import Any
 
 import msgspec
 
-from atlas.build.reading import Figure, Report, Table, read
+from atlas.build.record import Figure, Report, Table, read
 
 SPACES = dict.fromkeys(map(ord, "\u00a0\u2007\u2009\u200a\u202f"))
 NUMBER = re.compile(

@@ -9,7 +9,7 @@ from itertools import groupby
 from typing import Any
 
 from atlas.build.compare import Cell, Comparison, agreeing
-from atlas.build.reading import KINDS, Figure, Report
+from atlas.build.record import KINDS, Figure, Report
 from atlas.places import folder
 
 FORMULA = re.compile(r"(\$[^$]+\$)")
@@ -55,7 +55,7 @@ class _Prose:
         """Return a text with its formulas, its citations and what is emphasised or raised in it."""
         from markupsafe import Markup
 
-        from atlas.report.formulas import cited
+        from atlas.report.texts import cited
 
         pieces = [
             self.formulas.setdefault(piece, "") if odd % 2 else _marked(piece)
@@ -72,13 +72,13 @@ class _Prose:
 
     def set(self) -> None:
         """Set the formulas that were asked for."""
-        from atlas.report.formulas import Manuscript
+        from atlas.report.texts import Link, Texts
 
-        manuscript = Manuscript()
+        texts = Texts()
         for formula in self.formulas:
-            manuscript.add(formula, "the comparison", inline=True)
+            texts.add(formula, "the comparison", inline=True)
         if self.formulas:
-            self.formulas = dict(zip(self.formulas, manuscript.set("html", lambda name, _: name), strict=True))
+            self.formulas = dict(zip(self.formulas, texts.set("html", lambda name, _: Link(name)), strict=True))
 
 
 def _marked(text: str) -> str:

@@ -1,74 +1,178 @@
 """What a report says, for machines: each number in its table, each figure with its digest, for `atlas diff`."""
 
 import hashlib
-import json
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from atlas.report import views
-from atlas.report.colophon import Colophon
-from atlas.report.compose import Document
+import msgspec
+
+from atlas.errors import AtlasError
+
+if TYPE_CHECKING:
+    from atlas.report.blocks.table import Cell
+    from atlas.report.compose import Document
 
 FORMAT = 1
 RECORD = "record.json"
+KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
+"""The pictures of a report's pages and their media types."""
 
 
-def record_of(document: Document, colophon: Colophon, folder: Path) -> str:
-    """Return the record of a report as JSON; `folder` holds its figures. It depends on nothing but the content."""
-    texts = document.manuscript.texts
-    pages: dict[str, Any] = {}
-    tables: dict[str, Any] = {}
-    figures: dict[str, Any] = {}
+class Page(msgspec.Struct, frozen=True):
+    """A page: its title, the digest of its prose, captions and formulas."""
+
+    title: str
+    text: str
+
+
+class Table(msgspec.Struct, frozen=True):
+    """A table as printed: heads, units and cells as texts."""
+
+    page: str
+    caption: str
+    columns: list[str]
+    units: list[str]
+    rows: list[list[str]]
+
+
+class Figure(msgspec.Struct, frozen=True):
+    """A figure: what it was drawn from, its picture and the digest of that; neither where drawing failed."""
+
+    page: str
+    caption: str
+    recipe: str
+    renderer: str
+    parameters: dict[str, Any]
+    file: str | None
+    sha256: str | None
+
+
+class Record(msgspec.Struct, frozen=True):
+    """What a build records of a report."""
+
+    format: int
+    name: str
+    title: str
+    pages: dict[str, Page]
+    tables: dict[str, Table]
+    figures: dict[str, Figure]
+    versions: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Report:
+    """A built report: its folder and what is on record of it."""
+
+    folder: Path
+    record: Record
+
+    def picture(self, figure: Figure) -> Path | None:
+        """Return the file of a figure's picture, None when it failed or is not in the folder."""
+        path = (self.folder / (figure.file or ".")).resolve()
+        return path if path.is_relative_to(self.folder.resolve()) and path.is_file() else None
+
+    def damage(self) -> str:
+        """Say which pictures are not those that the build recorded, or nothing."""
+        bad = [
+            figure.file
+            for figure in self.record.figures.values()
+            if figure.file and not ((path := self.picture(figure)) and _digest(path.read_bytes()) == figure.sha256)
+        ]
+        return f"{self.folder}: lost or altered since the build: {', '.join(bad)}." if bad else ""
+
+
+def read(place: Path) -> Report:
+    """Read the record of a built report, given by its folder or by the index.html or record.json in it."""
+    where = place.parent if place.name in {"index.html", RECORD} else place
+    try:
+        content = (where / RECORD).read_bytes()
+    except OSError as error:
+        raise AtlasError(
+            f"{place} is not a built report, a folder such as build/report/atlas with a {RECORD}: {error.strerror}."
+        ) from error
+    try:
+        found = msgspec.json.decode(content, type=dict[str, Any]).get("format")
+        if found != FORMAT:
+            raise AtlasError(f"{where / RECORD} has format {found!r}; this atlas reads format {FORMAT}.")
+        record = msgspec.json.decode(content, type=Record)
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise AtlasError(f"{where / RECORD} is not the record of a report: {error}.") from error
+    for name, table in record.tables.items():
+        if any(len(cells) != len(table.columns) for cells in (table.units, *table.rows)):
+            raise AtlasError(f"{where / RECORD}: in table {name} not every row has {len(table.columns)} cells.")
+    for name, figure in record.figures.items():
+        if (figure.file is None) != (figure.sha256 is None):
+            raise AtlasError(f"{where / RECORD}: figure {name} has only one of file and sha256.")
+        if figure.file is not None and Path(figure.file).suffix not in KINDS:
+            raise AtlasError(f"{where / RECORD}: the file of figure {name} is neither SVG nor PNG.")
+    return Report(where, record)
+
+
+def record_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
+    """Return the record of a report as JSON; `pictures` are its figures by file. It depends on the content alone."""
+    from atlas.report.blocks.figure import FigureView
+    from atlas.report.blocks.table import TableView
+    from atlas.report.versions import versions
+
+    texts = [text.markdown for text in document.texts.texts]
+    pages, tables, figures = dict[str, Page](), dict[str, Table](), dict[str, Figure]()
     for page in document.pages:
         words = [page.summary]
         for block in page.blocks:
-            words += [texts[number].markdown for number in _texts(block)]
-            if isinstance(block, views.TableView):
-                tables[block.id] = {
-                    "page": page.slug,
-                    "caption": texts[block.caption].markdown,
-                    "columns": [texts[column.head].markdown for column in block.columns],
-                    "units": ["" if c.unit is None else texts[c.unit].markdown for c in block.columns],
-                    "rows": [[_cell(cell, texts) for cell in row] for row in block.rows],
-                }
-            elif isinstance(block, views.FigureView):
-                for plate in block.plates:
-                    suffix = "" if plate is block.plates[0] else f"-{plate.renderer}"
-                    file = plate.file or None
-                    figures[block.id + suffix] = {
-                        "page": page.slug,
-                        "caption": texts[block.caption].markdown,
-                        "recipe": plate.recipe,
-                        "renderer": plate.renderer,
-                        "parameters": dict(plate.settings),
-                        "file": file,
-                        "sha256": _digest((folder / file).read_bytes()) if file else None,
-                    }
-        pages[page.slug] = {"title": page.title, "text": _digest("\n".join(words).encode())}
-    report = {"format": FORMAT, "name": document.report.name, "title": document.report.title}
-    report |= {"pages": pages, "tables": tables, "figures": figures, "versions": dict(colophon.versions)}
-    return json.dumps(report, ensure_ascii=False, indent=1) + "\n"
+            words += [texts[number] for number in _texts(block)]
+            if isinstance(block, TableView):
+                tables[block.id] = Table(
+                    page.slug,
+                    texts[block.caption],
+                    [texts[column.head] for column in block.columns],
+                    ["" if column.unit is None else texts[column.unit] for column in block.columns],
+                    [[_cell(cell, texts) for cell in row] for row in block.rows],
+                )
+            elif isinstance(block, FigureView):
+                for picture in block.pictures:
+                    suffix = "" if picture is block.pictures[0] else f"-{picture.renderer}"
+                    file = picture.file or None
+                    figures[block.id + suffix] = Figure(
+                        page.slug,
+                        texts[block.caption],
+                        picture.recipe,
+                        picture.renderer,
+                        dict(picture.given),
+                        file,
+                        _digest(pictures[file]) if file else None,
+                    )
+        pages[page.slug] = Page(page.title, _digest("\n".join(words).encode()))
+    report = document.report
+    record = Record(FORMAT, report.name, report.title, pages, tables, figures, versions())
+    return msgspec.json.format(msgspec.json.encode(record), indent=1) + b"\n"
 
 
-def _texts(block: views.View) -> list[int]:
-    """Return the places in the manuscript of a block's prose."""
+def _texts(block: Any) -> list[int]:
+    """Return the numbers of the texts of a block's prose."""
+    from atlas.report.blocks.equation import EquationView
+    from atlas.report.blocks.figure import FigureView
+    from atlas.report.blocks.ledger import ErrataView, LedgerView
+    from atlas.report.blocks.prose import NoteView, ProseView
+
     match block:
-        case views.ProseView() | views.EquationView():
+        case ProseView() | EquationView():
             return [block.text]
-        case views.NoteView():
+        case NoteView():
             return [block.title, block.text]
-        case views.FigureView():
+        case FigureView():
             return [block.caption]
-        case views.LedgerView() | views.ErrataView():
+        case LedgerView() | ErrataView():
             return [number for entry in block.entries for number in entry.texts]
-        case views.TableView():
+        case _:
             return [block.caption, *([] if block.note is None else [block.note])]
 
 
-def _cell(cell: views.Cell, texts: Any) -> str:
+def _cell(cell: "Cell", texts: list[str]) -> str:
     """Return a cell as text: words, or digits with a ? behind those that are not all proven."""
     if cell.text is not None:
-        return str(texts[cell.text].markdown)
+        return texts[cell.text]
     power = f"e{cell.power}" if cell.power else ""
     return cell.whole + cell.fraction + power + ("" if cell.proven or cell.whole in {"", "?"} else "?")
 

@@ -1,26 +1,40 @@
-"""One report from its TOML file to pages and PDF: nothing is made twice, and everything is written whole.
+"""One report from its TOML file to pages and PDF: only what depends on something new is made, and all is written whole.
 
-A report whose sources have not changed is not built at all; a plate whose key is in the store is taken from there, and
-so is the text that pandoc made from the same prose. While processes of their own draw what is missing, the pages are
-set from what the scenes already tell, and the PDF in advance.
+The order: is anything new at all; which figures are missing; draw them; compute the tables and set the texts; set the
+pages and the PDF; write them beside their places, and rename them.
 """
 
+import fcntl
+import hashlib
+import os
+import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, Any
 
-from atlas.build import fresh
-from atlas.build.sources import Sources
-from atlas.build.store import STORE, Store
+from atlas.build import cache as caches
+from atlas.build.cache import Cache, digest
+from atlas.build.record import RECORD, record_of
+from atlas.build.sources import PACKAGE, Sources
 from atlas.errors import AtlasError
-from atlas.report.load import find, load
-from atlas.report.records import Figure
+from atlas.libraries import versions
+from atlas.places import folder
+from atlas.report.find import find
+
+if TYPE_CHECKING:
+    from atlas.build.figures import Figure
+    from atlas.report.compose import Document
+    from atlas.report.pandoc import Target
+    from atlas.report.pictures import Picture
 
 OUT = Path("build/report")
 FORMATS = ("html", "pdf")
-Progress: TypeAlias = Callable[[int, int, str], None]
+LANGUAGES: Mapping[str, "Target"] = {"html": "html", "pdf": "typst"}
+"""In which language the texts of each format are set."""
+Progress = Callable[[int, int, str], None]
 
 
 @dataclass(frozen=True)
@@ -35,7 +49,7 @@ class Built:
     failures: tuple[tuple[str, str], ...] = ()
     notes: tuple[str, ...] = ()
     reasons: tuple[tuple[str, str, str], ...] = ()
-    ledger: Path | None = None
+    costs: Path | None = None
 
     @property
     def ok(self) -> bool:
@@ -46,63 +60,241 @@ class Built:
 def build_report(
     name: str | Path,
     out: Path = OUT,
-    progress: Progress | None = None,
+    progress: Progress = lambda _done, _total, _what: None,
     *,
     formats: Sequence[str] = FORMATS,
+    style: str | None = None,
     jobs: int | None = None,
-    store: Path | None = None,
 ) -> Built:
     """Build the report of that name or file into `out`: NAME/index.html and its pages, and NAME.pdf.
 
     `progress` is called with the steps done, their number, and what comes next; `formats` may leave out the pages or
-    the PDF, which then stay as they are; `jobs` processes draw figures, one a core when it is not given; `store` is the
-    folder of what was built before, `out`/.store when it is not given. A figure that fails leaves a framed note in its
-    place and an entry in `failures`. Raises AtlasError, in one sentence, for anything wrong with the file.
+    the PDF, which then stay as they are; `style` is a style sheet of Matplotlib for the figures, a file or a name;
+    `jobs` workers draw them, one a core when it is not given. A figure that fails leaves a framed note in its place and
+    an entry in `failures`. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when
+    something can't be written; then the last report stays.
     """
-    began = time.perf_counter()
-    file = find(str(name))
-    results = out / file.stem / "index.html", out / f"{file.stem}.pdf"
-    wanted = tuple(one for one in FORMATS if one in formats)
-    kept = Store(store or out / STORE)
-    sources = Sources(kept.root / "sources.json")
-    before = kept.root.exists() or fresh.noted(out, file.stem).exists()
-    key = fresh.key(file, sources) if before else ""
-    found = fresh.read(out, file.stem, key, wanted)
-    if found is not None:
-        reasons = (("report", file.stem, "taken: nothing it depends on has changed"),)
-        return Built(file.stem, *results, found["pages"], found["figures"], reasons=reasons)
-    from atlas.build.drawers import Drawers, many
+    file, formats = find(str(name)), [one for one in FORMATS if one in formats]
+    cache = Cache(out / caches.NAME)
+    try:
+        key = key_of(file, Sources(cache), style)
+        found = _found(file.stem, out, formats, cache, key)
+        return found or _build(file, out, formats, style, jobs, cache, key, progress)
+    except OSError as error:
+        raise OSError(f"the build in {out} stopped: {error.strerror or error}.") from error
 
-    with Drawers(jobs or many()) as drawers:
-        report = load(file)
-        if report.name != file.stem:
-            raise AtlasError(f"{file}: the report's name is {report.name!r}, but the file is called {file.stem!r}.")
-        if report.name.startswith("."):
-            raise AtlasError(f"{file}: the report's name {report.name!r} must not begin with a dot.")
-        if not before:
-            figures = sum(isinstance(block, Figure) for page in report.pages for block in page.blocks)
-            drawers.load(["vector"] * figures)  # all will have to be drawn
-            key = fresh.key(file, sources)
-        from atlas.build.showing import Showing
 
-        showing = Showing(report, kept, sources, drawers)
-        from atlas.build.making import Making  # here, while the drawers load what they need
+def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
+    """Return the digest of all that a report depends on: its file, code, recipes, templates, records and libraries."""
+    from atlas.draw import gl
 
-        made = Making(report, showing, out, wanted, kept, sources)
-        made.run(drawers, progress or _silent)
-    if not made.failures:
-        fresh.write(out, file.stem, key, made.files, pages=made.pages, figures=len(made.plates))
+    code = [PACKAGE / "build" / "report.py", *folder("figures").glob("*.py")]
+    places = folder("templates"), folder("reports") / "data", PACKAGE
+    extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})
+    found = sources.closure([file, *code, *filter(Path.is_file, extra)])
+    sources.save()
+    return digest(found, sources.named(style), sys.version_info[:2], versions(), gl.library())
+
+
+def _found(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
+    """Return the report that is there, if it was made from the same and its files are as they were written."""
+    last = cache.load(f"report {name}")
+    for one in formats:
+        made = last.get(one, {"key": None})
+        if made["key"] != key or any(_hash(out / file) != there for file, there in made["files"].items()):
+            return None
+    reasons = (("report", name, "taken: nothing it depends on has changed"),)
+    return Built(name, *_places(out, name), last["pages"], last["figures"], reasons=reasons)
+
+
+def _build(
+    file: Path,
+    out: Path,
+    formats: Sequence[str],
+    style: str | None,
+    jobs: int | None,
+    cache: Cache,
+    key: str,
+    progress: Progress,
+) -> Built:
+    """Build a report, and note in the cache from what and with which files."""
+    from atlas.build import costs, figures
+    from atlas.build.recorded import gather
+    from atlas.draw import gl
+    from atlas.report.compose import compose
+    from atlas.report.load import load
+    from atlas.report.pictures import pictures
+
+    report = load(file)
+    _check(report.name, file, out, cache)
+    cache.prune()
+    sources, times = Sources(cache), {"start": time.perf_counter()}
+    found = pictures(report)
+    wanted = _figures(found, formats, style, gl.library())
+    figures.find(list(wanted), cache, sources, gl.library())
+    times["look"] = time.perf_counter()
+    steps, jobs = len(wanted) + 2, jobs or figures.cores()
+    figures.draw(list(wanted), cache, jobs, lambda done, _, what: progress(done, steps, what))
+    times["figures"] = time.perf_counter()
+    for figure, picture in wanted.items():
+        _describe(figure, picture)
+    progress(steps - 2, steps, "texts")
+    document = compose(report, found, gather(report))
+    times["tables"] = time.perf_counter()
+    _set_texts(document, formats, cache, sources)
+    times["texts"] = time.perf_counter()
+    progress(steps - 1, steps, "pages")
+    made = {one: _MAKERS[one](document, wanted, cache, sources) for one in formats}
+    _publish(made, out, report.name, cache)
+    times["pages"] = time.perf_counter()
+    progress(steps, steps, "done")
+    failures = [figure for figure in wanted if figure.failure]
+    last: dict[str, Any] = cache.load(f"report {report.name}")
+    for one, files in made.items():
+        digests = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
+        last[one] = {"key": None if failures else key, "files": digests}
+    cache.save(f"report {report.name}", last | {"pages": len(document.pages), "figures": len(wanted) - len(failures)})
     return Built(
-        file.stem,
-        *results,
-        made.pages,
-        len(made.plates) - len(made.failures),
-        tuple((plate.request.recipe, plate.failure) for plate in made.failures),
-        tuple(dict.fromkeys(plate.note for plate in made.plates if plate.note)),
-        tuple(("figure", plate.request.name, plate.reason) for plate in made.plates),
-        made.ledger(began, drawers.count),
+        report.name,
+        *_places(out, report.name),
+        len(document.pages),
+        len(wanted) - len(failures),
+        failures=tuple((figure.recipe, figure.failure) for figure in failures),
+        notes=tuple(dict.fromkeys(note for figure in wanted if (note := figure.facts.get("note")))),
+        reasons=tuple(("figure", figure.name, figure.reason) for figure in wanted),
+        costs=costs.write(out / f"{report.name}.costs.json", report.name, list(wanted), times, jobs),
     )
 
 
-def _silent(_done: int, _total: int, _what: str) -> None:
-    """Show no progress."""
+def _places(out: Path, name: str) -> tuple[Path, Path]:
+    """Return the first page of a report and its PDF."""
+    return out / name / "index.html", out / f"{name}.pdf"
+
+
+def _check(name: str, file: Path, out: Path, cache: Cache) -> None:
+    """Refuse a name that is not that of the file, and a folder of something else, from which files would be removed."""
+    if name != file.stem:
+        raise AtlasError(f"{file}: the report's name is {name!r}, but the file is called {file.stem!r}.")
+    if name.startswith("."):
+        raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
+    pages = out / name
+    known = (pages / RECORD).exists() or cache.load(f"report {name}")
+    if pages.is_dir() and any(pages.iterdir()) and not known:
+        raise AtlasError(f"{pages} holds files that are of no report; move them, or choose another --out.")
+
+
+def _figures(
+    found: "Mapping[str, Picture]", formats: Sequence[str], style: str | None, library: str | None
+) -> "dict[Figure, Picture]":
+    """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF."""
+    from atlas.build.figures import Figure
+
+    lines = tuple({"html": "svg", "pdf": "pdf"}[one] for one in formats)
+    return {
+        Figure(one.recipe, one.parameters, one.renderer, kinds, style): one
+        for one in found.values()
+        for kinds in [("png",) if one.renderer == "shaded" and library else lines]
+        if not one.failure
+    }
+
+
+def _describe(figure: "Figure", picture: "Picture") -> None:
+    """Let a report know what a figure says and how large it is, or why there is none."""
+    from atlas.report.numbers import shown
+
+    picture.failure = figure.failure
+    if not figure.failure:
+        facts = figure.facts
+        picture.caption, picture.alt, picture.size = facts["caption"], facts["alt"], tuple(facts["size"])
+        picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
+        picture.file = f"figures/{picture.stem}.{'png' if figure.kinds == ('png',) else 'svg'}"
+        picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
+
+
+class _Texts(dict[str, str]):
+    """Texts that were set before, by their source; those that are asked for are noted."""
+
+    def __init__(self, known: dict[str, str]) -> None:
+        super().__init__(known)
+        self.used: dict[str, str] = {}
+
+    def __getitem__(self, source: str) -> str:
+        self.used[source] = super().__getitem__(source)
+        return self.used[source]
+
+
+def _set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
+    """Set the texts of a document; those that were set before are in the cache."""
+    name = f"texts of {document.report.name} by {sources.closure([PACKAGE / 'report' / 'texts.py'])}"
+    document.texts.memory = texts = _Texts(cache.load(name))
+    document.set(*(LANGUAGES[one] for one in formats))
+    cache.save(name, texts.used)
+
+
+def _pages(document: "Document", figures: "dict[Figure, Picture]", cache: Cache, sources: Sources) -> dict[str, bytes]:
+    """Return the pages of a report with what belongs to them, by their places."""
+    from atlas.report import html
+
+    code = sources.closure([PACKAGE / "report" / "fonts.py"])
+    pages = html.pages(document)
+    pictures = {
+        picture.file: figure.contents[figure.kinds[0]] for figure, picture in figures.items() if not picture.failure
+    }
+    files = {name: page.encode() for name, page in pages.items()} | pictures
+    files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))
+    files[RECORD] = record_of(document, pictures)
+    return {f"{document.report.name}/{name}": content for name, content in files.items()}
+
+
+def _pdf(document: "Document", figures: "dict[Figure, Picture]", cache: Cache, _sources: Sources) -> dict[str, bytes]:
+    """Return the PDF of a report."""
+    from atlas.report import pdf
+
+    with cache.temporary() as work:
+        (work / "figures").mkdir()
+        for figure, picture in figures.items():
+            if not picture.failure:
+                (work / picture.file).with_suffix(f".{figure.kinds[-1]}").write_bytes(figure.contents[figure.kinds[-1]])
+        source = pdf.source(document)
+        return {f"{document.report.name}.pdf": pdf.Compiler(work).compile(source)}
+
+
+_MAKERS = {"html": _pages, "pdf": _pdf}
+
+
+def _publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str, cache: Cache) -> None:
+    """Write the files of each format, all of them beside their places before the first is renamed.
+
+    What is stale in the folder of the pages is removed. Two builds at once take turns.
+    """
+    files = {path: content for contents in made.values() for path, content in contents.items()}
+    with cache.temporary() as work, _turn(out):
+        for number, content in enumerate(files.values()):
+            (work / str(number)).write_bytes(content)
+        for number, path in enumerate(files):
+            (out / path).parent.mkdir(parents=True, exist_ok=True)
+            (work / str(number)).replace(out / path)
+        for old in sorted((out / name).rglob("*"), reverse=True) if "html" in made else ():
+            if old.is_dir() and not any(old.iterdir()):
+                old.rmdir()
+            elif not old.is_dir() and old.relative_to(out).as_posix() not in files:
+                old.unlink()
+
+
+@contextmanager
+def _turn(folder: Path) -> Iterator[None]:
+    """Wait for one's turn in a folder; the lock is on the folder itself, so that nothing is left in it."""
+    opened = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(opened)
+
+
+def _hash(path: Path) -> str | None:
+    """Return the digest of a file, None if it can't be read."""
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return None

@@ -1,4 +1,4 @@
-"""What a figure or a page is made from: a digest of the code that it reaches, comments and formatting aside.
+"""What a figure or a report is made from: a digest of the code that it reaches, comments and formatting aside.
 
 A Python file is reached when it is named or imported, at any depth and also inside a function, from a file that is
 reached. Its digest is that of its syntax tree, so that a comment or a line break changes nothing, and a changed
@@ -7,114 +7,71 @@ docstring does (the title of a figure is one). Any other file, and one that is n
 
 import ast
 import hashlib
-import json
-import os
-import time
 from collections.abc import Iterable, Iterator
-from contextlib import suppress
-from functools import cache, lru_cache
-from importlib.metadata import PackageNotFoundError, version
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import atlas
 from atlas import _HOMES
-from atlas.build import notes
+from atlas.build.cache import Cache, digest
 from atlas.places import folder
 
 PACKAGE = Path(atlas.__file__).resolve().parent
 OURS = {"atlas", "figures"}
 """The names that imports of ours begin with."""
-TICK = 100_000_000
-"""Nanoseconds within which two changes of a file may bear the same time; clocks of file systems tick every 10 ms."""
-
-
-def digest(*parts: Any) -> str:
-    """Return the digest of values that JSON can write, the same on every machine."""
-    text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-@cache
-def release(library: str) -> str:
-    """Return the version of a library."""
-    try:
-        return version(library)
-    except PackageNotFoundError:
-        return "absent"
+MANY = 3000
 
 
 class Sources:
-    """Digests of files and of all that they reach, remembered between runs by the files' times, sizes and inodes.
+    """Digests of files and of all that they reach.
 
-    A file that was written just now is not remembered: it could be written again at the same time by the clock.
+    Every file is read; what its syntax tree says is remembered in the cache under the digest of its bytes.
     """
 
-    def __init__(self, memory: Path | None = None) -> None:
-        self._memory = memory
-        self._known: dict[str, dict[str, Any]] = {}
-        self._changed = False
-        self._seen: dict[str, dict[str, Any]] = {}
-        self._closures: dict[tuple[frozenset[str], frozenset[str]], str] = {}
-        if memory is not None:
-            self._known = notes.read(memory)
+    def __init__(self, cache: Cache | None = None) -> None:
+        self._cache = cache
+        self._known: dict[str, Any] = cache.load("sources") if cache else {}
+        self._used: dict[str, Any] = {}
+        self._seen: dict[Path, dict[str, Any]] = {}
 
-    def reached(self, roots: Iterable[Path], without: Iterable[Path] = ()) -> tuple[Path, ...]:
-        """Return the files and every module of ours that they import, sorted; not ``without`` nor through it."""
-        return tuple(sorted(map(Path, self._reached(map(_resolved, roots), map(_resolved, without)))))
+    def reached(self, roots: Iterable[Path]) -> tuple[Path, ...]:
+        """Return the files and every module of ours that they import, sorted."""
+        found, waiting = set[Path](), [path.resolve() for path in roots]
+        while waiting:
+            path = waiting.pop()
+            if path not in found:
+                found.add(path)
+                waiting += [module for name in self._facts(path)["imports"] for module in _files(name)]
+        return tuple(sorted(found))
 
-    def closure(self, roots: Iterable[Path], without: Iterable[Path] = ()) -> str:
-        """Return one digest of the files and of every module of ours that they import, but for ``without``.
+    def closure(self, roots: Iterable[Path]) -> str:
+        """Return one digest of the files and of every module of ours that they import.
 
         It does not depend on where the checkout is.
         """
-        asked = frozenset(map(_resolved, roots)), frozenset(map(_resolved, without))
-        if asked not in self._closures:
-            self._closures[asked] = self.alone(map(Path, sorted(self._reached(*asked))))
-        return self._closures[asked]
+        return digest(sorted([_place(path), self._facts(path)["digest"]] for path in self.reached(roots)))
 
-    def alone(self, files: Iterable[Path]) -> str:
-        """Return one digest of the files themselves."""
-        return digest([[_place(path), self._facts(_resolved(path))["digest"]] for path in files])
+    def named(self, file: str | None) -> str:
+        """Return the digest of a file if there is one of that name, else of the name."""
+        return self.closure([Path(file)]) if file and Path(file).is_file() else digest(file)
 
     def save(self) -> None:
-        """Remember the digests for the next run, where that can be written: it saves time, and nothing needs it."""
-        if self._memory is not None and self._changed:
-            with suppress(OSError):
-                notes.write(self._memory, self._known)
+        """Remember in the cache what was found out; what is not in use any more goes when it has become much."""
+        if self._cache is not None:
+            both = self._known | self._used
+            self._cache.save("sources", both if len(both) < MANY else self._used)
 
-    def _reached(self, roots: Iterable[str], without: Iterable[str]) -> set[str]:
-        closed, found, waiting = set(without), set[str](), list(roots)
-        while waiting:
-            path = waiting.pop()
-            if path not in found and path not in closed:
-                found.add(path)
-                waiting.extend(self._facts(path)["imports"])
-        return found
-
-    def _facts(self, path: str) -> dict[str, Any]:
-        """Return the digest of one file and what it imports; a file is looked at once."""
+    def _facts(self, path: Path) -> dict[str, Any]:
+        """Return the digest of one file and the names that it imports; a file is read once."""
         if path not in self._seen:
-            state = os.stat(path)  # noqa: PTH116  hundreds of times a build
-            stamp = [state.st_mtime_ns, state.st_ctime_ns, state.st_size, state.st_ino]
-            known = self._known.get(path)
-            if known is None or known["stamp"] != stamp:
-                known = {"stamp": stamp, **_read(Path(path))}
-                if time.time_ns() - state.st_ctime_ns > TICK:
-                    self._known[path] = known
-                    self._changed = True
-            files = {str(module) for name in known["imports"] for module in _files(name)}
-            self._seen[path] = {"digest": known["digest"], "imports": files}
+            content = path.read_bytes()
+            key = path.suffix + hashlib.sha256(content).hexdigest()
+            self._seen[path] = self._used[key] = self._known.get(key) or _read(path, content)
         return self._seen[path]
 
 
-@lru_cache(maxsize=4096)
-def _resolved(path: Path) -> str:
-    return str(path.resolve())
-
-
-def _read(path: Path) -> dict[str, Any]:
-    content = path.read_bytes()
+def _read(path: Path, content: bytes) -> dict[str, Any]:
     tree = _tree(content) if path.suffix == ".py" else None
     if tree is None:
         return {"digest": hashlib.sha256(content).hexdigest(), "imports": []}

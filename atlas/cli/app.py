@@ -10,7 +10,11 @@ from typing import Any
 import click
 
 from atlas import __version__
+from atlas.cli.encoding import write_plainly
 from atlas.errors import AtlasError
+
+LONG = 400
+"""Characters of a word that an error repeats whole."""
 
 
 class Door(click.Command):
@@ -40,8 +44,10 @@ for name, says in {
     "classify": "Name the quadric of constant Omega3.",
     "hyperbola": "Sample the hyperbola mf72.",
     "motion": "Compute an elementary motion.",
+    "general": "Compute any motion of the body.",
     "ball": "Rotate a charged ball (mf36 to mf39).",
     "particle": "Move a point charge.",
+    "sweep": "Tabulate quantities over parameters.",
     "check": "Grade a trajectory of your own.",
     "verify": "Put the paper's equations on trial.",
     "bench": "Measure error against time.",
@@ -54,12 +60,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and end the process: 0 well, 1 something failed, 2 a wrong input, 130 interrupted."""
     if sys.stdout is None:
         sys.exit(complain("standard output is closed", 1))
+    write_plainly()
     if not sys.warnoptions:  # a float that overflows is told by the command that shows it, not by NumPy
         warnings.simplefilter("ignore", RuntimeWarning)
     try:
         status = atlas.main(args=None if arguments is None else list(arguments), standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
-        click.echo(error.format_message())
+        click.echo(error.format_message(), err=True)
         status = 2
     except click.ClickException as error:
         status = complain(error.format_message(), error.exit_code)
@@ -77,6 +84,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def complain(sentence: str, status: int) -> int:
-    """Print one line on standard error and return the exit status."""
-    click.echo("atlas: " + " ".join(sentence.split()), err=True)
+    """Print one line on standard error, without what a terminal would obey, and return the exit status."""
+    words = [word if len(word) <= LONG else f"{word[: LONG // 2]}…{word[-LONG // 4 :]}" for word in sentence.split()]
+    click.echo(
+        "atlas: " + "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in " ".join(words)), err=True
+    )
     return status

@@ -5,6 +5,7 @@ from typing import Any
 
 import click
 
+from atlas import files
 from atlas.cli.options import Command, Many, Place, examples
 from atlas.cli.present import Sheet, dump, show
 from atlas.cli.progress import bar
@@ -19,7 +20,9 @@ OUT = Path("build/bench.json")
         "atlas bench", "atlas bench --quick --case elementary", "atlas bench --read reports/data/bench.json"
     ),
 )
-@click.option("--case", "cases", cls=Many, metavar="NAME [...]", help="elementary, ball, particle; all when left out.")
+@click.option(
+    "--case", "cases", cls=Many, metavar="NAME [...]", help="elementary, general, ball, particle; all when left out."
+)
 @click.option("--quick", is_flag=True, help="The short form, under half a minute.")
 @click.option("--read", type=click.Path(dir_okay=False, path_type=Path), help="Show this record instead of measuring.")
 @click.option(
@@ -46,16 +49,19 @@ def command(
             raise click.UsageError("--read shows a record that is there: nothing but --json goes with it.")
         found = records.read(read)
     else:
+        place = records.stored() if store else out or OUT
+        files.check(place)
         words = ["atlas bench", *(["--quick"] if quick else []), *(f"--case {case}" for case in cases)]
         with bar("bench") as tell:
             found = run(cases or None, quick, tell, command=" ".join(words))
-        records.write(found, records.stored() if store else out or OUT)
     if as_json:
         dump(_plain(found))
-        return
-    for table in tables(found):
-        show(Sheet(table.title, heading=table.heading, rows=table.rows, notes=table.notes, justify="left"))
-    click.echo(machine_line(found))
+    else:
+        for table in tables(found):
+            show(Sheet(table.title, heading=table.heading, rows=table.rows, notes=table.notes, justify="left"))
+        click.echo(machine_line(found))
+    if read is None:
+        records.write(found, place)
 
 
 def _plain(record: Any) -> Any:

@@ -26,13 +26,15 @@ if TYPE_CHECKING:
     cls=Command,
     epilog=examples(
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega2 0.7",
+        "atlas check mine.csv --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2",
         "atlas check mine.csv --figure mine.pdf --json",
     ),
 )
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="FILE.csv")
 @body_options
 @field_options
-@click.option("--omega2", type=REAL, help="Second component of the initial angular velocity.")
+@click.option("--omega", type=REAL, nargs=3, metavar="W1 W2 W3", help="Initial angular velocity, of a general motion.")
+@click.option("--omega2", type=REAL, help="Its second component alone, of an elementary motion.")
 @click.option("--omega3", type=REAL, help="Third component, where mf76 leaves it free.")
 @click.option(
     "--threshold", type=REAL, default="6", show_default=True, help="Correct digits below which a column fails."
@@ -47,6 +49,9 @@ def command(file: Path, **options: Any) -> int:
     FILE.csv has a column t and any of R11 to R33, Omega1 to Omega3, or a quaternion w, x, y, z. The parameters are
     options, or lines such as '# field = 1 2' at the head of the file.
 
+    A body without symmetry is one with a line '# inertia = 1 1.7 2.2' (or with the six elements J11 J22 J33 J12 J13
+    J23): its integrals H, F, (M,K), K^2 and T are watched, since there is no closed form to compare with.
+
     The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
     option is wrong.
     """
@@ -60,12 +65,13 @@ def command(file: Path, **options: Any) -> int:
         field=chosen_field(options) if field else None,
         omega2=options["omega2"],
         omega3=options["omega3"],
+        omega=options["omega"],
         threshold=options["threshold"],
     )
     if options["figure"] is not None:
-        from atlas.render.drawing import draw
+        from atlas.draw.files import save
 
-        draw(found.scene(), options["figure"])
+        save(found.scene(), {options["figure"]: options["figure"].suffix.lstrip(".")})
     if options["as_json"]:
         dump(found.record())
     else:
@@ -82,7 +88,10 @@ def tables(found: "Check") -> None:
     """Show the grades of the columns, and what drifts."""
     title = f"{found.file}: {found.rows} row{'s' * (found.rows != 1)}, case {found.case}"
     heading, rows = found.column_table()
-    show(Sheet(title, heading=heading, rows=rows))
+    if rows:
+        show(Sheet(title, heading=heading, rows=rows))
+    else:
+        click.echo(f"{title}: nothing to compare with, so no column is graded")
     heading, rows = found.drift_table()
     if rows:
         show(Sheet("what should not change", heading=heading, rows=rows, justify="left"))

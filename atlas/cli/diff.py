@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from atlas import files
 from atlas.cli.options import Command, Place, examples
 from atlas.cli.present import Sheet, dump, show
 
@@ -45,11 +46,8 @@ def command(old: Path, new: Path, page: Path | None, as_json: bool) -> int:
     found = compare(old, new)
     if page is not None:
         from atlas.build.compare_page import as_page
-        from atlas.build.whole import staging, write
 
-        with staging(page.parent) as stage:
-            write(stage / page.name, as_page(found))
-            (stage / page.name).replace(page)
+        files.write(page, as_page(found))
     if as_json:
         dump(record(found))
     else:

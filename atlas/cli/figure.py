@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import Command, Many, Typed, examples, jobs_option, out_option
+from atlas.cli.options import Command, Many, Typed, examples, jobs_option, out_option, style_option
 from atlas.cli.present import explained, show
 from atlas.cli.progress import bar
 from atlas.errors import AtlasError
 
 if TYPE_CHECKING:
-    from atlas.build.figure import Figure
+    from atlas.build.figures import Files
 
 
 @click.command(
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     "--format",
     "formats",
     cls=Many,
-    type=click.Choice(["svg", "pdf", "png"]),
-    help="svg, pdf, png; all three when left out.",
+    type=click.Choice(["svg", "pdf", "png", "pgf"]),
+    help="svg, pdf, png, pgf; the first three when left out.",
 )
 @click.option(
     "--renderer",
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     help="On paper with hidden lines, or shaded (PNG).",
 )
 @out_option("build/figures")
+@style_option
 @jobs_option
 @click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken.")
 def command(
@@ -51,6 +52,7 @@ def command(
     formats: tuple[str, ...],
     renderer: str,
     out: Path,
+    style: str | None,
     jobs: int | None,
     explain: bool,
 ) -> int:
@@ -59,7 +61,7 @@ def command(
     What was drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
     others; then the exit status is 1.
     """
-    from atlas.build.figure import build_figures
+    from atlas.build.figures import build_figures
     from atlas.scene import recipes
 
     if everything == bool(names):
@@ -72,8 +74,8 @@ def command(
     kinds = dict.fromkeys(formats) or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
     parameters = dict(setting(text) for text in settings)
     with bar("figures") as tell:
-        figures = list(
-            build_figures(wanted, tuple(kinds), out, renderer=renderer, parameters=parameters, jobs=jobs, progress=tell)
+        figures = build_figures(
+            wanted, tuple(kinds), out, renderer=renderer, parameters=parameters, style=style, jobs=jobs, progress=tell
         )
     if len(wanted) == 1 and figures[0].failure:
         raise AtlasError(figures[0].failure)
@@ -86,7 +88,7 @@ def command(
     return warned(figures, renderer)
 
 
-def warned(figures: "list[Figure]", renderer: str) -> int:
+def warned(figures: "list[Files]", renderer: str) -> int:
     """Tell what was not drawn as it was asked for, and why; return the exit status."""
     for note in dict.fromkeys(figure.note for figure in figures if figure.note):
         click.echo(f"atlas: {note}", err=True)
@@ -116,10 +118,7 @@ def _word(text: str) -> Any:
     if text in {"true", "false"}:
         return text == "true"
     try:
-        return int(text)
-    except ValueError:
-        pass  # not a whole number: perhaps a float
-    try:
-        return float(Typed(text))
+        number = float(Typed(text))
     except (ValueError, ZeroDivisionError, OverflowError):
         return text
+    return int(text) if text.lstrip("+-").isdecimal() else number

@@ -89,7 +89,7 @@ def sheet(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -> S
     lines = [
         Line("-B2", "pole of omega3(omega2)", texts["pole"], "1/time", "mf76"),
         Line(
-            "y", "((omega2 + B2)/B2)^2 where the motion is unstable", f"({band[0]}, {band[1]})" if band else "nowhere"
+            "y", "((omega2 + B2)/B2)^2 where the motion is unstable", f"{band[0]} to {band[1]}" if band else "nowhere"
         ),
     ]
     heading = [f"{name} [1/time]" for name in COLUMNS[:-1]] + ["nutation^2 [1/time^2]"]

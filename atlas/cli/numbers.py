@@ -16,10 +16,12 @@ def answer(
     parameters: dict[str, Any],
     floats: Callable[[], dict[str, Any]],
     balls: Callable[[], dict[str, Any]],
+    spare: int = 1 << 16,
 ) -> dict[str, Any] | None:
     """Print the JSON that was asked for and return None, or return the quantities as certified texts for a table.
 
     ``floats`` computes the quantities with the kernels, ``balls`` with proven radii; they have the same keys.
+    ``spare`` goes to `certified`.
     """
     if options["as_json"] and options["digits"] is None:
         if options["decimal"]:
@@ -28,7 +30,7 @@ def answer(
         return None
     from atlas.exact.digits import certified
 
-    texts: dict[str, Any] = certified(balls, options["digits"] or TABLE_DIGITS)
+    texts: dict[str, Any] = certified(balls, options["digits"] or TABLE_DIGITS, spare=spare)
     if not options["as_json"]:
         return texts
     taken = "decimals as typed" if options["decimal"] else "the doubles nearest to what was typed"

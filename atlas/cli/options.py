@@ -15,14 +15,29 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 
+LONGEST = 2000
+"""Characters of a number that is typed: beyond it, arithmetic with all digits takes its time."""
+
+NUMBER = re.compile(
+    r"""[+-]? (?: (?P<decimal> (?: \d+ \.? \d* | \.\d+ ) (?: e[+-]?0*\d{1,4} )? )
+              | (?P<fraction> \d+/\d+ )
+              | (?P<hexadecimal> 0x (?: [\da-f]+ \.? [\da-f]* | \.[\da-f]+ ) (?: p[+-]?0*\d{1,4} )? ) )""",
+    re.ASCII | re.IGNORECASE | re.VERBOSE,
+)
+"""Ways to type a number, without the underscores and foreign digits that Python reads; exponents of four digits."""
+
+
 class Typed(float):
     """A double that remembers the decimal it was typed as."""
 
     text: str
 
     def __new__(cls, text: str) -> Self:
-        """Read a decimal, a fraction such as 2/3 or a hexadecimal float such as 0x1.8p0."""
-        value = float.fromhex(text) if "0x" in text.lower() else float(_fraction(text) if "/" in text else text)
+        """Read a decimal, a fraction such as 2/3 or a hexadecimal float such as 0x1.8p0; ValueError for all else."""
+        form = NUMBER.fullmatch(text) if len(text) <= LONGEST else None
+        if form is None:
+            raise ValueError(text)
+        value = float.fromhex(text) if form["hexadecimal"] else float(_fraction(text) if form["fraction"] else text)
         number = super().__new__(cls, value)
         number.text = text
         return number
@@ -45,14 +60,19 @@ class Real(click.ParamType[Typed]):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
         """Turn what was typed into a number, or say what is wrong with it."""
+        text = str(value)
         try:
-            number = Typed(str(value))
-        except (ValueError, ZeroDivisionError, OverflowError):
-            self.fail(f"{value!r} is not a number; write 1.5, 3/2 or 1e-3.", param, ctx)
+            number = Typed(text)
+        except OverflowError:
+            self.fail(f"{text!r} is beyond the largest float.", param, ctx)
+        except (ValueError, ZeroDivisionError):
+            if len(text) > LONGEST:
+                self.fail(f"{text!r} has {len(text)} characters; a number has at most {LONGEST}.", param, ctx)
+            if re.fullmatch(r"[+-]?[\d.]+e[+-]?\d+", text, re.ASCII | re.IGNORECASE):
+                self.fail(f"{text!r} has an exponent of more than four digits.", param, ctx)
+            self.fail(f"{text!r} is not a finite number; write 1.5, 3/2 or 1e-3.", param, ctx)
         if not math.isfinite(number):
-            self.fail(f"{value!r} is not finite.", param, ctx)
-        if re.search(r"e[+-]?0*[1-9]\d{4}", number.text.lower()) and "0x" not in number.text.lower():
-            self.fail(f"{value!r} has an exponent of more than four digits.", param, ctx)
+            self.fail(f"{text!r} is beyond the largest float.", param, ctx)
         return number
 
 
@@ -164,6 +184,13 @@ def out_option(standard: str) -> Callable[[F], F]:
 
 jobs_option: Callable[[F], F] = click.option(
     "--jobs", "-j", type=click.IntRange(min=1), help="Figures drawn at once; else one a core."
+)
+
+
+style_option: Callable[[F], F] = click.option(
+    "--style",
+    metavar="FILE",
+    help="A style sheet of Matplotlib (.mplstyle), or the name of one, on top of the own look.",
 )
 
 

@@ -89,7 +89,12 @@ def dump(record: dict[str, Any]) -> None:
     """
     reasons: dict[str, str] = dict(record.get("missing", {}))
     found = plain(record, "", reasons) | ({"missing": reasons} if reasons else {})
-    click.echo(json.dumps(found, ensure_ascii=False, allow_nan=False, indent=None))
+    click.echo(json.dumps(found, ensure_ascii=not _unicode(), allow_nan=False, indent=None))
+
+
+def _unicode() -> bool:
+    """Whether all letters can be printed."""
+    return (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
 
 
 def plain(value: Any, place: str, reasons: dict[str, str]) -> Any:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from atlas.cli.options import Command, Many, examples, jobs_option, out_option
+from atlas.cli.options import Command, Many, examples, jobs_option, out_option, style_option
 from atlas.cli.present import Sheet, explained, show
 from atlas.cli.progress import bar
 
@@ -32,10 +32,13 @@ if TYPE_CHECKING:
     type=click.Choice(["html", "pdf"]),
     help="html, pdf; both when left out. What is left out stays as it is.",
 )
+@style_option
 @jobs_option
 @click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken, and what it cost.")
 @click.option("--keep-costs", is_flag=True, help="Store what this build cost where the report's own chart reads it.")
-def command(name: str, out: Path, formats: tuple[str, ...], jobs: int | None, explain: bool, keep_costs: bool) -> int:
+def command(
+    name: str, out: Path, formats: tuple[str, ...], style: str | None, jobs: int | None, explain: bool, keep_costs: bool
+) -> int:
     """Build a report: HTML pages that open from disk, and a PDF with the same content.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
@@ -45,16 +48,16 @@ def command(name: str, out: Path, formats: tuple[str, ...], jobs: int | None, ex
     from atlas.build.report import FORMATS, build_report
 
     with bar("report") as tell:
-        built = build_report(name, out, tell, formats=formats or FORMATS, jobs=jobs)
+        built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs)
     for one, file in (("html", built.index), ("pdf", built.pdf)):
         if one in (formats or FORMATS):
             click.echo(file)
     if explain:
         _explain(built)
-    if keep_costs and built.ledger is not None:
-        from atlas.build.ledger import keep
+    if keep_costs and built.costs is not None:
+        from atlas.build.costs import keep
 
-        click.echo(keep(built.ledger))
+        click.echo(keep(built.costs))
     for note in built.notes:
         click.echo(f"atlas: {note}", err=True)
     for recipe, reason in built.failures:
@@ -65,9 +68,8 @@ def command(name: str, out: Path, formats: tuple[str, ...], jobs: int | None, ex
 def _explain(built: "Built") -> None:
     """Show why each part was made or taken, and what the figures cost."""
     show(explained(built.reasons))
-    if built.ledger is not None:
-        from atlas.build.ledger import table
+    if built.costs is not None:
+        from atlas.build.costs import HEADING, rows
 
-        heading, rows = table(built.ledger)
-        note = "A figure from the store shows what it cost when it was drawn."
-        show(Sheet("what the figures cost", heading=heading, rows=rows, notes=[note]))
+        note = "A figure from the cache shows what it cost when it was drawn."
+        show(Sheet("what the figures cost", heading=HEADING, rows=rows(built.costs), notes=[note]))

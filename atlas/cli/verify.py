@@ -10,32 +10,53 @@ from atlas.cli.options import Command, examples
 from atlas.cli.present import Sheet, dump, show
 from atlas.cli.progress import bar
 
-COLUMNS = ("label", "number", "section", "kind", "verdict", "printed", "corrected", "counterexample", "seconds")
+COLUMNS = (
+    "label",
+    "number",
+    "section",
+    "kind",
+    "verdict",
+    "grade",
+    "slip",
+    "printed",
+    "corrected",
+    "counterexample",
+    "seconds",
+)
 
 
 @click.command(
     "verify",
     cls=Command,
-    epilog=examples("atlas verify mf56 mf76", "atlas verify --json", "atlas verify --mutants mf89"),
+    epilog=examples("atlas verify mf56 mf76", "atlas verify --json", "atlas verify --mutants --all mf89"),
 )
 @click.argument("labels", nargs=-1, metavar="[LABEL...]")
 @click.option("--mutants", is_flag=True, help="Change each true form in one place at a time: does the trial notice?")
+@click.option("--all", "every", is_flag=True, help="With --mutants: every change that can be made, not a sample.")
 @click.option("--record", is_flag=True, help="Keep what was found as the recorded verdicts that reports draw.")
 @click.option("--anew", is_flag=True, help="Try everything, also what was tried before with the same proof.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=1, show_default=True, help="Trials side by side.")
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
-def command(labels: tuple[str, ...], mutants: bool, record: bool, anew: bool, jobs: int, as_json: bool) -> int:
+def command(
+    labels: tuple[str, ...], mutants: bool, every: bool, record: bool, anew: bool, jobs: int, as_json: bool
+) -> int:
     """Try equations and claims of the paper, all if none is named, on the form as printed.
 
-    A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided or
-    supported. The exit status is 1 if a verdict differs from the recorded one, or a mutant survives without a reason.
+    A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided,
+    supported, or definition where there is nothing to prove. Slips are graded. The exit
+    status is 1 if a verdict differs from the recorded one, or a mutant survives without a reason.
     """
     if record and labels:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
+    if every and not mutants:
+        raise click.UsageError("--all is about --mutants: give both.")
+    if record and mutants and not every:
+        raise click.UsageError("--record keeps what became of all mutants: give --all too.")
     from atlas import proof
     from atlas.proof.run import CACHE
 
     options: dict[str, Any] = {"jobs": jobs, "cache_folder": None if anew else Path(CACHE)}
+    options |= {"every": every} if mutants else {}
     with bar("trials") as tell:
         run = proof.mutants if mutants else proof.verify
         found = run(labels or None, lambda label, done, total: tell(done, total, label), **options)
@@ -48,25 +69,39 @@ def command(labels: tuple[str, ...], mutants: bool, record: bool, anew: bool, jo
 def _verdicts(found: Any, as_json: bool, record: bool) -> int:
     """Show verdicts and what differs from the record; return the exit status."""
     from atlas.proof.record import differs
+    from atlas.proof.verdict import slips
 
     different = differs(found)
     if as_json:
         equations = [{name: one.as_dict()[name] for name in COLUMNS} | {"example": one.example} for one in found]
         dump({"equations": equations, "different": [list(row) for row in different]})
     else:
-        heading = ("label", "number", "verdict", "corrected form", "method", "s")
+        heading = ("label", "number", "verdict", "slip", "corrected form", "method", "s")
         rows = [
-            [one.label, str(one.number or ""), one.verdict, one.corrected_verdict, one.method, f"{one.seconds:.1f}"]
+            [
+                one.label,
+                str(one.number or ""),
+                one.verdict,
+                one.grade,
+                one.corrected_verdict,
+                one.method,
+                f"{one.seconds:.1f}",
+            ]
             for one in found
         ]
         show(Sheet("the paper's equations on trial, as printed", heading=heading, rows=rows, justify="left"))
         for one in found:
-            if one.verdict == "refuted":
+            if one.grade:
                 words = {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
+                words = {name: text for name, text in words.items() if text}
                 click.echo("\n".join([one.label, *(f"  {name + ':':16}{text}" for name, text in words.items())]))
         totals = Counter(one.verdict for one in found)
         seconds = sum(one.seconds for one in found)
         click.echo(f"{', '.join(f'{n} {name}' for name, n in totals.most_common())}; {seconds:.0f} s of trials")
+        graded = {grade: len(labels) for grade, labels in slips(found).items() if labels}
+        if graded:
+            each = ", ".join(f"{count} {grade}" for grade, count in graded.items())
+            click.echo(f"{sum(graded.values())} distinct slips: {each}")
     for label, was, now in different:
         click.echo(f"atlas: {label} was recorded as {was} and is found {now}", err=True)
     return int(bool(different) and not record)
@@ -74,11 +109,23 @@ def _verdicts(found: Any, as_json: bool, record: bool) -> int:
 
 def _mutants(found: Any, as_json: bool) -> int:
     """Show what became of the mutants; return the exit status."""
-    unexplained = [one for one in found if one.survivors and not one.reason]
+    from atlas.proof.survivors import reason
+
+    why = {(one.label, line): reason(one.label, line) for one in found for _, line, _ in one.survivors}
+    unexplained = [(label, line) for (label, line), text in why.items() if not text]
     if as_json:
-        dump({"mutants": [one.as_dict() for one in found]})
+        dump({"mutants": [one.as_dict() | {"survivors": _explained(one, why)} for one in found]})
     else:
-        rows = [[one.label, str(one.tried), str(one.noticed), str(len(one.survivors)), one.reason] for one in found]
+        rows = [
+            [
+                one.label,
+                str(one.tried),
+                str(one.noticed),
+                str(len(one.survivors)),
+                " ".join(dict.fromkeys(why[one.label, line] for _, line, _ in one.survivors)),
+            ]
+            for one in found
+        ]
         heading = ("label", "mutants", "noticed", "survive", "because")
         show(Sheet("forms changed in one place", heading=heading, rows=rows, justify="left"))
         for one in found:
@@ -86,6 +133,14 @@ def _mutants(found: Any, as_json: bool) -> int:
                 click.echo(f"{one.label} survives {what}: {line} ({decision})")
         tried, noticed = sum(one.tried for one in found), sum(one.noticed for one in found)
         click.echo(f"{tried} mutants, {noticed} noticed, {tried - noticed} survive")
-    for one in unexplained:
-        click.echo(f"atlas: a mutant of {one.label} survives and no reason is on record", err=True)
+    for label, line in unexplained:
+        click.echo(f"atlas: a mutant of {label} survives and no reason is on record: {line}", err=True)
     return int(bool(unexplained))
+
+
+def _explained(one: Any, why: dict[tuple[str, str], str]) -> list[dict[str, str]]:
+    """Return the survivors of an entry for JSON, each with its reason."""
+    return [
+        {"change": what, "line": line, "verdict": full, "reason": why[one.label, line]}
+        for what, line, full in one.survivors
+    ]

@@ -24,6 +24,10 @@ SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
 """What the functions of a basis have to be multiplied by: they come as halves, and as products of halves."""
 
 
+LEFT = (0, 1, 2, 1, 3, 4, 2, 4, 2, 5, 5)
+"""Which of the matrices L_r of `resolution` are the same."""
+
+
 class Basis:
     """The functions F_r of up to `size` times, for both phases; or cos, sin and 1 - cos of one.
 
@@ -36,15 +40,15 @@ class Basis:
         self.work = np.empty((8, phases.words.shape[1], size))
         self.rows = np.empty((count, size))
 
-    def at(self, t: FloatArray) -> FloatArray:
-        """Return the functions over SCALE, shape (count, m); valid until the next call."""
+    def at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
+        """Return the functions over SCALE, shape (count, m), at times t + low; valid until the next call."""
         rows, work = self.rows, self.work
         if t.size < rows.shape[1]:
             rows, work = rows[:, : t.size], work[:, :, : t.size]
         if len(rows) == 3:
-            self.phases.circle(t, work, rows[0:1], rows[1:2], rows[2])
+            self.phases.circle(t, work, rows[0:1], rows[1:2], rows[2], low)
             return rows
-        self.phases.circle(t, work, rows[0:2], rows[2:4], rows[4])
+        self.phases.circle(t, work, rows[0:2], rows[2:4], rows[4], low)
         np.multiply(rows[0:3:2], rows[1], out=rows[5:7])
         np.multiply(rows[0:3:2], rows[3], out=rows[7:9])
         if len(rows) == 11:

@@ -14,6 +14,7 @@ with v = y'(0). No term is larger than the motion itself, any sign of mu is righ
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -27,8 +28,64 @@ from atlas.errors import DomainError
 BLOCK = 4096
 """Times evaluated at once, so that what is between stays in the cache."""
 
+CASES = (
+    "electric field alone", "no force", "magnetic field alone", "parallel fields", "oblique fields", "crossed fields",
+)  # fmt: skip
+KINDS = (
+    "parabola", "straight line", "point", "circle", "cycloid", "prolate trochoid", "curtate trochoid",
+)  # fmt: skip
 
-class Charge:
+
+class Path:
+    """Path of one particle, or of particles in a row with one time each, from what it is made of.
+
+    `y0` (3,); `velocity_parts`, `acceleration_parts` (3, 3), see `Charge._split`; `rate` |w|; `phases`, of |w| t;
+    `centre` (3, 3). For m particles each has one dimension (m,) more.
+    """
+
+    def fill_position(self: Any, t: FloatArray, out: FloatArray) -> None:
+        """Write y(t), mf10.2 with mf5 and mf10, at times (m,) into (m, 3)."""
+
+        def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
+            v, a = self.velocity_parts[:, i], self.acceleration_parts[:, i]
+            inner = a[0] / 2 + x.f * a[1] + x.h * a[2]
+            return np.asarray(self.y0[i] + t * (v[0] + x.s * v[1] + x.g * v[2] + t * inner))
+
+        self._fill(component, t, out)
+        _check(out, "The position")
+
+    def fill_velocity(self: Any, t: FloatArray, out: FloatArray) -> None:
+        """Write y'(t), mf2, at times (m,) into (m, 3)."""
+
+        def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
+            v, a = self.velocity_parts[:, i], self.acceleration_parts[:, i]
+            return np.asarray(v[0] + x.cos * v[1] + x.sin * v[2] + t * (a[0] + x.s * a[1] + x.g * a[2]))
+
+        self._fill(component, t, out)
+        _check(out, "The velocity")
+
+    def fill_centre(self: Any, t: FloatArray, out: FloatArray) -> None:
+        """Write O(t) of mf11, carried along B with the particle, at times (m,) into (m, 3)."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            for i, (start, velocity, acceleration) in enumerate(zip(*self.centre, strict=True)):
+                out[:, i] = start + t * (velocity + t * (acceleration / 2))
+        _check(out, "The guiding centre")
+
+    def _fill(
+        self: Any, component: Callable[[int, FloatArray, Gyration], FloatArray], t: FloatArray, out: FloatArray
+    ) -> None:
+        """Write the three components, block by block."""
+        for start in range(0, t.size, BLOCK):
+            piece = t[start : start + BLOCK]
+            halves, work = np.empty((3, 1, piece.size)), np.empty((8, 1, piece.size))
+            self.phases.circle(piece, work, halves[0], halves[1], halves[2, 0])
+            functions = gyration(self.rate * piece, *(2 * halves[:, 0]))
+            with np.errstate(over="ignore", invalid="ignore"):
+                for i in range(3):
+                    out[start : start + BLOCK, i] = component(i, piece, functions)
+
+
+class Charge(Path):
     """A particle of finite mu, c > 0, and fields, position, velocity (3,), all checked and taken as exact.
 
     All that follows from them but lengths is rational, and is rounded once. See `ParticleMotion` for what is public.
@@ -42,8 +99,8 @@ class Charge:
         self._w = w = times(-Fraction(mu) / Fraction(c), self.B)
         self._w2 = w2 = dot(w, w)
         self.rate = root(w2)
-        self._acceleration = self._split(self._a, "The acceleration mu E")
-        self._velocity = self._split(self._v, "The velocity")
+        self.acceleration_parts = self._split(self._a, "The acceleration mu E")
+        self.velocity_parts = self._split(self._v, "The velocity")
 
     def _split(self, v: Vector, name: str) -> FloatArray:
         """Return the rows v_par, v_perp and [n, v_perp]; without a magnetic force, v alone."""
@@ -104,7 +161,7 @@ class Charge:
         start = plus(exact(self.y0), times(1 / self._w2, cross(self._w, self._circling)))
         along = times(dot(self._w, self._v) / self._w2, self._w)
         name = "The guiding centre"
-        return np.array([rounded(start, name), rounded(plus(along, self._drift), name), self._acceleration[0]])
+        return np.array([rounded(start, name), rounded(plus(along, self._drift), name), self.acceleration_parts[0]])
 
     @property
     def axes(self) -> FloatArray:
@@ -115,56 +172,20 @@ class Charge:
             raise DomainError("The frame of figure Magn needs an electric field across B, but E is along B or zero.")
         return np.array([unit(e1), unit(cross(self.B, e1)), unit(self.B)])
 
-    def fill_position(self, t: FloatArray, out: FloatArray) -> None:
-        """Write y(t), mf10.2 with mf5 and mf10, at times (m,) into (m, 3)."""
-
-        def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
-            v, a = self._velocity[:, i], self._acceleration[:, i]
-            inner = a[0] / 2 + x.f * a[1] + x.h * a[2]
-            return np.asarray(self.y0[i] + t * (v[0] + x.s * v[1] + x.g * v[2] + t * inner))
-
-        self._fill(component, t, out)
-        _check(out, "The position")
-
-    def fill_velocity(self, t: FloatArray, out: FloatArray) -> None:
-        """Write y'(t), mf2, at times (m,) into (m, 3)."""
-
-        def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
-            v, a = self._velocity[:, i], self._acceleration[:, i]
-            return np.asarray(v[0] + x.cos * v[1] + x.sin * v[2] + t * (a[0] + x.s * a[1] + x.g * a[2]))
-
-        self._fill(component, t, out)
-        _check(out, "The velocity")
-
-    def fill_centre(self, t: FloatArray, out: FloatArray) -> None:
-        """Write O(t) of mf11, carried along B with the particle, at times (m,) into (m, 3)."""
-        start, velocity, acceleration = self.centre
-        with np.errstate(over="ignore", invalid="ignore"):
-            out[:] = start + t[:, None] * (velocity + t[:, None] * (acceleration / 2))
-        _check(out, "The guiding centre")
-
     def needs_field(self, what: str) -> None:
         """Raise DomainError where there is no magnetic force."""
         if not self.rate:
             raise DomainError(f"Without a magnetic force (mu B = 0) the motion has no {what}.")
 
-    def _fill(
-        self, component: Callable[[int, FloatArray, Gyration], FloatArray], t: FloatArray, out: FloatArray
-    ) -> None:
-        """Write the three components, block by block."""
-        for start in range(0, t.size, BLOCK):
-            piece = t[start : start + BLOCK]
-            halves, work = np.empty((3, 1, piece.size)), np.empty((8, 1, piece.size))
-            self._phases.circle(piece, work, halves[0], halves[1], halves[2, 0])
-            functions = gyration(self.rate * piece, *(2 * halves[:, 0]))
-            with np.errstate(over="ignore", invalid="ignore"):
-                for i in range(3):
-                    out[start : start + BLOCK, i] = component(i, piece, functions)
-
     @cached_property
-    def _phases(self) -> Phases:
+    def phases(self) -> Phases:
         """The phase |w| t, with |w| in two words; without a magnetic force it is 0."""
-        return Phases([(Wide(self._w2.numerator) / Wide(self._w2.denominator)).sqrt() / TURN])
+        return Phases([self.frequency / TURN])
+
+    @property
+    def frequency(self) -> Wide:
+        """The frequency |w|."""
+        return (Wide(self._w2.numerator) / Wide(self._w2.denominator)).sqrt()
 
     @property
     def _drift(self) -> Vector:

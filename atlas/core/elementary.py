@@ -1,20 +1,33 @@
 """Motions of a symmetric body in elementary functions, mf64 to mf93, and the free body beside them, mf92."""
 
-from functools import cached_property
+from functools import cached_property, partial
+from math import prod
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from atlas.core.body import moments
+from atlas.core.double_double import over
 from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.integrals import integrals, shape_factors
+from atlas.core.invariants import NAMES, invariants
 from atlas.core.motion import Motion, components
 from atlas.core.rotation import DoubleRotation
-from atlas.core.wide import ONE, ZERO, Wide, exact, length
+from atlas.core.turnings import Group
+from atlas.core.wide import ZERO, Number, direction, exact, length
 from atlas.errors import DomainError
 
-FREE = {"free body", "spin along the field", "transverse field, free spin", "ball, free spin"}
-"""Cases in which omega3 is free and has to be given."""
+CASES = (
+    "free body",
+    "spin along the field",
+    "transverse field, free spin",
+    "ball, free spin",
+    "at rest",
+    "precession",
+)
+FREE = 4
+"""In the first so many cases omega3 is free and has to be given."""
 
 
 def case_of(I2: float, I3: float, B2: float, B3: float, omega2: float) -> str:
@@ -39,13 +52,56 @@ def case_of(I2: float, I3: float, B2: float, B3: float, omega2: float) -> str:
     return "precession" if omega2 else "at rest"
 
 
-def curve(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> tuple[Wide, Wide]:
-    """Return omega3 by mf76 and phi by mf77, for B2 != 0 and omega2 != -B2.
+def ordinate(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return omega3 = B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2)), mf76, for B2 != 0 and omega2 != -B2."""
+    return _common(I3, B2, B3, omega2) * (I2 * omega2 + (I2 + I2 - I3) * B2)
 
-    omega3 = B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2)),  phi = B3 w2 (1-I) (w2 + 2 B2) / (I B2 (w2 + B2)).
-    """
-    common = B3 * omega2 / (I3 * B2 * (omega2 + B2))
-    return common * (I2 * omega2 + (I2 + I2 - I3) * B2), common * (I2 - I3) * (omega2 + B2 + B2)
+
+def proper(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return phi = B3 w2 (1-I) (w2 + 2 B2) / (I B2 (w2 + B2)), mf77, for B2 != 0 and omega2 != -B2."""
+    return _common(I3, B2, B3, omega2) * ((I2 - I3) * (omega2 + B2 + B2))
+
+
+def _common(I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return the factor that mf76 and mf77 share."""
+    return B3 * omega2 / (I3 * B2 * (omega2 + B2))
+
+
+def precession(B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return k = omega2/B2hat, mf84, for B2 != 0."""
+    return omega2 * (length(B2, B3) / B2)
+
+
+def constants(
+    case: str, I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, omega3: Number
+) -> tuple[Number, tuple[Number, Number], Number, Number]:
+    """Return omega3, which in the cases FREE is as given, a vector (x, y) along the axis, k and phi."""
+    if case == "free body":
+        along = omega2, I3 * omega3 / I2
+        return omega3, along, length(*along), (I2 - I3) * omega3 / I2
+    if case == "spin along the field":
+        return omega3, (B2, B3), omega2, omega3
+    k = precession(B2, B3, omega2)
+    if case in CASES[:FREE]:
+        return omega3, (B2, B3), k, omega3 + B3
+    curve = I2, I3, B2, B3, omega2
+    return ordinate(*curve), (B2, B3), k, proper(*curve)
+
+
+def scalars(case: str, *inputs: Number) -> tuple[Number, ...]:
+    """Return omega3, k, phi and I omega3."""
+    omega3, _, k, phi = constants(case, *inputs)
+    return omega3, k, phi, inputs[1] * omega3 / inputs[0]
+
+
+def turning(case: str, *inputs: Number) -> tuple[tuple[Number, Number], Number, Number]:
+    """Return a vector along the axis, k and phi."""
+    return constants(case, *inputs)[1:]
+
+
+def quotient(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return omega3 = I2 omega2 B3/(I3 B2) of the free body that precesses with the charged one, above mf92."""
+    return I2 * omega2 * B3 / (I3 * B2)
 
 
 class Elementary(DoubleRotation):
@@ -53,30 +109,16 @@ class Elementary(DoubleRotation):
 
     def __init__(self, I2: float, I3: float, B2: float, B3: float, omega2: float, given: float | None) -> None:
         self.case = case_of(I2, I3, B2, B3, omega2)
-        i2, i3, b2, b3, w2 = exact(I2, I3, B2, B3, omega2)
-        if self.case in FREE:
-            if given is None:
-                raise DomainError(f"In the case '{self.case}' omega3 is free: give it.")
-            w3 = Wide.exactly(given)
-        else:
-            w3, proper = curve(i2, i3, b2, b3, w2)
-            if given is not None and given != float(w3):
-                raise DomainError(f"omega3 follows from omega2 by mf76 and is {float(w3)}, not {given}: leave it out.")
-        direction, precession = (b2, b3), ZERO
-        if self.case == "free body":
-            direction, proper = (w2, i3 * w3 / i2), (i2 - i3) * w3 / i2
-            precession = length(*direction)
-        elif self.case == "spin along the field":
-            proper = w3
-        else:
-            precession = w2 * length(b2, b3) / b2
-            if self.case in FREE:
-                proper = w3 + b3
-        self.field, self.omega2, self.omega3 = (B2, B3), omega2, float(w3)
-        self.momentum = (0.0, omega2, float(i3 * w3 / i2))
-        size = length(*direction)
-        axis = (ZERO, direction[0] / size, direction[1] / size) if size else (ZERO, ZERO, ONE)
-        super().__init__(axis, precession, proper)
+        if self.case in CASES[:FREE] and given is None:
+            raise DomainError(f"In the case '{self.case}' omega3 is free: give it.")
+        inputs = exact(I2, I3, B2, B3, omega2, 0.0 if given is None else given)
+        w3, along, k, phi = constants(self.case, *inputs)
+        self.omega3 = float(w3)
+        if self.case not in CASES[:FREE] and given is not None and given != self.omega3:
+            raise DomainError(f"omega3 follows from omega2 by mf76 and is {self.omega3}, not {given}: leave it out.")
+        third = float(inputs[1] * w3 / inputs[0])
+        self.vectors = {"Omega": (0.0, omega2, self.omega3), "K": (0.0, B2, B3), "m": (0.0, omega2, third)}
+        super().__init__((ZERO, *direction(along)), k, phi)
 
 
 class ElementaryMotion(Motion[Elementary]):
@@ -100,6 +142,8 @@ class ElementaryMotion(Motion[Elementary]):
     the phases stay within 2^50.
     """
 
+    _unit = slice(2, 6)
+
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
         self.ratio = ratio
         I2, I3 = moments(ratio)
@@ -107,46 +151,106 @@ class ElementaryMotion(Motion[Elementary]):
         given = np.array(None) if omega3 is None else real(omega3, "omega3")
         super().__init__(Elementary, I2, I3, B2, B3, real(omega2, "omega2"), given)
         self.field = (plain(B2), plain(B3))
+        if self.shape:
+            self._refuse((self._codes == len(CASES)) | ((self._codes < FREE) & (omega3 is None)))
+            if omega3 is not None:
+                self._refuse((self._codes >= FREE) & (given != self.omega3))
+
+    def _refuse(self, rows: Any) -> None:
+        """Raise the error of the first row for which there is no motion."""
+        for i in np.flatnonzero(rows)[:1]:
+            self._alone(i)
 
     @cached_property
     def case(self) -> Any:
         """Name of the case, a string, or an array of them."""
-        return self._each(lambda one: one.case)
+        return self._turning.case if self._turning else np.array(CASES)[self._codes]
 
     @cached_property
     def omega2(self) -> Any:
         """Initial Omega2, as given."""
-        return self._each(lambda one: one.omega2)
+        return plain(np.broadcast_to(self._inputs[4], self.shape))
 
     @cached_property
     def omega3(self) -> Any:
         """Constant Omega3 = omega3, mf76, or as given where it is free."""
-        return self._each(lambda one: one.omega3)
+        return self._scalars[0]
 
     @cached_property
     def k(self) -> Any:
         """Frequency of precession about B, k = omega2/B2hat, mf84."""
-        return self._each(lambda one: float(one.frequencies[0]))
+        return self._scalars[1]
 
     @cached_property
     def phi(self) -> Any:
         """Frequency of proper rotation phi, mf77."""
-        return self._each(lambda one: float(one.frequencies[1]))
+        return self._scalars[2]
+
+    @cached_property
+    def _scalars(self) -> Any:
+        """Values of omega3, k, phi, and of I omega3, the third component of the momentum."""
+        if self._turning:
+            k, phi = self._turning.frequencies
+            return self._turning.omega3, float(k), float(phi), self._turning.vector("m")[2]
+        found = np.empty((4, prod(self.shape)))
+        for case, index, inputs in self._cases():
+            for row, value in zip(
+                found, over(partial(scalars, case), *inputs, unit=self._unit, degree=(1,) * 4), strict=True
+            ):
+                row[index] = np.ravel(value)
+        return found.reshape(4, *self.shape)
+
+    @cached_property
+    def _codes(self) -> NDArray[np.intp]:
+        """Places of the cases in CASES; one more for a row that is no motion."""
+        I2, I3, B2, B3, w2, _ = np.broadcast_arrays(*self._inputs)
+        flat, steady, pole = B3 == 0, B2 == 0, w2 == -B2
+        free = [steady & flat, steady & (w2 == 0), ~steady & pole & flat, ~steady & pole & (I2 == I3)]
+        return np.select([*free, steady | pole, w2 == 0], [0, 1, 2, 3, len(CASES), 4], 5)
+
+    def _cases(self) -> list[tuple[str, Any, list[Any]]]:
+        """Return each case that there is, its rows and their inputs; omega2 = 0 is on the curve like any other."""
+        codes = np.where(self._codes == CASES.index("at rest"), CASES.index("precession"), self._codes).ravel()
+        *inputs, given = self._inputs
+        inputs.append(np.zeros(()) if given.dtype == object else given)
+        present = np.unique(codes)
+        if present.size == 1:
+            return [(CASES[present[0]], slice(None), [np.broadcast_to(inputs[0], self.shape), *inputs[1:]])]
+        rows = [np.broadcast_to(x, self.shape).reshape(-1) for x in inputs]
+        return [
+            (CASES[code], index, [x[index] for x in rows])
+            for code in present
+            for index in [np.flatnonzero(codes == code)]
+        ]
+
+    def _groups(self) -> list[Group]:
+        return [(partial(turning, case), index, inputs) for case, index, inputs in self._cases()]
+
+    def _vectors(self) -> dict[str, Any]:
+        omega3, _, _, third = self._scalars
+        return {"Omega": (0.0, self.omega2, omega3), "K": (0.0, *self.field), "m": (0.0, self.omega2, third)}
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) = (omega2 sin phi t, omega2 cos phi t, omega3) in the body, mf78; (..., 3)."""
-        return self._spread(lambda one, t, out: one.swung((0.0, one.omega2, one.omega3), t, out), t, (3,))
+        return self._spread(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, mf41, mf68; shape (..., 3)."""
-        return self._spread(lambda one, t, out: one.swung((0.0, *one.field), t, out), t, (3,))
+        return self._spread(lambda one, t, out: one.swung(one.vector("K"), t, out), t, (3,))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in mf93; shape (..., 3)."""
-        return self._spread(lambda one, t, out: one.turned(one.momentum, t, out), t, (3,))
+        return self._spread(lambda one, t, out: one.turned(one.vector("m"), t, out), t, (3,))
 
-    def invariants(self, t: Any = 0.0) -> dict[str, Any]:
-        """Constants E', K^2, c3, c5 of mf44 to mf49 and (m, B')/I2 of mf93, from Omega(t) and K(t)."""
+    def invariants(self, t: Any = None) -> dict[str, Any]:
+        """Constants E', K^2, c3, c5 of mf44 to mf49 and (m, B')/I2 of mf93, by name.
+
+        Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
+        check, good to a few ulp of the largest term. DomainError where a term is too large for a float.
+        """
+        if t is None:
+            values = invariants(self.shape, *moments(self.ratio), *self.field, self.omega2, self.omega3)
+            return dict(zip(NAMES, map(plain, np.moveaxis(values, -1, 0)), strict=True))
         Omega, K = self.angular_velocity(t), self.field_in_body(t)
         four = integrals(self.ratio, Omega, K)
         along = Omega * K * np.stack(np.broadcast_arrays(1.0, 1.0, shape_factors(self.ratio)[0]), -1)
@@ -154,23 +258,34 @@ class ElementaryMotion(Motion[Elementary]):
 
     @property
     def beside(self) -> "FreeMotion":
-        """Free body that precesses about the same axis with the same k, mf92: omega3 = I2 omega2 B3/(I3 B2)."""
+        """Free body that precesses about the same axis with the same k, mf92: omega3 = I2 omega2 B3/(I3 B2).
+
+        Raises DomainError for B2 = 0, where its omega3 is not determined, and where it is too large for a float.
+        """
         I2, I3 = moments(self.ratio)
         B2, B3 = self.field
-        return FreeMotion(self.ratio, (0.0, self.omega2, I2 * self.omega2 * B3 / (I3 * B2)))
+        if not np.all(B2):
+            raise DomainError("With B2 = 0 the free body beside the motion, mf92, has no omega3.")
+        omega3 = over(quotient, I2, I3, B2, B3, self.omega2, unit=slice(2, 5))
+        if not np.isfinite(omega3).all():
+            raise DomainError("omega3 of the free body beside the motion, mf92, is too large for a float.")
+        return FreeMotion(self.ratio, (0.0, self.omega2, omega3))
+
+
+def free(I2: Number, I3: Number, *omega: Number) -> tuple[tuple[Number, ...], Number, Number]:
+    """Return m/I2, k and phi of a free body."""
+    w1, w2, w3 = omega
+    momentum = w1, w2, I3 * w3 / I2
+    return momentum, length(*momentum), (I2 - I3) * w3 / I2
 
 
 class Free(DoubleRotation):
     """One free body."""
 
     def __init__(self, I2: float, I3: float, *omega: float) -> None:
-        self.omega = omega
-        i2, i3, w1, w2, w3 = exact(I2, I3, *omega)
-        momentum = w1, w2, i3 * w3 / i2
-        k = length(*momentum)
-        m1, m2, m3 = momentum
-        axis = (m1 / k, m2 / k, m3 / k) if k else (ZERO, ZERO, ONE)
-        super().__init__(axis, k, (i2 - i3) * w3 / i2)
+        self.vectors = {"Omega": omega}
+        momentum, k, phi = free(*exact(I2, I3, *omega))
+        super().__init__(direction(momentum), k, phi)
 
 
 class FreeMotion(Motion[Free]):
@@ -180,6 +295,8 @@ class FreeMotion(Motion[Free]):
     broadcast. The axis is that of m = (I2 omega1, I2 omega2, I3 omega3); k = |m|/I2; phi = (1 - I) omega3.
     """
 
+    _unit = slice(2, 5)
+
     def __init__(self, ratio: Any, omega: Any) -> None:
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity")
         super().__init__(Free, *moments(ratio), *omega)
@@ -187,13 +304,19 @@ class FreeMotion(Motion[Free]):
     @cached_property
     def k(self) -> Any:
         """Frequency of precession about m, k = |m|/I2."""
-        return self._each(lambda one: float(one.frequencies[0]))
+        return over(lambda *inputs: free(*inputs)[1], *self._inputs, unit=self._unit)
 
     @cached_property
     def phi(self) -> Any:
         """Frequency of proper rotation phi = (1 - I) omega3, mf92."""
-        return self._each(lambda one: float(one.frequencies[1]))
+        return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._unit)
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body: it turns about the third axis with frequency phi; shape (..., 3)."""
-        return self._spread(lambda one, t, out: one.swung(one.omega, t, out), t, (3,))
+        return self._spread(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
+
+    def _groups(self) -> list[Group]:
+        return [(free, slice(None), self._inputs)]
+
+    def _vectors(self) -> dict[str, Any]:
+        return {"Omega": self._inputs[2:]}

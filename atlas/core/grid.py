@@ -10,19 +10,21 @@ from math import ceil
 
 import numpy as np
 
-from atlas.core.basis import SCALE, Basis, extended, resolution
+from atlas.core.basis import LEFT, SCALE, Basis
+from atlas.core.double_double import DoubleDouble
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import LIMIT, Phases
 from atlas.core.rotation import DoubleRotation
 from atlas.core.threads import shared
-from atlas.core.wide import Wide
 from atlas.errors import AtlasError
 
-FINE = 128
-"""Times in the fine table."""
+FINE, SHORT = 128, 32
+"""Times in the fine table, and in that of a grid of fewer than LONG matrices."""
 
-FEW = 8192
-"""Shorter grids are evaluated time by time: their tables would cost more."""
+FEW, LONG = 8192, 65536
+"""Shorter grids than FEW are evaluated time by time: any table would cost more."""
+
+HUGE = 2.0**900
+"""Longest step, so that its halves are floats."""
 
 ROWS = 48
 """Coarse times a product: large enough to pay for its call, small enough that the library does not thread it."""
@@ -37,76 +39,90 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
     A grid that passes t = 0 is cut there, and each part runs away from zero: so coarse and fine times never cancel, and
     what is small with k t keeps its digits.
     """
-    count = len(out)
+    count, reach = len(out), turning.phases.reach
     if not count:
         return
-    first, stride = Wide.exactly(start), Wide.exactly(step)
-    ends = first, first + stride * Wide(count - 1)
-    if max(abs(float(f * t)) for f in turning.frequencies for t in ends) > LIMIT:
-        raise AtlasError(f"The grid from {start} by {step} to {float(ends[1])} leaves the phases up to 2^50.")
-    cut = min(max(ceil(Fraction(-start) / Fraction(step)), 0), count) if step else 0
-    run(turning, first + stride * Wide(cut), stride, out[cut:])
-    run(turning, first + stride * Wide(cut - 1), -stride, out[:cut], backward=True)
-
-
-def run(turning: DoubleRotation, origin: Wide, step: Wide, out: FloatArray, *, backward: bool = False) -> None:
-    """Fill `out` with R at origin + i step, or, if backward, from its end; origin and step have one sign."""
-    count = len(out)
-    if not count:
-        return
-    size = len(turning.weights)
+    last = start + step * (count - 1)
+    if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
+        raise AtlasError(f"The grid from {start} by {step} to {last} leaves the phases up to 2^50, |t| <= {reach:.6g}.")
     if count < FEW:
-        functions = Basis(indexed(turning, step, origin), count, size).at(np.arange(float(count))).T
-        np.matmul(
-            functions[::-1] if backward else functions, turning.weights.reshape(size, 9), out=out.reshape(count, 9)
+        functions = Basis(turning.phases, count, len(turning.weights)).at(
+            *moments(start, step, np.arange(float(count)))
         )
+        np.matmul(functions.T, turning.entries, out=out.reshape(-1, 9))
         return
-    table = fine_table(turning, step)
+    cut = min(max(ceil(Fraction(-start) / Fraction(step)), 0), count) if step else 0
+    run(turning, start, step, range(cut, count), out[cut:])
+    run(turning, start, step, range(cut - 1, -1, -1), out[:cut])
+
+
+def moments(start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the times start + i step in two words, exact to 2^-104 of themselves."""
+    t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
+    return t.hi, t.low
+
+
+def run(turning: DoubleRotation, start: float, step: float, indices: range, out: FloatArray) -> None:
+    """Fill `out` with R at the times of the indices, which run away from t = 0; a part that runs back, from its end."""
+    count, sign = len(indices), float(indices.step)
+    if not count:
+        return
+    backward, size, fine = sign < 0, len(turning.weights), SHORT if count < LONG else FINE
+    table = fine_table(turning, sign * step, fine)
     if backward:
         table = table[:, ::-1]
     table = table.reshape(size, -1)
-    coarse = indexed(turning, step * Wide(FINE), origin)
-    blocks, rest = divmod(count, FINE)
+    blocks, rest = divmod(count, fine)
+
+    def functions(basis: Basis, low: int, high: int) -> FloatArray:
+        """Return the functions at the coarse times low to high."""
+        return basis.at(*moments(start, step, indices.start + sign * fine * np.arange(float(low), float(high)))).T
 
     def fill(low: int, high: int) -> None:
         """Fill the blocks low to high, counted from the origin."""
-        basis = Basis(coarse, min(COARSE, high - low), size)
+        basis = Basis(turning.phases, min(COARSE, high - low), size)
         for i in range(low, high, COARSE):
             j = min(i + COARSE, high)
-            functions = basis.at(np.arange(float(i), float(j))).T
             if backward:
-                product(functions[::-1], table, out[count - j * FINE : count - i * FINE])
+                product(functions(basis, i, j)[::-1], table, out[count - j * fine : count - i * fine])
             else:
-                product(functions, table, out[i * FINE : j * FINE])
+                product(functions(basis, i, j), table, out[i * fine : j * fine])
 
-    shared(fill, blocks, COARSE, FINE)
+    shared(fill, blocks, COARSE, fine)
     if rest:
-        functions = Basis(coarse, 1, size).at(np.array([float(blocks)])).T
+        last = functions(Basis(turning.phases, 1, size), blocks, blocks + 1)
         part, end = (slice(-9 * rest, None), slice(0, rest)) if backward else (slice(9 * rest), slice(-rest, None))
-        product(functions, table[:, part], out[end])
+        product(last, table[:, part], out[end])
 
 
-def fine_table(turning: DoubleRotation, step: Wide) -> FloatArray:
-    """Return L_r R(tau) Q_r at the FINE times tau = j step, shape (9 or 11, FINE, 3, 3), rounded once.
+def fine_table(turning: DoubleRotation, step: float, fine: int) -> FloatArray:
+    """Return L_r R(tau) Q_r at the `fine` times tau = j step, shape (9 or 11, fine, 3, 3), rounded once.
 
     Its errors would be those of every matrix of the grid: so it is made in long doubles, where the machine has them.
     """
-    phases = indexed(turning, step)
-    half, left_out, sign, _ = phases.angles(np.arange(float(FINE)), np.empty((8, 2, FINE)))
+    t, low = moments(0.0, step, np.arange(float(fine)))
+    half, left_out, sign, _ = turning.phases.angles(t, np.empty((8, 2, fine)), low)
     x = half.astype(np.longdouble) + left_out
     versine = 2 * np.sin(x) ** 2
     a, C = sign * (1 - versine)
     b, S = sign * np.sin(2 * x)
     v = sign[0] * versine[0] + (1 - sign[0])
-    parts = extended(turning.axis)
-    one, across, dyad = np.eye(3), parts[2], parts[3]
+    one, across, dyad = np.eye(3), *turning.extended[2:]
     precession = np.multiply.outer(a, one) + np.multiply.outer(b, across) + np.multiply.outer(v, dyad)
     first, second, third = np.moveaxis(precession, -1, 0)
     C, S = C[:, None], S[:, None]
-    matrices = np.stack([first * C + second * S, second * C - first * S, third], axis=-1)
-    left, right = resolution(parts, third_row=turning.inverse)
-    table = (left[:, None] @ matrices).astype(np.float64) @ right[:, None]
-    table *= SCALE[: len(table), None, None, None]
+    matrices = np.stack([first * C + second * S, second * C - first * S, third])
+    left, right = turning.resolution
+    # the factors L_r that differ, times all matrices at once; then each takes the columns that its Q_r leaves
+    kinds = LEFT[: len(left)]
+    distinct = left[[kinds.index(kind) for kind in range(max(kinds) + 1)]]
+    products = (distinct.reshape(-1, 3) @ matrices.transpose(2, 0, 1).reshape(3, -1)).astype(np.float64)
+    columns = products.reshape(len(distinct), 3, 3, fine)[list(kinds)]  # r, row, column, time
+    table = np.zeros((len(left), fine, 3, 3))
+    scaled = columns * SCALE[: len(left), None, None, None]
+    for r, Q in enumerate(right):
+        for i, j in zip(*np.nonzero(Q), strict=True):
+            table[r, :, :, j] = Q[i, j] * scaled[r, :, i].T
     return np.ascontiguousarray(table.swapaxes(2, 3)) if turning.inverse else table
 
 
@@ -121,9 +137,3 @@ def product(functions: FloatArray, table: FloatArray, out: FloatArray) -> None:
         out=rows[:whole].reshape(whole // ROWS, ROWS, rows.shape[1]),
     )
     np.matmul(functions[whole:], table, out=rows[whole:])
-
-
-def indexed(turning: DoubleRotation, step: Wide, origin: Wide | None = None) -> Phases:
-    """Return the phases at origin + i step as functions of the whole number i."""
-    turns = [(f * step).turn() for f in turning.turns]
-    return Phases(turns, None if origin is None else [f * origin for f in turning.turns])

@@ -1,17 +1,24 @@
 """The hyperbola of elementary motions, mf72 to mf77, sampled by hyperbolic parameter, and its stability."""
 
+from collections.abc import Callable
 from fractions import Fraction
+from functools import cached_property
 from math import inf, isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from atlas.core.body import moments
-from atlas.core.elementary import curve
-from atlas.core.inputs import FloatArray, number, positive, real
-from atlas.core.motion import components, over
-from atlas.core.wide import ONE, Wide, exact, length
+from atlas.core.closed import ClosedMotion
+from atlas.core.double_double import over
+from atlas.core.elementary import ordinate, precession, proper
+from atlas.core.inputs import FloatArray, plain, positive, real, whole
+from atlas.core.motion import components
+from atlas.core.wide import ONE, Number, Wide, exact, length
 from atlas.errors import AtlasError, DomainError
+
+if TYPE_CHECKING:
+    from atlas.core.general import GeneralMotion
 
 Branch = tuple[FloatArray, FloatArray]
 
@@ -19,7 +26,8 @@ Branch = tuple[FloatArray, FloatArray]
 class Hyperbola:
     """The curve mf72 in the plane omega1 = 0: B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
 
-    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign. About
+    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
+    broadcast with omega2 in `omega3`, `frequencies` and `stability`, and the rest is asked of one curve. About
     the centre -B', with X = omega2 + B2 and Y = omega3 + B3, it is
 
         Y = (B3/(I B2)) (X - (1-I) B2^2/X),
@@ -32,13 +40,18 @@ class Hyperbola:
     def __init__(self, ratio: Any, field: Any) -> None:
         I2, I3 = moments(ratio)
         B2, B3 = components(field, ("B2", "B3"), "The field")
-        self.I2, self.I3 = I2, number(I3, "The ratio I")
-        self.B2, self.B3 = number(B2, "B2"), number(B3, "B3")
-        i2, i3, b2, b3 = exact(self.I2, self.I3, self.B2, self.B3)
-        self._exact = i2, i3, b2, b3
+        self.I2, self.I3, self.B2, self.B3 = I2, I3, plain(B2), plain(B3)
+        self._ratio = ratio
+
+    @cached_property
+    def _exact(self) -> tuple[Wide, ...]:
+        """Exact I2, I3, B2, B3 of one curve."""
+        if np.ndim(self.I3) or np.ndim(self.B2) or np.ndim(self.B3):
+            raise AtlasError("This is asked of one curve: give the ratio and the field as numbers, not as arrays.")
+        return exact(self.I2, self.I3, self.B2, self.B3)
 
     @property
-    def pole(self) -> float:
+    def pole(self) -> Any:
         """The omega2 = -B2 that mf76 leaves out."""
         return 0.0 - self.B2
 
@@ -48,9 +61,9 @@ class Hyperbola:
 
         The first is the pole's, the second that of I^-1 B'. DomainError where the curve is none: B2 = 0 or B3 = 0.
         """
-        if not (self.B2 and self.B3):
-            raise DomainError("The curve mf72 has asymptotes only if neither B2 nor B3 is zero.")
         I2, I3, B2, B3 = self._exact
+        if not (B2 and B3):
+            raise DomainError("The curve mf72 has asymptotes only if neither B2 nor B3 is zero.")
         x, y = I3 * B2, I2 * B3
         h = length(x, y)
         return np.array([0.0, 1.0]), np.array([float(x / h), float(y / h)])
@@ -68,43 +81,57 @@ class Hyperbola:
 
     def omega3(self, omega2: Any) -> Any:
         """Ordinate omega3 of the curve at omega2, mf76, rounded once. DomainError at the pole and for B2 = 0."""
-        return over(lambda w2: float(curve(*self._exact, self._regular(w2))[0]), real(omega2, "omega2"))
+        return self._over(ordinate, omega2)
 
     def frequencies(self, omega2: Any) -> tuple[Any, Any]:
         """Frequencies k = omega2/B2hat, mf84, and phi, mf77, each rounded once. DomainError as for `omega3`."""
-        omega2 = real(omega2, "omega2")
-        I2, I3, B2, B3 = self._exact
-        phi = over(lambda w2: float(curve(I2, I3, B2, B3, self._regular(w2))[1]), omega2)
-        return over(lambda w2: float(Wide.exactly(w2) * length(B2, B3) / B2), omega2), phi
+        k, phi = self._over(_frequencies, omega2, degree=(1, 1))
+        return k, phi
+
+    def closed(self, p: int, q: int) -> ClosedMotion:
+        """Return the motion of the curve with phi/k = p/q exactly, theorem-closed, which closes after q precessions.
+
+        There is one, and no other, for every rational but (1-I) B3hat/I and twice that; DomainError there, and for
+        I = 1, B2 = 0 or B3 = 0.
+        """
+        return ClosedMotion(self._ratio, (self.B2, self.B3), p, q)
 
     def stability(self, omega2: Any) -> Any:
-        """Nutation frequency squared -p'(omega3), p the cubic of mf55, in 1/time^2: negative where unstable.
+        """Nutation frequency squared -p'(omega3), p the cubic of mf55, in 1/time^2: theorem-stability.
 
+        The motion is stable where it is positive and unstable where it is negative; where it is zero, at the ends of
+        the unstable band, the motion is unstable too, theorem-band-ends, unless B3 = 0, theorem-equatorial-stability.
         With x = (omega2 + B2)/B2 and tau = B3/B2 it is
         B2^2 [(1 + tau^2) x^4 + (1-I)(2 tau^2 - 1) x^2 + tau^2 (1-I)^2]/x^2
         = tau^2 [X^2 + (1-I) B2^2]^2/X^2 + X^2 - (1-I) B2^2 with X = omega2 + B2; not in the paper. DomainError as for
         `omega3`; inf where it overflows.
         """
-        B2, B3, I = Fraction(self.B2), Fraction(self.B3), Fraction(self.I3) / Fraction(self.I2)
-        less = (1 - I) * B2**2
+        return self._over(_stability, omega2, degree=2, alone=_exact_stability)
 
-        def squared(w2: float) -> float:
-            """Return the stability at one point, exact but for one rounding: its terms may cancel to any depth."""
-            self._regular(w2)
-            X2 = (Fraction(w2) + B2) ** 2
-            value = (B3 * (X2 + less)) ** 2 / (B2**2 * X2) + X2 - less
-            try:
-                return float(value)
-            except OverflowError:
-                return inf if value > 0 else -inf
+    def growth_rate(self, omega2: Any) -> Any:
+        """Rate, in 1/time, at which a small push away from the motion at omega2 grows: sqrt of -`stability`, or 0.
 
-        return over(squared, real(omega2, "omega2"))
+        It is 0 where the motion is stable, and at the ends of the unstable band, where a push grows like a power of
+        time. DomainError as for `omega3`.
+        """
+        return plain(np.sqrt(np.maximum(-np.asarray(self.stability(omega2)), 0.0)))
+
+    def escape(self, omega2: float, omega1: float) -> "GeneralMotion":
+        """Return the motion at omega2 pushed by a small `omega1`, in full: see its `period` and `turning_points`.
+
+        `omega3` is that of the curve, rounded once. In the unstable band Omega3 leaves it, however small the push, as
+        far as the next root of Q and comes back, again and again.
+        """
+        from atlas.core.general import GeneralMotion
+
+        return GeneralMotion(self._ratio, (self.B2, self.B3), (omega1, omega2, self.omega3(omega2)))
 
     @property
     def unstable_band(self) -> tuple[float, float] | None:
-        """Interval (y-, y+) of ((omega2 + B2)/B2)^2 in which the family is unstable, None if nowhere; not in the paper.
+        """Interval [y-, y+] of ((omega2 + B2)/B2)^2 in which the family is unstable, None if nowhere: theorem-band.
 
-        For I < 1 and tau = B3/B2 below 1/(2 sqrt 2): y± = (1-I)[1 - 2 tau^2 ± sqrt(1 - 8 tau^2)]/(2 (1 + tau^2)).
+        For I < 1 and |tau| = |B3/B2| <= 1/(2 sqrt 2): y± = (1-I)[1 - 2 tau^2 ± sqrt(1 - 8 tau^2)]/(2 (1 + tau^2)).
+        The ends belong to it unless B3 = 0. Equality in tau is met by no two floats but zeros.
         """
         I2, I3, B2, B3 = self._exact
         disc = B2 * B2 - (B3 * B3).scaled(3)
@@ -130,6 +157,7 @@ class Hyperbola:
         Each omega3 is that of the double omega2, rounded once. A straight line (B2 = 0 or B3 = 0) is spread evenly, and
         `points` must be a number; for B = 0 there is no curve: DomainError.
         """
+        points = points if isinstance(points, int) else plain(real(points, "The points"))
         b = float(length(*self._exact[2:]))
         extent = positive(reach, "reach") * b
         if not isfinite(extent):
@@ -145,7 +173,7 @@ class Hyperbola:
                 "With B2 = 0 or B3 = 0 the curve is straight and has no parameter: give a number of points."
             )
         if self.B2 == 0:
-            y = np.linspace(-extent, extent, int(points))
+            y = np.linspace(-extent, extent, whole(points, "The number of points"))
             return ((np.zeros_like(y), y - self.B3),)
         x, y = (np.linspace(-extent, extent, n) for n in _halves(points))
         return (x - self.B2, np.zeros_like(x)), (np.full_like(y, -self.B2), y)
@@ -155,9 +183,10 @@ class Hyperbola:
         if np.ndim(points):
             s = real(points, "The parameter")
             return s, s
-        B2, tangent = abs(self.B2), abs(self.I2 * self.B3) / (self.I3 * abs(self.B2))
+        I2, I3, b2, b3 = self._exact
+        B2, tangent = abs(self.B2), float(abs(I2 * b3 / (I3 * b2)))
         scale = self._scale()
-        if not 0 < tangent * B2 / extent < inf:
+        if not 0 < tangent * B2 / extent < inf or not 0 < extent / scale < inf:
             raise DomainError(f"B2 = {self.B2} and B3 = {self.B3} are too far apart: B3/(I B2) must be a float.")
         high = np.log(extent / scale)
         low = np.log(scale / B2) + np.log(tangent * B2 / extent) if self.I2 != self.I3 else high - np.log(1e3)
@@ -166,7 +195,8 @@ class Hyperbola:
 
     def _branch(self, sign: int, s: FloatArray) -> Branch:
         """Return the points at parameters s on the side X > 0 or X < 0."""
-        omega2 = sign * self._scale() * np.exp(s) - self.B2
+        with np.errstate(over="ignore", invalid="ignore"):
+            omega2 = sign * self._scale() * np.exp(s) - self.B2
         if not np.isfinite(omega2).all():
             raise AtlasError(f"A parameter of {np.max(s)} leads beyond the largest float.")
         beside = np.nextafter(self.pole, sign * np.inf)
@@ -178,18 +208,41 @@ class Hyperbola:
         I2, I3, B2, _ = self._exact
         return float(((abs(I2 - I3) / I2) * B2 * B2).sqrt()) or abs(self.B2)
 
-    def _regular(self, omega2: float) -> Wide:
-        """Return omega2 where mf76 holds."""
-        if self.B2 == 0:
+    def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
+        """Return what a formula of I2, I3, B2, B3 and omega2 gives, where mf76 holds."""
+        omega2 = real(omega2, "omega2")
+        if np.any(np.equal(self.B2, 0)):
             raise DomainError("With B2 = 0 the curve mf72 is the line omega2 = 0, and omega3 is free on it.")
-        if omega2 == -self.B2:
-            raise DomainError(f"omega2 = -B2 = {omega2} is the pole of omega3(omega2), mf76.")
-        return Wide.exactly(omega2)
+        pole = omega2 == self.pole
+        if np.any(pole):
+            found = np.broadcast_to(omega2, pole.shape)[pole].flat[0]
+            raise DomainError(f"omega2 = -B2 = {found} is the pole of omega3(omega2), mf76.")
+        return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, 5), **more)
+
+
+def _frequencies(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> tuple[Number, Number]:
+    """Return k and phi."""
+    return precession(B2, B3, omega2), proper(I2, I3, B2, B3, omega2)
+
+
+def _stability(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
+    """Return the square of the nutation's frequency."""
+    X = omega2 + B2
+    X2, less = X * X, (I2 - I3) * B2 * B2 / I2
+    slope = B3 * (X2 + less) / (B2 * X)
+    return slope * slope + (X2 - less)
+
+
+def _exact_stability(*inputs: float) -> float:
+    """Return the same at one point, exact but for one rounding: its terms may cancel to any depth."""
+    value = _stability(*(Fraction(x) for x in inputs))
+    try:
+        return float(value)
+    except OverflowError:
+        return inf if value > 0 else -inf
 
 
 def _halves(points: Any) -> tuple[int, int]:
     """Split a number of points between two branches."""
-    count = int(points)
-    if count != points or count < 2:
-        raise AtlasError(f"Two branches need at least two points, a whole number, not {points!r}.")
+    count = whole(points, "The number of points of two branches", 2)
     return count - count // 2, count // 2

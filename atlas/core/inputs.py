@@ -14,6 +14,8 @@ FloatArray = NDArray[np.float64]
 
 def real(value: Any, name: str) -> FloatArray:
     """Return `value` as a float64 array of any shape, finite everywhere; `-0.0` becomes `0.0`."""
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise AtlasError(f"{name} must be a number or an array without masked entries; fill or drop them first.")
     try:
         raw = np.asarray(value)
         # NumPy would read text as numbers, None as NaN and True as 1.
@@ -51,6 +53,14 @@ def positive(value: Any, name: str) -> float:
     return result
 
 
+def whole(value: Any, name: str, least: int = 0) -> int:
+    """Return `value` as a whole number, at least `least`."""
+    result = number(value, name)
+    if result != int(result) or result < least:
+        raise AtlasError(f"{name} must be a whole number, at least {least}, not {reprlib.repr(value)}.")
+    return int(result)
+
+
 def vector(value: Any, name: str) -> FloatArray:
     """Return `value` as three finite floats, shape (3,)."""
     array = real(value, name)
@@ -65,6 +75,13 @@ def vectors(value: Any, name: str) -> FloatArray:
     if array.shape[-1:] != (3,):
         raise AtlasError(f"{name} must have three components last, shape (..., 3), not {array.shape}.")
     return array
+
+
+def finite(values: Any, name: str) -> Any:
+    """Return what was computed, a number or an array, or several; DomainError where one is too large for a float."""
+    if not all(np.isfinite(value).all() for value in (values if isinstance(values, tuple) else (values,))):
+        raise DomainError(f"{name} is too large for a float: choose larger units.")
+    return values
 
 
 def common_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:

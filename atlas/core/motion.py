@@ -1,24 +1,37 @@
 """What all motions in elementary functions share: one turning, or an array of them that broadcasts with time."""
 
-from collections.abc import Callable, Sequence
-from typing import Any, Generic, TypeVar
+import reprlib
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from math import prod
+from numbers import Integral
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, number, real
-from atlas.core.rotation import DoubleRotation, target
+from atlas.core.inputs import FloatArray, common_shape, number, real, whole
+from atlas.core.rotation import target
+from atlas.core.turnings import Group, Turnings
 from atlas.errors import AtlasError
 
-Turning = TypeVar("Turning", bound=DoubleRotation)
+
+class Evaluated(Protocol):
+    """One motion that gives its matrix and the columns of it."""
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
 
 
-def over(function: Callable[..., Any], *inputs: Any) -> Any:
-    """Apply a function of numbers to inputs that broadcast: plain for plain inputs, else an array, results last."""
-    if not any(np.ndim(x) for x in inputs):
-        return function(*(float(x) for x in inputs))
-    arrays = np.broadcast_arrays(*inputs)
-    results = [function(*row) for row in zip(*(a.ravel().tolist() for a in arrays), strict=True)]
-    return np.array(results).reshape(arrays[0].shape + np.shape(results[0] if results else 0.0))
+Turning = TypeVar("Turning", bound=Evaluated)
+
+MANY = 1000
+"""Times a motion from which on each of several motions is made alone: that takes as long as so many matrices do."""
+
+BLOCK = 4096
+"""Matrices of several motions made at once."""
 
 
 def components(value: Any, names: Sequence[str], what: str) -> list[Any]:
@@ -28,17 +41,56 @@ def components(value: Any, names: Sequence[str], what: str) -> list[Any]:
     except TypeError:
         parts = []
     if len(parts) != len(names):
-        raise AtlasError(f"{what} must have the {len(names)} components ({', '.join(names)}), not {value!r}.")
+        raise AtlasError(
+            f"{what} must have the {len(names)} components ({', '.join(names)}), not {reprlib.repr(value)}."
+        )
     return [real(x, name) for x, name in zip(parts, names, strict=True)]
 
 
 class Motion(Generic[Turning]):
     """Motions R(t) = R_n(k t) R_z(phi t), mf90, of the shape of the parameters, which broadcasts with the times."""
 
+    _unit = slice(0)
+    """Which of the inputs are frequencies."""
+
     def __init__(self, make: Callable[..., Turning], *inputs: Any) -> None:
-        arrays = np.broadcast_arrays(*inputs)
-        self.shape: tuple[int, ...] = arrays[0].shape
-        self._turnings = [make(*row) for row in zip(*(a.ravel().tolist() for a in arrays), strict=True)]
+        self._make, self._inputs = make, inputs
+        self.shape = common_shape(*(np.shape(x) for x in inputs))
+        self._turning = None if self.shape else self._alone(0)
+
+    def _alone(self, i: int) -> Turning:
+        """Make the i-th motion by itself."""
+        row = (np.broadcast_to(x, self.shape).flat[i] for x in self._inputs)
+        return self._make(*(x if x is None else float(x) for x in row))
+
+    @cached_property
+    def _turnings(self) -> list[Turning]:
+        """Each motion made alone, for many times."""
+        return [self._turning] if self._turning else [self._alone(i) for i in range(prod(self.shape))]
+
+    @cached_property
+    def _rows(self) -> Turnings:
+        """All motions in arrays, for a few times each."""
+        return Turnings(self._groups(), prod(self.shape), self._unit, lambda: self._flat_vectors, inverse=self._inverse)
+
+    @cached_property
+    def _flat_vectors(self) -> Mapping[str, Any]:
+        """Constant vectors of the motions in a row."""
+        return {
+            name: [np.broadcast_to(x, self.shape).reshape(-1) for x in vector]
+            for name, vector in self._vectors().items()
+        }
+
+    _inverse = False
+    """Whether the matrix is the transposed one, mf38."""
+
+    def _groups(self) -> list[Group]:
+        """Return the motions by the formulas that hold for them."""
+        raise NotImplementedError
+
+    def _vectors(self) -> Mapping[str, Any]:
+        """Return constant vectors of the motions by name, three components each."""
+        raise NotImplementedError
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrix R(t), mf89, mf90; shape (..., 3, 3).
@@ -50,8 +102,8 @@ class Motion(Generic[Turning]):
 
     def column(self, j: int, t: Any) -> FloatArray:
         """Column j = 1, 2, 3 of R(t): the body's axis R_j in the laboratory, shape (..., 3)."""
-        if j not in {1, 2, 3}:
-            raise AtlasError(f"The columns of R are 1, 2 and 3, not {j!r}.")
+        if not isinstance(j, Integral) or not 1 <= j <= 3:
+            raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
         return self._spread(lambda turning, t, out: turning.column(j, t, out), t, (3,))
 
     def third_axis(self, t: Any) -> FloatArray:
@@ -63,33 +115,45 @@ class Motion(Generic[Turning]):
 
         Each is that of the exact real number start + i step, which need not be a double. Far faster than `rotation`.
         """
+        start, step = number(start, "The start of the grid"), number(step, "The step of the grid")
+        count = whole(count, "The count of the grid")
+        out = target(out, (*self.shape, count, 3, 3))
+        for turning, part in zip(self._turnings, out.reshape(prod(self.shape), count, 3, 3), strict=True):
+            self._fill_grid(turning, start, step, part)
+        return out
+
+    def _fill_grid(self, turning: Turning, start: float, step: float, out: FloatArray) -> None:
+        """Fill the matrices of one motion on a grid."""
         from atlas.core.grid import fill_grid
 
-        start, step = number(start, "The start of the grid"), number(step, "The step of the grid")
-        if count != int(count) or count < 0:
-            raise AtlasError(f"A grid has a whole number of times, not {count!r}.")
-        out = target(out, (*self.shape, int(count), 3, 3))
-        for turning, part in zip(self._turnings, out.reshape(len(self._turnings), int(count), 3, 3), strict=True):
-            fill_grid(turning, start, step, part)
-        return out
+        fill_grid(turning, start, step, out)  # type: ignore[arg-type]  # of motions in elementary functions
 
     def _spread(
         self, evaluate: Callable[..., FloatArray], t: Any, shape: tuple[int, ...], out: FloatArray | None = None
     ) -> FloatArray:
         """Evaluate every motion at the times that meet it."""
-        if not self.shape:
-            return evaluate(self._turnings[0], t, out)
+        if self._turning:
+            return evaluate(self._turning, t, out)
         times = real(t, "The time")
-        full = np.broadcast_shapes(self.shape, times.shape)
+        full = common_shape(self.shape, times.shape)
         times, out = np.broadcast_to(times, full), target(out, full + shape)
         own = (1,) * (len(full) - len(self.shape)) + self.shape
+        if times.size < MANY * prod(self.shape):
+            self._few(evaluate, times, own, out.reshape(times.size, *shape))
+            return out
         for turning, index in zip(self._turnings, np.ndindex(own), strict=True):
             where = tuple(slice(None) if n == 1 else i for i, n in zip(index, own, strict=True))
             out[where] = evaluate(turning, times[where], None)
         return out
 
-    def _each(self, value: Callable[[Turning], Any]) -> Any:
-        """Return one value for each motion: plain for one motion, else an array."""
-        if not self.shape:
-            return value(self._turnings[0])
-        return np.array([value(turning) for turning in self._turnings]).reshape(self.shape)
+    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
+        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), by blocks."""
+        indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape)
+        for start in range(0, times.size, BLOCK):
+            part = slice(start, start + BLOCK)
+            t = np.asarray(times.flat[part])
+            rows = self._rows.at(part if times.shape == own else indices.flat[part], t)
+            with np.errstate(over="ignore", invalid="ignore"):  # in extreme rows, which are made alone
+                evaluate(rows, t, out[part])
+            for i in rows.extreme.tolist():
+                out[start + i] = evaluate(self._alone(rows.indices[i]), t[i], None)

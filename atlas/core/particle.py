@@ -1,17 +1,19 @@
 """Charged point particles in constant E and B, mf1 to mf11: the motion of the body's centre of mass, mf17."""
 
+from collections.abc import Callable
+from math import prod
 from typing import Any, Self
 
 import numpy as np
 
-from atlas.core.charge import Charge
-from atlas.core.ensemble import Ensemble
+from atlas.core.charge import BLOCK, Charge, Path
+from atlas.core.charges import Charges
 from atlas.core.field import Field
 from atlas.core.inputs import FloatArray, common_shape, plain, real, vectors
 from atlas.errors import DomainError
 
 
-class ParticleMotion(Ensemble[Charge]):
+class ParticleMotion:
     """Motion of a particle of charge-to-mass ratio mu from its position and velocity at t = 0, mf1.
 
     `mu` of either sign, or 0; `E`, `B`, `position`, `velocity` (..., 3); `c` > 0 as in `atlas.Field`. The inputs are
@@ -29,10 +31,13 @@ class ParticleMotion(Ensemble[Charge]):
             vectors(position, "The position"),
             vectors(velocity, "The velocity"),
         )
-        shape = common_shape(mu_.shape, c_.shape, *(x.shape[:-1] for x in (E_, B_, y, v)))
-        mus, cs = (np.broadcast_to(x, shape).ravel().tolist() for x in (mu_, c_))
-        rows = (np.broadcast_to(x, (*shape, 3)).reshape(-1, 3) for x in (E_, B_, y, v))
-        super().__init__(shape, [Charge(*one) for one in zip(mus, *rows, cs, strict=True)])
+        self.shape = common_shape(mu_.shape, c_.shape, *(x.shape[:-1] for x in (E_, B_, y, v)))
+        inputs = [mu_, c_, *(x[..., i] for x in (E_, B_, v, y) for i in range(3))]
+        self._all: Charge | Charges = (
+            Charges([np.broadcast_to(x, self.shape).reshape(-1) for x in inputs])
+            if self.shape
+            else Charge(float(mu_), E_, B_, y, v, float(c_))
+        )
         self.mu, self.E, self.B, self.y0, self.v0, self.c = plain(mu_), E_, B_, y, v, plain(c_)
 
     @classmethod
@@ -60,7 +65,7 @@ class ParticleMotion(Ensemble[Charge]):
         One of `no force`, `electric field alone`, `magnetic field alone`, `parallel fields`, `crossed fields`
         (orthogonal), `oblique fields`.
         """
-        return self._each(lambda one: one.case)
+        return self._each("case")
 
     @property
     def kind(self) -> Any:
@@ -70,47 +75,70 @@ class ParticleMotion(Ensemble[Charge]):
         (equal), `curtate trochoid` (less), `circle` (V = 0), `straight line` (a = 0), `point` (both); without a
         magnetic force `parabola`, `straight line` or `point`.
         """
-        return self._each(lambda one: one.kind)
+        return self._each("kind")
 
     @property
     def cyclotron_frequency(self) -> Any:
         """Frequency omega = mu |B|/c of mf9, with the sign of mu, in rad per unit of time; 0 without a field."""
-        return self._each(lambda one: one.cyclotron_frequency)
+        return self._each("cyclotron_frequency")
 
     @property
     def period(self) -> Any:
         """Time 2 pi/|omega| of one turn."""
-        self._each(lambda one: one.needs_field("period"))
+        self._all.needs_field("period")
         return 2 * np.pi / abs(self.cyclotron_frequency)
 
     @property
     def prime(self) -> FloatArray:
         """B' = mu B/(2c), mf41, in which a body that flies with the particle turns; shape (..., 3)."""
-        return np.asarray(self._each(lambda one: one.prime))
+        return np.asarray(self._each("prime"))
 
     @property
     def drift(self) -> FloatArray:
         """Velocity c [E, B]/B^2 of the point O(t) of mf11 across B, whatever the sign of mu; shape (..., 3)."""
-        return np.asarray(self._each(lambda one: one.drift))
+        return np.asarray(self._each("drift"))
 
     @property
     def radius(self) -> Any:
         """Radius a of mf9: that of the circle around the drifting centre."""
-        return self._each(lambda one: one.radius)
+        return self._each("radius")
 
     @property
     def axes(self) -> FloatArray:
         """Frame of figure Magn, rows e1, e2, e3: e3 along B, e2 along E_perp, e1 along [E, B]; shape (..., 3, 3)."""
-        return np.asarray(self._each(lambda one: one.axes))
+        return np.asarray(self._each("axes"))
 
     def position(self, t: Any) -> FloatArray:
         """Position y(t), shape (..., 3) for times of any shape, mf10.2 with mf5 and mf10."""
-        return self._spread(Charge.fill_position, t)
+        return self._spread(Path.fill_position, t)
 
     def velocity(self, t: Any) -> FloatArray:
         """Velocity y'(t), shape (..., 3) for times of any shape, mf2."""
-        return self._spread(Charge.fill_velocity, t)
+        return self._spread(Path.fill_velocity, t)
 
     def guiding_centre(self, t: Any) -> FloatArray:
         """Point O(t) of mf11 about which the particle circles, carried along B with it; shape (..., 3)."""
-        return self._spread(Charge.fill_centre, t)
+        return self._spread(Path.fill_centre, t)
+
+    def _each(self, name: str) -> Any:
+        """Return an attribute of each particle, shape (..., its own); the value itself if there is but one."""
+        values = getattr(self._all, name)
+        return values if isinstance(self._all, Charge) else values.reshape(self.shape + values.shape[1:])
+
+    def _spread(self, fill: Callable[[Path, FloatArray, FloatArray], None], t: Any) -> FloatArray:
+        """Return vectors (..., 3) that `fill` writes for times (m,) into an array (m, 3)."""
+        times = real(t, "t")
+        full = common_shape(self.shape, times.shape)
+        times, out = np.broadcast_to(times, full), np.empty((*full, 3))
+        rows = out.reshape(-1, 3)
+        if isinstance(self._all, Charge):
+            fill(self._all, times.reshape(-1), rows)
+            return out
+        own = (1,) * (len(full) - len(self.shape)) + self.shape
+        indices = np.broadcast_to(np.arange(prod(own)).reshape(own), full)
+        for start in range(0, times.size, BLOCK):
+            part = slice(start, start + BLOCK)
+            moment = np.asarray(times.flat[part])
+            some = self._all.at(indices.flat[part], moment, centre=fill is Path.fill_centre)
+            fill(some, moment, rows[part])
+        return out

@@ -6,6 +6,7 @@ their rounding errors, and the whole turns are dropped before anything is rounde
 """
 
 from collections.abc import Sequence
+from typing import Self
 
 import numpy as np
 
@@ -51,46 +52,68 @@ class Phases:
         ordinary = any(halves) and all(abs(p.magnitude) <= SAFE for p in halves if p)
         exponents = [0 if ordinary else p.magnitude if p else NEVER for p in halves]
         self.exponents = None if ordinary else np.array(exponents)[:, None]
-        P0, P1 = _columns([p.scaled(-x).words(2) for p, x in zip(halves, exponents, strict=True)])
-        head = P0 * SPLITTER - (P0 * SPLITTER - P0)
-        self.words = np.array([-P0, P1])
-        self.halves = np.array([head, P0 - head])[:, None]
+        self._keep(_columns([p.scaled(-x).words(2) for p, x in zip(halves, exponents, strict=True)]))
         self.reach = min((_reach(p) for p in turns if p), default=float("inf"))
         self.enough = min(self.reach * self.reach, float(np.finfo(float).max))
         self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
 
-    def circle(self, t: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
+    @classmethod
+    def of_words(cls, words: FloatArray) -> Self:
+        """Phases of frequencies P0 + P1 in half turns, (2, n, m), each with a time of its own; no phase is too long."""
+        self = cls.__new__(cls)
+        self._keep(words)
+        still = words[0] == 0
+        self.exponents = np.where(still, NEVER, 0) if still.any() else None
+        self.origins = None
+        self.reach = self.enough = float("inf")
+        return self
+
+    def _keep(self, words: FloatArray) -> None:
+        """Keep words, and halves of the first, as the products need them."""
+        P0, P1 = words
+        head = P0 * SPLITTER - (P0 * SPLITTER - P0)
+        self.words = np.array([-P0, P1])
+        self.halves = np.array([head, P0 - head])[:, None]
+
+    def circle(
+        self,
+        t: FloatArray,
+        work: FloatArray,
+        cos: FloatArray,
+        sin: FloatArray,
+        versine: FloatArray,
+        low: FloatArray | None = None,
+    ) -> None:
         """Fill cos(x)/2 and sin(x)/2 (n, m), and (1 - cos x)/2 of the first phase (m,), for x = f t.
 
-        `t` (m,) finite; `work` (8, n, m) is overwritten. Halves, since they come free of a rounding. The versine keeps
-        its digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
+        `t` (m,) finite, `low` (m,) what it lacks; `work` (8, n, m) is overwritten. Halves, since they come free of a
+        rounding. The versine keeps its digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time
+        is not finite.
+
+        Without origins cos and sin are within 8 units of w = 2^-53, four ulp of 1, if NumPy's tangent is within an ulp.
+        Proof, to first order in w, |x| <= 1.8 as `angles` leaves it. The phase: P1 t, the last sum of `rest` (< 1/8)
+        and the words left out are 0.35 w of x; y and its sum 0.25 w more. u = tan(x/2) <= 1.26 is within 1.5 ulp, one
+        of the tangent and a half of the sum with e (1 + u^2): 1.5 w below 1, 3 w above. The roundings of u^2, 1 + u^2
+        and the quotient: sin has the relative error (2 + q) w, q = u^2/(1 + u^2), and u sin has (3 + q) w; the last
+        difference is half a unit of cos at most. So the error of cos = 1 - 2 q is below
+
+            4 u/(1 + u^2)^2 du + 2 q (3 + q) w + 0.5 w + 0.6 w = 7.8 w at u = 1.26, 7.6 w at u = 1 from above,
+
+        and less below; that of sin is below 2 |1 - u^2|/(1 + u^2)^2 du + (2 + q) w + 0.6 w < 5 w.
         """
-        u, e, sign, square = self.angles(t, work)
-        # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; u then gets what x lacks
-        np.tan(u, out=u)
-        np.multiply(u, u, out=square)
-        square += WHOLE
-        e *= square
-        u += e
-        np.multiply(u, u, out=square)
-        square += WHOLE
-        np.divide(u, square, out=sin)
-        half = np.multiply(u, sin, out=square)
-        np.subtract(HALF, half, out=cos)
-        cos *= sign
-        sin *= sign
-        np.multiply(half[0], sign[0], out=versine)
-        versine += sign[0] < NOTHING
+        circle_of(self.angles(t, work, low), cos, sin, versine)
 
-    def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
-        """Return x/2 for x = f t less whole half turns, |x| <= pi/2, what rounding left out of it, and the turns' sign.
+    def angles(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
+        """Return x/2 for x = f t less whole half turns, what rounding left out of it, and the turns' sign.
 
-        The three are (n, m), in radians, and lie in `work`; the fourth array returned is free.
+        The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near LIMIT the
+        whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8 there.
         """
         if not np.vdot(t, t) <= self.enough:
             self._check(t)
         if self.exponents is not None:
             t = np.ldexp(t, self.exponents)
+            low = None if low is None else np.ldexp(low, self.exponents)
         # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
         parts, rest, coarse = work[:6], work[6], work[7]
         halves = work[6:] if t.ndim > 1 else work[6:, :1]
@@ -102,6 +125,9 @@ class Phases:
         np.multiply(self.words, t, out=parts[::5])
         np.multiply(self.halves, halves, out=parts[1:5].reshape(2, 2, *rest.shape))
         np.add.reduce(parts, axis=0, out=rest)
+        if low is not None:
+            np.multiply(self.words[0], low, out=coarse)
+            rest -= coarse
         # `whole` half turns and `product`, what is left of them, come with the sign turned round
         product, whole, y = parts[:3]
         np.add(product, ROUNDER, out=whole)
@@ -141,9 +167,34 @@ class Phases:
             )
 
 
+def circle_of(angles: Sequence[FloatArray], cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
+    """Fill what `Phases.circle` does from what `Phases.angles` returns; x may leave its range where it was added to."""
+    u, e, sign, square = angles
+    # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; u then gets what x lacks
+    np.tan(u, out=u)
+    np.multiply(u, u, out=square)
+    square += WHOLE
+    e *= square
+    u += e
+    np.multiply(u, u, out=square)
+    square += WHOLE
+    np.divide(u, square, out=sin)
+    half = np.multiply(u, sin, out=square)
+    np.subtract(HALF, half, out=cos)
+    cos *= sign
+    sin *= sign
+    np.multiply(half[0], sign[0], out=versine)
+    versine += sign[0] < NOTHING
+
+
 def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
     """Return words by word and frequency, shape (words, n, 1), to broadcast against times."""
     return np.array(rows).T[:, :, None]
+
+
+def _reach(turns: Wide) -> float:
+    """Return the longest time within LIMIT."""
+    return float(np.nextafter(float(Wide.exactly(LIMIT) / abs(turns * TURN)), np.inf))
 
 
 def _cut(turn: Wide) -> tuple[float, float]:
@@ -151,8 +202,3 @@ def _cut(turn: Wide) -> tuple[float, float]:
     half = turn.turn().scaled(1)
     head = round(float(half.scaled(25))) / 2.0**25
     return head, float(half - Wide.exactly(head))
-
-
-def _reach(turns: Wide) -> float:
-    """Return the longest time within LIMIT."""
-    return float(np.nextafter(float(Wide.exactly(LIMIT) / abs(turns * TURN)), np.inf))

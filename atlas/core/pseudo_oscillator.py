@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.body import moments
-from atlas.core.inputs import common_shape, plain, real, vectors
+from atlas.core.inputs import FloatArray, common_shape, finite, plain, real, vectors
 from atlas.core.integrals import Integrals, integrals, shape_factors
 from atlas.errors import AtlasError
 
@@ -51,7 +51,7 @@ class PseudoOscillator:
             raise AtlasError(f"The field must be two components (B2, B3) of B', not {field!r}.") from error
         self.B2, self.B3 = real(B2, "B2"), real(B3, "B3")
         self.omega1, self.omega2, self.omega3 = np.moveaxis(vectors(omega, "omega"), -1, 0)
-        common_shape(np.shape(moments(ratio)[1]), self.B2.shape, self.B3.shape, self.omega1.shape)
+        self.shape = common_shape(np.shape(moments(ratio)[1]), self.B2.shape, self.B3.shape, self.omega1.shape)
 
     @cached_property
     def integrals(self) -> Integrals:
@@ -62,24 +62,33 @@ class PseudoOscillator:
     @cached_property
     def coefficients(self) -> tuple[Any, Any, Any, Any]:
         """Coefficients (a0, a1, a2, a3) of the cubic, mf56."""
-        return cubic(self.ratio, self.integrals)
+        with np.errstate(over="ignore", invalid="ignore"):
+            values = cubic(self.ratio, self.integrals)
+        finite(values, "A coefficient of the cubic mf55")
+        return values
 
     @cached_property
     def quartic_coefficients(self) -> tuple[Any, Any, Any, Any, Any]:
         """Coefficients (q0, ..., q4) of the first integral Q."""
-        return quartic(self.ratio, self.integrals)
+        with np.errstate(over="ignore", invalid="ignore"):
+            values = quartic(self.ratio, self.integrals)
+        finite(values, "A coefficient of the quartic")
+        return values
 
     def acceleration(self, u: Any) -> Any:
         """Acceleration p(u) of Omega3, by mf57: through omega3 - u, so that nothing cancels near the start."""
         I, _, two_less = shape_factors(self.ratio)
         u, d, P, D, L = self._from_start(u)
-        return plain((two_less * self.B3 - I * self.omega3 + 2 * d) * P - I * u * L + (self.B3 + d) * D)
+        with np.errstate(over="ignore", invalid="ignore"):
+            value = (two_less * self.B3 - I * self.omega3 + 2 * d) * P - I * u * L + (self.B3 + d) * D
+        return finite(plain(value), "The acceleration p(u)")
 
     def stiffness(self, u: Any) -> Any:
         """Return the derivative p'(u) of the cubic mf55: a constant solution is stable where it is negative."""
         _, a1, a2, a3 = self.coefficients
-        u = real(u, "u")
-        return plain(a1 + u * (2 * a2 + 3 * a3 * u))
+        u = self._met(u)
+        with np.errstate(over="ignore", invalid="ignore"):
+            return finite(plain(a1 + u * (2 * a2 + 3 * a3 * u)), "The derivative p'(u)")
 
     def quartic(self, u: Any) -> Any:
         """First integral Q(u) = (du/dt)^2, negative where the motion cannot be; at the start (omega1 B2)^2.
@@ -89,17 +98,26 @@ class PseudoOscillator:
         """
         I, _, two_less = shape_factors(self.ratio)
         u, d, _, _, L = self._from_start(u)
-        start = self.omega1**2 + self.omega2**2
-        slope = two_less * (self.B3 + self.omega3) - (self.omega3 + u)
-        rest = I * (self.omega3 + u) * L - start * (2 * self.B3 + d) - slope * (2 * self.omega2 * self.B2 + d * slope)
-        return plain((self.omega1 * self.B2) ** 2 + d * rest)
+        with np.errstate(over="ignore", invalid="ignore"):
+            start = self.omega1**2 + self.omega2**2
+            slope = two_less * (self.B3 + self.omega3) - (self.omega3 + u)
+            rest = I * (self.omega3 + u) * L - start * (2 * self.B3 + d)
+            rest = rest - slope * (2 * self.omega2 * self.B2 + d * slope)
+            return finite(plain((self.omega1 * self.B2) ** 2 + d * rest), "The first integral Q(u)")
 
     def _from_start(self, u: Any) -> tuple[Any, Any, Any, Any, Any]:
         """Return u, d = omega3 - u and P, D, L (see `quartic`) as they stand in mf57."""
         I, _, two_less = shape_factors(self.ratio)
-        u = real(u, "u")
-        d = self.omega3 - u
-        P = self.omega2 * self.B2 + d * (two_less * (self.B3 + self.omega3) - (self.omega3 + u))
-        D = self.omega1**2 + self.omega2**2 + I * d * (self.omega3 + u)
-        L = self.B2**2 - d * (2 * self.B3 + d)
+        u = self._met(u)
+        with np.errstate(over="ignore", invalid="ignore"):
+            d = self.omega3 - u
+            P = self.omega2 * self.B2 + d * (two_less * (self.B3 + self.omega3) - (self.omega3 + u))
+            D = self.omega1**2 + self.omega2**2 + I * d * (self.omega3 + u)
+            L = self.B2**2 - d * (2 * self.B3 + d)
         return u, d, P, D, L
+
+    def _met(self, u: Any) -> FloatArray:
+        """Return u as an array that broadcasts with the parameters."""
+        array = real(u, "u")
+        common_shape(self.shape, array.shape)
+        return array

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, plain, real, vectors
+from atlas.core.inputs import FloatArray, common_shape, finite, plain, real, vectors
 from atlas.core.integrals import Integrals, shape_factors
 from atlas.errors import DomainError
 
@@ -15,14 +15,19 @@ def transverse_square(ratio: Any, conserved: Integrals, u: Any) -> Any:
     Raises DomainError where it is not positive: there the body turns about its axis alone, and mf50 to mf53 are 0/0.
     """
     I, _, _ = shape_factors(ratio)
-    return _positive(conserved.E - I * real(u, "u") ** 2)
+    u = real(u, "u")
+    common_shape(np.shape(I), np.shape(conserved.E), u.shape)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _positive(finite(conserved.E - I * u**2, "E' - I Omega3^2"))
 
 
 def field_projection(ratio: Any, conserved: Integrals, u: Any) -> Any:
     """Return Omega1 K1 + Omega2 K2 = u^2 - (2-I) c3 u + c5 at Omega3 = u, mf49."""
     _, _, two_less = shape_factors(ratio)
     u = real(u, "u")
-    return plain(u * (u - two_less * conserved.c3) + conserved.c5)
+    common_shape(np.shape(two_less), np.shape(conserved.c3), np.shape(conserved.c5), u.shape)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return finite(plain(u * (u - two_less * conserved.c3) + conserved.c5), "Omega1 K1 + Omega2 K2")
 
 
 def field_in_body(ratio: Any, conserved: Integrals, Omega: Any, rate: Any) -> FloatArray:
@@ -32,16 +37,21 @@ def field_in_body(ratio: Any, conserved: Integrals, Omega: Any, rate: Any) -> Fl
     """
     u1, u2, u3 = np.moveaxis(vectors(Omega, "Omega"), -1, 0)
     rate = real(rate, "dOmega3/dt")
-    D, P = _positive(u1 * u1 + u2 * u2), field_projection(ratio, conserved, u3)
-    components = (u1 * P - u2 * rate) / D, (u2 * P + u1 * rate) / D, conserved.c3 - u3
-    return np.stack(np.broadcast_arrays(*components), axis=-1)
+    common_shape(u1.shape, rate.shape, np.shape(conserved.c3), np.shape(shape_factors(ratio)[0]))
+    with np.errstate(over="ignore", invalid="ignore"):
+        D, P = _positive(u1 * u1 + u2 * u2), field_projection(ratio, conserved, u3)
+        components = (u1 * P - u2 * rate) / D, (u2 * P + u1 * rate) / D, conserved.c3 - u3
+    return np.stack(np.broadcast_arrays(*finite(components, "The field K")), axis=-1)
 
 
 def frequency(ratio: Any, conserved: Integrals, u: Any) -> Any:
     """Frequency phi = [(2-I) c3 E' - (E' + I c5) u]/(E' - I u^2) at Omega3 = u, mf52: Omega's turn about the axis."""
     I, _, two_less = shape_factors(ratio)
     D, u = transverse_square(ratio, conserved, u), real(u, "u")
-    return plain((two_less * conserved.c3 * conserved.E - (conserved.E + I * conserved.c5) * u) / D)
+    common_shape(np.shape(D), np.shape(conserved.c3), np.shape(conserved.c5))
+    with np.errstate(over="ignore", invalid="ignore"):
+        value = (two_less * conserved.c3 * conserved.E - (conserved.E + I * conserved.c5) * u) / D
+    return finite(plain(value), "The frequency of mf52")
 
 
 def angular_velocity(ratio: Any, conserved: Integrals, u: Any, angle: Any) -> FloatArray:

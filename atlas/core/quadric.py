@@ -1,17 +1,18 @@
 """The quadric of initial data with constant Omega3, mf58, and its canonical form mf60 to mf63."""
 
-from collections.abc import Callable
-from functools import cached_property, partial
-from math import atan2, copysign
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from atlas.core.body import moments
-from atlas.core.inputs import FloatArray, plain, vectors
-from atlas.core.motion import components, over
-from atlas.core.wide import ONE, ZERO, Wide, exact, length
+from atlas.core.double_double import over
+from atlas.core.inputs import FloatArray, common_shape, plain, vectors
+from atlas.core.motion import components
+from atlas.core.wide import Number, length
 from atlas.errors import DomainError
+
+KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "one-sheet hyperboloid")
 
 
 class Quadric:
@@ -32,6 +33,7 @@ class Quadric:
     def __init__(self, ratio: Any, field: Any) -> None:
         B2, B3 = components(field, ("B2", "B3"), "The field")
         self._inputs = (*moments(ratio), plain(B2), plain(B3))
+        self.shape = common_shape(*map(np.shape, self._inputs))
         self.field = self._inputs[2:]
 
     @cached_property
@@ -41,27 +43,43 @@ class Quadric:
         One of "two-sheet hyperboloid" (I > 1), "cone" (I = 1), "one-sheet hyperboloid" (I < 1), "plane pair" (B3 = 0),
         "line" (B2 = 0), "all space" (B = 0).
         """
-        return over(kind, *self._inputs)
+        I2, I3, B2, B3 = np.broadcast_arrays(*self._inputs)
+        names = np.select([(B2 == 0) & (B3 == 0), B2 == 0, B3 == 0, I3 == I2, I3 > I2], KINDS[:-1], KINDS[-1])
+        return names if names.ndim else str(names)
 
     @cached_property
     def beta(self) -> Any:
-        """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], mf61a."""
-        return over(beta, *self._inputs)
+        """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], mf61a; only its tangent is rounded before."""
+        I2, I3, B2, B3 = self._directed()
+        vertical = B2 == 0
+        slope = over(tangent, I2, I3, np.where(vertical, 1.0, B2), B3, unit=slice(2, 4), degree=0)
+        y = np.copysign(np.where(vertical, 1.0, abs(slope)), B3)
+        return plain(np.arctan2(y, np.where(vertical, 0.0, np.copysign(1.0, B2))))
 
     @cached_property
     def a2(self) -> Any:
         """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), mf60."""
-        return over(partial(_rounded, a2), *self._inputs)
+        I2, I3, B2, B3 = self._directed()
+        if np.any((B2 == 0) & (B3 > 0)):
+            raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of mf60 is infinite.")
+        return over(a2, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
 
     @cached_property
     def a3(self) -> Any:
         """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), mf60."""
-        return over(partial(_rounded, a3), *self._inputs)
+        I2, I3, B2, B3 = self._directed()
+        if np.any((B2 == 0) & (B3 < 0)):
+            raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of mf60 is infinite.")
+        return over(a3, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
 
     @cached_property
     def semi_axes(self) -> Any:
         """Semi-axes C1, C2, C3 of mf61b, mf63: the roots of |1-I| B2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
-        return over(semi_axes, *self._inputs)
+        I2, I3, B2, B3 = self._inputs
+        along = np.asarray(B2) == 0
+        found = over(semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, 4), degree=(1, 1, 1))
+        C1, C2, C3 = (plain(np.where(along, 0.0, C)) for C in found)
+        return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
     @cached_property
     def centre(self) -> FloatArray:
@@ -72,93 +90,80 @@ class Quadric:
     @cached_property
     def axes(self) -> FloatArray:
         """Directions of omega'_1..3 as rows, mf61a: the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3)."""
-        return np.asarray(over(axes, *self._inputs))
+        I2, I3, B2, B3 = self._directed()
+        cos, sin = over(half_angle, I2, I3, B2, B3, unit=slice(2, 4), degree=(0, 0))
+        cos, sin = np.where((B2 < 0) & (B3 >= 0), -cos, cos), np.where((B2 < 0) & (B3 < 0), -sin, sin)
+        axes = np.zeros((*cos.shape, 3, 3))
+        axes[..., 0, 0] = 1.0
+        axes[..., 1, 1], axes[..., 1, 2], axes[..., 2, 1], axes[..., 2, 2] = cos, sin, 0.0 - sin, cos
+        return axes
 
     def canonical(self, omega: Any) -> FloatArray:
-        """Coordinates omega'_1..3, mf61a, of points `omega` (..., 3)."""
-        return np.asarray(np.matvec(self.axes, vectors(omega, "omega") - self.centre))
+        """Coordinates omega'_1..3, mf61a, of points `omega` (..., 3); inf where one is beyond the largest float."""
+        omega = vectors(omega, "omega")
+        common_shape(self.shape, omega.shape[:-1])
+        # the difference and its turn may be larger than the coordinates: a quarter of each is not
+        part = -2 if max(np.abs(omega).max(initial=0.0), np.abs(self.centre).max(initial=0.0)) > 1.0 else 0
+        turned = np.matvec(self.axes, np.ldexp(omega, part) - np.ldexp(self.centre, part))
+        with np.errstate(over="ignore"):
+            return np.asarray(np.ldexp(turned, -part))
 
     def residual(self, omega: Any) -> Any:
         """Left-hand side of mf58.1 at points `omega` (..., 3), in 1/time^3, rounded once: zero on the surface only.
 
         B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3.
         """
-        return over(partial(_rounded, residual), *self._inputs, *np.moveaxis(vectors(omega, "omega"), -1, 0))
+        return over(residual, *self._inputs, *np.moveaxis(vectors(omega, "omega"), -1, 0), unit=slice(2, 7), degree=3)
+
+    def _directed(self) -> tuple[Any, ...]:
+        """Return the inputs as arrays; DomainError where I^-1 B' has no direction."""
+        I2, I3, B2, B3 = (np.asarray(x) for x in self._inputs)
+        if np.any((B2 == 0) & (B3 == 0)):
+            raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
+        return I2, I3, B2, B3
 
 
-def kind(I2: float, I3: float, B2: float, B3: float) -> str:
-    """Name the surface mf58.1."""
-    if B2 == 0:
-        return "line" if B3 else "all space"
-    if B3 == 0:
-        return "plane pair"
-    if I3 == I2:
-        return "cone"
-    return "two-sheet hyperboloid" if I3 > I2 else "one-sheet hyperboloid"
+def tangent(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
+    """Return tan(beta), for B2 != 0."""
+    return (I2 * B3) / (I3 * B2)
 
 
-def beta(I2: float, I3: float, B2: float, B3: float) -> float:
-    """Return the angle of I^-1 B' from e2; only its tangent is rounded before."""
-    x, y, _ = _direction(*exact(I2, I3, B2, B3))
-    if not x:
-        return atan2(B3, 0.0)
-    return atan2(copysign(abs(float(y / x)), B3), copysign(1.0, B2))
-
-
-def a2(I2: Wide, I3: Wide, B2: Wide, B3: Wide) -> Wide:
+def a2(*inputs: Number) -> Number:
     """Return a2 of mf60: with (x, y) along I^-1 B' and h its length, 2 y/(h - y)."""
-    x, y, h = _direction(I2, I3, B2, B3)
-    if not x and y.m > 0:
-        raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of mf60 is infinite.")
-    return (y + y) / _less(x, y, h)
+    y, _, less, _ = _direction(*inputs)
+    return (y + y) / less
 
 
-def a3(I2: Wide, I3: Wide, B2: Wide, B3: Wide) -> Wide:
+def a3(*inputs: Number) -> Number:
     """Return a3 of mf60: 2 y/(h + y)."""
-    x, y, h = _direction(I2, I3, B2, B3)
-    if not x and y.m < 0:
-        raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of mf60 is infinite.")
-    return (y + y) / _less(x, -y, h)
+    y, _, _, more = _direction(*inputs)
+    return (y + y) / more
 
 
-def semi_axes(*inputs: float) -> tuple[float, float, float]:
-    """Return C1, C2, C3 of mf61b, mf63."""
-    I2, I3, B2, B3 = exact(*inputs)
-    square = abs(ONE - I3 / I2 if I2.m != I3.m or I2.e != I3.e else ZERO) * B2 * B2
-    if not square:
-        return 0.0, 0.0, 0.0
-    C1, C2, C3 = (float((square * abs(a)).sqrt()) for a in (ONE, a2(I2, I3, B2, B3), a3(I2, I3, B2, B3)))
-    return C1, C2, C3
+def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number]:
+    """Return C1, C2, C3 of mf61b, mf63, for B2 != 0."""
+    square = abs(I2 - I3) / I2 * B2 * B2
+    y, _, less, more = _direction(I2, I3, B2, B3)
+    twice = square * abs(y + y)
+    return square.sqrt(), (twice / less).sqrt(), (twice / more).sqrt()
 
 
-def axes(*inputs: float) -> list[list[float]]:
-    """Return the rows omega'_1..3 of mf61a: cos^2 and sin^2 of beta/2 + pi/4 are (1 -+ sin beta)/2."""
-    _, _, B2, B3 = inputs
-    x, y, h = _direction(*exact(*inputs))
-    cos, sin = (float((_less(x, s, h) / (h + h)).sqrt()) for s in (y, -y))
-    cos, sin = copysign(cos, 1.0 if B2 >= 0 or B3 < 0 else -1.0), copysign(sin, 1.0 if B2 >= 0 or B3 >= 0 else -1.0)
-    return [[1.0, 0.0, 0.0], [0.0, cos, sin], [0.0, 0.0 - sin, cos]]
+def half_angle(*inputs: Number) -> tuple[Number, Number]:
+    """Return the sizes of cos and sin of beta/2 + pi/4, mf61a: their squares are (1 -+ sin beta)/2."""
+    _, h, less, more = _direction(*inputs)
+    return (less / (h + h)).sqrt(), (more / (h + h)).sqrt()
 
 
-def residual(I2: Wide, I3: Wide, B2: Wide, B3: Wide, w1: Wide, w2: Wide, w3: Wide) -> Wide:
+def residual(I2: Number, I3: Number, B2: Number, B3: Number, w1: Number, w2: Number, w3: Number) -> Number:
     """Return the left-hand side of mf58.1."""
     times_I2 = B3 * (w1 * w1 + w2 * w2) * I2 + ((I2 + I2 - I3) * B3 * w2 - I3 * w3 * (w2 + B2)) * B2
     return times_I2 / I2
 
 
-def _rounded(function: Callable[..., Wide], *inputs: float) -> float:
-    """Return a function of exact numbers as the nearest double."""
-    return float(function(*exact(*inputs)))
-
-
-def _direction(I2: Wide, I3: Wide, B2: Wide, B3: Wide) -> tuple[Wide, Wide, Wide]:
-    """Return a vector (x, y) along I^-1 B' in the plane (e2, e3), and its length."""
+def _direction(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number, Number]:
+    """Return y, h, h - y and h + y of a vector (x, y) along I^-1 B' in the plane (e2, e3), h its length."""
     x, y = I3 * B2, I2 * B3
-    if not x and not y:
-        raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
-    return x, y, length(x, y)
-
-
-def _less(x: Wide, y: Wide, h: Wide) -> Wide:
-    """Return h - y for h^2 = x^2 + y^2, without cancellation."""
-    return x * x / (h + y) if y.m > 0 else h - y
+    h = length(x, y)
+    larger = h + abs(y)
+    smaller = x * x / larger  # the difference would cancel
+    return y, h, y.select(smaller, larger), y.select(larger, smaller)

@@ -1,10 +1,14 @@
 """Two turns in a row, R = R_n(k t) R_z(phi t), mf90: the matrix of every motion in elementary functions."""
 
+from collections.abc import Mapping
+from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from atlas.core.basis import SCALE, Axis, Basis, generators, resolution, rodrigues
+from atlas.core.basis import SCALE, Axis, Basis, extended, generators, resolution, rodrigues
 from atlas.core.inputs import FloatArray, real
 from atlas.core.phase import Phases
 from atlas.core.threads import shared
@@ -14,6 +18,9 @@ from atlas.errors import AtlasError
 BLOCK, PART = 6000, 3000
 """Times evaluated at once, so that what they need stays in the second-level cache, and matrices made from them at once,
 so few that the library does not thread the product. No powers of two, whose multiples a cache takes for one another."""
+
+LARGEST = float(np.finfo(float).max) / 4
+"""Size of a component that turns: a sum of two, times two, is a float."""
 
 PARTS = slice(None), slice(1), slice(1, None)
 """Both frequencies, that of the precession, that of the proper rotation."""
@@ -27,6 +34,9 @@ class DoubleRotation:
     `basis`: one small matrix product makes all of them.
     """
 
+    vectors: Mapping[str, tuple[float, ...]] = MappingProxyType({})
+    """Constant vectors of the motion, by name."""
+
     def __init__(self, axis: Axis, precession: Wide, proper: Wide, *, inverse: bool = False) -> None:
         self.axis, self.frequencies, self.inverse = axis, (precession, proper), inverse
         self.turns = [f / TURN for f in self.frequencies]
@@ -38,6 +48,16 @@ class DoubleRotation:
         self.entries = self.weights.reshape(-1, 9)
         self.rodrigues = 2 * rodrigues(axis)
 
+    @cached_property
+    def extended(self) -> NDArray[np.longdouble]:
+        """The generators with the digits of long doubles."""
+        return extended(self.axis)
+
+    @cached_property
+    def resolution(self) -> tuple[NDArray[Any], FloatArray]:
+        """The matrices L_r and Q_r of `basis` with those digits."""
+        return resolution(self.extended, third_row=self.inverse)
+
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), mf89, shape (..., 3, 3)."""
         return evaluate(self.phases, self.entries, t, (3, 3), out)
@@ -47,6 +67,10 @@ class DoubleRotation:
         if j == 3 and not self.inverse:
             return evaluate(self.precession, self.rodrigues[:, :, 2], t, (3,), out)
         return evaluate(self.phases, np.ascontiguousarray(self.weights[:, :, j - 1]), t, (3,), out)
+
+    def vector(self, name: str) -> tuple[float, ...]:
+        """Return the components of a vector."""
+        return self.vectors[name]
 
     def turned(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_n(k t) v for a constant v, shape (..., 3): one phase is evaluated, not two."""
@@ -59,6 +83,8 @@ class DoubleRotation:
     def swung(self, vector: tuple[float, float, float], t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_z(-phi t) v for a constant v, shape (..., 3): how the body sees what precesses with it."""
         x, y, z = vector
+        if max(abs(x), abs(y)) > LARGEST:
+            raise AtlasError(f"The vector {vector} that turns is too large for a float: choose larger units.")
         out = evaluate(self.proper, 2 * np.array([[x, y, 0], [y, -x, 0], [0, 0, 0]]), t, (3,), out)
         out[..., 2] = z
         return out
@@ -66,7 +92,7 @@ class DoubleRotation:
 
 def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None) -> FloatArray:
     """Return the sums over basis functions that `weights` (3, 9 or 11, prod(shape)) describe, at times of any shape."""
-    times = t if isinstance(t, np.ndarray) and t.dtype == np.float64 else real(t, "The time")
+    times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
     full = times.shape + shape
     out = target(out, full)
     rows = out.reshape(-1, weights.shape[1])
@@ -92,6 +118,9 @@ def target(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
     """Return the array to fill: a new one, or the caller's if it fits."""
     if out is None:
         return np.empty(shape)
-    if out.shape != shape or out.dtype != np.float64 or not out.flags.c_contiguous:
-        raise AtlasError(f"out must be a C-contiguous float64 array of shape {shape}, not {out.dtype} {out.shape}.")
+    if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray):
+        raise AtlasError(f"out must be a NumPy array of shape {shape}, not of type {type(out).__name__}.")
+    if out.shape != shape or out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+        kind = f"{'' if out.flags.writeable else 'read-only '}{out.dtype} of shape {out.shape}"
+        raise AtlasError(f"out must be a writable C-contiguous float64 array of shape {shape}, not {kind}.")
     return out

@@ -1,13 +1,18 @@
 """Numbers with 256 binary digits, in which every scalar of a motion is made before it is rounded, once."""
 
+from collections.abc import Sequence
 from math import isqrt
-from typing import Self
+from typing import Any, Self, TypeAlias
 
 BITS = 256
 """Digits kept after each operation: what cancels between exact inputs (at most 106 digits) leaves 2^-150."""
 
 TWO_PI = 0xC90FDAA22168C234C4C6628B80DC1CD129024E088A67CC74020BBEA63B139B22
 """2 pi 2^253, rounded down."""
+
+
+Number: TypeAlias = Any
+"""A number of a formula: a `Wide` one, or an array of `DoubleDouble`, which have the same operations."""
 
 
 class Wide:
@@ -58,6 +63,10 @@ class Wide:
         shift += (self.e - shift) % 2
         return Wide(isqrt(self.m << shift), (self.e - shift) // 2)
 
+    def select(self, positive: "Wide", other: "Wide") -> "Wide":
+        """Return `positive` if this number is, else `other`."""
+        return positive if self.m > 0 else other
+
     def scaled(self, exponent: int) -> "Wide":
         """Return this number times 2^exponent."""
         return Wide(self.m, self.e + exponent)
@@ -95,9 +104,20 @@ def exact(*numbers: float) -> tuple[Wide, ...]:
     return tuple(Wide.exactly(float(x)) for x in numbers)
 
 
-def length(*components: Wide) -> Wide:
+def length(first: Number, *others: Number) -> Number:
     """Return the length of a vector."""
-    return sum((x * x for x in components), ZERO).sqrt()
+    square = first * first
+    for x in others:
+        square += x * x
+    return square.sqrt()
+
+
+def direction(vector: Sequence[Number]) -> Any:
+    """Return the unit vector along a vector; the last axis for a zero one, which has no direction."""
+    size = length(*vector)
+    if isinstance(size, Wide) and not size:
+        return *vector[:-1], ONE
+    return tuple(x / size for x in vector)
 
 
 ZERO, ONE = Wide(0), Wide(1)

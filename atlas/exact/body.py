@@ -35,8 +35,11 @@ def ratio_of(ratio: Any) -> fmpq:
 
 
 def float_text(value: fmpq) -> str:
-    """Return a rational as the shortest text of the double nearest to it, for sentences."""
-    return repr(int(value.p) / int(value.q))
+    """Return a rational as the shortest text of the double nearest to it, or "beyond all floats", for sentences."""
+    try:
+        return repr(int(value.p) / int(value.q))
+    except OverflowError:
+        return "beyond all floats"
 
 
 def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:

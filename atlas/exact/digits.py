@@ -33,19 +33,20 @@ class Printed:
     complete: bool
 
 
-def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain") -> Any:
+def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain", spare: int = SPARE) -> Any:
     """Return what ``function`` returns, each certified number in it as text with ``digits`` proven digits.
 
     ``function`` takes no argument and computes at the precision of the moment; it returns a number or lists, tuples
     and dictionaries of them; whatever else it holds (names, None) stays as it is. ``digits`` counts significant
-    digits, in the layout ``fixed`` decimals. Zero is proven only where it is exact.
+    digits, in the layout ``fixed`` decimals. Zero is proven only where it is exact; the search for digits of one that
+    is not ends ``spare`` bits beyond.
     """
     _check(digits, layout)
 
     def complete(value: Any) -> bool:
         return all(printed(x, digits, layout).complete for x in numbers(value))
 
-    value = _refined(function, int(digits * BITS_A_DIGIT) + 8, complete)
+    value = _refined(function, int(digits * BITS_A_DIGIT) + 8, complete, spare)
     return _mapped(value, lambda x: printed(x, digits, layout).text)
 
 
@@ -100,13 +101,13 @@ def numbers(value: Any) -> Iterator[Real]:
             yield from numbers(item)
 
 
-def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], bool]) -> Any:
+def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], bool], spare: int = SPARE) -> Any:
     """Raise the precision until ``enough`` holds (Ziv's strategy), or until it has become hopeless."""
     precision = bits + 64
     while True:
         with ctx.workprec(precision):
             value = function()
-        if precision > 4 * bits + SPARE or enough(value):
+        if precision > 4 * bits + spare or enough(value):
             return value
         precision *= 2
 

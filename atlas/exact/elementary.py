@@ -61,6 +61,11 @@ class ElementaryMotion:
         return given
 
     @property
+    def omega(self) -> tuple[fmpq, fmpq, fmpq]:
+        """Initial angular velocity (0, omega2, omega3)."""
+        return fmpq(0), self.omega2, self.omega3
+
+    @property
     def axis(self) -> tuple[Real, Real]:
         """Components 2 and 3 of the unit vector of the precession axis."""
         x, y = self._direction

@@ -51,15 +51,26 @@ class Hyperbola:
         return w2 / self.B2 * root(self.B2**2 + self.B3**2), phi
 
     def stability(self, omega2: Any) -> fmpq:
-        """Return the nutation frequency squared -p'(omega3), with p the cubic of mf55; negative where unstable."""
+        """Return the nutation frequency squared -p'(omega3), with p the cubic of mf55; see `stable`."""
         x = self._off_the_pole(omega2) / self.B2 + 1
         tau = self.B3 / self.B2
         even = (1 + tau**2) * x**4 + (1 - self.I) * (2 * tau**2 - 1) * x**2 + tau**2 * (1 - self.I) ** 2
         return self.B2**2 * even / x**2
 
+    def stable(self, omega2: Any) -> bool:
+        """Say whether the motion is stable against nutation, theorem-band, theorem-band-ends.
+
+        At the ends of the band, where -p'(omega3) = 0, it is not; for B3 = 0 it is, theorem-equatorial-stability.
+        """
+        squared = self.stability(omega2)
+        return bool(squared > 0 or (squared == 0 and self.B3 == 0))
+
     @property
     def unstable_band(self) -> tuple[Real, Real] | None:
-        """The unstable interval of ((omega2 + B2)/B2)^2, or None where the whole family is stable."""
+        """The unstable interval of ((omega2 + B2)/B2)^2, theorem-band, or None where the whole family is stable.
+
+        Its ends belong to it unless B3 = 0, theorem-band-ends.
+        """
         if self.B2 == 0:
             return None
         tau2 = (self.B3 / self.B2) ** 2

@@ -68,12 +68,16 @@ class ParticleMotion:
         return [y + d * t + p * t**2 / 2 + (c - 1) * r + s * q for y, d, p, r, q in terms]
 
     def velocity(self, t: Any) -> list[Real]:
-        """Return v(t), the derivative of mf10: d + p t - w^2 s r + c q in the letters of `position`."""
+        """Return v(t), the derivative of mf10: v0 + p t - w^2 s r + (c - 1) q in the letters of `position`.
+
+        Since d + q = v0, a component that is 0 at the start is exactly 0 there.
+        """
         t = rational(t, "the time")
         if self._w2 == 0:
             return [v + a * t for v, a in zip(self.launch, self._a, strict=True)]
         s, c = self._circle(t)
-        return [d + p * t - self._w2 * s * r + c * q for d, p, r, q in zip(*self._vectors(), strict=True)]
+        terms = zip(self.launch, *self._vectors(), strict=True)
+        return [v + p * t - self._w2 * s * r + (c - 1) * q for v, _, p, r, q in terms]
 
     def _needs_field(self, what: str) -> None:
         """Raise DomainError where there is no magnetic force."""

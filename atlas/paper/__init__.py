@@ -8,27 +8,34 @@ The numbers are those that LaTeX prints: a row of `eqnarray` that ends in `\\` o
 unless it says `\nonumber`; a row that ends in the primitive `\cr` takes none.
 """
 
+import re
 from collections.abc import Mapping
-from difflib import get_close_matches
 from types import MappingProxyType
 
-from atlas.errors import AtlasError
+from atlas.errors import unknown
 from atlas.paper import (
     ball,
+    clebsch,
+    closed,
     elementary,
     euler_poisson,
+    general,
     hyperbola,
     lagrangian,
     particle,
     pseudo_oscillator,
     quadric,
+    separatrix,
     theorems,
 )
 from atlas.paper.equation import Equation, Kind, Section
 
-__all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "topic"]
+__all__ = ["EQUATIONS", "LABEL", "Equation", "Kind", "Section", "equation", "topic"]
 
-_FILES = (lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle, theorems)
+_FILES = (
+    *(lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle),
+    *(theorems, clebsch, general, separatrix, closed),
+)
 
 _TOPICS = {entry.label: file.__name__.rpartition(".")[2] for file in _FILES for entry in file.EQUATIONS}
 
@@ -37,13 +44,15 @@ EQUATIONS: Mapping[str, Equation] = MappingProxyType(
 )
 
 
+LABEL = re.compile(r"(?<![@\w-])(?:mf\d+(?:\.\d+)?[ab]?|The\.1|Aff100|(?:text|theorem)(?:-[a-z0-9]+)+)\b")
+"""A label where a docstring or a caption names it; those that are numbers, such as 1.6, can't be told from numbers."""
+
+
 def equation(label: str) -> Equation:
     """Return the equation with that label; AtlasError with the nearest label if there is none."""
-    found = EQUATIONS.get(label)
-    if found is None:
-        near = get_close_matches(label, EQUATIONS, n=1, cutoff=0.0)[0]
-        raise AtlasError(f"the paper has no equation with the label {label!r}; the nearest is {near!r}")
-    return found
+    if label not in EQUATIONS:
+        raise unknown("equation", label, EQUATIONS, "in the ledger")
+    return EQUATIONS[label]
 
 
 def topic(label: str) -> str:

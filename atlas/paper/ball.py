@@ -24,6 +24,19 @@ EQUATIONS = (
         tex=r"I_1=I_2=I_3\equiv I_0",
     ),
     Equation(
+        label="text-ball-axis",
+        number=None,
+        section="III",
+        kind="claim",
+        says="The angular momentum of a ball lies along its axis of rotation",
+        tex=r"""\mathbf{m}=I_0\boldsymbol{\omega}=I_0R\boldsymbol{\Omega},\qquad[\boldsymbol{\omega},\mathbf{m}]=0""",
+        assumptions=("I1 = I2 = I3", "R(t) is a rotation"),
+        quote=(
+            r"for all t the instantaneous rotation axis $\boldsymbol{\omega}$ remains parallel with the vector "
+            "of angular momentum"
+        ),
+    ),
+    Equation(
         label="mf30",
         number=20,
         section="III",
@@ -60,6 +73,22 @@ EQUATIONS = (
         assumptions=("I1 = I2 = I3",),
     ),
     Equation(
+        label="text-ball-body-precession",
+        number=None,
+        section="III",
+        kind="claim",
+        says=(
+            "The components of angular velocity in the body-fixed frame precess with the frequency $\\alpha$ about "
+            "those of the field"
+        ),
+        tex=r"""\ddot{\boldsymbol{\Omega}}=[\mathbf{K},[\mathbf{K},\boldsymbol{\Omega}]],\qquad\mathbf{K}=\frac{\mu}{2c}R^T\mathbf{B}""",
+        assumptions=("I1 = I2 = I3",),
+        quote=(
+            r"Components $\Omega_i$ of angular velocity $\boldsymbol{\omega}$ with respect to body-fixed frame "
+            r"precess with the same frequency around the components $(R^T\mathbf{B})_i$"
+        ),
+    ),
+    Equation(
         label="text-linear-poisson",
         number=None,
         section="III",
@@ -67,6 +96,7 @@ EQUATIONS = (
         says=("Within the rotations the Poisson equations, not linear once m is known, may be replaced by linear ones"),
         tex=r"-\frac{1}{I_0}\epsilon_{jab}(R^T\mathbf{m})_aR_{ib}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj}",
         assumptions=("I1 = I2 = I3", "R(t) is a rotation"),
+        quote="have the same solutions in the set of orthogonal matrices",
     ),
     Equation(
         label="mf34",
@@ -88,6 +118,19 @@ EQUATIONS = (
         says="Rate of the angular momentum of the ball",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
         assumptions=("I1 = I2 = I3",),
+    ),
+    Equation(
+        label="text-ball-frame",
+        number=None,
+        section="III",
+        kind="claim",
+        says="For a ball the axes of the laboratory may be chosen freely: the inertia tensor stays diagonal",
+        tex=r"""R\,(I_0\mathbf{1})R^T=I_0\mathbf{1}""",
+        assumptions=("I1 = I2 = I3",),
+        quote=(
+            "we can choose the directions of Laboratory axes as convenient, this will not violate the diagonal "
+            "form of inertia tensor"
+        ),
     ),
     Equation(
         label="mf36",
@@ -164,6 +207,7 @@ EQUATIONS = (
         says="The motion of the ball is a rotation about k by -gamma t, then one about B by -alpha t",
         tex=r"R(t)=R_{\hat{\mathbf{B}}}(-\alpha t)\,R_{\hat{\mathbf{k}}}(-\gamma t)",
         assumptions=("I1 = I2 = I3",),
+        quote="The total motion can be thought as a superposition of two rotations",
     ),
     Equation(
         label="text-ball-parallel",
@@ -172,7 +216,7 @@ EQUATIONS = (
         kind="claim",
         says="A ball launched along B: k = (0, 0, -1) and gamma = alpha + m3/I0",
         tex=r"\hat{\mathbf{k}}=(0,0,-1)^T,\qquad\gamma=\alpha+\frac{m_3}{I_0}",
-        assumptions=("I1 = I2 = I3", "m(0) along B"),
+        assumptions=("I1 = I2 = I3", "m(0) and B parallel in the same sense"),
     ),
     Equation(
         label="mf40",

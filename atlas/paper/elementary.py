@@ -17,6 +17,19 @@ EQUATIONS = (
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
     ),
     Equation(
+        label="text-body-precession",
+        number=None,
+        section="V",
+        kind="claim",
+        says="In the body-fixed frame the angular velocity precesses about the third axis with the frequency $\\phi$",
+        tex=r"""\dot{\boldsymbol{\Omega}}=-\phi\,[\mathbf{e}_3,\boldsymbol{\Omega}]""",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        quote=(
+            r"vector of angular velocity in the body-fixed frame $\mathbf{R}_i$ precesses around the third axis "
+            r"$\mathbf{R}_3$ with the frequency $\phi$"
+        ),
+    ),
+    Equation(
         label="mf79",
         number=74,
         section="V",
@@ -143,7 +156,10 @@ EQUATIONS = (
             r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=1-\hat{B}_3^2=\hat{B}_2^2,&k_0&=0 "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(
+            "$\\omega_2$ differs from 0",
+            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+        ),
     ),
     Equation(
         label="mf89",
@@ -163,6 +179,19 @@ EQUATIONS = (
             "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
             "omega2 differs from -B'2",
             "k = omega2/hat B2, phi of mf77",
+        ),
+    ),
+    Equation(
+        label="text-hidden",
+        number=None,
+        section="V",
+        kind="claim",
+        says="Of the moments and of $\\mu$ the matrix mf89 knows only through $\\phi$: $k$ does not depend on them",
+        tex=r"""k=\frac{\omega_2\lvert\mathbf{B}\rvert}{B_2}""",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        quote=(
+            "The dependence of the rotation matrix on the inertia moments $I_2$, $I_3$ as well as on the "
+            r"charge-mass ratio $\mu$ is hidden in the frequency $\phi$"
         ),
     ),
     Equation(
@@ -190,6 +219,23 @@ EQUATIONS = (
             r"\sin kt\,[\hat{\mathbf{B}},\cdot\,]"
         ),
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        quote=(
+            r"first around the laboratory axis $OZ$ by the angle $\phi t$ and then around the $\mathbf{B}$-axis "
+            "by the angle $kt$"
+        ),
+    ),
+    Equation(
+        label="text-axis-precesses",
+        number=None,
+        section="V",
+        kind="claim",
+        says="The third inertia axis precesses about the field with the frequency $k$",
+        tex=r"""\dot{\mathbf{R}}_3=k\,[\hat{\mathbf{B}},\mathbf{R}_3]""",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        quote=(
+            "the motion is the composition of a proper rotation around third inertia axis with precession of "
+            "this axis around the vector of magnetic field"
+        ),
     ),
     Equation(
         label="text-ball-limit",
@@ -199,6 +245,7 @@ EQUATIONS = (
         says="For I2 = I3 there is no proper rotation: phi = 0",
         tex=r"I_2=I_3\implies\phi=0",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        quote=r"admits the limit of totally symmetric body $I_2=I_3$, this implies $\phi=0$",
     ),
     Equation(
         label="mf91",
@@ -211,6 +258,19 @@ EQUATIONS = (
             "k_B)}k_B"
         ),
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+    ),
+    Equation(
+        label="text-free-general",
+        number=None,
+        section="V",
+        kind="claim",
+        says=(
+            "Every motion of a free symmetrical body is a precession without nutation: its axis turns about "
+            "$\\mathbf{m}$ with the frequency $|\\mathbf{m}|/I_2$"
+        ),
+        tex=r"""\dot{\mathbf{R}}_3=\frac{1}{I_2}[\mathbf{m},\mathbf{R}_3],\qquad(\mathbf{m},\mathbf{R}_3)=\text{const}""",
+        assumptions=("no magnetic field", "I1 = I2"),
+        quote="the most general motion of a free symmetrical body is the precession without nutation",
     ),
     Equation(
         label="mf92",
@@ -246,6 +306,15 @@ EQUATIONS = (
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
     ),
     Equation(
+        label="text-free-proper",
+        number=None,
+        section="V",
+        kind="claim",
+        says="Proper rotation of the free body through its angular momentum",
+        tex=r"""\phi=\frac{I_2-I_3}{I_2I_3}m_3=\frac{I_2-I_3}{I_3}\hat{B}_3\frac{\omega_2}{\hat{B}_2}=\frac{I_2-I_3}{I_3}\hat{B}_3k_B""",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
+    ),
+    Equation(
         label="text-momentum-moves",
         number=None,
         section="V",
@@ -255,7 +324,11 @@ EQUATIONS = (
         assumptions=(
             "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
             "omega2 differs from -B'2",
-            "I differs from 1, omega2 from 0",
+            "$I$ differs from 1, $\\omega_2$ from 0 (the paper excepts neither)",
+        ),
+        quote=(
+            r"Components of angular momentum $\mathbf{m}(t)$ for our solutions in elementary functions are not "
+            "conserved quantities"
         ),
     ),
     Equation(
@@ -284,5 +357,6 @@ EQUATIONS = (
         says="The angular momentum always lies in the plane orthogonal to B",
         tex=r"(\mathbf{m}(t),\mathbf{B})=0",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        quote="the angular momentum always lies in the plane orthogonal to the constant vector of magnetic field",
     ),
 )

@@ -19,6 +19,7 @@ class Equation:
     says         what it says, in one line
     tex          the formula as printed, slips included, in modern TeX
     assumptions  what must hold for it, each in a few words
+    quote        the words of the paper that make the claim, where it has no formula for it
     """
 
     label: str
@@ -28,6 +29,7 @@ class Equation:
     says: str
     tex: str
     assumptions: tuple[str, ...] = ()
+    quote: str = ""
 
     @property
     def title(self) -> str:

@@ -22,6 +22,26 @@ EQUATIONS = (
         assumptions=("R is a rotation", "the inertia tensor is invertible"),
     ),
     Equation(
+        label="text-multipliers-algebraic",
+        number=None,
+        section="II",
+        kind="claim",
+        says="The multipliers are functions of $R$ and $\\dot R$ alone",
+        tex=(r"\lambda=-\bigl(\hat\Omega^2+\hat w+R^TA\bigr)g=\lambda^T,\qquad w=I^{-1}\{\text{right side of (11)}\}"),
+        assumptions=("R is a rotation", "I and g are diagonal", "$\\hat v\\,x=[v,x]$"),
+        quote=r"these equations determine $\lambda_{jk}$ algebraically, as some functions of $R$ and $\dot R$",
+    ),
+    Equation(
+        label="text-nondegenerate",
+        number=None,
+        section="II",
+        kind="claim",
+        says="The mass matrix of the body is not degenerate",
+        tex=r"""\det g=g_1g_2g_3\ne0""",
+        assumptions=("the bodies of Section IV, the plane one with $I=2$ among them",),
+        quote="as before, $g_{kj}$ is a numerical symmetric non-degenerate matrix",
+    ),
+    Equation(
         label="mf22",
         number=11,
         section="II",
@@ -63,8 +83,25 @@ EQUATIONS = (
         number=None,
         section="II",
         kind="claim",
-        says="Poisson equations keep R orthogonal: R^T R stays what it is at t = 0",
+        says="Poisson equations keep R orthogonal: R R^T stays what it is at t = 0",
         tex=r"\frac{d}{dt}(RR^T)=0",
+    ),
+    Equation(
+        label="text-covariance",
+        number=None,
+        section="II",
+        kind="claim",
+        says="The system is covariant under rotations of the laboratory",
+        tex=(
+            r"\begin{aligned} &[I'\boldsymbol{\Omega}',\boldsymbol{\Omega}']-\frac{\mu}{c}[g'\mathbf{K}',"
+            r"\boldsymbol{\Omega}']=S\Bigl\{[I\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu}{c}[g\mathbf{K},"
+            r"\boldsymbol{\Omega}]\Bigr\},\\ &I'=SIS^T,\quad g'=SgS^T,\quad\boldsymbol{\Omega}'=S\boldsymbol{"
+            r"\Omega},\quad\mathbf{K}'=S\mathbf{K} \end{aligned}"
+        ),
+        assumptions=("S is a rotation", "$\\mathbf{K}=R^T\\mathbf{B}$, $R'=SRS^T$"),
+        quote=(
+            "Note that this system is composed of $SO(3)$ vectors and tensors, so it is covariant under the rotations"
+        ),
     ),
     Equation(
         label="mf23",
@@ -130,6 +167,16 @@ EQUATIONS = (
         assumptions=("I and g are diagonal",),
     ),
     Equation(
+        label="text-other-components",
+        number=None,
+        section="II",
+        kind="claim",
+        says="What mf26 says of the first component holds for the second and third",
+        tex=r"""I[R^T\mathbf{B},\boldsymbol{\Omega}]-[IR^T\mathbf{B},\boldsymbol{\Omega}]+[R^T\mathbf{B},I\boldsymbol{\Omega}]=2[gR^T\mathbf{B},\boldsymbol{\Omega}]""",
+        assumptions=("I and g are diagonal",),
+        quote="and similar expressions for the second and third components",
+    ),
+    Equation(
         label="mf27",
         number=16,
         section="II",
@@ -170,5 +217,14 @@ EQUATIONS = (
             r"\rvert}{c}[g'\mathbf{G}_3,\boldsymbol{\Omega}]"
         ),
         assumptions=("B along e3",),
+    ),
+    Equation(
+        label="text-flight",
+        number=None,
+        section="II",
+        kind="claim",
+        says="The path of any point of the body: flight and rotation together",
+        tex=r"""\mathbf{y}_N(t)=\mathbf{y}_0(t)+R(t)\,\mathbf{x}_N(0)""",
+        assumptions=("the constraint forces do no work in a rigid motion", "mf17, mf21 and mf27"),
     ),
 )

@@ -48,7 +48,10 @@ EQUATIONS = (
             r"\Omega_1^2(t)+\Omega_2^2(t)=\omega_1^2+\omega_2^2, \qquad K_1^2(t)+K_2^2(t)={B'_2}^2, \qquad "
             r"\Omega_1(t)K_1(t)+\Omega_2(t)K_2(t)=\omega_2B'_2"
         ),
-        assumptions=("Omega3 = omega3 = const",),
+        assumptions=(
+            "$\\omega_1^2+\\omega_2^2>0$",
+            "Omega3 = omega3 = const",
+        ),
     ),
     Equation(
         label="mf68",
@@ -72,7 +75,10 @@ EQUATIONS = (
             r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\text{where}\quad\phi'\equiv(1-I)"
             r"\omega_3+(2-I)B'_3-\frac{IB'_2\omega_2\omega_3}{\omega_1^2+\omega_2^2}"
         ),
-        assumptions=("Omega3 = omega3 = const",),
+        assumptions=(
+            "$\\omega_1^2+\\omega_2^2>0$",
+            "Omega3 = omega3 = const",
+        ),
     ),
     Equation(
         label="mf70",
@@ -123,7 +129,14 @@ EQUATIONS = (
         kind="claim",
         says="mf71 and mf71.1 together leave only omega1 = 0",
         tex=r"\text{(65), (66)}\implies\omega_1=0",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(
+            "$\\omega_2$ differs from 0",
+            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+        ),
+        quote=(
+            "Combining this with the necessary condition [...], we conclude that the initial data should be "
+            r"taken on the curve [...] that lie on the plane $\omega_1=0$"
+        ),
     ),
     Equation(
         label="mf73",

@@ -20,6 +20,18 @@ EQUATIONS = (
         assumptions=("lambda_AB is symmetric",),
     ),
     Equation(
+        label="text-constraints",
+        number=None,
+        section="II",
+        kind="claim",
+        says="Varying the multipliers gives the constraints",
+        tex=(
+            r"\frac{\partial L}{\partial\lambda_{AB}}=0\iff(\mathbf{y}_A-\mathbf{y}_1,\mathbf{y}_B-\mathbf{y}_1)"
+            r"=a_{AB}"
+        ),
+        quote=r"The variations with respect to $\lambda_{AN}$ imply the constraints",
+    ),
+    Equation(
         label="mf15",
         number=2,
         section="II",
@@ -57,6 +69,19 @@ EQUATIONS = (
         assumptions=("all particles have the same charge-to-mass ratio mu",),
     ),
     Equation(
+        label="text-translation",
+        number=None,
+        section="II",
+        kind="claim",
+        says=(
+            "The flight does not depend on the rotation: other places and velocities about the same centre of mass "
+            "do not change its acceleration"
+        ),
+        tex=r"""\ddot{\mathbf{y}}_0\ \text{does not depend on}\ \mathbf{x}_N,\ \dot{\mathbf{x}}_N""",
+        assumptions=("all particles have the same charge-to-mass ratio mu",),
+        quote="rotational motion of the body does not affect its translational motion",
+    ),
+    Equation(
         label="text-rigid",
         number=None,
         section="II",
@@ -67,6 +92,20 @@ EQUATIONS = (
         ),
         tex=r"\mathbf{x}_N(t)=R(t)\,\mathbf{x}_N(0),\qquad R^TR=\mathbf{1}",
         assumptions=("the vectors from particle 1 to particles 2, 3, 4 are independent",),
+        quote="guarantee that distances and angles among the particles do not change with time",
+    ),
+    Equation(
+        label="text-rigid-plane",
+        number=None,
+        section="II",
+        kind="claim",
+        says="The constraints keep the distances in a plane body too, such as the loop of Section IV",
+        tex=(
+            r"(\mathbf{y}_A-\mathbf{y}_1,\mathbf{y}_\beta-\mathbf{y}_1)=a_{A\beta}\quad(A=2,3,4)\implies"
+            r"\lvert\mathbf{y}_\beta-\mathbf{y}_1\rvert=\text{const}"
+        ),
+        assumptions=("particles 1 to 4 in one plane",),
+        quote="guarantee that distances and angles among the particles do not change with time",
     ),
     Equation(
         label="mf18",
@@ -131,6 +170,16 @@ EQUATIONS = (
         assumptions=("lambda_AB is symmetric", "round brackets on indices: sum of both orders, no factor 1/2"),
     ),
     Equation(
+        label="text-multipliers-symmetric",
+        number=None,
+        section="II",
+        kind="claim",
+        says="The matrix of the constraint forces is symmetric",
+        tex=r"""\lambda_{jk}=\lambda_{kj}""",
+        assumptions=("lambda_AB is symmetric",),
+        quote=r"while $\lambda_{jk}(t)$ is the symmetric matrix",
+    ),
+    Equation(
         label="text-electric-field",
         number=None,
         section="II",
@@ -140,5 +189,19 @@ EQUATIONS = (
         ),
         tex=r"\mu E_i\sum m_Nx_N^j=0",
         assumptions=("the sum of m_N x_N is zero",),
+        quote="the electric field do not affect the motion of rotational degrees of freedom",
+    ),
+    Equation(
+        label="text-rotation-apart",
+        number=None,
+        section="II",
+        kind="claim",
+        says=(
+            "The rotation does not depend on the flight: another place and velocity of the whole body changes no "
+            "relative acceleration"
+        ),
+        tex=r"""\ddot{\mathbf{x}}_N\ \text{does not depend on}\ \mathbf{y}_0,\ \dot{\mathbf{y}}_0""",
+        assumptions=("all particles have the same charge-to-mass ratio mu",),
+        quote="so the translational motion does not affect the rotational motion of the body",
     ),
 )

@@ -41,6 +41,7 @@ EQUATIONS = (
         says="Without an electric field the particle moves on a helix about an axis along B",
         tex=r"\frac{d}{dt}\lvert\mathbf{y}_2\rvert^2=0,\qquad\ddot{\mathbf{y}}_{\Vert}=0",
         assumptions=("E = 0",),
+        quote="particle moves along a helical line located on a cylinder",
     ),
     Equation(
         label="mf3",
@@ -80,6 +81,7 @@ EQUATIONS = (
         says="Along B the particle moves with the acceleration |mu E_perp|",
         tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\bot}\rvert",
         assumptions=("B along e3, E in the plane (e2, e3)",),
+        quote=r"moves with the acceleration $\lvert\mu\mathbf{E}_{\bot}\rvert$ along the axis $\mathbf{B}$",
     ),
     Equation(
         label="text-double-product",
@@ -165,6 +167,20 @@ EQUATIONS = (
         assumptions=("B along e3, E in the plane (e2, e3)",),
     ),
     Equation(
+        label="text-time-shift",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="The phase $\\omega_0$ goes away with another origin of time",
+        tex=(
+            r"\begin{aligned} &\mathbf{y}_{\bot}(t;\mathbf{C}_{\bot},\omega_0)=\mathbf{y}_{\bot}\Bigl(t+\frac{"
+            r"\omega_0}{\omega};\mathbf{C}'_{\bot},0\Bigr),\\ &\mathbf{C}'_{\bot}=\mathbf{C}_{\bot}-\mu\mathbf{E}_{"
+            r"\bot}\frac{\omega_0}{\omega} \end{aligned}"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+        quote=r"By choosing the time reference point, we can give any desired value to the constant $\omega_0$",
+    ),
+    Equation(
         label="text-first-two-terms",
         number=None,
         section="VII",
@@ -176,6 +192,7 @@ EQUATIONS = (
             r"\bot}\rvert}{\omega}t\mathbf{e}_1=0"
         ),
         assumptions=("B along e3, E in the plane (e2, e3)",),
+        quote="the first two terms in Eq. (98) vanish",
     ),
     Equation(
         label="text-initial-position",
@@ -185,6 +202,7 @@ EQUATIONS = (
         says="That choice puts the particle at y_perp(0) = a e2",
         tex=r"\mathbf{y}_{\bot}(0)=a\mathbf{e}_2",
         assumptions=("B along e3, E in the plane (e2, e3)", "omega0 = 0"),
+        quote="This corresponds to the choice of initial position",
     ),
     Equation(
         label="mf11",
@@ -208,6 +226,10 @@ EQUATIONS = (
         says="The guiding centre moves along e1 with the speed mu |E_perp|/omega",
         tex=r"\dot{\mathbf{O}}=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}\mathbf{e}_1",
         assumptions=("B along e3, E in the plane (e2, e3)",),
+        quote=(
+            r"the point $\mathbf{O}(t)$ moves in the direction of $\mathbf{e}_1$ with the speed equal to "
+            r"$\mu\lvert\mathbf{E}_{\bot}\rvert/\omega$"
+        ),
     ),
     Equation(
         label="text-trochoid-constant",
@@ -232,6 +254,19 @@ EQUATIONS = (
             r"\lvert \mathbf{E}_{\bot}\rvert}{\omega}+a\cos\omega t"
         ),
         assumptions=("B along e3, E in the plane (e2, e3)",),
+    ),
+    Equation(
+        label="text-trochoid",
+        number=None,
+        section="VII",
+        kind="claim",
+        says="The curve is a trochoid: the path of a point that a rolling circle carries along",
+        tex=(
+            r"x=r\theta+a\sin\theta,\qquad y=r+a\cos\theta,\qquad\theta=\omega t,\quad "
+            r"r=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^2}"
+        ),
+        assumptions=("B along e3, E in the plane (e2, e3)",),
+        quote="These are parametric equations of a plane curve called trochoid",
     ),
     Equation(
         label="mf10.2",
@@ -264,6 +299,7 @@ EQUATIONS = (
             r"\mathbf{E}=-\frac1c\frac{\partial\mathbf{A}}{\partial t}+\nabla A_0,\qquad\mathbf{B}=[\nabla,"
             r"\mathbf{A}]"
         ),
+        quote="This implies the standard agreement",
     ),
     Equation(
         label="mf13",

@@ -13,6 +13,22 @@ EQUATIONS = (
         assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
     ),
     Equation(
+        label="text-laboratory",
+        number=None,
+        section="IV",
+        kind="claim",
+        says=(
+            "The laboratory may be turned about $\\mathbf{e}_3$ until the field lies in the plane of "
+            "$\\mathbf{e}_2$ and $\\mathbf{e}_3$"
+        ),
+        tex=r"""S\,\mathbb{I}\,S^T=\mathbb{I},\qquad S\mathbf{B}=(0,B_2,B_3)^T""",
+        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "S is a rotation about e3"),
+        quote=(
+            "without spoiling the diagonal form of inertia tensor in our equations, the Laboratory system can "
+            "be chosen as shown"
+        ),
+    ),
+    Equation(
         label="mf41.0",
         number=31,
         section="IV",
@@ -143,6 +159,7 @@ EQUATIONS = (
             "4"
         ),
         assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        quote="This system admits four integrals of motion",
     ),
     Equation(
         label="mf50",
@@ -169,7 +186,10 @@ EQUATIONS = (
             r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)"
             r"\Omega_2"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(
+            "$E'-I\\Omega_3^2$ differs from 0",
+            "I1 = I2, third axis of inertia along e3 at t = 0",
+        ),
     ),
     Equation(
         label="mf52",
@@ -181,7 +201,11 @@ EQUATIONS = (
             r"\phi(t)\equiv\frac{(2-I)c_3E'-(E'+Ic_5)\Omega_3(t)}{E'-I\Omega_3^2(t)}, \qquad f(t)=\ln\sqrt{E'-I"
             r"\Omega_3^2(t)}"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "f is meant up to a constant"),
+        assumptions=(
+            "$E'-I\\Omega_3^2$ differs from 0",
+            "I1 = I2, third axis of inertia along e3 at t = 0",
+            "f is meant up to a constant",
+        ),
     ),
     Equation(
         label="mf53",
@@ -193,7 +217,10 @@ EQUATIONS = (
             r"\Omega_1(t)=f_0\sqrt{E'-I\Omega_3^2(t)}\sin(\Phi(t)+\phi_0), \qquad \Omega_2(t)=f_0\sqrt{E'-I"
             r"\Omega_3^2(t)}\cos(\Phi(t)+\phi_0)"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(
+            "$E'-I\\Omega_3^2$ differs from 0",
+            "I1 = I2, third axis of inertia along e3 at t = 0",
+        ),
     ),
     Equation(
         label="mf54",
@@ -231,6 +258,16 @@ EQUATIONS = (
             r"\end{aligned}"
         ),
         assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+    ),
+    Equation(
+        label="text-cubic-degree",
+        number=None,
+        section="IV",
+        kind="claim",
+        says="The polynomial on the right side of mf55 has the degree three",
+        tex=r"""a_3=-2(1-I)\ne0""",
+        assumptions=("$I$ differs from 1",),
+        quote="a root of the third degree polynomial",
     ),
     Equation(
         label="mf57",

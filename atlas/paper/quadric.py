@@ -29,13 +29,14 @@ EQUATIONS = (
         says="The surface passes through the origin",
         tex=r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        quote="the surface always pass through the origin of coordinate system",
     ),
     Equation(
         label="mf59",
         number=52,
         section="IV",
         kind="derivation step",
-        says="The condition resolved for omega3: all constant solutions",
+        says="The condition resolved for omega3: a two-parametric family of constant solutions",
         tex=(
             r"\begin{aligned} "
             r"\Omega_3(t)&=\omega_3(\omega_1, \omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega"
@@ -62,6 +63,22 @@ EQUATIONS = (
             r"\end{aligned}"
         ),
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "tan(beta) = B'3/(I B'2)"),
+    ),
+    Equation(
+        label="text-turned",
+        number=None,
+        section="IV",
+        kind="claim",
+        says=(
+            "The canonical coordinates are those from the origin $-\\mathbf{B}'$ along axes turned "
+            "counter-clockwise by $\\beta/2+\\pi/4$"
+        ),
+        tex=r"""\boldsymbol{\omega}+\mathbf{B}'=\sum_i\omega'_i\mathbf{e}'_i,\qquad\mathbf{e}'_2=\cos\Bigl(\frac{\beta}{2}+\frac{\pi}{4}\Bigr)\mathbf{e}_2+\sin\Bigl(\frac{\beta}{2}+\frac{\pi}{4}\Bigr)\mathbf{e}_3""",
+        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        quote=(
+            r"by shifting the origin of coordinate system to the point $-\mathbf{B}'$, and subsequent rotation "
+            "counter-clockwise"
+        ),
     ),
     Equation(
         label="text-beta",
@@ -120,6 +137,7 @@ EQUATIONS = (
         says="For I > 1 the squared semi-axes are positive: the surface is a hyperboloid of two sheets",
         tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "1 < I <= 2"),
+        quote="Hence the surface of initial data is a hyperboloid of two sheets",
     ),
     Equation(
         label="text-short-cylinder",
@@ -128,7 +146,8 @@ EQUATIONS = (
         kind="claim",
         says="A sufficiently short cylindrical surface has 1 < I < 2, a long one 0 < I < 1",
         tex=r"I=\frac{12r^2}{6r^2+h^2}>1\iff h<\sqrt6\,r",
-        assumptions=("shell of radius r and height h: I3 = m r^2, I2 = m r^2/2 + m h^2/12",),
+        assumptions=("shell of radius $r$, height $h$ and mass $m_0$: $I_3=m_0r^2$, $I_2=m_0r^2/2+m_0h^2/12$",),
+        quote="This body could be a charged sufficiently short cylindrical surface",
     ),
     Equation(
         label="text-plane-body",
@@ -147,6 +166,7 @@ EQUATIONS = (
         says="I = 2: the two sheets touch the planes omega3 = 0 and omega3 = -2 B'3",
         tex=r"I=2:\quad\omega_3\ge0\ \text{or}\ \omega_3\le-2B'_3",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 2"),
+        quote="the sheets of the hyperboloid are tangent to the horizontal planes",
     ),
     Equation(
         label="mf62",
@@ -165,6 +185,7 @@ EQUATIONS = (
         says="The cone mf62 has the semi-axes a2 and a3 of mf60",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3^2}=\frac{{\omega'_2}^2}{a_2^2}",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 1"),
+        quote="turn into the cone [...] with semi axes $a_2$ and $a_3$ written in equation (54)",
     ),
     Equation(
         label="mf63",
@@ -190,6 +211,7 @@ EQUATIONS = (
         says="For I < 1 the squared semi-axes are positive: the surface is a hyperboloid of one sheet",
         tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "0 < I < 1"),
+        quote="Hence the surface of initial data is a hyperboloid of one sheet",
     ),
     Equation(
         label="text-not-all",
@@ -199,5 +221,6 @@ EQUATIONS = (
         says="Not all constant solutions of the pseudo-oscillator are motions of the body",
         tex=r"\omega_1B'_2\ne0\implies\dot\Omega_3(0)\ne0",
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        quote="Not all of them generate solutions to the original problem",
     ),
 )

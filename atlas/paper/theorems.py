@@ -24,10 +24,15 @@ EQUATIONS = (
         section="Atlas",
         kind="theorem",
         says=(
-            "Omega3 stays constant exactly if omega1 B'2 = 0 and mf58.1 holds: of the quadric only the "
-            "hyperbola omega1 = 0 is motions"
+            "$\\Omega_3$ stays constant exactly if both its rates vanish at the start: of the quadric only the points"
+            " with $\\omega_1=0$ are motions"
         ),
-        tex=r"\dot\Omega_3(0)=\omega_1B'_2",
+        tex=(
+            r"\begin{aligned} \Omega_3=\text{const}&\iff\dot\Omega_3(0)=0\ \text{and}\ \ddot\Omega_3(0)=0,\\ "
+            r"\dot\Omega_3(0)&=\omega_1B'_2,\\ "
+            r"\ddot\Omega_3(0)&=B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2"
+            r"-I{B'_2}^2\omega_3 \end{aligned}"
+        ),
         assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
     ),
     Equation(
@@ -35,13 +40,31 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="Nutation frequency squared along the hyperbola",
-        tex=r"-p'(\omega_3)={B'_2}^2\,\frac{(1+\tau^2)x^4+(1-I)(2\tau^2-1)x^2+\tau^2(1-I)^2}{x^2}",
+        says="Square of the nutation frequency along the hyperbola, $p$ being the cubic of mf55",
+        tex=(
+            r"\begin{aligned} \nu_n^2=-p'(\omega_3)&={B'_2}^2\,\frac{(1+\tau^2)x^4+(1-I)(2\tau^2-1)x^2+\tau^2(1-I)^2}"
+            r"{x^2}\\ &=\kappa^2+(1-I)b^2(3\hat{B}_3^2-1)+(1-I)^2\frac{b^4\hat{B}_3^2}{\kappa^2} \end{aligned}"
+        ),
         assumptions=(
             "I1 = I2, third axis of inertia along e3 at t = 0",
             "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
-            "omega2 differs from -B'2",
-            "tau = B'3/B'2, x = (omega2 + B'2)/B'2",
+            "$\\omega_2$ differs from $-B'_2$",
+            "$\\tau=B'_3/B'_2$, $x=(\\omega_2+B'_2)/B'_2$, $b=|\\mathbf{B}'|$, $\\kappa=k+b$",
+        ),
+    ),
+    Equation(
+        label="theorem-root",
+        number=None,
+        section="Atlas",
+        kind="theorem",
+        says=(
+            "The quartic about an elementary motion: $\\omega_3$ is a double root of it, and a triple one where "
+            "$p'$ vanishes"
+        ),
+        tex=r"Q(\omega_3+v)=v^2\left[p'(\omega_3)+(1-I)\,v\,(4B'_3-v)\right]",
+        assumptions=(
+            "I1 = I2, third axis of inertia along e3 at t = 0",
+            "an elementary motion: $\\omega_1=0$ and $p(\\omega_3)=0$",
         ),
     ),
     Equation(
@@ -49,13 +72,16 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="For I >= 1 the elementary motions are stable everywhere",
-        tex=r"I\ge1\implies-p'(\omega_3)>0",
+        says="For $I\\ge1$ the elementary motions are stable everywhere",
+        tex=(
+            r"\nu_n^2=X^2+(I-1){B'_2}^2+\tau^2\,\frac{\left[X^2-(I-1){B'_2}^2\right]^2}{X^2}>(I-1){B'_2}^2\ge0,\qquad "
+            r"X=\omega_2+B'_2"
+        ),
         assumptions=(
             "I1 = I2, third axis of inertia along e3 at t = 0",
             "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
-            "omega2 differs from -B'2",
-            "1 <= I <= 2",
+            "$\\omega_2$ differs from $-B'_2$",
+            "$1\\le I\\le2$",
         ),
     ),
     Equation(
@@ -63,17 +89,66 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="For I < 1 they are unstable exactly in a band of x^2, which is there exactly if tau < 1/(2 sqrt 2)",
+        says=(
+            "For $I<1$ they are unstable exactly in a closed band of $x^2$, which is there exactly if"
+            " $\\tau\\le1/(2\\sqrt2)$"
+        ),
         tex=(
-            r"-p'(\omega_3)<0\iff y_-<x^2<y_+,\qquad y_\pm=(1-I)\frac{1-2\tau^2\pm\sqrt{1-8\tau^2}}{2(1+\tau^2)}"
-            r",\qquad\tau<\frac{1}{2\sqrt2}"
+            r"\nu_n^2\le0\iff y_-\le x^2\le y_+,\qquad y_\pm=(1-I)\frac{1-2\tau^2\pm\sqrt{1-8\tau^2}}{2(1+\tau^2)}"
+            r",\qquad\tau\le\frac{1}{2\sqrt2}"
         ),
         assumptions=(
             "I1 = I2, third axis of inertia along e3 at t = 0",
             "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
-            "omega2 differs from -B'2",
-            "0 < I < 1",
+            "$\\omega_2$ differs from $-B'_2$",
+            "$0<I<1$",
         ),
+    ),
+    Equation(
+        label="theorem-band-ends",
+        number=None,
+        section="Atlas",
+        kind="theorem",
+        says=(
+            "The ends of the band belong to it: there $\\omega_3$ is a triple root of $Q$, and a motion with the same"
+            " constants leaves the elementary one by $4B'_3$"
+        ),
+        tex=(
+            r"p'(\omega_3)=0:\qquad Q(\omega_3+v)=(1-I)\,v^3\,(4B'_3-v),\qquad "
+            r"\Omega_3(t)=\omega_3+\frac{4B'_3}{1+4(1-I){B'_3}^2t^2}"
+        ),
+        assumptions=(
+            "I1 = I2, third axis of inertia along e3 at t = 0",
+            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            "$0<I<1$",
+        ),
+    ),
+    Equation(
+        label="theorem-equatorial-stability",
+        number=None,
+        section="Atlas",
+        kind="theorem",
+        says="$B'_3=0$: nutation on the line $\\omega_2=-B'_2$ with any $\\omega_3$, and on the line $\\omega_3=0$",
+        tex=(
+            r"\omega_2=-B'_2:\quad\nu_n^2=I^2\omega_3^2-(1-I){B'_2}^2,\qquad\omega_3=0:\quad\nu_n^2=(\omega_2+B'_2)^2"
+            r"-(1-I){B'_2}^2"
+        ),
+        assumptions=(
+            "I1 = I2, third axis of inertia along e3 at t = 0",
+            "$\\mathbf{B}'=(0,B'_2,0)$",
+        ),
+    ),
+    Equation(
+        label="theorem-ball-nutation",
+        number=None,
+        section="Atlas",
+        kind="theorem",
+        says=(
+            "$I=1$: a ball nutates with its angular velocity in Larmor's frame; only the motion"
+            " $\\boldsymbol{\\omega}=-\\mathbf{B}'$ is unstable"
+        ),
+        tex=r"\nu_n^2=\lvert\boldsymbol{\omega}+\mathbf{B}'\rvert^2",
+        assumptions=("$I=1$",),
     ),
     Equation(
         label="theorem-ball-line",
@@ -115,6 +190,21 @@ EQUATIONS = (
         assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
     ),
     Equation(
+        label="theorem-moment",
+        number=None,
+        section="Atlas",
+        kind="theorem",
+        says=(
+            "The torque on any charged body is that on the magnetic moment $(\\mu/2c)\\,\\mathbf{m}$ and a rate, which"
+            " is zero for a ball"
+        ),
+        tex=(
+            r"\dot{\mathbf{m}}=\frac{\mu}{2c}\Bigl\{[\mathbf{m},\mathbf{B}]-\frac{d}{dt}\bigl(R\,\mathbb{I}\,R^T\mathbf{B}"
+            r"\bigr)\Bigr\}"
+        ),
+        assumptions=("all particles have the same charge-to-mass ratio mu",),
+    ),
+    Equation(
         label="theorem-drift",
         number=None,
         section="Atlas",
@@ -130,7 +220,7 @@ EQUATIONS = (
         kind="theorem",
         says="m2 = 0, m3 = -alpha I0: gamma = 0 and the ball turns about B by -alpha t",
         tex=r"R=R_{OZ}(-\alpha t)",
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("I1 = I2 = I3", "B along e3"),
     ),
     Equation(
         label="theorem-angles",
@@ -142,6 +232,7 @@ EQUATIONS = (
         assumptions=(
             "I1 = I2, third axis of inertia along e3 at t = 0",
             "z along B, nu = K3/b, P = Omega1 K1 + Omega2 K2",
+            "$b>0$, $|\\nu|<1$",
         ),
     ),
     Equation(
@@ -151,10 +242,15 @@ EQUATIONS = (
         kind="theorem",
         says="Logarithmic derivatives of the Cayley-Klein parameters of the general motion",
         tex=(
-            r"\frac{\dot\alpha}{\alpha}=\frac12 \left[\frac{\dot\nu}{1+\nu}+i\left(\frac{P/b}{1+\nu}+u\right)"
-            r"\right],\qquad\frac{\dot\beta}{\beta}=\frac12 \left[-\frac{\dot\nu}{1-\nu}+i\left(\frac{P/b}{1-\nu"
+            r"\frac{\dot\xi}{\xi}=\frac12 \left[\frac{\dot\nu}{1+\nu}+i\left(\frac{P/b}{1+\nu}+u\right)"
+            r"\right],\qquad\frac{\dot\eta}{\eta}=\frac12 \left[-\frac{\dot\nu}{1-\nu}+i\left(\frac{P/b}{1-\nu"
             r"}-u\right)\right]"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "z along B"),
+        assumptions=(
+            "I1 = I2, third axis of inertia along e3 at t = 0",
+            "z along B",
+            r"$\xi=\cos\frac{\theta}{2}\,e^{i(\psi+\chi)/2}$, $\eta=\sin\frac{\theta}{2}\,e^{i(\psi-\chi)/2}$",
+            "$b>0$, $|\\nu|<1$",
+        ),
     ),
 )

@@ -7,7 +7,7 @@ import sympy
 from atlas.proof import euler_poisson as general
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, hat, rotation_symbols, turn, vector
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Part, Trial
 
 (R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
 I0, mu, c = sympy.symbols("I0 mu c", positive=True)
@@ -141,15 +141,11 @@ def true_constants_model() -> tuple[Model, Model]:
 
 
 @cache
-def parallel_model() -> tuple[Model, Model]:
-    """m2 = 0 and m3 + alpha I0 of either sign, with k and gamma of mf39."""
-    cases = []
-    for sign in (1, -1):
-        axis = {"k2": sympy.Integer(0), "k3": -sympy.Integer(sign), "gamma": size / I0}
-        cases.append(
-            Model({"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}, domains=UPRIGHT, units=units.BALL)
-        )
-    return cases[0], cases[1]
+def parallel_model(sign: int = 1) -> Model:
+    """m2 = 0 and m3 + alpha I0 of one sign, with k and gamma of mf39."""
+    axis = {"k2": sympy.Integer(0), "k3": -sympy.Integer(sign), "gamma": size / I0}
+    letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}
+    return Model(letters, domains=UPRIGHT, units=units.BALL)
 
 
 @cache
@@ -178,6 +174,31 @@ _RIGHT = (
 )
 _LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
 
+
+@cache
+def round_model() -> Model:
+    """Masses on the principal axes with equal moments; omega = R Omega."""
+    whole = kinematic_model()
+    moment = sympy.Symbol("G", positive=True)
+    masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", real=True)
+    where = [*ROTATION, *((mass, moment / place**2) for mass, place in zip(masses, places, strict=True))]
+    return Model({**whole.letters, "I0": 2 * moment}, where)
+
+
+@cache
+def body_flow_model() -> Model:
+    """Omega by mf31 and K = mu/(2c) R^T B by mf43, for any state."""
+    K = vector("K")
+    flow = dict(zip([*Omega, *K], [*(-cross(K, Omega)), *(-cross(Omega, K))], strict=True))
+    return Model({"Omega": Omega, "K": K}, flow=flow)
+
+
+@cache
+def frame_model() -> Model:
+    """Any other axes of the laboratory."""
+    return Model({"R": R, "I0": I0}, ROTATION)
+
+
 TRIALS = (
     Trial(
         label="text-momentum",
@@ -190,6 +211,12 @@ TRIALS = (
         printed="I1 = I2 = I3 = I0",
         model=uniform_ball_model,
         follows="the moments of a uniform ball, integrated, I0 = 2 M r^2/5",
+    ),
+    Trial(
+        label="text-ball-axis",
+        printed="m = I0*omega = I0*R*Omega; cross(omega,m) = 0",
+        model=round_model,
+        follows="m = sum of m_N [x, dx/dt] for three masses on the principal axes with equal moments",
     ),
     Trial(
         label="mf30",
@@ -210,6 +237,20 @@ TRIALS = (
         follows="mf32",
     ),
     Trial(
+        label="text-ball-body-precession",
+        printed="d2(Omega) = cross(K,cross(K,Omega))",
+        model=body_flow_model,
+        follows="mf31 and mf43: a precession about K with the frequency |K| = alpha has this second rate",
+        corrected="d(Omega) = -cross(Omega + K,Omega); d(Omega + K) = 0",
+        corrected_tex=(
+            r"\dot{\boldsymbol{\Omega}}=-[\boxed{\boldsymbol{\Omega}+\mathbf{K}},\boldsymbol{\Omega}],\qquad"
+            r"\boxed{\boldsymbol{\Omega}+\mathbf{K}=\text{const}}"
+        ),
+        grade="wording",
+        note="It is so at each instant, but R^T B moves as well. What stands still in the body is Omega + K, and the"
+        " components turn about that with the frequency gamma of mf39, not with Larmor's.",
+    ),
+    Trial(
         label="text-linear-poisson",
         printed="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
         model=ball_model,
@@ -223,6 +264,12 @@ TRIALS = (
     ),
     Trial(
         label="mf35", printed="dm = -mu/(2*c)*cross(Bf,m)", model=ball_model, follows="m = I0 R Omega, mf30 and mf31"
+    ),
+    Trial(
+        label="text-ball-frame",
+        printed="R*(I0*one)*T(R) = I0*one",
+        model=frame_model,
+        follows="R R^T = 1",
     ),
     Trial(
         label="mf36",
@@ -266,9 +313,10 @@ TRIALS = (
         corrected_defines=(),
         corrected_solves="",
         corrected_tex=(
-            r"\gamma\hat{k}_2=-\frac{m_2}{I_0},\quad\gamma\hat{k}_3=-\frac{m_3+\alpha I_0}{I_0},\quad"
-            r"\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}"
+            r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\quad\gamma\hat{k}_3=-\frac{m_3+\alpha I_0}{I_0},\quad"
+            r"\hat{k}_2^2+\hat{k}_3^2=1},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}"
         ),
+        grade="missing case",
         note="Right but for one point, m2 = 0 and m3 = -alpha I0, where it reads 0/0: there gamma = 0 and k is any unit"
         " vector, see theorem-ball-rest.",
     ),
@@ -284,14 +332,16 @@ TRIALS = (
         printed="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
         model=parallel_model,
         follows="mf39 with m2 = 0",
-        corrected="k2 = 0; gamma*k3 = -(alpha + m3/I0); gamma = abs(alpha + m3/I0)",
-        corrected_tex=(
-            r"\hat{\mathbf{k}}=\left(0,0,-\mathrm{sign}\Bigl(\alpha+\frac{m_3}{I_0}\Bigr)\right)^T,"
-            r"\qquad\gamma=\left\lvert\alpha+\frac{m_3}{I_0}\right\rvert"
+        also=(
+            Part(
+                line="k2 = 0; k3 = 1; gamma = -(alpha + m3/I0)",
+                model=lambda: parallel_model(-1),
+            ),
         ),
-        note="gamma is a root and never negative: for m3 < -alpha I0 both signs turn round. The product, and so"
-        " mf40, is"
-        " the same.",
+        note="In the same sense as B, or against it with m3 > -alpha I0. For m3 < -alpha I0 both signs turn round, "
+        "k3 = 1"
+        " and gamma = -(alpha + m3/I0), since gamma is a root and never negative. The product, and so mf40, is the "
+        "same.",
     ),
     Trial(
         label="mf40",

@@ -9,8 +9,10 @@ from collections.abc import Iterator
 from atlas.proof.notation import parse, write
 
 
-def changes(line: str, letters: frozenset[str], *, most: int = 24, seed: str = "") -> list[tuple[str, str]]:
-    """Return lines that differ from this one in one place, each with what was changed; at most `most`, chosen by seed.
+def changes(line: str, letters: frozenset[str], *, most: int | None = None, seed: str = "") -> list[tuple[str, str]]:
+    """Return lines that differ from this one in one place, each with what was changed.
+
+    most     how many at most, chosen by `seed`; None for all
 
     letters  the names that the model knows: an index is changed to one that means something
     """
@@ -20,7 +22,7 @@ def changes(line: str, letters: frozenset[str], *, most: int = 24, seed: str = "
         if text != write(parse(line)):
             found.setdefault(text, what)
     every = sorted(found.items())
-    if len(every) <= most:
+    if most is None or len(every) <= most:
         return every
     return sorted(random.Random(seed).sample(every, most))  # noqa: S311  a choice that is the same in every run
 

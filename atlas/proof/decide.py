@@ -8,7 +8,7 @@ import random
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Any
 
 import sympy
 
@@ -16,9 +16,9 @@ from atlas.proof.dimensions import unbalanced
 from atlas.proof.identity import ordered, positive, resolved, vanishes
 from atlas.proof.model import COMMON, Model
 from atlas.proof.notation import NoMeaningError, Reader, Relation, letters_of, parse, write
+from atlas.proof.verdict import Decision
 
 Value = Any
-Decision = Literal["proved", "refuted", "undecided", "supported"]
 
 SAMPLES = 5
 
@@ -46,7 +46,7 @@ class Outcome:
     counterexample: dict[str, str] = field(default_factory=dict)
 
 
-def decide(
+def decide(  # noqa: PLR0911  one return for each way in which a line fails
     line: str,
     cases: Model | Sequence[Model],
     *,
@@ -79,10 +79,13 @@ def decide(
         )
         if found:
             return Outcome("refuted", "exact counterexample", found)
+        idle = _idle(relations, here, tuple(defines), f"{line}; {solves}" if solves else line)
+        if idle:
+            return Outcome("undecided", idle)
         methods += [] if sample_only else [_prove(relation, here) for relation in relations]
     if sample_only:
         return Outcome("supported", f"{SAMPLES * len(models)} exact points")
-    if all(methods):
+    if methods and all(methods):
         return Outcome("proved", ", ".join(dict.fromkeys(methods)))
     return Outcome("undecided", "neither proved nor refuted")
 
@@ -103,10 +106,13 @@ def _understand(
     line: str, model: Model, defines: tuple[str, ...], solves: str
 ) -> tuple[list[Relation], dict[str, Value], list[tuple[Value, Value]]]:
     letters, where = dict(model.letters), list(model.where)
-    kept = []
+    kept, defined = [], set()
     for tree in parse(line):
         name = getattr(tree.left, "id", None)
         if name in defines:
+            if name in defined:
+                raise NoMeaningError(f"{name} is defined twice")
+            defined.add(name)
             value = Reader(letters, model.ranges).value(tree.comparators[0], {})
             known = letters.get(name)
             pairs = list(zip(known, value, strict=True)) if isinstance(known, sympy.MatrixBase) else [(known, value)]
@@ -121,6 +127,40 @@ def _understand(
     reader = Reader(letters, model.ranges)
     relations = reader.relations(write(kept)) if kept else []
     return relations + (reader.relations(solves) if solves else []), letters, where
+
+
+def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:
+    """Say what is wrong with a line that checks nothing, or defines a letter on which nothing that is checked depends.
+
+    Such a line would hold whatever stands on its right: it is not a claim. Empty if all is well.
+    """
+    if not relations:
+        return "nothing in it is checked"
+    trees = parse(line)
+    named = {name for relation in relations for name in relation.letters}
+    for tree in reversed(trees):  # a letter may be used in the definition of another one
+        if getattr(tree.left, "id", None) in named & set(defines):
+            named |= {name for side in tree.comparators for name in letters_of(side)}
+    values = [side for relation in relations for side in (*relation.left, *relation.right)]
+    reached = _reached(values, model)
+    for tree in trees:
+        name = getattr(tree.left, "id", None)
+        if name in defines and name not in named:
+            own = [symbol for symbol, _ in model.where if str(symbol) == name]
+            if not any(symbol in reached for symbol in own):
+                return f"nothing that is checked depends on {name}"
+    return ""
+
+
+def _reached(values: Iterable[Value], model: Model) -> set[Value]:
+    """Return the symbols on which values depend, also through `where` and through the rates of what moves."""
+    found: set[Value] = set().union(*(sympy.sympify(value).free_symbols for value in values))
+    rules = [*model.where, *model.flow.items()]
+    while True:
+        more = found | {s for symbol, value in rules if symbol in found for s in sympy.sympify(value).free_symbols}
+        if more == found:
+            return found
+        found = more
 
 
 def _parameters(relations: list[Relation], model: Model, names: tuple[str, ...]) -> list[Value]:
@@ -140,7 +180,7 @@ def _parameters(relations: list[Relation], model: Model, names: tuple[str, ...])
     return sorted(found - {symbol for symbol, _ in model.where}, key=str)
 
 
-def _complete(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
+def completed(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
     """Add what the symbols of `where` are at a point; each may use any other that doesn't depend on it."""
     point = dict(values)
     for symbol, value in ordered(model.where):
@@ -150,7 +190,7 @@ def _complete(values: dict[Value, Value], model: Model) -> dict[Value, Value]:
     return point
 
 
-def _points(parameters: list[Value], model: Model) -> Iterator[dict[Value, Value]]:
+def points(parameters: list[Value], model: Model) -> Iterator[dict[Value, Value]]:
     """Yield exact values of the free parameters at a few points of their domain, the same ones in every run."""
     chance = random.Random(20240)  # noqa: S311  points of a proof, not secrets
     for _ in range(SAMPLES):
@@ -191,11 +231,11 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
     parameters = _parameters(relations, model, names)
     valued = [False] * len(relations)
     free: dict[Value, Value] = {}
-    for free in _points(parameters, model):
-        values = _complete(free, model)
+    for free in points(parameters, model):
+        values = completed(free, model)
         for number, relation in enumerate(relations):
             for entry in range(len(relation.left)):
-                broken = _broken(relation, entry, values)
+                broken = breaks(relation, entry, values)
                 valued[number] |= broken is not None
                 if broken:
                     if shrink:
@@ -204,12 +244,13 @@ def _counterexample(relations: list[Relation], model: Model, names: tuple[str, .
     for number, relation in enumerate(relations):
         if not valued[number] and relation.left:
             ones = {symbol: sympy.Rational(_SIMPLE[_domain(symbol, model)][-2]) for symbol in free}
-            shown = _describe(relation, 0, model, names, _complete(ones, model))
+            shown = _describe(relation, 0, model, names, completed(ones, model))
             return {**shown, "left": "no value: 0/0", "right": "no value: 0/0"}
     return {}
 
 
-def _broken(relation: Relation, entry: int, values: dict[Value, Value]) -> bool | None:
+def breaks(relation: Relation, entry: int, values: dict[Value, Value]) -> bool | None:
+    """Say whether one component of a relation is broken at a point; None if it has no value there."""
     difference = sympy.sympify(relation.left[entry]).xreplace(values) - sympy.sympify(relation.right[entry]).xreplace(
         values
     )
@@ -221,10 +262,10 @@ def _simplest(relation: Relation, entry: int, free: dict[Value, Value], model: M
     for symbol in free:
         for value in _SIMPLE[_domain(symbol, model)]:
             simpler = {**free, symbol: sympy.Rational(value)}
-            if _broken(relation, entry, _complete(simpler, model)):
+            if breaks(relation, entry, completed(simpler, model)):
                 free = simpler
                 break
-    return _complete(free, model)
+    return completed(free, model)
 
 
 def _describe(

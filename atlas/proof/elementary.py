@@ -202,6 +202,45 @@ _POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
 _EULER = "J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
 _BRACKET = "1/omega2*(c - amp*hB3*omega2/hB2*cos(k*t + k0) - c*hB3^2)"
 
+
+@cache
+def hidden_model() -> Model:
+    """Model the field B = (2c/mu) B' for any mu > 0, and its length."""
+    mu, light = sympy.symbols("mu light", positive=True)
+    scale = 2 * light / mu * b
+    return _model({"Bl2": scale * hB2, "Bl": scale}, [K_OF_OMEGA2, *FIELD])
+
+
+@cache
+def free_body_model() -> Model:
+    """Model any motion of the free symmetrical body: third axis a, angular velocity omega, in the laboratory."""
+    a, m = vector("a"), vector("m")
+    I3 = sympy.Symbol("I3", positive=True)
+    omega = m / I2 + (1 / I3 - 1 / I2) * a.dot(m) * a
+    where = list(zip(a, rodrigues_axis(), strict=True))
+    return Model(
+        {"a": a, "m": m, "omega": omega, "I2": I2, "I3": I3, "B": hat},
+        where,
+        dict(zip(a, cross(omega, a), strict=True)),
+    )
+
+
+def rodrigues_axis() -> Value:
+    """Return every unit vector but one."""
+    x, y = sympy.symbols("x y", real=True)
+    return sympy.Matrix([2 * x, 2 * y, 1 - x**2 - y**2]) / (1 + x**2 + y**2)
+
+
+@cache
+def free_proper_model() -> Model:
+    """Model the free body of the affirmation: its rate of proper rotation is Omega3 less the part of m/I2 along e3."""
+    model = free_model()
+    I3 = model.letters["I3"]
+    m = sympy.Matrix([0, I2 * omega2, I3 * model.letters["Omega0"][2]])
+    letters = {"m3": m[2], "I3": I3, "phi": model.letters["Omega0"][2] - m[2] / I2, "kB": k}
+    return _model(letters, [K_OF_OMEGA2, *FIELD])
+
+
 TRIALS = (
     Trial(
         label="mf78",
@@ -211,6 +250,13 @@ TRIALS = (
         defines=("Omega",),
         solves="J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*K,Omega); d(K) = -cross(Omega,K); at0(Omega) = [0,"
         " omega2, omega3]",
+    ),
+    Trial(
+        label="text-body-precession",
+        printed="d(Omega) = -phi*cross(e3,Omega)",
+        model=matrix_model,
+        follows="mf78",
+        note="Clockwise for phi > 0.",
     ),
     Trial(label="mf79", printed="dgamma = cross(gamma,Omega)", model=row_model, follows="mf21 for one row"),
     Trial(
@@ -287,6 +333,12 @@ TRIALS = (
         solves=f"{_POISSON}; {_EULER}",
     ),
     Trial(
+        label="text-hidden",
+        printed="k = omega2*Bl/Bl2",
+        model=hidden_model,
+        follows="B' = mu B/(2c) and k = omega2/hat B2",
+    ),
+    Trial(
         label="mf90",
         printed=f"R = {_LEFT}*{_RIGHT} = P*Q",
         model=matrix_model,
@@ -302,6 +354,12 @@ TRIALS = (
         follows="Rodrigues' formula",
     ),
     Trial(
+        label="text-axis-precesses",
+        printed="d(R*e3) = k*cross(hat_B,R*e3)",
+        model=matrix_model,
+        follows="mf89",
+    ),
+    Trial(
         label="text-ball-limit",
         printed="omega3 - B3/B2*omega2 = 0",
         model=ball_limit_model,
@@ -312,6 +370,12 @@ TRIALS = (
         printed="phiB = (I2 - I3)*hB3*(2*b + kB)/(I3*(b + kB))*kB",
         model=frequencies_model,
         follows="mf76, mf77 and omega2 = k_B hat B2",
+    ),
+    Trial(
+        label="text-free-general",
+        printed="d(a) = 1/I2*cross(m,a); d(dot(m,a)) = 0",
+        model=free_body_model,
+        follows="da/dt = [omega, a] for the third axis a, omega = m/I2 + (1/I3 - 1/I2) (a, m) a, m constant",
     ),
     Trial(
         label="mf92",
@@ -333,8 +397,17 @@ TRIALS = (
         model=free_frequency_model,
         follows="m = (I2 omega2/B2) B', its length for either sign of omega2",
         corrected="size/I2 = abs(omega2)/hB2; k = omega2/hB2",
-        corrected_tex=r"k=\frac{\omega_2}{\hat{B}_2},\qquad\lvert k\rvert=\frac{\lvert\mathbf{m}\rvert}{I_2}",
+        corrected_tex=(
+            r"\boxed{\lvert k\rvert}=\frac{\lvert\mathbf{m}\rvert}{I_2},\qquad k=\frac{\omega_2}{\hat{B}_2}=k_B"
+        ),
+        grade="missing case",
         note="For omega2 < 0 the length |m| loses the sign; mf92 holds with k = omega2/hat B2.",
+    ),
+    Trial(
+        label="text-free-proper",
+        printed="phi = (I2 - I3)/(I2*I3)*m3 = (I2 - I3)/I3*hB3*omega2/hB2 = (I2 - I3)/I3*hB3*kB",
+        model=free_proper_model,
+        follows="text-free-general: what is left of Omega3 when the precession is taken away",
     ),
     Trial(
         label="text-momentum-moves",
@@ -348,7 +421,8 @@ TRIALS = (
         model=matrix_model,
         follows="mf78",
         corrected="Omega[3] = omega3; d(Omega[3]) = 0",
-        corrected_tex=r"\Omega_3(t)=\omega_3=\text{const}",
+        corrected_tex=r"\Omega_3(t)=\boxed{\omega_3}=\text{const}",
+        grade="misprint",
         note="A wrong index.",
     ),
     Trial(
@@ -363,7 +437,8 @@ TRIALS = (
         model=matrix_model,
         follows="m = R I Omega",
         corrected="dot(m - at0(m),Bp) = 0",
-        corrected_tex=r"(\mathbf{m}(t)-\mathbf{m}(0),\mathbf{B})=0",
+        corrected_tex=r"(\mathbf{m}(t)\boxed{-\mathbf{m}(0)},\mathbf{B})=0",
+        grade="wording",
         note="The projection is constant, not zero: only the tip of m stays in a plane orthogonal to B.",
     ),
 )

@@ -6,7 +6,7 @@ import sympy
 
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, hat, matrix, rotation, rotation_symbols, symmetric, vector
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Part, Trial
 
 (R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
 mu, c = sympy.symbols("mu c", positive=True)
@@ -138,12 +138,59 @@ _MF23 = (
     " = {sign}eps[i,j,k]*eps[al,be,k]*R[al,a]*Bf[j]*(R*Omega)[be]"
 )
 
+
+@cache
+def algebraic_model() -> Model:
+    """Principal axes, any matrix A; IdOmega is what mf22 makes of the rate of Omega."""
+    whole = multiplier_model()
+    swap = {g[i, j]: 0 for i in range(3) for j in range(3) if i != j}
+    letters = {**whole.letters, "g": g.xreplace(swap), "I": moments.xreplace(swap)}
+    return Model({**letters, "IdOmega": whole.letters["IdOmega"].xreplace(swap)}, ROTATION)
+
+
+@cache
+def moments_model() -> tuple[Model, Model]:
+    """Any body with its three moments of mass, and a plane one."""
+    g1, g2, g3 = sympy.symbols("g1:4", positive=True)
+    cases = []
+    for third in (g3, sympy.Integer(0)):
+        letters = {"g1": g1, "g2": g2, "g3": third, "I1": g2 + third, "I2": g1 + third, "I3": g1 + g2}
+        cases.append(Model(letters))
+    return cases[0], cases[1]
+
+
+@cache
+def covariance_model() -> Model:
+    """Model another rotation S of the laboratory: vectors and tensors of Section II as they are seen from there."""
+    other, where = rotation_symbols("S")
+    inertia, mass, K = symmetric("I"), symmetric("g"), vector("K")
+    letters = {"S": other, "I": inertia, "g": mass, "K": K, "Omega": Omega, "mu": mu, "c": c}
+    letters["seen"] = lambda tensor: other * tensor * other.T
+    letters["rate"] = lambda tensor, mass, field, spin: cross(tensor * spin, spin) - mu / c * cross(mass * field, spin)
+    return Model(letters, where)
+
+
+@cache
+def flight_model() -> Model:
+    """Four particles about their centre of mass; w is the rate of Omega, IdOmega that of mf27 times I."""
+    masses = dict(enumerate(sympy.symbols("m1:5", positive=True), 1))
+    places = {N: vector(f"x{N}_") for N in (1, 2, 3)}
+    places[4] = -sum((masses[N] * places[N] for N in places), sympy.zeros(3, 1)) / masses[4]
+    mass = sum((masses[N] * places[N] * places[N].T for N in masses), sympy.zeros(3, 3))
+    inertia = mass.trace() * sympy.eye(3) - mass
+    E, velocity = vector("E"), vector("v")
+    letters = {**COMMON, "m": masses, "x": places, "E": E, "dy0": velocity, "w": vector("w"), "I": inertia}
+    letters |= {"ddy0": mu * E + mu / c * cross(velocity, Bf), "IdOmega": euler(inertia, mass, R.T * Bf)}
+    return Model(letters, ROTATION, ranges={"N": (1, 2, 3, 4)})
+
+
 TRIALS = (
     Trial(
         label="The.1",
         printed="ddRg[i,j] = -R[i,k]*Lam[k,j] - A[i,k]*g[k,j]",
         model=multiplier_model,
         follows="mf19 about the centre of mass, solved for the multipliers",
+        definition=True,
     ),
     Trial(
         label="Aff100",
@@ -152,6 +199,26 @@ TRIALS = (
         follows="The.1 with R^T d2R/dt2 = hat(Omega)^2 + hat(dOmega/dt)",
         note="The multipliers are symmetric if and only if mf22 holds: one identity proves both directions, for every"
         " rotation, every symmetric mass matrix and every matrix A. That g be non-degenerate is not needed, only I.",
+    ),
+    Trial(
+        label="text-multipliers-algebraic",
+        printed="lam = -(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega) + T(R)*A)*g = T(lam)",
+        model=algebraic_model,
+        follows="The.1 with the rate of Omega of mf22, for any matrix A",
+        defines=("lam",),
+        solves="R*(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega))*g = -R*lam - A*g",
+    ),
+    Trial(
+        label="text-nondegenerate",
+        printed="g1*g2*g3 != 0",
+        model=moments_model,
+        follows="the moments of mass of any body and of a plane one",
+        corrected="I1*I2*I3 > 0",
+        corrected_tex=r"\boxed{\det I=I_1I_2I_3}\ne0",
+        grade="missing case",
+        slip="text-rigid-plane",
+        note="For a plane body, the loop of Section IV, g3 = 0. The Affirmation needs only that the inertia tensor be"
+        " non-degenerate, which it is for every body that is no rod.",
     ),
     Trial(
         label="mf22",
@@ -184,16 +251,25 @@ TRIALS = (
         follows="mf21 for any matrix R",
     ),
     Trial(
+        label="text-covariance",
+        printed="rate(seen(I),seen(g),S*K,S*Omega) = S*rate(I,g,K,Omega); hat(S*Omega) = seen(hat(Omega))",
+        model=covariance_model,
+        follows="the right side of mf27 and that of mf21, for any rotation S",
+        note="The rates go over into one another, and R = 1 at the start stays what it is.",
+    ),
+    Trial(
         label="mf23",
         printed=_MF23.format(sign="").replace("= ", "= ", 1) + " = R[i,a]*dot(Bf,R*Omega) - (R*Omega)[i]*(T(R)*Bf)[a]",
         model=magnetic_model,
         follows="mf21 and R R^T = 1",
         corrected=_MF23.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
         corrected_tex=(
-            r"\begin{aligned} \epsilon_{ijk}B_j\dot R_{ka}&=-\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}=\ldots\\ "
-            r"&=-\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta"
-            r"=(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega}) \end{aligned}"
+            r"\begin{aligned} \epsilon_{ijk}B_j\dot R_{ka}&=\boxed{-}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}="
+            r"\ldots\\ "
+            r"&=\boxed{-}\epsilon_{ijk}\epsilon_{\alpha\beta k}R_{\alpha a}B_j(R\boldsymbol{\Omega})_\beta"
+            r"=\boxed{(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})} \end{aligned}"
         ),
+        grade="misprint",
         note="The minus of mf21 is lost at the first step and back in mf24.",
     ),
     Trial(
@@ -219,6 +295,12 @@ TRIALS = (
         follows="I = tr(g) - g, K = R^T B",
     ),
     Trial(
+        label="text-other-components",
+        printed="I*cross(K,Omega) - cross(I*K,Omega) + cross(K,I*Omega) = 2*cross(g*K,Omega)",
+        model=diagonal_model,
+        follows="I = tr(g) - g, K = R^T B, all three components",
+    ),
+    Trial(
         label="mf27",
         printed="IdOmega = cross(I*Omega,Omega) - mu/c*cross(g*T(R)*Bf,Omega)",
         model=magnetic_model,
@@ -241,5 +323,22 @@ TRIALS = (
         printed="IdOmega = cross(I*Omega,Omega) - mu*b/c*cross(g*G3,Omega)",
         model=grioli_model,
         follows="mf27 with B = (0, 0, b)",
+    ),
+    Trial(
+        label="text-flight",
+        printed="R*(I*w - IdOmega) = m[N]*cross(R*x[N], R*(hat(Omega)*hat(Omega) + hat(w))*x[N]"
+        " - mu/c*cross(R*hat(Omega)*x[N],Bf))",
+        model=flight_model,
+        follows="d'Alembert's principle for y_N = y_0 + R x_N(0), four particles: the force and the torque that"
+        " are not those of the constraints",
+        also=(
+            Part(
+                line="0 = m[N]*(ddy0 + R*(hat(Omega)*hat(Omega) + hat(w))*x[N] - mu*E"
+                " - mu/c*cross(dy0 + R*hat(Omega)*x[N],Bf))",
+                model=flight_model,
+            ),
+        ),
+        note="Both vanish if mf17 holds and the rate w of Omega is that of mf27, and only then. A force that is for all"
+        " particles in proportion to their masses has no torque about the centre of mass, and is left out of it.",
     ),
 )

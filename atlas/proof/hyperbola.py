@@ -13,15 +13,20 @@ from atlas.proof.quadric import (
     B3,
     LETTERS,
     I,
+    at_start,
     axes_line,
     canonical_model,
+    cd,
     condition_model,
     constant_omega3,
+    free_model,
     omega1,
     omega2,
     omega3,
+    sd,
 )
-from atlas.proof.trial import Trial
+from atlas.proof.quadric import p as tangent
+from atlas.proof.trial import Part, Trial
 
 Omega1, Omega2, K1, K2 = sympy.symbols("Omega1 Omega2 K1 K2", real=True)
 kappa, p, s = sympy.symbols("kappa p s", real=True)
@@ -99,6 +104,12 @@ def motion_model() -> tuple[Model, Model]:
 
 
 @cache
+def pole_on_curve_model() -> Model:
+    """Omega2 = -B2 and omega1 = 0, and the value of the cubic there."""
+    return Model({**LETTERS, "condition": at_start(omega3)}, [(omega2, -B2), (omega1, sympy.Integer(0))])
+
+
+@cache
 def both_conditions_model() -> tuple[Model, Model]:
     """All solutions of mf71 and mf71.1: their difference is a multiple of omega1^2 omega3."""
     square = omega1**2 + omega2**2
@@ -110,12 +121,24 @@ def both_conditions_model() -> tuple[Model, Model]:
 
 @cache
 def degenerate_model() -> tuple[Model, Model]:
-    """Model the two lines of the hyperbola for I = 1, with a2 and a3 of mf60; sign tells them apart."""
+    """Model the two lines of the hyperbola for I = 1; sign tells them apart."""
     whole = canonical_model("one", plane=True)
+    root = sympy.Symbol("root", positive=True)
+    slope = sd / cd  # a2/a3 of this line, since a2^2/a3^2 = (1 + sin(beta))/(1 - sin(beta)) = tan(beta/2 + pi/4)^2
+
+    def square_root(value: Value) -> Value:
+        """Return the root of 2 sin(beta)/(1 + sin(beta)) as a letter, and that of what is slope^2 times as much."""
+        for factor in (sympy.Integer(1), slope):
+            quotient = value / (factor**2 * whole.letters["a3"])
+            if sympy.cancel(quotient.subs({cd: turn(tangent)[0], sd: turn(tangent)[1]})) == 1:
+                return factor * root
+        return sympy.sqrt(value)
+
     lines = []
     for sign, entry in ((1, (omega2, -B2)), (-1, (omega3, constant_omega3()))):
         where = [entry, *(pair for pair in whole.where if pair[0] not in {omega2, omega3})]
-        letters = {**whole.letters, "sign": sympy.Integer(sign)}
+        where.append((root, sympy.sqrt(whole.letters["a3"])))
+        letters = {**whole.letters, "sign": sympy.Integer(sign), "sqrt": square_root}
         lines.append(Model(letters, where, phases=whole.phases, domains=whole.domains))
     return lines[0], lines[1]
 
@@ -129,6 +152,7 @@ def frequency_model() -> Model:
 
 
 _MF711 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
+_MF76 = "B3*omega2*(omega2 + (2 - I)*B2)/(I*B2*(omega2 + B2))"
 _MF72 = "B3*omega2^2 - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
 _MF75 = "w2/a2 = sign*w3/a3; a2 = sqrt(2*sin(beta)/(1 - sin(beta))); a3 = sqrt(2*sin(beta)/(1 + sin(beta)))"
 
@@ -143,6 +167,7 @@ TRIALS = (
         printed="d(omega3) = 0; at0(Omega1) = omega1; at0(Omega2) = omega2",
         model=constant_model,
         follows="the ansatz: Omega3 is the constant omega3",
+        definition=True,
     ),
     Trial(
         label="mf65",
@@ -208,7 +233,11 @@ TRIALS = (
         model=both_conditions_model,
         follows="every omega that obeys mf71 and mf71.1",
         corrected="omega1*omega3 = 0; omega1*(omega1^2 + omega2^2 + (2 - I)*B2*omega2) = 0",
-        corrected_tex=r"\text{(65), (66)}\implies\omega_1=0\quad\text{or}\quad\omega_3=0",
+        corrected_tex=(
+            r"\text{(65), (66)}\implies\omega_1=0\quad\boxed{\text{or}\quad\omega_3=0,\ "
+            r"\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2=0}"
+        ),
+        grade="gap in the argument",
         note="The circle omega3 = 0, omega1^2 + omega2^2 + (2-I) B'2 omega2 = 0 obeys both conditions too. The"
         " motions are"
         " on the hyperbola all the same, by the last equation of mf65 at t = 0.",
@@ -231,26 +260,32 @@ TRIALS = (
         label="mf75",
         printed=_MF75,
         model=degenerate_model,
-        follows="mf62 with omega1 = 0, a2 and a3 as defined in mf60",
-        corrected="w2^2/a2 = w3^2/a3",
-        corrected_tex=r"\frac{\omega'_2}{\sqrt{a_2}}=\pm\frac{\omega'_3}{\sqrt{a_3}}",
-        note="a2 and a3 have a meaning since mf60; here they get another, the roots of the former. With the roots the"
-        " lines are right.",
+        follows="mf62 with omega1 = 0, a2 and a3 as defined in this line",
+        defines=("a2", "a3"),
+        note="The letters a2 and a3 have another meaning here than in mf60: the roots of the former.",
     ),
     Trial(
         label="mf76",
-        printed="omega3 = B3*omega2*(omega2 + (2 - I)*B2)/(I*B2*(omega2 + B2)); omega2 + B2 != 0",
-        model=motion_model,
-        follows="every omega that obeys mf72",
-        corrected="I*B2*(omega2 + B2)*omega3 = B3*omega2*(omega2 + (2 - I)*B2)",
+        printed=f"omega3 = {_MF76}",
+        model=lambda: motion_model()[0],
+        follows="mf72 for omega2 different from -B'2",
+        corrected=f"omega3 = {_MF76}",
+        corrected_also=(
+            Part(line=f"omega2 = -B2; I = 1; {_MF72}", model=lambda: motion_model()[1]),
+            Part(line=f"{_MF72.removesuffix(' = 0')} = I*B2*(omega2 + B2)*({_MF76} - omega3)", model=free_model),
+            Part(line="(1 - I)*B2^2*B3 = -condition", model=pole_on_curve_model),
+        ),
         corrected_tex=(
             r"\begin{aligned} \omega_3&=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}"
-            r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \text{or}\quad\omega_2&=-B'_2,\quad\omega_3\in\mathbb{R}"
-            r"\quad\text{if}\quad I=1 \end{aligned}"
+            r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_3\in"
+            r"\mathbb{R}"
+            r"\quad\text{if}\quad I=1} \end{aligned}"
         ),
-        note="The formula is right where omega2 differs from -B'2. For I = 1 the line omega2 = -B'2 is lost, and"
-        " every point"
-        " of it is a motion, see theorem-ball-line.",
+        grade="missing case",
+        slip="mf59",
+        note="The formula is right, and -B'2 is excluded in words. For I = 1 the line omega2 = -B'2 is lost with it, "
+        "and"
+        " every point of that is a motion, see theorem-ball-line; for any other I nothing is missing.",
     ),
     Trial(
         label="mf77",

@@ -11,7 +11,7 @@ import sympy
 
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, matrix, vector
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Part, Trial
 
 ALL, FRAME, REST = (1, 2, 3, 4, 5, 6), (2, 3, 4), (5, 6)
 RANGES = {"N": ALL, "M": ALL, "A": FRAME, "C": FRAME, "al": REST}
@@ -54,7 +54,9 @@ def forces() -> dict[int, Value]:
 @cache
 def action_model() -> Model:
     """Letters of the action."""
-    return Model({**COMMON, "y": y, "dy": dy, "L": free_action()}, ranges={**RANGES, "be": REST}, units=units.PARTICLES)
+    slopes = {key: free_action().diff(multiplier) for key, multiplier in lam.items()}
+    letters = {**COMMON, "y": y, "dy": dy, "L": free_action(), "dL": slopes}
+    return Model(letters, ranges={**RANGES, "be": REST}, units=units.PARTICLES)
 
 
 @cache
@@ -73,7 +75,26 @@ def particles_model() -> Model:
     mass = sum(m.values())
     centre = {"dy0": sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass, "mu0": mass}
     centre["ddy0"] = sum(forces().values(), sympy.zeros(3, 1)) / mass
+    centre["stirred"] = stirred
     return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES, units=units.PARTICLES)
+
+
+def stirred(value: Value) -> Value:
+    """Give the particles other places and velocities about the same centre of mass with the same velocity."""
+    swap: dict[Value, Value] = {}
+    for symbols, name in ((y, "s"), (dy, "u")):
+        shift = {N: vector(f"{name}{N}_") for N in ALL[:-1]}
+        shift[ALL[-1]] = -sum((m[N] * shift[N] for N in ALL[:-1]), sympy.zeros(3, 1)) / m[ALL[-1]]
+        swap |= {old: old + new for N in ALL for old, new in zip(symbols[N], shift[N], strict=True)}
+    return value.xreplace(swap)
+
+
+def carried(value: Value) -> Value:
+    """Shift the whole body, and give it another velocity."""
+    swap: dict[Value, Value] = {}
+    for symbols, name in ((y, "s"), (dy, "u")):
+        swap |= {old: old + new for N in ALL for old, new in zip(symbols[N], vector(f"{name}_"), strict=True)}
+    return value.xreplace(swap)
 
 
 @cache
@@ -83,11 +104,15 @@ def relative_model() -> Model:
     y0 = sum((m[N] * y[N] for N in ALL), sympy.zeros(3, 1)) / mass
     v0 = sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass
     a0 = mu * E + mu / c * cross(v0, Bf)
+    total = sum(forces().values(), sympy.zeros(3, 1)) - mass * a0
+    push = mu * mass * E + mu / c * cross(sum((m[N] * (dy[N] - v0) for N in ALL), sympy.zeros(3, 1)), Bf)
     letters = {
         "x": {N: y[N] - y0 for N in ALL},
         "dx": {N: dy[N] - v0 for N in ALL},
         "ddx": {N: forces()[N] / m[N] - a0 for N in ALL},
-        "lami": sympy.zeros(3, 1),  # the paper defines no lambda^i
+        "carried": carried,
+        # what keeps the sum of m_N x_N zero in mf18: the sum of its equations, in which the other multipliers cancel
+        "lami": ((total - push) / mass).applyfunc(sympy.cancel),
         "y": y,
         "mu0": mass,
     }
@@ -146,6 +171,21 @@ def _line(text: str) -> str:
     return " ".join(text.split())
 
 
+@cache
+def plane_model() -> Model:
+    """Model a frame whose vectors X lie in one plane, a particle x0 in it, and x, lifted out of it by a height."""
+    X = sympy.Matrix([[1, 0, sympy.Symbol("p3", real=True)], [0, 1, sympy.Symbol("p4", real=True)], [0, 0, 0]])
+    x0, height = sympy.Matrix([*sympy.symbols("p1:3", real=True), 0]), sympy.Symbol("height", positive=True)
+    return Model({"X": X, "x0": x0, "x": x0 + sympy.Matrix([0, 0, height])})
+
+
+@cache
+def spatial_model() -> Model:
+    """Model a frame of three independent vectors, a particle x0, and x, solved from the products that are kept."""
+    X, x0 = matrix("X"), vector("p")
+    return Model({"X": X, "x0": x0, "x": (X.T.adjugate() / X.det()) * (X.T * x0)})
+
+
 TRIALS = (
     Trial(
         label="1.6",
@@ -153,12 +193,21 @@ TRIALS = (
         " + 1/2*lam[A,be]*(dot(y[A] - y[1], y[be] - y[1]) - a[A,be])",
         model=action_model,
         follows="kinetic energy of six particles, and each constraint with its multiplier",
+        definition=True,
+    ),
+    Trial(
+        label="text-constraints",
+        printed="2*dL[A,be] = dot(y[A] - y[1], y[be] - y[1]) - a[A,be];"
+        " (1 + delta[A,C])*dL[A,C] = dot(y[A] - y[1], y[C] - y[1]) - a[A,C]",
+        model=action_model,
+        follows="the action 1.6 for six particles, differentiated",
     ),
     Trial(
         label="mf15",
         printed="minusU = e[N]*A0[N] + e[N]/c*dot(A[N],dy[N])",
         model=potential_model,
         follows="the sum of mf13 over the particles, with the potentials mf12",
+        definition=True,
     ),
     Trial(
         label="mf16",
@@ -176,11 +225,32 @@ TRIALS = (
         follows="the sum of mf16 over six particles",
     ),
     Trial(
+        label="text-translation",
+        printed="stirred(ddy0) = ddy0",
+        model=particles_model,
+        follows="mf16 summed over six particles, at two states with the same centre of mass",
+    ),
+    Trial(
         label="text-rigid",
         printed="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
         model=rigid_model,
         follows="the constraints keep the products X^T X of the frame, so that R = X X0^-1 is orthogonal",
         note="Three fixed products with an independent frame fix every further particle in it.",
+    ),
+    Trial(
+        label="text-rigid-plane",
+        printed="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)",
+        model=plane_model,
+        follows="the products with three vectors of one plane, which are all that 1.6 fixes of a further particle",
+        corrected="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)",
+        corrected_model=spatial_model,
+        corrected_tex=(
+            r"\boxed{\det(\mathbf{y}_2-\mathbf{y}_1,\mathbf{y}_3-\mathbf{y}_1,\mathbf{y}_4-\mathbf{y}_1)\ne0}\implies"
+            r"\lvert\mathbf{y}_\beta-\mathbf{y}_1\rvert=\text{const}"
+        ),
+        grade="missing case",
+        note="Particles 1 to 4 must not lie in one plane. In a plane body they do, and then 1.6 leaves every further"
+        " particle free to rise out of the plane. One particle beside the plane, however light, mends it.",
     ),
     Trial(
         label="mf18",
@@ -191,19 +261,19 @@ TRIALS = (
         ),
         model=relative_model,
         follows="mf16 less m_N times mf17, for six particles",
-        corrected=_line(_RELATIVE.format(lost="", lostA="", lostal="")),
-        corrected_tex=(
-            r"\begin{aligned} m_1\ddot{\mathbf{x}}_1&=-\sum_{AB}\lambda_{AB}[\mathbf{x}_B-\mathbf{x}_1]"
-            r"-\frac12\sum_{A\alpha}\lambda_{A\alpha}[\mathbf{x}_A+\mathbf{x}_\alpha-2\mathbf{x}_1]"
-            r"+\frac{\mu}{c}m_1[\dot{\mathbf{x}}_1,\mathbf{B}],\\ "
-            r"m_A\ddot{\mathbf{x}}_A&=\sum_{B}\lambda_{AB}[\mathbf{x}_B-\mathbf{x}_1]"
-            r"+\frac12\sum_{\alpha}\lambda_{A\alpha}[\mathbf{x}_\alpha-\mathbf{x}_1]"
-            r"+\frac{\mu}{c}m_A[\dot{\mathbf{x}}_A,\mathbf{B}],\\ "
-            r"m_\alpha\ddot{\mathbf{x}}_\alpha&=\frac12\sum_{A}\lambda_{A\alpha}[\mathbf{x}_A-\mathbf{x}_1]"
-            r"+\frac{\mu}{c}m_\alpha[\dot{\mathbf{x}}_\alpha,\mathbf{B}] \end{aligned}"
+        corrected=_line(
+            _RELATIVE.format(
+                lost=" + m[1]*lami + mu*m[1]*E", lostA=" + m[A]*lami + mu*m[A]*E", lostal=" + m[al]*lami + mu*m[al]*E"
+            )
         ),
-        note="The electric force has gone with the acceleration of the centre of mass, and lambda^i is defined nowhere;"
-        " only lambda^i = -mu E^i would make the printed form right.",
+        corrected_tex=(
+            r"m_1\ddot x_1^i=\ldots+m_1\lambda^i+\mu m_1E^i+\ldots,\qquad\ldots,\qquad\boxed{\lambda^i=-\mu E^i}"
+        ),
+        corrected_also=(Part(line="lami = -mu*E", model=relative_model),),
+        grade="wording",
+        note="The letter lambda^i is defined nowhere. As the multiplier that keeps the sum of m_N x_N zero it is -mu "
+        "E^i,"
+        " and then the printed form is right: the two terms cancel, and the electric field is gone already here.",
     ),
     Trial(
         label="mf19",
@@ -211,7 +281,8 @@ TRIALS = (
         model=rotation_model,
         follows="the equations of six particles at x_N = R x_N(0), times x_N^j(0), summed; the electric force kept",
         corrected="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total[j] - A[i,a]*g[a,j]",
-        corrected_tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_Nx_N^j\Bigr)-A_{ia}g_{aj}",
+        corrected_tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_N\boxed{x_N^j}\Bigr)-A_{ia}g_{aj}",
+        grade="misprint",
         note="The second term lacks its index j. It vanishes about the centre of mass, so nothing later suffers.",
     ),
     Trial(
@@ -219,12 +290,14 @@ TRIALS = (
         printed="A[i,a] = mu/c*eps[i,n,p]*Bf[n]*dR[p,a]",
         model=rotation_model,
         follows="the magnetic force on six particles at x_N = R x_N(0)",
+        definition=True,
     ),
     Trial(
         label="1.32",
         printed="g[i,j] = m[N]*x[N,i]*x[N,j]",
         model=rotation_model,
         follows="the matrix that multiplies the second derivative of R in mf19",
+        definition=True,
     ),
     Trial(
         label="1.38",
@@ -236,14 +309,27 @@ TRIALS = (
             r"\begin{aligned}"
             r" \lambda_{jk}=&-\sum_{AB}\lambda_{AB}\left[x_1^jx_1^k+x_A^jx_B^k-x_B^{(j}x_1^{k)}\right]\\ "
             r"&-\frac12\sum_{A\alpha}\lambda_{A\alpha}\left[x_\alpha^{(j}x_A^{k)}-x_\alpha^{(j}x_1^{k)}-x_A^{(j}x_1^{k)}"
-            r"+2x_1^{j}x_1^{k}\right] \end{aligned}"
+            r"\boxed{+}2x_1^{j}x_1^{k}\right] \end{aligned}"
         ),
+        grade="misprint",
         note="The last sign is wrong: the products of x_1 with itself add.",
+    ),
+    Trial(
+        label="text-multipliers-symmetric",
+        printed="lamM[j,k] = lamM[k,j]",
+        model=rotation_model,
+        follows="the forces of the constraints on six particles, times x_N^j(0), summed",
     ),
     Trial(
         label="text-electric-field",
         printed="0 = m[N]*(y[N] - m[M]*y[M]/mu0)",
         model=relative_model,
         follows="the definition of the centre of mass",
+    ),
+    Trial(
+        label="text-rotation-apart",
+        printed="carried(ddx[N]) = ddx[N]",
+        model=relative_model,
+        follows="mf16 less mf17 for six particles, at two states that differ by a shift and a velocity",
     ),
 )

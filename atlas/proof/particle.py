@@ -152,11 +152,24 @@ def charges_model(choice: str = "any") -> tuple[Model, Model]:
         drift = c * cross(ACROSS, ALONG_Z) / b**2
         chosen = {"any": letters["Cperp"], "origin": drift, "trochoid": drift - sign * strength * E2 / omega * e1}
         letters["Cperp"] = chosen[choice]
-        letters["drift"] = drift
         where = [(omega, strength * b / c), *angles]
         start = {t: sympy.Integer(0), cw: sympy.Integer(1), sw: sympy.Integer(0)}
         phases = {omega * t: (cw, sw), omega0: (c0, s0)}
         cases.append(Model(letters, where, flow, start, phases, units=units.PARTICLE))
+    return cases[0], cases[1]
+
+
+@cache
+def drift_model() -> tuple[Model, Model]:
+    """Model the velocity that mf1 leaves as it is, solved from it, for a charge of either sign."""
+    cases = []
+    for case in charges_model():
+        rest = sympy.symbols("rest1:3", real=True)
+        velocity = sympy.Matrix([*rest, 0])
+        rate = case.letters["mu"] * (case.letters["Eperp"] + cross(velocity, case.letters["Bf"]) / case.letters["c"])
+        solved = sympy.solve(list(rate[:2]), rest, dict=True)[0]
+        letters = {**case.letters, "drift": velocity.subs(solved)}
+        cases.append(Model(letters, case.where, units=case.units))
     return cases[0], cases[1]
 
 
@@ -191,11 +204,41 @@ _MF10 = (
 )
 _MF11 = "yperp = mu*E2/omega*t*e1 + a*(e1*sin(omega*t) + e2*cos(omega*t))"
 _TROCHOID = "x = mu*E2/omega*t + a*sin(omega*t); yy = mu*E2/{omega} + a*cos(omega*t)"
-_SIGNED = r",\qquad\omega=\frac{\mu\lvert\mathbf{B}\rvert}{c}"
+_SIGNED = r",\qquad\omega=\boxed{\frac{\mu\lvert\mathbf{B}\rvert}{c}}"
 _SENSE = (
     "Said for any charge, it holds for mu > 0 only; with omega = mu |B|/c, of the sign of the charge,"
     " it holds for both."
 )
+
+
+@cache
+def later_model() -> tuple[Model, Model]:
+    """Model mf10 as corrected with omega0 at t, and with omega0 = 0 and another C_perp at t + omega0/omega."""
+    cases = []
+    for model in signed_model():
+        mu_, C = model.letters["mu"], model.letters["Cperp"]
+        late = t + omega0 / omega
+        other = C - mu_ * ACROSS * omega0 / omega
+        first = (cross(C, ALONG_Z) + c * ACROSS) / (omega * b) + mu_ * E2 / omega * t * e1
+        then = (cross(other, ALONG_Z) + c * ACROSS) / (omega * b) + mu_ * E2 / omega * late * e1
+        turned = a * (e1 * (sw * c0 + cw * s0) + e2 * (cw * c0 - sw * s0))
+        letters = {**model.letters, "then": then + turned}
+        del letters["omega0"]
+        cases.append(Model({**letters, "omega0": omega0, "first": first}, model.where, phases=model.phases))
+    return cases[0], cases[1]
+
+
+@cache
+def rolling_model() -> tuple[Model, Model]:
+    """Model mf10.1 as corrected: a point at the distance a from the middle of a circle of radius r that rolls."""
+    cases = []
+    for model in signed_model("trochoid"):
+        mu_ = model.letters["mu"]
+        place = {"x": mu_ * E2 / omega * t + a * sw, "y": mu_ * E2 / omega**2 + a * cw}
+        letters = {**model.letters, **place, "r": mu_ * E2 / omega**2}
+        cases.append(Model(letters, model.where, phases=model.phases))
+    return cases[0], cases[1]
+
 
 TRIALS = (
     Trial(
@@ -247,7 +290,8 @@ TRIALS = (
         model=fall_along_model,
         follows="mf5",
         corrected="dot(d2(ypar),d2(ypar)) = mu^2*dot(Epar,Epar)",
-        corrected_tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\Vert}\rvert",
+        corrected_tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\boxed{\Vert}}\rvert",
+        grade="misprint",
         note="The wrong part of E.",
     ),
     Trial(
@@ -287,6 +331,7 @@ TRIALS = (
             r"\mathbf{y}_2(t)=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}"
             + _SIGNED
         ),
+        grade="sign of the charge",
         note=f"{_SENSE} A negative charge turns the other way.",
     ),
     Trial(
@@ -309,7 +354,16 @@ TRIALS = (
             r"+\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
             r"+a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}" + _SIGNED
         ),
+        grade="sign of the charge",
+        slip="mf9",
         note=_SENSE,
+    ),
+    Trial(
+        label="text-time-shift",
+        printed="first + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)) = then",
+        model=later_model,
+        follows="mf10 as corrected at t + omega0/omega with omega0 = 0 and C_perp less mu E_perp omega0/omega",
+        note="C_perp changes with it, since mf2 names the time.",
     ),
     Trial(
         label="text-first-two-terms",
@@ -317,7 +371,11 @@ TRIALS = (
         model=lambda: signed_model("origin"),
         follows="C_perp = c [E_perp, B]/B^2",
         corrected="(cross(Cperp,Bf) + c*Eperp)/(omega*b) = 0",
-        corrected_tex=r"\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0",
+        corrected_tex=(
+            r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies"
+            r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}"
+        ),
+        grade="wording",
         note="Only the first term vanishes, both summands of its numerator together; the drift stays, as mf11 has it.",
     ),
     Trial(
@@ -339,15 +397,19 @@ TRIALS = (
             r"\mathbf{y}_{\bot}(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
             r"+a\left\{\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}" + _SIGNED
         ),
+        grade="sign of the charge",
+        slip="mf9",
         note=_SENSE,
     ),
     Trial(
         label="text-drift",
         printed="drift = mu*E2/omega*e1",
-        model=charges_model,
-        follows="the uniform motion that mf6 takes away, for either sign of the charge, omega of mf9",
+        model=drift_model,
+        follows="mf1 solved for the velocity that does not change, for either sign of the charge, omega of mf9",
         corrected="drift = c*cross(Eperp,Bf)/b^2",
-        corrected_tex=r"\dot{\mathbf{O}}=\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}",
+        corrected_tex=r"\dot{\mathbf{O}}=\boxed{\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}}",
+        grade="sign of the charge",
+        slip="mf9",
         note="The drift doesn't depend on the charge; with the positive omega of mf9 a negative one would drift"
         " backwards.",
     ),
@@ -359,8 +421,10 @@ TRIALS = (
         corrected="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2/omega*e1",
         corrected_tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}"
-            r"-\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}\mathbf{e}_1"
+            r"-\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\boxed{\omega}}\mathbf{e}_1"
         ),
+        grade="misprint",
+        slip="mf10.1",
         note="An acceleration is taken from a velocity. With the factor put right the constant is zero.",
     ),
     Trial(
@@ -374,13 +438,29 @@ TRIALS = (
         corrected_model=lambda: signed_model("trochoid"),
         corrected_tex=(
             r"x(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t,\qquad "
-            r"y(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^2}+a\cos\omega t" + _SIGNED
+            r"y(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^{\boxed{2}}}+a\cos\omega t" + _SIGNED
         ),
+        grade="misprint",
         note="The shift of y must be a length, mu |E_perp|/omega^2, as C_perp must be a velocity; and, as in mf9,"
         " omega takes"
         " the sign of the charge.",
     ),
-    Trial(label="mf10.2", printed="y = ypar + yperp", model=split_model, follows="the projections on B and across it"),
+    Trial(
+        label="text-trochoid",
+        printed="x = r*omega*t + a*sin(omega*t); y = r + a*cos(omega*t)",
+        model=rolling_model,
+        follows=(
+            "mf10.1 as corrected: the middle of the circle is at the height r and moves by r while it turns by one "
+            "radian"
+        ),
+    ),
+    Trial(
+        label="mf10.2",
+        printed="y = ypar + yperp",
+        model=split_model,
+        follows="the projections on B and across it",
+        definition=True,
+    ),
     Trial(
         label="mf12",
         printed="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - b1*y3, B1*y2 - B2*y1]",
@@ -389,8 +469,9 @@ TRIALS = (
         corrected="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - B1*y3, B1*y2 - B2*y1]",
         corrected_tex=(
             r"A_0(\mathbf{y})=(\mathbf{y},\mathbf{E}),\qquad\mathbf{A}(\mathbf{y})=\frac12[\mathbf{B},\mathbf{y}]="
-            r"\frac12\begin{pmatrix}B_2y_3-B_3y_2\\B_3y_1-B_1y_3\\B_1y_2-B_2y_1\end{pmatrix}"
+            r"\frac12\begin{pmatrix}B_2y_3-B_3y_2\\B_3y_1-\boxed{B_1}y_3\\B_1y_2-B_2y_1\end{pmatrix}"
         ),
+        grade="misprint",
         note="A lower-case b_1 that means nothing here stands for B_1.",
     ),
     Trial(

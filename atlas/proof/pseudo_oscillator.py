@@ -155,12 +155,44 @@ _MF56 = (
 )
 _C5 = "Omega1*K1 + Omega2*K2 - Omega3^2 + (2 - I)*c3*Omega3"
 
+
+@cache
+def laboratory_model() -> Model:
+    """Model any field, its part across e3 of length B2 at an angle to e2; S turns about e3 by that angle."""
+    cosine, sine = turn(sympy.Symbol("p", real=True))
+    S = sympy.Matrix([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
+    field = sympy.Matrix([B2 * sine, B2 * cosine, B3])
+    return Model({"S": S, "B": field, "J": tensor, "B2": B2, "B3": B3})
+
+
+@cache
+def degree_model() -> tuple[Model, Model]:
+    """I below and above 1."""
+    more, u = sympy.Symbol("e", positive=True), sympy.Symbol("Omega3", real=True)
+    cases = []
+    for scale in (1 + more, 1 / (1 + more)):
+        field = sympy.Matrix([0, B2, B3])
+        a = cubic(integrals(omega, field, scale), dot(field, field), scale)
+        whole = sympy.Poly(a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3, u)
+        cases.append(Model({"leading": whole.coeff_monomial(u**3), "I": scale}))
+    return cases[0], cases[1]
+
+
 TRIALS = (
     Trial(
         label="text-mass-matrix",
         printed="g1 = 1/2*I3; g2 = 1/2*I3; g3 = 1/2*(2*I2 - I3)",
         model=symmetric_body_model,
         follows="I = tr(g) - g with I1 = I2",
+    ),
+    Trial(
+        label="text-laboratory",
+        printed="S*J*T(S) = J; S*B = [0, B2, B3]",
+        model=laboratory_model,
+        follows="a rotation about e3 by the angle between e2 and the part of B across e3",
+        note="B3 > 0 is a choice of the sense of e3. What the choice B2 > 0, B3 > 0 leaves out are a field along the "
+        "axis"
+        " of the body and one across it.",
     ),
     Trial(
         label="mf41.0",
@@ -269,9 +301,10 @@ TRIALS = (
         follows="the rate of the last equation of mf46, with mf46, mf47 and mf48",
         corrected=_MF54.format(K="K2"),
         corrected_tex=(
-            r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1K_1+\Omega_2K_2)-I\Omega_3(K_1^2+K_2^2)"
+            r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1K_1+\Omega_2\boxed{K_2})-I\Omega_3(K_1^2+K_2^2)"
             r"+[c_3-\Omega_3](\Omega_1^2+\Omega_2^2)"
         ),
+        grade="misprint",
         note="A lower-case k_2 that means nothing here stands for K_2.",
     ),
     Trial(
@@ -286,10 +319,18 @@ TRIALS = (
         solves=_MF55,
         corrected=_MF56.format(x="I"),
         corrected_tex=(
-            r"\begin{aligned} a_0&=[(2-I)c_5+E']c_3,&a_1&=-2c_5+[I-(2-I)^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ "
+            r"\begin{aligned} a_0&=[(2-I)c_5+E']c_3,&a_1&=-2c_5+[I-(2-\boxed{I})^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ "
             r"a_2&=6(1-I)c_3,&a_3&=-2(1-I) \end{aligned}"
         ),
+        grade="misprint",
         note="A 1 stands for I.",
+    ),
+    Trial(
+        label="text-cubic-degree",
+        printed="leading = -2*(1 - I); leading^2 > 0",
+        model=degree_model,
+        follows="mf55 with mf56 as corrected",
+        note="For the ball, I = 1, both a2 and a3 vanish, and mf55 is a harmonic oscillator.",
     ),
     Trial(
         label="mf57",

@@ -11,7 +11,7 @@ from atlas.proof.decide import Outcome
 from atlas.proof.model import Model, Value, certain, turn, vector
 from atlas.proof.notation import Reader
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Part, Trial
 
 omega1, omega2, omega3 = vector("omega")
 I, B2, B3 = sympy.symbols("I B2 B3", positive=True)
@@ -25,7 +25,7 @@ LETTERS = {"omega1": omega1, "omega2": omega2, "omega3": omega3, "I": I, "B2": B
 RESTING = sympy.Symbol("omega3_of_cubic", real=True)
 
 
-def _at_start(u: Value) -> Value:
+def at_start(u: Value) -> Value:
     """Return the cubic of mf55, mf56 as corrected, at Omega3 = u and with its integrals at t = 0."""
     field = sympy.Matrix([0, B2, B3])
     a = cubic(integrals(sympy.Matrix([omega1, omega2, omega3]), field, I), field.dot(field), I)
@@ -35,7 +35,7 @@ def _at_start(u: Value) -> Value:
 @cache
 def constant_omega3() -> Value:
     """Return the omega3 for which Omega3 = omega3 makes the cubic vanish: the condition is linear in it."""
-    condition = sympy.Poly(sympy.expand(_at_start(omega3)), omega3)
+    condition = sympy.Poly(sympy.expand(at_start(omega3)), omega3)
     slope, rest = condition.all_coeffs()
     return sympy.factor(-rest / slope)
 
@@ -49,10 +49,40 @@ def lines_case() -> list[tuple[Value, Value]]:
 @cache
 def condition_model() -> tuple[Model, Model]:
     """Model all points where Omega3 = omega3 is constant: those resolved for omega3, and the lines omega2 = -B2."""
-    certain(sympy.expand(_at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
+    certain(sympy.expand(at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
     return Model(LETTERS, [(omega3, constant_omega3())], units=units.QUADRIC), Model(
         LETTERS, lines_case(), domains={"s": "unit"}, units=units.QUADRIC
     )
+
+
+@cache
+def free_model() -> Model:
+    """Any initial angular velocity, on the surface or not."""
+    return Model(LETTERS, units=units.QUADRIC)
+
+
+@cache
+def lost_lines_model() -> tuple[Model, Model]:
+    """Both lines omega2 = -B2 for I <= 1: omega1 = sign sqrt(1 - I) B2 with I = 1 - s^2, any omega3."""
+    root = sympy.Symbol("s", positive=True)
+    cases = []
+    for sign in (1, -1):
+        where = [(omega2, -B2), (omega1, sign * root * B2)]
+        letters = {**LETTERS, "sign": sympy.Integer(sign), "I": 1 - root**2}
+        cases.append(Model(letters, where, domains={"s": "unit"}))
+    return cases[0], cases[1]
+
+
+@cache
+def pole_model() -> Model:
+    """Omega2 = -B2, and the value of the cubic there."""
+    return Model({**LETTERS, "condition": at_start(omega3)}, [(omega2, -B2)])
+
+
+@cache
+def no_lines_model() -> Model:
+    """I > 1."""
+    return Model({**LETTERS, "I": 1 + excess})
 
 
 @cache
@@ -179,6 +209,15 @@ def plane_body_model() -> Model:
 
 
 @cache
+def leaving_points_model() -> Model:
+    """Points of the quadric with omega1 > 0; the rate of Omega3 there is that of mf46 at t = 0."""
+    away = sympy.Symbol("omega1", positive=True)
+    rate = state_model().letters["at0"](state_model().letters["d"](state_model().letters["Omega3"]))
+    certain(sympy.expand(rate - omega1 * B2) == 0)
+    return Model({**LETTERS, "omega1": away}, [(omega3, constant_omega3().subs(omega1, away))], units=units.QUADRIC)
+
+
+@cache
 def loop_model() -> Model:
     """Points of the quadric for I = 2."""
     return Model(
@@ -197,7 +236,18 @@ def axes_line(factor: str) -> str:
     return f"C1s = {first}; C2s = {double}/(1 - sin(beta)); C3s = {double}/(1 + sin(beta))"
 
 
+_MF59 = "B3*(omega1^2 + omega2^2 + (2 - I)*B2*omega2)/(I*B2*(omega2 + B2))"
 AXES = ("C1s", "C2s", "C3s")
+
+
+@cache
+def turned_model() -> Model:
+    """Model axes turned counter-clockwise in the plane (e2, e3), and the components of omega + B' along them."""
+    rolled = sympy.Matrix([[1, 0, 0], [0, cd, -sd], [0, sd, cd]])
+    shifted = sympy.Matrix([omega1, omega2 + B2, omega3 + B3])
+    letters = {**LETTERS, **BETA} | {f"w{n + 1}": rolled.col(n).dot(shifted) for n in range(3)}
+    return Model(letters, _angles(), phases=PHASES, domains={"p": "oblique"}, units=units.QUADRIC)
+
 
 TRIALS = (
     Trial(
@@ -206,21 +256,40 @@ TRIALS = (
         model=condition_model,
         follows="mf57 with Omega3 = omega3: every omega for which the cubic vanishes",
     ),
-    Trial(label="mf58", printed=_MF58, model=condition_model, follows="mf58.1"),
+    Trial(
+        label="mf58",
+        printed=_MF58,
+        model=condition_model,
+        follows="mf58.1, and the other way round: the two differ by the factor B'3 for every omega",
+        also=(
+            Part(
+                line=f"{_MF581.removesuffix(' = 0')} = B3*({_MF58.partition(' = ')[0]} - (1 - I)*B2^2)",
+                model=free_model,
+            ),
+        ),
+    ),
     Trial(label="text-quadric-origin", printed=_MF58, model=origin_model, follows="mf58 at omega = 0"),
     Trial(
         label="mf59",
-        printed="omega3 = B3*(omega1^2 + omega2^2 + (2 - I)*B2*omega2)/(I*B2*(omega2 + B2)); omega2 + B2 != 0",
-        model=condition_model,
-        follows="every omega that obeys mf58.1",
-        corrected="I*B2*(omega2 + B2)*omega3 = B3*(omega1^2 + omega2^2 + (2 - I)*B2*omega2)",
+        printed=f"omega3 = {_MF59}",
+        model=lambda: condition_model()[0],
+        follows="mf58.1 for omega2 different from -B'2",
+        corrected=f"omega3 = {_MF59}",
+        corrected_also=(
+            Part(line="omega2 = -B2; omega1 = sign*sqrt(1 - I)*B2; " + _MF581, model=lost_lines_model),
+            Part(line=f"{_MF581.removesuffix(' = 0')} = I*B2*(omega2 + B2)*({_MF59} - omega3)", model=free_model),
+            Part(line="condition = B3*(omega1^2 - (1 - I)*B2^2)", model=pole_model),
+            Part(line="omega1^2 - (1 - I)*B2^2 > 0", model=no_lines_model),
+        ),
         corrected_tex=(
             r"\begin{aligned} \omega_3&=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2+B'_2)}"
-            r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \text{or}\quad\omega_2&=-B'_2,\quad\omega_1=\pm\sqrt{1-I}\,B'_2,"
-            r"\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1 \end{aligned}"
+            r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_1=\pm"
+            r"\sqrt{1-I}\,B'_2,"
+            r"\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1} \end{aligned}"
         ),
-        note="The formula is right where omega2 differs from -B'2. It is not all of mf58.1: for I <= 1 the lines"
-        " omega2 = -B'2, omega1 = ±sqrt(1-I) B'2 with any omega3 are lost.",
+        grade="missing case",
+        note="The family is right, and -B'2 is excluded in words. But it is not all of mf58.1: for I <= 1 the lines"
+        " omega2 = -B'2, omega1 = ±sqrt(1-I) B'2 with any omega3 obey it too; for I > 1 nothing is missing.",
     ),
     Trial(
         label="mf61a",
@@ -230,6 +299,13 @@ TRIALS = (
         follows="lengths from the centre -B' are kept, and the form mf58 becomes that of mf60",
         defines=("w1", "w2", "w3"),
         solves="w1^2 + w2^2 + w3^2 = length; w1^2 - w2^2/a2 + w3^2/a3 = form",
+    ),
+    Trial(
+        label="text-turned",
+        printed="w1 = omega1; w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3 + B3)*sin(beta/2 + pi/4);"
+        " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
+        model=turned_model,
+        follows="components along the turned axes, against mf61a",
     ),
     Trial(
         label="text-beta",
@@ -294,8 +370,9 @@ TRIALS = (
         model=lambda: canonical_model("one"),
         follows="mf60 with I = 1",
         corrected="w1^2 + w3^2/a3 = w2^2/a2",
-        corrected_tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{(\sqrt{a_3})^2}=\frac{{\omega'_2}^2}{(\sqrt{a_2})^2}",
-        note="The semi-axes are the roots of a2 and a3; mf75 then uses the same letters for the roots.",
+        corrected_tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{\boxed{(\sqrt{a_3})^2}}=\frac{{\omega'_2}^2}{\boxed{(\sqrt{a_2})^2}}",
+        grade="wording",
+        note="The semi-axes are the roots of a2 and a3, as mf75 has them under the same letters.",
     ),
     Trial(
         label="mf63",
@@ -312,10 +389,11 @@ TRIALS = (
     ),
     Trial(
         label="text-not-all",
-        printed="at0(d(Omega3)) = omega1*B2",
-        model=state_model,
-        follows="the last equation of mf46 at t = 0, where K = B'",
-        note="So a point of the quadric with omega1 different from 0 starts with a rate of Omega3: it is no motion with"
-        " a constant Omega3.",
+        printed=f"{_MF581}; omega1*B2 > 0",
+        model=leaving_points_model,
+        follows=(
+            "points of the quadric with omega1 > 0, at which Omega3 starts with the rate omega1 B'2, theorem-points"
+        ),
+        note="By the last equation of mf46 at t = 0, where K = B'. The other half of the quadric is its mirror image.",
     ),
 )

@@ -13,6 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from atlas import files
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, topic
 from atlas.proof.verdict import Sensitivity, Verdict
@@ -47,7 +48,7 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
 
 def source(label: str, *, changes: bool = False) -> str:
     """Return the fingerprint of the proof of an entry of the ledger, or of that and of the changes tried on it."""
-    return _fingerprint(topic(label), MACHINERY + (("changes", "survivors") if changes else ()))
+    return _fingerprint(topic(label), MACHINERY + (("changes", "quick") if changes else ()))
 
 
 def load(path: Path = VERDICTS) -> dict[str, Verdict]:
@@ -58,11 +59,13 @@ def load(path: Path = VERDICTS) -> dict[str, Verdict]:
 
 def load_mutants(path: Path = MUTANTS) -> dict[str, Sensitivity]:
     """Return the recorded mutants by label, in the ledger's order."""
-    recorded = {}
-    for entry in _read(path):
-        survivors = tuple(tuple(survivor) for survivor in entry.pop("survivors"))
-        recorded[entry["label"]] = Sensitivity(**entry, survivors=survivors)
+    recorded = {entry["label"]: sensitivity(**entry) for entry in _read(path)}
     return {label: recorded[label] for label in EQUATIONS if label in recorded}
+
+
+def sensitivity(survivors: Iterable[Iterable[str]], **entry: Any) -> Sensitivity:
+    """Return the record of mutants that JSON holds."""
+    return Sensitivity(survivors=tuple((what, line, found) for what, line, found in survivors), **entry)
 
 
 def _read(path: Path) -> list[dict[str, Any]]:
@@ -87,7 +90,7 @@ def save(found: Iterable[Verdict | Sensitivity], path: Path = VERDICTS) -> None:
             entry["seconds"] = before["seconds"]
         old[record.label] = entry
     ordered = [old[label] for label in EQUATIONS if label in old]
-    path.write_text(json.dumps(ordered, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
 def stale(recorded: Mapping[str, Verdict] | Mapping[str, Sensitivity] | None = None) -> list[str]:

@@ -5,24 +5,25 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeVar
 
+from atlas import processes
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, equation, topic
 from atlas.proof import record
 from atlas.proof.changes import changes
 from atlas.proof.decide import Outcome
 from atlas.proof.model import Model
-from atlas.proof.survivors import REASONS
-from atlas.proof.trial import Trial
+from atlas.proof.quick import Numbers
+from atlas.proof.trial import Part, Trial
 from atlas.proof.verdict import Sensitivity, Verdict
 
-LIMIT = 60.0  # seconds that one trial may take; more is undecided
+LIMIT = 60.0  # seconds of the processor that one trial may take; more is undecided
+SAMPLE = 24  # changes of one line that are tried, if not all
 CACHE = Path("build") / "proofs"
 
 Progress = Callable[[str, int, int], None]
@@ -35,7 +36,10 @@ class _OverTimeError(Exception):
 
 @contextmanager
 def limit(seconds: float) -> Iterator[None]:
-    """Stop what runs inside after that many seconds; only the main thread of a system with signals can."""
+    """Stop what runs inside after that many seconds of the processor; only the main thread, where there are signals.
+
+    So a verdict does not depend on what else the machine does.
+    """
     if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -43,13 +47,13 @@ def limit(seconds: float) -> Iterator[None]:
     def stop(_number: int, _frame: Any) -> None:
         raise _OverTimeError
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 @cache
@@ -81,8 +85,10 @@ def try_one(label: str) -> Verdict:
         verdict=outcome.decision,
         method=outcome.method,
         follows=case.follows,
-        printed=case.printed,
-        corrected=case.corrected,
+        printed=_lines(case.parts),
+        grade=case.grade,
+        slip=case.slip,
+        corrected=_lines(case.corrected_parts),
         corrected_tex=case.corrected_tex,
         corrected_verdict=corrected,
         counterexample=outcome.counterexample,
@@ -90,6 +96,10 @@ def try_one(label: str) -> Verdict:
         seconds=round(time.perf_counter() - start, 2),
         source=record.source(label),
     )
+
+
+def _lines(parts: Iterable[Part]) -> str:
+    return "; ".join(part.line for part in parts)
 
 
 def _within_time(run: Callable[[], Outcome]) -> Outcome:
@@ -100,25 +110,31 @@ def _within_time(run: Callable[[], Outcome]) -> Outcome:
         return Outcome("undecided", f"out of time after {LIMIT:.0f} s")
 
 
-def try_mutants(label: str) -> Sensitivity:
-    """Change the form of an entry that is proved in one place at a time, and see whether the trial notices."""
+def try_mutants(label: str, *, every: bool = False) -> Sensitivity:
+    """Change the form of an entry that is proved in one place at a time, and see whether the trial notices.
+
+    every  all changes that the grammar yields, not a sample of them
+    """
     case = trial(label)
     start = time.perf_counter()
-    run = case.of_corrected if case.corrected else case.of_printed
-    cases = (case.corrected_model or case.model)() if case.corrected else case.model()
-    first = cases if isinstance(cases, Model) else cases[0]
-    known = frozenset(first.letters) | set(case.defines)
-    lines = changes(case.corrected or case.printed, known, seed=label)
-    survivors = []
-    for line, what in lines:
-        if _within_time(lambda line=line: run(line, sample_only=True)).decision != "refuted":  # type: ignore[misc]
-            survivors.append((what, line, _within_time(lambda line=line: run(line)).decision))  # type: ignore[misc]
+    tried, survivors = 0, []
+    for part in case.true_parts:
+        cases = part.model()
+        first = cases if isinstance(cases, Model) else cases[0]
+        known = frozenset(first.letters) | set(part.defines)
+        numbers = Numbers(part)
+        for line, what in changes(part.line, known, most=None if every else SAMPLE, seed=label):
+            tried += 1
+            if numbers.refute(line):
+                continue
+            if _within_time(lambda part=part, line=line: part.outcome(line, sample_only=True)).decision != "refuted":  # type: ignore[misc]
+                full = _within_time(lambda part=part, line=line: part.outcome(line)).decision  # type: ignore[misc]
+                survivors.append((what, line, full))
     return Sensitivity(
         label=label,
-        tried=len(lines),
-        noticed=len(lines) - len(survivors),
+        tried=tried,
+        noticed=tried - len(survivors),
         survivors=tuple(survivors),
-        reason=REASONS.get(label, "") if survivors else "",
         seconds=round(time.perf_counter() - start, 2),
         source=record.source(label, changes=True),
     )
@@ -144,15 +160,13 @@ def mutants(
     labels: Iterable[str] | None = None,
     progress: Progress | None = None,
     *,
+    every: bool = False,
     jobs: int = 1,
     cache_folder: Path | None = None,
 ) -> list[Sensitivity]:
-    """Try the mutants of entries of the ledger; arguments as for `verify`."""
-    return _run(try_mutants, "mutants", _sensitivity, labels, progress, jobs, cache_folder)
-
-
-def _sensitivity(survivors: Iterable[Iterable[str]], **entry: Any) -> Sensitivity:
-    return Sensitivity(survivors=tuple((what, line, decision) for what, line, decision in survivors), **entry)
+    """Try a sample of the mutants of entries of the ledger, or `every` one; other arguments as for `verify`."""
+    run = partial(try_mutants, every=every)
+    return _run(run, "all-mutants" if every else "mutants", record.sensitivity, labels, progress, jobs, cache_folder)
 
 
 def _run(
@@ -166,7 +180,7 @@ def _run(
 ) -> list[Found]:
     wanted = [equation(label).label for label in labels] if labels else list(EQUATIONS)
     wanted = [label for label in EQUATIONS if label in set(wanted)]
-    prints = {label: record.source(label, changes=kind == "mutants") for label in wanted}
+    prints = {label: record.source(label, changes=kind != "verdict") for label in wanted}
     places = {label: folder / f"{kind}-{label}-{prints[label]}.json" for label in wanted} if folder else {}
     found = {label: make(**json.loads(path.read_text("utf-8"))) for label, path in places.items() if path.is_file()}
     missing = [label for label in wanted if label not in found]
@@ -183,8 +197,9 @@ def _run(
 
 
 def _each(run: Callable[[str], Found], labels: list[str], jobs: int) -> Iterator[tuple[str, Found]]:
-    if jobs <= 1 or len(labels) <= 1:
+    executor = processes.pool(jobs, context="fork") if jobs > 1 and len(labels) > 1 else None
+    if executor is None:
         yield from ((label, run(label)) for label in labels)
         return
-    with ProcessPoolExecutor(jobs) as pool:
+    with executor as pool:
         yield from zip(labels, pool.map(run, labels), strict=True)

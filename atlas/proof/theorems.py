@@ -4,15 +4,15 @@ from functools import cache
 
 import sympy
 
-from atlas.proof import ball, elementary
-from atlas.proof.model import Model, Value, turn
-from atlas.proof.particle import charges_model
+from atlas.proof import ball, elementary, euler_poisson
+from atlas.proof.model import Model, Value, cross, turn
+from atlas.proof.particle import drift_model
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
-from atlas.proof.quadric import B2, B3, LETTERS, I, constant_omega3, lines_case, omega1, omega2, omega3
-from atlas.proof.trial import Trial
+from atlas.proof.quadric import B2, B3, LETTERS, I, at_start, constant_omega3, lines_case, omega1, omega2, omega3
+from atlas.proof.trial import Part, Trial
 
 tau, x = sympy.symbols("tau x", real=True)
-r, z, excess = sympy.symbols("r z e", positive=True)
+r, z, excess, T2 = sympy.symbols("r z e T2", positive=True)
 
 
 @cache
@@ -37,38 +37,128 @@ def quartic_model() -> Model:
     return Model(letters)
 
 
-@cache
-def stability_model() -> Model:
-    """Model the slope of the cubic at Omega3 = omega3, on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2."""
+def _slope(spin: Value, scale: Value) -> Value:
+    """Return p'(omega3), p the cubic of the motion with these initial data in the field (0, B2, B3)."""
     u = sympy.Symbol("u", real=True)
     field = sympy.Matrix([0, B2, B3])
-    a = cubic(integrals(sympy.Matrix([0, omega2, omega3]), field, I), field.dot(field), I)
-    slope = (a["a1"] + 2 * a["a2"] * u + 3 * a["a3"] * u**2).subs(u, omega3)
+    a = cubic(integrals(spin, field, scale), field.dot(field), scale)
+    return (a["a1"] + 2 * a["a2"] * u + 3 * a["a3"] * u**2).subs(u, spin[2])
+
+
+@cache
+def stability_model() -> Model:
+    """Model the slope of the cubic on the hyperbola, in tau = B3/B2 and x = (omega2 + B2)/B2; kappa = k + b = x b."""
     where = [(omega3, constant_omega3().subs(omega1, 0)), (omega2, (x - 1) * B2), (B3, tau * B2)]
-    return Model({**LETTERS, "minus_slope": -slope, "tau": tau, "x": x}, where)
+    square = B2**2 * (1 + tau**2)
+    letters = {"minus_slope": -_slope(sympy.Matrix([0, omega2, omega3]), I), "tau": tau, "x": x, "X": x * B2}
+    letters |= {"kappa2": x**2 * square, "b2": square, "hB3s": tau**2 / (1 + tau**2)}
+    return Model({**LETTERS, **letters}, where)
 
 
 @cache
-def short_model() -> tuple[Model, Model]:
-    """Model N = -p' x^2/B2^2 with z = x^2, I >= 1: a sum of squares if tau^2 >= 1/8, of positive terms if <= 1/2."""
-    cases = []
-    for square in (sympy.Rational(1, 8) + r, 1 / (2 * (1 + r))):
-        N = (1 + square) * z**2 + (1 - I) * (2 * square - 1) * z + square * (1 - I) ** 2
-        cases.append(
-            Model(
-                {"N": N, "z": z, "I": I, "t2": square, "gain": 8 * square - 1, "rest": 1 - 2 * square},
-                [(I, 1 + excess)],
-            )
-        )
-    return cases[0], cases[1]
+def short_model() -> Model:
+    """Model 1 <= I <= 2, any real X but 0."""
+    X, more = sympy.Symbol("X", real=True, nonzero=True), sympy.Symbol("more", nonnegative=True)
+    return Model({"X": X, "I": 1 + more, "B2": B2}, domains={"more": "unit"})
 
 
 @cache
-def band_model() -> Model:
-    """8 tau^2 = 1 - r^2 with 0 < r < 1, I < 1."""
-    root = 1 / (1 + r)
-    letters = {"I": 1 / (1 + excess), "z": z, "t2": (1 - root**2) / 8, "root": root}
-    return Model(letters)
+def _slope_in_squares() -> Value:
+    """Return -p'(omega3) on the hyperbola as a function of z = x^2 and t2 = tau^2 alone."""
+    model = stability_model()
+    value = model.letters["minus_slope"]
+    for symbol, meaning in model.where:
+        value = value.subs(symbol, meaning)
+    return sympy.cancel(sympy.cancel(value).subs({x: sympy.sqrt(z), tau: sympy.sqrt(T2)}))
+
+
+def _band(t2: Value, **letters: Value) -> Model:
+    """I < 1 and a given tau^2; z = x^2 is any positive number."""
+    scale = 1 / (1 + excess)
+    slope = _slope_in_squares().subs({T2: t2, I: scale})
+    return Model({"minus_slope": slope, "I": scale, "z": z, "t2": t2, "B2": B2, **letters})
+
+
+@cache
+def band_model() -> tuple[Model, Model]:
+    """8 tau^2 = 1 - root^2 with 0 < root < 1, and with root = 0."""
+    roots = 1 / (1 + r), sympy.Integer(0)
+    first, second = (_band((1 - root**2) / 8, root=root) for root in roots)
+    return first, second
+
+
+@cache
+def above_model() -> Model:
+    """8 tau^2 = 1 + gain."""
+    return _band((1 + r) / 8, gain=r)
+
+
+@cache
+def signs_model() -> Model:
+    """Model I < 1 and a positive gain."""
+    return Model({"I": 1 / (1 + excess), "gain": r})
+
+
+@cache
+def root_model() -> tuple[Model, Model, Model]:
+    """Q at omega3 + v, and p'(omega3), for every elementary motion: of the hyperbola, and of the lines omega2 = -B2.
+
+    These are I = 1 with any omega3, and B3 = 0 with any I and omega3.
+    """
+    v, zero = sympy.Symbol("v", real=True), sympy.Integer(0)
+    spin, field = sympy.Matrix([0, omega2, omega3]), sympy.Matrix([0, B2, B3])
+    letters = {**LETTERS, **integrals(spin, field, I), "Bsquare": field.dot(field), "v": v, "slope": _slope(spin, I)}
+    lines = [
+        [(omega3, constant_omega3().subs(omega1, 0))],
+        [(omega2, -B2), (I, sympy.Integer(1))],
+        [(omega2, -B2), (B3, zero)],
+    ]
+    first, second, third = (Model(letters, where) for where in lines)
+    return first, second, third
+
+
+@cache
+def leaving_model() -> Model:
+    """Model I < 1 and time."""
+    t = sympy.Symbol("t", real=True)
+    return Model({"I": 1 / (1 + excess), "B3": B3, "t": t}, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})
+
+
+@cache
+def between_model() -> Model:
+    """Model I < 1 and v between 0 and 4 B3."""
+    return Model({"I": 1 / (1 + excess), "B3": B3, "v": 4 * B3 / (1 + r)})
+
+
+@cache
+def equatorial_model(line: str) -> Model:
+    """B3 = 0: the line omega2 = -B2 with any omega3, or omega3 = 0 with any omega2."""
+    spin = sympy.Matrix([0, *((-B2, omega3) if line == "upright" else (omega2, 0))])
+    return Model({**LETTERS, "minus_slope": -_slope(spin, I), "X": omega2 + B2}, [(B3, sympy.Integer(0))])
+
+
+@cache
+def ball_nutation_model() -> Model:
+    """I = 1 and any initial angular velocity."""
+    one = sympy.Integer(1)
+    slope = _slope(sympy.Matrix([omega1, omega2, omega3]), one)
+    return Model({**LETTERS, "minus_slope": -slope, "I": one})
+
+
+@cache
+def cubic_model() -> Model:
+    """Model the cubic of mf55, its constants those at the start, at Omega3 = omega3."""
+    return Model({**LETTERS, "p": at_start(omega3)})
+
+
+@cache
+def torque_model() -> Model:
+    """mf28 for any symmetric mass matrix and any Omega."""
+    whole = euler_poisson.magnetic_model()
+    R, tensor, mass = (whole.letters[name] for name in ("R", "I", "g"))
+    spin, field = euler_poisson.Omega, euler_poisson.Bf
+    torque = -euler_poisson.mu / euler_poisson.c * cross(R * mass * R.T * field, R * spin)
+    return Model({**whole.letters, "m": R * tensor * spin, "dm": torque}, whole.where)
 
 
 @cache
@@ -141,7 +231,7 @@ def angles_model() -> Model:
 
 
 _Q = "(E - I*u^2)*(Bsquare - (c3 - u)^2) - (u^2 - (2 - I)*c3*u + c5)^2"
-_N = "(1 + t2)*z^2 + (1 - I)*(2*t2 - 1)*z + t2*(1 - I)^2"
+_CONDITION = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3"
 _YM, _YP = (f"(1 - I)*(1 - 2*t2 {sign} root)/(2*(1 + t2))" for sign in "-+")
 _POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
 _MOTION = f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
@@ -157,40 +247,88 @@ TRIALS = (
     ),
     Trial(
         label="theorem-points",
-        printed="at0(d(Omega3)) = omega1*B2",
+        printed=f"at0(d(Omega3)) = omega1*B2; at0(d2(Omega3)) = {_CONDITION}",
         model=state_model,
-        follows="the last equation of mf46 at t = 0",
-        note="A constant Omega3 needs omega1 B'2 = 0, and mf58.1 by mf57. With B'2 > 0 that is the hyperbola mf72,"
-        " and mf78,"
-        " mf89 show that each of its points is a motion.",
+        follows="mf46 and mf47 at t = 0, and the cubic at omega3",
+        also=(Part(line=f"p = {_CONDITION}", model=cubic_model),),
+        note="A constant Omega3 has both rates zero. Conversely, if omega1 B'2 = 0 and mf58.1 holds, the constant"
+        " omega3 solves mf55 with the right rate at the start, and mf55 has only one such solution. With B'2 > 0 these"
+        " points are the hyperbola mf72 and, for I = 1, the line of theorem-ball-line.",
     ),
     Trial(
         label="theorem-stability",
-        printed="minus_slope = B2^2*((1 + tau^2)*x^4 + (1 - I)*(2*tau^2 - 1)*x^2 + tau^2*(1 - I)^2)/x^2",
+        printed="minus_slope = B2^2*((1 + tau^2)*x^4 + (1 - I)*(2*tau^2 - 1)*x^2 + tau^2*(1 - I)^2)/x^2"
+        " = kappa2 + (1 - I)*b2*(3*hB3s - 1) + (1 - I)^2*b2^2*hB3s/kappa2",
         model=stability_model,
         follows="mf56 as corrected, on the hyperbola mf76",
-        note="Omega3 = omega3 + eps obeys eps'' = p'(omega3) eps to first order.",
+        note="Omega3 = omega3 + eps obeys eps'' = p'(omega3) eps to first order. The letter kappa2 is the square of"
+        " k + b, b2 that of b.",
+    ),
+    Trial(
+        label="theorem-root",
+        printed="(E - I*(omega3 + v)^2)*(Bsquare - (c3 - omega3 - v)^2)"
+        " - ((omega3 + v)^2 - (2 - I)*c3*(omega3 + v) + c5)^2 = v^2*(slope + (1 - I)*v*(4*B3 - v))",
+        model=root_model,
+        follows="theorem-quartic at omega3 + v, for every elementary motion",
+        note="Where p'(omega3) < 0 there is no other real v near 0 with Q >= 0: the motion is stable. Where "
+        "p'(omega3) >"
+        " 0 it is not. Where p'(omega3) = 0 the sign of the next term decides.",
     ),
     Trial(
         label="theorem-stable-short",
-        printed=f"N = {_N} = ((2*(1 + t2)*z + (1 - I)*(2*t2 - 1))^2 + (1 - I)^2*gain)/(4*(1 + t2))"
-        " = (1 + t2)*z^2 + (I - 1)*rest*z + t2*(I - 1)^2",
-        model=short_model,
-        follows="theorem-stability with z = x^2, t2 = tau^2; gain = 8 tau^2 - 1, rest = 1 - 2 tau^2",
-        note="For tau^2 > 1/8 the second form is a sum of squares, for tau^2 < 1/2 the third one a sum of positive"
-        " terms: one of"
-        " the two always holds, so that N > 0 for I >= 1 and z > 0.",
+        printed="minus_slope = X^2 + (I - 1)*B2^2 + S^2; S = tau*(X^2 - (I - 1)*B2^2)/X",
+        model=stability_model,
+        follows="theorem-stability, X = omega2 + B'2",
+        defines=("S",),
+        also=(Part(line="X^2 > 0; (I - 1)*B2^2 >= 0", model=short_model),),
     ),
     Trial(
         label="theorem-band",
-        printed=f"{_N} = (1 + t2)*(z - ym)*(z - yp); ym = {_YM}; yp = {_YP}; 8*t2 = 1 - root^2",
+        printed=f"minus_slope = B2^2*(1 + t2)*(z - ym)*(z - yp)/z; ym = {_YM}; yp = {_YP}; 8*t2 = 1 - root^2",
         model=band_model,
-        follows="theorem-stability with z = x^2, t2 = tau^2 = (1 - root^2)/8",
+        follows="theorem-stability with z = x^2, t2 = tau^2 = (1 - root^2)/8 and $0\\le\\text{root}<1$",
         defines=("ym", "yp"),
-        solves="ym > 0; yp > ym",
-        note="Negative exactly between two positive roots, which are there for 0 < 8 tau^2 < 1. For 8 tau^2 > 1"
-        " the second form of"
-        " theorem-stable-short is positive whatever I is.",
+        solves="ym > 0; yp >= ym",
+        also=(
+            Part(
+                line="minus_slope = B2^2*(S^2 + (1 - I)^2*gain)/(4*(1 + t2)*z); S = 2*(1 + t2)*z + (1 - I)*(2*t2 - 1);"
+                " 8*t2 = 1 + gain",
+                model=above_model,
+                defines=("S",),
+            ),
+            Part(line="1 - I > 0; gain > 0", model=signs_model),
+        ),
+        note="Not positive exactly between the two roots and at them; for 8 tau^2 > 1 positive everywhere. Inside the"
+        " band the motion is unstable by theorem-root, at its ends by theorem-band-ends.",
+    ),
+    Trial(
+        label="theorem-band-ends",
+        printed="v = 4*B3/(1 + 4*(1 - I)*B3^2*t^2)",
+        model=leaving_model,
+        follows="theorem-root with p'(omega3) = 0: omega3 is a triple root of Q",
+        defines=("v",),
+        solves="d(v)^2 = (1 - I)*v^3*(4*B3 - v); d2(v) = (1 - I)*v^2*(6*B3 - 2*v); at0(v) = 4*B3",
+        also=(Part(line="(1 - I)*v^3*(4*B3 - v) > 0", model=between_model),),
+        note="This motion has the constants of the elementary one, comes as near to it as one likes for t to minus"
+        " infinity, and yet leaves it by 4 B'3. At the ends E' - I omega3^2 = omega2^2 > 0, so that mf50 brings K near"
+        " as well.",
+    ),
+    Trial(
+        label="theorem-equatorial-stability",
+        printed="minus_slope = I^2*omega3^2 - (1 - I)*B2^2",
+        model=lambda: equatorial_model("upright"),
+        follows="mf56 as corrected, with B'3 = 0 and omega2 = -B'2, any omega3",
+        also=(Part(line="minus_slope = X^2 - (1 - I)*B2^2", model=lambda: equatorial_model("level")),),
+        note="With B'3 = 0 the root of Q that theorem-root has where p'(omega3) = 0 is fourfold, and for I < 1 Q is"
+        " negative beside it: there the ends belong to the stable motions.",
+    ),
+    Trial(
+        label="theorem-ball-nutation",
+        printed="minus_slope = omega1^2 + (omega2 + B2)^2 + (omega3 + B3)^2",
+        model=ball_nutation_model,
+        follows="mf56 as corrected, with I = 1",
+        note="So every motion of the ball is stable but the one with omega = -B'. There the ball rests in Larmor's"
+        " frame, and pushed by delta it turns in that frame with the angular velocity delta, however small.",
     ),
     Trial(
         label="theorem-ball-line",
@@ -222,10 +360,17 @@ TRIALS = (
         follows="mf28 with R of mf89 and Omega of mf78",
     ),
     Trial(
+        label="theorem-moment",
+        printed="dm = mu/(2*c)*(cross(m,Bf) - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf)",
+        model=torque_model,
+        follows="mf28 and mf21, any inertia tensor; the bracket is R times the rate of R I R^T times R^T",
+    ),
+    Trial(
         label="theorem-drift",
-        printed="drift = c*cross(Eperp,Bf)/b^2; mu/c*cross(drift,Bf) = -mu*Eperp",
-        model=charges_model,
-        follows="the electric force is balanced by the magnetic one, for either sign of the charge",
+        printed="drift = c*cross(Eperp,Bf)/b^2",
+        model=drift_model,
+        follows="mf1 solved for the velocity that does not change, for either sign of the charge",
+        note="The rest of the velocity turns about B by mf8 and is zero in the mean.",
     ),
     Trial(
         label="theorem-ball-rest",

@@ -5,22 +5,50 @@ from dataclasses import dataclass
 
 from atlas.proof.decide import Outcome, decide
 from atlas.proof.model import Model
+from atlas.proof.verdict import Grade
 
 Cases = Model | Sequence[Model]
 Check = Callable[..., Outcome]
 
 
 @dataclass(frozen=True, kw_only=True)
+class Part:
+    """A further line that an entry needs: the converse of the first one, or another of its cases; see `Trial`."""
+
+    line: str
+    model: Callable[[], Cases]
+    defines: tuple[str, ...] = ()
+    solves: str = ""
+    check: Check = decide
+
+    def outcome(self, line: str = "", *, sample_only: bool = False, shrink: bool = False) -> Outcome:
+        """Try the line, or another one in its place."""
+        return self.check(
+            line or self.line,
+            self.model(),
+            defines=self.defines,
+            solves=self.solves,
+            sample_only=sample_only,
+            shrink=shrink,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
 class Trial:
-    """The trial of one entry of the ledger.
+    r"""The trial of one entry of the ledger.
 
     printed    the form as printed, in the letters of `notation`
     model      what stands before it, made when it is needed; several cases where the claim covers them all
     follows    from what the printed form is derived, in a few words
     defines    letters that the printed form defines
     solves     what must hold with these
-    corrected  the true form where the printed one is refuted, with its TeX; `corrected_model`, `corrected_defines` and
-               `corrected_solves` where they differ from those of the printed form
+    also       further lines that the claim needs
+    definition whether the entry says nothing but what its letters mean: then it is a definition and not proved
+    grade      what kind of slip it is, if it needs an erratum: it is refuted, or true but not the whole truth
+    slip       the entry under which the slip is counted, if it is the same one
+    corrected  the true form where there is a slip, with its TeX, in which `\boxed` marks what has changed;
+               `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from those of the printed
+               form, and `corrected_also`
     note       what the verdict means, where it needs a word
     check      how the lines are decided, if not by `decide`
     """
@@ -31,32 +59,60 @@ class Trial:
     follows: str
     defines: tuple[str, ...] = ()
     solves: str = ""
+    also: tuple[Part, ...] = ()
+    definition: bool = False
+    grade: Grade = ""
+    slip: str = ""
     corrected: str = ""
     corrected_tex: str = ""
     corrected_model: Callable[[], Cases] | None = None
     corrected_defines: tuple[str, ...] | None = None
     corrected_solves: str | None = None
+    corrected_also: tuple[Part, ...] = ()
     note: str = ""
     check: Check = decide
 
-    def of_printed(self, line: str = "", *, sample_only: bool = False, shrink: bool = False) -> Outcome:
-        """Try the printed form, or another line in its place."""
-        return self.check(
-            line or self.printed,
-            self.model(),
-            defines=self.defines,
-            solves=self.solves,
-            sample_only=sample_only,
-            shrink=shrink,
-        )
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """The lines of the printed form."""
+        first = Part(line=self.printed, model=self.model, defines=self.defines, solves=self.solves, check=self.check)
+        return (first, *self.also)
 
-    def of_corrected(self, line: str = "", *, sample_only: bool = False) -> Outcome:
-        """Try the corrected form, or another line in its place."""
-        return self.check(
-            line or self.corrected,
-            (self.corrected_model or self.model)(),
+    @property
+    def corrected_parts(self) -> tuple[Part, ...]:
+        """The lines of the corrected form; none if there is no such form."""
+        if not self.corrected:
+            return ()
+        first = Part(
+            line=self.corrected,
+            model=self.corrected_model or self.model,
             defines=self.defines if self.corrected_defines is None else self.corrected_defines,
             solves=self.solves if self.corrected_solves is None else self.corrected_solves,
-            sample_only=sample_only,
-            shrink=False,
+            check=self.check,
         )
+        return (first, *self.corrected_also)
+
+    @property
+    def true_parts(self) -> tuple[Part, ...]:
+        """The lines of the form that is proved: the corrected one where there is one."""
+        return self.corrected_parts or self.parts
+
+    def of_printed(self, *, shrink: bool = False) -> Outcome:
+        """Try the printed form; a definition that holds is called one."""
+        found = _joined([part.outcome(shrink=shrink) for part in self.parts])
+        if self.definition and found.decision == "proved":
+            return Outcome("definition", "it says what its letters mean")
+        return found
+
+    def of_corrected(self) -> Outcome:
+        """Try the corrected form."""
+        return _joined([part.outcome() for part in self.corrected_parts])
+
+
+def _joined(outcomes: Sequence[Outcome]) -> Outcome:
+    """Return what several lines come to: refuted if one is, proved if all are."""
+    for decision in ("refuted", "undecided", "supported"):
+        for outcome in outcomes:
+            if outcome.decision == decision:
+                return outcome
+    return Outcome("proved", ", ".join(dict.fromkeys(how for one in outcomes for how in one.method.split(", "))))

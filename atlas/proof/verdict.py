@@ -1,9 +1,15 @@
 """What a trial ends with, as a record that needs no SymPy."""
 
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
-Decision = Literal["proved", "refuted", "undecided", "supported"]
+Decision = Literal["proved", "refuted", "undecided", "supported", "definition"]
+Grade = Literal["", "sign of the charge", "gap in the argument", "missing case", "misprint", "wording"]
+GRADES: tuple[Grade, ...] = ("sign of the charge", "gap in the argument", "missing case", "misprint", "wording")
+"""The kinds of slips, the grave ones first: what is wrong as physics, an argument that does not carry, a result that
+does not cover all that it is said to cover; then a formula or a sentence whose right form is plain from what stands
+around it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -11,7 +17,11 @@ class Verdict:
     """The verdict on one entry of the ledger, on the form as printed.
 
     label, number, section, kind   as in the ledger
-    verdict         proved, refuted, undecided, or supported (sampled only, with the count in `method`)
+    verdict         proved, refuted, undecided, supported (sampled only, with the count in `method`), or definition (it
+                    says what its letters mean, and there is nothing to prove)
+    grade           the kind of slip, one of `GRADES`, where the entry needs an erratum: it is refuted, or it is true
+                    as far as it goes and not complete or not clear; empty for all others
+    slip            the entry under which the slip is counted, where several entries share one
     method          how: polynomial identity, exact counterexample, dimensions, indices, ...
     follows         from what the printed form was derived
     printed         the printed form in plain letters, as it was tried
@@ -31,6 +41,8 @@ class Verdict:
     method: str
     follows: str
     printed: str
+    grade: Grade = ""
+    slip: str = ""
     corrected: str = ""
     corrected_tex: str = ""
     corrected_verdict: str = ""
@@ -55,8 +67,18 @@ class Verdict:
 
     @property
     def sound(self) -> bool:
-        """Whether it stands: the printed form is proved, or refuted with a corrected form that is proved."""
-        return self.verdict == "proved" or (self.verdict == "refuted" and self.corrected_verdict == "proved")
+        """Whether it stands: proved or a definition, or refuted and graded; a corrected form must be proved."""
+        settled = self.verdict in {"proved", "definition"} or (self.verdict == "refuted" and bool(self.grade))
+        return settled and (not self.grade or self.corrected_verdict == "proved")
+
+
+def slips(verdicts: Iterable[Verdict]) -> dict[Grade, list[str]]:
+    """Return the distinct slips by grade, the grave ones first, each by the label under which it is counted."""
+    found: dict[Grade, list[str]] = {grade: [] for grade in GRADES}
+    for verdict in verdicts:
+        if verdict.grade and not verdict.slip:
+            found[verdict.grade].append(verdict.label)
+    return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,15 +87,14 @@ class Sensitivity:
 
     tried       how many there were
     noticed     how many the trial refuted
-    survivors   those that it didn't: what was changed, the line, and what the full trial says of it
-    reason      why they survive
+    survivors   those that it didn't: what was changed, the line, what the full trial says of it; why, says
+                `survivors.reason`
     """
 
     label: str
     tried: int
     noticed: int
     survivors: tuple[tuple[str, str, str], ...] = ()
-    reason: str = ""
     seconds: float = 0.0
     source: str = ""
 

@@ -7,19 +7,21 @@ that radicals, brackets and accents grow to. Text is set in STIXGeneral, the fac
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from html import unescape
-from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeAlias
 
 from atlas.errors import AtlasError
+from atlas.libraries import release
 
 ALWAYS = "".join(map(chr, range(0x20, 0x7F))) + "\u00a0\u2009\u202f\u2212\u2013\u2014\u2018\u2019\u201c\u201d\u2026"
 GROWING = "\u221a()[]{}|\u2016\u27e8\u27e9\u02c6\u02dc\u02d9\u00a8\u00af\u2032\u2033\u2044/"
 """What a formula may hold although no character of the page shows it: the radical, above all."""
+ITALIC = "\N{PLANCK CONSTANT}" + "".join(map(chr, [*range(0x1D434, 0x1D468), *range(0x1D6E2, 0x1D71C)]))
+"""The letters, Latin and Greek, in which a browser shows variables."""
 
 
 @dataclass(frozen=True)
@@ -62,18 +64,7 @@ def characters(pages: Iterable[str]) -> tuple[str, str]:
         outside = re.sub(r"<math.*?</math>", "", page, flags=re.DOTALL)
         text.update(unescape(re.sub(r"<[^>]+>", "", outside)))
         formulas.update(unescape(re.sub(r"<[^>]+>", "", "".join(inside))))
-        formulas.update(map(_italic, re.findall(r"<mi>(.)</mi>", page)))
     return "".join(sorted(text - {"\n"})), "".join(sorted(formulas - {"\n"}))
-
-
-def _italic(letter: str) -> str:
-    """Return the mathematical italic of a letter, in which a browser shows a variable."""
-    if letter == "h":
-        return "\N{PLANCK CONSTANT}"
-    for first, last, italic in (("A", "Z", 0x1D434), ("a", "z", 0x1D44E), ("Α", "Ω", 0x1D6E2), ("α", "ω", 0x1D6FC)):
-        if first <= letter <= last:
-            return chr(italic + ord(letter) - ord(first))
-    return {"ϕ": "\U0001d719", "ϵ": "\U0001d716", "∂": "\U0001d715", "ϑ": "\U0001d717"}.get(letter, letter)
 
 
 def subset(face: Face, wanted: str) -> bytes:
@@ -115,13 +106,7 @@ def all_subsets(pages: Iterable[str], recall: Recall = anew) -> dict[str, bytes]
     text, formulas = characters(pages)
     subsets = {}
     for name, face in FACES.items():
-        wanted = ALWAYS + (formulas + GROWING if name == "math" else text)
-        parts = ["font", face.file, *map(_release, (face.package, "fonttools", "brotli")), wanted]
+        wanted = ALWAYS + (formulas + GROWING + ITALIC if name == "math" else text)
+        parts = ["font", face.file, *map(str, map(release, (face.package, "fonttools", "brotli"))), wanted]
         subsets[f"{name}.woff2"] = recall(parts, partial(subset, face, wanted))
     return subsets
-
-
-@cache
-def _release(package: str) -> str:
-    """Return the version of a package."""
-    return version(package)

@@ -3,31 +3,27 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from atlas.places import folder
-from atlas.report.colophon import Colophon
 from atlas.report.compose import Document
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
+from atlas.report.versions import versions
 
 
-def pages(document: Document, colophon: Colophon, compiled: BytecodeCache | None = None) -> dict[str, str]:
-    """Set a document, whose texts are set, as pages; the keys are file names, the stylesheet among them.
-
-    `compiled` may hold templates that were compiled before.
-    """
+def pages(document: Document) -> dict[str, str]:
+    """Set a document, whose texts are set, as pages; the keys are file names, the stylesheet among them."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "html"),
         autoescape=True,
         undefined=StrictUndefined,
-        bytecode_cache=compiled,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    texts = [Markup(text) for text in document.texts["html"]]  # noqa: S704  from pandoc
+    texts = [Markup(text) for text in document.written["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
-    common: dict[str, Any] = {"document": document, "texts": texts, "colophon": colophon, "report": document.report}
+    common: dict[str, Any] = {"document": document, "texts": texts, "versions": versions(), "report": document.report}
     set_pages = {
         page.file: template.render(page=page, before=before, after=after, **common)
         for before, page, after in _neighbours(document.pages)

@@ -20,7 +20,7 @@ _TOKEN = re.compile(
     rf"|\^(?P<power>-?\w)|(?P<two>kt|OZ)|(?P<name>{_NAME})(?![a-z]{{2}})|(?P<word>[A-Za-z]{{2,}})"
 )
 _SPLIT = re.compile(rf"({_GREEK}|[A-Za-z])('*)_?(\d+|[A-Za-z]+)?")
-_VECTORS = {"B", "B'", "E", "K", "m", "Omega", "omega"}
+_VECTORS = {"B", "B'", "E", "K", "M", "W", "m", "Omega", "omega"}
 _POINTS = {"e", "x", "y", "C", "E"}
 
 
@@ -28,7 +28,15 @@ def typeset(text: str, *, scalar_omega: bool = False) -> str:
     r"""Return the Markdown of a plain text: ``I > 1: a cone, mf62`` becomes ``$I > 1$: a cone, @mf62``.
 
     ``scalar_omega`` tells that omega is a frequency, as in the appendix of the paper, and not the angular velocity.
+    What stands between dollar signs is TeX and stays.
     """
+    return "".join(
+        piece if piece.startswith("$") else _plain(piece, scalar_omega) for piece in re.split(r"(\$[^$]*\$)", text)
+    )
+
+
+def _plain(text: str, scalar_omega: bool) -> str:
+    """Return the Markdown of a text without TeX."""
     out: list[str] = []
     run: list[str] = []
     words = text.split(" ")

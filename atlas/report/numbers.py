@@ -9,16 +9,24 @@ THIN = "\N{NARROW NO-BREAK SPACE}"
 
 @dataclass(frozen=True)
 class Number:
-    """A number as digits, such as ``-1.25e-7``, and whether each of them is proven."""
+    """A number as digits, such as ``-1.25e-7``, none where none is proven, and whether all that were asked for are."""
 
     digits: str
     proven: bool = True
 
+    @classmethod
+    def given(cls, value: float) -> "Number":
+        """Return an input as it was given."""
+        return cls(plain(value))
+
     def parts(self) -> tuple[str, str, str]:
         """Return what stands before the point, the point and what follows, and the power of ten.
 
-        The digits after the point are grouped in threes where there are more than four.
+        The digits after the point are grouped in threes where there are more than four; a question mark stands where
+        no digit is proven.
         """
+        if not self.digits:
+            return "?", "", ""
         mantissa, _, power = self.digits.lower().partition("e")
         whole, point, fraction = mantissa.replace("-", MINUS).partition(".")
         step = 3 if len(fraction) > 4 else 4
@@ -28,15 +36,13 @@ class Number:
     def tex(self) -> str:
         """Return the number as a formula."""
         mantissa, _, power = self.digits.lower().partition("e")
+        mantissa = mantissa or "?"
         return f"${mantissa}$" if not power else rf"${mantissa}\times 10^{{{int(power)}}}$"
 
 
-def room(text: str, thin: float = 0.5) -> float:
-    """Return the width of digits, points, spaces and minus signs in widths of a digit, as in STIXGeneral.
-
-    That face has no narrow space: `thin` is the width of what stands for it, at most a half in a browser.
-    """
-    return sum({".": 0.5, THIN: thin, MINUS: 1.37}.get(character, 1.0) for character in text)
+def room(text: str) -> float:
+    """Return the room to leave for digits, points, spaces and minus signs in a page, in widths of a digit."""
+    return sum({".": 0.5, THIN: 0.5, MINUS: 1.4}.get(character, 1.0) for character in text)
 
 
 def plain(value: float) -> str:

@@ -5,29 +5,27 @@ import re
 from pathlib import Path
 from typing import Any
 
-from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from atlas.errors import AtlasError
 from atlas.places import folder
-from atlas.report import fonts, views
-from atlas.report.colophon import Colophon
+from atlas.report import fonts
+from atlas.report.blocks.figure import GUTTER
+from atlas.report.blocks.table import Cell
 from atlas.report.compose import Document
-from atlas.report.numbers import room
+from atlas.report.versions import versions
 
 TEXT_FONT = "STIXGeneral"
 MATH_FONT = "STIX Two Math"
 """The faces of the pages and of the figures; see `atlas.report.fonts`."""
-THIN_IN_PRINT = 0.25
-"""What Typst takes for a narrow space, in widths of a digit."""
 
 
-def source(document: Document, colophon: Colophon, compiled: BytecodeCache | None = None) -> str:
-    """Write the Typst source of a document whose texts are set; `compiled` may hold compiled templates."""
+def source(document: Document) -> str:
+    """Write the Typst source of a document whose texts are set."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "typst"),
         autoescape=False,  # noqa: S701  the filters below escape for Typst
         undefined=StrictUndefined,
-        bytecode_cache=compiled,
         trim_blocks=True,
         variable_start_string="<$",
         variable_end_string="$>",
@@ -43,16 +41,16 @@ def source(document: Document, colophon: Colophon, compiled: BytecodeCache | Non
     return environment.get_template("report.typ").render(
         document=document,
         report=document.report,
-        texts=document.texts["typst"],
-        colophon=colophon,
+        texts=document.written["typst"],
+        versions=versions(),
         family=TEXT_FONT,
         math=MATH_FONT,
-        gutter=views.GUTTER,
+        gutter=GUTTER,
     )
 
 
-class Press:
-    """Sets PDFs with the figures of one folder; what a second one has in common with the first is not set again."""
+class Compiler:
+    """Typst, for sources whose pictures are in one folder; what two sources have in common is laid out once."""
 
     def __init__(self, where: Path) -> None:
         import typst
@@ -62,8 +60,8 @@ class Press:
         self._file = where.resolve() / "report.typ"
         self._compiler = typst.Compiler(root=str(self._file.parent), font_paths=folders, ignore_system_fonts=True)
 
-    def set(self, typst_source: str) -> bytes:
-        """Set Typst source. Raises AtlasError with Typst's reason."""
+    def compile(self, typst_source: str) -> bytes:
+        """Return the PDF of a source. Raises AtlasError with Typst's reason."""
         import typst
 
         self._file.write_text(typst_source, encoding="utf-8")
@@ -92,18 +90,11 @@ def _string(text: str) -> str:
     return json.dumps(str(text), ensure_ascii=False)
 
 
-def _number(cell: views.Cell, column: views.ColumnView) -> str:
-    """Write a number with the spaces that put its point below the others of its column."""
-    before = (column.before - room(cell.whole)) / 2
-    if column.powers:
-        written = (
-            f"num({before:.3f}em, {_string(cell.whole)}, box(width: {column.after / 2 + views.POWER:.3f}em, align("
-        )
-        written += f"left, {_string(cell.fraction)}{f' + power({_string(cell.power)})' if cell.power else ''})))"
-    else:
-        after = (column.after - room(cell.fraction, THIN_IN_PRINT)) / 2
-        written = f"num({before:.3f}em, {_string(cell.whole + cell.fraction)}, h({after:.3f}em))"
-    return written if cell.proven else f"unproven({written})"
+def _number(cell: Cell) -> str:
+    """Write a number as two cells, cut at its point."""
+    fraction = _string(cell.fraction) + (f" + power({_string(cell.power)})" if cell.power else "")
+    after = f"right-of-point({fraction if cell.proven else f'unproven({fraction})'})"
+    return f"left-of-point({_string(cell.whole)}), {after}"
 
 
 def _content(text: str) -> str:

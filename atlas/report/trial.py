@@ -1,44 +1,85 @@
 """The ledger and the errata as blocks: entries of the paper, with what the trial found, ready for the templates."""
 
-import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
-from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import Equation
-from atlas.report import records, views, widths
-from atlas.report.appendices import Finding
 from atlas.report.letters import typeset
-from atlas.report.load import nearest
+from atlas.report.recorded import Finding
 
 SECTIONS = tuple(dict.fromkeys(entry.section for entry in EQUATIONS.values()))
-NARROW = 34
-"""About as many symbols fit on one side of a page where two formulas stand side by side."""
+GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint", "wording")
+"""The kinds of slips, in the order of the errata: those of `atlas.proof.verdict`, which this floor does not load."""
 _WORDS = {"relation", "left", "right", "reason"}
 
 
-def pages_of(report: records.Report) -> dict[str, str]:
-    """Return the slug of the page that holds each entry, for the sections whose ledger the report has."""
-    found: dict[str, str] = {}
-    for page in report.pages:
-        for block in page.blocks:
-            if isinstance(block, records.Ledger):
-                if block.section not in SECTIONS:
-                    guess = nearest(block.section, list(SECTIONS))
-                    raise AtlasError(
-                        f"page {page.slug!r}: the ledger has no section {block.section!r}{guess}; "
-                        f"its sections are {', '.join(SECTIONS)}."
-                    )
-                found |= {label: page.slug for label, entry in EQUATIONS.items() if entry.section == block.section}
-    return found
+@dataclass(frozen=True)
+class Use:
+    """A place of the report that cites an entry of the ledger: page, anchor, and what it is."""
+
+    page: str
+    file: str
+    anchor: str
+    words: str
+
+
+@dataclass(frozen=True)
+class Counterexample:
+    """Values of the letters, the relation that they break and what its two sides are; or why it has no meaning."""
+
+    values: tuple[tuple[str, str], ...]
+    relation: str
+    left: str
+    right: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class EntryView:
+    """An entry of the ledger with its verdict; texts are places in the manuscript.
+
+    `uses` fills while the report is gone through.
+    """
+
+    label: str
+    number: str
+    section: str
+    kind: str
+    verdict: str
+    says: int
+    formula: int
+    assumptions: int | None
+    how: int
+    corrected: int | None
+    corrected_verdict: str
+    note: int | None
+    counterexample: Counterexample | None
+    tried: int
+    noticed: int
+    survivors: int | None
+    modules: tuple[str, ...]
+    uses: list[Use]
+    grade: str = ""
+    slip: str = ""
+    quote: int | None = None
+
+    @property
+    def texts(self) -> list[int]:
+        """The places in the manuscript of all its texts."""
+        every = (
+            *(self.says, self.quote, self.formula, self.assumptions),
+            *(self.how, self.corrected, self.note, self.survivors),
+        )
+        return [number for number in every if number is not None]
 
 
 def entries(
     wanted: Callable[[Equation, Finding], bool],
     findings: Mapping[str, Finding],
     keep: Callable[..., int],
-    uses: Mapping[str, list[views.Use]],
-) -> tuple[views.EntryView, ...]:
+    uses: Mapping[str, list[Use]],
+) -> tuple[EntryView, ...]:
     """Return the entries that are wanted, in the paper's order; `keep` takes a text into the manuscript.
 
     An entry that the trial has no finding on is undecided.
@@ -48,13 +89,12 @@ def entries(
     return tuple(_entry(entry, found, keep, uses[entry.label]) for entry, found in pairs if wanted(entry, found))
 
 
-def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list[views.Use]) -> views.EntryView:
+def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list[Use]) -> EntryView:
     def words(plain: str) -> int | None:
         return keep(typeset(plain, scalar_omega=entry.section == "VII"), inline=True) if plain else None
 
-    printed, corrected = widths.formula(entry.tex), widths.formula(found.corrected)
     how = found.method if not found.follows else f"{found.method}, from {found.follows}"
-    return views.EntryView(
+    return EntryView(
         label=entry.label,
         number=f"({entry.number})" if entry.number is not None else "",
         section=entry.section,
@@ -73,26 +113,27 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         survivors=words(found.survivors),
         modules=found.modules,
         uses=uses,
-        wide=max(map(_symbols, (entry.tex, found.corrected))) > NARROW,
-        fits=widths.fits(printed, widths.ENTRY),
-        corrected_fits=widths.fits(corrected, widths.ENTRY, widths.COLUMN),
-        beside=widths.fits(max(printed, corrected), widths.ENTRY, widths.HALF),
+        grade=found.grade,
+        slip=found.slip,
+        quote=keep(f"“{entry.quote}”", inline=True) if entry.quote else None,
     )
 
 
-def _counterexample(found: Mapping[str, str]) -> views.Counterexample:
+def by_grade(found: Sequence[EntryView]) -> tuple[EntryView, ...]:
+    """Return entries with a slip, the grave ones first; those that share a slip stand together."""
+    place = {entry.label: number for number, entry in enumerate(found)}
+
+    def order(entry: EntryView) -> tuple[int, int, int]:
+        own = place[entry.label]
+        return GRADES.index(entry.grade), place.get(entry.slip, own), own
+
+    return tuple(sorted(found, key=order))
+
+
+def _counterexample(found: Mapping[str, str]) -> Counterexample:
     values = tuple((name, value) for name, value in found.items() if name not in _WORDS)
-    return views.Counterexample(values, *(found.get(name, "") for name in ("relation", "left", "right", "reason")))
+    return Counterexample(values, *(found.get(name, "") for name in ("relation", "left", "right", "reason")))
 
 
 def _display(tex: str) -> str:
     return f"$${tex.strip()}$$"
-
-
-def _symbols(tex: str) -> int:
-    """Return about how many symbols the longest line of a formula has."""
-    lines = re.split(r"\\\\|\\cr", re.sub(r"\\frac(\{[^{}]*\}|\w)(\{[^{}]*\}|\w)", r"\1", tex))
-    plain = (
-        re.sub(r"\\(?:begin|end)\{\w+\}|\\(?:left|right|big|Big|mathbf|boldsymbol|dot|hat)l?r?", "", x) for x in lines
-    )
-    return max(len(re.sub(r"[\s{}&_^\\]", "", re.sub(r"\\[A-Za-z]+", "x", line))) for line in plain)

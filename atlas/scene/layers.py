@@ -1,6 +1,6 @@
 """A figure as data: what is in it and which role each part plays, never how it is drawn.
 
-A recipe in ``figures/`` returns a `Scene`; the two back ends in `atlas.render` draw it. Coordinates are those of the
+A recipe in ``figures/`` returns a `Scene`; the two back ends in `atlas.draw` draw it. Coordinates are those of the
 quantity shown (angular velocities in 1/time, unit vectors on the sphere). Text may hold TeX between dollar signs.
 """
 

@@ -9,34 +9,42 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, nearest
 from atlas.places import folder
 from atlas.scene.layers import Scene
+from atlas.scene.parameters import RANGES, fitted
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """A figure that can be made: its name, title, parameters with their defaults, and where it is written."""
+    """A figure that can be made: its name, title, parameters with their defaults, and where it is written.
+
+    `records` are the files of reports/data that it reads, as it declares them: ``RECORDS = ("bench.json",)``.
+    """
 
     name: str
     title: str
     parameters: Mapping[str, Any]
     source: Path
+    records: tuple[str, ...] = ()
 
     def scene(self, **parameters: Any) -> Scene:
         """Make the scene with these parameters, the defaults for the rest, and note them all in it."""
         for name in parameters:
             if name not in self.parameters:
                 raise _unknown("parameter", name, self.parameters, f"the figure {self.name!r}")
-        used = {name: _like(parameters.get(name, default), default) for name, default in self.parameters.items()}
         try:
-            scene = _function(self.source)(**used)
+            make, hints, ends = _function(self.source)
+            used = {
+                name: fitted(name, parameters.get(name, default), hints.get(name), default, ends)
+                for name, default in self.parameters.items()
+            }
+            scene = make(**used)
         except AtlasError:
             raise
         except Exception as error:
@@ -72,7 +80,7 @@ def load(name: str) -> Recipe:
         *given.kw_defaults,
     ]
     parameters = {place.arg: _default(name, place.arg, value) for place, value in zip(places, values, strict=True)}
-    return Recipe(name, _title(name, tree), parameters, source)
+    return Recipe(name, _title(name, tree), parameters, source, _records(name, tree))
 
 
 def _tree(source: Path) -> ast.Module:
@@ -90,6 +98,17 @@ def _title(name: str, tree: ast.Module) -> str:
     return docstring.splitlines()[0].rstrip(".")
 
 
+def _records(name: str, tree: ast.Module) -> tuple[str, ...]:
+    """Return the records that a recipe declares."""
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and any(isinstance(t, ast.Name) and t.id == "RECORDS" for t in node.targets):
+            try:
+                return tuple(map(str, ast.literal_eval(node.value)))
+            except (ValueError, TypeError) as error:
+                raise AtlasError(f"RECORDS in figures/{name}.py is not a tuple of names written out") from error
+    return ()
+
+
 def _default(name: str, parameter: str, value: ast.expr | None) -> Any:
     """Return the default of a parameter."""
     if value is None:
@@ -103,8 +122,8 @@ def _default(name: str, parameter: str, value: ast.expr | None) -> Any:
 
 
 @cache
-def _function(source: Path) -> Callable[..., Scene]:
-    """Run a recipe's file and return its function."""
+def _function(source: Path) -> tuple[Callable[..., Scene], dict[str, Any], Mapping[str, tuple[float, float]]]:
+    """Run a recipe's file and return its function, what it is annotated with, and between what its numbers may lie."""
     spec = spec_from_file_location(f"atlas_figures.{source.stem}", source)
     if spec is None or spec.loader is None:
         raise AtlasError(f"{source} cannot be loaded as Python")
@@ -112,7 +131,7 @@ def _function(source: Path) -> Callable[..., Scene]:
     sys.modules[spec.name] = module
     spec.loader.exec_module(module)
     make: Callable[..., Scene] = module.scene
-    return make
+    return make, get_type_hints(make), {**RANGES, **getattr(module, "RANGES", {})}
 
 
 def _source(name: str) -> Path:
@@ -142,16 +161,4 @@ def _short(source: Path) -> str:
 def _unknown(what: str, name: str, known: Iterable[str], where: str) -> AtlasError:
     """Say which names there are, and which one is meant most likely."""
     options = list(known)
-    near = get_close_matches(name, options, 1)
-    hint = f"; nearest is {near[0]!r}" if near else ""
-    return AtlasError(f"no {what} {name!r} in {where}{hint}; known: {', '.join(options) or 'none'}")
-
-
-def _like(value: Any, default: Any) -> Any:
-    """Give a value from a file or a command line the shape of the default: a tuple for a list, a float for an int."""
-    if isinstance(default, tuple) and isinstance(value, list | tuple):
-        inner = default[0] if default else None
-        return tuple(_like(item, inner) for item in value)
-    if isinstance(default, float) and isinstance(value, int) and not isinstance(value, bool):
-        return float(value)
-    return value
+    return AtlasError(f"no {what} {name!r} in {where}{nearest(name, options)}; known: {', '.join(options) or 'none'}")

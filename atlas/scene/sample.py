@@ -6,9 +6,13 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.errors import DomainError
+
 FloatArray: TypeAlias = NDArray[np.float64]
 
 _ROUNDS = 40
+MOST = 1_000_000
+"""Points of a curve, beyond which it cannot be drawn."""
 _INCH = 25.4
 _LOOKS = np.array([0.2, 0.45, 0.75])[:, None]
 """Where a piece is looked at: each plain bend, turned over or not, shows 93 of 100 parts of its sag at one of them."""
@@ -91,12 +95,18 @@ def _cut(
         sag, bend = sags.max(axis=0), sags / (_LOOKS * (1.0 - _LOOKS))
         plain = bend.max(axis=0) < _EVEN * bend.min(axis=0)
         plain &= sag < _ARC * np.linalg.norm(b - a, axis=1)
-        bent = sag > _LEAVE * tolerance
+        seen = np.ones(i.size, dtype=bool)
         if box is not None:
             corners = np.concatenate([x[None, i], inner, x[None, i + 1]])
             out = np.all(corners < box[0], axis=0) | np.all(corners > box[1], axis=0)
-            bent &= ~np.any(out, axis=1)
+            seen = ~np.any(out, axis=1)
+        bent = seen & ~(sag <= _LEAVE * tolerance)
         wanted = np.ceil(np.sqrt(sag / (_AIM * tolerance)))
+        if not wanted[bent & plain].sum() + _FEW * bent.sum() + len(s) < MOST or not np.isfinite(sag[seen]).all():
+            raise DomainError(
+                f"A curve needs more than {MOST} points to be drawn to {tolerance:g}: its sizes or its turns are too "
+                "far from what is shown; choose parameters nearer to one another."
+            )
         parts = np.ones(len(open_), dtype=int)
         parts[i[bent]] = np.maximum(np.where(plain, wanted, np.minimum(wanted, _FEW))[bent], 2)
         owner = np.repeat(np.arange(len(parts)), parts)

@@ -6,10 +6,9 @@ their dashes or widths differ too. Widths, marker sizes and tubes are in printer
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from types import MappingProxyType
 
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, nearest
 
 INK = "#1a1a1a"
 NAVY = "#16325c"
@@ -47,6 +46,7 @@ class Style:
 
 
 _THIN = 0.5
+LINES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 
 STYLES: Mapping[str, Style] = MappingProxyType(
     {
@@ -76,23 +76,20 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "second_trace": Style(BLUE, 0.6, tube=1.2),
         "coil": Style("#8a5a1f", 0.5, hidden=False, tube=1.0),
         "loop": Style("#8a5a1f", 2.0, tube=5.0),
+        "seam_line": Style("#6b4517", 2.0, tube=4.0),
         "precession": Style(GREEN, 0.9, tube=2.0),
         "unstable": Style(VERMILION, 1.5, tube=3.0),
+        "map_curve": Style("#ffffff", 1.1),
+        "map_border": Style("#ffffff", 0.7, (1.0, 1.6)),
+        "unstable_line": Style(VERMILION, 1.2, (4.0, 1.6), tube=2.4),
         "angle": Style(SLATE, 0.6, tube=0.9),
         "construction": Style(GREY, _THIN, (3.0, 2.0), tube=0.8),
         "guide": Style(PALE, _THIN, tube=0.8),
         "rim": Style(INK, 0.7, tube=1.1),
         "silhouette": Style(INK, 0.9, tube=0.0),
         "wire": Style("#828e9b", 0.3, hidden=False, tube=0.35),
-        # plotted lines, in order of importance
-        "main": Style(NAVY, 1.2),
-        "second": Style(CRIMSON, 1.0, (5.0, 1.6)),
-        "third": Style(OCHRE, 1.1),
-        "fourth": Style(GREEN, 1.0, (5.0, 1.5, 1.2, 1.5)),
-        "fifth": Style(SKY, 1.3, (3.5, 1.0)),
-        "sixth": Style(PLUM, 1.0, (1.6, 1.4)),
-        "seventh": Style(BLUE, 1.0, (8.0, 2.0)),
-        "eighth": Style(GREY, 1.0, (2.6, 1.0, 0.8, 1.0)),
+        # plotted lines, in order of importance: the style sheet of atlas.draw has their colours, widths and dashes
+        **dict.fromkeys(LINES, Style(INK)),
         "reference": Style(GREY, 0.7, (3.0, 2.0)),
         "limit": Style(INK, 0.7, (1.0, 1.5)),
         # marked points
@@ -109,6 +106,8 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "sphere": Style("#9fb6cf", fill=0.22, back="#c9d3de"),
         "ball": Style("#e3b778", fill=0.45, back="#e3b778"),
         "body": Style("#d8a45c", fill=0.55, back="#b07a35"),
+        "solid": Style("#dfb578", fill=1.0, back="#b07a35", glass=1.0),
+        "seam": Style("#6b4517", fill=1.0, back="#6b4517", glass=1.0),
         "cone": Style("#6fae97", fill=0.25, back="#a5d0c1"),
         "tangent_plane": Style("#b9a3cf", fill=0.22, back="#b9a3cf"),
         "plane": Style("#b8c0c9", fill=0.20, back="#b8c0c9"),
@@ -123,6 +122,4 @@ def style(role: str) -> Style:
     """Return the look of a role, or say which roles there are."""
     if role in STYLES:
         return STYLES[role]
-    near = get_close_matches(role, STYLES, 1)
-    hint = f"; nearest is {near[0]!r}" if near else ""
-    raise AtlasError(f"no style for the role {role!r}{hint}; known: {', '.join(STYLES)}")
+    raise AtlasError(f"no style for the role {role!r}{nearest(role, STYLES)}; known: {', '.join(STYLES)}")

@@ -1,51 +1,34 @@
 """Grade a user's trajectory against the certified motion: correct digits, where it begins to fail, what drifts."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
-from statistics import median
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from flint import arb, ctx
 
 from atlas.core.body import SymmetricBody
+from atlas.core.inertia import inertia_tensor
 from atlas.errors import AtlasError
-from atlas.exact.digits import certified, enclosed
+from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion
-from atlas.exact.inputs import Real
+from atlas.exact.general import GeneralMotion
 from atlas.scene import Curve, Plane, Scene
-from atlas.study.drift import Drift, drifts_of
-from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION, Trajectory, read
+from atlas.study.drift import AnyBody, Drift, Drifts, of_motion
+from atlas.study.grades import MOST, Column, Envelope, Errors, Grade
+from atlas.study.trajectory import Trajectory, opened
 
-MOST = 17.0
-"""Digits are counted up to here: no double has more."""
-
-BITS = 80
-GROUPS: Mapping[str, tuple[str, ...]] = {"R": MATRIX, "Omega": OMEGA, "quaternion": QUATERNION}
 LINES = {"R": ("main", "$R$"), "Omega": ("second", r"$\boldsymbol{\Omega}$"), "quaternion": ("fourth", "quaternion")}
-Row: TypeAlias = dict[str, float]
-
-
-@dataclass(frozen=True)
-class Column:
-    """The grade of one column: digits that are correct, the worst place, and the time from which it fails, if it does.
-
-    Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its length.
-    """
-
-    name: str
-    median: float
-    worst: float
-    worst_time: float
-    fails_at: float | None
 
 
 @dataclass(frozen=True)
 class Check:
-    """The grades of a trajectory. ``errors`` holds for R, Omega and quaternion the largest error of each row."""
+    """The grades of a trajectory.
+
+    ``errors`` holds for R, Omega and quaternion the largest error of each ``rows_a_point`` rows that follow one
+    another, ``times`` the time of the first of them: so few that a curve can be drawn through them.
+    """
 
     file: str
     case: str
@@ -55,6 +38,7 @@ class Check:
     threshold: float
     columns: tuple[Column, ...]
     drifts: tuple[Drift, ...]
+    rows_a_point: int
     times: tuple[float, ...]
     errors: Mapping[str, tuple[float, ...]]
 
@@ -85,6 +69,8 @@ class Check:
 
     def scene(self) -> Scene:
         """Draw the error of each group of columns against time."""
+        if not self.columns:
+            raise AtlasError(f"{self.file} is of a body without a certified motion: there is no error to draw.")
         least, most = 10.0**-MOST, 10.0**MOST
         layers = tuple(
             Curve(np.column_stack([self.times, np.clip(errors, least, most)]), *LINES[name])
@@ -96,10 +82,11 @@ class Check:
             np.array([[min(self.times), limit], [max(self.times), limit]]), "limit", f"{self.threshold:g} digits"
         )
         worst = min(self.columns, key=lambda c: c.worst)
+        each = "each row" if self.rows_a_point == 1 else f"each {self.rows_a_point} rows"
         return Scene(
             title=f"Error of {self.file}",
             caption=(
-                f"The largest error of each row of {self.file} against the certified motion; of a matrix and of a "
+                f"The largest error of {each} of {self.file} against the certified motion; of a matrix and of a "
                 f"quaternion in units of 1, of Omega in units of its length. The dotted line marks {self.threshold:g} "
                 f"digits. The worst column is {worst.name}, with {worst.worst:.1f} correct digits at "
                 f"t = {worst.worst_time:g}.{beyond}"
@@ -121,44 +108,98 @@ def check(
     field: tuple[float, float] | None = None,
     omega2: float | None = None,
     omega3: float | None = None,
+    omega: tuple[float, float, float] | None = None,
     threshold: float = 6.0,
 ) -> Check:
     """Grade the trajectory in a CSV file, see `atlas.study.trajectory`; arguments override the file's # lines.
 
+    With ``omega``, all three components of the initial angular velocity, it is held against the general motion; with
+    ``omega2`` and, where it is free, ``omega3``, against an elementary one.
+
+    A file with three moments or six elements of an inertia tensor in its line # inertia is of a body without a
+    certified motion: only what should not change is reported, against the first row. The field is that of the file.
+
     A column fails from the first row on at which it has fewer than ``threshold`` correct digits, of the 17 that a
     double can have. The times and the parameters of the file are taken as the doubles nearest to what is written.
+    The file is gone through once, in blocks.
     """
     if not 0 <= threshold <= MOST:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MOST:g}; it cannot be {threshold:g}.")
-    trajectory = read(path)
-    given = dict(trajectory.parameters)
-    parameters: dict[str, Any] = {
-        "ratio": ratio if ratio is not None else _body(given, path.name),
-        "field": field if field is not None else _needed(given, "field", path.name),
-        "omega2": omega2 if omega2 is not None else _needed(given, "omega2", path.name)[0],
-        "omega3": omega3 if omega3 is not None else given.get("omega3", (None,))[0],
-    }
-    motion = ElementaryMotion(*parameters.values())
-    with ctx.workprec(BITS + 16):
-        errors = _errors(trajectory, motion)
-        drifts = tuple(drifts_of(trajectory, motion))
-    times = tuple(trajectory.times)
+    with opened(path) as trajectory:
+        given = dict(trajectory.parameters)
+        if ratio is None and len(given.get("inertia", ())) > 2:
+            return _any_body(trajectory, path.name, field, threshold)
+        parameters: dict[str, Any] = {
+            "ratio": ratio if ratio is not None else _body(given, path.name),
+            "field": field if field is not None else _needed(given, "field", path.name),
+        }
+        one = omega2 is not None or omega3 is not None
+        if omega is not None and one:
+            raise AtlasError("The start is one of omega (three components) and omega2 with omega3: found both.")
+        if omega is None and not one and "omega" in given and "omega2" in given:
+            raise AtlasError(f"{path.name} gives the start twice, by omega and by omega2: leave one of them out.")
+        motion: ElementaryMotion | GeneralMotion
+        if omega is not None or ("omega" in given and not one):
+            parameters["omega"] = omega if omega is not None else given["omega"]
+            motion = GeneralMotion(*parameters.values())
+        else:
+            parameters["omega2"] = omega2 if omega2 is not None else _needed(given, "omega2", path.name)[0]
+            parameters["omega3"] = omega3 if omega3 is not None else given.get("omega3", (None,))[0]
+            motion = ElementaryMotion(*parameters.values())
+        errors, drifts, envelope = Errors(motion), Drifts(partial(of_motion, motion)), Envelope()
+        grades = [Grade(name, threshold, errors) for name in trajectory.names if name != "t"]
+        rows = 0
+        for block in trajectory.blocks:
+            found = errors.of(block)
+            for grade in grades:
+                grade.add(block, found[grade.name])
+            drifts.add(block)
+            envelope.add(block["t"], found)
+            rows += len(block["t"])
     return Check(
         file=path.name,
-        case=motion.case,
+        case=motion.case if isinstance(motion, ElementaryMotion) else motion.kind,
         parameters=_shown(parameters),
-        frequencies=certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15),
-        rows=len(times),
+        frequencies=_frequencies(motion),
+        rows=rows,
         threshold=float(threshold),
-        columns=tuple(_grade(name, times, values, threshold) for name, values in errors.items()),
-        drifts=drifts,
-        times=times,
-        errors={
-            group: tuple(max(row) for row in zip(*(errors[n] for n in names if n in errors), strict=True))
-            for group, names in GROUPS.items()
-            if any(name in errors for name in names)
-        },
+        columns=tuple(grade.column() for grade in grades),
+        drifts=drifts.found(),
+        rows_a_point=envelope.rows,
+        times=tuple(envelope.times()),
+        errors={group: tuple(values) for group, values in envelope.errors().items()},
     )
+
+
+def _frequencies(motion: ElementaryMotion | GeneralMotion) -> dict[str, str]:
+    """Return omega3, k and phi; of a general motion nothing, for its angles belong to a period."""
+    if isinstance(motion, GeneralMotion):
+        return {}
+    found: dict[str, str] = certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15)
+    return found
+
+
+def _any_body(trajectory: Trajectory, file: str, field: Sequence[float] | None, threshold: float) -> Check:
+    """Return what drifts in the motion of a body of any inertia tensor, with no column graded."""
+    given = trajectory.parameters["inertia"]
+    a, b, c, ab, ac, bc = (*given, 0.0, 0.0, 0.0)[:6]
+    tensor = inertia_tensor([[a, ab, ac], [ab, b, bc], [ac, bc, c]])
+    B = np.array(field if field is not None else _needed(trajectory.parameters, "field", file))
+    B = B if B.size == 3 else np.array([0.0, *B])
+    kept, rows, ends = Drifts(AnyBody(tensor, B)), 0, list[float]()
+    for block in trajectory.blocks:
+        kept.add(block)
+        rows += len(block["t"])
+        ends = [*ends[:1], float(block["t"][0]), float(block["t"][-1])]
+    drifts = kept.found()
+    if not any(drift.label == "theorem-clebsch" for drift in drifts):
+        raise AtlasError(
+            f"{file}: without a certified motion for this inertia tensor the integrals are all there is to test, and "
+            "they need R11 to R33 or a quaternion, and Omega1 to Omega3."
+        )
+    shown = {"inertia": list(given), "field": B.tolist()}
+    times = (ends[0], ends[-1])
+    return Check(file, "any inertia tensor", shown, {}, rows, float(threshold), (), drifts, rows, times, {})
 
 
 def _shown(parameters: Mapping[str, Any]) -> dict[str, Any]:
@@ -166,10 +207,14 @@ def _shown(parameters: Mapping[str, Any]) -> dict[str, Any]:
     body = parameters["ratio"]
     shown: dict[str, Any] = {"inertia": [body.I2, body.I3]} if hasattr(body, "I2") else {"ratio": float(body)}
     shown["field"] = [float(component) for component in parameters["field"]]
+    if "omega" in parameters:
+        return shown | {"omega": [float(w) for w in parameters["omega"]]}
     return shown | {name: float(parameters[name]) for name in ("omega2", "omega3") if parameters[name] is not None}
 
 
 def _body(given: Mapping[str, tuple[float, ...]], file: str) -> Any:
+    if "inertia" in given and "ratio" in given:
+        raise AtlasError(f"{file} gives the body twice, by ratio and by inertia: leave one of them out.")
     if "inertia" in given:
         I2, I3 = given["inertia"]
         return SymmetricBody(I2, I3)
@@ -181,38 +226,3 @@ def _needed(given: Mapping[str, tuple[float, ...]], name: str, file: str) -> tup
         example = {"field": "# field = 1 2"}.get(name, f"# {name} = 1.5")
         raise AtlasError(f"{file} does not say {name}: give the option, or a line such as '{example}' in the file.")
     return given[name]
-
-
-def _errors(trajectory: Trajectory, motion: ElementaryMotion) -> dict[str, list[float]]:
-    """Return the errors of each column, row by row."""
-    columns = {name: values for name, values in trajectory.columns.items() if name != "t"}
-    errors: dict[str, list[float]] = {name: [] for name in columns}
-    length = arb(motion.omega2**2 + motion.omega3**2).sqrt()
-    for i, t in enumerate(trajectory.times):
-        truth: dict[str, Real] = {}
-        if any(name in columns for name in MATRIX + QUATERNION):
-            R = enclosed(partial(motion.rotation, t), BITS)
-            truth |= dict(zip(MATRIX, (x for row in R for x in row), strict=True))
-        if any(name in columns for name in OMEGA):
-            truth |= dict(zip(OMEGA, enclosed(partial(motion.angular_velocity, t), BITS), strict=True))
-        if QUATERNION[0] in columns:
-            found = [columns[name][i] for name in QUATERNION]
-            truth |= dict(zip(QUATERNION, _quaternion(motion, t, found), strict=True))
-        for name, values in columns.items():
-            unit = length if name in OMEGA and length != 0 else arb(1)
-            errors[name].append(float((abs(arb(values[i]) - truth[name]) / unit).upper()))
-    return errors
-
-
-def _quaternion(motion: ElementaryMotion, t: float, found: Sequence[float]) -> list[Real]:
-    """Return the quaternion of R(t), of the two the one nearer to what was found."""
-    quaternion: list[Real] = enclosed(lambda: motion.quaternion(t), BITS)
-    same = sum((arb(a) * b for a, b in zip(found, quaternion, strict=True)), arb(0))
-    return quaternion if same >= 0 else [-x for x in quaternion]
-
-
-def _grade(name: str, times: Sequence[float], errors: Sequence[float], threshold: float) -> Column:
-    digits = [min(MOST, -math.log10(error)) if error else MOST for error in errors]
-    worst = min(range(len(digits)), key=digits.__getitem__)
-    fails = next((t for t, d in zip(times, digits, strict=True) if d < threshold), None)
-    return Column(name, median(digits), digits[worst], times[worst], fails)

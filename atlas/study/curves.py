@@ -5,7 +5,6 @@ leaves its chords, in final pixels at 300 dots an inch; the figure curve_points 
 `python -m atlas.study.curves` renews it.
 """
 
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,13 +14,14 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas import files
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.particle import ParticleMotion
 from atlas.core.quadric import Quadric
 from atlas.errors import AtlasError
 from atlas.places import folder
-from atlas.scene import Space, conics, plates, sample
+from atlas.scene import Space, conics, quadric_panel, sample
 from atlas.scene.camera import frame
 
 FloatArray: TypeAlias = NDArray[np.float64]
@@ -30,6 +30,8 @@ TOLERANCES = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)
 RATIO, FIELD, OMEGA2 = 1.5, (1.0, 2.0), 0.7
 _PIXELS = 300.0 / 25.4
 _INNER = 64
+MOST_POINTS = 1 << 22
+"""Points at equal steps after which the search for a number that is enough ends."""
 
 
 @dataclass(frozen=True)
@@ -118,7 +120,7 @@ def curves() -> Iterator[Drawn]:
 def outline() -> Drawn:
     """Return the silhouette of the bowl of figure hyp_a: where grad F . d = 0 it is a plane section of the quadric."""
     field = (1.0, 1.0)
-    (bowl,) = plates.sheets(RATIO, Quadric(RATIO, field), field, "origin")
+    (bowl,) = quadric_panel.sheets(RATIO, Quadric(RATIO, field), field, "origin")
     towards = frame(Space((), azimuth=25.0, elevation=14.0))[2]
     corners = bowl.grids[0].reshape(-1, 3)
     ball = corners.mean(axis=0), float(np.ptp(corners, axis=0).max())
@@ -144,6 +146,8 @@ def even_points(drawn: Drawn, error: float) -> int:
     """Return the least number of points at equal steps that leave no more than this error, by bisection."""
     low, high = 1, 2
     while drawn.error(drawn.even(high)) > error:
+        if high > MOST_POINTS:
+            raise AtlasError(f"More than {MOST_POINTS} points at equal steps leave an error above {error:g}.")
         low, high = high, 2 * high
     while high - low > 1:
         middle = (low + high) // 2
@@ -174,9 +178,7 @@ def read() -> Record:
 
 def write(record: Record, path: Path) -> None:
     """Write a record, whole or not at all."""
-    beside = path.with_name(f"{path.name}.{os.getpid()}")
-    beside.write_bytes(msgspec.json.format(msgspec.json.encode(record), indent=1) + b"\n")
-    beside.replace(path)
+    files.write(path, msgspec.json.format(msgspec.json.encode(record), indent=1) + b"\n")
 
 
 if __name__ == "__main__":

@@ -1,14 +1,17 @@
 """What a trajectory should conserve: the norm of its quaternion, orthogonality, the integrals of motion."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from flint import fmpq
 
 from atlas.exact.elementary import ElementaryMotion
-from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION, Trajectory
+from atlas.exact.general import GeneralMotion
+from atlas.study.conserved import conserved
+from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION, FloatArray
+from atlas.study.truth import long
 
 
 @dataclass(frozen=True)
@@ -23,24 +26,95 @@ class Drift:
     last: float
 
 
-def drifts_of(trajectory: Trajectory, motion: ElementaryMotion) -> Iterable[Drift]:
-    """Yield what the columns allow to test: orthogonality, the norm, and the integrals of motion."""
-    columns = {name: np.array(values, dtype=np.longdouble) for name, values in trajectory.columns.items()}
-    count = len(trajectory.times)
-    R = _matrices(columns, count)
-    Omega = np.stack([columns[name] for name in OMEGA], axis=-1) if set(OMEGA) <= set(columns) else None
+Deviation: TypeAlias = tuple[str, str, str, Any]
+"""Name of what should not change, what it is, its equation, and how far it is off in each row."""
+
+
+class Drifts:
+    """What the columns of a trajectory allow to test, followed block by block."""
+
+    def __init__(self, deviations: Callable[[Mapping[str, FloatArray]], Iterable[Deviation]]) -> None:
+        self._deviations, self._found = deviations, dict[str, Drift]()
+
+    def add(self, block: Mapping[str, FloatArray]) -> None:
+        """Take one more block of columns (m,)."""
+        for name, says, label, deviations in self._deviations(block):
+            size = np.abs(deviations)
+            i = int(np.argmax(size))
+            worst, at = float(size[i]), float(block["t"][i])
+            known = self._found.get(name)
+            if known is not None and known.worst >= worst:
+                worst, at = known.worst, known.worst_time
+            self._found[name] = Drift(name, says, label, worst, at, float(size[-1]))
+
+    def found(self) -> tuple[Drift, ...]:
+        """Return the drifts: orthogonality, the norm, and the integrals of motion."""
+        return tuple(self._found.values())
+
+
+def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
+    """Yield what the columns allow to test against a certified motion: orthogonality, the norm, and the integrals."""
+    columns, R, Omega = _read(block)
+    yield from _rigid(columns, R)
+    I, B2, B3 = (long(x) for x in (motion.I, motion.B2, motion.B3))
+    K = None if R is None else B2 * R[:, 1] + B3 * R[:, 2]
+    scales = _scales(motion)
+    for name, says, label, value in _integrals(I, Omega, K):
+        if name not in motion.invariants:
+            continue
+        yield name, says, label, (value - long(motion.invariants[name])) / (long(scales[name]) or 1)
+    if Omega is not None and K is not None:
+        tensor = np.diag([np.longdouble(1), np.longdouble(1), I])
+        spin = np.array([long(w) for w in motion.omega])
+        start = conserved(tensor, spin, np.array([np.longdouble(0), B2, B3]))
+        yield from _clebsch(conserved(tensor, Omega, K), start)
+
+
+class AnyBody:
+    """The same for a body of any inertia tensor (3, 3) in the field B' (3,): deviations from the first row of all."""
+
+    def __init__(self, inertia: Any, field: Any) -> None:
+        self._J, self._field = np.asarray(inertia, dtype=np.longdouble), np.asarray(field, dtype=np.longdouble)
+        self._start: tuple[Any, Any] | None = None
+
+    def __call__(self, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
+        """Yield the deviations in one more block."""
+        columns, R, Omega = _read(block)
+        yield from _rigid(columns, R)
+        if R is None or Omega is None:
+            return
+        K, J = self._field @ R, self._J
+        if self._start is None:
+            self._start = Omega[0], K[0]
+        first, field = self._start
+        yield from _clebsch(conserved(J, Omega, K), conserved(J, first, field))
+        square, double = (K * K).sum(-1), np.einsum("...i,ij,...j->...", Omega, J, Omega)
+        true = (field @ field, first @ J @ first)
+        yield "K^2", "length of the field in the body, squared", "mf45", square / (true[0] or 1) - 1
+        yield "T", "kinetic energy", "theorem-kinetic-energy", double / (true[1] or 1) - 1
+
+
+def _read(block: Mapping[str, FloatArray]) -> tuple[dict[str, Any], Any, Any]:
+    """Return the columns in extended precision, and R (m, 3, 3) and Omega (m, 3) where they are there."""
+    columns = {name: values.astype(np.longdouble) for name, values in block.items()}
+    R = _matrices(columns, len(block["t"]))
+    return columns, R, np.stack([columns[name] for name in OMEGA], axis=-1) if set(OMEGA) <= set(columns) else None
+
+
+def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
+    """Yield the norm of the quaternion and the orthogonality of R."""
     if QUATERNION[0] in columns:
         norm = np.sqrt(sum(columns[name] ** 2 for name in QUATERNION))
-        yield _drift("|q|", "norm of the quaternion", "mf21", norm - 1, trajectory)
+        yield "|q|", "norm of the quaternion", "mf21", norm - 1
     if R is not None:
         defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2))
-        yield _drift("R^T R", "orthogonality of R", "mf21", defect, trajectory)
-    I, B2, B3 = (_number(x) for x in (motion.I, motion.B2, motion.B3))
-    K = None if R is None else B2 * R[:, 1] + B3 * R[:, 2]
-    for name, says, label, value in _integrals(I, Omega, K):
-        true = motion.invariants[name]
-        scale = _scales(motion)[name]
-        yield _drift(name, says, label, (value - _number(true)) / (_number(scale) or 1), trajectory)
+        yield "R^T R", "orthogonality of R", "mf21", defect
+
+
+def _clebsch(found: Iterable[Any], start: Iterable[Any]) -> Iterable[Deviation]:
+    """Yield the integrals of theorem-clebsch against their values at the start."""
+    for (name, says, label, value, _), (_, _, _, true, scale) in zip(found, start, strict=True):
+        yield name, says, label, (value - true) / (scale or 1)
 
 
 def _integrals(I: Any, Omega: Any, K: Any) -> Iterable[tuple[str, str, str, Any]]:
@@ -57,11 +131,12 @@ def _integrals(I: Any, Omega: Any, K: Any) -> Iterable[tuple[str, str, str, Any]
         yield "(m,B')", "momentum along the field, over I2", "mf93", across + I * u * K[:, 2]
 
 
-def _scales(motion: ElementaryMotion) -> dict[str, fmpq]:
+def _scales(motion: ElementaryMotion | GeneralMotion) -> dict[str, fmpq]:
     """Return the size of each integral: the sum of the absolute values of its terms."""
-    I, B2, B3, w2, w3 = motion.I, abs(motion.B2), abs(motion.B3), abs(motion.omega2), abs(motion.omega3)
+    I, B2, B3 = motion.I, abs(motion.B2), abs(motion.B3)
+    w1, w2, w3 = (abs(w) for w in motion.omega)
     return {
-        "E'": w2**2 + I * w3**2,
+        "E'": w1**2 + w2**2 + I * w3**2,
         "K^2": B2**2 + B3**2,
         "c3": w3 + B3,
         "c5": w2 * B2 + w3**2 + (2 - I) * (w3 + B3) * w3,
@@ -82,16 +157,3 @@ def _matrices(columns: Mapping[str, Any], count: int) -> Any:
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
     return np.moveaxis(np.array(rows), -1, 0)
-
-
-def _drift(name: str, says: str, label: str, deviations: Any, trajectory: Trajectory) -> Drift:
-    size = np.abs(deviations)
-    worst = int(np.argmax(size))
-    return Drift(name, says, label, float(size[worst]), trajectory.times[worst], float(size[-1]))
-
-
-def _number(value: fmpq) -> np.longdouble:
-    """Return a rational in extended precision."""
-    head = int(value.p) / int(value.q)
-    rest = value - fmpq(*head.as_integer_ratio())
-    return np.longdouble(head) + np.longdouble(int(rest.p) / int(rest.q))

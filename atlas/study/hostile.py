@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
 
+from atlas.errors import AtlasError
 from atlas.study.regimes import REGIMES, near, ratio, sign, size
 
 PHASE_LIMIT = 2.0**50
@@ -17,6 +18,9 @@ PHASE_LIMIT = 2.0**50
 
 TIMES = 24
 """Times drawn for each motion."""
+
+TRIES = 10_000
+"""Draws after which none is as it should be: AtlasError."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +75,7 @@ CLOCKS = ("short times", "long times", "tiny times")
 
 def motion(regime: str, random: Random) -> Motion:
     """Draw the input of one elementary motion; one in four has a body whose I3/I2 is no double."""
-    while True:
+    for _ in range(TRIES):
         I, B2, B3, w2 = REGIMES[regime](random)
         I2, I3 = 1.0, I
         if random.random() < 0.25 and 0.01 < I < 1.99:
@@ -85,6 +89,7 @@ def motion(regime: str, random: Random) -> Motion:
         frequencies = _frequencies(I2, I3, B2, B3, w2, omega3)
         if frequencies is not None:
             return Motion(I2, I3, B2, B3, w2, omega3, times(frequencies, random))
+    raise AtlasError(f"In {TRIES} draws the regime {regime!r} gave no motion with frequencies among the doubles.")
 
 
 def special_motion(random: Random) -> Motion:
@@ -143,7 +148,7 @@ def times(frequencies: tuple[float, ...], random: Random, reach: float = PHASE_L
     fastest = max(abs(f) for f in frequencies)
     slowest = min((abs(f) for f in frequencies if f), default=1.0)
     drawn = [0.0, -0.0]
-    while len(drawn) < TIMES:
+    for _ in range(TRIES):
         clock = len(drawn) % 4
         frequency = random.choice((fastest or 1.0, fastest or 1.0, slowest))
         phase = (
@@ -155,7 +160,9 @@ def times(frequencies: tuple[float, ...], random: Random, reach: float = PHASE_L
         t = sign(random) * phase / frequency
         if math.isfinite(t) and abs(t) * fastest < reach:
             drawn.append(t)
-    return tuple(drawn)
+        if len(drawn) == TIMES:
+            return tuple(drawn)
+    raise AtlasError(f"In {TRIES} draws the frequencies {frequencies} gave fewer than {TIMES} times within {reach:g}.")
 
 
 def clock(fastest: float, t: float) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from flint import ctx
 
 from atlas.core.elementary import ElementaryMotion
+from atlas.errors import DomainError
 from atlas.exact import elementary as exact
 from atlas.exact.digits import enclosed
 from atlas.scene.layers import FloatArray
@@ -23,11 +24,16 @@ Field: TypeAlias = tuple[float, float]
 BITS = 70
 CLOCK = (-3.0, 12.0)
 """Decimal exponents of the times, in units of 1/|B'|."""
+TRIES = 64
+"""Motions drawn for a column until the phases of one stay within the promised 2^50 up to its last time."""
 
 
 @dataclass(frozen=True, eq=False)
 class ErrorMap:
-    """Largest errors in any entry of R in the cells between the edges ``x`` and ``t``: arrays (len(t)-1, len(x)-1)."""
+    """Largest errors in any entry of R in the cells between the edges ``x`` and ``t``: arrays (len(t)-1, len(x)-1).
+
+    NaN where the phase is beyond 2^50, for which nothing is promised and nothing was measured.
+    """
 
     x: FloatArray
     t: FloatArray
@@ -56,23 +62,27 @@ def plain_rotation(ratio: float, field: Field, omega2: float, t: FloatArray) -> 
 
 
 def _mapped(x: FloatArray, rows: int, motion: Callable[[float], tuple[float, Field, float]], seed: int) -> ErrorMap:
-    """Judge one point in each cell, at a place in it that the seed decides; phases beyond 2^50 are drawn again."""
+    """Judge one point in each cell, at a place in it that the seed decides, if its phase is within 2^50."""
     random = Random(seed)  # noqa: S311  reproducible, not secret
     t = np.logspace(*CLOCK, rows + 1)
-    plain, ours = np.empty((2, rows, len(x) - 1))
+    plain, ours = np.full((2, rows, len(x) - 1), np.nan)
     for i in range(len(x) - 1):
-        made, fastest = None, math.inf
-        while made is None or fastest * t[-1] > PHASE_LIMIT:
-            parameters = motion(random.uniform(x[i], x[i + 1]))
+        for _ in range(TRIES):
+            parameters = motion(random.uniform(float(x[i]), float(x[i + 1])))
+            if parameters[1][0] == 0:
+                raise DomainError("A map of errors needs B2 different from zero: mf76 and mf77 divide by it.")
             made = ElementaryMotion(*parameters)
             b = math.hypot(*parameters[1])
             fastest = max(abs(made.k), abs(made.phi)) / b
+            if fastest * t[-1] <= PHASE_LIMIT:
+                break
         certified = exact.ElementaryMotion(*parameters)
         times = np.array([random.uniform(t[j], t[j + 1]) / b for j in range(rows)])
+        near = fastest * b * times <= PHASE_LIMIT
         with ctx.workprec(BITS + 16):
-            true = [list(chain(*enclosed(partial(certified.rotation, time), BITS))) for time in times]
-            plain[:, i] = _errors(plain_rotation(*parameters, times), true)
-            ours[:, i] = _errors(made.rotation(times), true)
+            true = [list(chain(*enclosed(partial(certified.rotation, time), BITS))) for time in times[near]]
+            plain[near, i] = _errors(plain_rotation(*parameters, times[near]), true)
+            ours[near, i] = _errors(made.rotation(times[near]), true)
     return ErrorMap(x, t, plain, ours)
 
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.body import SymmetricBody, moments
-from atlas.core.euler_poisson import hat
-from atlas.core.inertia import inertia_tensor, mass_matrix
+from atlas.core.clebsch import Clebsch, body_tensor, clebsch
+from atlas.core.euler_poisson import field_in_body, hat
+from atlas.core.inertia import mass_matrix
 from atlas.core.inputs import FloatArray, positive, real, vector
 from atlas.errors import AtlasError, DomainError
 
@@ -30,6 +30,37 @@ class Simulation:
     evaluations: int
     """How often the right-hand side was evaluated."""
     seconds: float
+    inertia: FloatArray
+    """Inertia tensor (3, 3)."""
+    field: FloatArray
+    """B' (3,) in the laboratory."""
+    omega: FloatArray
+    """Initial angular velocity (3,)."""
+
+    def integrals(self) -> Clebsch:
+        """Return H, F, (M, K), K^2 and the kinetic energy at every time, theorem-clebsch."""
+        return clebsch(self.inertia, self.Omega, field_in_body(self.R, self.field))
+
+    def drift(self) -> dict[str, float]:
+        """Return the largest deviation of each integral from its initial value, in units of the size of its terms.
+
+        H, F and (M, K) are measured in units of (|M|^2/I1 + I3 K^2), (|M|^2 + I3^2 K^2) and |M| |K| at t = 0, with the
+        least and largest moments I1 and I3; K^2 and the energy in units of themselves.
+        """
+        now, start = self.integrals(), clebsch(self.inertia, self.omega, self.field)
+        least, *_, most = np.linalg.eigvalsh(self.inertia)
+        M, K = np.linalg.norm(self.inertia @ (self.omega + self.field)), np.linalg.norm(self.field)
+        sizes = {
+            "H": M * M / least + most * K * K,
+            "F": M * M + most * most * K * K,
+            "MK": M * K,
+            "K2": start.K2,
+            "energy": start.energy,
+        }
+        return {
+            name: float(np.abs(getattr(now, name) - getattr(start, name)).max() / (size or 1.0))
+            for name, size in sizes.items()
+        }
 
 
 def simulate(
@@ -55,7 +86,8 @@ def simulate(
     """
     from scipy.integrate import solve_ivp
 
-    tensor, B, start, t = _tensor(inertia), _field(field), vector(omega, "omega"), _times(times)
+    given, B, start, t = body_tensor(inertia), _field(field), vector(omega, "omega"), _times(times)
+    tensor = given / np.abs(given).max()
     if method not in METHODS:
         raise AtlasError(f"The method must be one of {', '.join(METHODS)}, not {method!r}.")
     rtol, atol = positive(rtol, "rtol"), positive(atol, "atol")
@@ -88,16 +120,7 @@ def simulate(
             raise AtlasError(f"{method} did not reach t = {t[-1]:g}: {words}")
         states, evaluations = solution.y.T, int(solution.nfev)
     R, Omega = states[place, :9].reshape(-1, 3, 3), states[place, 9:] * unit
-    return Simulation(t, R, Omega, method, rtol, atol, evaluations, perf_counter() - began)
-
-
-def _tensor(inertia: Any) -> FloatArray:
-    """Return the inertia tensor in units of its largest element."""
-    if isinstance(inertia, SymmetricBody) or np.ndim(inertia) == 0:
-        I2, I3 = moments(inertia)
-        inertia = (I2, I2, I3)
-    tensor = inertia_tensor(inertia)
-    return np.asarray(tensor / np.abs(tensor).max())
+    return Simulation(t, R, Omega, method, rtol, atol, evaluations, perf_counter() - began, given, B, start)
 
 
 def _field(field: Any) -> FloatArray:

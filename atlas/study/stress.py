@@ -9,20 +9,21 @@ import json
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from functools import partial
-from multiprocessing import get_context
 from pathlib import Path
 from random import Random
 from typing import Any
 
+from atlas import files, processes
 from atlas.errors import AtlasError
 from atlas.study import hostile
 from atlas.study.judges import judge_motion
 from atlas.study.judges_bodies import judge_ball, judge_free, judge_particle
 from atlas.study.judges_curves import judge_hyperbola, judge_quadric
+from atlas.study.judges_general import judge_general
 from atlas.study.regimes import REGIMES
+from atlas.study.regimes_general import GENERAL
 from atlas.study.ulps import Refusal, Tally, Worst
 
 RATCHET = Path(__file__).with_name("ratchet.json")
@@ -30,6 +31,8 @@ RATCHET = Path(__file__).with_name("ratchet.json")
 
 LONG, SHORT = (3_000_000, 0), (60_000, 1)
 """Samples and seed of the run that the ratchet records, and of the short run that has to stay within it."""
+
+Progress = Callable[[int, int], None]
 
 LIMITS: Mapping[str, float] = {
     "R": 4, "R at one time": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R(0) = 1": 0,
@@ -39,6 +42,8 @@ LIMITS: Mapping[str, float] = {
     "k of the hyperbola": 4, "phi of the hyperbola": 4, "points of the hyperbola": 4,
     "ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8,
     "free R": 4, "free k": 4, "free phi": 4, "free Omega": 8,
+    "general R": 8, "general R grid": 16, "general Omega": 16, "general K": 16, "general orthogonality": 8,
+    "general R(0) = 1": 4,
 }  # fmt: skip
 """What the kernels promise, in ulps, for each quantity that has a promise."""
 
@@ -98,17 +103,20 @@ class Result:
         return heading, rows
 
 
-def stress(
-    samples: int = 1_000_000, seed: int = 0, jobs: int = 1, progress: Callable[[int, int], None] | None = None
-) -> Result:
+def stress(samples: int = 1_000_000, seed: int = 0, jobs: int = 1, progress: Progress | None = None) -> Result:
     """Judge at least ``samples`` values drawn from ``seed`` on ``jobs`` processes, which do not change the result.
 
     ``progress(samples so far, samples asked for)`` is called after each round of all regimes.
     """
     if samples < 1 or jobs < 1:
         raise AtlasError(f"A stress run needs at least one sample and one process, not {samples} and {jobs}.")
+    return finished(seed, _rounds(seed, jobs), samples, progress)
+
+
+def finished(seed: int, parts: Iterable[Tally], samples: int, progress: Progress | None) -> Result:
+    """Return the result of rounds, as many as are needed for so many values."""
     started, tally, rounds, count = time.perf_counter(), Tally(), 0, 0
-    for part in _rounds(seed, jobs):
+    for part in parts:
         tally.merge(part)
         rounds += 1
         count += sum(w.samples for w in part.worst.values())
@@ -121,7 +129,7 @@ def stress(
 
 
 def one_round(seed: int, index: int) -> Tally:
-    """Judge one motion of every regime with its quadric and hyperbola, a special one, a ball and a particle."""
+    """Judge one motion of every regime with its quadric and hyperbola, special ones, and general ones."""
     tally = Tally()
     random = Random(f"{seed} {index}")  # noqa: S311  reproducible, not secret
     for regime in REGIMES:
@@ -132,6 +140,9 @@ def one_round(seed: int, index: int) -> Tally:
     judge_free(hostile.free_motion(random), tally)
     judge_ball(hostile.ball_motion(random), tally)
     judge_particle(hostile.particle_motion(random), tally)
+    other = Random(f"general {seed} {index}")  # noqa: S311  the same
+    for regime, draw in GENERAL.items():
+        judge_general(draw(other), regime, other, tally)
     return tally
 
 
@@ -166,18 +177,19 @@ def write_ratchet(results: Iterable[Result], path: Path = RATCHET) -> None:
         best = 0.5 if LIMITS.get(worst.quantity) != 0 else 0.0
         known = record.get(record_name(worst), best)
         record[record_name(worst)] = max(known, math.ceil(worst.ulps * 1000) / 1000)
-    path.write_text(json.dumps(dict(sorted(record.items())), indent=1) + "\n", encoding="utf-8")
+    files.write(path, json.dumps(dict(sorted(record.items())), indent=1) + "\n")
 
 
 def _rounds(seed: int, jobs: int) -> Iterator[Tally]:
     """Judge one round after the other, endlessly, in the order of their index."""
     batch = 4 * jobs
-    if jobs == 1:
+    executor = processes.pool(jobs) if jobs > 1 else None
+    if executor is None:
         index = 0
         while True:
             yield one_round(seed, index)
             index += 1
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+    with executor as pool:
         first = 0
         while True:
             yield from pool.map(partial(one_round, seed), range(first, first + batch))

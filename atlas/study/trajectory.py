@@ -2,20 +2,40 @@
 
 Columns, in any order and case: ``t``; any of ``R11`` to ``R33``; any of ``Omega1`` to ``Omega3`` (in the body's frame);
 a quaternion that takes the body's frame to the laboratory, scalar first, as ``q0 q1 q2 q3``, ``w x y z`` or
-``qw qx qy qz``. Lines such as ``# ratio = 1.5`` and ``# field = 1 2`` hold parameters; other # lines are comments.
-The numbers are separated by commas, or by semicolons, tabs or spaces where the line of names has no comma.
+``qw qx qy qz``. Lines such as ``# ratio = 1.5`` and ``# field: 1 2`` above the rows hold parameters; other # lines are
+comments, and so is what follows a colon and does not begin with a number. The numbers are separated by commas, or by
+semicolons, tabs or spaces where the line of names has no comma. Rows are read in blocks, so that a file may be larger
+than the memory.
 """
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
 
 from atlas.errors import AtlasError
 
-PARAMETERS: Mapping[str, int] = {"ratio": 1, "inertia": 2, "field": 2, "omega2": 1, "omega3": 1}
-"""Parameters of an elementary motion, with the count of their numbers."""
+FloatArray = NDArray[np.float64]
+
+BLOCK = 8192
+"""Lines read at once."""
+
+PARAMETERS: Mapping[str, tuple[int, ...]] = {
+    "ratio": (1,),
+    "inertia": (2, 3, 6),
+    "field": (2, 3),
+    "omega2": (1,),
+    "omega3": (1,),
+    "omega": (3,),
+}
+"""Parameters with the counts of numbers they may have: moments I2, I3, or I1, I2, I3, or J11 J22 J33 J12 J13 J23."""
 
 MATRIX = tuple(f"R{i}{j}" for i in "123" for j in "123")
 OMEGA = ("Omega1", "Omega2", "Omega3")
@@ -26,65 +46,102 @@ _NAMES = {name.lower(): name for name in ("t", *MATRIX, *OMEGA, *QUATERNION)} | 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """What a file holds: columns of equal length by canonical name, and the parameters of its # lines."""
+    """What a file holds: canonical names of its columns, its parameters, and the rows, block by block.
 
-    columns: Mapping[str, Sequence[float]]
-    parameters: Mapping[str, tuple[float, ...]]
-
-    @property
-    def times(self) -> Sequence[float]:
-        """The column t."""
-        return self.columns["t"]
-
-
-def read(path: Path) -> Trajectory:
-    """Read a file.
-
-    Raises AtlasError, which names the line and the column, for what is not such a trajectory.
+    Each block has a column (m,) for each name; together they can be gone through once.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise AtlasError(f"{path.name} is not a text file in UTF-8.") from error
+
+    names: Sequence[str]
+    parameters: Mapping[str, tuple[float, ...]]
+    blocks: Iterator[dict[str, FloatArray]]
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[Trajectory]:
+    """Open a file and read what stands above its rows.
+
+    Raises AtlasError, which names the line and the column, for what is not such a trajectory; the blocks do as well.
+    """
     parameters: dict[str, tuple[float, ...]] = {}
-    names: list[str] = []
-    columns: dict[str, list[float]] = {}
-    separator: str | None = None
-    for number, raw in enumerate(text.splitlines(), 1):
-        line = raw.strip()
-        where = f"{path.name}, line {number}"
-        if not line:
-            continue
-        if line.startswith("#"):
-            parameters |= _parameters(line.lstrip("# "), where)
-        elif not names:
-            separator = next((s for s in (",", ";", "\t") if s in line), None)
-            names = _header(line.split(separator), where)
-            columns = {name: [] for name in names}
-        else:
-            cells = line.split(separator)
-            if len(cells) != len(names):
-                raise AtlasError(f"{where}: {len(cells)} cells where the line of names has {len(names)}.")
-            for name, cell in zip(names, cells, strict=True):
-                columns[name].append(_number(cell, f"{where}, column {name}"))
-    if not names:
-        raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
-    if not columns["t"]:
-        raise AtlasError(f"{path.name} has names but no rows of numbers.")
-    return Trajectory(columns, parameters)
+    with path.open(encoding="utf-8-sig") as file:
+        lines = _decoded(file, path.name)
+        for number, raw in enumerate(lines, 1):
+            line, where = raw.strip(), f"{path.name}, line {number}"
+            if line.startswith("#"):
+                for name, values in _parameters(line.lstrip("# "), where).items():
+                    if parameters.setdefault(name, values) != values:
+                        raise AtlasError(f"{where}: {name} is there twice, with other numbers.")
+            elif line:
+                separator = next((s for s in (",", ";", "\t") if s in line), None)
+                names = _header(line.split(separator), where)
+                yield Trajectory(names, parameters, _blocks(lines, number, names, separator, path.name))
+                return
+    raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
+
+
+def _decoded(file: Iterator[str], name: str) -> Iterator[str]:
+    """Yield the lines of a text file."""
+    try:
+        yield from file
+    except UnicodeDecodeError as error:
+        raise AtlasError(f"{name} is not a text file in UTF-8.") from error
+
+
+def _blocks(
+    lines: Iterator[str], above: int, names: Sequence[str], separator: str | None, file: str
+) -> Iterator[dict[str, FloatArray]]:
+    """Yield the rows below the line of names, the number `above`."""
+    first, empty = above + 1, True
+    while block := list(islice(lines, BLOCK)):
+        numbered = [(i, line) for i, line in enumerate(block, first) if line.strip()]
+        for i, line in numbered:
+            if line.lstrip().startswith("#") and _parameters(line.strip().lstrip("# "), f"{file}, line {i}"):
+                raise AtlasError(f"{file}, line {i}: a parameter stands above the line of names, not below it.")
+        rows = [(i, line) for i, line in numbered if not line.lstrip().startswith("#")]
+        if rows:
+            empty = False
+            yield dict(zip(names, _rows(rows, names, separator, file).T, strict=True))
+        first += len(block)
+    if empty:
+        raise AtlasError(f"{file} has names but no rows of numbers.")
+
+
+def _rows(rows: Sequence[tuple[int, str]], names: Sequence[str], separator: str | None, file: str) -> FloatArray:
+    """Return the numbers of some lines, shape (rows, columns): as JSON, where they are; else each cell by itself."""
+    lines = [",".join(line.split(separator)) if separator != "," else line for _, line in rows]
+    if all(line.count(",") == len(names) - 1 for line in lines):
+        try:
+            return np.array(_DECODER.decode(f"[{','.join(lines)}]")).reshape(-1, len(names))
+        except msgspec.DecodeError:
+            pass  # 1., +1 and .5 are numbers but no JSON; and what is no number is told below
+    return np.array([_cells(line, names, separator, f"{file}, line {i}") for i, line in rows])
+
+
+_DECODER = msgspec.json.Decoder(list[float])
+
+
+def _cells(line: str, names: Sequence[str], separator: str | None, where: str) -> list[float]:
+    """Return the numbers of one line."""
+    cells = line.strip().split(separator)
+    if len(cells) != len(names):
+        raise AtlasError(f"{where}: {len(cells)} cells where the line of names has {len(names)}.")
+    return [_number(cell, f"{where}, column {name}") for name, cell in zip(names, cells, strict=True)]
 
 
 def _parameters(line: str, where: str) -> dict[str, tuple[float, ...]]:
     """Return the parameters of a # line, none where it is a comment."""
-    found = {}
+    found: dict[str, tuple[float, ...]] = {}
     for part in line.split(";"):
-        name, equals, text = part.replace(":", "=", 1).partition("=")
-        name = name.strip().lower()
-        if not equals or name not in PARAMETERS:
+        key = re.match(r"\s*(\w+)\s*([=:])\s*", part)
+        if key is None or (name := key[1].lower()) not in PARAMETERS:
             continue
-        values = tuple(_number(word, f"{where}, parameter {name}") for word in re.split(r"[,\s]+", text.strip(" ()[]")))
-        if len(values) != PARAMETERS[name]:
-            raise AtlasError(f"{where}: {name} takes {PARAMETERS[name]} numbers, not {len(values)}.")
+        words = re.split(r"[,\s]+", part[key.end() :].strip(" ()[]"))
+        if key[2] == ":" and not re.match(r"[+-]?\.?\d", words[0]):
+            continue  # "# field: along e3" is a comment
+        values = tuple(_number(word, f"{where}, parameter {name}") for word in words)
+        if len(values) not in PARAMETERS[name]:
+            counts = " or ".join(map(str, PARAMETERS[name]))
+            raise AtlasError(f"{where}: {name} takes {counts} numbers, not {len(values)}.")
         found[name] = values
     return found
 
@@ -113,8 +170,9 @@ def _header(cells: Sequence[str], where: str) -> list[str]:
 
 
 def _number(cell: str, where: str) -> float:
+    plain = cell.isascii() and "_" not in cell  # Python reads underscores and the digits of other scripts
     try:
-        value = float(cell)
+        value = float(cell if plain else "")
     except ValueError as error:
         raise AtlasError(f"{where}: {cell.strip()!r} is not a number.") from error
     if not math.isfinite(value):

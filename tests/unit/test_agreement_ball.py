@@ -27,6 +27,7 @@ def launches(seed: int, count: int, *, along: bool = False) -> list[Any]:
 POINTS = launches(38, 8)
 ALONG = launches(40, 5, along=True)
 REST = [SimpleNamespace(I0=1.5, alpha=alpha, m2=0.0, m3=-1.5 * alpha, t=3.1) for alpha in (0.75, -2.0)]
+SAME_SENSE = [p for p in launches(41, 40, along=True) if p.alpha > 0 and p.m3 > 0][:5]
 
 
 def motion(f: Floor, p: Any) -> Any:
@@ -63,7 +64,7 @@ TIES = (
         "text-ball-parallel",
         lambda f, p: motion(f, p).gamma,
         lambda say, p: say("text-ball-parallel", "gamma", **letters(p, "alpha m3 I0")),
-        [*ALONG, *REST],
+        [*SAME_SENSE, *REST],
     ),
     Tie(
         "BallMotion.k_hat",
@@ -75,10 +76,17 @@ TIES = (
     ),
     Tie(
         "BallMotion.k_hat",
-        "text-ball-parallel",
-        lambda f, p: [motion(f, p).k_hat[0], motion(f, p).gamma * motion(f, p).k_hat[1]],
-        lambda say, p: [say("text-ball-parallel", side, **letters(p, "alpha m3 I0")) for side in ("k2", "gamma*k3")],
+        "mf39",
+        lambda f, p: motion(f, p).k_hat,
+        lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")],
         ALONG,
+    ),
+    Tie(
+        "BallMotion.k_hat",
+        "text-ball-parallel",
+        lambda f, p: motion(f, p).k_hat,
+        lambda say, p: [say("text-ball-parallel", side, **letters(p, "alpha m3 I0")) for side in ("k2", "k3")],
+        SAME_SENSE,
     ),
     Tie(
         "BallMotion.rotation",
@@ -159,8 +167,8 @@ def test_the_ball_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 def test_a_larmor_turn_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """-alpha for alpha: only the matrix mf40 of a ball with m2 = 0 does not depend on it."""
-    right = ball.Ball
-    monkeypatch.setattr(ball, "Ball", lambda I0, alpha, m2, m3: right(I0, -alpha, m2, m3))
+    right = ball.ball
+    monkeypatch.setattr(ball, "ball", lambda I0, alpha, m2, m3: right(I0, -alpha, m2, m3))
     moved = [tie for tie in TIES if tie.labels not in {"mf40", "theorem-ball-rest"}]
     disagree(moved, *{tie.quantity for tie in moved})
 

@@ -395,13 +395,12 @@ def test_the_free_body_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 def test_a_wrong_sign_in_the_constants_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """(omega2 - 2 B2) for (omega2 + 2 B2) in mf77."""
-    right = kernel.curve
+    right = kernel.proper
 
-    def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> tuple[Wide, Wide]:
-        omega3, phi = right(I2, I3, B2, B3, omega2)
-        return omega3, phi * (omega2 - B2 - B2) / (omega2 + B2 + B2)
+    def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> Wide:
+        return right(I2, I3, B2, B3, omega2) * (omega2 - B2 - B2) / (omega2 + B2 + B2)
 
-    monkeypatch.setattr(kernel, "curve", wrong)
+    monkeypatch.setattr(kernel, "proper", wrong)
     moved = ("phi", "rotation", "column", "rotation_grid", "angular_velocity", "field_in_body")
     disagree(PRECESSION, *(f"ElementaryMotion.{name}" for name in moved))
 

@@ -31,16 +31,17 @@ def special(say: Ledger, p: Any) -> list[Any]:
     omega2 = sympy.Symbol("omega2")
     generic = say("mf77", "phi", omega2=omega2, I=sympy.Rational(1, 2), **letters(p, "B2 B3"))  # for I = 1 phi is 0
     (still,) = zeros(generic, omega2)
-    times_pole = say("mf76", "I*B2*(omega2 + B2)*omega3", omega2=omega2, **letters(p, "I B2 B3"))
-    level = zeros(times_pole, omega2) or [0]
+    level = zeros(ordinate(say, p, omega2) * (omega2 + sympy.Rational(p.B2)), omega2) or [0]
     return [0, ordinate(say, p, 0), still, ordinate(say, p, still), *level, 0]
 
 
 def pole(say: Ledger, p: Any) -> Any:
-    """Return where the coefficient of omega3 in mf76 vanishes."""
+    """Return the pole of mf76."""
     omega2 = sympy.Symbol("omega2")
-    right = "B3*omega2*(omega2 + (2 - I)*B2)"
-    return sympy.solve(say("mf76", right, omega2=omega2, omega3=1, **letters(p, "I B2")), omega2)
+    generic = say(
+        "mf76", "omega3", omega2=omega2, I=sympy.Rational(1, 2), **letters(p, "B2 B3")
+    )  # for I = 1 it cancels
+    return sympy.solve(sympy.denom(sympy.cancel(generic)), omega2)
 
 
 def asymptotes(say: Ledger, p: Any) -> list[Any]:
@@ -127,11 +128,14 @@ def test_the_hyperbola_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 def test_a_wrong_sign_in_the_curve_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """(1 + I) for (1 - I) in mf77 and I for (2 - I) in mf76."""
 
-    def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> tuple[Wide, Wide]:
-        common = B3 * omega2 / (I3 * B2 * (omega2 + B2))
-        return common * (I2 * omega2 + I3 * B2), common * (I2 + I3) * (omega2 + B2 + B2)
+    def ordinate(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> Wide:
+        return B3 * omega2 / (I3 * B2 * (omega2 + B2)) * (I2 * omega2 + I3 * B2)
 
-    monkeypatch.setattr(hyperbola, "curve", wrong)
+    def proper(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> Wide:
+        return B3 * omega2 / (I3 * B2 * (omega2 + B2)) * (I2 + I3) * (omega2 + B2 + B2)
+
+    monkeypatch.setattr(hyperbola, "ordinate", ordinate)
+    monkeypatch.setattr(hyperbola, "proper", proper)
     disagree(TIES, "Hyperbola.omega3", "Hyperbola.frequencies", "Hyperbola.sample", "Hyperbola.branches")
 
 

@@ -125,8 +125,8 @@ def test_the_quadric_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 def test_a_wrong_sign_in_the_eigenvalues_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """1 - sin(beta) for 1 + sin(beta), and the other way round."""
-    right = quadric._less
-    monkeypatch.setattr(quadric, "_less", lambda x, y, h: right(x, -y, h))
+    right = quadric._direction
+    monkeypatch.setattr(quadric, "_direction", lambda I2, I3, B2, B3: right(I2, I3, B2, -B3))
     disagree(TIES, "Quadric.a2", "Quadric.a3", "Quadric.semi_axes", "Quadric.axes", "Quadric.canonical")
 
 

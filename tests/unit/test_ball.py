@@ -57,7 +57,7 @@ def test_the_ball_solves_the_equations_of_motion() -> None:
         assert np.abs(ball.angular_momentum(t) - I0 * R @ Omega).max() <= 8 * ULP1
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.floats(0.1, 5), st.floats(-3, 3), st.floats(-3, 3), st.floats(-1e6, 1e6))
 def test_along_the_field_the_two_turns_are_one(I0: float, alpha: float, m3: float, t: float) -> None:
     """For m2 = 0, R is the turn about e3 with frequency m3/I0, mf40."""

@@ -3,19 +3,32 @@
 import json
 import math
 from collections.abc import Callable
+from itertools import chain
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import numpy as np
 import pytest
+from flint import arb, ctx
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from oracles import closed_form
 
+from atlas.core.elementary import ElementaryMotion
+from atlas.core.general import GeneralMotion
 from atlas.errors import AtlasError
+from atlas.exact import elementary as exact
+from atlas.exact.digits import enclosed
 from atlas.scene import Curve, Plane
+from atlas.study import grades, hostile, trajectory, truth
 from atlas.study.check import Check, check
-from atlas.study.trajectory import MATRIX, OMEGA, read
+from atlas.study.judging import exact_ratio
+from atlas.study.regimes import REGIMES
+from atlas.study.trajectory import MATRIX, OMEGA
 
 SETTING = "# ratio = 1.5\n# field = 1 2\n# omega2 = 0.7\n"
+HEAD = "# ratio = 1.5; field = 1 2; omega2 = 0.7\n"
 TIMES = [0.0, 0.25, 1.0, 2.5, 10.0, 100.0]
 
 Writer = Callable[[str], Path]
@@ -59,7 +72,7 @@ def test_the_true_motion_has_all_its_digits(write: Writer) -> None:
     assert [c.name for c in result.columns] == [*MATRIX, *OMEGA]
     assert min(c.worst for c in result.columns) > 15.9
     assert all(c.fails_at is None for c in result.columns)
-    assert {d.name for d in result.drifts} == {"R^T R", "E'", "K^2", "c3", "c5", "(m,B')"}
+    assert {d.name for d in result.drifts} == {"R^T R", "E'", "K^2", "c3", "c5", "(m,B')", "H", "F", "(M,K)"}
     assert max(d.worst for d in result.drifts) < 8 * 2.0**-52
     assert result.rows == len(TIMES)
     assert result.case == "precession"
@@ -90,6 +103,26 @@ def test_a_threshold_counts_digits(write: Writer, threshold: float) -> None:
         graded(write, threshold=threshold)
 
 
+@pytest.mark.parametrize(("threshold", "fails"), [(0, False), (3, False), (3.02, True), (17, True)])
+def test_the_ends_of_the_threshold_belong_to_it(write: Writer, threshold: float, fails: bool) -> None:
+    """R11 off by 2^-10 at t = 0, 3.01 digits, passes 0 and 3 and fails 3.02 and 17; its digits are those of 2^-10."""
+    column = check(write(HEAD + "t,R11\n0,1.0009765625\n"), threshold=threshold).columns[0]
+    assert (column.fails_at is not None) is fails
+    assert column.worst == pytest.approx(10 * math.log10(2), abs=1e-12)
+    assert column.median == 3.01
+
+
+def test_a_digit_that_hangs_on_the_last_bit_is_decided_by_a_ball(write: Writer) -> None:
+    """An error of 2^-10 fails the first threshold whose limit is below it, and no other."""
+    threshold = 10 * math.log10(2) - 1e-14
+    while 10.0**-threshold >= 2.0**-10:
+        passes, threshold = threshold, math.nextafter(threshold, 17.0)
+    path = write(HEAD + "t,R11\n0,1.0009765625\n")
+    assert 2.0**-10 - 10.0**-threshold < truth.UNCERTAINTY
+    assert check(path, threshold=threshold).columns[0].fails_at == 0.0
+    assert check(path, threshold=passes).columns[0].fails_at is None
+
+
 def test_an_error_of_any_size_can_be_drawn(write: Writer) -> None:
     """What is off by 1e308 has -308 digits and is drawn at 1e17, and the caption says so; what is right is not."""
     text = SETTING + table(["t", "R11", "Omega1"], [[0.0, 1e308, 0.0], [1.0, 0.5, -1e308]])
@@ -102,6 +135,9 @@ def test_an_error_of_any_size_can_be_drawn(write: Writer) -> None:
     assert drawn == [1e17, 1e17, 1e-6]
     assert "Errors beyond 1e+17 are drawn there." in scene.caption
     assert "beyond" not in graded(write).scene().caption
+    for R11, Omega1 in ((1e308, 0.0), (1.0, 1e308)):
+        one = check(write(SETTING + table(["t", "R11", "Omega1"], [[0.0, 1.0, 0.0], [0.0, R11, Omega1]])))
+        assert "Errors beyond 1e+17 are drawn there." in one.scene().caption
 
 
 def test_drift_of_an_integral_is_relative_and_dated(write: Writer) -> None:
@@ -161,24 +197,31 @@ def test_a_free_body_needs_its_omega3(write: Writer) -> None:
     [
         ("", "is empty"),
         ("# ratio = 1\n", "is empty"),
-        ("t,R11\n", "no rows"),
+        (HEAD + "t,R11\n", "no rows"),
         ("R11,R12\n1,2\n", "no column t"),
         ("t\n0\n", "nothing to grade"),
         ("t,R11,R44\n0,1,1\n", "line 1: no column is called 'R44'"),
         ("t,R11,r11\n0,1,1\n", "R11 is there twice"),
         ("t,w,x,y\n0,1,0,0\n", "a quaternion has the four columns"),
-        ("t,R11\n0,1\n1\n", "line 3: 1 cells where the line of names has 2"),
-        ("t,R11\n0,1\n1,one\n", "line 3, column R11: 'one' is not a number"),
-        ("t,R11\n0,1\n1,\n", "line 3, column R11: '' is not a number"),
-        ("t,R11\n0,nan\n", "line 2, column R11: the cell is nan"),
-        ("t,R11\ninf,1\n", "line 2, column t: the cell is inf"),
-        ("# field = 1\nt,R11\n0,1\n", "line 1: field takes 2 numbers, not 1"),
+        (HEAD + "t,R11\n0,1\n1\n", "line 4: 1 cells where the line of names has 2"),
+        (HEAD + "t,R11\n0,1\n1,one\n", "line 4, column R11: 'one' is not a number"),
+        (HEAD + "t,R11\n\n0,1\n1,\n", "line 5, column R11: '' is not a number"),
+        (HEAD + "t,R11\n0,nan\n", "line 3, column R11: the cell is nan"),
+        (HEAD + "t,R11\ninf,1\n", "line 3, column t: the cell is inf"),
+        ("# field = 1\nt,R11\n0,1\n", "line 1: field takes 2 or 3 numbers, not 1"),
         ("# ratio = ?\nt,R11\n0,1\n", "line 1, parameter ratio"),
         ("t,R11\n0,1\n", "does not say ratio"),
         ("# ratio = 1.5\n# omega2 = 1\nt,R11\n0,1\n", "does not say field"),
         ("# ratio = 3\n# field = 1 2\n# omega2 = 1\nt,R11\n0,1\n", "No body has I"),
         ("# inertia = 0 1\n# field = 1 2\n# omega2 = 1\nt,R11\n0,1\n", "I2 must be positive"),
         ("# ratio = 1.5\n# field = 1 2\n# omega2 = -1\nt,R11\n0,1\n", "pole"),
+        (HEAD + "t,R11\n0,1_0\n", "line 3, column R11: '1_0' is not a number"),
+        (HEAD + "t,R11\n0,\N{ARABIC-INDIC DIGIT ONE}\n", "line 3, column R11: .* is not a number"),
+        (HEAD + "t,R11\n0,1e999\n", "line 3, column R11: the cell is 1e999"),
+        (HEAD + "# inertia = 2 3\nt,R11\n0,1\n", "by ratio and by inertia: leave one of them out"),
+        (HEAD + "# omega2 = 0.8\nt,R11\n0,1\n", "line 2: omega2 is there twice, with other numbers"),
+        (HEAD + "t,R11\n0,1\n# omega2 = 0.8\n1,1\n", "line 4: a parameter stands above the line of names"),
+        ("# ratio: 1.5 roughly\nt,R11\n0,1\n", "line 1, parameter ratio: 'roughly' is not a number"),
     ],
 )
 def test_a_malformed_file_is_refused_in_one_sentence(write: Writer, text: str, words: str) -> None:
@@ -188,12 +231,100 @@ def test_a_malformed_file_is_refused_in_one_sentence(write: Writer, text: str, w
     assert "\n" not in str(caught.value)
 
 
+def test_a_comment_may_begin_like_a_parameter(write: Writer) -> None:
+    """After a colon words are words; a byte order mark is no part of a line; the same parameter twice is no quarrel."""
+    text = "\ufeff# field: along e3\n# ratio of inertia = none\n" + HEAD + "# omega2: 0.7\n" + "t,R11\n0,1\n# end\n"
+    assert check(write(text)).parameters == {"ratio": 1.5, "field": [1.0, 2.0], "omega2": 0.7}
+
+
+def test_numbers_in_any_notation_are_the_same(write: Writer) -> None:
+    """What is no JSON, 1. or +1 or .5, is read as what is; separators and blank lines change nothing."""
+    rows = [check(write(HEAD + text)) for text in ("t,R13\n1.0,0.5\n2,-1\n", "t;R13\n+1.;.5\n\n# x\n 2.\t;-01\n")]
+    assert rows[0] == rows[1]
+
+
+@pytest.fixture(scope="module")
+def long_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write 5000 rows with the errors of a code that drifts, by both R and Omega, times up to 1e9."""
+    motion, rng = ElementaryMotion(1.5, (1.0, 2.0), 0.7), np.random.default_rng(0)
+    t = np.sort(rng.uniform(0, 1e9, 5000))
+    drift = 1e-15 * (1 + 1e-4 * t[:, None]) * rng.normal(size=(5000, 12))
+    values = np.column_stack([motion.rotation(t).reshape(-1, 9), motion.angular_velocity(t)]) + drift
+    path = tmp_path_factory.mktemp("check") / "long.csv"
+    path.write_text(HEAD + table(["t", *MATRIX, *OMEGA], np.column_stack([t, values]).tolist()), encoding="utf-8")
+    return path
+
+
+def test_the_size_of_the_blocks_changes_nothing(long_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Digits, failures, drifts and the curve are the same in one block and in blocks of 97 lines."""
+    whole = check(long_file, threshold=11)
+    monkeypatch.setattr(trajectory, "BLOCK", 97)
+    assert check(long_file, threshold=11) == whole
+
+
+def test_the_balls_agree_with_the_blocks_and_are_asked_seldom(long_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Graded by balls alone every column has the same grade; with blocks, balls decide fewer than 1 row in 20."""
+    asked, certified = [], grades.Errors.certified
+    monkeypatch.setattr(grades.Errors, "certified", lambda *row: asked.append(row) or certified(*row))
+    blocks = check(long_file, threshold=12)
+    assert len(asked) < 250
+    monkeypatch.setattr(truth, "EXTENDED", False)
+    balls = check(long_file, threshold=12)
+    assert len(asked) > 5000
+    for ours, theirs in zip(blocks.columns, balls.columns, strict=True):
+        assert (ours.worst, ours.worst_time, ours.fails_at) == (theirs.worst, theirs.worst_time, theirs.fails_at)
+        assert ours.median == pytest.approx(theirs.median, abs=0.0011)
+
+
+def test_a_curve_keeps_the_largest_errors_of_its_rows() -> None:
+    """However many rows, no more than 4096 points; each has the largest error of its rows and their first time."""
+    envelope, rng = grades.Envelope(), np.random.default_rng(1)
+    t, errors = np.arange(30011.0), rng.random((2, 30011))
+    for piece in np.array_split(np.arange(30011), 37):
+        envelope.add(t[piece], {"R11": errors[0, piece], "R12": errors[1, piece]})
+    assert envelope.rows == 8
+    assert envelope.times() == t[::8].tolist()
+    largest = [float(errors[:, i : i + 8].max()) for i in range(0, 30011, 8)]
+    assert envelope.errors() == {"R": largest}
+
+
+@settings(max_examples=60)
+@given(st.sampled_from(sorted(REGIMES)), st.integers(0, 10**6))
+def test_the_truth_of_blocks_is_certain_to_1e_18(regime: str, seed: int) -> None:
+    """R, Omega in units of its length, and the quaternion are within UNCERTAINTY of the balls, on hostile inputs."""
+    drawn = hostile.motion(regime, Random(seed))  # noqa: S311  reproducible, not secret
+    motion = exact.ElementaryMotion(exact_ratio(drawn), (drawn.B2, drawn.B3), drawn.omega2, drawn.omega3)
+    found = truth.Truth(motion)
+    t = np.array(drawn.times)
+    t = t[found.within(t)]
+    length = np.hypot(found.omega2, found.omega3) or 1
+    for time, R, Omega, q in zip(t.tolist(), *found.at(t), strict=True):
+        balls = enclosed(lambda time=time: (motion.rotation(time), motion.angular_velocity(time)), 90)
+        turned = enclosed(lambda time=time: motion.quaternion(time), 90)
+        same = (
+            1
+            if sum(float(a) * float(b.mid() if isinstance(b, arb) else arb(b)) for a, b in zip(q, turned, strict=False))
+            > 0
+            else -1
+        )
+        assert max(map(apart, R, chain(*balls[0]))) <= truth.UNCERTAINTY
+        assert max(map(apart, Omega, balls[1])) <= truth.UNCERTAINTY * float(length)
+        assert max(apart(same * a, b) for a, b in zip(q, turned, strict=True)) <= truth.UNCERTAINTY
+
+
+def apart(found: np.longdouble, ball: Any) -> float:
+    """Return the distance of a long double from a ball."""
+    head = float(found)
+    with ctx.workprec(120):
+        return float(abs(arb(head) + arb(float(found - np.longdouble(head))) - ball).upper())
+
+
 def test_a_binary_file_is_no_trajectory(tmp_path: Path) -> None:
     """Bytes that are no text are refused by name."""
     path = tmp_path / "plot.png"
     path.write_bytes(b"\x89PNG\xff\xfe\x00")
     with pytest.raises(AtlasError, match=r"plot\.png is not a text file"):
-        read(path)
+        check(path)
 
 
 def test_the_record_is_json_and_the_scene_shows_the_errors(write: Writer) -> None:
@@ -210,3 +341,70 @@ def test_the_record_is_json_and_the_scene_shows_the_errors(write: Writer) -> Non
     assert [curve.label for curve in curves] == ["$R$", r"$\boldsymbol{\Omega}$", "6 digits"]
     assert curves[0].points.shape == (len(TIMES), 2)
     assert (curves[0].points[:, 1] <= 2.0**-53).all()
+
+
+def test_a_body_without_symmetry_is_tested_by_its_integrals(write: Writer) -> None:
+    """With three moments or a whole tensor no column is graded, and H, F, (M, K), K^2 and T are held constant."""
+    import atlas
+
+    tensor = np.array([[2.0, 0.3, -0.1], [0.3, 1.5, 0.2], [-0.1, 0.2, 1.7]])
+    run = atlas.simulate(tensor, (0.3, 1.0, -2.0), (0.4, 0.5, -0.6), np.linspace(0, 20, 21), rtol=1e-12, atol=1e-14)
+    rows = [[t, *R.ravel(), *Omega] for t, R, Omega in zip(run.t.tolist(), run.R, run.Omega, strict=True)]
+    rows = [[float(x) for x in row] for row in rows]
+    head = "# inertia = 2 1.5 1.7 0.3 -0.1 0.2\n# field = 0.3 1 -2\n"
+    result = check(write(head + table(["t", *MATRIX, *OMEGA], rows)))
+    assert result.columns == ()
+    drifts = {d.name: d.worst for d in result.drifts}
+    assert set(drifts) == {"R^T R", "H", "F", "(M,K)", "K^2", "T"}
+    assert max(drifts.values()) < 1e-9
+    wrong = check(write("# inertia = 2 1.5 1.6\n# field = 0.3 1 -2\n" + table(["t", *MATRIX, *OMEGA], rows)))
+    assert {d.name: d.worst for d in wrong.drifts}["F"] > 1e-3
+    with pytest.raises(AtlasError, match="no error to draw"):
+        result.scene()
+    with pytest.raises(AtlasError, match="the integrals are all there is to test"):
+        check(write(head + table(["t", *OMEGA], [[row[0], *row[10:]] for row in rows])))
+
+
+def test_three_moments_are_a_diagonal_tensor(write: Writer) -> None:
+    """A body by I1, I2, I3 drifts as one by the six elements of its tensor, and another by other elements."""
+    rows = [[t, *true_row(t)] for t in TIMES]
+    text = table(["t", *MATRIX, *OMEGA], rows)
+    first, second, third = (
+        check(write(f"# inertia = {inertia}\n# field = 1 2\n" + text))
+        for inertia in ("2 2.5 3", "2 2.5 3 0 0 0", "2 2.5 3 0.1 0 0")
+    )
+    assert first.drifts == second.drifts != third.drifts
+    assert first.rows == len(TIMES)
+    assert first.columns == ()
+
+
+def general_table(omega: tuple[float, float, float], worse: float = 0.0) -> str:
+    """Write the general motion of SETTING's body and field, one entry falsified by ``worse``."""
+    motion, t = GeneralMotion(1.5, (1, 2), omega), np.array(TIMES)
+    R, Omega = motion.rotation(t).reshape(-1, 9), motion.angular_velocity(t)
+    R[3, 4] += worse
+    return table(["t", *MATRIX, *OMEGA], np.column_stack([t, R, Omega]).tolist())
+
+
+def test_a_general_trajectory_is_graded(write: Writer) -> None:
+    """With three components of omega, in the file or as an option, the kernels have 15 digits, and 1e-8 is found."""
+    omega = (0.3, 0.7, 0.2)
+    head = "# ratio = 1.5\n# field = 1 2\n"
+    true = check(write(head + "# omega = 0.3 0.7 0.2\n" + general_table(omega)))
+    assert true.case == "nutation, four real roots"
+    assert true.parameters == {"ratio": 1.5, "field": [1.0, 2.0], "omega": list(omega)}
+    assert min(column.worst for column in true.columns) >= 14.8
+    assert max(drift.worst for drift in true.drifts) <= 1e-14
+    wrong = check(write(head + general_table(omega, 1e-8)), omega=omega, threshold=9.0)
+    (found,) = [column for column in wrong.columns if column.fails_at is not None]
+    assert (found.name, found.fails_at) == ("R22", TIMES[3])
+    assert found.worst == pytest.approx(8, abs=1e-6)
+
+
+def test_the_start_is_given_once(write: Writer) -> None:
+    """Three components of omega beside omega2 are refused, among the options and in a file."""
+    text = SETTING + general_table((0.3, 0.7, 0.2))
+    with pytest.raises(AtlasError, match="found both"):
+        check(write(text), omega=(0.3, 0.7, 0.2), omega2=0.7)
+    with pytest.raises(AtlasError, match="twice"):
+        check(write("# omega = 0.3 0.7 0.2\n" + text))

@@ -141,8 +141,13 @@ def test_floats_in_json_read_back_the_same() -> None:
         ("figure hyperbola --set ratio", "KEY=VALUE"),
         ("figure hyperbola --set ratio=5/2", "2.5"),
         ("figure hyperbola --format pdf --renderer shaded", "PNG"),
-        ("figure hyperbola --set field=1e308,1e308", "finite"),
+        ("figure hyperbola --set field=1e308,1e308", "field must be two numbers"),
         ("classify --ratio 1e-9999999999 --field 1 2 --decimal", "exponent"),
+        ("classify --ratio 1e-1_000_000 --field 1 2 --decimal", "'1e-1_000_000' is not a finite number"),
+        ("classify --ratio \N{ARABIC-INDIC DIGIT ONE} --field 1 2", "is not a finite number"),
+        ("classify --ratio 1_0 --field 1 2", "'1_0' is not a finite number"),
+        ("classify --ratio 1e999 --field 1 2", "beyond the largest float"),
+        (f"classify --ratio {'9' * 5000} --field 1 2", "has 5000 characters; a number has at most 2000"),
         ("motion --ratio 1.5 --field 1 2 --omega2 -1 --times 0", "-1"),
         ("motion --ratio 1.5 --field 1 2 --omega2 1 --times", "--times"),
         ("motion --ratio 1.5 --field 1 2 --omega2 1 --times 0 --grid 0 1 5", "--grid"),
@@ -161,6 +166,17 @@ def test_a_wrong_input_gets_one_line_and_status_two(words: str, tells: str) -> N
     assert result.stdout == ""
     assert result.stderr.count("\n") == 1
     assert tells in result.stderr
+    assert len(result.stderr) < 1000
+
+
+def test_what_a_terminal_would_obey_is_not_printed() -> None:
+    """Control characters in a wrong word are shown as such and not sent; a long word is shortened."""
+    result = run("classify", "--ratio", "1\x1b[31m", "--field", "1", "2")
+    assert "\x1b" not in result.stderr
+    result = run("x" * 5000 + "\x1b[2J")
+    assert result.returncode == 2
+    assert "\x1b" not in result.stderr
+    assert len(result.stderr) < 1000
 
 
 @pytest.mark.parametrize(
@@ -288,15 +304,16 @@ def test_a_reason_is_told_once() -> None:
 @pytest.fixture
 def bad_recipe(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Put a recipe that is no Python beside one that draws."""
-    from atlas.build import plates
+    from atlas.build import figures
     from atlas.scene import recipes
 
     folder = tmp_path / "figures"
     folder.mkdir()
     (folder / "aa_bad.py").write_text('"""Bad."""\ndef scene(:\n', encoding="utf-8")
     (folder / "lssc.py").write_text(recipes.load("lssc").source.read_text(encoding="utf-8"), encoding="utf-8")
-    for module in (recipes, plates):
+    for module in (recipes, figures):
         monkeypatch.setattr(module, "folder", lambda _kind: folder)
+    monkeypatch.setattr(figures.processes, "pool", lambda *_: None)  # another process would not know of it
     recipes.load.cache_clear()
     yield tmp_path / "out"
     recipes.load.cache_clear()
@@ -318,13 +335,15 @@ def test_a_broken_recipe_hides_no_other(bad_recipe: Path) -> None:
 
 def test_without_gl_a_shaded_figure_says_what_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A line drawing in place of a shaded plate is told in one line, with the command that brings the rest."""
-    from atlas.render import gl
+    from atlas.draw import gl
 
-    monkeypatch.setattr(gl, "prepare", lambda: None)
+    monkeypatch.setenv(gl.CHOICE, gl.NONE)
+    gl.library.cache_clear()
     words = ["figure", "hyp_a", "lssc", "--renderer", "shaded", "--out", str(tmp_path)]
     result = CliRunner().invoke(command, words, standalone_mode=False)
     assert result.return_value == 0
     assert result.stderr == f"atlas: {gl.advice()}\n"
+    gl.library.cache_clear()
 
 
 def test_a_figure_in_the_plane_is_never_shaded(tmp_path: Path) -> None:
@@ -380,7 +399,7 @@ def test_negative_numbers_are_numbers() -> None:
     assert [sample["t"] for sample in out["samples"]] == [-1e-5, -2.0, 3.0]
 
 
-@pytest.mark.parametrize("text", ["0.1", "1/3", "1e-3", "-2.5", "0x1.8p1"])
+@pytest.mark.parametrize("text", ["0.1", "1/3", "1e-3", "-2.5", "0x1.8p1", "+1.", ".5E+3", "0X.8P-1"])
 def test_a_typed_number_remembers_what_was_typed(text: str) -> None:
     """The double is the nearest one, and the exact number is kept."""
     number = Typed(text)
@@ -435,3 +454,26 @@ def test_the_status_of_check_is_its_verdict(tmp_path: Path, rows: str, more: str
     assert says in result.stderr
     assert result.stderr.count("\n") == bool(says)
     assert (result.stdout != "") == (status < 2)
+
+
+def test_general_prints_its_numbers_once_as_floats_and_once_as_digits() -> None:
+    """`atlas general` agrees with itself: doubles in JSON, and thirty certified digits that round to them."""
+    words = "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1e6".split()
+    floats, texts = record("general", *words), record("general", *words, "--digits", "30")
+    assert floats["kind"] == texts["kind"] == "nutation, four real roots"
+    assert len(floats["roots"]) == 4
+    for name in ("period", "precession_per_period", "spin_per_period", "modulus", "nome"):
+        assert floats[name] == pytest.approx(float(texts[name]), rel=1e-15)
+    for one, other in zip(floats["samples"], texts["samples"], strict=True):
+        for row, digits in zip(one["R"], other["R"], strict=True):
+            assert row == pytest.approx([float(x) for x in digits], abs=2e-15)
+
+
+def test_general_says_what_a_separatrix_has_not() -> None:
+    """On a separatrix the period is infinite, and no angle belongs to it; at a triple root there is no nome."""
+    out = record("general", *"--ratio 3/4 --field 20 15 --omega 6 -24.5 -7".split())
+    assert (out["kind"], out["period"], out["nome"]) == ("separatrix", "infinite", 1.0)
+    assert "precession_per_period" not in out
+    out = record("general", *"--ratio 0.5 --field 1 -3 --omega 0 1.5 2".split())
+    assert out["kind"] == "separatrix, triple root"
+    assert "nome" not in out

@@ -138,12 +138,14 @@ def test_a_page_that_cannot_be_finished_leaves_the_old_one(
     page.parent.mkdir()
     page.write_text("the page of before")
 
-    def full(path: Path, content: str) -> None:
-        path.write_text(content[:100])
+    def full(part: Path, content: bytes) -> None:
+        with part.open("wb") as file:
+            file.write(content[:100])
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("atlas.build.whole.write", full)
-    status, _, err = run(*pair(moved), "--page", page)
+    reports = pair(moved)
+    monkeypatch.setattr(Path, "write_bytes", full)
+    status, _, err = run(*reports, "--page", page)
     assert status == 1
     assert "No space left on device" in err
     assert len(err.splitlines()) == 1

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from atlas.build.meter import counting
+from atlas.core.flight import Flight
+from atlas.draw import to_figure
+from atlas.draw.space import window
+from atlas.draw.view import fit
 from atlas.errors import AtlasError
-from atlas.render import vector
-from atlas.render.stage import _parts, stage
-from atlas.scene import Curve, Plane, Points, Region, Scene, Space, Surface, recipes, sample
+from atlas.scene import Curve, Plane, Points, Region, Scene, Surface, recipes, sample
 from atlas.study import curves
 
 FloatArray = NDArray[np.float64]
@@ -107,17 +108,8 @@ def test_the_figure_draws_every_row_in_view() -> None:
 
 
 @pytest.mark.parametrize("name", ["motion", "motion_sphere"])
-def test_a_trace_asks_for_one_column(name: str) -> None:
-    """The figures of a motion never ask for the whole rotation, and not twice for what two layers share."""
-    with counting() as counts:
-        recipes.load(name).scene()
-    assert counts["ElementaryMotion.third_axis"] > 0
-    assert counts["ElementaryMotion.rotation"] == 0
-    assert max(counts.values()) < 10
-
-
-def test_the_third_axis_is_one_column_inside_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With the whole rotation out of order the sphere is still drawn."""
+def test_a_trace_asks_for_one_column(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the whole rotation out of order the figures of a motion are still drawn."""
 
     def never(*_: Any) -> None:
         raise AssertionError
@@ -128,14 +120,16 @@ def test_the_third_axis_is_one_column_inside_too(monkeypatch: pytest.MonkeyPatch
         for door in ("rotation", "rotation_grid"):
             if door in vars(owner):
                 monkeypatch.setattr(owner, door, never)
-    assert recipes.load("motion_sphere").scene().panels
+    assert recipes.load(name).scene().panels
 
 
-def test_panels_share_a_path() -> None:
+def test_panels_share_a_path(monkeypatch: pytest.MonkeyPatch) -> None:
     """Both panels of a flight are drawn from one set of points."""
-    with counting() as counts:
-        recipes.load("flight").scene()
-    assert counts["Flight.position"] < 10
+    asked = []
+    position = Flight.position
+    monkeypatch.setattr(Flight, "position", lambda *words, **more: asked.append(1) or position(*words, **more))
+    recipes.load("flight").scene()
+    assert 0 < len(asked) < 10
 
 
 def dense(function: Callable[[FloatArray], FloatArray], start: float, stop: float, *_: Any, **__: Any) -> FloatArray:
@@ -146,11 +140,12 @@ def dense(function: Callable[[FloatArray], FloatArray], start: float, stop: floa
 def true_scene(name: str, parameters: dict[str, Any]) -> Scene:
     """Return the scene of a recipe with all its curves sampled densely."""
     recipe = recipes.load(name)
+    make, *_ = recipes._function(recipe.source)
+    names = [make.__globals__, *(vars(m) for key, m in sys.modules.items() if key.startswith("atlas.scene."))]
     with ExitStack() as stack:
-        stack.enter_context(patch.object(sample, "curve", dense))
-        for module in [m for key, m in sys.modules.items() if key.startswith(("atlas_figures.", "atlas.scene."))]:
-            if "curve" in vars(module) and module is not sample:
-                stack.enter_context(patch.object(module, "curve", dense))
+        for space in names:
+            if "curve" in space:
+                stack.enter_context(patch.dict(space, {"curve": dense}))
         return recipe.scene(**parameters)
 
 
@@ -165,19 +160,14 @@ def lines(panel: Any) -> Iterator[FloatArray]:
 
 def views(scene: Scene) -> Iterator[tuple[Callable[[FloatArray], FloatArray], FloatArray | None]]:
     """Yield for each panel what brings its points to final pixels, and the window of a panel with two axes."""
-    pixels = DPI / 72.0
-    for panel, drawing, sheet in vector.panels(scene, vector.blank(scene, DPI)):
-        if drawing is not None:
-            axes = drawing.fitted(sheet)
-            found = drawing.places(axes)
-            window = pixels * np.array([0.0, 0.0, *axes.size])
-            yield lambda x, f=found: pixels * f(x), window  # type: ignore[misc]
-            continue
-        assert isinstance(panel, Space)
-        shown = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
-        low, high = shown.min(axis=0), shown.max(axis=0)
-        view, middle, size = stage(sheet, panel), 0.5 * (low + high), float((high - low).max())
-        yield lambda x, v=view, m=middle, s=size: v.on_paper((x - m) / s) * pixels, None  # type: ignore[misc]
+    figure = to_figure(scene)
+    figure.dpi = DPI
+    for panel, axes in zip(scene.panels, figure.axes, strict=True):
+        if isinstance(panel, Plane):
+            yield axes.transData.transform, axes.bbox.extents
+        else:
+            view = fit(panel, window(axes))
+            yield lambda x, v=view: v.on_paper((x - v.centre) / v.size) * DPI / 72.0, None  # type: ignore[misc]
 
 
 @pytest.mark.parametrize(
@@ -202,13 +192,13 @@ def test_every_recipe_draws_to_a_quarter_of_a_pixel(name: str, parameters: dict[
     """In final pixels, inside the view, the same curves sampled densely lie that near to what is drawn."""
     scene, true = recipes.load(name).scene(**parameters), true_scene(name, parameters)
     compared = 0
-    for panel, model, (pixels, window) in zip(scene.panels, true.panels, views(scene), strict=True):
+    for panel, model, (pixels, edges) in zip(scene.panels, true.panels, views(scene), strict=True):
         for line, exact in zip(lines(panel), lines(model), strict=True):
             if len(exact) < 1000:
                 continue
             points = pixels(exact)
-            if window is not None:
-                points = points[((points >= window[:2]) & (points <= window[2:])).all(axis=1)]
+            if edges is not None:
+                points = points[((points >= edges[:2]) & (points <= edges[2:])).all(axis=1)]
             if len(points):
                 assert distance(points, pixels(line)) < 0.25
                 compared += 1

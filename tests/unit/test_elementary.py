@@ -12,6 +12,8 @@ from oracles.taylor import taylor
 from atlas.core.body import SymmetricBody
 from atlas.core.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import AtlasError, DomainError
+from atlas.exact import elementary as exact
+from atlas.study.ulps import approximate
 
 ULP1 = 2.0**-52
 
@@ -55,7 +57,7 @@ def test_the_scalars_are_rounded_once(inputs: tuple[float, float, float, float])
     assert max(ulps(motion.omega3, true.omega3), ulps(motion.k, true.k), ulps(motion.phi, true.phi)) <= 0.51
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(st.floats(1e-6, 2), st.floats(-1e140, 1e140), st.floats(-1e140, 1e140), st.floats(-5, 5))
 def test_the_scalars_are_rounded_once_for_any_inputs(I: float, B2: float, B3: float, x: float) -> None:
     """The same for any ratio and field."""
@@ -132,6 +134,78 @@ def test_the_invariants_are_constant(case: str) -> None:
         assert np.ptp(value) <= 64 * ULP1
 
 
+hostile_numbers = st.floats(-1e300, 1e300) | st.sampled_from([0.5, -0.5 + 2.0**-53, 0.75, 1e160, -1e-160, 1e308])
+
+
+@settings(max_examples=300)
+@given(st.floats(1e-300, 2) | st.just(0.75), *[hostile_numbers] * 4)
+def test_the_constants_are_the_nearest_doubles(I: float, B2: float, B3: float, omega2: float, omega3: float) -> None:
+    """E', K^2, c3, c5, (m, B') are those of the rational inputs, rounded once, however their terms cancel."""
+    free = B2 == 0 or omega2 == -B2
+    given = (I, (B2, B3), omega2 if B2 else 0.0, omega3 if free else None)
+    if B2 and omega2 == -B2 and B3 and I != 1:
+        return
+    true = exact.ElementaryMotion(*given).invariants
+    found = ElementaryMotion(*given).invariants()
+    assert list(found) == list(true)
+    assert {name: approximate(value) for name, value in true.items()} == found
+
+
+@pytest.mark.parametrize("beside", [0.0, 2.0**-53])
+def test_constants_that_cancel_keep_their_digits(beside: float) -> None:
+    """On the line X = omega2 + B2 = sqrt(1-I) B2 c3 = B3 (X^2 - (1-I) B2^2)/(I B2 X) is zero; beside it all digits."""
+    found = ElementaryMotion(0.75, (1.0, 2.0), -0.5 + beside).invariants()["c3"]
+    X = Fraction(1, 2) + Fraction(beside)
+    assert found == float(Fraction(8, 3) * (X * X - Fraction(1, 4)) / X)
+
+
+def test_constants_of_arrays_have_their_shape() -> None:
+    """Each constant has the shape of the parameters; along times it is the constant to the rounding of its terms."""
+    motion = ElementaryMotion(np.array([[0.5], [1.5]]), (1.0, 2.0), np.array([0.7, -0.3, 2.0]))
+    at_start, later = motion.invariants(), motion.invariants(np.array(1e6))
+    for name, values in at_start.items():
+        assert values.shape == (2, 3)
+        assert np.abs(later[name] - values).max() <= 128 * ULP1
+    with pytest.raises(AtlasError, match="choose larger units"):
+        ElementaryMotion(1.5, (1e160, 1e160), 1e160).invariants(0.0)
+
+
+@pytest.mark.parametrize(
+    "out",
+    [[0.0] * 9, np.ma.zeros((3, 3)), np.zeros((3, 3), dtype=np.float32), np.zeros((3, 2)), np.zeros((3, 3)).T[:, ::-1]],
+)
+def test_an_out_that_cannot_be_filled_is_an_error(out: Any) -> None:
+    """A list, a masked array, single precision, another shape, a view that is not C-contiguous, a read-only array."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    with pytest.raises(AtlasError, match=r"^out must be a"):
+        motion.rotation(1.0, out)
+    fixed = np.zeros((3, 3))
+    fixed.flags.writeable = False
+    with pytest.raises(AtlasError, match="read-only"):
+        motion.rotation(1.0, fixed)
+
+
+@pytest.mark.parametrize("count", [-1, 2.5, np.nan, "3", [3]])
+def test_a_grid_has_a_whole_number_of_times(count: Any) -> None:
+    """Any other count is one sentence."""
+    with pytest.raises(AtlasError, match=r"^The count of the grid must be [^\n]*$"):
+        ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation_grid(0.0, 1.0, count)
+
+
+def test_shapes_that_do_not_meet_are_one_sentence() -> None:
+    """Parameters among themselves, and parameters with times; masked entries are no numbers."""
+    pair = ElementaryMotion(1.5, (1.0, 2.0), np.array([0.7, 0.8]))
+    for call in (
+        lambda: ElementaryMotion(np.ones(3), (1.0, np.ones(2)), 0.7),
+        lambda: pair.rotation(np.zeros(3)),
+        lambda: pair.invariants(np.zeros(3)),
+    ):
+        with pytest.raises(AtlasError, match="do not broadcast together"):
+            call()
+    with pytest.raises(AtlasError, match="masked"):
+        pair.rotation(np.ma.masked_array([0.0, 1.0], [True, False]))
+
+
 def test_the_closed_form_differentiates_to_mf21() -> None:
     """dR/dt = R [Omega]x, by central differences of the closed form."""
     motion, t, h = ElementaryMotion(0.7, (1.1, -0.6), 1.3), np.linspace(-3, 3, 13), 2.0**-17
@@ -184,7 +258,7 @@ def test_a_ball_precesses_without_proper_rotation() -> None:
     assert np.abs(ElementaryMotion(1 + 2.0**-52, (1.0, 2.0), 0.7).rotation(3.0) - motion.rotation(3.0)).max() < 8 * ULP1
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.floats(0.1, 2), st.floats(-3, 3), st.floats(-3, 3), st.floats(-50, 50))
 def test_reversing_the_field_and_the_motion_turns_it_about_e3(I: float, B3: float, omega2: float, t: float) -> None:
     """With B2 and omega2 reversed R becomes D R D, D = diag(-1, -1, 1): the half turn about e3."""

@@ -27,7 +27,7 @@ def half_unit(text: str) -> Fraction:
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(balls, st.integers(1, 45), st.sampled_from(["plain", "scientific", "fixed"]), st.floats(-1, 1))
 def test_every_number_in_the_ball_rounds_to_the_text(
     ball: tuple[Fraction, Fraction], count: int, layout: Layout, place: float
@@ -46,7 +46,7 @@ def test_every_number_in_the_ball_rounds_to_the_text(
     assert abs(Fraction(text) - inside) <= half_unit(text)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.fractions(max_denominator=10**6).filter(bool), st.integers(1, 40))
 def test_an_exact_rational_is_rounded_half_to_even(value: Fraction, count: int) -> None:
     """The text of an exact number is its correctly rounded decimal."""

@@ -13,7 +13,7 @@ from oracles import closed_form, taylor
 
 from atlas.errors import DomainError
 from atlas.exact.ball import BallMotion
-from atlas.exact.digits import enclosed, numbers
+from atlas.exact.digits import certified, enclosed, numbers
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.flight import Flight
 from atlas.exact.free import FreeMotion
@@ -70,7 +70,7 @@ ratios = st.floats(1e-3, 2) | st.sampled_from([1.0, 2.0, 1.0 + 2**-52, 1.0 - 2**
 times = st.floats(-1e15, 1e15) | st.sampled_from([0.0, 1e-300, 1.0])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(ratios, ordinary | sizes, ordinary | sizes, ordinary, times)
 def test_elementary_motion_contains_mpmath(I: float, B2: float, B3: float, w2: float, t: float) -> None:
     """Frequencies, matrix and angular velocity agree with mf76, mf77, mf89, mf78 evaluated in mpmath."""
@@ -150,7 +150,7 @@ def test_decimal_strings_are_taken_as_typed() -> None:
     assert typed.phi != doubles.phi
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(ratios, ordinary | sizes, ordinary | sizes)
 def test_quadric_contains_mpmath(I: float, B2: float, B3: float) -> None:
     """Angle, a2, a3, semi-axes and axes agree with mf60 to mf63 evaluated in mpmath."""
@@ -190,7 +190,7 @@ def test_a_body_is_never_rounded_to_its_quotient() -> None:
     assert Quadric(Body(), (1.0, 2.0)).kind == "one-sheet hyperboloid"
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(ratios, ordinary, ordinary, ordinary)
 def test_points_of_the_hyperbola_lie_on_the_quadric_and_rest_on_the_cubic(
     I: float, B2: float, B3: float, w2: float
@@ -239,7 +239,7 @@ def test_the_unstable_band_ends_where_the_stability_changes_sign() -> None:
     assert Hyperbola(0.5, (1.0, 0.4)).unstable_band is None
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(ordinary | sizes, ordinary, ordinary | sizes, times)
 def test_ball_contains_mpmath(larmor: float, m2: float, m3: float, t: float) -> None:
     """Axis, frequency, matrix and momentum of the ball agree with mf36 to mf39 evaluated in mpmath."""
@@ -302,7 +302,7 @@ def test_the_free_body_obeys_the_equations_of_motion(omega: Triple, I: float) ->
 vectors = st.tuples(*[st.floats(-4, 4) | st.just(0.0)] * 3)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.floats(-2, 2), vectors, vectors, vectors, vectors, st.floats(-30, 30), st.sampled_from([1.0, 2.5]))
 def test_particle_contains_the_matrix_exponential(
     mu: float, E: Triple, B: Triple, y: Triple, v: Triple, t: float, c: float
@@ -344,3 +344,10 @@ def test_a_planted_slip_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
         assert_same(lambda: motion.phi, [expected.phi])
     with pytest.raises(AssertionError):
         assert_same(lambda: motion.rotation(0.3), flat(closed_form.elementary_rotation(1, 1.5, 1.0, 2.0, 0.7, 0.3)))
+
+
+def test_what_is_given_is_certified_at_the_start() -> None:
+    """At t = 0 position and velocity are the given ones, exact where they are zero, whatever the field."""
+    p = ParticleMotion(12, (0.5, -0.25, 1.0), (1, 1, 1), (0, 2, 0), (0, fmpq(-1, 3), 0.7))
+    assert [x == 0 for x in (*p.position(0), *p.velocity(0))] == [True, False, True, True, False, False]
+    assert certified(lambda: p.velocity(0), 12) == ["0", "-0.333333333333", "0.700000000000"]

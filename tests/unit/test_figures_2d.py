@@ -14,7 +14,7 @@ from atlas.core.hyperbola import Hyperbola
 from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.errors import AtlasError, DomainError
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface
-from atlas.scene.family import asymptote, branches, places, unstable, window
+from atlas.scene.hyperbola_plane import asymptote, branches, places, unstable, window
 from atlas.scene.libration import Libration
 from atlas.scene.recipes import load
 from atlas.scene.style import style

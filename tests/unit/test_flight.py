@@ -7,7 +7,7 @@ from oracles.taylor import taylor
 
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.field import Field
-from atlas.core.flight import Flight
+from atlas.core.flight import AGREEMENT, Flight
 from atlas.core.particle import ParticleMotion
 from atlas.errors import AtlasError
 
@@ -107,6 +107,19 @@ def test_centre_and_body_must_be_in_one_field() -> None:
         Flight(PARTICLE, ElementaryMotion(1.5, (1.0, 2.0), 0.7), [1, 0, 0], FRAME)
     with pytest.raises(AtlasError, match="must be the same"):
         Flight(PARTICLE, ElementaryMotion(1.5, FRAME.field, 0.7), [1, 0, 0])
+
+
+@pytest.mark.parametrize(("off", "agrees"), [(0.9 * AGREEMENT, True), (1.1 * AGREEMENT, False)])
+def test_fields_agree_to_what_typed_digits_lose(off: float, agrees: bool) -> None:
+    """A field off by less than 1e-9 of its size is taken for the same, by more it is not, on either side."""
+    larger = np.abs(FRAME.field).max()
+    for sign in (1, -1):
+        motion = ElementaryMotion(1.5, (FRAME.field[0] + sign * off * larger, FRAME.field[1]), 0.7)
+        if agrees:
+            Flight(PARTICLE, motion, [1, 0, 0], FRAME)
+        else:
+            with pytest.raises(AtlasError, match="must be the same"):
+                Flight(PARTICLE, motion, [1, 0, 0], FRAME)
 
 
 def test_many_points_fly_at_once() -> None:

@@ -12,6 +12,7 @@ from atlas.core.hyperbola import Hyperbola
 from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.core.quadric import Quadric
 from atlas.errors import AtlasError, DomainError
+from atlas.exact.hyperbola import Hyperbola as Certified
 
 RATIOS = [0.5, 1.0 - 2.0**-53, 1.0, 1.0 + 2.0**-52, 1.5, 2.0]
 FIELDS = [(1.0, 2.0), (-1.0, 2.0), (1.0, -1e-12), (1e-12, 1.0), (1e140, 2e140), (-1e-140, -3e-140)]
@@ -66,7 +67,7 @@ def test_straight_curves_are_sampled_as_lines() -> None:
         Hyperbola(1.5, (1.0, 0.0)).sample(np.linspace(-1, 1, 5))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.floats(0.1, 2), st.floats(0.1, 3), st.floats(-3, 3), st.floats(-5, 5))
 def test_points_of_the_curve_lie_on_the_quadric_and_start_motions(I: float, B2: float, B3: float, x: float) -> None:
     """The residual of mf58.1 vanishes to rounding, and k, phi are those of the motion."""
@@ -149,3 +150,60 @@ def test_the_pole_and_too_few_points_are_errors(bad: Any) -> None:
         bad(Hyperbola(1.5, (1.0, 2.0)))
     with pytest.raises(DomainError, match="B2 = 0"):
         Hyperbola(1.5, (0.0, 2.0)).omega3(0.0)
+
+
+@pytest.mark.parametrize("I", [0.5, 1.5])
+def test_a_sample_reaches_as_far_as_it_says(I: float) -> None:
+    """Each branch runs from |Y| near reach |B'|, by its vertical asymptote, to |X| = reach |B'|; 4 without a word."""
+    curve, b = Hyperbola(I, (1.0, 2.0)), np.hypot(1.0, 2.0)
+    for branches, reach in ((curve.branches(40), 4.0), (curve.branches(40, reach=9.0), 9.0)):
+        for omega2, omega3 in branches:
+            X, Y = np.abs(omega2 + 1.0), np.abs(omega3 + 2.0)
+            assert X.max() == pytest.approx(reach * b, rel=1e-12)
+            assert 2.0 / I * abs(1 - I) / X.min() == pytest.approx(reach * b, rel=1e-12)
+            assert Y[X.argmin()] == pytest.approx(abs(2.0 / I * X.min() - np.sign(1 - I) * reach * b), rel=1e-9)
+            assert np.allclose(np.diff(np.log(X)), np.diff(np.log(X))[0], rtol=1e-9)
+
+
+def test_straight_lines_are_sampled_evenly() -> None:
+    """For I = 1 X spans three decades; for B2 = 0 and B3 = 0 the lines are spread evenly over reach |B'| both ways."""
+    (omega2, _), _ = Hyperbola(1.0, (1.0, 2.0)).branches(10)
+    X = omega2 + 1.0
+    assert X.max() / X.min() == pytest.approx(1e3, rel=1e-9)
+    ((omega2, omega3),) = Hyperbola(1.5, (0.0, 2.0)).branches(5, reach=3.0)
+    assert omega2.tolist() == [0.0] * 5
+    assert omega3.tolist() == [-8.0, -5.0, -2.0, 1.0, 4.0]
+    first, second = Hyperbola(1.5, (2.0, 0.0)).branches(10, reach=3.0)
+    assert first[0].tolist() == [-8.0, -5.0, -2.0, 1.0, 4.0]
+    assert first[1].tolist() == [0.0] * 5
+    assert second[0].tolist() == [-2.0] * 5
+    assert second[1].tolist() == [-6.0, -3.0, 0.0, 3.0, 6.0]
+    assert [len(branch[0]) for branch in Hyperbola(1.5, (1.0, 2.0)).branches(7)] == [4, 3]
+
+
+def test_the_ends_of_the_unstable_band_are_unstable() -> None:
+    """I = 1/2, B' = (3, 1), omega2 = -3/2: -p'(omega3) = 0 exactly, and yet not stable, unless B3 = 0."""
+    end = Certified(0.5, (3, 1))
+    assert end.stability(-1.5) == 0
+    assert not end.stable(-1.5)
+    assert end.stable(-1.0)
+    assert not end.stable(-2.0)
+    level = Certified(0.75, (2, 0))
+    assert level.stability(-1) == 0
+    assert level.stable(-1)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "field"),
+    [
+        (2.0, (2.2e-308, 1.0)),
+        (0.5, (5e-324, 1.0)),
+        (1.0, (5e-324, 1.0)),
+        (0.5, (1e300, 1e-300)),
+        (2.0, (1e-300, 1e300)),
+    ],
+)
+def test_a_sample_of_components_too_far_apart_is_an_error(ratio: float, field: tuple[float, float]) -> None:
+    """Where B3/(I B2), or the reach in units of the curve, is no float."""
+    with pytest.raises(DomainError, match="too far apart"):
+        Hyperbola(ratio, field).sample(3)

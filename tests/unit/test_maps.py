@@ -1,7 +1,9 @@
 """Maps of the error: the plain formula loses its digits with time, the atlas does not."""
 
 import numpy as np
+import pytest
 
+from atlas.errors import DomainError
 from atlas.study.maps import over_omega2, over_ratio, plain_rotation
 
 CELLS = (6, 15)
@@ -14,6 +16,23 @@ def test_the_plain_formula_loses_digits_with_time_and_the_atlas_does_not() -> No
         assert errors.plain[-1].min() > 1e-7
         assert errors.plain[0].max() < 1e-14
         assert errors.ours.max() <= 4 * 2.0**-52
+
+
+@pytest.mark.parametrize(("ratio", "field"), [(0.01, (1.0, 2.0)), (0.5, (-1.0, -2.0)), (1e-9, (1.0, 1e6))])
+def test_a_cell_beyond_the_phase_limit_is_left_empty(ratio: float, field: tuple[float, float]) -> None:
+    """Where every motion of a column is too fast for its last time, the map ends and leaves those cells NaN."""
+    for errors in (over_omega2(ratio, field, CELLS), over_ratio(field, -0.9 * field[0], CELLS)):
+        empty = np.isnan(errors.ours)
+        assert np.array_equal(empty, np.isnan(errors.plain))
+        assert not (empty[:-1] & ~empty[1:]).any()
+        assert errors.ours[~empty].max() <= 4 * 2.0**-52
+    assert np.isnan(over_omega2(1e-9, (1.0, 1e6), CELLS).ours).any()
+
+
+def test_a_map_needs_a_field_across_the_axis() -> None:
+    """For B2 = 0 there is no omega2 to vary, and the error says so."""
+    with pytest.raises(DomainError, match="B2 different from zero"):
+        over_omega2(1.5, (0.0, 1.0), CELLS)
 
 
 def test_a_map_is_the_same_for_the_same_seed() -> None:

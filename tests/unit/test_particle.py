@@ -47,7 +47,7 @@ def sizes(p: ParticleMotion, t: float) -> tuple[float, float]:
 @given(charges, vectors, vectors, vectors, vectors, st.floats(0.5, 2), st.floats(-9, 9))
 @example(1.0, np.array([0, 1.0, 0]), np.array([0, 0, 1.0]), ORIGIN, ORIGIN, 1.0, 6.283185307179586)
 @example(-1.0, np.array([0, 1.0, 1e-9]), np.array([0, 0, 1e-9]), ORIGIN, np.array([1.0, 0, 0]), 1.0, 5.0)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_position_and_velocity_solve_the_equation(
     mu: float, E: Any, B: Any, y0: Any, v0: Any, c: float, t: float
 ) -> None:

@@ -6,23 +6,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from atlas.build.ledger import keep
+from atlas.build.costs import keep
+from atlas.build.figures import Figure
 from atlas.errors import AtlasError
 from atlas.places import folder
+from atlas.report.find import find
+from atlas.report.load import load
+from atlas.report.pictures import pictures
 from atlas.scene import Plane, Points, Region, recipes
 
 COST = {"quantities": {}, "points": 10, "faces": 0, "memory_mb": 100.0, "bytes": 1000}
 SCENES = [
     {"scene": "loop(field=(1, 2)) shaded", "from": "drawn", "reason": "", "compute_s": 0.2, "draw_s": 4.0, **COST},
-    {"scene": "hyperbola(ratio=1.5)", "from": "store", "reason": "", "compute_s": 0.002, "draw_s": 0.5, **COST},
+    {"scene": "hyperbola(ratio=1.5)", "from": "cache", "reason": "", "compute_s": 0.002, "draw_s": 0.5, **COST},
     {"scene": "hyperbola(ratio=2)", "from": "drawn", "reason": "", "compute_s": 0.001, "draw_s": 0.1, **COST},
-    {"scene": "magn()", "from": "failed", "reason": "DomainError"},
 ]
 
 
 @pytest.fixture
 def reports(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Put a ledger of three scenes, one failed besides, in the place of the stored one."""
+    """Put a ledger of three scenes in the place of the stored one."""
     costs = tmp_path / "mine.costs.json"
     costs.write_text(json.dumps({"report": "mine", "jobs": 1, "seconds": 5.0, "steps": {}, "scenes": SCENES}))
     (tmp_path / "data").mkdir()
@@ -63,7 +66,16 @@ def test_the_stored_ledger_is_one_of_the_atlas() -> None:
     """What the page of the atlas shows is a build of the atlas in which nothing failed."""
     stored = json.loads((folder("reports") / "data" / "build_costs.json").read_text())
     assert stored["report"] == "atlas"
-    assert {entry["from"] for entry in stored["scenes"]} <= {"drawn", "store"}
+    assert {entry["from"] for entry in stored["scenes"]} <= {"drawn", "cache", "store"}
+
+
+def test_the_stored_ledger_is_of_the_figures_as_they_are() -> None:
+    """The record is out of date when a figure came, went or changed its parameters; it says what renews it."""
+    stored = json.loads((folder("reports") / "data" / "build_costs.json").read_text())
+    assert "--keep-costs" in stored["command"]
+    shown = pictures(load(find("atlas"))).values()
+    drawn = {Figure(one.recipe, one.parameters, one.renderer, ()).name for one in shown}
+    assert {entry["scene"] for entry in stored["scenes"]} == drawn
 
 
 def test_without_a_ledger_there_is_one_sentence(reports: Path) -> None:

@@ -7,23 +7,24 @@ import pytest
 
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
-from atlas.report.formulas import Manuscript, Target
+from atlas.report.pandoc import Target
+from atlas.report.texts import Link, Texts
 
 
 def one(tex: str, target: Target = "html") -> str:
     """Set one text."""
-    manuscript = Manuscript()
-    manuscript.add(tex, "here", inline=True)
-    return manuscript.set(target, lambda name, _where: f"[({name})](#{name})")[0]
+    texts = Texts()
+    texts.add(tex, "here", inline=True)
+    return texts.set(target, lambda name, _where: Link(f"({name})", "", name))[0]
 
 
 def test_every_equation_of_the_ledger_is_set_in_both_targets() -> None:
     """No formula of the paper stays behind as raw TeX, and none is lost."""
-    manuscript = Manuscript()
+    texts = Texts()
     for label, entry in EQUATIONS.items():
-        manuscript.add(f"$${entry.tex}$$", label)
-    pages = manuscript.set("html", lambda name, _where: name)
-    print_ = manuscript.set("typst", lambda name, _where: name)
+        texts.add(f"$${entry.tex}$$", label)
+    pages = texts.set("html", lambda name, _where: Link(name))
+    print_ = texts.set("typst", lambda name, _where: Link(name))
     assert len(pages) == len(print_) == len(EQUATIONS)
     for label, page, typst in zip(EQUATIONS, pages, print_, strict=True):
         assert page.count("<math") == 1, label

@@ -12,15 +12,16 @@ import pytest
 from lxml import html as reader
 from pypdf import PdfReader
 
-from atlas.build.appendices import gather
-from atlas.build.fresh import RECORDS
+from atlas.build.recorded import gather
 from atlas.build.report import Built, build_report
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.proof import record
-from atlas.report.appendices import Appendices, Finding
+from atlas.proof.verdict import GRADES
+from atlas.report import trial
 from atlas.report.compose import compose
 from atlas.report.load import load
+from atlas.report.recorded import Appendices, Finding
 from atlas.report.tables.model import Data
 from atlas.study import stress
 
@@ -164,19 +165,29 @@ def test_modules_that_cite_an_entry_are_named(pages: dict[str, reader.HtmlElemen
 
 
 def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dict[str, reader.HtmlElement]) -> None:
-    """As many errata as refuted verdicts, each with both forms and with what breaks the printed one."""
-    refuted = {label: verdict for label, verdict in record.load().items() if verdict.verdict == "refuted"}
+    """As many errata as entries with a slip, the grave ones first; each with both forms and what breaks the printed."""
+    refuted = {label: verdict for label, verdict in record.load().items() if verdict.grade}
     found = {e.get("id").removeprefix("erratum-"): e for e in pages["slips.html"].xpath("//section[@id]")}
-    assert list(found) == list(refuted)
+    assert sorted(found) == sorted(refuted)
+    grades = [GRADES.index(refuted[label].grade) for label in found]
+    assert grades == sorted(grades)
+    headings = pages["slips.html"].xpath("//h3[@class='grade']/text()")
+    assert headings == [grade.capitalize() for grade in GRADES]
     for label, element in found.items():
+        assert element.xpath("./div[contains(@class, 'sides')]/div[2]//*[@class='changed']"), label
+        quote = element.xpath("string(.//p[@class='quote'])")
+        assert EQUATIONS[label].quote.partition("$")[0][:20] in quote
         sides = element.xpath("./div[contains(@class, 'sides')]/div")
         assert [len(side.xpath(".//*[local-name()='math']")) > 0 for side in sides] == [True, True]
         assert refuted[label].corrected_verdict in sides[1].xpath("string(./p)")
+        if refuted[label].verdict != "refuted":
+            continue
         example = element.xpath("string(./div[@class='counterexample'])")
         counter = refuted[label].counterexample
         assert counter.get("relation", counter.get("reason")) in example
         back = {anchor for _, anchor in links(element.xpath("./h2")[0], "slips.html")}
-        assert back == {f"ledger-{label}"}
+        shared = {f"erratum-{refuted[label].slip}"} if refuted[label].slip else set()
+        assert back == {f"ledger-{label}"} | shared
 
 
 def test_links_lead_somewhere_and_no_markup_is_left(pages: dict[str, reader.HtmlElement]) -> None:
@@ -198,6 +209,11 @@ def test_the_pdf_holds_every_entry(built: Built) -> None:
     assert text.count("Counterexample") >= 2 * sum(v.verdict == "refuted" for v in record.load().values())
 
 
+def test_the_order_of_grades_is_that_of_the_trial() -> None:
+    """The report names the grades itself, since it does not load the proofs; they are the same."""
+    assert trial.GRADES == GRADES
+
+
 def test_totals_are_those_of_the_record(pages: dict[str, reader.HtmlElement]) -> None:
     """The last row of the totals counts all verdicts and all changed forms."""
     verdicts = Counter(verdict.verdict for verdict in record.load().values())
@@ -205,7 +221,7 @@ def test_totals_are_those_of_the_record(pages: dict[str, reader.HtmlElement]) ->
     tried, noticed = sum(one.tried for one in mutants), sum(one.noticed for one in mutants)
     (row,) = pages["records.html"].xpath("//figure[@id='tab-2']//tr[td[1]='All']")
     numbers = [int(cell.text_content()) for cell in row.xpath("td")[1:]]
-    kinds = ("proved", "refuted", "supported", "undecided")
+    kinds = ("proved", "definition", "refuted", "supported", "undecided")
     assert numbers == [len(EQUATIONS), *(verdicts[kind] for kind in kinds), tried, noticed, tried - noticed]
 
 
@@ -235,8 +251,8 @@ def test_a_report_without_a_ledger_reads_no_record(tmp_path: Path) -> None:
     report = load(file)
     assert gather(report) == Appendices()
     document = compose(report, {})
-    assert document.cite("html")("mf76", "") == "[(mf76)](index.html#eq-mf76)"
-    assert document.cite("html")("mf77", "") == "(mf77)"
+    assert document.cite("html")("mf76", "") == ("(mf76)", "index.html", "eq-mf76")
+    assert document.cite("html")("mf77", "") == ("(mf77)", "", "")
 
 
 @pytest.mark.parametrize(
@@ -260,12 +276,6 @@ def test_pages_of_recorded_results_load_no_algebra(toml: Path, tmp_path: Path) -
         "print([name for name in ('sympy', 'scipy', 'mpmath', 'vtk') if name in sys.modules])"
     )
     assert subprocess.check_output([sys.executable, "-c", script], text=True).strip() == "[]"
-
-
-def test_the_records_are_among_the_sources_of_a_report() -> None:
-    """A new verdict makes a report out of date."""
-    assert {path.name for path in RECORDS} == {"verdicts.json", "mutants.json", "ratchet.json"}
-    assert all(path.is_file() for path in RECORDS)
 
 
 def _with(finding: Finding) -> Appendices:

@@ -4,11 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build.appendices import gather
+from atlas.build.recorded import gather
 from atlas.errors import AtlasError
 from atlas.report.compose import compose
-from atlas.report.gallery import gallery
-from atlas.report.load import find, load, names
+from atlas.report.find import find, names
+from atlas.report.load import load
+from atlas.report.pictures import pictures
 from atlas.scene import recipes
 
 HEAD = 'name = "a"\ntitle = "A"\n'
@@ -31,7 +32,11 @@ MISTAKES = {
     "a misspelt kind": (HEAD + PAGE + '[[pages.blocks]]\nkind = "figur"', "block 1", "'figur'", "'figure'"),
     "no kind": (HEAD + PAGE + '[[pages.blocks]]\ntext = "x"', "block 1", "'kind'"),
     "a missing key": (HEAD + PAGE + '[[pages.blocks]]\nkind = "prose"', "block 1 (prose)", "'text'"),
-    "a wrong type": (HEAD + '[[pages]]\nslug = "index"\ntitle = 3\nblocks = []', "page 'index'", "'str'", "title"),
+    "a wrong type": (
+        HEAD + '[[pages]]\nslug = "index"\ntitle = 3\nblocks = []',
+        "page 'index', title",
+        "must be a text, not 3",
+    ),
     "a misspelt renderer": (
         HEAD + PAGE + '[[pages.blocks]]\nkind = "figure"\nrecipe = "x"\nrenderer = "shadd"',
         "'shadd'",
@@ -112,10 +117,10 @@ def test_a_file_of_another_kind_is_no_report(tmp_path: Path) -> None:
 def test_every_report_of_the_folder_is_sound(name: str) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""
     report = load(find(name))
-    plates = gallery(report)
+    plates = pictures(report)
     document = compose(report, plates, gather(report))
     assert report.name == name
     for plate in plates.values():
         assert not plate.failure
         assert recipes.load(plate.recipe).scene(**plate.parameters).alt
-    assert len(document.manuscript.set("html", document.cite("html"))) == len(document.manuscript.texts)
+    assert len(document.texts.set("html", document.cite("html"))) == len(document.texts.texts)

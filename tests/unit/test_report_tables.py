@@ -2,25 +2,24 @@
 
 from decimal import Decimal
 
+import flint
 import mpmath
 import pytest
 
 from atlas.errors import AtlasError
-from atlas.report import records
+from atlas.report.body_and_field import body_and_field
 from atlas.report.numbers import Number
-from atlas.report.settings import setting
+from atlas.report.parameters import Body, Field
 from atlas.report.tables import TABLES, compute
 from atlas.report.tables.model import Data, Request, column
 
-BODY = records.Body(title="short solenoid", ratio=1.5)
-OBLIQUE = records.Field(title="oblique field", prime=(1.0, 2.0))
+BODY = Body(title="short solenoid", ratio=1.5)
+OBLIQUE = Field(title="oblique field", prime=(1.0, 2.0))
 
 
-def table(
-    name: str, digits: int = 10, body: records.Body = BODY, field: records.Field = OBLIQUE, **more: object
-) -> Data:
+def table(name: str, digits: int = 10, body: Body = BODY, field: Field = OBLIQUE, **more: object) -> Data:
     """Compute a table."""
-    return compute(name, Request((setting(body, field),), more, digits))
+    return compute(name, Request((body_and_field(body, field),), more, digits))
 
 
 def agrees(number: Number, true: mpmath.mpf) -> bool:
@@ -77,11 +76,30 @@ def test_a_long_time_costs_no_digit() -> None:
 
 def test_an_unstable_motion_is_called_unstable() -> None:
     """A long solenoid in a low field has a band of unstable motions."""
-    low = records.Field(title="low", prime=(1.0, 0.1))
-    data = table("points", body=records.Body(title="long", ratio=0.5), field=low, omega2=[-0.5, 0.7])
+    low = Field(title="low", prime=(1.0, 0.1))
+    data = table("points", body=Body(title="long", ratio=0.5), field=low, omega2=[-0.5, 0.7])
     verdicts = {row[1].digits: row[-1] for row in data.rows if isinstance(row[1], Number)}
     assert verdicts["-0.5"] == "unstable"
     assert verdicts["0.7"] == "stable"
+
+
+def test_a_motion_at_an_end_of_the_band_is_called_unstable() -> None:
+    """At I = 1/2, B' = (3, 1), omega2 = -3/2 the square of the nutation frequency is zero, theorem-band-ends."""
+    body, field = Body(title="long", ratio=0.5), Field(title="low", prime=(3.0, 1.0))
+    rows = {str(row[1]): row for row in table("points", body=body, field=field, omega2=[-1.5]).rows}
+    assert rows[str(Number("-1.5"))][5] == Number("0")
+    assert rows[str(Number("-1.5"))][6] == "unstable"
+
+
+def test_the_charge_of_a_body_follows_from_its_mass() -> None:
+    """The charge is mu m0, and the field of that charge at the distance of the radius in SI units."""
+    ball = Body(title="ball", shape="sphere", mass=9e-15, radius=1e-6)
+    field = Field(title="field", B=(0.0, 2.0, 4.0), charge_to_mass=2.0)
+    (row,) = table("charges", body=ball, field=field).rows
+    assert row[3] == Number("1.8e-14")
+    assert row[4] == Number(f"{1.8e-14 * 8.9875517862e9 / 1e-12:.1e}")
+    with pytest.raises(AtlasError, match="mass and radius"):
+        table("charges")
 
 
 def test_every_number_has_a_unit() -> None:
@@ -91,7 +109,7 @@ def test_every_number_has_a_unit() -> None:
         "quadric": {},
         "motion": {"omega2": 0.7},
         "samples": {"omega2": 0.7, "times": [0.0, 1.0]},
-        "setting": {},
+        "body_and_field": {},
     }
     for name, parameters in more.items():
         data = table(name, **parameters)
@@ -112,7 +130,7 @@ def test_a_column_of_mixed_sizes_has_powers_of_ten() -> None:
 
 def test_small_lengths_carry_a_power_of_ten_in_their_unit() -> None:
     """A drift of 3 um in one second is 3.000 in units of 1e-6 m; the digits are those of c [E, B]/B^2 times t."""
-    magnet = records.Field(title="magnet", B=(0.0, 0.0, 1.0), E=(0.0, 3e-6, 0.0), charge_to_mass=2.0)
+    magnet = Field(title="magnet", B=(0.0, 0.0, 1.0), E=(0.0, 3e-6, 0.0), charge_to_mass=2.0)
     data = table("particle", 4, field=magnet, times=[1.0], velocity=[3e-6, 0.0, 0.0])
     assert [one.unit for one in data.columns[1:]] == 3 * ["$10^{-6}$ m"]
     assert data.rows[0][1] == Number("3.000")
@@ -120,27 +138,27 @@ def test_small_lengths_carry_a_power_of_ten_in_their_unit() -> None:
 
 def test_a_shape_in_si_units_gives_its_ratio_without_rounding() -> None:
     """A shell of h = 2R has I = 6/5, whatever the rounding of its moments."""
-    shell = records.Body(title="shell", shape="cylindrical_shell", mass=0.1, radius=0.25, height=0.5, charge=0.3)
-    magnet = records.Field(title="magnet", B=(0.0, 3.0, 4.0))
-    found = values(table("setting", 30, shell, magnet))
+    shell = Body(title="shell", shape="cylindrical_shell", mass=0.1, radius=0.25, height=0.5, charge=0.3)
+    magnet = Field(title="magnet", B=(0.0, 3.0, 4.0))
+    found = values(table("body_and_field", 30, shell, magnet))
     assert found["$I=I_3/I_2$"].digits == "1.2" + 28 * "0"
-    assert setting(shell, magnet).ratio == 1.2
+    assert body_and_field(shell, magnet).ratio == 1.2
 
 
 @pytest.mark.parametrize(
     ("body", "words"),
     [
-        (records.Body(title="b"), "exactly one of"),
-        (records.Body(title="b", ratio=1.0, shape="ring"), "exactly one of"),
-        (records.Body(title="b", shape="rng", mass=1.0, radius=1.0), "'ring'"),
-        (records.Body(title="b", shape="ring", mass=1.0), "takes mass, radius"),
-        (records.Body(title="b", ratio=2.5), "at most 2"),
+        (Body(title="b"), "exactly one of"),
+        (Body(title="b", ratio=1.0, shape="ring"), "exactly one of"),
+        (Body(title="b", shape="rng", mass=1.0, radius=1.0), "'ring'"),
+        (Body(title="b", shape="ring", mass=1.0), "takes mass, radius"),
+        (Body(title="b", ratio=2.5), "at most 2"),
     ],
 )
-def test_a_body_that_cannot_be_is_refused_with_a_reason(body: records.Body, words: str) -> None:
+def test_a_body_that_cannot_be_is_refused_with_a_reason(body: Body, words: str) -> None:
     """Each way to give a body wrongly is told."""
     with pytest.raises(AtlasError, match=words):
-        setting(body, None)
+        body_and_field(body, None)
 
 
 def test_unknown_tables_and_parameters_are_refused() -> None:
@@ -150,3 +168,40 @@ def test_unknown_tables_and_parameters_are_refused() -> None:
     with pytest.raises(AtlasError, match="'omega2'"):
         table("motion", omega_2=0.7)
     assert set(TABLES) >= {"quadric", "points", "motion", "particle", "flight"}
+
+
+def test_a_number_of_which_no_digit_is_proven_has_none() -> None:
+    """A ball about zero is printed as a question mark and marked; its status is not in its digits."""
+    (number,) = column([flint.arb(0, 1e-3)], 5)
+    assert not number.proven
+    (none,) = column([flint.arb(0, 2)], 5)
+    assert none == Number("", proven=False)
+    assert none.parts() == ("?", "", "")
+    (wide,) = column([flint.arb(1.2345, 1e-3)], 8)
+    assert wide == Number("1.2", proven=False)  # one end rounds to 1.23, the other to 1.24
+
+
+def test_a_path_beside_its_axis_of_a_micrometre_is_tabled() -> None:
+    """Along B the particle drifts by 1e-6 m a second from 2.5e-6 m off the axis: powers of ten, exact zeros."""
+    magnet = Field(title="magnet", B=(0.0, 0.0, 1.3), charge_to_mass=2.0)
+    data = table("particle", field=magnet, times=[0.0, 2.0], velocity=[0.0, 0.0, 1e-6], position=[2.5e-6, 0.0, 0.0])
+    assert [one.unit for one in data.columns[1:]] == 3 * ["$10^{-6}$ m"]
+    assert data.rows[1] == (Number("2"), Number("2.500000000"), Number("0"), Number("2.000000000"))
+
+
+def test_scaled_columns_lose_no_digit() -> None:
+    """60 digits of a length of nanometres are those of mf10 in 80 digits: the power of ten is not taken in doubles."""
+    magnet = Field(title="magnet", B=(0.0, 0.0, 1.0), charge_to_mass=2.0)
+    data = table("particle", 60, field=magnet, times=[1.0], velocity=[3e-9, 0.0, 0.0])
+    (number,) = (cell for cell in data.rows[0][1:2] if isinstance(cell, Number))
+    with mpmath.workdps(80):
+        assert [one.unit for one in data.columns[1:]] == 3 * ["$10^{-9}$ m"]
+        assert agrees(number, mpmath.mpf(3e-9) * mpmath.sin(2) / 2 * 10**9)
+    assert number.proven
+    assert len(number.digits) >= 60
+
+
+def test_a_line_without_named_points_is_told() -> None:
+    """With B2 = 0 omega3 is free on the line omega2 = 0: there is no table of points, and one sentence says so."""
+    with pytest.raises(AtlasError, match="B2 = 0"):
+        table("points", field=Field(title="axial", prime=(0.0, 2.0)))

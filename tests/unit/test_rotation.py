@@ -55,7 +55,7 @@ def test_every_entry_is_true_to_4_ulp_at_any_phase(regime: str) -> None:
     assert orthogonality <= 4 * ULP1
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     st.floats(1e-3, 2),
     st.floats(-1e3, 1e3).filter(lambda x: abs(x) > 1e-3),
@@ -92,7 +92,7 @@ def test_rotation_is_the_identity_at_zero(t: float) -> None:
     assert np.array_equal(FreeMotion(0.4, (0.3, -0.7, 0.2)).rotation(t), np.eye(3))
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.floats(-3, 3), st.floats(0.1, 2), st.integers(-400, 400))
 def test_scaling_by_a_power_of_two_changes_no_bit(omega2: float, I: float, exponent: int) -> None:
     """Frequencies times 2^n and time times 2^-n give the same bits of R."""

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from atlas.core.quadric import Quadric
-from atlas.scene import Surface, mesh, plates, solids
+from atlas.scene import Surface, mesh, quadric_panel, solids
 
 FloatArray = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ def pieces(tolerance: float) -> list[Surface]:
         solids.cylinder(O, AXIS, 1.0, 2.0, tolerance),
     ]
     fields = ((1.5, (1.0, 2.0)), (0.5, (1.0, 0.5)), (2.0, (1.0, 0.1)), (1.0, (1.0, 1.0)))
-    return round_ones + [plates.sheets(ratio, Quadric(ratio, field), field)[0] for ratio, field in fields]
+    return round_ones + [quadric_panel.sheets(ratio, Quadric(ratio, field), field)[0] for ratio, field in fields]
 
 
 def inner(grid: FloatArray) -> FloatArray:
@@ -90,6 +90,6 @@ def test_nothing_is_cut_where_nothing_bends(surface: Surface, rows: int) -> None
 @pytest.mark.parametrize("field", [(1.0, 2.0), (0.3, -0.7), (1e-90, 2e-90)])
 def test_a_cone_is_straight_whatever_the_rounding(field: Any) -> None:
     """Both sheets of the quadric of a ball: rim, speck, apex, speck, rim."""
-    (cone,) = plates.sheets(1.0, Quadric(1.0, field), field)
+    (cone,) = quadric_panel.sheets(1.0, Quadric(1.0, field), field)
     assert cone.grids[0].shape[0] == 5
     assert np.ptp(cone.grids[0][2], axis=0).max() == 0.0

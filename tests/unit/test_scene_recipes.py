@@ -1,14 +1,18 @@
 """Recipes by name."""
 
 import inspect
+import re
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import matplotlib as mpl
 import pytest
 
 from atlas import AtlasError
+from atlas.draw import context
 from atlas.scene import recipes
-from atlas.scene.style import STYLES, style
+from atlas.scene.style import style
 
 
 def test_every_file_in_figures_is_a_recipe_with_a_title() -> None:
@@ -32,13 +36,13 @@ def test_parameters_used_are_noted_in_the_scene() -> None:
 
 def test_an_unknown_recipe_is_named_with_the_nearest() -> None:
     """The error says which figure is meant."""
-    with pytest.raises(AtlasError, match=r"no figure 'quadrik'.*nearest is 'quadric'.*known: "):
+    with pytest.raises(AtlasError, match=r"no figure 'quadrik'.*did you mean 'quadric'.*known: "):
         recipes.load("quadrik")
 
 
 def test_an_unknown_parameter_is_named_with_the_nearest() -> None:
     """The error says which parameter is meant, and which there are."""
-    with pytest.raises(AtlasError, match=r"no parameter 'feild'.*'quadric'.*nearest is 'field'.*ratio"):
+    with pytest.raises(AtlasError, match=r"no parameter 'feild'.*'quadric'.*did you mean 'field'.*ratio"):
         recipes.load("quadric").scene(feild=(1.0, 2.0))
 
 
@@ -68,9 +72,74 @@ def test_a_default_that_must_be_computed_is_refused(folder: Path) -> None:
 def test_what_a_recipe_takes_is_what_its_function_takes() -> None:
     """The parameters that are read from the source are those of the function, with the same defaults, in its order."""
     for name in recipes.names():
-        found = inspect.signature(recipes._function(recipes.load(name).source)).parameters
+        found = inspect.signature(recipes._function(recipes.load(name).source)[0]).parameters
         assert {key: value.default for key, value in found.items()} == recipes.load(name).parameters
         assert list(found) == list(recipes.load(name).parameters)
+
+
+RECIPE = '''"""Typed."""
+from typing import Any, Literal
+from atlas.scene import Scene
+RANGES = {"size": (0.5, 2.0)}
+def scene(*, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 2.0), levels: tuple[float, ...] = (1.0,),
+          omega3: float | None = None, unit: str = "s", columns: int = 1, size: float = 1, free=(1, "x"),
+          names: tuple[str, ...] = ("a",), on: bool = True, side: Literal["left", "right"] = "left") -> Scene:
+    return Scene(title="", caption="", alt="", panels=())
+'''
+
+
+@pytest.mark.parametrize(
+    ("given", "fitted"),
+    [
+        ({"field": [1, 2]}, {"field": (1.0, 2.0)}),
+        ({"levels": 3}, {"levels": (3.0,)}),
+        ({"omega3": 2}, {"omega3": 2.0}),
+        ({"free": [2, "y"]}, {"free": (2, "y")}),
+        ({"names": ["b", "c"]}, {"names": ("b", "c")}),
+        ({"ratio": 1}, {"ratio": 1.0}),
+    ],
+)
+def test_a_parameter_comes_in_its_type(folder: Path, given: dict[str, Any], fitted: dict[str, Any]) -> None:
+    """Lists become tuples, whole numbers floats, one value a list where a list of any length is meant."""
+    (folder / "typed.py").write_text(RECIPE, encoding="utf-8")
+    used = recipes.load("typed").scene(**given).parameters
+    assert {name: used[name] for name in fitted} == fitted
+    assert all(type(used[name]) is type(value) for name, value in fitted.items())
+
+
+@pytest.mark.parametrize(
+    ("given", "tells"),
+    [
+        ({"ratio": "x"}, "ratio must be a number, 0 or of a size between 1e-60 and 1e+60, not 'x'"),
+        ({"ratio": 1e61}, "a number, 0 or of a size between 1e-60 and 1e+60, not 1e+61"),
+        ({"ratio": float("nan")}, "ratio must be a number, 0 or of a size between 1e-60 and 1e+60, not nan"),
+        ({"ratio": (1, 2)}, "ratio must be a number, 0 or of a size between 1e-60 and 1e+60, not (1, 2)"),
+        ({"field": 1.0}, "field must be two numbers, each 0 or of a size between 1e-60 and 1e+60, not 1.0"),
+        ({"field": (1, 2, 3)}, "field must be two numbers, each 0 or of a size"),
+        ({"field": (1, float("inf"))}, "field must be two numbers, each 0 or of a size"),
+        ({"field": (1, True)}, "field must be two numbers, each 0 or of a size"),
+        ({"levels": ()}, "levels must be a list of at most 40 numbers"),
+        ({"levels": (1.0,) * 41}, "levels must be a list of at most 40 numbers"),
+        ({"levels": "many"}, "levels must be a list of at most 40 numbers"),
+        ({"omega3": "1"}, "omega3 must be a number, 0 or of a size between 1e-60 and 1e+60, not '1'"),
+        ({"unit": 1}, "unit must be a word, not 1"),
+        ({"columns": 1.5}, "columns must be a whole number, not 1.5"),
+        ({"columns": 0}, "columns must lie between 1 and 6, not 0"),
+        ({"size": 10**400}, "size must be a number, 0 or of a size between 1e-60 and 1e+60"),
+        ({"size": 0.4}, "size must lie between 0.5 and 2, not 0.4"),
+        ({"names": (1,)}, "names must be a list of at most 40 words"),
+        ({"on": 1}, "on must be true or false, not 1"),
+        ({"side": "up"}, "side must be left or right, not 'up'"),
+        ({"free": (1,)}, "free must be two values"),
+        ({"sise": 1}, "did you mean 'size'?"),
+    ],
+)
+def test_a_parameter_of_another_type_is_one_sentence(folder: Path, given: dict[str, Any], tells: str) -> None:
+    """It names the parameter and says what would be right."""
+    (folder / "typed.py").write_text(RECIPE, encoding="utf-8")
+    with pytest.raises(AtlasError, match=re.escape(tells)) as caught:
+        recipes.load("typed").scene(**given)
+    assert "\n" not in str(caught.value)
 
 
 def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
@@ -116,19 +185,20 @@ def test_a_title_that_cannot_be_read_is_told(folder: Path, text: bytes) -> None:
 
 def test_an_unknown_role_is_named_with_the_nearest() -> None:
     """The error says which role is meant."""
-    with pytest.raises(AtlasError, match=r"'hyperbolla'; nearest is 'hyperbola'"):
+    with pytest.raises(AtlasError, match=r"'hyperbolla' .did you mean 'hyperbola'"):
         style("hyperbolla")
 
 
 def test_styles_of_lines_that_meet_in_a_plot_differ_in_grey_or_in_dash() -> None:
     """In grey print two of the plotted lines are told apart by lightness, or by their dashes."""
-    order = ["main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth"]
+    with context():
+        order = list(mpl.rcParams["axes.prop_cycle"])
 
     def grey(colour: str) -> float:
-        red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+        red, green, blue = (int(colour.lstrip("#")[i : i + 2], 16) / 255.0 for i in (0, 2, 4))
         return 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2
 
     for i, a in enumerate(order):
         for b in order[i + 1 :]:
-            lightness = [116.0 * grey(STYLES[role].colour) ** (1.0 / 3.0) for role in (a, b)]
-            assert abs(lightness[0] - lightness[1]) > 8.0 or STYLES[a].dash != STYLES[b].dash, (a, b)
+            lightness = [116.0 * grey(line["color"]) ** (1.0 / 3.0) for line in (a, b)]
+            assert abs(lightness[0] - lightness[1]) > 8.0 or a["linestyle"] != b["linestyle"], (a, b)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from atlas.errors import DomainError
 from atlas.scene.sample import curve, flat, knots, quarter_pixel
 
 FloatArray = NDArray[np.float64]
@@ -89,3 +90,10 @@ def test_a_flat_curve_knows_paper_and_view() -> None:
     assert (half[:, 1] < -0.1).sum() < (one[:, 1] < -0.1).sum() / 3
     sag = 1.0 - np.cos(np.diff(np.unwrap(np.arctan2(one[:, 1], one[:, 0]))).max() / 2.0)
     assert 0.5 < sag * 20.0 / 25.4 * 300.0 / 0.25 < 1.0
+
+
+@pytest.mark.parametrize(("size", "turns"), [(1.0, 1e7), (1e300, 1e7), (np.inf, 1.0), (np.nan, 1.0)])
+def test_a_curve_that_needs_too_many_points_is_told(size: float, turns: float) -> None:
+    """What turns ten million times, or is no number, is one sentence and no endless cutting."""
+    with np.errstate(all="ignore"), pytest.raises(DomainError, match="more than 1000000 points"):
+        curve(lambda s: np.stack([s, size * np.sin(turns * s)], axis=1), 0.0, 6.0, 1e-3)

@@ -19,6 +19,7 @@ from atlas.errors import AtlasError
 from atlas.study import hostile
 from atlas.study.judges import judge_motion
 from atlas.study.regimes import REGIMES
+from atlas.study.regimes_general import GENERAL
 from atlas.study.stress import LIMITS, SHORT, Result, read_ratchet, record_name, stress, write_ratchet
 from atlas.study.ulps import UNDERFLOW, Tally, error, of_length, own, ulp
 
@@ -46,6 +47,7 @@ def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
     assert set(LIMITS) <= {w.quantity for w in short_run.worst}
     regimes = {w.regime for w in short_run.worst if w.quantity == "k"}
     assert regimes == {*REGIMES, "B2 = 0"}
+    assert {w.regime for w in short_run.worst if w.quantity == "general R"} == set(GENERAL)
     clocks = {w.regime.rpartition(", ")[2] for w in short_run.worst if w.quantity == "R"}
     assert clocks == set(hostile.CLOCKS)
 

@@ -97,3 +97,16 @@ def test_a_system_is_found_in_any_spelling() -> None:
     """Capitals do not matter."""
     assert units.system("si") is units.system("SI") is units.system(units.SI)
     assert units.system("GAUSSIAN") is units.GAUSSIAN
+
+
+def test_a_second_and_a_radian_are_the_same_in_both_systems() -> None:
+    """What one SI unit counts: 100 cm, 1e4 G, 1/29979.2458 statV/cm, 2997924.58 statC/g; in SI itself one."""
+    found = [(s.mu_from_si, s.B_from_si, s.E_from_si, s.length_from_si, s.c) for s in (units.SI, units.GAUSSIAN)]
+    assert found[0] == (1.0, 1.0, 1.0, 1.0, 1.0)
+    assert found[1] == (2_997_924.58, 1e4, pytest.approx(1 / 29_979.2458, rel=2 * EPS), 100.0, 29_979_245_800.0)
+
+
+def test_without_a_charge_there_is_no_field() -> None:
+    """For mu = 0 B' is zero, not too small; and so it is for B = 0."""
+    assert units.larmor_field(0.0, 1.0) == 0.0
+    assert units.larmor_field(2.0, [0.0, 1.0]).tolist() == [0.0, 1.0]

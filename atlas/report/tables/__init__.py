@@ -3,15 +3,15 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from atlas.errors import AtlasError
-from atlas.report.load import nearest
-from atlas.report.tables import ball, bodies, flight, motion, particle, points, quadric, setting
+from atlas.errors import unknown
+from atlas.report.tables import ball, bodies, body_and_field, charges, flight, motion, particle, points, quadric
 from atlas.report.tables.model import Data, Maker, Request
 
 TABLES: Mapping[str, Maker] = MappingProxyType(
     {
-        "setting": setting.setting,
+        "body_and_field": body_and_field.body_and_field,
         "bodies": bodies.bodies,
+        "charges": charges.charges,
         "quadric": quadric.quadric,
         "points": points.points,
         "motion": motion.motion,
@@ -24,9 +24,7 @@ TABLES: Mapping[str, Maker] = MappingProxyType(
 
 
 def compute(name: str, request: Request) -> Data:
-    """Compute a table. Raises AtlasError for a table or a parameter that there is not."""
+    """Compute a table. Raises AtlasError for a table that there is not, and for a parameter that does not fit it."""
     if name not in TABLES:
-        raise AtlasError(
-            f"there is no table {name!r}{nearest(name, list(TABLES))}; the tables are {', '.join(TABLES)}."
-        )
+        raise unknown("table", name, TABLES)
     return TABLES[name](request)

@@ -1,17 +1,26 @@
 """The charged ball: the two frequencies of its general motion and the axis of the faster turn, mf36 to mf39."""
 
 from atlas.errors import AtlasError
+from atlas.report.schema import Record
 from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, quantity
+
+
+class Parameters(Record, frozen=True):
+    """Initial angular velocity (0, omega2, omega3) and Larmor's frequency, in 1/s."""
+
+    omega2: float
+    omega3: float
+    larmor: float
 
 
 def ball(request: Request) -> Data:
     """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
     from atlas.exact.ball import BallMotion
 
-    omega2, omega3, larmor = request.take(omega2=None, omega3=None, larmor=None)
-    if larmor == 0:
+    asked = request.take(Parameters)
+    if asked.larmor == 0:
         raise AtlasError("the ball's table is about a ball in a field: larmor must not be zero.")
-    made = BallMotion(1, larmor, (omega2, omega3))
+    made = BallMotion(1, asked.larmor, (asked.omega2, asked.omega3))
     gamma, k_hat = certified(lambda: (made.gamma, made.k_hat), request.digits)
     rows = (
         ("initial angular velocity", r"$m_2/I_0$", made.m2, RATE),

@@ -1,8 +1,19 @@
 """A point of a flying body: the centre of mass, and the point that turns about it."""
 
-from atlas.report.numbers import plain
-from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, column, scaled
+from atlas.report.numbers import Number
+from atlas.report.schema import Record, Vector
+from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, scaled
 from atlas.report.tables.particle import exact_particle
+
+
+class Parameters(Record, frozen=True):
+    """The elementary motion by its omega2, times in s, the point at t = 0, the start of the centre of mass."""
+
+    omega2: float
+    times: tuple[float, ...]
+    point: Vector
+    position: Vector = (0.0, 0.0, 0.0)
+    velocity: Vector = (0.0, 0.0, 0.0)
 
 
 def flight(request: Request) -> Data:
@@ -10,15 +21,12 @@ def flight(request: Request) -> Data:
     from atlas.exact.elementary import ElementaryMotion
     from atlas.exact.flight import Flight
 
-    omega2, times, point, position, velocity = request.take(
-        omega2=None, times=None, point=None, position=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0)
-    )
-    setting = request.setting
-    made = exact_particle(setting, position, velocity)
-    turning = ElementaryMotion(setting.exact, setting.components, omega2)
-    whole = Flight(made, turning, point)
-    unit = setting.units.length_unit if setting.units else ""
-    values = certified(lambda: [(*made.position(t), *whole.position(t)) for t in times], request.digits)
+    asked, case = request.take(Parameters), request.case
+    made = exact_particle(case, asked.position, asked.velocity)
+    turning = ElementaryMotion(case.exact, case.components, asked.omega2)
+    whole = Flight(made, turning, asked.point)
+    unit = case.units.length_unit if case.units else ""
+    values = certified(lambda: [(*made.position(t), *whole.position(t)) for t in asked.times], request.digits)
     unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     return Data(
         (
@@ -26,7 +34,7 @@ def flight(request: Request) -> Data:
             *(Column(f"$y_{{0,{j}}}$", unit) for j in (1, 2, 3)),
             *(Column(f"$y_{{N,{j}}}$", unit) for j in (1, 2, 3)),
         ),
-        tuple(zip(column([plain(t) for t in times], request.digits), *columns, strict=True)),
+        tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
         r"The flight of the centre of mass $\mathbf{y}_0$, @mf10.2, and of the point $\mathbf{y}_N$ of the body.",
         CERTIFIED,
     )

@@ -2,15 +2,16 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias, TypeVar
 
-from atlas.errors import AtlasError
-from atlas.report.load import nearest
+from atlas.report.body_and_field import BodyAndField
 from atlas.report.numbers import Number
-from atlas.report.settings import Setting
+from atlas.report.schema import Record, convert
 
 RATE = r"s$^{-1}$"
 CERTIFIED = "Every digit printed is proven; a value that cannot be proven is starred."
+
+T = TypeVar("T", bound=Record)
 
 
 @dataclass(frozen=True)
@@ -35,66 +36,61 @@ class Data:
 class Request:
     """What a table block asks for: bodies in a field, further parameters, significant digits."""
 
-    settings: Sequence[Setting]
+    cases: Sequence[BodyAndField]
     parameters: Mapping[str, Any]
     digits: int
 
     @property
-    def setting(self) -> Setting:
+    def case(self) -> BodyAndField:
         """The one body and field."""
-        return self.settings[0]
+        return self.cases[0]
 
-    def take(self, **defaults: Any) -> list[Any]:
-        """Return the further parameters, with defaults; None as default means that one must be given."""
-        for name in self.parameters:
-            if name not in defaults:
-                known = ", ".join(defaults) or "none"
-                raise AtlasError(f"unknown parameter {name!r}{nearest(name, list(defaults))}; known are {known}.")
-        values = {**defaults, **self.parameters}
-        for name, value in values.items():
-            if value is None:
-                raise AtlasError(f"the parameter {name!r} is missing.")
-        return list(values.values())
+    def take(self, kind: type[T]) -> T:
+        """Return the further parameters. Raises AtlasError for one that is unknown, missing or of another type."""
+        return convert(dict(self.parameters), kind, "parameters")
 
 
 Maker: TypeAlias = Callable[[Request], Data]
+
+
+def bits(digits: int) -> int:
+    """Return a relative precision far beyond so many digits."""
+    return int(3.33 * digits) + 80
 
 
 def certified(make: Callable[[], Any], digits: int) -> Any:
     """Compute numbers with radii far below the digits to be printed; see `atlas.exact.digits`."""
     from atlas.exact.digits import enclosed
 
-    return enclosed(make, int(3.33 * digits) + 80)
+    return enclosed(make, bits(digits))
 
 
 def column(values: Sequence[Any], digits: int) -> list[Number]:
-    """Print a column: with as many decimals as give its largest entry `digits` significant digits.
+    """Print a column of balls, rationals and floats, which are taken as exact.
 
-    Where entries differ by more than a factor of 10^6, or are very large or small, each has its own power of ten.
-    Strings are inputs and stay as they are.
+    As many decimals are printed as give the largest entry `digits` significant digits. Where entries differ by more
+    than a factor of 10^6, or are very large or small, each has its own power of ten. A Number stays as it is.
     """
-    from atlas.exact.digits import proven
-
-    sizes = [power for power in (_power(value) for value in values if not isinstance(value, str)) if power is not None]
+    sizes = [power for value in values if (power := _power(value)) is not None]
     largest, smallest = max(sizes, default=0), min(sizes, default=0)
-    if -4 <= largest <= 6 and largest - smallest <= 6:
-        return [
-            _number(v if isinstance(v, str) else proven(v, max(digits - 1 - largest, 0), "fixed"), v) for v in values
-        ]
-    return [_number(v if isinstance(v, str) else proven(v, digits, "scientific"), v) for v in values]
+    fixed = -4 <= largest <= 6 and largest - smallest <= 6
+    if fixed:
+        return [_number(value, max(digits - 1 - largest, 0), "fixed") for value in values]
+    return [_number(value, digits, "scientific") for value in values]
 
 
 def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
     """Print columns of one unit; where all are very small or large, a power of ten of thousands joins the unit."""
-    from flint import fmpq
+    from flint import ctx, fmpq
 
     sizes = [power for values in columns for value in values if (power := _power(value)) is not None]
     largest = max(sizes, default=0)
     if -3 <= largest <= 5:
         return unit, [column(values, digits) for values in columns]
     power = 3 * (largest // 3)
-    factor = fmpq(10) ** -power
-    return f"$10^{{{power}}}$ {unit}", [column([value * factor for value in values], digits) for values in columns]
+    with ctx.workprec(2 * bits(digits)):  # the product is as accurate as its factors
+        shifted = [[value * fmpq(10) ** -power for value in values] for values in columns]
+    return f"$10^{{{power}}}$ {unit}", [column(values, digits) for values in shifted]
 
 
 def quantity(value: Any, digits: int) -> Number:
@@ -103,19 +99,25 @@ def quantity(value: Any, digits: int) -> Number:
 
 
 def _power(value: Any) -> int | None:
-    """Return the power of ten of a number, None for zero."""
-    from atlas.exact.digits import proven
+    """Return the power of ten of a number's first digit, None for an input, for zero, and where no digit is proven."""
+    if isinstance(value, Number) or value == 0:
+        return None
+    first = _number(value, 1, "scientific")
+    return int(first.digits.partition("e")[2]) if first.proven else None
 
-    _, _, power = proven(value, 1, "scientific").rstrip("?").partition("e")
-    return int(power) if power else None
 
+def _number(value: Any, digits: int, layout: Literal["fixed", "scientific"]) -> Number:
+    """Return the proven digits of a number; an exact zero has no decimals."""
+    from flint import fmpq
 
-def _number(text: str, value: Any) -> Number:
-    """Take the mark off a number that lacks proven digits; an exact zero has no decimals."""
-    from atlas.exact.digits import MARK, NOT_CERTIFIED
+    from atlas.exact.digits import MARK, NOT_CERTIFIED, printed
 
-    if text == NOT_CERTIFIED:
-        return Number("?", proven=False)
-    if not isinstance(value, str) and value == 0:
+    if isinstance(value, Number):
+        return value
+    if value == 0:
         return Number("0")
-    return Number(text.removesuffix(MARK), proven=not text.endswith(MARK))
+    if isinstance(value, float):
+        value = fmpq(*value.as_integer_ratio())
+    found = printed(value, digits, layout)
+    digits_proven = "" if found.text == NOT_CERTIFIED else found.text.removesuffix(MARK)
+    return Number(digits_proven, proven=found.complete)

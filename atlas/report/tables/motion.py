@@ -1,15 +1,31 @@
 """One elementary motion: its constants, and the body's state at some times."""
 
-from atlas.report.numbers import plain
+from atlas.report.numbers import Number, plain
+from atlas.report.schema import Record
 from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, column, quantity
+
+
+class Motion(Record, frozen=True):
+    """The motion by its omega2, in 1/s; `omega3` where the hyperbola leaves it free."""
+
+    omega2: float
+    omega3: float | None = None
+
+
+class Samples(Record, frozen=True):
+    """The same, and times in s."""
+
+    omega2: float
+    times: tuple[float, ...]
+    omega3: float | None = None
 
 
 def motion(request: Request) -> Data:
     """List initial data, frequencies and integrals mf44 to mf49, mf93 of the motion that starts with `omega2`."""
     from atlas.exact.elementary import ElementaryMotion
 
-    omega2, omega3 = request.take(omega2=None, omega3=())
-    made = ElementaryMotion(request.setting.exact, request.setting.components, omega2, omega3 or None)
+    asked = request.take(Motion)
+    made = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
     k, invariants = certified(lambda: (made.k, made.invariants), request.digits)
     squared = r"s$^{-2}$"
     rows = (
@@ -26,7 +42,7 @@ def motion(request: Request) -> Data:
     return Data(
         (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
         tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
-        rf"The motion with $\omega_2={plain(omega2)}$ s$^{{-1}}$: initial data, frequencies and integrals.",
+        rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$: initial data, frequencies and integrals.",
         CERTIFIED,
     )
 
@@ -35,9 +51,9 @@ def samples(request: Request) -> Data:
     """Omega(t), mf78, and the third axis of the body R_3(t), mf89, at some `times`."""
     from atlas.exact.elementary import ElementaryMotion
 
-    omega2, times, omega3 = request.take(omega2=None, times=None, omega3=())
-    made = ElementaryMotion(request.setting.exact, request.setting.components, omega2, omega3 or None)
-    values = certified(lambda: [(*made.angular_velocity(t), *made.third_axis(t)) for t in times], request.digits)
+    asked = request.take(Samples)
+    made = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
+    values = certified(lambda: [(*made.angular_velocity(t), *made.third_axis(t)) for t in asked.times], request.digits)
     columns = [column(one, request.digits) for one in zip(*values, strict=True)]
     return Data(
         (
@@ -45,8 +61,8 @@ def samples(request: Request) -> Data:
             *(Column(rf"$\Omega_{j}$", RATE) for j in (1, 2, 3)),
             *(Column(rf"$R_{{{j}3}}$", "1") for j in (1, 2, 3)),
         ),
-        tuple(zip(column([plain(t) for t in times], request.digits), *columns, strict=True)),
-        rf"The motion with $\omega_2={plain(omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, @mf78, "
-        r"and the body's axis in the laboratory, the third column of @mf89.",
+        tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
+        rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "
+        r"@mf78, and the body's axis in the laboratory, the third column of @mf89.",
         CERTIFIED,
     )

@@ -5,37 +5,45 @@ from typing import Any
 import numpy as np
 
 from atlas.errors import AtlasError
-from atlas.report.numbers import plain
-from atlas.report.settings import Setting
+from atlas.report.body_and_field import BodyAndField
+from atlas.report.numbers import Number
+from atlas.report.schema import Record, Vector
 from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, column, scaled
 
 
-def exact_particle(setting: Setting, position: Any, velocity: Any) -> Any:
+def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
     """Return the centre of mass of a body in a field that was given as B and E, as a certified motion, mf10.2."""
     from atlas.exact.particle import ParticleMotion
 
-    if setting.physical is None:
+    if case.physical is None:
         raise AtlasError("this needs a field that is given as B (and E), not as B'.")
-    p = setting.physical
-    if setting.frame is not None and not (setting.frame.matrix == np.eye(3)).all():
+    p = case.physical
+    if case.frame is not None and not (case.frame.matrix == np.eye(3)).all():
         raise AtlasError("give B in the laboratory frame: e3 along the body's axis, B in the plane of e2 and e3.")
     return ParticleMotion(p.mu, tuple(p.E), tuple(p.B), position, velocity, p.c)
 
 
+class Parameters(Record, frozen=True):
+    """Times in s, position and velocity at t = 0."""
+
+    times: tuple[float, ...]
+    position: Vector = (0.0, 0.0, 0.0)
+    velocity: Vector = (0.0, 0.0, 0.0)
+
+
 def particle(request: Request) -> Data:
     """Position at some `times` of a particle with this `position` and `velocity` at t = 0, mf5 and mf10."""
-    times, position, velocity = request.take(times=None, position=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0))
-    setting = request.setting
-    made = exact_particle(setting, position, velocity)
-    unit = speed = setting.units.length_unit if setting.units else ""
-    values = certified(lambda: [made.position(t) for t in times], request.digits)
+    asked, case = request.take(Parameters), request.case
+    made = exact_particle(case, asked.position, asked.velocity)
+    unit = speed = case.units.length_unit if case.units else ""
+    values = certified(lambda: [made.position(t) for t in asked.times], request.digits)
     omega, drift = certified(lambda: (made.cyclotron_frequency, list(made.drift)), request.digits)
     unit, columns = scaled(list(zip(*values, strict=True)), unit, request.digits)
     frequency = column([omega], request.digits)[0].tex().strip("$")
     drifts = ",\\ ".join(number.tex().strip("$") for number in column(drift, min(request.digits, 8)))
     return Data(
         (Column("$t$", "s"), *(Column(f"$y_{j}$", unit) for j in (1, 2, 3))),
-        tuple(zip(column([plain(t) for t in times], request.digits), *columns, strict=True)),
+        tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
         "The path of the particle, @mf10.2, in the laboratory frame.",
         rf"Cyclotron frequency $\omega={frequency}$ s$^{{-1}}$, drift "
         rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {speed} s$^{{-1}}$. {CERTIFIED}",

@@ -1,5 +1,6 @@
 """One body's quadric of initial data: its kind and its canonical form, mf58 to mf63."""
 
+from atlas.report.schema import Record
 from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, quantity
 
 
@@ -9,8 +10,8 @@ def quadric(request: Request) -> Data:
 
     from atlas.exact.quadric import Quadric
 
-    request.take()
-    q = Quadric(request.setting.exact, request.setting.components)
+    request.take(Record)
+    q = Quadric(request.case.exact, request.case.components)
     if q.B2 == 0 or q.B3 == 0:
         rows = [("kind", "", q.kind, "")]
     else:
@@ -46,5 +47,5 @@ def quadric(request: Request) -> Data:
 
 def _title(request: Request) -> str:
     """Name the body."""
-    record = request.setting.body_record
+    record = request.case.body_record
     return record.title if record else "body"

@@ -63,6 +63,8 @@ class Case:
     exact: Callable[[float], list[Any]]
     scale: Callable[[FloatArray], FloatArray]
     closed: tuple[Method, ...]
+    base: Callable[[], Solve] | None = None
+    """What times are compared with, if none of the closed forms is plain NumPy."""
 
     @property
     def size(self) -> int:

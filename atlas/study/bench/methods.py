@@ -17,7 +17,12 @@ TITLES = {
     "fill": "filling the memory",
 }
 
-CASES = {"elementary": "elementary motion", "ball": "charged ball", "particle": "charged particle"}
+CASES = {
+    "elementary": "elementary motion",
+    "general": "general motion",
+    "ball": "charged ball",
+    "particle": "charged particle",
+}
 
 LINES = {
     "ours": "main",

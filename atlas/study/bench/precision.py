@@ -44,8 +44,8 @@ class Bench:
         """Compute what all methods share."""
         grids = {horizon: grid(horizon, plan.samples) for horizon in plan.horizons}
         truths = {horizon: reference(case, g) for horizon, g in grids.items()}
-        plain = next(method for method in case.closed if method.name == "plain")
-        return cls(case, plan, grids, truths, plain.prepare())
+        plain = case.base or next(method for method in case.closed if method.name == "plain").prepare
+        return cls(case, plan, grids, truths, plain())
 
 
 def closed(bench: Bench) -> Iterator[Setup | Run]:

@@ -7,17 +7,18 @@ import os
 import platform
 import re
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Literal, TypeAlias
 
 import msgspec
 
+from atlas import __version__, files
 from atlas.errors import AtlasError
+from atlas.libraries import release
 from atlas.places import folder
 
 FORMAT = 1
-PACKAGES = ("numpy", "scipy", "sympy", "python-flint", "heyoka")
+PEERS = ("numpy", "scipy", "sympy", "python-flint", "heyoka")
 Status: TypeAlias = Literal["done", "failed", "timed out", "skipped"]
 
 
@@ -85,6 +86,17 @@ class Cost(Item, frozen=True):
     note: str = ""
 
 
+class Rows(Item, frozen=True):
+    """Nanoseconds a row for a quantity of ``count`` motions, and the largest error in ulps among a few of them."""
+
+    quantity: str
+    method: str
+    count: int
+    error: float
+    nanoseconds: float
+    to_plain: float
+
+
 class Check(Item, frozen=True):
     """The reference on trial: its largest distance from a Taylor integration in ball arithmetic up to ``until``."""
 
@@ -108,6 +120,7 @@ class Record(Item, frozen=True):
     runs: list[Run]
     setups: list[Setup]
     costs: list[Cost]
+    rows: list[Rows] = []
 
 
 def stored() -> Path:
@@ -133,10 +146,7 @@ def write(record: Record, path: Path) -> None:
         many = isinstance(value, list)
         rows = ",\n".join(f"  {msgspec.json.encode(item).decode()}" for item in value) if many else ""
         parts.append(f' "{name}": [\n{rows}\n ]' if many else f' "{name}": {msgspec.json.encode(value).decode()}')
-    path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f"{path.name}.{os.getpid()}")
-    beside.write_text("{\n" + ",\n".join(parts) + "\n}\n", encoding="utf-8")
-    beside.replace(path)
+    files.write(path, "{\n" + ",\n".join(parts) + "\n}\n")
 
 
 def machine() -> Machine:
@@ -155,8 +165,8 @@ def machine() -> Machine:
 
 def versions() -> dict[str, str]:
     """Versions of Python, of the atlas and of every peer; one that is not installed is said to be absent."""
-    found = {"python": platform.python_version(), "atlas": _version("atlas-charged-body")}
-    return found | {name: _version(name) for name in PACKAGES}
+    found = {"python": platform.python_version(), "atlas": __version__}
+    return found | {name: release(name) or "absent" for name in PEERS}
 
 
 def today() -> str:
@@ -167,13 +177,6 @@ def today() -> str:
 def said(error: Exception) -> str:
     """Return what a peer raised, in one line."""
     return " ".join(f"{type(error).__name__}: {error}".split())
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "absent"
 
 
 def _processor() -> str:

@@ -18,7 +18,7 @@ from atlas.study.bench.case import Case, FloatArray, Grid
 
 BITS = 256
 ORDER = 40
-STEP = 0.25
+STEP = 0.125
 
 
 @dataclass(frozen=True)

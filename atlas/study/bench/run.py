@@ -8,17 +8,17 @@ from typing import TypeAlias, TypeVar
 from msgspec.structs import replace
 
 from atlas.errors import AtlasError
-from atlas.study.bench import ball, elementary, particle
+from atlas.study.bench import arrays, ball, elementary, general, particle
 from atlas.study.bench.case import Case
 from atlas.study.bench.cost import costs
 from atlas.study.bench.integrators import Integrator, integrators
 from atlas.study.bench.precision import Bench, Plan, closed, stepping
-from atlas.study.bench.record import FORMAT, Check, Cost, Record, Run, Setup, machine, today, versions
+from atlas.study.bench.record import FORMAT, Check, Cost, Record, Rows, Run, Setup, machine, today, versions
 from atlas.study.bench.reference import check
 
-CASES = {"elementary": elementary.case, "ball": ball.case, "particle": particle.case}
+CASES = {"elementary": elementary.case, "general": general.case, "ball": ball.case, "particle": particle.case}
 
-Row = TypeVar("Row", Check, Run, Setup, Cost)
+Row = TypeVar("Row", Check, Run, Setup, Cost, Rows)
 
 Progress: TypeAlias = Callable[[int, int, str], None]
 """Called with the number of steps done, of all steps, and what comes next."""
@@ -33,6 +33,7 @@ class Scope:
     counts: tuple[int, ...]
     most_rounds: int
     cost_limit: float
+    rows: int
 
     def rounds(self, count: int) -> int:
         """Fewer rounds where one takes long, but at least three."""
@@ -51,6 +52,7 @@ FULL = Scope(
     counts=(1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000),
     most_rounds=11,
     cost_limit=4.0,
+    rows=1_000_000,
 )
 QUICK = Scope(
     Plan(horizons=(1e2, 1e4, 1e8), tolerances=(1e-3, 1e-8, 1e-14), samples=256, rounds=3, limit=0.3),
@@ -58,6 +60,7 @@ QUICK = Scope(
     counts=(1, 1_000, 100_000),
     most_rounds=5,
     cost_limit=0.2,
+    rows=20_000,
 )
 
 
@@ -81,7 +84,7 @@ def run(
     scope = scope or (QUICK if quick else FULL)
     peers = integrators() if peers is None else peers
     counts = scope.counts if any(case.name == "elementary" for case in chosen) else ()
-    total, done = len(chosen) * (len(peers) + 2) + len(counts), 0
+    total, done = len(chosen) * (len(peers) + 2) + len(counts) + bool(counts), 0
 
     def say(what: str) -> None:
         nonlocal done
@@ -102,6 +105,10 @@ def run(
     for count in counts:
         say(f"the cost of {count} matrices")
         prices.extend(costs(count, scope.rounds(count), scope.cost_limit, prices))
+    many = list[Rows]()
+    if counts:
+        say(f"{scope.rows} motions at once")
+        many.extend(arrays.rows(scope.rows, scope.rounds(scope.rows)))
     if progress is not None:
         progress(total, total, "done")
     return Record(
@@ -120,6 +127,7 @@ def run(
         runs=[_short(row) for row in rows if isinstance(row, Run)],
         setups=[_short(row) for row in rows if isinstance(row, Setup)],
         costs=[_short(price) for price in prices],
+        rows=[_short(row) for row in many],
     )
 
 

@@ -28,6 +28,7 @@ def tables(record: Record) -> list[Table]:
         *_precision(record),
         _setups(record),
         *_costs(record),
+        _rows(record),
         _failures(record),
     ]
     return [table for table in every if table.rows]
@@ -113,6 +114,21 @@ def _costs(record: Record) -> Iterable[Table]:
             row[counts.index(cost.count)] = number(getattr(cost, field))
         shown = tuple((title(name), str(threads), *row) for (name, threads), row in rows.items())
         yield Table(f"{what}, against their number", heading, shown)
+
+
+def _rows(record: Record) -> Table:
+    """Show error and time a row of many motions at once, ours beside the plain formula."""
+    rows = [
+        (
+            item.quantity,
+            title(item.method),
+            f"{item.count:.0e}",
+            *map(number, (item.error, item.nanoseconds, item.to_plain)),
+        )
+        for item in record.rows
+    ]
+    heading = ("quantity", "method", "rows", "largest error (ulp)", "ns a row", "over plain NumPy")
+    return Table("Many motions at once, one core", heading, tuple(rows))
 
 
 def _failures(record: Record) -> Table:

@@ -1,0 +1,100 @@
+"""A folder of what was built, each thing in a file named after the digest of everything it depends on.
+
+An entry begins with the digest of what follows. It is written whole or not at all, and checked when it is read: one
+that was damaged counts as missing and is made again. Two processes that write the same entry do no harm. The folder
+may be deleted at any time.
+
+It is not diskcache, which has had no release since 2023 and unpickles what it reads (CVE-2025-69872), nor
+joblib.Memory, which pickles too: nothing that is read here can run code.
+"""
+
+import hashlib
+import json
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import Any
+
+from atlas import files
+
+NAME = ".cache"
+"""The folder beside what is built."""
+DAY = 24 * 3600.0
+UNUSED = 90 * DAY
+"""Seconds after which an entry that nobody has read is removed; what a killed build left goes after a day."""
+
+
+def digest(*parts: Any) -> str:
+    """Return the digest of values that JSON can write, the same on every machine."""
+    text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+class Cache:
+    """Entries by key, a digest."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder.absolute()
+
+    def get(self, key: str) -> bytes | None:
+        """Return the entry of a key, or None if there is none or it is damaged."""
+        path = self._path(key)
+        try:
+            expected, _, content = path.read_bytes().partition(b"\n")
+            if time.time() - path.stat().st_mtime > DAY:
+                os.utime(path)  # it is in use
+        except OSError:
+            return None
+        return content if _hash(content) == expected else None
+
+    def put(self, key: str, content: bytes) -> bytes:
+        """Write the entry of a key, and return it."""
+        files.write(self._path(key), _hash(content) + b"\n" + content)
+        return content
+
+    def recall(self, key: str, make: Callable[[], bytes]) -> bytes:
+        """Return the entry of a key, made now if there is none."""
+        found = self.get(key)
+        return self.put(key, make()) if found is None else found
+
+    def load(self, name: str) -> Any:
+        """Return the value that was saved under a name, an empty dictionary if there is none."""
+        content = self.get(digest("name", name))
+        return {} if content is None else json.loads(content)
+
+    def save(self, name: str, value: Any) -> None:
+        """Save a value that JSON can write under a name, in place of the last one."""
+        if self.load(name) != value:
+            self.put(digest("name", name), json.dumps(value).encode())
+
+    @contextmanager
+    def temporary(self) -> Iterator[Path]:
+        """Give an empty folder, which is removed afterwards."""
+        (self.folder / "tmp").mkdir(parents=True, exist_ok=True)
+        if not (self.folder / ".gitignore").exists():
+            files.write(self.folder / ".gitignore", "*\n")
+        folder = Path(mkdtemp(dir=self.folder / "tmp"))
+        try:
+            yield folder
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+
+    def prune(self) -> None:
+        """Remove what has not been used for long."""
+        now = time.time()
+        for path in (*self.folder.glob("??/*"), *self.folder.glob("??/.*"), *self.folder.glob("tmp/*")):
+            with suppress(FileNotFoundError):  # another build has removed it
+                unfinished = path.parent.name == "tmp" or path.name.startswith(".")
+                if now - path.stat().st_mtime > (DAY if unfinished else UNUSED):
+                    shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+    def _path(self, key: str) -> Path:
+        return self.folder / key[:2] / key
+
+
+def _hash(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode()

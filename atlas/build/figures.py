@@ -1,0 +1,215 @@
+"""Figures: what each depends on, taken from the cache or drawn by worker processes side by side."""
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import as_completed
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from atlas import files, processes
+from atlas.build import cache as caches
+from atlas.build import worker
+from atlas.build.cache import Cache, digest
+from atlas.build.sources import PACKAGE, Sources
+from atlas.errors import AtlasError
+from atlas.libraries import versions
+from atlas.places import folder, settle_matplotlib
+
+OUT = Path("build/figures")
+FORMATS = ("svg", "pdf", "png")
+MOST = 8
+"""As many workers as there may be when the user does not say how many."""
+Progress = Callable[[int, int, str], None]
+
+
+@dataclass(eq=False)
+class Figure:
+    """A figure that is wanted in some kinds of files (svg, pdf, png), and what became of it.
+
+    `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
+    """
+
+    recipe: str
+    parameters: Mapping[str, Any]
+    renderer: str
+    kinds: tuple[str, ...]
+    style: str | None = None
+    parts: Mapping[str, str] = field(default_factory=dict)
+    keys: Mapping[str, str] = field(default_factory=dict)
+    contents: dict[str, bytes] = field(default_factory=dict)
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    new: bool = False
+    why: str = "nothing it depends on has changed"
+    failure: str = ""
+
+    @property
+    def name(self) -> str:
+        """The recipe's name and what distinguishes this figure, for people."""
+        from atlas.report.numbers import shown
+
+        settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
+        return f"{self.recipe}({settings})" + (" shaded" if self.renderer == "shaded" else "")
+
+    @property
+    def reason(self) -> str:
+        """Say whether it was drawn or taken, and why."""
+        return f"failed: {self.failure}" if self.failure else f"{'drawn' if self.new else 'taken'}: {self.why}"
+
+    def missing(self) -> dict[str, str]:
+        """Return the keys of the files that are not there yet, by kind."""
+        return {kind: key for kind, key in self.keys.items() if kind not in self.contents}
+
+    def take(self, cache: Cache) -> None:
+        """Take from the cache what it has."""
+        for kind, key in self.missing().items():
+            entry = cache.get(key)
+            if entry is not None:
+                self.facts, self.contents[kind] = worker.read(entry)
+
+
+def parts_of(figure: Figure, sources: Sources, gl: str | None) -> dict[str, str]:
+    """Return what a figure depends on, each part as a digest under its name."""
+    from atlas.scene import recipes
+
+    drawing = [path for path in (PACKAGE / "draw").rglob("*") if path.suffix not in {".py", ".pyc"}]
+    try:
+        records = recipes.load(figure.recipe).records
+    except AtlasError:
+        records = ()  # it can't be drawn, which is told when that is tried
+    return {
+        "parameters": digest(figure.parameters),
+        "recipe and kernels": sources.closure([folder("figures") / f"{figure.recipe}.py"]),
+        "records": sources.closure(folder("reports") / "data" / name for name in records),
+        "drawing code": sources.closure([PACKAGE / "build" / "worker.py", *filter(Path.is_file, drawing)]),
+        "style": sources.named(figure.style),
+        "libraries": digest(sys.version_info[:2], versions()),
+        "renderer": digest(figure.renderer, gl if figure.renderer == "shaded" else None),
+    }
+
+
+def find(figures: Sequence[Figure], cache: Cache, sources: Sources, gl: str | None) -> None:
+    """Take from the cache what there is of some figures, and note why the rest must be drawn."""
+    for figure in figures:
+        figure.parts = parts_of(figure, sources, gl)
+        figure.keys = {kind: digest(figure.recipe, figure.parts, kind) for kind in figure.kinds}
+        figure.take(cache)
+        if figure.missing():
+            before = cache.load(figure.name)
+            changed = [part for part, value in figure.parts.items() if before.get(part) != value]
+            figure.why = f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"
+            figure.why = figure.why if before else "it was never drawn here"
+        cache.save(figure.name, figure.parts)
+    sources.save()
+
+
+def draw(figures: Sequence[Figure], cache: Cache, jobs: int, progress: Progress) -> None:
+    """Draw what is missing of some figures: a single one in this process, several by as many workers as `jobs`.
+
+    What is shaded is drawn first, for it takes longest. Raises OSError when the cache can't be written.
+    """
+    wanted = sorted((one for one in figures if one.missing()), key=lambda one: one.renderer != "shaded")
+    for done, (figure, failure) in enumerate(_drawn(wanted, cache, jobs), len(figures) - len(wanted) + 1):
+        figure.new, figure.failure = True, failure
+        figure.take(cache)
+        if figure.missing() and not failure:
+            raise OSError(f"what was drawn is not in {cache.folder}; was it removed?")
+        progress(done, len(figures), figure.recipe)
+
+
+def _drawn(figures: Sequence[Figure], cache: Cache, jobs: int) -> Iterator[tuple[Figure, str]]:
+    """Draw figures, and go through them as they are finished, each with the reason if it failed.
+
+    If a worker dies, what was not finished is drawn again by a single one, so that it is known which figure it is that
+    kills its process; the others are drawn.
+    """
+    settle_matplotlib()
+    waiting = {
+        one: worker.Task(one.recipe, one.parameters, one.renderer, one.style, one.missing(), cache.folder)
+        for one in figures
+    }
+    workers = min(jobs, len(waiting))
+    while waiting:
+        pool = processes.pool(workers, worker.begin) if len(figures) > 1 else None
+        if pool is None:
+            yield from ((figure, worker.draw(task)) for figure, task in waiting.items())
+            return
+        broken = False
+        try:
+            futures = {pool.submit(worker.draw, task): figure for figure, task in waiting.items()}
+            for future in as_completed(futures):
+                try:
+                    failure = future.result()
+                except BrokenProcessPool:
+                    broken = True
+                else:
+                    del waiting[futures[future]]
+                    yield futures[future], failure
+        finally:
+            pool.shutdown(cancel_futures=True)
+        if broken and workers == 1:
+            figure = next(iter(waiting))
+            del waiting[figure]
+            yield figure, "the process that drew it came to a sudden end"
+        workers = 1
+
+
+def cores() -> int:
+    """Return how many workers there are when the user does not say: one a core, within reason."""
+    return min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, MOST)
+
+
+@dataclass(frozen=True)
+class Files:
+    """What became of a figure by itself: its files, what drew them, a line for the user, and why; or its failure."""
+
+    name: str
+    files: tuple[Path, ...] = ()
+    renderer: str = ""
+    note: str = ""
+    reason: str = ""
+    failure: str = ""
+
+
+def build_figures(
+    names: Sequence[str],
+    formats: Sequence[str] = FORMATS,
+    out: Path = OUT,
+    *,
+    renderer: str = "vector",
+    parameters: Mapping[str, Any] | None = None,
+    style: str | None = None,
+    jobs: int | None = None,
+    progress: Progress = lambda _done, _total, _name: None,
+) -> list[Files]:
+    """Put each of the recipes into out/NAME.FORMAT for each format, each file whole or not at all.
+
+    `style` is a style sheet of Matplotlib, a file or a name, applied on top of the package's own. `jobs` of them are
+    drawn at once, one a core when it is not given. What the cache in `out` has is not drawn again.
+    A figure that fails does not stop the others. Raises AtlasError for a shaded figure that is no PNG.
+    """
+    other = [one for one in formats if one != "png"]
+    if renderer == "shaded" and other:
+        raise AtlasError(f"a shaded figure is a PNG; {other[0]!r} is drawn by the vector renderer")
+    from atlas.draw import gl
+
+    cache = Cache(out / caches.NAME)
+    cache.prune()
+    figures = [Figure(name, parameters or {}, renderer, tuple(formats), style) for name in names]
+    find(figures, cache, Sources(cache), gl.library())
+    draw(figures, cache, jobs or cores(), progress)
+    return [_put(figure, out) for figure in figures]
+
+
+def _put(figure: Figure, out: Path) -> Files:
+    """Put the files of a figure in their places, if they are not there."""
+    name = figure.recipe
+    if figure.failure:
+        return Files(name, reason=figure.reason, failure=figure.failure)
+    paths = {kind: out / f"{name}.{kind}" for kind in figure.kinds}
+    for kind, path in paths.items():
+        if not path.is_file() or path.read_bytes() != figure.contents[kind]:
+            files.write(path, figure.contents[kind])
+    return Files(name, tuple(paths.values()), figure.facts["renderer"], figure.facts["note"], figure.reason)

@@ -1,0 +1,242 @@
+"""The records that a report shows: verdicts of the trial, the benchmark, the worst errors of the stress runs.
+
+They are read, never made anew: `atlas verify --record`, `atlas bench` and `atlas stress` make them.
+"""
+
+import json
+import math
+import re
+from collections import Counter, defaultdict
+from collections.abc import Sequence
+from statistics import median
+
+from atlas.build.sources import PACKAGE
+from atlas.errors import AtlasError
+from atlas.paper import EQUATIONS, LABEL
+from atlas.places import folder
+from atlas.report.blocks import Errata, Ledger, Recorded
+from atlas.report.definition import Report
+from atlas.report.letters import typeset
+from atlas.report.numbers import Number
+from atlas.report.recorded import Appendices, Finding
+from atlas.report.tables.model import Column, Data
+
+_DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+_POWER = re.compile(r"1e\+?(-?)0*(\d+)")
+BEST, HUGE, SMALL = 0.5, 1e3, 1e-2
+"""Half an ulp is as good as a rounded number can be; beyond the other two a power of ten is written."""
+_SECTIONS = {"VII": "Appendix", "Atlas": "Atlas"}
+
+
+def gather(report: Report) -> Appendices:
+    """Read what the blocks of a report show, and nothing else."""
+    blocks = [block for page in report.pages for block in page.blocks]
+    trial = any(isinstance(block, Ledger | Errata) for block in blocks)
+    wanted = {block.source for block in blocks if isinstance(block, Recorded)}
+    tables: dict[str, Data] = {}
+    for source, read in {"trial": _trial, "bench": _bench, "stress": _stress, "rebuilds": _rebuilds}.items():
+        if source in wanted:
+            tables |= {f"{source}: {name}": data for name, data in read().items()}
+    return Appendices(_findings() if trial else {}, tables)
+
+
+def _findings() -> dict[str, Finding]:
+    """Return what the trial recorded on each entry."""
+    from atlas.proof import record
+    from atlas.proof.survivors import reason
+
+    mutants, modules = record.load_mutants(), _modules()
+    findings = {}
+    for label, verdict in record.load().items():
+        changed = mutants.get(label)
+        findings[label] = Finding(
+            verdict.verdict,
+            verdict.method,
+            verdict.follows,
+            verdict.corrected_tex,
+            verdict.corrected_verdict,
+            verdict.counterexample,
+            verdict.note,
+            changed.tried if changed else 0,
+            changed.noticed if changed else 0,
+            " ".join(dict.fromkeys(reason(label, line) for _, line, _ in changed.survivors)) if changed else "",
+            modules.get(label, ()),
+            verdict.grade,
+            verdict.slip,
+        )
+    return findings
+
+
+def _modules() -> dict[str, tuple[str, ...]]:
+    """Return for each label the modules of the kernels and of the balls whose docstrings cite it."""
+    found: defaultdict[str, list[str]] = defaultdict(list)
+    for floor in ("core", "exact"):
+        for path in sorted((PACKAGE / floor).rglob("*.py")):
+            text = " ".join(_DOCSTRING.findall(path.read_text("utf-8")))
+            for label in dict.fromkeys(LABEL.findall(text)):
+                found[label].append(path.relative_to(PACKAGE).as_posix())
+    return {label: tuple(paths) for label, paths in found.items()}
+
+
+def _trial() -> dict[str, Data]:
+    """Return the verdicts in numbers, section by section, and what survived the changes."""
+    from atlas.proof import record
+    from atlas.proof.survivors import reason
+    from atlas.proof.verdict import slips
+
+    verdicts, mutants = record.load(), record.load_mutants()
+    kinds = ("proved", "definition", "refuted", "supported", "undecided")
+    totals: defaultdict[str, Counter[str]] = defaultdict(Counter)
+    for label, entry in EQUATIONS.items():
+        changed = mutants.get(label)
+        for key in (entry.section, "all"):
+            totals[key]["entries"] += 1
+            totals[key][verdicts[label].verdict if label in verdicts else "undecided"] += 1
+            totals[key]["tried"] += changed.tried if changed else 0
+            totals[key]["noticed"] += changed.noticed if changed else 0
+    totals["All"] = totals.pop("all")
+    heads = ("Section", "Entries", *(kind.capitalize() for kind in kinds), "Changes tried", "Noticed", "Survivors")
+    rows: list[tuple[str | Number, ...]] = []
+    for key, count in totals.items():
+        count["left"] = count["tried"] - count["noticed"]
+        numbers = (Number(str(count[name])) for name in ("entries", *kinds, "tried", "noticed", "left"))
+        rows.append((_SECTIONS.get(key, key), *numbers))
+    reasons: defaultdict[str, Counter[str]] = defaultdict(Counter)
+    for label, changed in mutants.items():
+        for _, line, _ in changed.survivors:
+            reasons[reason(label, line) or "Not explained."][label] += 1
+    return {
+        "totals": Data(tuple(map(Column, heads)), tuple(rows), "The trial in numbers."),
+        "survivors": Data(
+            (Column("Why they survive"), Column("Entries, with the number of survivors")),
+            tuple(
+                (typeset(why), ", ".join(f"@{label} ({count})" for label, count in counts.items()))
+                for why, counts in reasons.items()
+            ),
+            "Changed forms that the trial does not refute.",
+        ),
+        "slips": Data(
+            (Column("What is wrong"), Column("Slips"), Column("Entries")),
+            tuple(
+                (
+                    grade.capitalize(),
+                    Number(str(len(labels))),
+                    ", ".join(
+                        f"@{label}" for label, verdict in verdicts.items() if verdict.grade and grade == verdict.grade
+                    ),
+                )
+                for grade, labels in slips(verdicts.values()).items()
+            ),
+            "Distinct slips by grade; several entries may share one.",
+        ),
+    }
+
+
+def _bench() -> dict[str, Data]:
+    """Return the tables of the stored benchmark by their titles."""
+    from atlas.study.bench import record, tables
+
+    stored = record.read()
+    line = f"Measured on {tables.machine_line(stored)}."
+    found = {}
+    for table in tables.tables(stored):
+        columns = [_column(values) for values in zip(*table.rows, strict=True)]
+        found[table.title] = Data(
+            tuple(map(_head, table.heading)),
+            tuple(zip(*columns, strict=True)),
+            f"{table.title}.",
+            " ".join([*table.notes, line]),
+        )
+    return found
+
+
+def _stress() -> dict[str, Data]:
+    """Return the worst error of each quantity on record, and the regime in which it was met."""
+    from atlas.study.stress import LIMITS, LONG, SHORT, read_ratchet
+
+    worst: dict[str, tuple[float, str]] = {}
+    for name, ulps in read_ratchet().items():
+        quantity, _, regime = name.partition(" | ")
+        worst[quantity] = max(worst.get(quantity, (-1.0, "")), (ulps, regime))
+    order = [*(name for name in LIMITS if name in worst), *(name for name in worst if name not in LIMITS)]
+    rows: tuple[tuple[str | Number, ...], ...] = tuple(
+        (
+            typeset(name),
+            _ulps(worst[name][0]),
+            Number(f"{LIMITS[name]:g}") if name in LIMITS else "none",
+            _met(name, *worst[name]),
+        )
+        for name in order
+    )
+    note = (
+        f"Worst of {LONG[0]:,} values (seed {LONG[1]}) and of {SHORT[0]:,} (seed {SHORT[1]}), rounded up. Half a unit "
+        "is on record where less was found."
+    )
+    columns = (Column("Quantity"), Column("Worst error", "ulp"), Column("Limit", "ulp"), Column("Met where"))
+    return {"worst errors": Data(columns, rows, "Worst errors on record.", note)}
+
+
+def _rebuilds() -> dict[str, Data]:
+    """Return how long changes of many kinds took, and what each made anew."""
+    path = folder("reports") / "data" / "rebuilds.json"
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise AtlasError(f"There is no record {path.name}: run make rebuilds.") from error
+    rows: tuple[tuple[str | Number, ...], ...] = tuple(
+        (
+            one["name"][:1].upper() + one["name"][1:],
+            f"`{one['command']}`",
+            Number(str(one["figures"])),
+            Number(str(one["pages"])),
+            "set" if one["pdf"] else "",
+            Number(f"{median(one['seconds']):.2f}"),
+        )
+        for one in record["changes"]
+    )
+    heads = ("What changed", "Command", "Figures", "Pages", "PDF")
+    columns = (*map(Column, heads), Column("Median time", "s"))
+    one, two, drawings = (record["cold"][name] for name in ("one", "two", "drawings"))
+    note = (
+        f"The whole atlas from nothing takes {two:.1f} s on two cores and {one:.1f} s on one, {one / two:.2f} times as "
+        f"long. Its figures alone take {drawings:.1f} s of one core; the whole takes {one / drawings:.2f} times that. "
+        f"Measured on {record['machine']}, on {record['date']}."
+    )
+    return {"changes": Data(columns, rows, "What a change makes anew, and how long that takes.", note)}
+
+
+def _met(quantity: str, ulps: float, regime: str) -> str:
+    """Say where the worst error was met, if it is one, and whether it breaks a promise."""
+    from atlas.study.stress import LIMITS
+
+    broken = "**limit exceeded:** " if ulps > LIMITS.get(quantity, math.inf) else ""
+    return broken + _words(typeset(regime)) if ulps > BEST else ""
+
+
+def _ulps(worst: float) -> Number:
+    """Write an error in ulps; one beyond all bounds with its power of ten."""
+    if not worst:
+        return Number("0")
+    return Number(f"{worst:.3f}" if worst < HUGE else f"{worst:.1e}")
+
+
+def _column(texts: Sequence[str]) -> list[str | Number]:
+    """Return the cells of a column, numbers where they are such."""
+    return [_value(float(text), text) if _NUMBER.fullmatch(text) else _words(text) for text in texts]
+
+
+def _value(value: float, text: str) -> Number:
+    """Return a number as it stands, a small one in two digits with its power of ten."""
+    return Number(f"{value:.1e}" if 0 < abs(value) < SMALL else text)
+
+
+def _head(text: str) -> Column:
+    """Return the head of a column."""
+    return Column(_words(text[:1].upper() + text[1:]))
+
+
+def _words(text: str) -> str:
+    """Write out what is plain in a terminal."""
+    text = re.sub(r"\(us\b", "(µs", text)
+    return _POWER.sub(lambda match: f"$10^{{{match[1]}{match[2]}}}$", text)

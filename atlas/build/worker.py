@@ -1,0 +1,130 @@
+"""What a worker process does: it computes the scene of a figure, draws it, and puts the files into the cache."""
+
+import json
+import multiprocessing
+import os
+import resource
+import signal
+import sys
+import time
+import warnings
+from collections.abc import Mapping
+from contextlib import redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Thread
+from typing import Any
+
+from atlas.build.cache import Cache
+from atlas.errors import AtlasError
+from atlas.places import settle_matplotlib
+from atlas.scene import Curve, Image, Points, Region, Scene, Surface, recipes
+
+
+@dataclass(frozen=True)
+class Task:
+    """A figure to be drawn: its recipe, parameters and style, and for each kind of file its key in the cache."""
+
+    recipe: str
+    parameters: Mapping[str, Any]
+    renderer: str
+    style: str | None
+    keys: Mapping[str, str]
+    cache: Path
+
+
+def draw(task: Task) -> str:
+    """Draw a figure into the cache; return in a sentence why that is not possible, or nothing.
+
+    Raises OSError when the cache can't be written: that is no fault of the figure.
+    """
+    try:
+        with redirect_stdout(sys.stderr):  # what a recipe or a library prints is no result
+            _draw(task)
+    except OSError:
+        raise
+    except AtlasError as error:
+        return " ".join(str(error).split())
+    except SystemExit as error:
+        return f"its recipe ended with exit status {error}"
+    except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
+        return f"{type(error).__name__}: {error}"
+    return ""
+
+
+def _draw(task: Task) -> None:
+    settle_matplotlib()
+    from atlas.draw.files import choose, save
+
+    start = time.perf_counter()
+    scene = recipes.load(task.recipe).scene(**task.parameters)
+    computed = time.perf_counter()
+    cache = Cache(task.cache)
+    with cache.temporary() as folder:
+        paths = {kind: folder / f"figure.{kind}" for kind in task.keys}
+        renderer, note = choose(scene, task.renderer)
+        save(scene, {path: kind for kind, path in paths.items()}, task.renderer, task.style)
+        contents = {kind: path.read_bytes() for kind, path in paths.items()}
+    facts = {
+        "title": scene.title,
+        "caption": scene.caption,
+        "alt": scene.alt,
+        "size": scene.size,
+        "parameters": scene.parameters,
+        "renderer": renderer,
+        "note": note,
+        "cost": {
+            "points": points(scene),
+            "faces": faces(scene),
+            "compute_s": computed - start,
+            "draw_s": time.perf_counter() - computed,
+            "memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+            "bytes": sum(map(len, contents.values())),
+        },
+    }
+    for kind, key in task.keys.items():
+        cache.put(key, json.dumps(facts).encode() + b"\n" + contents[kind])
+
+
+def points(scene: Scene) -> int:
+    """Return how many points of curves, regions and marks a scene holds."""
+    count = 0
+    for layer in (layer for panel in scene.panels for layer in panel.layers):
+        if isinstance(layer, Curve | Points | Region):
+            count += len(layer.points)
+        elif isinstance(layer, Surface):
+            count += sum(map(len, (*layer.wires, *layer.rims)))
+    return count
+
+
+def faces(scene: Scene) -> int:
+    """Return how many faces of surfaces and cells of maps a scene holds."""
+    count = 0
+    for layer in (layer for panel in scene.panels for layer in panel.layers):
+        if isinstance(layer, Surface):
+            count += sum((grid.shape[0] - 1) * (grid.shape[1] - 1) for grid in layer.grids)
+        elif isinstance(layer, Image):
+            count += int(layer.values.size)
+    return count
+
+
+def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
+    """Return what is noted of a figure, and the file, from its entry in the cache."""
+    facts, _, content = entry.partition(b"\n")
+    return json.loads(facts), content
+
+
+def begin() -> None:
+    """Prepare a worker process: it ends with the process that started it, which alone decides what Ctrl-C means."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    if not sys.warnoptions:  # as on the command line: a float that overflows is told by what shows it
+        warnings.simplefilter("ignore", RuntimeWarning)
+    Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -1,0 +1,39 @@
+"""Letters that the terminal's encoding does not have: written in ASCII, as near as it gets."""
+
+import codecs
+import sys
+from collections.abc import Mapping
+
+NAME = "atlas"
+NEAR: Mapping[str, str] = {
+    "−": "-",
+    "–": "-",
+    "—": "-",
+    "×": "x",
+    "·": "*",
+    "→": "->",
+    "≤": "<=",
+    "≥": ">=",
+    "′": "'",
+    "µ": "u",
+}
+
+
+def write_plainly() -> None:
+    """Let standard output and standard error never fail over a letter."""
+    codecs.register_error(NAME, _replaced)
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors=NAME)
+
+
+def _replaced(error: UnicodeError) -> tuple[str, int]:
+    """Return what is written in the place of the letters that can't be."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    from unicodedata import normalize
+
+    letters = error.object[error.start : error.end].translate(str.maketrans(dict[str, str | int | None](NEAR)))
+    near = "".join(normalize("NFKD", letter).encode("ascii", "ignore").decode() or "?" for letter in letters)
+    return near, error.end

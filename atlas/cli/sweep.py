@@ -1,0 +1,161 @@
+"""``atlas sweep``: quantities over a grid or a list of parameters, as a table in a file."""
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import click
+
+from atlas.cli.options import REAL, Command, Place, examples
+from atlas.cli.progress import bar
+
+
+@click.command(
+    "sweep",
+    cls=Command,
+    epilog=examples(
+        "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "
+        "--quantity stability --out map.npz",
+        "atlas sweep ball --list launches.csv --quantity gamma --digits 30 --out gamma.csv",
+        "atlas sweep --file sweep.toml",
+    ),
+)
+@click.argument("family", required=False)
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="NAME=VALUES",
+    help="A parameter: one number, several with commas, or START:STOP:COUNT; :log for even steps of the logarithm.",
+)
+@click.option("--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading.")
+@click.option("--quantity", "quantities", multiple=True, metavar="NAME", help="What to compute; may be repeated.")
+@click.option("--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file.")
+@click.option("--out", type=Place(dir_okay=False, path_type=Path), help="The table: .csv, .npz or .parquet.")
+@click.option("--digits", type=click.IntRange(1, 1000), help="So many certified significant digits, as text.")
+@click.option("--rows", type=click.IntRange(1), default=None, help="Rows a part, kept until the table is whole.")
+@click.option("--jobs", "-j", type=click.IntRange(min=1), default=None, help="Processes; else one a core.")
+def command(
+    family: str | None,
+    settings: tuple[str, ...],
+    listing: Path | None,
+    quantities: tuple[str, ...],
+    toml: Path | None,
+    out: Path | None,
+    digits: int | None,
+    rows: int | None,
+    jobs: int | None,
+) -> None:
+    """Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
+
+    FAMILY is elementary, free, quadric, ball or particle; a wrong name of a parameter or quantity is answered with the
+    right ones. What is done is kept in the folder OUT.parts: a sweep that was stopped goes on when it is called again.
+    """
+    from atlas.study.sweep.run import sweep
+
+    wanted: dict[str, Any] = {"digits": digits, "rows": rows} if toml is None else {}
+    if toml is not None:
+        if family or settings or listing or quantities or digits or rows:
+            raise click.UsageError("with --file only --out and --jobs are left to say.")
+        recipe = read(toml)
+        family, quantities, out = recipe.family, tuple(recipe.quantities), out or _beside(toml, recipe.out)
+        listing = _beside(toml, recipe.list)
+        settings_read = {name: _values(name, value) for name, value in recipe.parameters.items()}
+        wanted = {"digits": recipe.digits, "rows": recipe.rows}
+    else:
+        settings_read = dict(_setting(text) for text in settings)
+    if family is None:
+        raise click.UsageError("name the family to sweep: elementary, free, quadric, ball or particle.")
+    if out is None:
+        raise click.UsageError("--out says which file the table goes to.")
+    columns = _rows(listing) if listing else {}
+    with bar("sweep") as tell:
+        path = sweep(
+            family,
+            columns | settings_read,
+            quantities,
+            out,
+            listed=listing is not None,
+            jobs=jobs,
+            progress=lambda done, total: tell(done, total, ""),
+            **{name: value for name, value in wanted.items() if value is not None},
+        )
+    click.echo(str(path))
+
+
+def read(path: Path) -> Any:
+    """Return the sweep in a TOML file; click.UsageError says what is wrong with it."""
+    import msgspec
+
+    class Recipe(msgspec.Struct, forbid_unknown_fields=True):
+        """A sweep as it stands in a TOML file."""
+
+        family: str
+        quantities: list[str]
+        parameters: dict[str, float | int | str | list[float | int]] = {}
+        list: str | None = None
+        out: str | None = None
+        digits: int | None = None
+        rows: int | None = None
+
+    try:
+        return msgspec.toml.decode(path.read_bytes(), type=Recipe)
+    except OSError as error:
+        raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise click.UsageError(f"{path}: {error}.") from error
+
+
+def _beside(toml: Path, name: str | None) -> Path | None:
+    """Return a file that a TOML file names, beside it."""
+    return None if name is None else toml.parent / name
+
+
+def _setting(text: str) -> tuple[str, Any]:
+    """Read NAME=VALUES."""
+    name, equals, values = text.partition("=")
+    if not (name and equals and values):
+        raise click.UsageError(f"--set takes NAME=VALUES, as in ratio=0.5:2:100, not {text!r}.")
+    return name.strip(), _values(name, values)
+
+
+def _values(name: str, given: Any) -> Any:
+    """Read one number, several with commas, or START:STOP:COUNT[:log]; a number or a list is taken as it is."""
+    import numpy as np
+
+    if not isinstance(given, str):
+        return given
+    if ":" not in given:
+        return [float(REAL.convert(x.strip(), None, None)) for x in given.split(",")]
+    start, stop, *rest = given.split(":")
+    if not rest or rest[1:] not in ([], ["log"]) or not rest[0].strip().isdigit():
+        raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {given!r}.")
+    first, last = (float(REAL.convert(x.strip(), None, None)) for x in (start, stop))
+    count = int(rest[0])
+    if len(rest) == 1:
+        return np.linspace(first, last, count)
+    if first * last <= 0:
+        raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {given!r}.")
+    return np.geomspace(first, last, count)
+
+
+def _rows(path: Path) -> dict[str, list[float]]:
+    """Return the columns of a CSV file, named by its first line."""
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            heading, *lines = [line for line in csv.reader(file) if line] or [[]]
+    except OSError as error:
+        raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
+    names = [name.strip() for name in heading]
+    if not lines or len(set(names)) != len(names):
+        raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
+    columns: dict[str, list[float]] = {name: [] for name in names}
+    for number, line in enumerate(lines, 2):
+        if len(line) != len(names):
+            raise click.UsageError(f"{path}: line {number} has {len(line)} cells, but the heading {len(names)}.")
+        for name, cell in zip(names, line, strict=True):
+            try:
+                columns[name].append(float(cell))
+            except ValueError:
+                raise click.UsageError(f"{path}: line {number}: {cell!r} under {name} is not a number.") from None
+    return columns

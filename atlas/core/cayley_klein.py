@@ -1,0 +1,227 @@
+"""The Cayley-Klein parameters of the general motion at many times, and the matrices that they make.
+
+alpha and beta, up to a common real factor, are sums of the functions of `nutation` times phases exp(i f t). The matrix
+is linear in the ten products of their four real parts, once the squares of these sum to one.
+"""
+
+from collections.abc import Callable, Mapping
+from copy import copy
+from math import prod
+from typing import Any
+
+import numpy as np
+from flint import acb, arb, ctx
+
+from atlas.core.inputs import FloatArray, real
+from atlas.core.nutation import Functions, Hyperbolic, Linear, Steady, Trigonometric, wide
+from atlas.core.phase import Phases, circle_of
+from atlas.core.rotation import target
+from atlas.core.threads import shared
+from atlas.core.wide import Wide
+from atlas.exact.general import GeneralMotion
+from atlas.exact.theta import infinite
+
+FIRST = 256
+"""Binary digits with which the constants are tried first."""
+
+BLOCK = 3000
+"""Times evaluated at once, so that what they need stays in the second-level cache."""
+
+FREQUENCY, WEIGHT = 2.0**-120, 2.0**-80
+"""Radius to which frequencies (of the largest) and weights (of themselves) are known before they are rounded."""
+
+FAINT = 1e-70
+"""Next to a separatrix alpha and beta may both become so small, over the common factor, that their squares vanish."""
+
+PAIRS = tuple((i, j) for i in range(4) for j in range(i, 4))
+"""The ten products of Re alpha, Re beta, Im alpha, Im beta."""
+
+QUATERNION = (0, 1, 3, 2)
+"""Places of w, x, y, z among them."""
+
+
+KINDS: Mapping[str, Callable[..., Functions]] = {
+    "trigonometric": Trigonometric,
+    "hyperbolic": Hyperbolic,
+    "linear": Linear,
+}
+
+
+class CayleyKlein:
+    """alpha and beta of one motion: constants made at rising precision until each is known, then rounded."""
+
+    def __init__(self, exact: GeneralMotion) -> None:
+        self.precision = FIRST
+        while not self._made(exact, self.precision):
+            self.precision *= 2
+
+    def _made(self, exact: GeneralMotion, precision: int) -> bool:
+        """Take the constants at one precision; return whether it suffices."""
+        with ctx.workprec(precision):
+            found = exact.solution
+            lattice, pair = found.lattice, (found.alpha, found.beta)
+            periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
+            turns = [x.rate / (2 * arb.pi()) for x in pair] + ([1 / (4 * lattice.half)] if periodic else [])
+            origin = found.origin / (4 * lattice.half) if periodic else arb(0)
+            if not all(x.is_finite() for x in (*turns, found.origin)):
+                return False
+            scale = max(abs(x) for x in turns)
+            if not all(_radius(x) <= FREQUENCY * scale.mid() for x in turns) or not _radius(origin) <= FREQUENCY:
+                return False
+            kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
+            functions = kind(found, [x.sum for x in pair])
+            values = [[x.factor * w for w in functions.weights(x.sum)] for x in pair]
+            slopes = [
+                [x.factor * (acb(0, x.rate + x.twist) * v + w) for v, w in zip(a, b, strict=True)]
+                for x, a, b in ((x, functions.weights(x.sum), functions.weights(x.sum.derivative)) for x in pair)
+            ]
+            largest = max(abs(x).mid() for row in values for x in row)
+            if not all(_known(x, largest) for row in values for x in row):
+                return False
+            self.functions, self.periodic = functions, periodic
+            self.frequencies = [wide(x) for x in turns]
+            self.origins = [Wide(0), Wide(0), wide(origin)] if periodic else None
+            self.phases = Phases(self.frequencies, self.origins)
+            self.values, self.slopes = (_real_parts(x, largest) for x in (values, slopes))
+            least = np.abs(self.values).min(where=self.values != 0, initial=1.0)
+            self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
+        return True
+
+    def on_grid(self, start: Wide, step: Wide) -> "CayleyKlein":
+        """Return the same with whole numbers i for times, which stand for start + i step."""
+        other = copy(self)
+        other.frequencies = [(f * step).turn() for f in self.frequencies]
+        origins = self.origins or [Wide(0)] * len(self.frequencies)
+        other.origins = [(o + f * start).turn() for f, o in zip(self.frequencies, origins, strict=True)]
+        other.phases = Phases(other.frequencies, other.origins)
+        if isinstance(self.functions, Hyperbolic | Linear) and not self.periodic:
+            functions = copy(self.functions)
+            functions.line = functions.line.on_grid(start, step)
+            other.functions = functions
+        return other
+
+
+class Evaluation:
+    """alpha and beta at up to `size` times at once, with the memory that this takes; with their slopes if asked for."""
+
+    def __init__(self, parameters: CayleyKlein, size: int, *, slopes: bool = False) -> None:
+        self.of = parameters
+        count = parameters.phases.words.shape[1]
+        self.table = np.concatenate([parameters.values, parameters.slopes]) if slopes else parameters.values
+        self.work = np.empty((8, count, size))
+        self.circles = np.empty((2, count, size))
+        self.rows = np.empty((parameters.functions.count, size))
+        self.sums = np.empty((2, len(self.table), size))
+        self.versine, self.products = np.empty(size), Products(size)
+
+    def parts(self, t: FloatArray) -> FloatArray:
+        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m)."""
+        m, functions = t.size, self.of.functions
+        rows, (cos, sin) = self.rows[:, :m], self.circles[..., :m]
+        angles = self.of.phases.angles(t, self.work[..., :m])
+        if isinstance(functions, Hyperbolic) and functions.periodic:
+            u, e = angles[:2]
+            functions.fill(rows, *functions.line.at(u[2], e[2]))
+            u[:2] += functions.twist * u[2]
+            angles = tuple(x[:2] for x in angles)
+            cos, sin = cos[:2], sin[:2]
+        circle_of(angles, cos, sin, self.versine[:m])
+        if isinstance(functions, Trigonometric):
+            functions.fill(rows, sin[2], cos[2])
+        elif isinstance(functions, Steady):
+            functions.fill(rows, t)
+        elif not functions.periodic:
+            near = np.clip(t, -functions.line.longest, functions.line.longest)
+            functions.fill(rows, *functions.line.at(near))
+        sums, result = self.sums[..., :m]
+        np.matmul(self.table, rows, out=sums)
+        pairs, turned = sums.reshape(-1, 2, 2, m), result.reshape(-1, 2, 2, m)
+        np.multiply(pairs[:, 0], cos[:2], out=turned[:, 0])
+        np.multiply(pairs[:, 1], cos[:2], out=turned[:, 1])
+        pairs *= sin[:2]
+        turned[:, 0] -= pairs[:, 1]
+        turned[:, 1] += pairs[:, 0]
+        if self.of.faint:
+            result /= np.abs(result[:4]).max(axis=0)
+        return np.asarray(result)
+
+    def at(self, t: FloatArray) -> FloatArray:
+        """Return the ten products at times t, (10, m)."""
+        return self.products.of(self.parts(t))
+
+
+class Products:
+    """The ten products of `PAIRS` of up to `size` quadruples, whose squares are made to sum to one."""
+
+    def __init__(self, size: int) -> None:
+        self.unit, self.square, self.out = np.empty((4, size)), np.empty(size), np.empty((10, size))
+
+    def of(self, q: FloatArray) -> FloatArray:
+        """Return the products of q (4, m), shape (10, m)."""
+        m = q.shape[1]
+        unit, square, out = self.unit[:, :m], self.square[:m], self.out[:, :m]
+        np.multiply(q, q, out=unit)
+        np.add.reduce(unit, axis=0, out=square)
+        np.divide(q, square, out=unit)
+        np.multiply(unit[0], q, out=out[:4])
+        np.multiply(unit[1], q[1:], out=out[4:7])
+        np.multiply(unit[2], q[2:], out=out[7:9])
+        np.multiply(unit[3], q[3], out=out[9])
+        return out
+
+
+def entries(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the weights (10, 9) of the products in the entries of left R(alpha, beta) right."""
+    w, x, y, z = QUATERNION
+    table = np.zeros((4, 4, 3, 3))
+    for i, j, (row, column), c in (
+        *((w, w, (k, k), 1) for k in range(3)),
+        (x, x, (0, 0), 1), (x, x, (1, 1), -1), (x, x, (2, 2), -1),
+        (y, y, (0, 0), -1), (y, y, (1, 1), 1), (y, y, (2, 2), -1),
+        (z, z, (0, 0), -1), (z, z, (1, 1), -1), (z, z, (2, 2), 1),
+        (x, y, (0, 1), 2), (x, z, (0, 2), 2), (y, z, (1, 2), 2),
+        (w, z, (0, 1), -2), (w, y, (0, 2), 2), (w, x, (1, 2), -2),
+        (x, y, (1, 0), 2), (x, z, (2, 0), 2), (y, z, (2, 1), 2),
+        (w, z, (1, 0), 2), (w, y, (2, 0), -2), (w, x, (2, 1), 2),
+    ):  # fmt: skip
+        table[min(i, j), max(i, j), row, column] += c
+    return np.array([left @ table[i, j] @ right for i, j in PAIRS]).reshape(10, 9)
+
+
+def evaluate(
+    times: Any,
+    shape: tuple[int, ...],
+    out: FloatArray | None,
+    prepare: Callable[[int], Callable[[FloatArray, FloatArray], None]],
+) -> FloatArray:
+    """Return what ``prepare(size)(t, rows)`` writes, block by block, for times of any shape; rows (m, prod(shape))."""
+    times = real(times, "The time")
+    out = target(out, times.shape + shape)
+    rows, flat = out.reshape(times.size, prod(shape)), np.ascontiguousarray(times).reshape(-1)
+
+    def part(low: int, high: int) -> None:
+        fill = prepare(min(high - low, BLOCK))
+        for i in range(low, high, BLOCK):
+            j = min(i + BLOCK, high)
+            fill(flat[i:j], rows[i:j])
+
+    shared(part, times.size, BLOCK)
+    return out
+
+
+def _radius(x: arb) -> float:
+    return float(x.rad()) if x.is_finite() else float("inf")
+
+
+def _known(x: acb, largest: arb) -> bool:
+    """Whether a weight is known to itself, or too small to matter."""
+    radius = max(_radius(x.real), _radius(x.imag))
+    return radius <= WEIGHT * float(abs(x).mid()) or radius <= WEIGHT**2 * float(largest)
+
+
+def _real_parts(pair: list[list[acb]], largest: arb) -> FloatArray:
+    """Return real parts of alpha's and beta's weights, then imaginary parts, (4, rows), over the largest."""
+    rows = [[x / largest for x in row] for row in pair]
+    return np.array(
+        [[float(x.real.mid()) for x in row] for row in rows] + [[float(x.imag.mid()) for x in row] for row in rows]
+    )

@@ -1,0 +1,64 @@
+"""Integrals of a charged body of any inertia tensor: Clebsch's case of e(3), theorem-lie-poisson to theorem-clebsch."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from atlas.core.body import SymmetricBody, moments
+from atlas.core.inertia import inertia_tensor
+from atlas.core.inputs import FloatArray, common_shape, plain, vectors
+
+
+@dataclass(frozen=True)
+class Clebsch:
+    """What a charged body of any inertia tensor J conserves; each a float, or an array if the state was one.
+
+    M = J (Omega + K) is the canonical momentum. H, F and both Casimirs are independent if the three principal moments
+    differ; a symmetric body conserves M3 too, and F follows from it, theorem-clebsch-symmetric.
+    """
+
+    H: Any
+    """H = (M, J^-1 M)/2 + (K, J K)/2, theorem-lie-poisson, in the unit of inertia/time^2."""
+    F: Any
+    """Clebsch's F = M^2 - det J (K, J^-1 K), theorem-clebsch, in (unit of inertia/time)^2."""
+    MK: Any
+    """The Casimir (M, K), |B'| times the canonical momentum along B, in the unit of inertia/time^2."""
+    K2: Any
+    """The Casimir K^2 = B'^2, mf45, in 1/time^2."""
+    energy: Any
+    """Kinetic energy (Omega, J Omega)/2 = H - (M, K), theorem-kinetic-energy, in the unit of inertia/time^2."""
+
+
+def clebsch(inertia: Any, Omega: Any, K: Any) -> Clebsch:
+    """Return the integrals H, F, (M, K), K^2 and the kinetic energy of a state, theorem-clebsch.
+
+    `inertia` is any inertia tensor (3, 3) in the axes of the body, principal moments (3,), a SymmetricBody or a ratio
+    I = I3/I2 (I2 = 1 then); `Omega`, `K` = R^T B' (..., 3) in the body and in one unit 1/time; they broadcast.
+    DomainError for a tensor that no body has. The energy is formed from Omega and the rest from Omega + K, so that
+    none of the five is a difference of the others.
+    """
+    J, spin, field = body_tensor(inertia), vectors(Omega, "Omega"), vectors(K, "K")
+    shape = common_shape(spin.shape, field.shape)
+    spin, field = np.broadcast_to(spin, shape), np.broadcast_to(field, shape)
+    momentum = np.matvec(J, spin + field)
+    return Clebsch(
+        H=plain((np.vecdot(momentum, spin + field) + np.vecdot(field, np.matvec(J, field))) / 2),
+        F=plain(np.vecdot(momentum, momentum) - np.vecdot(field, np.matvec(cofactors(J), field))),
+        MK=plain(np.vecdot(momentum, field)),
+        K2=plain(np.vecdot(field, field)),
+        energy=plain(np.vecdot(spin, np.matvec(J, spin)) / 2),
+    )
+
+
+def body_tensor(inertia: Any) -> FloatArray:
+    """Return the inertia tensor (3, 3), checked, of itself, principal moments (3,), a SymmetricBody or a ratio."""
+    if isinstance(inertia, SymmetricBody) or np.ndim(inertia) == 0:
+        I2, I3 = moments(inertia)
+        inertia = (I2, I2, I3)
+    return inertia_tensor(inertia)
+
+
+def cofactors(J: FloatArray) -> FloatArray:
+    """Matrix det J J^-1 of a symmetric tensor (3, 3), in any floating type."""
+    return np.array([np.cross(J[1], J[2]), np.cross(J[2], J[0]), np.cross(J[0], J[1])])

@@ -1,0 +1,239 @@
+"""Arrays of numbers in two words, each row with a bound on its error: the scalars of many motions at once.
+
+A formula written with + - * / and `sqrt` takes these arrays as it takes `Wide` numbers. What a row loses, by rounding
+and by cancellation, is bounded on the way; where the bound leaves the nearest double in doubt, the row is computed
+again in 256 digits. So `over` returns the same bits for arrays as for single numbers.
+
+The sums and products are those of Dekker, Knuth and Joldes, Muller, Popescu (ACM TOMS 44, 15, 2017), without a fused
+multiply-add, which NumPy does not have. With u = 2^-53 their relative errors are at most 3 u^2 for a sum, 5 u^2 for a
+product, 15 u^2 for a quotient and 25/8 u^2 for a square root; the bounds below are larger.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray, common_shape
+from atlas.core.wide import exact
+
+SPLITTER = 2.0**27 + 1
+SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))
+"""Bounds on the relative error of one operation."""
+
+ORDINARY = 2.0**100
+"""Rows whose inputs, other than zeros, lie between its inverse and itself: no product of six over- or underflows."""
+
+BLOCK = 8192
+"""Rows evaluated at once, so that what is between stays in the cache, and so many that a call costs little."""
+
+Formula = Callable[..., Any]
+
+
+class DoubleDouble:
+    """Numbers hi + lo, |lo| <= ulp(hi)/2, that are within `rel` of themselves; `lo` None is zero, `rel` 0 is exact.
+
+    `hi` and `lo` are arrays or NumPy scalars; `rel` is a float as long as nothing can cancel, an array after that.
+    """
+
+    __slots__ = ("_halves", "hi", "lo", "rel")
+
+    def __init__(self, hi: Any, lo: Any = None, rel: Any = 0.0) -> None:
+        self.hi, self.lo, self.rel = hi, lo, rel
+        self._halves: Any = None
+
+    @property
+    def halves(self) -> Any:
+        """Both halves of `hi`, 26 digits each, by Veltkamp: their products are exact."""
+        if self._halves is None:
+            t = self.hi * SPLITTER
+            head = t - (t - self.hi)
+            self._halves = head, self.hi - head
+        return self._halves
+
+    def __add__(self, other: "DoubleDouble") -> "DoubleDouble":
+        """Return the sum; exact inputs cancel without loss, and what inexact ones lose is in `rel`."""
+        s = self.hi + other.hi
+        t = s - self.hi
+        e = (self.hi - (s - t)) + (other.hi - t)
+        if self.lo is None and other.lo is None:
+            return DoubleDouble(s, e, self._lost(other, s, 0.0))
+        if self.lo is None or other.lo is None:
+            return DoubleDouble(*_normal(s, e + (other.lo if self.lo is None else self.lo)), self._lost(other, s, SUM))
+        f = self.lo + other.lo
+        t = f - self.lo
+        g = (self.lo - (f - t)) + (other.lo - t)
+        s, e = _normal(s, e + f)
+        s, e = _normal(s, e + g)
+        return DoubleDouble(s, e, self._lost(other, s, SUM))
+
+    def __neg__(self) -> "DoubleDouble":
+        return DoubleDouble(-self.hi, None if self.lo is None else -self.lo, self.rel)
+
+    def __sub__(self, other: "DoubleDouble") -> "DoubleDouble":
+        return self + -other
+
+    def __mul__(self, other: "DoubleDouble") -> "DoubleDouble":
+        p, e = _product(self, other)
+        rel = self.rel + other.rel
+        if self.lo is None and other.lo is None:
+            return DoubleDouble(p, e, rel)
+        if self.lo is not None:
+            e += self.lo * other.hi
+        if other.lo is not None:
+            e += self.hi * other.lo
+        return DoubleDouble(*_normal(p, e), rel + self.rel * other.rel + PRODUCT)
+
+    def __truediv__(self, other: "DoubleDouble") -> "DoubleDouble":
+        q = self.hi / other.hi
+        p, e = _product(DoubleDouble(q), other)
+        rest = (self.hi - p) - e
+        if self.lo is not None:
+            rest += self.lo
+        if other.lo is not None:
+            rest -= q * other.lo
+        rel = self.rel + 2 * other.rel * (1 + self.rel) + QUOTIENT
+        if np.ndim(other.rel):
+            rel = np.where(other.rel < 0.5, rel, np.inf)
+        return DoubleDouble(*_normal(q, rest / other.hi), rel)
+
+    def __abs__(self) -> "DoubleDouble":
+        return DoubleDouble(abs(self.hi), None if self.lo is None else self.lo * np.copysign(1.0, self.hi), self.rel)
+
+    def sqrt(self) -> "DoubleDouble":
+        """Return the root of numbers that are not negative."""
+        s = np.sqrt(self.hi)
+        root = DoubleDouble(s)
+        p, e = _product(root, root)
+        rest = (self.hi - p) - e
+        if self.lo is not None:
+            rest += self.lo
+        return DoubleDouble(*_normal(s, rest / (s + s + (s == 0))), self.rel + ROOT)
+
+    def select(self, positive: "DoubleDouble", other: "DoubleDouble") -> "DoubleDouble":
+        """Return `positive` where this number is, `other` elsewhere."""
+        where = self.hi > 0
+        hi, lo = (np.where(where, x, y) for x, y in ((positive.hi, other.hi), (positive.low, other.low)))
+        rel = np.where(where, positive.rel, other.rel)
+        return DoubleDouble(hi, lo, np.where(np.less(self.rel, 0.5), rel, np.inf))
+
+    @property
+    def low(self) -> Any:
+        """The second word as a number."""
+        return 0.0 if self.lo is None else self.lo
+
+    def nearest(self) -> tuple[Any, Any]:
+        """Return the nearest doubles, and where they are so for certain."""
+        low, error = self.low, 2 * self.rel * abs(self.hi)
+        return self.hi, (self.hi + (low + error) == self.hi) & (self.hi + (low - error) == self.hi)
+
+    def _lost(self, other: "DoubleDouble", total: Any, rounding: float) -> Any:
+        """Return the relative error of a sum: what the terms lack, in parts of it, and its rounding."""
+        if isinstance(self.rel, float) and isinstance(other.rel, float) and not (self.rel or other.rel):
+            return rounding
+        lost = self.rel * abs(self.hi) + other.rel * abs(other.hi)
+        # a sum that is zero by cancellation of inexact terms may be anything: inf, which no product with zero hides
+        return np.where(lost == 0, 0.0, lost / abs(total)) + rounding
+
+
+def over(
+    formula: Formula,
+    *inputs: Any,
+    unit: slice = slice(0),
+    degree: int | Sequence[int] = 1,
+    alone: Formula | None = None,
+) -> Any:
+    """Evaluate a formula, each result rounded once: floats for plain inputs, arrays of their common shape otherwise.
+
+    `formula` takes as many numbers, `Wide` or `DoubleDouble`. The inputs `unit` share one unit, in which the result is
+    homogeneous of this degree; degrees, if it returns several. `alone` takes floats and returns floats, where `Wide`
+    numbers do not suffice.
+    """
+    alone = alone or partial(wide, formula)
+    if not any(np.ndim(x) for x in inputs):
+        return alone(*(float(x) for x in inputs))
+    shape = common_shape(*(np.shape(x) for x in inputs))
+    degrees = (degree,) if isinstance(degree, int) else degree
+    out = np.empty((len(degrees), int(np.prod(shape))))
+    for part, row, exponents, results in blocks(formula, inputs, shape, unit):
+        sure = np.ones(part.stop - part.start, dtype=bool)
+        for values, n, result in zip(out[:, part], degrees, results, strict=True):
+            found, certain = result.nearest()
+            if exponents is not None:
+                found = np.ldexp(found, n * exponents[0])
+                certain &= exponents[1] & ((found == 0) | ((abs(found) > 2.0**-1000) & (abs(found) < np.inf)))
+            values[:] = found
+            sure &= certain
+        for i in np.flatnonzero(~sure).tolist():
+            out[:, part.start + i] = alone(*row(i))
+    found = [values.reshape(shape) for values in out]
+    return found[0] if isinstance(degree, int) else found
+
+
+def wide(formula: Formula, *inputs: float) -> Any:
+    """Evaluate a formula on floats in 256 digits, each result rounded once."""
+    results = formula(*exact(*inputs))
+    return [float(x) for x in results] if isinstance(results, tuple) else float(results)
+
+
+def blocks(
+    formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice
+) -> Iterator[tuple[slice, Callable[[int], Sequence[float]], tuple[Any, Any] | None, Sequence[DoubleDouble]]]:
+    """Yield results of a formula by blocks of rows of `shape`, flattened: those of the rows, and how to get a row.
+
+    Where an input is far from 1, those in `unit` are scaled by a power of two: its exponents come third, with the rows
+    that are ordinary numbers after that.
+    """
+    size = int(np.prod(shape))
+    columns = [np.float64(x) if np.ndim(x) == 0 else _flat(np.asarray(x), shape) for x in inputs]
+    np.empty(2**20)  # a long array, freed: from then on the C library keeps the memory that each operation gives back
+    for start in range(0, size, BLOCK):
+        part = slice(start, min(start + BLOCK, size))
+        given = [x if isinstance(x, np.float64) else x[part] for x in columns]
+        used, exponents = given, None
+        if not all(_ordinary(x).all() for x in given):
+            used, exponents = _scaled(given, unit, part.stop - part.start)
+        with np.errstate(all="ignore"):
+            results = formula(*(DoubleDouble(x) for x in used))
+            yield part, _row(given), exponents, results if isinstance(results, tuple) else (results,)
+
+
+def _row(columns: Sequence[Any]) -> Callable[[int], list[float]]:
+    return lambda i: [float(x if x.ndim == 0 else x[i]) for x in columns]
+
+
+def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
+    """Return an array as it broadcasts to a shape, in one row, to be read by slices."""
+    return x.reshape(-1) if x.shape == shape and x.flags.c_contiguous else np.broadcast_to(x, shape).flat
+
+
+def _ordinary(x: Any) -> Any:
+    """Return where numbers are zero or far from what products of a few could not hold."""
+    size = abs(x)
+    return (size == 0) | ((size >= 1 / ORDINARY) & (size <= ORDINARY))
+
+
+def _scaled(given: Sequence[Any], unit: slice, rows: int) -> tuple[list[Any], tuple[Any, Any]]:
+    """Return the inputs with those in `unit` over a power of two, its exponents, and which rows are ordinary then."""
+    largest = np.max(np.broadcast_arrays(np.zeros(rows), *(abs(x) for x in given[unit])), axis=0)
+    exponents = np.frexp(largest)[1]
+    used = list(given)
+    used[unit] = [np.ldexp(x, -exponents) for x in given[unit]]
+    ordinary = np.logical_and.reduce(np.broadcast_arrays(np.ones(rows, dtype=bool), *(_ordinary(x) for x in used)))
+    # a number that the scaling made zero is none
+    lost = [(x != 0) & (y == 0) for x, y in zip(given[unit], used[unit], strict=True)]
+    return used, (exponents, ordinary & ~np.logical_or.reduce(np.broadcast_arrays(np.zeros(rows, dtype=bool), *lost)))
+
+
+def _normal(s: Any, e: Any) -> tuple[Any, Any]:
+    """Return a sum in two words, for |s| >= |e|."""
+    total = s + e
+    return total, e - (total - s)
+
+
+def _product(x: DoubleDouble, y: DoubleDouble) -> tuple[Any, Any]:
+    """Return the product of the first words, and what its rounding left out, by Dekker."""
+    (a, b), (c, d) = x.halves, y.halves
+    p = x.hi * y.hi
+    return p, ((a * c - p) + a * d + b * c) + b * d

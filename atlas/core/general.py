@@ -1,0 +1,290 @@
+"""The general motion of a charged symmetric body, from any initial angular velocity (not in the paper)."""
+
+from collections.abc import Callable
+from functools import cached_property
+from math import prod
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from flint import arb, ctx, fmpq
+
+from atlas.core.body import SymmetricBody, moments
+from atlas.core.cayley_klein import FIRST, CayleyKlein, Evaluation, entries, evaluate
+from atlas.core.inputs import FloatArray, plain, real, vector
+from atlas.core.integrals import integrals, shape_factors
+from atlas.core.motion import Motion, components
+from atlas.errors import DomainError
+from atlas.exact.body import ratio_of
+from atlas.exact.digits import enclosed
+from atlas.exact.general import GeneralMotion as Balls
+
+if TYPE_CHECKING:
+    from atlas.core.general_grid import Exponentials
+
+BITS = 60
+"""Relative accuracy of a scalar before it is rounded, once."""
+
+ORTHOGONAL = 1e-9
+"""An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
+
+
+class General:
+    """One general motion: its constants in balls, and what turns times into matrices.
+
+    `exact` is the motion with R(0) = 1; `attitude` (3, 3) stands before its matrix.
+    """
+
+    def __init__(self, exact: Balls, attitude: FloatArray) -> None:
+        self.exact = exact
+        self.parts = CayleyKlein(exact)
+        c, s, C, S = enclosed(lambda: [arb(x) for x in exact.tilt()], 2 * BITS)
+        cos, sin, C, S, b = (float(x.mid()) for x in (c * c - s * s, 2 * c * s, C, S, arb(exact.b)))
+        self.right = np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
+        tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
+        self.entries = entries(attitude @ self.right.T @ tilt, self.right)
+        self.field = b * entries(np.eye(3), self.right)[:, 6:]
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+        return self._linear(self.entries, t, (3, 3), out)
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
+        return self._linear(np.ascontiguousarray(self.entries[:, j - 1 :: 3]), t, (3,), out)
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K(t), shape (..., 3)."""
+        return self._linear(self.field, t, (3,), out)
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t), shape (..., 3): twice the vector part of the quaternion's logarithmic derivative."""
+
+        def prepare(size: int) -> Any:
+            """Return what fills a block."""
+            evaluation = Evaluation(self.parts, size, slopes=True)
+
+            def fill(times: FloatArray, rows: FloatArray) -> None:
+                q = evaluation.parts(times)
+                (w, x, z, y), (dw, dx, dz, dy) = q[:4], q[4:]
+                half = (w * w + x * x + y * y + z * z) / 2
+                turn = (
+                    w * dx - x * dw - y * dz + z * dy,
+                    w * dy - y * dw - z * dx + x * dz,
+                    w * dz - z * dw - x * dy + y * dx,
+                )
+                np.matmul((np.array(turn) / half).T, self.right, out=rows)
+
+            return fill
+
+        return evaluate(t, (3,), out, prepare)
+
+    @cached_property
+    def exponentials(self) -> "tuple[Exponentials, Exponentials] | None":
+        """Alpha and beta as sums of exponentials for use on a grid, None where these would cancel or be too many."""
+        from atlas.core.general_grid import exponentials
+
+        return exponentials(self.exact, self.parts.precision)
+
+    def _linear(self, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None) -> FloatArray:
+        """Return linear combinations of the products of alpha and beta."""
+
+        def prepare(size: int) -> Any:
+            """Return what fills a block."""
+            evaluation = Evaluation(self.parts, size)
+            return lambda times, rows: np.matmul(evaluation.at(times).T, weights, out=rows)
+
+        return evaluate(t, shape, out, prepare)
+
+    def scalar(self, name: str) -> float:
+        """Return a number of the exact motion, rounded once; inf where it is infinite."""
+        return float(arb(enclosed(lambda: getattr(self.exact, name), BITS)).mid())
+
+
+def standing(I2: float, I3: float, B2: float, B3: float, *omega: float) -> General:
+    """Return the motion with R(0) = 1 in the field (0, B2, B3)."""
+    with ctx.workprec(FIRST):
+        return General(Balls(ratio_of(SymmetricBody(I2, I3)), (B2, B3), omega), np.eye(3))
+
+
+class GeneralMotion(Motion[General]):
+    """Motion R(t), R(0) = 1, of a charged symmetric body from any initial angular velocity (not in the paper).
+
+    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c), as in mf41; `omega` =
+    (omega1, omega2, omega3), the initial angular velocity: in one unit 1/time, of any sign. The inputs are taken as
+    exact and broadcast with one another and with t. `in_laboratory` takes a field in any direction and any attitude.
+
+    Omega3 moves between two roots of the quartic Q, (dOmega3/dt)^2 = Q(Omega3); theta is the angle between the body's
+    axis and B, cos theta = K3/b. `kind` is one of
+
+    - "at rest", "precession", "spin along the field": Omega3 is constant, as in `ElementaryMotion`;
+    - "free body": B = 0, mf92; "ball": I3 = I2, any motion that is none of these;
+    - "nutation, two real roots" and "nutation, four real roots" of Q: elliptic functions of time;
+    - "separatrix": Omega3 tends to a double root of Q, hyperbolic functions; "separatrix, triple root": rational ones;
+      "separatrix between B and -B": the axis turns over from one pole of the sphere to the other, once.
+
+    Which it is, is decided exactly; the entries of R join without a gap. The cost does not depend on t.
+    """
+
+    def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
+        self.ratio = ratio
+        I2, I3 = moments(ratio)
+        B2, B3 = components(field, ("B2", "B3"), "The field")
+        omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity")
+        super().__init__(standing, I2, I3, B2, B3, *omega)
+        self.field, self.omega = (plain(B2), plain(B3)), tuple(plain(w) for w in omega)
+
+    @classmethod
+    def in_laboratory(cls, ratio: Any, field: Any, attitude: Any, angular_velocity: Any) -> Self:
+        """Motion R(t), R(0) = `attitude`, in a field of any direction.
+
+        `field` (3,) is the vector B' and `angular_velocity` (3,) the initial one, both in the laboratory and in 1/time;
+        `attitude` (3, 3) is the initial rotation matrix, whose columns are the body's axes in the laboratory. It is
+        replaced by the rotation of its quaternion, rounded, which is exact. `rotation` then takes the body to the
+        laboratory, `angular_velocity` and `field_in_body` are in the body, `angular_momentum` in the laboratory.
+        Raises DomainError if the attitude is no rotation to 1e-9.
+        """
+        I2, I3 = moments(ratio)
+        start = exact_attitude(attitude)
+        B, w = (_transposed(start, vector(x, name)) for x, name in ((field, "The field"), (angular_velocity, "omega")))
+        motion = cls.__new__(cls)
+        motion.ratio, motion.shape = ratio, ()
+        body = ratio_of(SymmetricBody(I2, float(I3)))
+        matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
+        motion._turning = General(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class
+        motion.field, motion.omega = tuple(vector(field, "The field").tolist()), tuple(int(x.p) / int(x.q) for x in w)
+        return motion
+
+    @cached_property
+    def kind(self) -> Any:
+        """Name of the kind of motion, a string, or an array of them."""
+        return self._each(lambda one: one.exact.kind)
+
+    @cached_property
+    def roots(self) -> Any:
+        """Roots of Q in Omega3, complex, shape (..., 4): the real ones ascending, then the complex pair.
+
+        Those that have gone to infinity (two for I = 1, all for B = 0) are inf.
+        """
+        return self._each(lambda one: _padded(enclosed(lambda: one.exact.roots, BITS)))
+
+    @cached_property
+    def turning_points(self) -> tuple[Any, Any]:
+        """Least and largest Omega3; one of them is approached and never reached on a separatrix."""
+        ends = self._each(lambda one: [float(arb(x).mid()) for x in enclosed(lambda: one.exact.turning_points, BITS)])
+        return ends[..., 0] if self.shape else ends[0], ends[..., 1] if self.shape else ends[1]
+
+    @cached_property
+    def period(self) -> Any:
+        """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation."""
+        return self._each(lambda one: one.scalar("period"))
+
+    @cached_property
+    def precession_per_period(self) -> Any:
+        """Angle by which the body precesses about B in one period; a passage through a pole counts as half a turn less.
+
+        It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b.
+        DomainError where the period is infinite.
+        """
+        return self._each(lambda one: one.scalar("precession_per_period"))
+
+    @cached_property
+    def spin_per_period(self) -> Any:
+        """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt."""
+        return self._each(lambda one: one.scalar("spin_per_period"))
+
+    @cached_property
+    def modulus(self) -> Any:
+        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
+        return self._each(lambda one: one.scalar("modulus"))
+
+    @cached_property
+    def complementary_modulus(self) -> Any:
+        """Complementary modulus sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        return self._each(lambda one: one.scalar("complementary_modulus"))
+
+    @cached_property
+    def nome(self) -> Any:
+        """Nome q = exp(-pi K'/K) of the elliptic functions."""
+        return self._each(lambda one: one.scalar("nome"))
+
+    def _each(self, value: Callable[[General], Any]) -> Any:
+        """Return one value for each motion: plain for one motion, else an array."""
+        if self._turning:
+            return value(self._turning)
+        found = np.array([value(one) for one in self._turnings])
+        return found.reshape(self.shape + found.shape[1:])
+
+    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
+        """Write what each motion, made alone, has at the times that meet it."""
+        indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape).reshape(-1)
+        for i, one in enumerate(self._turnings):
+            out[indices == i] = evaluate(one, times.reshape(-1)[indices == i], None)
+
+    def _fill_grid(self, one: General, start: float, step: float, out: FloatArray) -> None:
+        """Fill the matrices of one motion on a grid."""
+        from atlas.core.general_grid import fill_grid
+
+        fill_grid(one, start, step, out)
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body; shape (..., 3)."""
+        return self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,))
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body, mf41; shape (..., 3)."""
+        return self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,))
+
+    def angular_momentum(self, t: Any) -> FloatArray:
+        """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory; shape (..., 3)."""
+        return np.asarray(np.matvec(self.rotation(t), self._momentum(self.angular_velocity(t))))
+
+    def invariants(self, t: Any = 0.0) -> dict[str, Any]:
+        """Constants E', K^2, c3, c5 of mf44 to mf49, and (M, B') with M/I2 = (Omega + K) in the body's axes."""
+        Omega, K = self.angular_velocity(t), self.field_in_body(t)
+        four = integrals(self.ratio, Omega, K)
+        along = np.vecdot(self._momentum(Omega + K), K)
+        return {"E'": four.E, "K^2": four.K2, "c3": four.c3, "c5": four.c5, "(M,B')": plain(along)}
+
+    def _momentum(self, Omega: FloatArray) -> FloatArray:
+        """Return (Omega1, Omega2, I Omega3)."""
+        I = shape_factors(self.ratio)[0]
+        return np.asarray(Omega * np.stack(np.broadcast_arrays(1.0, 1.0, I), -1))
+
+
+def exact_attitude(attitude: Any) -> list[list[fmpq]]:
+    """Return the rotation of the rounded quaternion of a matrix, in rational numbers.
+
+    Raises DomainError if the matrix is not orthogonal to 1e-9 or is a reflection.
+    """
+    R = real(attitude, "The attitude")
+    if R.shape != (3, 3):
+        raise DomainError(f"The attitude must be a rotation matrix (3, 3), not of shape {R.shape}.")
+    if np.abs(R.T @ R - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(R) < 0:
+        raise DomainError("The attitude must be a rotation matrix: R^T R = 1 to 1e-9, and det R = 1.")
+    trace = np.trace(R)
+    table = np.array([
+        [trace, R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]],
+        [0, 2 * R[0, 0] - trace, R[0, 1] + R[1, 0], R[0, 2] + R[2, 0]],
+        [0, 0, 2 * R[1, 1] - trace, R[1, 2] + R[2, 1]],
+        [0, 0, 0, 2 * R[2, 2] - trace],
+    ])  # fmt: skip
+    table = table + np.triu(table, 1).T + np.eye(4)
+    w, x, y, z = (fmpq(*v.as_integer_ratio()) for v in table[np.argmax(np.diag(table))].tolist())
+    n = w * w + x * x + y * y + z * z
+    return [
+        [(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n],
+        [2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n],
+        [2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n],
+    ]
+
+
+def _transposed(R: list[list[fmpq]], v: FloatArray) -> list[fmpq]:
+    """Return R^T v, exactly."""
+    exact = [fmpq(*x.as_integer_ratio()) for x in v.tolist()]
+    return [sum((R[i][j] * exact[i] for i in range(3)), fmpq(0)) for j in range(3)]
+
+
+def _padded(roots: list[Any]) -> Any:
+    """Return four roots as complex floats."""
+    found = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
+    return np.array(found + [complex("inf")] * (4 - len(found)))

@@ -1,0 +1,250 @@
+"""The functions of time of which alpha and beta of the general motion are made: a few rows of them at many times.
+
+Their weights are those of `atlas.exact.theta.Sum`, rearranged so that no sum cancels. A common real factor, such as
+the cosh x by which all that is hyperbolic is divided, is left out: it drops out of the matrix.
+"""
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+from flint import acb, arb, fmpq, fmpq_poly
+
+from atlas.core.inputs import FloatArray
+from atlas.core.phase import SPLITTER, WHOLE
+from atlas.core.wide import Wide
+from atlas.exact.cayley_klein import Solution
+from atlas.exact.theta import Sum, infinite
+
+NEGLIGIBLE = 2.0**-58
+"""Part of the first term below which a term is left out."""
+
+SATURATED = 700.0
+"""From there on exp(-x) is nothing beside one, and exp x nearly infinite."""
+
+
+def wide(x: arb) -> Wide:
+    """Return the middle of a ball as a number of 256 digits."""
+    m, e = x.mid().man_exp()
+    return Wide(int(m), int(e))
+
+
+class Steady:
+    """One function: one."""
+
+    twist = None
+
+    def __init__(self, _found: Solution, _sums: Sequence[Sum]) -> None:
+        self.count = 1
+
+    def weights(self, sum_: Sum) -> list[acb]:
+        """Return the weight of each row in a sum."""
+        return [sum_.even[0]]
+
+    def fill(self, rows: FloatArray, _t: FloatArray) -> None:
+        """Fill the rows at times t."""
+        rows[0] = 1.0
+
+
+class Trigonometric:
+    """sin k v and cos k v, k = 1, 3, ..., halved; and 1/2 where one of the sums is constant."""
+
+    twist = None
+
+    def __init__(self, _found: Solution, sums: Sequence[Sum]) -> None:
+        self.terms = max(_terms(sum_) for sum_ in sums)
+        self.constant = any(sum_.doubled for sum_ in sums)
+        self.count = 2 * self.terms + self.constant
+
+    def weights(self, sum_: Sum) -> list[acb]:
+        """Return the weight of each row in a sum."""
+        none = [acb(0)] * (2 * self.terms)
+        if sum_.doubled:
+            return [*none, sum_.even[0]]
+        pairs = [x for pair in zip(sum_.odd, sum_.even, strict=True) for x in pair]
+        return (pairs + none)[: 2 * self.terms] + [acb(0)] * self.constant
+
+    def fill(self, rows: FloatArray, half_sin: FloatArray, half_cos: FloatArray) -> None:
+        """Fill the rows from sin(v)/2 and cos(v)/2."""
+        rows[0], rows[1] = half_sin, half_cos
+        if self.constant:
+            rows[-1] = 0.5
+        if self.terms == 1:
+            return
+        # 2 cos 2v, by which each pair follows from the two before it
+        factor = np.multiply(half_sin, half_sin)
+        factor *= -16.0
+        factor += 2.0
+        pairs = rows[: 2 * self.terms].reshape(self.terms, 2, -1)
+        np.multiply(pairs[0], factor, out=pairs[1])
+        pairs[1, 0] += pairs[0, 0]
+        pairs[1, 1] -= pairs[0, 1]
+        for n in range(2, self.terms):
+            np.multiply(pairs[n - 1], factor, out=pairs[n])
+            pairs[n] -= pairs[n - 2]
+
+
+class Hyperbolic:
+    """tanh x and 1 times powers of W = cosh 2x/cosh 2X, X the largest x; and the same times sech x.
+
+    In one period x is proportional to v; on a separatrix, where there is none, to the time itself.
+    """
+
+    def __init__(self, found: Solution, sums: Sequence[Sum]) -> None:
+        lattice = found.lattice
+        self.periodic = not infinite(lattice.half)
+        self.reach, self.inverse = lattice.reach, arb(2)
+        self.peak = self.part = 0.0
+        slope, start = lattice.rate, lattice.rate * found.origin
+        if self.periodic:
+            # W = part (exp 2x + exp -2x), part = peak^2
+            self.inverse = 2 * (2 * self.reach).cosh()
+            self.peak, self.part = float((1 / self.inverse).sqrt().mid()), float((1 / self.inverse).mid())
+            slope, start = 4 * slope * lattice.half / arb.pi(), arb(0)
+            twists = [x.twist * 4 * lattice.half / arb.pi() / 2 for x in (found.alpha, found.beta)]
+            self.twist = np.array([[float(x.mid())] for x in twists])
+        self.line = Line(wide(slope), wide(start))
+        self.sech = any(sum_.doubled for sum_ in sums)
+        polynomials = [self._polynomials(sum_) for sum_ in sums]
+        self.powers = max(self._needed(weights) for weights in polynomials)
+        self.count = 2 * self.powers * (1 + self.sech)
+
+    def weights(self, sum_: Sum) -> list[acb]:
+        """Return the weight of each row in a sum."""
+        none = [acb(0)] * (2 * self.powers)
+        found = (self._polynomials(sum_) + none)[: 2 * self.powers]
+        if not self.sech:
+            return found
+        return none + found if sum_.doubled else found + none
+
+    def _needed(self, weights: list[acb]) -> int:
+        """Return how many powers of W matter."""
+        sizes = [float(abs(x).mid()) for x in weights]
+        least = NEGLIGIBLE * max(sizes[:2])
+        return max([1, *(j // 2 + 1 for j, size in enumerate(sizes) if size > least)])
+
+    def _polynomials(self, sum_: Sum) -> list[acb]:
+        """Return the weights of tanh x W^j and of W^j by turns: both are polynomials in 2 cosh 2x = W/part."""
+        total = [acb(0)] * (2 * len(sum_.odd))
+        C = fmpq_poly([0, 1])
+        half = fmpq(1, 2)
+        if sum_.doubled:  # sinh 2nx = tanh x (1 + cosh 2x) times a polynomial
+            before, pair = (-1 - C * half, C * half), (C * 0, C * 0 + 1)
+        else:
+            before, pair = (C * 0 - 1, C * 0 + 1), (C * 0 + 1, C * 0 + 1)
+        for weights in zip(sum_.odd, sum_.even, strict=True):
+            for place, (weight, polynomial) in enumerate(zip(weights, pair, strict=True)):
+                for j, c in enumerate(polynomial.coeffs()):
+                    total[2 * j + place] += weight * acb(c) * (self.inverse**j if j else 1)
+            before, pair = pair, tuple(C * x - y for x, y in zip(pair, before, strict=True))
+        return total
+
+    def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
+        """Fill the rows from x + rest."""
+        # m = exp|x| - 1 keeps its digits for small and large x; what x lacks is added to first order
+        m = np.expm1(np.minimum(np.abs(x), SATURATED))
+        up = m + WHOLE
+        rest = np.copysign(1.0, x) * rest
+        rest *= up
+        m += rest
+        up += rest
+        down = WHOLE / up
+        E = down * down
+        over = WHOLE / (E + WHOLE)
+        m *= down
+        m *= down + WHOLE
+        m *= over
+        np.copysign(m, x, out=rows[0])
+        rows[1] = 1.0
+        if self.powers > 1:
+            W = up
+            W *= self.peak
+            W *= W
+            E *= self.part
+            W += E
+            pairs = rows[: 2 * self.powers].reshape(self.powers, 2, -1)
+            for j in range(1, self.powers):
+                np.multiply(pairs[j - 1], W, out=pairs[j])
+        if self.sech:
+            down *= over
+            down *= 2.0
+            n = 2 * self.powers
+            np.multiply(rows[:n], down, out=rows[n : 2 * n])
+
+
+class Linear:
+    """x and 1, over the larger of |x| and 1; x is the time since the turning point."""
+
+    twist = None
+    periodic = False
+
+    def __init__(self, found: Solution, _sums: Sequence[Sum]) -> None:
+        self.count = 2
+        self.line = Line(wide(found.lattice.rate), wide(found.lattice.rate * found.origin), saturates=False)
+
+    def weights(self, sum_: Sum) -> list[acb]:
+        """Return the weight of each row in a sum."""
+        return [sum_.odd[0], sum_.even[0]]
+
+    def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
+        """Fill the rows from x + rest."""
+        x = x + rest
+        size = np.maximum(np.abs(x), 1.0)
+        np.divide(x, size, out=rows[0])
+        np.divide(1.0, size, out=rows[1])
+
+
+Functions: TypeAlias = Steady | Trigonometric | Hyperbolic | Linear
+
+
+class Line:
+    """x = slope t + start as the sum of two doubles, slope and start being exact.
+
+    If what is made of x `saturates`, no more than the `longest` time has to be asked for.
+    """
+
+    def __init__(self, slope: Wide, start: Wide, *, saturates: bool = True) -> None:
+        self.saturates = saturates
+        self.exact = slope, start
+        self.slope, self.slope_rest = slope.words(2)
+        self.start, self.start_rest = start.words(2)
+        head = self.slope * SPLITTER - (self.slope * SPLITTER - self.slope)
+        self.halves = float(head), float(self.slope - head)
+        self.longest = (2 * SATURATED + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
+
+    def on_grid(self, start: Wide, step: Wide) -> "Line":
+        """Return the line as a function of the number i of the time start + i step."""
+        slope, at_zero = self.exact
+        return Line(slope * step, at_zero + slope * start, saturates=self.saturates)
+
+    def at(self, t: FloatArray, rest: FloatArray | float = 0.0) -> tuple[FloatArray, FloatArray]:
+        """Return x at t + rest, and what rounding left out of it."""
+        upper = t * SPLITTER
+        upper -= upper - t
+        lower = t - upper
+        x = self.slope * t
+        left = self.halves[0] * upper
+        left -= x
+        left += self.halves[0] * lower
+        left += self.halves[1] * upper
+        left += self.halves[1] * lower
+        left += self.slope_rest * t
+        left += self.slope * rest
+        if self.start:
+            total = x + self.start
+            part = total - x
+            left += (x - (total - part)) + (self.start - part)
+            left += self.start_rest
+            x = total
+        return x, left
+
+
+def _terms(sum_: Sum) -> int:
+    """Return how many terms of a trigonometric sum matter."""
+    if sum_.doubled:
+        return 1
+    needed = 1
+    for weights in (sum_.odd, sum_.even):
+        first = float(abs(weights[0]).mid())
+        needed = max([needed, *(n + 1 for n, x in enumerate(weights) if float(abs(x).mid()) > NEGLIGIBLE * first)])
+    return needed

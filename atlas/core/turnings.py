@@ -1,0 +1,149 @@
+"""Rotation matrices of many motions R = R_n(k t) R_z(phi t), mf90, each at a few times: no motion is made alone.
+
+What `rotation` makes once for one motion, and then evaluates as a matrix product, is here an array over motions: the
+axis, products of its components, both frequencies in two words. The entries are those of Rodrigues' formula,
+1 + sin x [n, .] + (1 - cos x)(n n^T - 1), times R_z.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from atlas.core.double_double import DoubleDouble, over
+from atlas.core.frequencies import Frequencies, words_of
+from atlas.core.inputs import FloatArray
+from atlas.core.phase import Phases
+from atlas.core.wide import Wide, direction, exact
+from atlas.errors import AtlasError
+
+REACH = 2.0**900
+"""Frequencies between its inverse and itself: their products with times of phases up to LIMIT keep their digits."""
+
+Constants = Callable[..., tuple[Sequence[Any], Any, Any]]
+"""A formula for a vector along n, in the plane (e2, e3) if it has two components, and for k and phi."""
+
+Group = tuple[Constants, Any, Sequence[Any]]
+"""A formula, the motions that it holds for (an index of them), and its inputs, which broadcast to these."""
+
+
+class Turnings:
+    """Motions in a row, `count` of them in `groups`; the inputs `unit` of each formula are frequencies.
+
+    `vectors` returns constant vectors of each motion by name, three components (m,). `inverse` transposes the matrices,
+    mf38.
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        count: int,
+        unit: slice,
+        vectors: Callable[[], Mapping[str, Sequence[FloatArray]]],
+        *,
+        inverse: bool = False,
+    ) -> None:
+        self.vectors, self.inverse, self.indices = vectors, inverse, np.arange(count)
+        self.words = np.empty((2, 2, 0))
+        self.axis, self.dyad, self.defect = np.zeros((3, 3, count))
+        self.sources, self.groups = groups, np.empty(count, dtype=np.int8)
+        words, lack = np.empty((2, 2, count)), np.empty((2, count))
+        for number, (constants, index, inputs) in enumerate(groups):
+            self.groups[index] = number
+            planar = len(constants(*(DoubleDouble(np.float64(1)) for _ in inputs))[0]) == 2
+            entries = over(partial(_axis, constants), *inputs, unit=unit, degree=(0,) * (5 if planar else 9))
+            if planar:
+                n2, n3, n23, square2, square3 = entries
+                entries = [0.0, n2, n3, 0.0, 0.0, n23, 1.0, square3, square2]
+            for row, entry in zip((*self.axis, *self.dyad, *self.defect), entries, strict=True):
+                row[index] = np.ravel(entry)
+            words[..., index], lack[:, index] = words_of(partial(_both, constants), inputs, unit)
+        self.frequencies = Frequencies(words, lack, self._exact)
+
+    def at(self, index: Any, t: FloatArray) -> "Turnings":
+        """Return motions by their index, ready for the times t that go with them; AtlasError if a phase is too long."""
+        some = copy(self)
+        some.indices, some.words = self.indices[index], self.frequencies.at(index, t)
+        some.axis, some.dyad, some.defect = (x[:, index] for x in (self.axis, self.dyad, self.defect))
+        return some
+
+    def vector(self, name: str) -> Sequence[Any]:
+        """Return the components of a vector, each (m,)."""
+        return [x[self.indices] for x in self.vectors()[name]]
+
+    def _exact(self, i: int) -> Sequence[Wide]:
+        """Return k and phi of a motion."""
+        constants, index, inputs = self.sources[self.groups[i]]
+        place = i if isinstance(index, slice) else np.searchsorted(index, i)
+        shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
+        return _both(constants, *exact(*(np.broadcast_to(x, shape).flat[place] for x in inputs)))
+
+    @property
+    def extreme(self) -> Any:
+        """Where a frequency is beyond REACH, and the motion has to be made alone."""
+        size = abs(self.words[0])
+        return np.flatnonzero(~((size == 0) | ((size > 1 / REACH) & (size < REACH))).all(axis=0))
+
+    def rotation(self, t: FloatArray, out: FloatArray) -> None:
+        """Write R(t), mf89, at one time each, (m,), into (m, 3, 3)."""
+        for i, row in enumerate(self._matrix(t)):
+            for j, entry in enumerate(row):
+                out[(slice(None), j, i) if self.inverse else (slice(None), i, j)] = entry
+
+    def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
+        """Write the columns R_j(t), j = 1, 2, 3, into (m, 3)."""
+        matrix = list(zip(*self._matrix(t), strict=True)) if not self.inverse else list(self._matrix(t))
+        for i, entry in enumerate(matrix[j - 1]):
+            out[:, i] = entry
+
+    def turned(self, vector: FloatArray, t: FloatArray, out: FloatArray) -> None:
+        """Write R_n(k t) v for constant v (3, m) into (m, 3)."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            for i, row in enumerate(self._precession(*self._circle(0, t)[1:])):
+                out[:, i] = row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2]
+        if not np.isfinite(out).all():
+            raise AtlasError("A vector that is to be turned is too large for a float: choose larger units.")
+
+    def swung(self, vector: FloatArray, t: FloatArray, out: FloatArray) -> None:
+        """Write R_z(-phi t) v for constant v (3, m) into (m, 3)."""
+        (x, y, z), (cos, sin, _) = vector, self._circle(1, t)
+        out[:, 0], out[:, 1], out[:, 2] = x * cos + y * sin, y * cos - x * sin, z
+
+    def _matrix(self, t: FloatArray) -> list[tuple[Any, Any, Any]]:
+        """Return the rows of R_n(k t) R_z(phi t), each entry (m,)."""
+        cos, sin, _ = self._circle(1, t)
+        rows = self._precession(*self._circle(0, t)[1:])
+        return [(x * cos + y * sin, y * cos - x * sin, z) for x, y, z in rows]
+
+    def _precession(self, sin: FloatArray, versine: FloatArray) -> list[tuple[Any, Any, Any]]:
+        """Return the rows of R_n, by Rodrigues."""
+        s1, s2, s3 = self.axis * sin
+        v12, v13, v23 = self.dyad * versine
+        d1, d2, d3 = 1.0 - self.defect * versine
+        return [(d1, v12 - s3, v13 + s2), (v12 + s3, d2, v23 - s1), (v13 - s2, v23 + s1, d3)]
+
+    def _circle(self, i: int, t: FloatArray) -> FloatArray:
+        """Return cos, sin and 1 - cos of the first or second phase, (3, m)."""
+        halves = np.empty((3, 1, t.size))
+        Phases.of_words(self.words[:, i : i + 1]).circle(
+            t, np.empty((8, 1, t.size)), halves[0], halves[1], halves[2, 0]
+        )
+        halves *= 2
+        return halves[:, 0]
+
+
+def _axis(constants: Constants, *inputs: Any) -> Sequence[Any]:
+    """Return n, n_i n_j for i < j and 1 - n_i^2; where n is in the plane (e2, e3), n2, n3, n2 n3, n2^2 and n3^2."""
+    n = direction(constants(*inputs)[0])
+    squares = [x * x for x in n]
+    if len(n) == 2:
+        return *n, n[0] * n[1], *squares
+    (x, y, z), (xx, yy, zz) = n, squares
+    return x, y, z, x * y, x * z, y * z, yy + zz, xx + zz, xx + yy
+
+
+def _both(constants: Constants, *inputs: Any) -> Sequence[Any]:
+    """Return k and phi."""
+    return constants(*inputs)[1:]

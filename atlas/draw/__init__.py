@@ -1,0 +1,55 @@
+"""A scene as a `matplotlib.figure.Figure` or as a `pyvista.Plotter`, and into files.
+
+`figure` and `plotter` take a recipe's name, `to_figure` and `to_plotter` a scene; `save` writes files. The libraries
+that draw are loaded by the first call.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pyvista import Plotter
+
+_HOMES = {
+    "context": "atlas.draw.sheet",
+    "save": "atlas.draw.files",
+    "to_figure": "atlas.draw.panels",
+    "to_plotter": "atlas.draw.shaded",
+}
+
+__all__ = ["context", "figure", "plotter", "save", "to_figure", "to_plotter"]
+
+
+def figure(name: str, style: Any = None, **parameters: Any) -> "Figure":
+    """Return the Matplotlib figure of a recipe in figures/, with these parameters and the defaults for the rest.
+
+    ``style`` is what `matplotlib.style.use` takes (a name, a file, a dict, or a list of them), applied on top of the
+    package's own sheet; a list that begins with "default" replaces it. The figure is one as any other: it is saved by
+    ``f.savefig(...)``. Raises AtlasError for an unknown name, parameter or style, DomainError where the recipe has no
+    picture.
+    """
+    from atlas.draw.panels import to_figure
+    from atlas.scene import recipes
+
+    return to_figure(recipes.load(name).scene(**parameters), style)
+
+
+def plotter(name: str, *, off_screen: bool = True, **parameters: Any) -> "Plotter":
+    """Return the panels in space of a recipe in figures/ as a PyVista plotter.
+
+    Coordinates are those of the scene. Translucent surfaces are depth-peeled, so that it may be turned: call ``show``
+    (with ``off_screen=False``), ``screenshot`` or ``export_gltf``. Raises AtlasError for an unknown name or parameter,
+    for a recipe without a panel in space, and where no GL library can draw.
+    """
+    from atlas.draw.shaded import to_plotter
+    from atlas.scene import recipes
+
+    return to_plotter(recipes.load(name).scene(**parameters), off_screen=off_screen)
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from its module."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'atlas.draw' has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)

@@ -1,0 +1,90 @@
+"""A scene into files: each whole or not at all, the same bytes each time."""
+
+from collections.abc import Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from atlas.errors import AtlasError
+from atlas.files import replacing
+from atlas.scene.layers import Image, Scene, Space
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Renderer: TypeAlias = Literal["vector", "shaded"]
+_PERCENT = r"\catcode`\%=\active"
+_UNDERSCORE = r"\catcode`\_=\active\def_{\ifmmode\sb\else\_\fi}"
+"""Matplotlib lets a percent sign stand in a text for PGF; so may an underscore."""
+FORMATS = ("svg", "pdf", "png", "pgf")
+
+
+def save(scene: Scene, files: Mapping[Path, str], renderer: str = "vector", style: Any = None) -> None:
+    """Draw a scene once and write it into each path in its kind: svg, pdf, png or pgf.
+
+    ``renderer`` is "vector" or "shaded", and ``style`` as for `atlas.draw.figure`. Where no GL library can draw, and
+    for scenes without a panel in space, the vector renderer takes over; see `choose`. Missing folders are made. Raises
+    AtlasError for an unknown kind or renderer, for a shaded figure that is not a PNG, for a map of values as PGF, and
+    for a style that cannot be used; OSError where a file cannot be written.
+    """
+    from atlas.draw.panels import to_figure
+    from atlas.draw.sheet import context
+
+    used, _ = choose(scene, renderer)
+    for path, kind in files.items():
+        if kind not in FORMATS:
+            raise AtlasError(f"cannot draw the format {kind!r} of {path.name!r}; known: {', '.join(FORMATS)}")
+        if used == "shaded" and kind != "png":
+            raise AtlasError(f"a shaded figure is a PNG; {path.name!r} asks for {kind!r}")
+        if kind == "pgf" and any(isinstance(layer, Image) for panel in scene.panels for layer in panel.layers):
+            raise AtlasError(
+                f"a map of values is no PGF, which holds no pixels; ask for a PDF instead of {path.name!r}"
+            )
+    with context(style), ExitStack() as stack:
+        figure = to_figure(scene, style, shaded=used == "shaded")
+        for path, kind in files.items():
+            _write(figure, stack.enter_context(replacing(path)), kind, scene)
+
+
+def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:
+    """Return the renderer that will draw a scene when this one is asked for, and a line that says why not, if so."""
+    if renderer not in {"vector", "shaded"}:
+        raise AtlasError(f"no renderer {renderer!r}; known: vector, shaded")
+    if renderer == "vector" or not any(isinstance(panel, Space) for panel in scene.panels):
+        return "vector", ""
+    from atlas.draw import gl
+
+    return ("vector", gl.advice()) if gl.prepare() is None else ("shaded", "")
+
+
+def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
+    """Write a figure without a date; the scene's title and description travel inside."""
+    metadata = {
+        "svg": {"Date": None, "Title": scene.title, "Description": scene.alt},
+        "pdf": {"CreationDate": None, "Title": scene.title, "Subject": scene.alt},
+        "png": {"Title": scene.title, "Description": scene.alt},
+    }
+    if kind == "pgf":
+        _write_pgf(figure, path)
+    else:
+        figure.savefig(path, format=kind, metadata=metadata[kind])
+
+
+def _write_pgf(figure: "Figure", path: Path) -> None:
+    r"""Write a figure as PGF commands, for ``\input`` in a LaTeX document; primes are TeX again.
+
+    Matplotlib would ask LaTeX for the size of each text; here it measures them itself, so that none need be installed.
+    """
+    from matplotlib.backend_bases import RendererBase
+    from matplotlib.backends.backend_pgf import RendererPgf
+
+    measured = RendererPgf.get_text_width_height_descent
+    RendererPgf.get_text_width_height_descent = RendererBase.get_text_width_height_descent
+    try:
+        figure.savefig(path, format="pgf")
+    finally:
+        RendererPgf.get_text_width_height_descent = measured
+    commands = path.read_text(encoding="utf-8")
+    for ours, tex in (("′", "'"), (r"\mathdefault", ""), (_PERCENT, _UNDERSCORE + _PERCENT)):
+        commands = commands.replace(ours, tex)
+    path.write_text(commands, encoding="utf-8")

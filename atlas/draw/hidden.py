@@ -1,0 +1,208 @@
+"""What a reader sees of lines in space: visibility behind pieces of quadrics, exactly.
+
+From a point x the ray x + t d goes to the eye, t > 0. A surface F(x) = (x, 1) Q (x, 1) = 0 meets it where
+A t^2 + B(x) t + F(x) = 0 with A = d.Q.d, B = 2 d.Q.(x, 1): the point is hidden if a root t > 0 lies in the surface's
+half spaces. Along a chord of a curve everything that can change the answer is a root of a quadratic in the chord's
+parameter; so the ends of hidden stretches are solved for, and between two of them one point answers for all.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.scene.layers import Surface
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+_ON = 1e-9
+_NEAR = 1e-7
+_NOTHING = 1e-12
+_MARGIN = 0.02
+"""A mesh keeps to its surface within a fraction of a pixel; its image is taken so much larger."""
+
+
+def split(
+    points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float = 1.0
+) -> list[tuple[FloatArray, bool]]:
+    """Cut a polyline (N, 3) into pieces, each with whether it is visible.
+
+    ``towards`` is the unit vector to the eye, ``size`` that of the drawing: what is nearer than 1e-7 of it counts as
+    touching.
+    """
+    start, step = points[:-1], np.diff(points, axis=0)
+    if len(start) == 0:
+        return []
+    surfaces = _before(points, surfaces, towards)
+    resting = [_rests(surface, points, size) for surface in surfaces]
+    cuts = [np.zeros((len(start), 1)), np.ones((len(start), 1))]
+    cuts += [_changes(surface, start, step, towards) for surface in surfaces]
+    s = np.sort(np.clip(np.nan_to_num(np.concatenate(cuts, axis=1), nan=0.0), 0.0, 1.0), axis=1)
+    middle = start[:, None] + (0.5 * (s[:, :-1] + s[:, 1:]))[..., None] * step[:, None]
+    hidden = np.zeros(middle.shape[:-1], dtype=bool)
+    for surface, on in zip(surfaces, resting, strict=True):
+        hidden |= _hides(surface, middle, towards, size, on[:, None])
+    row, column = np.nonzero(np.diff(s, axis=1) > _NOTHING)
+    if len(row) == 0:
+        return []
+    first = start[row] + s[row, column, None] * step[row]
+    last = start[row] + s[row, column + 1, None] * step[row]
+    answers = hidden[row, column]
+    ends = np.concatenate([np.flatnonzero(np.diff(answers)) + 1, [len(answers)]])
+    pieces, begin = [], 0
+    for end in ends:
+        pieces.append((np.concatenate([first[begin:end], last[end - 1 : end]]), not answers[begin]))
+        begin = end
+    return pieces
+
+
+def hidden(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray, size: float = 1.0) -> BoolArray:
+    """Whether each of the points (N, 3) is hidden."""
+    answer = np.zeros(len(points), dtype=bool)
+    for surface in _before(points, surfaces, towards):
+        on = np.abs(values(surface.quadric, points)) <= _ON * _weight(surface.quadric, points, size)
+        answer |= _hides(surface, points, towards, size, on)
+    return answer
+
+
+def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray) -> list[Surface]:
+    """Return the surfaces that may hide some of the points: those whose images overlap with that of the points."""
+    across = np.linalg.svd(towards[None])[2][1:]
+    flat = points @ across.T
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    boxes = [_image(surface, across.tobytes()) for surface in surfaces]
+    return [
+        s for s, (least, most) in zip(surfaces, boxes, strict=True) if (least <= high).all() and (low <= most).all()
+    ]
+
+
+@lru_cache(maxsize=4096)
+def _image(surface: Surface, across: bytes) -> tuple[FloatArray, FloatArray]:
+    """Return the corners of a rectangle that holds the image of a surface: that of its mesh and a little more.
+
+    Without a mesh it is the whole plane.
+    """
+    if not surface.grids:
+        return np.full(2, -np.inf), np.full(2, np.inf)
+    mesh = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
+    flat = mesh @ np.frombuffer(across).reshape(2, 3).T
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    margin = _MARGIN * float(np.max(high - low))
+    return low - margin, high + margin
+
+
+def values(quadric: FloatArray, points: FloatArray) -> FloatArray:
+    """Return the quadratic form F(x) = (x, 1) Q (x, 1) at points (..., 3)."""
+    return _form(quadric, _lift(points), _lift(points))
+
+
+def _lift(x: FloatArray, last: float = 1.0) -> FloatArray:
+    """Homogeneous coordinates: (x, 1) of a point, (x, 0) of a direction."""
+    return np.concatenate([x, np.full((*x.shape[:-1], 1), last)], axis=-1)
+
+
+def _form(quadric: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the bilinear form a.Q.b."""
+    return np.einsum("...i,ij,...j->...", a, quadric, b)
+
+
+def _weight(quadric: FloatArray, points: FloatArray, size: float) -> FloatArray:
+    """Return the size of the terms whose sum F is, against which F counts as zero."""
+    x = np.abs(_lift(points))
+    return np.maximum(_form(np.abs(quadric), x, x), np.abs(quadric[:3, :3]).max() * size * size * 1e-3)
+
+
+def _rests(surface: Surface, points: FloatArray, size: float) -> BoolArray:
+    """Which chords of the polyline rest on the surface (both ends do)."""
+    on = np.abs(values(surface.quadric, points)) <= _ON * _weight(surface.quadric, points, size)
+    return on[:-1] & on[1:]
+
+
+def _is_flat(quadric: FloatArray) -> bool:
+    """Whether the surface is a plane."""
+    return bool(np.abs(quadric[:3, :3]).max() <= _NOTHING * np.abs(quadric[:3, 3]).max())
+
+
+def _hides(surface: Surface, x: FloatArray, towards: FloatArray, size: float, on: BoolArray) -> BoolArray:
+    """Whether the surface hides the points x (..., 3); from a point ``on`` it one root is t = 0 and does not count."""
+    quadric, d = surface.quadric, _lift(towards, 0.0)
+    A = float(_form(quadric, d, d))
+    B = 2.0 * _form(quadric, _lift(x), d)
+    F = np.where(on, 0.0, values(quadric, x))
+    with np.errstate(all="ignore"):
+        if abs(A) <= _NOTHING * np.abs(quadric[:3, :3]).max() or _is_flat(quadric):
+            roots = [-F / B]
+        else:
+            D = B * B - 4.0 * A * F
+            q = -0.5 * (B + np.copysign(np.sqrt(D), B))
+            roots = [q / A, np.where(on, 0.0, F / q)]
+    answer = np.zeros(x.shape[:-1], dtype=bool)
+    for t in roots:
+        real = np.isfinite(t) & (t > _NEAR * size)
+        y = x + np.where(real, t, 0.0)[..., None] * towards
+        answer |= real & within(surface, y, size)
+    return answer
+
+
+def within(surface: Surface, x: FloatArray, size: float) -> BoolArray:
+    """Whether points (..., 3) lie in all half spaces, and inside all quadrics, that cut the surface out."""
+    inside = np.ones(x.shape[:-1], dtype=bool)
+    for *n, d in surface.clip:
+        inside &= x @ np.array(n) <= d + _ON * size * np.linalg.norm(n)
+    for quadric in surface.within:
+        inside &= values(quadric, x) <= _ON * _weight(quadric, x, size)
+    return inside
+
+
+def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: FloatArray) -> FloatArray:
+    """Where along the chords start + s step the answer may change: s (N, K), not a number where it cannot."""
+    quadric, d = surface.quadric, _lift(towards, 0.0)
+    a, b = _lift(start), _lift(step, 0.0)
+    A = float(_form(quadric, d, d))
+    B0, B1 = 2.0 * _form(quadric, a, d), 2.0 * _form(quadric, b, d)
+    F0, F1, F2 = _along(quadric, a, b)
+    cuts = [*_roots(F2, F1, F0)]
+    flat = _is_flat(quadric)
+    if not flat:
+        cuts += _roots(B1 * B1 - 4.0 * A * F2, 2.0 * B0 * B1 - 4.0 * A * F1, B0 * B0 - 4.0 * A * F0)
+        cuts.append(_ratio(-B0, B1))
+    for *normal, distance in surface.clip:
+        n = np.array(normal)
+        facing = float(n @ towards)
+        if abs(facing) <= _NOTHING * float(np.linalg.norm(n)):
+            cuts.append(_ratio(distance - start @ n, step @ n))
+            continue
+        # where the ray meets the edge of the half space, and whether that point is on the surface
+        moved = a + ((distance - start @ n) / facing)[:, None] * d
+        drift = b - ((step @ n) / facing)[:, None] * d
+        G0, G1, G2 = _along(quadric, moved, drift)
+        cuts += _roots(G2, G1, G0)
+        if not flat and A != 0.0:  # from a point on the surface the other root is t = -B / A
+            cuts.append(_ratio(distance - start @ n + B0 / A * facing, step @ n - B1 / A * facing))
+    if flat and surface.within:
+        with np.errstate(all="ignore"):
+            moved, drift = a - (F0 / B0)[:, None] * d, b - (F1 / B0)[:, None] * d
+        for other in surface.within:
+            G0, G1, G2 = _along(other, moved, drift)
+            cuts += _roots(G2, G1, G0)
+    return np.stack(cuts, axis=1)
+
+
+def _along(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Coefficients of F(a + s b) = c0 + c1 s + c2 s^2."""
+    return _form(quadric, a, a), 2.0 * _form(quadric, a, b), _form(quadric, b, b)
+
+
+def _ratio(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return a / b, not a number where there is none."""
+    with np.errstate(all="ignore"):
+        return np.where(b != 0.0, a / b, np.nan)
+
+
+def _roots(c2: FloatArray, c1: FloatArray, c0: FloatArray) -> list[FloatArray]:
+    """Both roots of c2 s^2 + c1 s + c0, without cancellation; not a number where they are not real."""
+    with np.errstate(all="ignore"):
+        q = -0.5 * (c1 + np.copysign(np.sqrt(c1 * c1 - 4.0 * c2 * c0), c1))
+    return [_ratio(q, c2), _ratio(c0, q)]

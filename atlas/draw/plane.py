@@ -1,0 +1,118 @@
+"""A panel with two axes, drawn by Matplotlib's own artists."""
+
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import ScalarFormatter
+from numpy.typing import NDArray
+
+from atlas.draw.sheet import style_of
+from atlas.draw.text import typeset
+from atlas.errors import AtlasError
+from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
+from atlas.scene.style import INK
+
+FloatArray = NDArray[np.float64]
+
+_AREAS, _LINES, _MARKS = 1.0, 2.0, 3.0
+_WHITE = "#ffffff"
+_BAR = (1.03, 0.0, 1.0 / 30.0, 1.0)
+
+
+def draw_plane(axes: Axes, panel: Plane) -> None:
+    """Draw the layers of a panel, its scales, labels, legend and colorbar; names come after the layout.
+
+    Raises AtlasError for a layer that belongs into a panel in space.
+    """
+    _scale(axes, panel)
+    entries = []
+    for order, layer in enumerate(panel.layers):
+        artist = _draw(axes, layer, 1e-3 * order)
+        if artist is not None and layer.label:
+            artist.set_label(typeset(layer.label))
+            entries.append(artist)
+    axes.set(xlabel=typeset(panel.x_label), ylabel=typeset(panel.y_label))
+    axes.set(**{key: at for key, at in (("xlim", panel.x_limits), ("ylim", panel.y_limits)) if at is not None})
+    if panel.equal:
+        axes.set_aspect("equal", adjustable="box" if panel.x_limits and panel.y_limits else "datalim")
+    if panel.y_names:
+        axes.set_yticks(np.arange(1, len(panel.y_names) + 1), [typeset(name) for name in panel.y_names])
+        axes.tick_params(axis="y", length=0)
+    for axis in (axes.xaxis, axes.yaxis):
+        if type(axis.get_major_formatter()) is ScalarFormatter:
+            axis.set_major_formatter(_Formatter())
+    if panel.legend == "beside":
+        axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    elif panel.legend and entries:
+        axes.legend(handles=entries, loc="best").set_in_layout(False)
+
+
+def _scale(axes: Axes, panel: Plane) -> None:
+    """Set the scales of both axes."""
+    for column, (axis, scale) in enumerate(((axes.set_xscale, panel.x_scale), (axes.set_yscale, panel.y_scale))):
+        if scale == "symlog":
+            axis(scale, linthresh=_threshold(panel, column))
+        elif scale == "log":
+            axis(scale)
+
+
+def _draw(axes: Axes, layer: Layer, rise: float) -> Any:
+    """Draw one layer and return the artist that stands for it in a legend."""
+    if isinstance(layer, Label):
+        return None
+    if isinstance(layer, Image):
+        _map(axes, layer)
+        return None
+    look = style_of(layer.role)
+    if isinstance(layer, Curve):
+        dashes = (0, look.dash) if look.dash else "-"
+        return axes.plot(*layer.points.T, color=look.colour, lw=look.width, ls=dashes, zorder=_LINES + rise)[0]
+    if isinstance(layer, Points):
+        return axes.plot(*np.atleast_2d(layer.points).T, ls="", zorder=_MARKS + rise, **marker(layer.role))[0]
+    if isinstance(layer, Region):
+        shape = mpl.patches.Polygon(layer.points, facecolor=look.colour, alpha=look.fill, lw=0, zorder=_AREAS + rise)
+        return axes.add_patch(shape)
+    if isinstance(layer, Arrow):
+        axes.update_datalim([layer.tail, layer.tip])
+        arrow = {"arrowstyle": "-|>,head_length=0.42,head_width=0.16", "mutation_scale": 10, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", layer.tip, layer.tail, arrowprops={**arrow, "color": look.colour, "lw": look.width})
+        return None
+    raise AtlasError(f"a plane panel cannot hold a {type(layer).__name__}; put it in a Space")
+
+
+def marker(role: str) -> dict[str, Any]:
+    """Return the marker of a role as keywords of `Axes.plot`."""
+    look = style_of(role)
+    edge = INK if look.colour == _WHITE else look.colour
+    shape, size = ("o", 0.5 * look.size) if look.marker == "." else (look.marker or "o", look.size)
+    return {"marker": shape, "ms": size, "mfc": look.colour, "mec": edge, "mew": 0.7}
+
+
+def _map(axes: Axes, image: Image) -> None:
+    """Draw a map of values as pixels, with its colorbar beside it."""
+    low, high = image.limits or (np.nanmin(image.values), np.nanmax(image.values))
+    norm = (mpl.colors.LogNorm if image.scale == "log" else mpl.colors.Normalize)(low, high)
+    mesh = axes.pcolormesh(image.x, image.y, image.values, norm=norm, rasterized=True)
+    bar = axes.figure.colorbar(mesh, cax=axes.inset_axes(_BAR), label=typeset(image.label))
+    bar.minorticks_off()
+
+
+class _Formatter(ScalarFormatter):
+    """Numbers as plain text, which is drawn four times faster than a formula; their factor as a power of ten."""
+
+    def get_offset(self) -> str:
+        self.set_useMathText(True)
+        try:
+            return str(super().get_offset())
+        finally:
+            self.set_useMathText(False)
+
+
+def _threshold(panel: Plane, column: int) -> float:
+    """Return where a symmetric logarithm turns linear: the power of ten below the smallest value."""
+    drawn = [np.atleast_2d(layer.points)[:, column] for layer in panel.layers if isinstance(layer, Curve | Points)]
+    sizes = np.abs(np.concatenate([np.empty(0), *drawn]))
+    sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]
+    return float(10.0 ** np.floor(np.log10(sizes.min()))) if sizes.size else 1.0

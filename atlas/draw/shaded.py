@@ -1,0 +1,207 @@
+"""A scene as a PyVista plotter, to be turned, or as a still picture with its translucent surfaces in exact order.
+
+Depth peeling and antialiasing exclude each other: with multisampling translucent surfaces vanish, with SSAA or FXAA
+their order is silently wrong. So a plotter that may be turned is peeled without antialiasing; a still picture is
+antialiased, and its surfaces are cut and sorted by `atlas.draw.glass`.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pyvista as pv
+from numpy.typing import NDArray
+
+from atlas.draw import gl
+from atlas.draw.glass import AMBIENT, distinct, glass, lattice
+from atlas.draw.sheet import style_of
+from atlas.draw.space import HEAD_WIDTH, head_base
+from atlas.draw.text import typeset
+from atlas.draw.view import View, fit, named
+from atlas.errors import AtlasError
+from atlas.scene.layers import Arrow, Curve, Points, Scene, Space, Surface
+from atlas.scene.style import Style
+
+FloatArray = NDArray[np.float64]
+
+_LIGHTS = (
+    ((-0.55, 0.75, 0.90), 0.90),  # the key light from the upper left
+    ((0.90, 0.15, 0.80), 0.26),  # a broad fill from the right
+    ((0.10, 1.00, -0.50), 0.25),  # a little from behind
+    ((0.00, -0.35, 1.00), 0.20),
+)
+_SOLID = {"ambient": 0.30, "diffuse": 0.72, "specular": 0.35, "specular_power": 30.0}
+_GLASS = {"ambient": AMBIENT, "diffuse": 0.46, "specular": 0.28, "specular_power": 40.0}
+_SHINE = (1.0, 1.0, 1.0)
+_SAMPLES, _PEELS, _SIDES = 4, 10, 20
+_SHARP = float(np.cos(np.radians(25.0)))
+_DOTS, _LABEL = 150.0 / 25.4, 20
+
+
+def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
+    """Return the panels in space of a scene as a plotter, side by side, in the coordinates of the scene.
+
+    It may be turned: translucent surfaces are depth-peeled, without antialiasing. Raises AtlasError for a scene without
+    a panel in space, and where no GL library can draw.
+    """
+    panels = [panel for panel in scene.panels if isinstance(panel, Space)]
+    if not panels:
+        raise AtlasError("the scene has no panel in space; draw it with to_figure")
+    if gl.prepare() is None:
+        raise AtlasError(gl.advice())
+    size = [round(length * _DOTS) for length in scene.size]
+    share = (size[0] * 72.0 / 25.4 / _DOTS / len(panels), size[1] * 72.0 / 25.4 / _DOTS)
+    plotter = pv.Plotter(off_screen=off_screen, shape=(1, len(panels)), window_size=size, lighting="none", border=False)
+    for column, panel in enumerate(panels):
+        plotter.subplot(0, column)
+        view = fit(panel, share)
+        _add_solids(plotter, view)
+        for surface in view.surfaces:
+            _add_surface(plotter, surface, view)
+        _add_names(plotter, view)
+        _set_up(plotter, view)
+        plotter.disable_anti_aliasing()
+        plotter.enable_depth_peeling(number_of_peels=_PEELS, occlusion_ratio=0.0)
+    return plotter
+
+
+def still(view: View, width: int, height: int) -> NDArray[np.uint8]:
+    """Return a picture (height, width, 3) of a panel, antialiased, with its surfaces in exact order."""
+    view = replace(view, centre=np.zeros(3), size=1.0)
+    plotter = pv.Plotter(off_screen=True, window_size=[width, height], lighting="none")
+    plotter.enable_anti_aliasing("msaa", multi_samples=_SAMPLES)
+    plotter.renderer.SetUseOIT(False)  # translucent faces are blended one by one, as they come
+    _add_solids(plotter, view)
+    if view.surfaces:
+        points, normals, colours = glass(view, view.window[1] / (height * view.scale))
+        mesh = pv.PolyData.from_regular_faces(points.astype(np.float32), np.arange(len(points)).reshape(-1, 3))
+        mesh["colours"] = colours
+        mesh.point_data.active_normals = normals.astype(np.float32)
+        _add(plotter, mesh, view, scalars="colours", rgba=True, **_GLASS).ForceTranslucentOn()
+    _set_up(plotter, view)
+    pixels = plotter.screenshot(return_img=True)
+    plotter.close()
+    return pixels
+
+
+def _add(plotter: pv.Plotter, mesh: pv.PolyData, view: View, **options: Any) -> pv.Actor:
+    """Add a mesh in the coordinates of the view, shaded smoothly by the normals that it has."""
+    mesh.points = mesh.points * view.size + view.centre
+    actor = plotter.add_mesh(mesh, show_scalar_bar=False, reset_camera=False, render=False, **options)
+    actor.prop.interpolation = "Phong"
+    actor.prop.SetSpecularColor(*_SHINE)
+    return actor
+
+
+def _add_surface(plotter: pv.Plotter, surface: Surface, view: View) -> None:
+    """Add the meshes of a surface, each side in its colour."""
+    look = style_of(surface.role)
+    for grid in surface.grids:
+        rows, columns = grid.shape[:2]
+        mesh = pv.PolyData.from_regular_faces(grid.reshape(-1, 3), lattice(rows, columns)).clean().compute_normals()
+        back = {**_GLASS, "color": look.back or look.colour, "opacity": look.glass}
+        _add(plotter, mesh, view, color=look.colour, opacity=look.glass, backface_params=back, **_GLASS)
+
+
+def _add_solids(plotter: pv.Plotter, view: View) -> None:
+    """Add lines, arrows and marked points, those of one colour as one mesh."""
+    groups: defaultdict[str, list[pv.PolyData]] = defaultdict(list)
+    for layer in view.panel.layers:
+        if isinstance(layer, Surface):
+            look = style_of("rim")
+            groups[look.colour] += [tube for rim in layer.rims for tube in _tubes(rim, look, view)]
+        elif isinstance(layer, Curve):
+            look = style_of(layer.role)
+            groups[look.colour] += _tubes(layer.points, look, view)
+        elif isinstance(layer, Arrow):
+            look = style_of(layer.role)
+            groups[look.colour] += _arrow(layer, look, view)
+        elif isinstance(layer, Points):
+            look = style_of(layer.role)
+            groups[look.colour] += [_ball(point, look, view) for point in np.atleast_2d(layer.points)]
+    for colour, meshes in groups.items():
+        if meshes:
+            _add(plotter, meshes[0].append_polydata(*meshes[1:]), view, color=colour, **_SOLID)
+
+
+def _add_names(plotter: pv.Plotter, view: View) -> None:
+    """Add the names as labels that keep their size and stay in front; formulas are set by Matplotlib."""
+    import vtkmodules.vtkRenderingMatplotlib  # noqa: F401  without it TeX is shown as it is
+
+    found = [named(layer, view.frame) for layer in view.panel.layers]
+    places = [view.centre + view.size * np.atleast_2d(at)[0] for _, at, _, _ in filter(None, found)]
+    texts = [typeset(text) for text, _, _, _ in filter(None, found)]
+    if texts:
+        plotter.add_point_labels(
+            places, texts, font_size=_LABEL, show_points=False, shape=None, always_visible=True, reset_camera=False
+        )
+
+
+def _tubes(points: FloatArray, look: Style, view: View) -> Iterator[pv.PolyData]:
+    """Yield a line as tubes with round joints where it has a corner; a dashed one in dashes."""
+    if look.tube <= 0.0:
+        return
+    for dash in dashes(points, look, view):
+        fine = distinct(dash)
+        if len(fine) < 2:
+            continue
+        step = np.diff(fine, axis=0)
+        step /= np.linalg.norm(step, axis=1, keepdims=True)
+        corners = np.flatnonzero(np.sum(step[1:] * step[:-1], axis=1) < _SHARP) + 1
+        for part in np.split(np.arange(len(fine)), corners):
+            piece = fine[part[0] : part[-1] + 2]
+            yield pv.lines_from_points(piece).tube(radius=0.5 * look.tube / view.scale, n_sides=_SIDES)
+        for corner in fine[corners]:
+            yield _ball(corner, look, view)
+
+
+def _arrow(arrow: Arrow, look: Style, view: View) -> Iterator[pv.PolyData]:
+    """Yield a round shaft and a cone."""
+    tail, tip = np.asarray(arrow.tail, dtype=float), np.asarray(arrow.tip, dtype=float)
+    base = head_base(tail, tip, look, view.scale)
+    head = float(np.linalg.norm(tip - base))
+    if head > 0.0:
+        yield from _tubes(np.stack([tail, base + 0.02 * (tip - base)]), look, view)
+        cone = pv.Cone(
+            center=0.5 * (tip + base), direction=tip - base, height=head, radius=HEAD_WIDTH * head, resolution=_SIDES
+        )
+        yield cone.compute_normals(split_vertices=True, feature_angle=60.0)
+
+
+def _ball(centre: FloatArray, look: Style, view: View) -> pv.PolyData:
+    """Return a marked point."""
+    return pv.Sphere(
+        radius=0.5 * look.tube / view.scale, center=centre, theta_resolution=_SIDES, phi_resolution=_SIDES // 2
+    )
+
+
+def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
+    """Return the polyline itself, or the dashes of it, measured in points of the paper along the line."""
+    if not look.dash:
+        return [points]
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    pattern = np.array(look.dash) / view.scale
+    ends = np.cumsum(np.resize(pattern, len(pattern) * (1 + int(length[-1] / pattern.sum()))))
+    ends = np.minimum(np.concatenate([[0.0], ends]), length[-1])
+    pieces = []
+    for start, stop in zip(ends[::2], ends[1::2], strict=False):
+        s = np.concatenate([[start], length[(length > start) & (length < stop)], [stop]])
+        pieces.append(np.stack([np.interp(s, length, points[:, i]) for i in range(3)], axis=1))
+    return pieces
+
+
+def _set_up(plotter: pv.Plotter, view: View) -> None:
+    """Set lights, which do not turn with the camera, and the camera: parallel, with the scale and shift of the page."""
+    plotter.set_background("white", all_renderers=False)
+    for place, strength in _LIGHTS:
+        position = tuple(np.array(place) @ view.frame)
+        plotter.add_light(pv.Light(position=position, intensity=strength, light_type="scene light"))
+    middle = (0.5 * np.array(view.window) - view.shift) / view.scale
+    focus = view.centre + view.size * (middle @ view.frame[:2])
+    camera = plotter.camera
+    camera.enable_parallel_projection()
+    camera.focal_point, camera.position, camera.up = focus, focus + 4.0 * view.size * view.towards, view.frame[1]
+    camera.parallel_scale = 0.5 * view.window[1] / view.scale * view.size
+    camera.clipping_range = (0.5 * view.size, 8.0 * view.size)

@@ -1,0 +1,82 @@
+"""The style sheet: Matplotlib's settings while a figure is made and saved."""
+
+import shutil
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from atlas.errors import AtlasError
+from atlas.scene.style import LINES, Style, style
+
+_NO_LATEX = "the style asks for it (text.usetex); with SciencePlots say science,no-latex"
+_DASHES = {"--": (3.7, 1.6), "-.": (6.4, 1.6, 1.0, 1.6), ":": (1.0, 1.65)}
+SHEET = Path(__file__).with_name("atlas.mplstyle")
+
+
+@contextmanager
+def context(style: Any = None) -> Iterator[None]:
+    """Draw with Matplotlib's defaults, the package's sheet and ``style`` on top; at exit the settings are as before.
+
+    ``style`` is a name, a file, a dict of settings, or a list of them, as for `matplotlib.style.use`, or names with
+    commas between them; the names of SciencePlots are known where it is installed. Raises AtlasError for a style that
+    cannot be read, or that needs a LaTeX that is not there.
+    """
+    import matplotlib as mpl
+
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_sheet())
+        if isinstance(style, str):
+            style = style.split(",")
+        if style is not None:
+            _use([style] if isinstance(style, Path | dict) else style)
+        try:
+            yield
+        except RuntimeError as error:
+            if not mpl.rcParams["text.usetex"]:
+                raise
+            reason = next((line for line in str(error).splitlines() if line.startswith("!")), "")
+            raise AtlasError(f"LaTeX cannot set the texts {reason}; {_NO_LATEX}") from error
+
+
+@cache
+def _sheet() -> Any:
+    """Read the package's sheet."""
+    import matplotlib as mpl
+
+    return mpl.rc_params_from_file(SHEET, use_default_template=False)
+
+
+def _use(styles: Sequence[Any]) -> None:
+    """Apply a user's styles one after the other."""
+    import matplotlib as mpl
+    import matplotlib.style
+
+    for one in styles:
+        if isinstance(one, str) and one not in mpl.style.library:
+            with suppress(ImportError):
+                import scienceplots  # noqa: F401  it enters its sheets into Matplotlib's library
+        try:
+            mpl.style.use(one)
+        except (OSError, KeyError, ValueError, TypeError) as error:
+            raise AtlasError(f"the style {str(one)!r} cannot be used: {error}") from error
+    if mpl.rcParams["text.usetex"] and not shutil.which("latex"):
+        raise AtlasError(f"there is no LaTeX; {_NO_LATEX}")
+
+
+def style_of(role: str) -> Style:
+    """Return the look of a role; that of plotted lines is the cycle of the style sheet, ``axes.prop_cycle``."""
+    import matplotlib as mpl
+    from matplotlib.colors import to_hex
+
+    found = style(role)
+    if role not in LINES:
+        return found
+    cycle = list(mpl.rcParams["axes.prop_cycle"])
+    line = cycle[LINES.index(role) % len(cycle)]
+    width, dashes = line.get("linewidth", mpl.rcParams["lines.linewidth"]), line.get("linestyle", "-")
+    dash = dashes[1] or () if isinstance(dashes, tuple) else _DASHES.get(dashes, ())
+    return replace(found, colour=to_hex(line.get("color", found.colour)), width=width, dash=tuple(dash))

@@ -1,0 +1,145 @@
+"""The projection of a panel in space: the direction of view, the scale at which all fits, and the names to write."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.draw.labels import Tag, stand
+from atlas.draw.scaling import scaled
+from atlas.draw.sheet import style_of
+from atlas.draw.text import extent, points
+from atlas.errors import AtlasError
+from atlas.scene.camera import frame, shown
+from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Points, Region, Space, Surface
+
+FloatArray = NDArray[np.float64]
+
+_MARGIN = 4.0
+_BEYOND = 4.5
+
+
+@dataclass(frozen=True)
+class View:
+    """Where things of a panel appear on paper.
+
+    ``panel`` is the panel in the coordinates (x - ``centre``)/``size``, brought to the origin and to the size one;
+    ``frame`` (3, 3) has the rows right, up, towards the eye; ``scale`` is in printer's points per unit of ``panel``,
+    ``shift`` (2,) the place on paper of its origin, ``window`` the panel's (width, height), all in points; ``tags`` are
+    the names, anchored on paper.
+    """
+
+    panel: Space
+    frame: FloatArray
+    scale: float
+    shift: FloatArray
+    window: tuple[float, float]
+    tags: tuple[Tag, ...]
+    centre: FloatArray
+    size: float
+
+    @property
+    def towards(self) -> FloatArray:
+        """The unit vector to the eye."""
+        return self.frame[2]
+
+    @property
+    def surfaces(self) -> tuple[Surface, ...]:
+        """What can hide something."""
+        return tuple(layer for layer in self.panel.layers if isinstance(layer, Surface))
+
+    def on_paper(self, points: FloatArray) -> FloatArray:
+        """Points (..., 3) of the scene as points (..., 2) of the paper."""
+        return self.scale * (points @ self.frame[:2].T) + self.shift
+
+
+def fit(panel: Space, window: tuple[float, float]) -> View:
+    """Fit a panel into a window (width, height) in points: the largest scale at which drawing and names stay inside."""
+    width, height = window
+    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
+    panel, seen = scaled(panel, centre, size), (seen - centre) / size
+    eye = frame(panel)
+    flat = seen @ eye[:2].T
+    tags = [tag for layer in panel.layers for tag in _tags(layer, eye)]
+    inside = np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN])
+    scale = _fit(flat, tags, inside)
+    left, right = _reach(flat, tags, scale)
+    shift = 0.5 * (np.array([width, height]) - left - right)
+
+    def moved(at: tuple[float, float]) -> tuple[float, float]:
+        x, y = scale * np.array(at) + shift
+        return float(x), float(y)
+
+    placed = (replace(tag, anchor=moved(tag.anchor), elsewhere=tuple(map(moved, tag.elsewhere))) for tag in tags)
+    return View(panel, eye, scale, shift, (width, height), tuple(placed), centre, size)
+
+
+def _parts(layer: Layer) -> Iterator[FloatArray]:
+    """All the points of a layer that must be seen."""
+    if isinstance(layer, Image | Region):
+        kind = "map" if isinstance(layer, Image) else "flat region"
+        raise AtlasError(f"a panel in space cannot hold a {kind}; put it in a Plane")
+    yield from shown(layer)
+
+
+def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
+    """Yield the names that a layer wants written; their anchors are on paper at scale 1."""
+    request = named(layer, eye)
+    if request is not None:
+        text, at, offset, role = request
+        size = points("axes.labelsize" if role == "note" else "font.size")
+        first, *elsewhere = ((float(x), float(y)) for x, y in np.atleast_2d(at) @ eye[:2].T)
+        yield Tag(text, first, offset, extent(text, size), _ink(role), size, tuple(elsewhere))
+
+
+def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
+    """Return text, place, offset and role of a layer's name, if it has one."""
+    request: tuple[str, FloatArray, tuple[float, float], str] | None = None
+    if isinstance(layer, Label):
+        request = layer.text, layer.at, layer.offset, layer.role
+    elif isinstance(layer, Arrow):
+        step = eye[:2] @ (np.asarray(layer.tip) - np.asarray(layer.tail))
+        length = float(np.hypot(*step))
+        beyond = (_BEYOND * step[0] / length, _BEYOND * step[1] / length) if length else (_BEYOND, 0.0)
+        request = layer.label, layer.tip, layer.offset or beyond, layer.role
+    elif isinstance(layer, Points):
+        request = layer.label, np.atleast_2d(layer.points)[0], (4.0, 4.0), layer.role
+    elif isinstance(layer, Curve):
+        request = layer.label, layer.points[-1], (4.0, 4.0), layer.role
+    elif isinstance(layer, Surface):
+        points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
+        request = layer.label, points[int(np.argmax(points @ (eye[0] + eye[1])))], (3.0, 3.0), "note"
+    return request if request and request[0] else None
+
+
+def _ink(role: str) -> str:
+    """Return the colour of a name: that of the thing, unless it would not be read on white."""
+    colour = style_of(role).colour
+    red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+    return colour if 0.30 * red + 0.59 * green + 0.11 * blue < 0.62 else style_of("label").colour
+
+
+def _fit(flat: FloatArray, tags: list[Tag], inside: FloatArray) -> float:
+    """Return the largest scale at which drawing and names stay inside, by bisection."""
+    span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
+    corners = np.stack([flat.min(axis=0), flat.max(axis=0)])
+    low, high = 0.0, float(np.min(inside / span))
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        a, b = _reach(corners, tags, middle)
+        low, high = (middle, high) if (b - a <= inside).all() else (low, middle)
+    return low or high
+
+
+def _reach(flat: FloatArray, tags: list[Tag], scale: float) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest corner of drawing and names at this scale, the origin at (0, 0)."""
+    anchors = np.array([tag.anchor for tag in tags]).reshape(-1, 2)
+    beside = np.array([stand(replace(tag, anchor=(0.0, 0.0))) for tag in tags]).reshape(-1, 2)
+    half = 0.5 * np.array([tag.extent for tag in tags]).reshape(-1, 2)
+    centres = scale * anchors + beside
+    low = np.concatenate([scale * flat, centres - half]).min(axis=0)
+    high = np.concatenate([scale * flat, centres + half]).max(axis=0)
+    return low, high

@@ -1,0 +1,68 @@
+"""The Cayley-Klein parameters of a motion as functions of time, and the rotation matrix that they make."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from flint import acb, arb
+
+from atlas.exact.inputs import Real
+from atlas.exact.theta import Lattice, Sum
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A Cayley-Klein parameter up to the common factor: factor exp(i (rate t + twist s)) sum(s), s within a period.
+
+    Its rate is its ``own`` and that of the frame, ``frame``. ``turn`` is the sense, -1, 0 or 1, in which ``sum`` goes
+    half around zero in one period.
+    """
+
+    factor: acb
+    own: arb
+    frame: arb
+    twist: arb
+    sum: Sum
+    turn: int
+
+    @property
+    def rate(self) -> arb:
+        """The whole rate."""
+        return self.own + self.frame
+
+    def at(self, t: Any, s: arb) -> tuple[acb, acb]:
+        """Return the parameter and its derivative at time t, which is s in its own period."""
+        value, slope = self.sum.at(s)
+        phase = self.factor * acb(0, self.rate * t + self.twist * s).exp()
+        return phase * value, phase * (slope + acb(0, self.rate + self.twist) * value)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """All constants of a motion at one precision: ``origin`` is the time since the turning point at t = 0.
+
+    ``precession`` and ``spin`` are the rates of the frame in which alpha and beta have their own: Larmor's, -b, and
+    (1-I) c3; or all there is where theta is constant.
+    """
+
+    lattice: Lattice
+    origin: arb
+    alpha: Parameter
+    beta: Parameter
+    precession: Real
+    spin: Real
+
+    @property
+    def period(self) -> arb:
+        """Period of nutation, infinite on a separatrix."""
+        return 2 * self.lattice.half
+
+
+def matrix(q: list[arb]) -> list[list[arb]]:
+    """Return the rotation matrix of a quaternion that need not be normalised."""
+    w, x, y, z = q
+    n = w * w + x * x + y * y + z * z
+    return [
+        [(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n],
+        [2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n],
+        [2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n],
+    ]

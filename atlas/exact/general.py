@@ -1,0 +1,332 @@
+"""The general motion of a charged symmetric body as balls: R(t) for any initial angular velocity (not in the paper).
+
+Seen from the frame that turns with -B', and with a turn (1-I) c3 t about the body's axis taken off, the body is a ball
+in the potential (I-1) b^2 nu^2/2, nu = K3/b. With M3 = I c3 and p = (M, K)/b its Cayley-Klein parameters obey
+
+    alpha'/alpha = [nu' + i (p + M3)]/(2 (1 + nu)),    beta'/beta = [-nu' + i (p - M3)]/(2 (1 - nu)),
+
+each with one simple zero in a cell of the lattice of Omega3: so each is a theta function times exp(i lambda t), up to a
+factor that both share, and the matrix is that of the quaternion (alpha, beta) over its length.
+"""
+
+from functools import cached_property
+from typing import Any, Self
+
+from flint import acb, arb, ctx, fmpq
+
+from atlas.errors import DomainError
+from atlas.exact.body import ratio_of
+from atlas.exact.cayley_klein import Parameter, Solution, matrix
+from atlas.exact.elementary import ElementaryMotion
+from atlas.exact.free import FreeMotion
+from atlas.exact.inputs import Real, rational, rationals, root
+from atlas.exact.nutation import Nutation
+from atlas.exact.quartic import Quartic
+from atlas.exact.theta import Lattice, Sum, constant, infinite
+
+
+class GeneralMotion:
+    """The motion R(t), R(0) = 1, that starts with Omega(0) = ``omega`` in the field B' = (0, B2, B3).
+
+    `at_state` takes a field in any direction. Every value is computed anew at the precision of the moment, see
+    `atlas.exact.digits`; which case it is, is decided on the exact inputs.
+    """
+
+    def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
+        B2, B3 = rationals(field, "the field (B2, B3)", 2)
+        self._start(ratio_of(ratio), rationals(omega, "omega", 3), (fmpq(0), B2, B3))
+
+    @classmethod
+    def at_state(cls, ratio: Any, Omega: Any, K: Any) -> Self:
+        """Return the motion that starts with the angular velocity Omega and the field K, both in the body, (3,)."""
+        motion = cls.__new__(cls)
+        motion._start(  # noqa: SLF001  of this class
+            ratio_of(ratio), rationals(Omega, "Omega", 3), rationals(K, "K", 3)
+        )
+        return motion
+
+    def _start(self, I: fmpq, Omega: Any, K: Any) -> None:
+        self.I, self.omega, self.field = I, Omega, K
+        self.quartic = Quartic(I, Omega, K)
+        self.kind = self._kind()
+        self._known: tuple[int, Solution] | None = None
+
+    def _kind(self) -> str:
+        q = self.quartic
+        if q.K2 == 0 or q.is_constant:
+            rest = all(w == 0 for w in self.omega)
+            steady = "at rest" if rest else "precession" if q.across != 0 else "spin along the field"
+            return "free body" if q.K2 == 0 else steady
+        if self.I == 1:
+            return "ball"
+        roots = q.roots()
+        first, second = sorted(roots[place].multiplicity for place in (q.low, q.high))
+        more = {(2, 2): " between B and -B", (1, 3): ", triple root", (1, 2): ""}.get((first, second))
+        if more is not None:
+            return f"separatrix{more}"
+        return f"nutation, {'four' if all(r.is_real for r in roots) else 'two'} real roots"
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether theta is constant, so that R(t) is two turns one after the other."""
+        return self.kind in {"free body", "at rest", "precession", "spin along the field"}
+
+    @cached_property
+    def _elementary(self) -> ElementaryMotion | FreeMotion | None:
+        """The same motion in elementary functions, whose zeros are exact, if Omega3 is constant and B1 = 0."""
+        if self.kind == "free body":
+            return FreeMotion(self.I, self.omega)
+        if not self.is_steady or self.field[0] != 0:
+            return None
+        _, w2, w3 = self.omega
+        try:
+            return ElementaryMotion(self.I, self.field[1:], w2)
+        except DomainError:  # omega3 is free
+            return ElementaryMotion(self.I, self.field[1:], w2, w3)
+
+    @property
+    def B2(self) -> fmpq:
+        """Second component of the field in the body at t = 0."""
+        return self.field[1]
+
+    @property
+    def B3(self) -> fmpq:
+        """Third component of the field in the body at t = 0."""
+        return self.field[2]
+
+    @property
+    def b(self) -> Real:
+        """Length of the field."""
+        return root(self.quartic.K2)
+
+    @property
+    def solution(self) -> Solution:
+        """The constants at the precision of the moment."""
+        if self._known is None or self._known[0] != ctx.prec:
+            self._known = ctx.prec, self._solved()
+        return self._known[1]
+
+    def trigonometric(self) -> Solution:
+        """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
+        is_elliptic = self.kind.startswith("nutation")
+        return Nutation(self).solution(trigonometric=True) if is_elliptic else self.solution
+
+    def _solved(self) -> Solution:
+        if self.is_steady:
+            return self._steady()
+        if self.kind == "ball":
+            return self._ball()
+        return Nutation(self).solution()
+
+    @cached_property
+    def _axis(self) -> tuple[fmpq, fmpq, fmpq]:
+        """Vector along the axis of precession, in the body at t = 0: the field, or the momentum of a free body."""
+        if self.kind != "free body":
+            K1, K2, K3 = self.field
+            return K1, K2, K3
+        w1, w2, w3 = self.omega
+        momentum = w1, w2, self.I * w3
+        return momentum if any(w != 0 for w in self.omega) else (fmpq(0), fmpq(0), fmpq(1))
+
+    def tilt(self) -> tuple[Real, Real, Real, Real]:
+        """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
+        x, y, z = self._axis
+        across, size = root(x * x + y * y), root(x * x + y * y + z * z)
+        if x == 0 and y == 0:
+            return (fmpq(1), fmpq(0), fmpq(1), fmpq(0)) if z > 0 else (fmpq(0), fmpq(1), fmpq(1), fmpq(0))
+        # of the two halves the one that does not cancel first
+        longer = arb((1 + abs(arb(z) / size)) / 2).sqrt()
+        shorter = arb(across) / (2 * longer * size)
+        return (longer, shorter, y / across, x / across) if z >= 0 else (shorter, longer, y / across, x / across)
+
+    def _steady(self) -> Solution:
+        q, (c, s, _, _) = self.quartic, self.tilt()
+        w1, w2, w3 = self.omega
+        if self.kind == "free body":
+            k: Real = root(w1**2 + w2**2 + (self.I * w3) ** 2)
+            phi: Real = (1 - self.I) * w3
+        elif q.across == 0:
+            k, phi = fmpq(0), w3
+        else:
+            k, phi = q.along * self.b / q.across, w3 - self.field[2] * q.along / q.across
+        square = arb(0) if q.K2 == 0 else -arb(q.polynomial.derivative().derivative()(w3)) / 2
+        half = arb.pi() / square.sqrt() if square > 0 else arb("inf")
+        if self.kind == "free body" and k != 0:
+            half = arb.pi() / k
+        lattice = Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb(0))
+        alpha, beta = (
+            Parameter(acb(x), arb(0), arb(k + sign * phi) / 2, arb(0), constant(lattice), 0)
+            for x, sign in ((c, 1), (s, -1))
+        )
+        return Solution(lattice, arb(0), alpha, beta, k, phi)
+
+    def _ball(self) -> Solution:
+        q, (c, s, C, S) = self.quartic, self.tilt()
+        M = [w + k for w, k in zip(self.omega, self.field, strict=True)]
+        size = root(M[0] ** 2 + M[1] ** 2 + M[2] ** 2)
+        m1, m2, m3 = (M[0] * C - M[1] * S) / size, (M[0] * S + M[1] * C) / size, M[2] / size
+        lattice = Lattice("trigonometric", arb.pi() / size, arb("inf"), oblique=False, rate=arb(size) / 2)
+        larmor = -arb(self.b) / 2
+        sums = (
+            Sum(lattice, (acb(-arb(s) * m1, arb(c) * m3 + arb(s) * m2),), (acb(c),), arb(0)),
+            Sum(lattice, (acb(arb(c) * m1, arb(c) * m2 - arb(s) * m3),), (acb(s),), arb(0)),
+        )
+        turns = (q.sign_beside(-1), q.sign_beside(1))
+        alpha, beta = (Parameter(acb(1), arb(0), larmor, arb(0), x, turn) for x, turn in zip(sums, turns, strict=True))
+        return Solution(lattice, arb(0), alpha, beta, -self.b, fmpq(0))
+
+    @property
+    def period(self) -> arb:
+        """Period of nutation T; of an infinitesimal one where Omega3 is constant, infinite where that is unstable."""
+        return self.solution.period
+
+    @property
+    def precession_per_period(self) -> arb:
+        """Angle by which the body precesses about B in one period, the integral of psi'."""
+        return self._angles()[0]
+
+    @property
+    def spin_per_period(self) -> arb:
+        """Angle by which the body turns about its axis in one period, the integral of chi'."""
+        return self._angles()[1]
+
+    @property
+    def roots(self) -> list[acb]:
+        """Roots of Q, each as often as it counts: the real ones ascending, then the complex pair; none for B = 0."""
+        if self.kind == "free body":
+            return []
+        return [root.value for root in self.quartic.roots() for _ in range(root.multiplicity)]
+
+    @property
+    def turning_points(self) -> tuple[Real, Real]:
+        """Least and largest Omega3; on a separatrix one of them is approached and never reached."""
+        q = self.quartic
+        if self.is_steady or q.is_constant:
+            return q.u, q.u
+        roots = q.roots()
+        return roots[q.low].value.real, roots[q.high].value.real
+
+    @property
+    def nome(self) -> arb:
+        """Nome q = exp(-pi K'/K) of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
+        half, imaginary = self._periods()
+        if infinite(half):
+            return arb(1)
+        return arb(0) if infinite(imaginary) else (-arb.pi() * imaginary / half).exp()
+
+    @property
+    def modulus(self) -> arb:
+        """Modulus k of the elliptic functions."""
+        return self._moduli()[0]
+
+    @property
+    def complementary_modulus(self) -> arb:
+        """Complementary modulus k' = sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        return self._moduli()[1]
+
+    def _periods(self) -> tuple[arb, arb]:
+        """Return half the real and half the imaginary period; DomainError at a triple root, where both are infinite."""
+        found = self.solution.lattice
+        if infinite(found.half) and infinite(found.imaginary) and not self.is_steady:
+            raise DomainError("At a triple root of Q both periods are infinite: modulus and nome have no limit.")
+        return found.half, found.imaginary
+
+    def _moduli(self) -> tuple[arb, arb]:
+        half, imaginary = self._periods()
+        if infinite(half) or infinite(imaginary):
+            return (arb(1), arb(0)) if infinite(half) else (arb(0), arb(1))
+        _, second, third, fourth = (x.real for x in acb(0).modular_theta(acb(0, imaginary / half)))
+        return (second / third) ** 2, (fourth / third) ** 2
+
+    def _angles(self) -> tuple[arb, arb]:
+        found = self.solution
+        T, pi = found.period, arb.pi()
+        if infinite(T):
+            raise DomainError(f"A motion of the kind {self.kind!r} has no period: no angle belongs to one.")
+        a, b, q = found.alpha, found.beta, self.quartic
+        if q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1:
+            # nu swings evenly about zero, and chi' = -p nu/(1 - nu^2) with it
+            return T * (a.own + b.own + found.precession) + pi * (a.turn + b.turn), arb(0)
+        return T * (a.own + b.own + found.precession) + pi * (a.turn + b.turn), T * (
+            a.own - b.own + found.spin
+        ) + pi * (a.turn - b.turn)
+
+    def parameters(self, t: Any) -> tuple[acb, acb, acb, acb]:
+        """Return alpha and beta up to a common factor, and their derivatives by time."""
+        found, t = self.solution, rational(t, "the time")
+        s = self.in_cell(arb(t) + found.origin)
+        a, da = found.alpha.at(t, s)
+        b, db = found.beta.at(t, s)
+        return a, b, da, db
+
+    def in_cell(self, s: arb) -> arb:
+        """Return the time since the turning point, less whole periods where the sums are for one period only."""
+        found = self.solution
+        if found.lattice.form != "hyperbolic" or infinite(found.lattice.half):
+            return s
+        whole = ((s / found.period).mid() + 0.5).floor().unique_fmpz()
+        return arb("nan") if whole is None else s - found.period * whole
+
+    def quaternion(self, t: Any) -> list[arb]:
+        """Return a unit quaternion of R(t), scalar first."""
+        a, b, _, _ = self.parameters(t)
+        q = self._from_frame(a, b)
+        size = sum((x * x for x in q), arb(0)).sqrt()
+        return [x / size for x in q]
+
+    def _from_frame(self, a: acb, b: acb) -> list[arb]:
+        """Return the quaternion R_z(-chi0) R_x(-theta0) (alpha, beta) R_z(chi0), not normalised."""
+        c, s, C, S = self.tilt()
+        w, x, y, z = a.real, b.real, b.imag, a.imag
+        w, x, y, z = w * c + x * s, x * c - w * s, y * c + z * s, z * c - y * s
+        return [w, x * C + y * S, y * C - x * S, z]
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t) as rows."""
+        if rational(t, "the time") == 0:
+            return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
+        if self._elementary is not None:
+            return self._elementary.rotation(t)
+        a, b, _, _ = self.parameters(t)
+        return matrix(self._from_frame(a, b))
+
+    def column(self, j: int, t: Any) -> list[Real]:
+        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        return [row[j - 1] for row in self.rotation(t)]
+
+    def third_axis(self, t: Any) -> list[Real]:
+        """Return the third column of R(t)."""
+        return self.column(3, t)
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
+        if rational(t, "the time") == 0:
+            return list(self.omega)
+        if self._elementary is not None:
+            return self._elementary.angular_velocity(t)
+        a, b, da, db = self.parameters(t)
+        q, dq = self._from_frame(a, b), self._from_frame(da, db)
+        w, x, y, z = q
+        dw, dx, dy, dz = dq
+        square = (w * w + x * x + y * y + z * z) / 2
+        return [
+            (w * dx - x * dw - y * dz + z * dy) / square,
+            (w * dy - y * dw - z * dx + x * dz) / square,
+            (w * dz - z * dw - x * dy + y * dx) / square,
+        ]
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B', mf41."""
+        R = self.rotation(t)
+        return [sum((R[i][j] * self.field[i] for i in range(3)), fmpq(0)) for j in range(3)]
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m(t)/I2 = R(t) (Omega1, Omega2, I Omega3) in the laboratory frame."""
+        R, (w1, w2, w3) = self.rotation(t), self.angular_velocity(t)
+        return [row[0] * w1 + row[1] * w2 + row[2] * self.I * w3 for row in R]
+
+    @property
+    def invariants(self) -> dict[str, fmpq]:
+        """The constants E', K^2, c3, c5 of mf44 to mf49, and (M, B') with M = II (Omega + K) in units of I2."""
+        q = self.quartic
+        return {"E'": q.E, "K^2": q.K2, "c3": q.c3, "c5": q.c5, "(M,B')": q.momentum}

@@ -1,0 +1,119 @@
+"""The quartic Q of nutation: (dOmega3/dt)^2 = Q(Omega3), its roots, and the interval in which Omega3 moves.
+
+With u = Omega3, M3 = I c3 and p = (M, K)/b, in units of I2,
+
+    Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2,
+
+of which mf55 is half the derivative. Its coefficients are rational for rational inputs, so that a multiple root is
+known exactly and not to within a tolerance.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from flint import acb, arb, ctx, fmpq, fmpq_poly
+
+from atlas.exact.euler import quartic_roots
+
+Vector = tuple[fmpq, fmpq, fmpq]
+
+
+@dataclass(frozen=True)
+class Root:
+    """A root of Q as a ball, real or complex, and its multiplicity."""
+
+    value: acb
+    multiplicity: int
+
+    @property
+    def is_real(self) -> bool:
+        """Whether the root is proven to be real."""
+        return bool(self.value.imag.is_zero())
+
+
+class Quartic:
+    """Q of a body of ratio I that turns with Omega where the field is K, both in the body.
+
+    ``low`` and ``high`` are the places, among the distinct real roots in ascending order, of those between which Omega3
+    moves; they are equal, and name a multiple root or a lone point, where Omega3 is constant.
+    """
+
+    def __init__(self, I: fmpq, Omega: Vector, K: Vector) -> None:
+        (w1, w2, w3), (K1, K2, K3) = Omega, K
+        self.I, self.u = I, w3
+        self.c3 = w3 + K3
+        self.across = K1**2 + K2**2
+        self.K2 = self.across + K3**2
+        self.along = w1 * K1 + w2 * K2
+        self.rate = w1 * K2 - w2 * K1
+        self.E = w1**2 + w2**2 + I * w3**2
+        self.c5 = self.along - w3**2 + (2 - I) * self.c3 * w3
+        self.momentum = self.along + self.across + I * self.c3 * K3
+        self.polynomial = fmpq_poly([self.E, 0, -I]) * fmpq_poly([self.K2 - self.c3**2, 2 * self.c3, -1])
+        self.polynomial -= fmpq_poly([self.c5, -(2 - I) * self.c3, 1]) ** 2
+        self._known: dict[int, list[Root]] = {}
+
+    @cached_property
+    def is_constant(self) -> bool:
+        """Whether Omega3 is constant: Q and its derivative vanish where it starts, or Q is zero throughout."""
+        return bool(self.polynomial(self.u) == 0 and self.polynomial.derivative()(self.u) == 0)
+
+    def sign_beside(self, pole: int) -> int:
+        """Return the sign of p + M3 for ``pole`` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
+        M3 = -pole * self.I * self.c3
+        if self.momentum * M3 >= 0:
+            return _sign(self.momentum + M3)
+        return _sign(self.momentum) * _sign(self.momentum**2 - self.K2 * M3**2)
+
+    def roots(self) -> list[Root]:
+        """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair."""
+        if ctx.prec not in self._known:
+            self._known[ctx.prec] = self._isolated() if self.polynomial.degree() > 0 else []
+        return self._known[ctx.prec]
+
+    def _isolated(self) -> list[Root]:
+        """Isolate the roots."""
+        if self.polynomial.degree() == 4 and self.polynomial.gcd(self.polynomial.derivative()).degree() == 0:
+            found = [Root(value, 1) for value in quartic_roots(self.polynomial)]
+        else:
+            found = [Root(acb(value), count) for value, count in self.polynomial.complex_roots()]
+        real = [root for root in found if root.is_real]
+        real.sort(key=lambda root: root.value.real.mid())
+        return real + [root for root in found if not root.is_real]
+
+    @cached_property
+    def _interval(self) -> tuple[int, int]:
+        """Places of the roots at the ends of the interval, found at rising precision."""
+        precision = ctx.prec
+        while True:
+            with ctx.workprec(precision):
+                u = arb(self.u)
+                real = [root.value.real for root in self.roots() if root.is_real]
+                hits = [i for i, x in enumerate(real) if x.overlaps(u)]
+                if self.rate != 0 and not hits:
+                    high = next(i for i, x in enumerate(real) if x > u)
+                    return high - 1, high
+                if self.rate == 0 and len(hits) == 1:
+                    return self._from(hits[0])
+            precision *= 2
+
+    def _from(self, place: int) -> tuple[int, int]:
+        """Return the interval that starts at a root."""
+        slope = self.polynomial.derivative()(self.u)
+        if slope == 0:
+            return place, place
+        return (place, place + 1) if slope > 0 else (place - 1, place)
+
+    @property
+    def low(self) -> int:
+        """Place of the lower end."""
+        return self._interval[0]
+
+    @property
+    def high(self) -> int:
+        """Place of the upper end."""
+        return self._interval[1]
+
+
+def _sign(x: fmpq) -> int:
+    return int(x > 0) - int(x < 0)

@@ -1,0 +1,40 @@
+"""Worker processes, where the system lets us have any."""
+
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
+from multiprocessing import get_context
+from typing import Any
+
+
+def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "spawn") -> ProcessPoolExecutor | None:
+    """Return an executor with so many processes, each of which calls `begin` first.
+
+    None where the system has no semaphores, as with a /dev/shm that can't be written: then the work is to be done here.
+    """
+    try:
+        return _Pool(workers, get_context(context), begin)
+    except (OSError, ImportError, NotImplementedError):
+        return None
+
+
+class _Pool(ProcessPoolExecutor):
+    """An executor whose processes do not run the main program: they need nothing of it, and it may lack a guard."""
+
+    def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Start a process if one is wanted, and hand over the call."""
+        with _without_main():
+            return super().submit(function, *args, **kwargs)
+
+
+@contextmanager
+def _without_main() -> Iterator[None]:
+    """Let a process that is started meanwhile believe that the main program is no file."""
+    main = sys.modules["__main__"]
+    spec, file = main.__spec__, getattr(main, "__file__", None)
+    main.__spec__, main.__file__ = None, None
+    try:
+        yield
+    finally:
+        main.__spec__, main.__file__ = spec, file

@@ -1,0 +1,61 @@
+"""The kinds of blocks that a page may have: what a user writes, what the templates see of it, and their names.
+
+A new kind is a file here with its record and its view, a line in each list below, and a template in `templates/html`
+and in `templates/typst`.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from atlas.report.blocks import equation, figure, ledger, prose, table
+from atlas.report.blocks.equation import Equation
+from atlas.report.blocks.figure import Figure
+from atlas.report.blocks.ledger import Errata, Ledger
+from atlas.report.blocks.prose import Note, Prose
+from atlas.report.blocks.table import Listing, Recorded, Table
+
+__all__ = [
+    "KINDS",
+    "Block",
+    "Equation",
+    "Errata",
+    "Figure",
+    "Kind",
+    "Ledger",
+    "Listing",
+    "Note",
+    "Prose",
+    "Recorded",
+    "Table",
+    "kind_of",
+]
+
+Block: TypeAlias = Prose | Note | Equation | Figure | Table | Listing | Recorded | Ledger | Errata
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of block: its record, the function (record, composer) that makes its view, the name of its templates."""
+
+    record: type
+    view: Callable[[Any, Any], Any]
+    template: str
+
+
+KINDS: Mapping[str, Kind] = {
+    "prose": Kind(Prose, prose.view_prose, "prose"),
+    "note": Kind(Note, prose.view_note, "note"),
+    "equation": Kind(Equation, equation.view, "equation"),
+    "figure": Kind(Figure, figure.view, "figure"),
+    "table": Kind(Table, table.view_computed, "table"),
+    "listing": Kind(Listing, table.view_listing, "table"),
+    "recorded": Kind(Recorded, table.view_recorded, "table"),
+    "ledger": Kind(Ledger, ledger.view_ledger, "ledger"),
+    "errata": Kind(Errata, ledger.view_errata, "errata"),
+}
+
+
+def kind_of(block: Block) -> str:
+    """Return the kind of a block, as it is written in the file."""
+    return str(block.__struct_config__.tag)

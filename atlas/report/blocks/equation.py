@@ -1,0 +1,58 @@
+"""A displayed equation, of the paper or of the report's own."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+import msgspec
+
+from atlas.errors import AtlasError
+from atlas.paper import equation
+from atlas.report.schema import Id, Record
+
+if TYPE_CHECKING:
+    from atlas.report.compose import Composer
+
+
+class Equation(Record, frozen=True, tag_field="kind", tag="equation"):
+    """A displayed equation: ``label`` of the ledger, or a ``name`` and ``tex`` of the report's own."""
+
+    label: str | None = None
+    name: Id | None = None
+    tex: str | None = None
+    scale: Annotated[float, msgspec.Meta(gt=0.0)] = 1.0
+
+
+@dataclass(frozen=True)
+class EquationView:
+    """An equation with its label and number; only the first display of a label is the one that links lead to.
+
+    `ledger` is the slug of the page with its entry in the ledger, where the report has that.
+    """
+
+    label: str
+    number: str
+    text: int
+    scale: float
+    anchor: bool
+    ledger: str = ""
+
+
+def view(block: Equation, composer: "Composer") -> EquationView:
+    """Take an equation from the ledger, or number one of the report's own."""
+    if (block.label is None) == (block.tex is None) or (block.tex is None) != (block.name is None):
+        raise AtlasError("an equation has either a label of the ledger, or a name and tex of its own.")
+    if block.label is not None:
+        entry = equation(block.label)
+        label, tex = block.label, entry.tex
+        number = f"({entry.number})" if entry.number is not None else ""
+    else:
+        label, number, tex = str(block.name), "", str(block.tex)
+    words = f"({label})" if number else composer.own_number(label)
+    number = number or words
+    document = composer.document
+    first = composer.target(label, f"eq-{label}", words)
+    document.equations.setdefault(label, number)
+    ledger = document.ledger.get(label, "")
+    if ledger:
+        composer.use(label, f"eq-{label}" if first else f"page-{composer.page.slug}", "display")
+    return EquationView(label, number, composer.text(f"$${tex.strip()}$$"), block.scale, first, ledger)

@@ -1,0 +1,83 @@
+"""A numbered figure: one picture, or two beside each other."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import msgspec
+
+from atlas.paper import LABEL
+from atlas.report.pictures import Picture
+from atlas.report.schema import Id, Record
+
+if TYPE_CHECKING:
+    from atlas.report.compose import Composer
+
+ROOM, TALL, GUTTER = 152.0, 160.0, 1.0
+"""Millimetres in print: width of the text, height that a figure may have, space between two pictures."""
+
+
+class Figure(Record, frozen=True, tag_field="kind", tag="figure"):
+    """A recipe with its parameters; ``both`` sets the shaded picture beside the line drawing."""
+
+    recipe: str
+    id: Id | None = None
+    renderer: Literal["vector", "shaded", "both"] = "vector"
+    body: str | None = None
+    bodies: tuple[str, ...] = ()
+    field: str | None = None
+    parameters: dict[str, Any] = msgspec.field(default_factory=dict)
+    caption: str | None = None
+    width: Annotated[float, msgspec.Meta(gt=0.0)] | None = None
+
+
+@dataclass(frozen=True)
+class FigureView:
+    """A figure with its pictures; `width` and `height` in millimetres are those of each, `given` its parameters."""
+
+    number: int
+    id: str
+    pictures: tuple[Picture, ...]
+    caption: int
+    alt: str
+    width: float
+    height: float
+    given: int
+
+    @property
+    def printed(self) -> tuple[float, float]:
+        """Width and height of each picture in print: side by side within the text, with room below for words."""
+        count = len(self.pictures)
+        scale = min(1.0, (ROOM - GUTTER * (count - 1)) / count / self.width, TALL / self.height)
+        return scale * self.width, scale * self.height
+
+    @property
+    def failure(self) -> str:
+        """Why there is no picture, or nothing."""
+        return next((one.failure for one in self.pictures if one.failure), "")
+
+    @property
+    def remark(self) -> str:
+        """What the reader should know of how it was drawn, or nothing."""
+        return next((one.remark for one in self.pictures if one.remark), "")
+
+
+def view(block: Figure, composer: "Composer") -> FigureView:
+    """Give a figure its number and take in its caption; where it could not be drawn, the view says why."""
+    composer.figures += 1
+    pictures = composer.pictures(block)
+    first = pictures[0]
+    caption = block.caption or first.caption or f"The recipe {block.recipe} failed."
+    width, height = first.size
+    shown = block.width or width
+    anchor = composer.anchor("fig", block.id, "Figure", composer.figures)
+    given = ", ".join(f"{name} = {value}" for name, value in first.given.items() if value != "None")
+    return FigureView(
+        composer.figures,
+        anchor,
+        pictures,
+        composer.caption(LABEL.sub(r"@\g<0>", caption), anchor, f"Figure {composer.figures}"),
+        first.alt or first.failure,
+        shown,
+        height * shown / width,
+        composer.text(given, inline=True),
+    )

@@ -1,0 +1,167 @@
+"""A numbered table: of computed numbers, of recorded results, or written out in the report."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import msgspec
+
+from atlas.errors import AtlasError, unknown
+from atlas.report.body_and_field import chosen
+from atlas.report.numbers import Number, room
+from atlas.report.schema import Id, Record
+from atlas.report.tables import compute
+from atlas.report.tables.model import Column, Data, Request
+
+if TYPE_CHECKING:
+    from atlas.report.compose import Composer
+
+MOST = 1000
+"""As many digits of a number as a table may ask for."""
+PAGE = 40
+WORDS = 12
+"""As many rows as a table may have to stand on one page of the PDF, one with numbers and one of words alone."""
+COMMANDS = {
+    "trial": "atlas verify --record",
+    "bench": "atlas bench",
+    "stress": "atlas stress",
+    "rebuilds": "make rebuilds",
+}
+"""The commands that make the recorded results."""
+
+
+class Table(Record, frozen=True, tag_field="kind", tag="table"):
+    """A table of computed numbers."""
+
+    table: str
+    id: Id | None = None
+    body: str | None = None
+    bodies: tuple[str, ...] = ()
+    field: str | None = None
+    parameters: dict[str, Any] = msgspec.field(default_factory=dict)
+    caption: str | None = None
+    digits: Annotated[int, msgspec.Meta(ge=1, le=MOST)] = 10
+
+
+class Listing(Record, frozen=True, tag_field="kind", tag="listing"):
+    """A table of words and formulas, written out in the file."""
+
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    caption: str
+    id: Id | None = None
+
+
+class Recorded(Record, frozen=True, tag_field="kind", tag="recorded"):
+    """A table of recorded results, by its name there."""
+
+    source: Literal["trial", "bench", "stress", "rebuilds"]
+    table: str
+    id: Id | None = None
+    caption: str | None = None
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell: words (the number of their text), or a number cut at its decimal point."""
+
+    text: int | None = None
+    whole: str = ""
+    fraction: str = ""
+    power: str = ""
+    proven: bool = True
+
+
+@dataclass(frozen=True)
+class ColumnView:
+    """A column's head, unit, and the room in digits' widths that its numbers take before and after the point."""
+
+    head: int
+    unit: int | None
+    numeric: bool = False
+    before: float = 0.0
+    after: float = 0.0
+
+
+@dataclass(frozen=True)
+class TableView:
+    """A table, of numbers or of words; `name` is that of a computed one, whose rows are single lines.
+
+    `command` is what makes recorded results.
+    """
+
+    number: int
+    id: str
+    columns: tuple[ColumnView, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    caption: int
+    note: int | None
+    name: str = ""
+    command: str = ""
+
+    @property
+    def tight(self) -> bool:
+        """Whether its rows are single lines, of numbers or in a long table."""
+        return bool(self.name) or len(self.rows) > 2 * WORDS
+
+    @property
+    def tall(self) -> bool:
+        """Whether it may be broken over two pages: it is too long for one, or is a long table of nothing but words."""
+        return len(self.rows) > (PAGE if any(column.numeric for column in self.columns) else WORDS)
+
+
+def view_computed(block: Table, composer: "Composer") -> TableView:
+    """Compute a table."""
+    request = Request(chosen(block, composer.report.parameters), block.parameters, block.digits)
+    return _view(block, composer, compute(block.table, request), name=block.table)
+
+
+def view_listing(block: Listing, composer: "Composer") -> TableView:
+    """Set out a table of words."""
+    for row in block.rows:
+        if len(row) != len(block.columns):
+            raise AtlasError(f"a row has {len(row)} cells where there are {len(block.columns)} columns.")
+    return _view(block, composer, Data(tuple(map(Column, block.columns)), block.rows, block.caption))
+
+
+def view_recorded(block: Recorded, composer: "Composer") -> TableView:
+    """Set out a table of recorded results."""
+    tables, name = composer.recorded.tables, f"{block.source}: {block.table}"
+    if name not in tables:
+        raise unknown("recorded table", name, tables)
+    return _view(block, composer, tables[name], command=COMMANDS[block.source])
+
+
+def _view(
+    block: Table | Listing | Recorded, composer: "Composer", data: Data, *, name: str = "", command: str = ""
+) -> TableView:
+    """Set a table out in columns, aligned on the decimal point."""
+    composer.tables += 1
+    words = f"Table {composer.tables}"
+    anchor = composer.anchor("tab", block.id, "Table", composer.tables)
+    columns = []
+    for place, column in enumerate(data.columns):
+        numbers = [cell.parts() for row in data.rows if isinstance(cell := row[place], Number)]
+        columns.append(
+            ColumnView(
+                composer.text(column.head, inline=True),
+                composer.text(column.unit, inline=True) if column.unit else None,
+                bool(numbers),
+                max((room(whole) for whole, _, _ in numbers), default=0.0),
+                max((room(fraction) + POWER * bool(power) for _, fraction, power in numbers), default=0.0),
+            )
+        )
+    rows = tuple(tuple(_cell(value, composer) for value in row) for row in data.rows)
+    note = composer.caption(data.note, anchor, words) if data.note else None
+    caption = composer.caption(block.caption or data.caption, anchor, words)
+    return TableView(composer.tables, anchor, tuple(columns), rows, caption, note, name, command)
+
+
+def _cell(value: str | Number, composer: "Composer") -> Cell:
+    """Cut a number at its point, or take in the words."""
+    if isinstance(value, Number):
+        return Cell(None, *value.parts(), value.proven)
+    return Cell(composer.text(value, inline=True)) if value else Cell()
+
+
+POWER = 5.5
+"""Widths of a digit that a power of ten takes."""

@@ -1,0 +1,130 @@
+"""The bodies and fields of a report, from the form in which they are given to what the kernels take."""
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.core.body import SHAPES, SymmetricBody
+from atlas.core.field import Field as PhysicalField
+from atlas.core.field import LaboratoryFrame
+from atlas.core.units import System, charge_to_mass, system
+from atlas.errors import AtlasError, unknown
+from atlas.report.parameters import Body, Field, Parameters
+
+
+class Moments(NamedTuple):
+    """I2 and I3, as `atlas.exact` takes them in the place of a ratio."""
+
+    I2: Any
+    I3: Any
+
+
+@dataclass(frozen=True)
+class BodyAndField:
+    """A body in a field: `ratio` and `field` as every class of the atlas takes them, and where they come from.
+
+    `body` and `record` are the body and its record; `field` = (B2, B3), components of B' in 1/s. `physical`, `frame`
+    and `units` are there if the field was given as B.
+    """
+
+    body: SymmetricBody | None = None
+    body_record: Body | None = None
+    field: tuple[float, float] | None = None
+    field_record: Field | None = None
+    physical: PhysicalField | None = None
+    frame: LaboratoryFrame | None = None
+    units: System | None = None
+
+    @property
+    def exact(self) -> "Moments":
+        """The moments without rounding: of a shape, from its dimensions."""
+        record = self.body_record
+        if self.body is None or record is None:
+            raise AtlasError("this needs a body: name one with the key 'body'.")
+        if record.shape is None:
+            return Moments(self.body.I2, self.body.I3)
+        from atlas.exact.body import shape_moments
+
+        return Moments(*shape_moments(record.shape, **dimensions(record)))
+
+    @property
+    def components(self) -> tuple[float, float]:
+        """(B2, B3), where there must be a field."""
+        if self.field is None:
+            raise AtlasError("this needs a field: name one with the key 'field'.")
+        return self.field
+
+    @property
+    def ratio(self) -> float:
+        """The double nearest to the exact I = I3/I2, for figures."""
+        from atlas.exact.body import ratio_of
+
+        I = ratio_of(self.exact)
+        return int(I.p) / int(I.q)
+
+
+def body(record: Body) -> SymmetricBody:
+    """Return the body of a record: by its ratio, its moments, or its shape and dimensions."""
+    given = [key for key in ("ratio", "inertia", "shape") if getattr(record, key) is not None]
+    if len(given) != 1:
+        raise AtlasError(
+            f"the body {record.title!r} must have exactly one of ratio, inertia and shape, not {given or 'none'}."
+        )
+    sizes = dimensions(record)
+    if record.shape is None:
+        if set(sizes) - {"mass"}:
+            raise AtlasError(f"the body {record.title!r} has dimensions, {', '.join(sizes)}, but no shape.")
+        return SymmetricBody(1.0, record.ratio) if record.ratio is not None else SymmetricBody(*(record.inertia or ()))
+    if record.shape not in SHAPES:
+        raise AtlasError(f"the body {record.title!r}: {unknown('shape', record.shape, SHAPES)}")
+    make, needed = SHAPES[record.shape]
+    if set(needed) != set(sizes):
+        raise AtlasError(
+            f"the body {record.title!r}: the shape {record.shape!r} takes {', '.join(needed)}, "
+            f"not {', '.join(sizes) or 'nothing'}."
+        )
+    made: SymmetricBody = make(**sizes)
+    return made
+
+
+def dimensions(record: Body) -> dict[str, float]:
+    """Return the dimensions that a body was given, and its mass."""
+    keys = ("mass", "radius", "height", "length", "equatorial", "polar")
+    return {key: getattr(record, key) for key in keys if getattr(record, key) is not None}
+
+
+def chosen(block: Any, known: Parameters) -> tuple[BodyAndField, ...]:
+    """Return the bodies that a block names, each in the field that it names; either may be missing."""
+    field = known.fields[block.field] if block.field else None
+    bodies = block.bodies or ((block.body,) if block.body else (None,))
+    return tuple(body_and_field(known.bodies[name] if name else None, field) for name in bodies)
+
+
+def body_and_field(body_record: Body | None, field_record: Field | None) -> BodyAndField:
+    """Return a body in a field; either may be missing."""
+    made = body(body_record) if body_record else None
+    if field_record is None:
+        return BodyAndField(made, body_record)
+    if (field_record.prime is None) == (field_record.B is None):
+        raise AtlasError(f"the field {field_record.title!r} must have exactly one of prime and B.")
+    if field_record.prime is not None:
+        if field_record.charge_to_mass is not None:
+            raise AtlasError(
+                f"the field {field_record.title!r} is given by B', which has the charge-to-mass ratio in it."
+            )
+        return BodyAndField(made, body_record, field_record.prime, field_record)
+    units = system(field_record.system)
+    mu = _charge_to_mass(body_record, field_record)
+    physical = PhysicalField(np.array(field_record.B), np.array(field_record.E), mu, units.c)
+    frame = physical.frame(field_record.axis)
+    return BodyAndField(made, body_record, frame.field, field_record, physical, frame, units)
+
+
+def _charge_to_mass(body_record: Body | None, field_record: Field) -> float:
+    """Return the field's charge-to-mass ratio, or that of the body."""
+    if field_record.charge_to_mass is not None:
+        return field_record.charge_to_mass
+    if body_record is None or body_record.charge is None or body_record.mass is None:
+        raise AtlasError(f"the field {field_record.title!r} needs charge_to_mass, or a body with a charge and a mass.")
+    return charge_to_mass(body_record.charge, body_record.mass)

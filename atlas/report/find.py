@@ -1,0 +1,23 @@
+"""The report files that there are; found without loading what reads them."""
+
+from pathlib import Path
+
+from atlas.errors import AtlasError, unknown
+from atlas.places import folder
+
+
+def names() -> list[str]:
+    """List the reports of the folder ``reports/``."""
+    return sorted(path.stem for path in folder("reports").glob("*.toml"))
+
+
+def find(name: str) -> Path:
+    """Return the file of a report, given its name or its path."""
+    path = Path(name) if name.endswith(".toml") else folder("reports") / f"{name}.toml"
+    if path.is_file():
+        return path
+    if name.endswith(".toml"):
+        raise AtlasError(f"There is no report file {name}.")
+    if Path(name).is_file():
+        raise AtlasError(f"{name} is no report: a report is a .toml file.")
+    raise unknown("report", name, names())

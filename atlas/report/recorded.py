@@ -1,0 +1,47 @@
+"""What a report shows of recorded results, as plain data: the trial of the ledger's entries, and tables by name.
+
+The floor above reads the records; this one sets them out and never runs what they record.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from atlas.report.tables.model import Data
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What the trial found on one entry of the ledger, in the plain letters of its record.
+
+    verdict         proved, refuted, undecided, definition, or supported, then with the count in `method`
+    method          how it was decided, and `follows`: from what the printed form was derived
+    corrected       TeX of the true form where the printed one is refuted, and the verdict on it
+    counterexample  values of the letters that break the printed form, and what its two sides then are
+    note            what the verdict means, where it needs a word
+    tried, noticed  forms changed in one place that were tried as well, and those that the trial refuted
+    survivors       why the others survive
+    modules         the modules that cite the entry, such as ``core/hyperbola.py``
+    grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
+    """
+
+    verdict: str
+    method: str
+    follows: str
+    corrected: str = ""
+    corrected_verdict: str = ""
+    counterexample: Mapping[str, str] = field(default_factory=dict)
+    note: str = ""
+    tried: int = 0
+    noticed: int = 0
+    survivors: str = ""
+    modules: tuple[str, ...] = ()
+    grade: str = ""
+    slip: str = ""
+
+
+@dataclass(frozen=True)
+class Appendices:
+    """The findings by label, and the recorded tables by name."""
+
+    findings: Mapping[str, Finding] = field(default_factory=dict)
+    tables: Mapping[str, Data] = field(default_factory=dict)

@@ -1,0 +1,148 @@
+"""Tables of a TOML file as typed records, and what is wrong with one that does not fit, in a sentence with its key."""
+
+import math
+import re
+from collections.abc import Iterable
+from typing import Annotated, Any, TypeAlias, TypeVar
+
+import msgspec
+from msgspec import inspect
+
+from atlas.errors import AtlasError, unknown
+
+Vector: TypeAlias = tuple[float, float, float]
+Pair: TypeAlias = tuple[float, float]
+Id: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
+Slug: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[a-z0-9]+(-[a-z0-9]+)*")]
+PATTERNS = {
+    r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*": "letters and digits with hyphens between them",
+    r"[a-z0-9]+(-[a-z0-9]+)*": "small letters and digits with hyphens between them",
+}
+"""What may become a file name, an anchor of a page and a label of the PDF; in words."""
+LONGEST = 40
+"""Characters of a wrong value that a message shows."""
+
+T = TypeVar("T")
+
+
+class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A table of the file; a key that it does not have is an error."""
+
+
+class SchemaError(AtlasError):
+    """A sentence about a TOML file, and the key that it is about, by which its line is found."""
+
+    def __init__(self, where: str, sentence: str, key: str = "") -> None:
+        super().__init__(f"{where or 'at the top'}: {sentence}")
+        self.key = key
+
+
+def convert(raw: Any, kind: type[T], where: str = "") -> T:
+    """Return a table as a record. Raises SchemaError for the first key that is unknown, missing, or of another type."""
+    _check(raw, inspect.type_info(kind), where, "")
+    return msgspec.convert(raw, kind)
+
+
+def _check(raw: Any, kind: inspect.Type, where: str, key: str) -> None:
+    """Check a value against its type, and raise for the innermost mistake."""
+    match kind:
+        case inspect.UnionType():
+            _check_union(raw, kind, where, key)
+        case inspect.StructType() if isinstance(raw, dict):
+            _check_record(raw, kind, where)
+        case inspect.DictType() if isinstance(raw, dict):
+            for name, value in raw.items():
+                _check(value, kind.value_type, f"{where} {name!r}", name)
+        case inspect.VarTupleType() if isinstance(raw, list):
+            _check_list(raw, [kind.item_type] * len(raw), where, key)
+        case inspect.TupleType() if isinstance(raw, list) and len(raw) == len(kind.item_types):
+            _check_list(raw, kind.item_types, where, key)
+        case inspect.AnyType():
+            _check_finite(raw, where, key)
+        case _ if not _fits(raw, kind):
+            raise SchemaError(where, f"must be {_words(kind)}, not {_shown(raw)}", key)
+
+
+def _check_finite(raw: Any, where: str, key: str) -> None:
+    """Check that a value of any type holds no nan and no inf."""
+    for item in raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ():
+        _check_finite(item, where, key)
+    if isinstance(raw, float) and not math.isfinite(raw):
+        raise SchemaError(where, f"must be finite, not {raw}", key)
+
+
+def _check_union(raw: Any, union: inspect.UnionType, where: str, key: str) -> None:
+    """Check a value that may be of several types: a block of some kind, or a value that may be left out."""
+    kinds = {str(one.tag): one for one in union.types if isinstance(one, inspect.StructType)}
+    if not kinds:
+        (kind,) = (one for one in union.types if not isinstance(one, inspect.NoneType))
+        return _check(raw, kind, where, key)
+    if not isinstance(raw, dict):
+        raise SchemaError(where, f"must be a table, not {_shown(raw)}", key)
+    if "kind" not in raw:
+        raise SchemaError(where, f"it lacks the key 'kind', one of {', '.join(kinds)}")
+    if raw["kind"] not in kinds:
+        raise SchemaError(where, str(unknown("block kind", raw["kind"], kinds)).rstrip("."), "kind")
+    return _check_record(raw, kinds[raw["kind"]], f"{where} ({raw['kind']})")
+
+
+def _check_record(raw: dict[str, Any], kind: inspect.StructType, where: str) -> None:
+    """Check the keys of a table, and what they hold."""
+    fields = {field.encode_name: field for field in kind.fields}
+    for key, value in raw.items():
+        if key in fields:
+            _check(value, fields[key].type, f"{where}, {key}" if where else key, key)
+        elif key != kind.tag_field:
+            raise SchemaError(where, str(unknown("key", key, fields, "here")).rstrip("."), key)
+    for key, field in fields.items():
+        if field.required and key not in raw:
+            raise SchemaError(where, f"it lacks the key {key!r}, {_words(field.type)}")
+
+
+def _check_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: str) -> None:
+    """Check the items of a list; pages are named by their slugs."""
+    for place, (value, kind) in enumerate(zip(raw, kinds, strict=True), 1):
+        name = repr(value["slug"]) if isinstance(value, dict) and "slug" in value else place
+        _check(value, kind, f"{where.removesuffix('s')} {name}", key)
+
+
+def _fits(raw: Any, kind: inspect.Type) -> bool:
+    """Tell whether a value without parts has a type."""
+    match kind:
+        case inspect.FloatType():
+            number = isinstance(raw, int | float) and not isinstance(raw, bool) and math.isfinite(raw)
+            return number and (kind.gt is None or raw > kind.gt)
+        case inspect.IntType():
+            whole = isinstance(raw, int) and not isinstance(raw, bool)
+            return whole and (kind.ge is None or kind.le is None or kind.ge <= raw <= kind.le)
+        case inspect.StrType():
+            return isinstance(raw, str) and (kind.pattern is None or bool(re.fullmatch(kind.pattern, raw)))
+        case inspect.LiteralType():
+            return raw in kind.values
+    return False
+
+
+def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
+    """Say what a value of a type is."""
+    match kind:
+        case inspect.UnionType():
+            return _words(next(one for one in kind.types if not isinstance(one, inspect.NoneType)))
+        case inspect.VarTupleType():
+            return f"a list, each item {_words(kind.item_type)}"
+        case inspect.TupleType():
+            return f"a list of {len(kind.item_types)} numbers"
+        case inspect.LiteralType():
+            return f"one of {', '.join(map(repr, kind.values))}"
+        case inspect.StrType():
+            return "a text" if kind.pattern is None else f"a text of {PATTERNS[kind.pattern]}"
+        case inspect.FloatType():
+            return "a number" if kind.gt is None else f"a number above {kind.gt:g}"
+        case inspect.IntType():
+            return "a whole number" if kind.le is None else f"a whole number from {kind.ge} to {kind.le}"
+    return "a table"
+
+
+def _shown(raw: Any) -> str:
+    """Show a wrong value, cut if it is long."""
+    text = repr(raw)
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}…"

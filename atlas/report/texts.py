@@ -1,0 +1,212 @@
+"""The texts of a report: collected while its blocks are gone through, checked, and set together.
+
+A text is Markdown with TeX between dollars. Its links lead to http, https, mailto, doi or a page of the report, it
+holds no pictures, and a citation such as ``@mf72`` becomes a link.
+"""
+
+import json
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol
+
+from atlas.errors import AtlasError
+from atlas.report import pandoc
+from atlas.report.mathml import mend_all
+from atlas.report.pandoc import FormulaError, Target, Tree
+
+_CITED = re.compile(r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@([a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL)
+"""A citation, in the first group; formulas and code, in which there is none, are passed over."""
+_OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
+_INSIDE = re.compile(r"[\w-]+\.html(?:#[\w.-]+)?|#[\w.-]+")
+_CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
+"""How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
+_ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
+"""Where in a node of a tree its attributes are."""
+
+
+class Memory(Protocol):
+    """What was made of a source before, by that source."""
+
+    def __contains__(self, source: str, /) -> bool: ...
+    def __getitem__(self, source: str, /) -> str: ...
+    def __setitem__(self, source: str, text: str, /) -> None: ...
+
+
+class Link(NamedTuple):
+    """What a citation says, and the page (none in the PDF) and anchor that it leads to, if any."""
+
+    words: str
+    page: str = ""
+    anchor: str = ""
+
+
+@dataclass(frozen=True)
+class Text:
+    """A piece of Markdown, where it stands in the report, whether it is less than a paragraph.
+
+    `anchors` are the ids to give to the first citations of some names.
+    """
+
+    markdown: str
+    where: str
+    inline: bool
+    anchors: Mapping[str, str]
+
+
+@dataclass
+class Texts:
+    """The texts of one report, set together; `memory` holds what was set before."""
+
+    texts: list[Text] = field(default_factory=list)
+    memory: Memory = field(default_factory=dict[str, str])
+    _trees: list[Tree] = field(default_factory=list)
+
+    def add(self, markdown: str, where: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:
+        """Take in a text and return its number."""
+        self.texts.append(Text(markdown, where, inline, anchors or {}))
+        return len(self.texts) - 1
+
+    def __getitem__(self, number: int) -> Text:
+        """Return the text of that number."""
+        return self.texts[number]
+
+    def read(self) -> None:
+        """Parse the texts that have been added."""
+        keys = [json.dumps([pandoc.release(), text.markdown, text.inline]) for text in self.texts]
+        new = {key: text for key, text in zip(keys, self.texts, strict=True) if key not in self.memory}
+        if new:
+            trees = pandoc.read([(text.markdown, text.inline) for text in new.values()])
+            for key, tree in zip(new, trees, strict=True):
+                self.memory[key] = json.dumps(tree)
+        self._trees = [json.loads(self.memory[key]) for key in keys]
+
+    def set(self, target: Target, cite: Callable[[str, str], Link]) -> list[str]:
+        """Set all texts for a target, in their order.
+
+        `cite` (name, place) returns the link of a citation. Raises AtlasError, with the place, for a formula that can't
+        be read, a link that is not allowed, and a picture.
+        """
+        if len(self._trees) < len(self.texts):
+            self.read()
+        trees = [_Checked(text, target, cite).tree(tree) for text, tree in zip(self.texts, self._trees, strict=True)]
+        keys = [
+            json.dumps([pandoc.release(), target, text.inline, tree])
+            for text, tree in zip(self.texts, trees, strict=True)
+        ]
+        new = list({key: number for number, key in enumerate(keys) if key not in self.memory}.values())
+        try:
+            pieces = pandoc.write([(trees[number], self.texts[number].inline) for number in new], target) if new else []
+        except FormulaError as error:
+            number = next(number for number in new if json.dumps(error.tex) in json.dumps(trees[number]))
+            raise AtlasError(f"{self.texts[number].where}: {error}") from error
+        for number, piece in zip(new, pieces, strict=True):
+            self.memory[keys[number]] = _finished(piece, target, self.texts[number])
+        return [self.memory[key] for key in keys]
+
+
+def citations(markdown: str) -> list[str]:
+    """Return the names that a text cites, in their order; what stands in code or in a formula is none."""
+    return [name for name in _CITED.findall(markdown) if name]
+
+
+def cited(markdown: str, replace: Callable[[str], str]) -> str:
+    """Replace the citations of a text."""
+    return _CITED.sub(lambda match: replace(match[1]) if match[1] else match[0], markdown)
+
+
+class _Checked:
+    """The tree of a text made safe, its citations resolved: only what is written as text and formula reaches a page."""
+
+    def __init__(self, text: Text, target: Target, cite: Callable[[str, str], Link]) -> None:
+        self.text, self.target, self.cite = text, target, cite
+        self.anchors = dict(text.anchors)
+
+    def tree(self, nodes: Tree) -> Tree:
+        """Return a list of nodes, all that is inside them included."""
+        found: Tree = []
+        for node in nodes:
+            if isinstance(node, list):
+                found.append(self.tree(node))
+            elif isinstance(node, dict) and "t" in node:
+                found += self.node(node["t"], node.get("c"))
+            else:
+                found.append(node)
+        return found
+
+    def node(self, kind: str, content: Any) -> Tree:
+        """Return what stands in the place of a node."""
+        if kind in {"Image", "RawInline", "RawBlock"}:
+            raise AtlasError(f"{self.text.where}: a text holds no pictures; make a figure block of it.")
+        if kind == "Cite":
+            return self.citation(content[0])
+        if kind == "Math":
+            return [{"t": kind, "c": [content[0], _tex(content[1], self.target)]}]
+        if kind == "Link":
+            return [_link(self.tree(content[1]), self.address(content[2][0]))]
+        if kind in _ATTRIBUTES:
+            content = [["", [], []] if place == _ATTRIBUTES[kind] else part for place, part in enumerate(content)]
+        if kind == "Header":
+            content[0] = max(content[0], 2)  # the first level is that of the page
+        if content is None:
+            return [{"t": kind}]
+        return [{"t": kind, "c": self.tree(content) if isinstance(content, list) else content}]
+
+    def citation(self, parts: Any) -> Tree:
+        """Return the links of a citation, in brackets with the words around them if it was written so."""
+        found: Tree = []
+        for part in parts:
+            name = part["citationId"]
+            link = self.cite(name, self.text.where)
+            words = _words(link.words)
+            node = [_link(words, f"{link.page}#{link.anchor}")] if link.anchor else words
+            if name in self.anchors:
+                node = [{"t": "Span", "c": [[self.anchors.pop(name), [], []], node]}]
+            space = [{"t": "Space"}]
+            prefix, suffix = self.tree(part["citationPrefix"]), self.tree(part["citationSuffix"])
+            found += [*(_words("; ") if found else ()), *prefix, *(space if prefix else ()), *node, *suffix]
+        bracketed = parts[0]["citationMode"]["t"] == "NormalCitation"
+        return [*_words("["), *found, *_words("]")] if bracketed else found
+
+    def address(self, url: str) -> str:
+        """Return the address that a link may lead to."""
+        if _OUTSIDE.fullmatch(url):
+            return url.replace("doi:", "https://doi.org/", 1) if url.startswith("doi:") else url
+        if not _INSIDE.fullmatch(url):
+            raise AtlasError(
+                f"{self.text.where}: a link to {url[:60]!r} is not allowed; it leads to http:, https:, mailto:, doi: "
+                "or to a page of the report, such as index.html."
+            )
+        return url
+
+
+def _words(text: str) -> Tree:
+    """Return plain words as nodes."""
+    return [{"t": "Str", "c": text}]
+
+
+def _link(words: Tree, url: str) -> dict[str, Any]:
+    """Return a link as a node."""
+    return {"t": "Link", "c": [["", [], []], words, [url, ""]]}
+
+
+def _tex(tex: str, target: Target) -> str:
+    r"""Avoid what pandoc gets wrong: words in ``\mathrm`` are spaced out, a small fraction below a fraction is lost."""
+    tex = re.sub(r"\\mathrm\{([A-Za-z]{2,})\}", r"\\text{\1}", tex)
+    return re.sub(r"\\[td]frac\b", r"\\frac", tex) if target == "typst" else tex
+
+
+def _finished(piece: str, target: Target, text: Text) -> str:
+    r"""Mend what pandoc made of a text.
+
+    In Typst ``\;`` and ``\!`` get their widths, which pandoc rounds to whole ems, bars their role as delimiters, and
+    what ``\boxed`` marks its colour.
+    """
+    if target == "html":
+        return mend_all(piece)
+    if _CHAIN.search(piece):
+        raise AtlasError(f"{text.where}: a fraction below a fraction is lost in print; write it with a slash.")
+    piece = re.sub(r"#box\(stroke: black, inset: 3pt, \[\$ (.+?) \$\]\)", r"#changed[$\1$]", piece)
+    piece = piece.replace("#h(0em)", "#h(0.278em)").replace("#h(-1em)", "#h(-0.167em)")
+    piece = re.sub(r"\\\| ?(.+?) ?\\\|", r"lr(| \1 |)", piece)
+    return f"{piece} " if piece.endswith("\\") else piece  # else the bracket after it would be escaped

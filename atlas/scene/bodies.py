@@ -1,0 +1,67 @@
+"""A symmetric body as it is drawn: a shell whose proportions give its I, with a painted seam that shows its spin."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.scene import solids
+from atlas.scene.layers import Curve, Layer, Surface
+
+FloatArray = NDArray[np.float64]
+
+_SEAM = 0.16
+_FLAT = 1e-3
+
+
+def proportions(I: float) -> tuple[float, float]:
+    """Return radius and height of the cylindrical shell with I3/I2 = I whose farthest point is at the distance 1.
+
+    I3 = m r^2 and I2 = m (r^2/2 + h^2/12), so h/r = sqrt(12/I - 6), for 0 < I <= 2: a ring for I = 2.
+    """
+    slope = float(np.sqrt(max(12.0 / I - 6.0, 0.0)))
+    radius = 1.0 / float(np.hypot(1.0, slope / 2.0))
+    return radius, slope * radius
+
+
+def row(count: int, step: float, azimuth: float) -> FloatArray:
+    """Return centres (count, 3) at equal steps on a line that runs to the right for an eye at ``azimuth`` (degrees)."""
+    a = np.radians(azimuth)
+    right = np.array([-np.sin(a), np.cos(a), 0.0])
+    places: FloatArray = step * (np.arange(count) - (count - 1) / 2)[:, None] * right
+    return places
+
+
+def drawn_body(I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float) -> list[Layer]:
+    """Return the layers of a body with I3/I2 = I whose axes stand as the columns of ``attitude`` (3, 3).
+
+    ``centre`` (3,) is its centre of mass, ``size`` the distance of its farthest point from there; ``tolerance`` as for
+    `atlas.scene.sample.curve`. It is a cylindrical shell with lids and a seam along R_1; for I = 2 a disk with a
+    radius along R_1.
+    """
+    first, second, axis = np.asarray(attitude).T
+    radius, height = (size * length for length in proportions(I))
+    if height < _FLAT * size:
+        disk = solids.disk(centre, axis, radius, tolerance, role="solid")
+        return [disk, Curve(np.stack([centre, centre + radius * first]), "seam_line")]
+    side = solids.cylinder(centre, axis, radius, height, tolerance, role="solid")
+    ends = [
+        solids.disk(centre + sign * height / 2 * axis, sign * axis, radius, tolerance, role="solid")
+        for sign in (-1.0, 1.0)
+    ]
+    seam = _seam(side, centre, (first, second, axis), radius, height)
+    return [side, *ends, seam]
+
+
+def _seam(
+    side: Surface, centre: FloatArray, axes: tuple[FloatArray, FloatArray, FloatArray], radius: float, height: float
+) -> Surface:
+    """Return the painted strip of the shell around the direction of the first axis."""
+    first, second, axis = axes
+    angle = np.linspace(-_SEAM, _SEAM, 5) * np.pi
+    v, w = np.meshgrid(angle, [-0.5 * height, 0.5 * height])
+    ring = radius * (np.cos(v)[..., None] * first + np.sin(v)[..., None] * second)
+    edge = np.array([*(-first), -float(first @ centre) - radius * np.cos(angle[-1])])
+    return replace(
+        side, clip=np.vstack([side.clip, edge]), grids=(centre + ring + w[..., None] * axis,), rims=(), role="seam"
+    )

@@ -1,0 +1,119 @@
+"""What a recipe is given, fitted to what its parameters are, or one sentence that says what would be right."""
+
+import reprlib
+from collections.abc import Mapping
+from numbers import Integral, Real
+from types import GenericAlias, NoneType, UnionType
+from typing import Any, Literal, Union, get_args, get_origin
+
+from atlas.errors import AtlasError
+
+RANGES: Mapping[str, tuple[float, float]] = {
+    "azimuth": (-360.0, 360.0),
+    "elevation": (-90.0, 90.0),
+    "turns": (1e-3, 1e3),
+    "reach": (1e-2, 1e2),
+    "horizon": (1e-3, 1e9),
+    "columns": (1, 6),
+}
+"""Ends of parameters that have one meaning in all recipes; a recipe may set others by a RANGES of its own."""
+
+MOST = 40
+"""Values in a list: each is a curve or a panel."""
+
+SIZES = 1e-60, 1e60
+"""Numbers that can be drawn, zero apart: their fourth powers are floats."""
+
+COUNTS = {2: "two", 3: "three", 4: "four"}
+
+
+def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tuple[float, float]] = RANGES) -> Any:
+    """Return the value of a parameter in the type of its annotation, or of its default where it has none.
+
+    A list becomes a tuple, a whole number a float, one number a list of one where any length will do. Raises
+    AtlasError, which names the parameter and says what would be right.
+    """
+    kind = _kind(default) if hint is None else hint
+    try:
+        result = _fit(value, kind)
+    except _Unfit as wrong:
+        raise AtlasError(f"{name} must be {wrong}, not {reprlib.repr(value)}.") from None
+    if name in ends and result is not None:
+        low, high = ends[name]
+        if not all(low <= x <= high for x in (result if isinstance(result, tuple) else (result,))):
+            raise AtlasError(f"{name} must lie between {low:g} and {high:g}, not {reprlib.repr(value)}.")
+    return result
+
+
+class _Unfit(Exception):  # noqa: N818  it carries what would be right, and never leaves this file
+    """What a value should have been."""
+
+
+def _kind(default: Any) -> Any:
+    """Return the annotation that a default suggests."""
+    if isinstance(default, tuple) and default:
+        return GenericAlias(tuple, tuple(map(_kind, default)))
+    return Any if default is None or default == () else type(default)
+
+
+def _fit(value: Any, kind: Any) -> Any:
+    """Return a value in its kind; raises _Unfit."""
+    origin, inner = get_origin(kind), get_args(kind)
+    if origin in {Union, UnionType}:
+        missing = value is None and NoneType in inner
+        return None if missing else _fit(value, next(one for one in inner if one is not NoneType))
+    if origin is Literal and value not in inner:
+        raise _Unfit(" or ".join(map(str, inner)))
+    if origin is tuple:
+        return _list(value, inner)
+    if kind in {Any, float} and hasattr(value, "I2"):  # a body may stand where a ratio does
+        return value
+    if kind is Any:
+        kind = float
+    if kind in _PLAIN:
+        says, fits = _PLAIN[kind]
+        if not fits(value):
+            raise _Unfit(says)
+        value = kind(value)
+    return value
+
+
+def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return a list of a fixed or of any length."""
+    free = inner[-1] is Ellipsis
+    kinds = set(inner) - {Ellipsis}
+    plural = _PLURAL.get(inner[0], "values") if len(kinds) == 1 else "values"
+    many = f"a list of at most {MOST} {plural}" if free else f"{COUNTS.get(len(inner), len(inner))} {plural}"
+    if free and not isinstance(value, list | tuple):
+        value = (value,)
+    if not isinstance(value, list | tuple) or not (0 < len(value) <= MOST if free else len(value) == len(inner)):
+        raise _Unfit(many)
+    try:
+        return tuple(map(_fit, value, inner[:1] * len(value) if free else inner))
+    except _Unfit as wrong:
+        raise _Unfit(many) from wrong
+
+
+def _drawable(value: Any) -> bool:
+    """Tell whether a value is a number that can be drawn."""
+    return (
+        isinstance(value, Real)
+        and not isinstance(value, bool)
+        and (
+            value == 0 or SIZES[0] <= abs(value) <= SIZES[1]  # type: ignore[operator]
+        )
+    )
+
+
+_PLAIN: Mapping[Any, tuple[str, Any]] = {
+    float: (f"a number, 0 or of a size between {SIZES[0]:g} and {SIZES[1]:g}", _drawable),
+    int: ("a whole number", lambda value: isinstance(value, Integral) and not isinstance(value, bool)),
+    bool: ("true or false", lambda value: isinstance(value, bool)),
+    str: ("a word", lambda value: isinstance(value, str)),
+}
+
+_PLURAL = {
+    float: f"numbers, each 0 or of a size between {SIZES[0]:g} and {SIZES[1]:g}",
+    int: "whole numbers",
+    str: "words",
+}

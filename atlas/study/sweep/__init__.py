@@ -1,0 +1,1 @@
+"""Tables of quantities over many parameters: a grid or a list of them, in parts, on any executor."""

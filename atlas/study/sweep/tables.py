@@ -1,0 +1,95 @@
+"""A table from its parts: CSV, NPZ or Parquet, written a part at a time, the same bytes each time."""
+
+import io
+import zipfile
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.errors import AtlasError
+
+Columns = Mapping[str, NDArray[Any]]
+Load = Callable[[int], bytes]
+
+
+def csv_part(columns: Columns) -> bytes:
+    """Return rows as text; floats with the shortest digits that read back the same."""
+    cells = [x.tolist() if x.dtype.kind == "U" else map(repr, x.tolist()) for x in columns.values()]
+    return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
+
+
+def array_part(columns: Columns) -> bytes:
+    """Return columns as NumPy's arrays."""
+    buffer = io.BytesIO()
+    np.savez(buffer, **columns)  # type: ignore[arg-type]  # columns, not its options
+    return buffer.getvalue()
+
+
+def write_csv(out: Path, names: list[str], parts: int, load: Load) -> None:
+    """Write the heading and the rows."""
+    with out.open("wb") as file:
+        file.write((",".join(names) + "\n").encode())
+        for i in range(parts):
+            file.write(load(i))
+
+
+def write_npz(out: Path, names: list[str], parts: int, load: Load) -> None:
+    """Write one array a column, each from one part after the other."""
+    with zipfile.ZipFile(out, "w") as archive:
+        for name in names:
+            count = sum(column.size for column in _column(name, parts, load))
+            first = next(_column(name, parts, load))
+            with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
+                header = {"descr": np.lib.format.dtype_to_descr(first.dtype), "fortran_order": False, "shape": (count,)}
+                np.lib.format.write_array_header_1_0(file, header)
+                for column in _column(name, parts, load):
+                    file.write(column.tobytes())
+
+
+def write_parquet(out: Path, _: list[str], parts: int, load: Load) -> None:
+    """Write one row group a part."""
+    arrow, parquet = _pyarrow()
+    writer = None
+    try:
+        for i in range(parts):
+            with np.load(io.BytesIO(load(i))) as columns:
+                table = arrow.table({name: columns[name] for name in columns.files})
+            writer = writer or parquet.ParquetWriter(out, table.schema)
+            writer.write_table(table)
+    finally:
+        if writer:
+            writer.close()
+
+
+def _column(name: str, parts: int, load: Load) -> Iterator[NDArray[Any]]:
+    """Yield the parts of one column."""
+    for i in range(parts):
+        with np.load(io.BytesIO(load(i))) as columns:
+            yield columns[name]
+
+
+def _pyarrow() -> tuple[Any, Any]:
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError as error:
+        raise AtlasError("Parquet needs pyarrow: pip install 'atlas-charged-body[sweep]'.") from error
+    return pa, parquet
+
+
+FORMATS: Mapping[str, tuple[Callable[[Columns], bytes], Callable[[Path, list[str], int, Load], None]]] = {
+    ".csv": (csv_part, write_csv),
+    ".npz": (array_part, write_npz),
+    ".parquet": (array_part, write_parquet),
+}
+
+
+def check_format(out: Path) -> None:
+    """Raise AtlasError for a file name that says no format, or one that cannot be written here."""
+    if out.suffix not in FORMATS:
+        raise AtlasError(f"A table ends in {', '.join(FORMATS)}, not in {out.suffix!r}: {out}.")
+    if out.suffix == ".parquet":
+        _pyarrow()

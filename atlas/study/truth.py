@@ -1,0 +1,107 @@
+"""The true elementary motion at arrays of times, some three digits beyond a double, by the phases of the kernels.
+
+Axis and frequencies come from the exact floor, and the phases are reduced in two words, see `atlas.core.phase`; sines,
+cosines and what is made of them are long doubles. It is what a million rows can be graded against in a second; where a
+digit hangs on it, and for phases out of `within`, balls decide.
+"""
+
+from typing import Any
+
+import numpy as np
+from flint import arb, fmpq
+from numpy.typing import NDArray
+
+from atlas.core.general import General
+from atlas.core.inputs import FloatArray
+from atlas.core.phase import Phases
+from atlas.core.wide import BITS, TURN, Wide
+from atlas.exact.digits import enclosed
+from atlas.exact.elementary import ElementaryMotion
+from atlas.exact.general import GeneralMotion
+
+Long = NDArray[np.longdouble]
+
+UNCERTAINTY = 1e-18
+"""Bound on the error of an entry of R, of a quaternion, and of Omega in units of its length."""
+
+PHASE = 2.0**-6
+"""Part of the phases up to 2^50 in which two words of a frequency leave less than a quarter of that."""
+
+EXTENDED = bool(np.finfo(np.longdouble).eps < 2e-19)
+"""Whether this machine has long doubles with 64 digits or more; without them balls decide everything."""
+
+
+class Truth:
+    """R, Omega and the quaternion of an elementary motion at times (m,)."""
+
+    uncertainty = UNCERTAINTY
+
+    def __init__(self, motion: ElementaryMotion) -> None:
+        names = "k", "phi", "n2", "n3", "omega2", "omega3"
+        values = enclosed(lambda: (motion.k, motion.phi, *motion.axis, motion.omega2, motion.omega3), BITS)
+        self._words = {name: _wide(value) for name, value in zip(names, values, strict=True)}
+        self._phases = Phases([self._words[name] / TURN for name in ("k", "phi")])
+        self.n2, self.n3, self.omega2, self.omega3 = (long(self._words[name]) for name in names[2:])
+
+    def within(self, t: FloatArray) -> NDArray[np.bool_]:
+        """Tell at which times the truth is good to UNCERTAINTY, shape (m,)."""
+        return np.asarray((np.abs(t) <= PHASE * self._phases.reach) & EXTENDED)
+
+    def at(self, t: FloatArray) -> tuple[Long, Long, Long]:
+        """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`; by mf89, mf78."""
+        half, left_out, sign, _ = self._phases.angles(t, np.empty((8, 2, t.size)))
+        x = half.astype(np.longdouble) + left_out  # half the phase, less whole quarter turns; sign tells their parity
+        sines, cosines = np.sin(x), np.cos(x)
+        S, s = sign[1] * 2 * sines[1] * cosines[1], sign[0] * 2 * sines[0] * cosines[0]
+        C, c = sign[1] * (1 - 2 * sines[1] ** 2), sign[0] * (1 - 2 * sines[0] ** 2)
+        v = np.where(sign[0] > 0, 2 * sines[0] ** 2, 2 * cosines[0] ** 2)
+        n2, n3 = self.n2, self.n3
+        first, second = (c, n3 * s, -n2 * s), (-n3 * s, c + n2 * n2 * v, n2 * n3 * v)
+        columns = [a * C + b * S for a, b in zip(first, second, strict=True)]
+        across = [b * C - a * S for a, b in zip(first, second, strict=True)]
+        third = [n2 * s, n2 * n3 * v, c + n3 * n3 * v]
+        R = np.stack([column[i] for i in range(3) for column in (columns, across, third)], axis=-1)
+        Omega = np.stack([self.omega2 * S, self.omega2 * C, np.full_like(S, self.omega3)], axis=-1)
+        halves = [(np.where(up, b, -a), np.where(up, a, b)) for up, a, b in zip(sign > 0, sines, cosines, strict=True)]
+        (c, s), (C, S) = halves
+        q = np.stack([c * C - n3 * s * S, n2 * s * S, n2 * s * C, c * S + n3 * s * C], axis=-1)
+        return R, Omega, q
+
+
+class GeneralTruth:
+    """The same of a general motion, by the kernels: to a few units in the last place of a double."""
+
+    uncertainty = 1e-14
+    """Bound on the error of an entry of R, of a quaternion, and of Omega in units of the largest rate."""
+
+    def __init__(self, motion: GeneralMotion) -> None:
+        self._motion = General(motion, np.eye(3))
+
+    def within(self, t: FloatArray) -> NDArray[np.bool_]:
+        """Tell at which times there is a value, shape (m,)."""
+        return np.asarray(np.abs(t) <= PHASE * self._motion.parts.phases.reach)
+
+    def at(self, t: FloatArray) -> tuple[Long, Long, Long]:
+        """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`."""
+        from scipy.spatial.transform import Rotation
+
+        R, Omega = self._motion.rotation(t), self._motion.angular_velocity(t)
+        q = Rotation.from_matrix(R).as_quat(scalar_first=True)
+        return R.reshape(-1, 9).astype(np.longdouble), Omega.astype(np.longdouble), q.astype(np.longdouble)
+
+
+def long(value: Wide | fmpq) -> np.longdouble:
+    """Return the long double nearest to a number, or inf."""
+    number = value if isinstance(value, Wide) else _wide(value)
+    if not number:
+        return np.longdouble(0)
+    head, tail = number.scaled(-number.magnitude).words(2)
+    return np.longdouble(np.ldexp(np.longdouble(head) + np.longdouble(tail), number.magnitude))
+
+
+def _wide(value: Any) -> Wide:
+    """Return a certified number, cut to 256 binary digits."""
+    if isinstance(value, fmpq):
+        return Wide(int(value.p)) / Wide(int(value.q))
+    mantissa, exponent = arb(value).mid().man_exp()
+    return Wide(int(mantissa), int(exponent))

@@ -1,0 +1,114 @@
+"""Escape from an unstable elementary motion, and return.
+
+Inside the unstable band an elementary motion that is pushed a little leaves along the separatrix, goes round the two
+stable motions in turn, and comes back: its period grows with the logarithm of the push, its reach hardly at all.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.general import GeneralMotion
+from atlas.core.hyperbola import Hyperbola
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.sample import flat
+from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 12.0
+ROLES = ("main", "second", "third", "fourth", "sixth")
+
+
+def scene(
+    *,
+    ratio: Any = 0.5,
+    field: tuple[float, float] = (1.0, 0.1),
+    omega2: float = -0.5,
+    pushes: tuple[float, ...] = (1e-2, 1e-4, 1e-6),
+    unit: str = "time",
+) -> Scene:
+    """Draw Omega3(t) for each push omega1, and the period over the push with its logarithmic law."""
+    hyperbola = Hyperbola(ratio, field)
+    squared = float(hyperbola.stability(omega2))
+    if squared >= 0:
+        raise DomainError(
+            f"figure escape needs an unstable elementary motion; omega2 = {omega2} is stable, as its nutation "
+            "frequency "
+            f"squared is {squared:g}. Unstable bands exist for I < 1 and |B3/B2| <= 1/(2 sqrt 2)."
+        )
+    omega3 = float(hyperbola.omega3(omega2))
+    growth = float(np.sqrt(-squared))
+    motions = [GeneralMotion(ratio, field, (push, omega2, omega3)) for push in pushes]
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"{tex_setting(ratio, field).capitalize()}, started next to the unstable elementary motion "
+            rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. (a) $\Omega_3$ stays for a while, leaves with the rate "
+            rf"$\gamma={tex(growth)}$, goes round the two stable motions in turn, and comes back again and again. (b) "
+            "The period "
+            r"over the push: $T$ grows by $(4/\gamma)\ln 10$ for each decade (dashed), so it tells the push and the "
+            r"reach does not. An escape is a nutation of long period, not a flight."
+        ),
+        alt=(
+            f"Two panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: Omega 3 over time in pulses "
+            "that come the later the smaller the push is; the period over the push on a logarithmic axis, a straight "
+            "line."
+        ),
+        panels=(
+            course(motions, pushes, omega3, unit),
+            periods(ratio, field, (omega2, omega3), pushes, growth, unit),
+        ),
+        columns=2,
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def course(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> Plane:
+    """Panel (a): Omega3(t) over two periods of the slowest motion."""
+    last = 1.6 * max(motion.period for motion in motions)
+    ends = np.array([motion.turning_points for motion in motions])
+    low, high = float(ends.min()), float(ends.max())
+    pad = 0.1 * (high - low)
+    view = ((0.0, last), (low - pad, high + 2.2 * pad))
+    layers: list[Layer] = [Curve(np.array([[0.0, omega3], [last, omega3]]), "reference")]
+    for motion, push, role in zip(motions, pushes, ROLES, strict=False):
+
+        def point(t: FloatArray, motion: GeneralMotion = motion) -> FloatArray:
+            return np.stack([t, motion.angular_velocity(t)[..., 2]], axis=-1)
+
+        line = flat(point, 0.0, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=96)
+        layers += [
+            Curve(line, role),
+            Label(line[np.argmax(np.abs(line[:, 1] - omega3))], rf"$\omega_1={tex(push)}$", role, (0.0, 5.0)),
+        ]
+    return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title="(a) leaving and returning")
+
+
+def periods(
+    ratio: Any,
+    field: tuple[float, float],
+    start: tuple[float, float],
+    pushes: tuple[float, ...],
+    growth: float,
+    unit: str,
+) -> Plane:
+    """Panel (b): the period over the push."""
+    decades = np.arange(-12.0, 0.0)
+    found = np.array([GeneralMotion(ratio, field, (10.0**d, *start)).period for d in decades])
+    law = found[0] - 4 / growth * np.log(10.0) * (decades - decades[0])
+    view = ((10.0 ** decades[0], 10.0 ** decades[-1]), (0.0, 1.1 * float(found.max())))
+    marked = np.array([[push, GeneralMotion(ratio, field, (push, *start)).period] for push in pushes])
+    layers: list[Layer] = [
+        Curve(np.stack([10.0**decades, law], axis=1), "reference", r"$(4/\gamma)\ln(1/\omega_1)+$const"),
+        Curve(np.stack([10.0**decades, found], axis=1), "main", "$T$"),
+        Points(marked, "special"),
+    ]
+    return Plane(
+        tuple(layers),
+        rf"push $\omega_1$ (1/{unit})",
+        f"period $T$ ({unit})",
+        *view,
+        x_scale="log",
+        title="(b) period of the nutation",
+    )

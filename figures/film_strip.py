@@ -1,0 +1,68 @@
+"""One precession, moment by moment.
+
+A body drawn at equal steps of one turn of its precession k about the field, mf89: its axis goes round on a cone, and
+the painted seam shows the proper rotation phi on top of it.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.elementary import ElementaryMotion
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space, quadric_panel, solids
+from atlas.scene.bodies import drawn_body, row
+from atlas.scene.words import plain, plain_setting, quotient, tex, tex_setting, title
+
+WIDTH, HEIGHT = 178.0, 50.0
+STEP = 2.3
+
+
+def scene(
+    *,
+    ratio: Any = 0.5,
+    field: tuple[float, float] = (1.0, 1.2),
+    omega2: float = 0.8,
+    count: int = 8,
+    azimuth: float = 25.0,
+    elevation: float = 14.0,
+) -> Scene:
+    """Draw ``count`` moments from t = 0 to one period of the precession, side by side."""
+    motion = ElementaryMotion(ratio, field, omega2)
+    if not (motion.k and any(field) and 2 <= count <= 24):
+        raise DomainError(
+            f"figure film_strip needs a field, k not zero and 2 to 24 moments, not field = {field}, k = {motion.k:g}, "
+            f"count = {count}."
+        )
+    times = np.linspace(0.0, 2 * np.pi / abs(motion.k), count)
+    axis = quadric_panel.in_plane(*field) / np.hypot(*field)
+    angle = float(np.arctan2(field[0], field[1]))
+    fine = quadric_panel.tolerance(STEP * count / 2)
+    layers: list[Layer] = []
+    for i, (centre, R) in enumerate(zip(row(count, STEP, azimuth), motion.rotation(times), strict=True)):
+        layers += drawn_body(quotient(ratio), R, centre, 1.0, fine)
+        ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), fine)
+        layers += [
+            Curve(ring, "precession"),
+            Arrow(centre, centre + 1.35 * R[:, 2], "body_axis"),
+            Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
+            Label(centre - 1.35 * quadric_panel.E3, rf"${i}/{count - 1}$", "note", (0.0, -5.0)),
+        ]
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"{tex_setting(ratio, field).capitalize()}, $\omega_2={tex(omega2)}$, at {count} moments of one turn of "
+            rf"its precession; below each, the part of the period $2\pi/k$ that has gone by. The axis $\mathbf{{R}}_3$ "
+            r"keeps its angle with $\mathbf{B}$: there is no nutation. The dark seam shows the proper rotation; in one "
+            rf"turn of the precession the body turns by $\phi/k={tex(motion.phi / motion.k)}$ turns about its own "
+            "axis, "
+            r"so at the end the axis is back and the body is not."
+        ),
+        alt=(
+            f"{count} drawings side by side of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: a "
+            "cylinder "
+            "whose axis goes once round the field on a cone, and whose painted seam turns about the axis meanwhile."
+        ),
+        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(WIDTH, HEIGHT),
+    )

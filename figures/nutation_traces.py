@@ -1,0 +1,84 @@
+"""Three ways to nutate.
+
+Off the hyperbola mf72 the axis R_3 nods while it goes round the field. If at a turning point it moves with the
+precession, its trace waves; if it moves against it, the trace loops; if it stands still there, the trace has cusps.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.general import GeneralMotion
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.sample import curve
+from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
+
+SIZE = 58.0
+
+
+def scene(
+    *,
+    ratio: Any = 1.5,
+    field: tuple[float, float] = (1.0, 0.3),
+    omega2: tuple[float, ...] = (-0.6, 0.0, 0.6),
+    omega3: float = 5.0,
+    nutations: float = 8.0,
+    elevation: float = 25.0,
+) -> Scene:
+    """Draw R_3(t) from (0, omega2, omega3) for each ``omega2`` over ``nutations`` periods; B stands upright."""
+    if not all(field):
+        raise DomainError(f"figure nutation_traces needs both components of the field, not field = {field}.")
+    motions = [GeneralMotion(ratio, field, (0.0, start, omega3)) for start in omega2]
+    panels = tuple(
+        panel(rf"({letter}) $\omega_2={tex(start)}$", field, motion, nutations, elevation)
+        for letter, start, motion in zip("abcdef", omega2, motions, strict=False)
+    )
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The third axis of {tex_setting(ratio, field)} with $\omega_3={tex(omega3)}$ over {plain(nutations)} "
+            r"periods of the nutation, seen with $\mathbf{B}$ upright. At the start (dot) the axis stands at a turning "
+            r"point of the nutation and moves along the parallel with $\omega_2$: at rest there, it draws cusps, as a "
+            r"spinning top does that is let go; moved one way it waves, the other way it loops. The trace stays "
+            "between "
+            r"the two parallels, which are roots of the quartic $Q$."
+        ),
+        alt=(
+            f"Unit spheres with the trace of the body's axis for {plain_setting(ratio, field)}, omega 3 = "
+            f"{plain(omega3)} and omega 2 = {listed([plain(start) for start in omega2])}: a wave, a line with cusps "
+            "and "
+            "a line with loops between two parallels around the field."
+        ),
+        panels=panels,
+        columns=len(panels),
+        size=(SIZE * len(panels), SIZE + 10.0),
+    )
+
+
+def panel(name: str, field: tuple[float, float], motion: GeneralMotion, nutations: float, elevation: float) -> Space:
+    """Return one sphere, turned about e1 so that the field stands upright."""
+    fine = quadric_panel.tolerance(1.4)
+    B2, B3 = np.array(field) / np.hypot(*field)
+    upright = np.array([[1.0, 0.0, 0.0], [0.0, B3, -B2], [0.0, B2, B3]])
+
+    def axis(t: FloatArray) -> FloatArray:
+        return np.asarray(motion.third_axis(t) @ upright.T)
+
+    trace = curve(axis, 0.0, nutations * motion.period, fine, pieces=max(16, round(12 * nutations)))
+    height = trace[:, 2].min(), trace[:, 2].max()
+    layers: list[Layer] = [
+        solids.sphere(quadric_panel.O, 1.0, fine),
+        Arrow(quadric_panel.O, 1.45 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
+        *(
+            Curve(
+                solids.circle(z * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(max(0.0, 1 - z * z))), fine),
+                "reference",
+            )
+            for z in height
+        ),
+        Curve(trace, "trace"),
+        Points(trace[:1], "start"),
+    ]
+    return Space(tuple(layers), azimuth=-60.0, elevation=elevation, title=name)

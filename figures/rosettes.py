@@ -1,0 +1,84 @@
+"""Closed motions and one that never closes.
+
+An elementary motion closes if phi/k is a rational number p/q, and then after q turns of the precession, theorem-closed.
+The trace of a point of the body, at the angle LEAN to its axis, is seen along the field.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.elementary import ElementaryMotion
+from atlas.core.hyperbola import Hyperbola
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.sample import curve
+from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
+
+SIZE = 44.0
+LEAN = np.radians(50.0)
+
+
+def scene(
+    *,
+    ratio: Any = 1.5,
+    field: tuple[float, float] = (1.0, 2.0),
+    fractions: tuple[tuple[int, int], ...] = ((1, 2), (2, 3), (3, 5)),
+    omega2: float = 0.7,
+    turns: float = 40.0,
+) -> Scene:
+    """Show a motion with phi/k = p/q for each of the ``fractions``, and one from ``omega2`` over ``turns`` turns."""
+    if not all(field):
+        raise DomainError(f"figure rosettes needs both components of the field, not field = {field}.")
+    hyperbola = Hyperbola(ratio, field)
+    closed = [(rf"$\phi/k={p}/{q}$", hyperbola.closed(p, q), float(q)) for p, q in fractions]
+    never = ElementaryMotion(ratio, field, omega2)
+    motions = [*closed, (rf"$\phi/k={tex(never.phi / never.k)}\ldots$", never, turns)]
+    panels = tuple(
+        panel(f"({letter}) {name}", field, motion, count)
+        for letter, (name, motion, count) in zip("abcdefgh", motions, strict=False)
+    )
+    named = listed([f"${p}/{q}$" for p, q in fractions])
+    spoken = listed([f"{p}/{q}" for p, q in fractions])
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The trace of a point of the body, 50 degrees from its axis, on the unit sphere, seen along "
+            rf"$\mathbf{{B}}$, for "
+            rf"{tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back in its first attitude "
+            "after "
+            rf"{listed([str(q) for _, q in fractions])} turns of the precession. The last motion, from "
+            rf"$\omega_2={tex(omega2)}$, has been followed over {plain(turns)} turns. Every rational but two belongs "
+            "to "
+            r"exactly one elementary motion, so closed motions lie densely in the family."
+        ),
+        alt=(
+            f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "
+            "rosettes for "
+            f"phi over k equal to {spoken}; a further motion fills a band of the sphere."
+        ),
+        panels=panels,
+        columns=len(panels),
+        size=(SIZE * len(panels), SIZE + 4.0),
+    )
+
+
+def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns: float) -> Space:
+    """Return one sphere with the trace of a point over ``turns`` turns of the precession, seen along the field."""
+    fine = quadric_panel.tolerance(1.6)
+    period = 2 * np.pi / abs(motion.k)
+
+    def point(t: FloatArray) -> FloatArray:
+        return np.asarray(np.sin(LEAN) * motion.column(1, t) + np.cos(LEAN) * motion.third_axis(t))
+
+    pieces = max(16, int(16 * turns * max(1.0, abs(motion.phi / motion.k))))
+    trace = curve(point, 0.0, turns * period, fine, pieces=pieces)
+    layers: list[Layer] = [
+        solids.sphere(quadric_panel.O, 1.0, fine),
+        Curve(curve(motion.third_axis, 0.0, period, fine), "trace"),
+        Curve(trace, "second_trace"),
+        Points(trace[:1], "start"),
+    ]
+    elevation = float(np.degrees(np.arctan2(field[1], abs(field[0]))))
+    return Space(tuple(layers), azimuth=90.0 * float(np.sign(field[0])), elevation=elevation, title=name)

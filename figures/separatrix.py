@@ -1,0 +1,103 @@
+"""The motion between an unstable precession and itself.
+
+On the separatrix the quartic of the nutation has a double root, and the motion is elementary again, in hyperbolic
+functions, theorem-companion: the axis comes from the cone of the unstable precession, where it has been for ever, makes
+one excursion, and goes back to it, shifted in phase.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.core.separatrix import Companion, companions
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.sample import curve, flat
+from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
+
+
+def scene(
+    *,
+    ratio: Any = 0.5,
+    field: tuple[float, float] = (1.0, 0.1),
+    omega2: float = -0.5,
+    decay: float = 7.0,
+    azimuth: float = -60.0,
+    elevation: float = 18.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw both excursions of the unstable motion ``omega2`` over ``decay`` times 1/gamma before and after."""
+    motions = [motion for motion in companions(ratio, field, omega2) if motion.kind == "separatrix"]
+    if not motions:
+        raise DomainError(
+            f"figure separatrix needs an unstable elementary motion, which omega2 = {omega2} is not for I = {ratio} "
+            f"and field = {field}."
+        )
+    growth = float(np.sqrt(motions[0].curvature))
+    last = decay / growth
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"{tex_setting(ratio, field).capitalize()}: both motions that leave the unstable precession "
+            rf"$\omega_2={tex(omega2)}$ and return to it. (a) One of them, the trace of the axis with $\mathbf{{B}}$ "
+            r"upright; dashed: the circle of the precession. (b) $\Omega_3$ over time, a rational function of "
+            rf"$\cosh\gamma t$ with $\gamma={tex(growth)}$. A motion next to it repeats such excursions for ever, the "
+            r"more rarely the closer it is."
+        ),
+        alt=(
+            f"A unit sphere for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}, on which the axis winds "
+            "off a circle about the field, makes one excursion and winds back; beside it Omega 3 over time as a single "
+            "pulse upwards and one downwards from the same level."
+        ),
+        panels=(
+            sphere(motions[0], last, (azimuth, elevation)),
+            course(motions, last, unit),
+        ),
+        columns=2,
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def sphere(motion: Companion, last: float, view: tuple[float, float]) -> Space:
+    """Panel (a): the trace of the axis on the sphere, with the field upright."""
+    fine = quadric_panel.tolerance(1.4)
+
+    def axis(t: FloatArray) -> FloatArray:
+        alpha, beta = np.moveaxis(motion.cayley_klein(t), -1, 0)
+        # R_z(psi) R_x(theta) takes e3 to (sin psi sin theta, -cos psi sin theta, cos theta)
+        psi, nu = np.angle(alpha * beta), motion.cosine(t)
+        across = np.sqrt(np.maximum(0.0, 1.0 - nu * nu))
+        return np.stack([across * np.sin(psi), -across * np.cos(psi), nu], axis=-1)
+
+    trace = curve(axis, -last, last, fine, pieces=64)
+    r = motion.double
+    ring = solids.circle(r * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(1.0 - r * r)), fine)
+    layers: list[Layer] = [
+        solids.sphere(quadric_panel.O, 1.0, fine),
+        Arrow(quadric_panel.O, 1.4 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
+        Curve(ring, "reference"),
+        Curve(trace, "trace"),
+        Points(axis(np.zeros(1)), "start"),
+    ]
+    return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=r"(a) axis on the sphere")
+
+
+def course(motions: list[Companion], last: float, unit: str) -> Plane:
+    """Panel (b): Omega3 of both motions over time."""
+    rest = motions[0].c3 - motions[0].b * motions[0].double
+    ends = [motion.c3 - motion.b * motion.turning for motion in motions]
+    low, high = min([rest, *ends]), max([rest, *ends])
+    pad = 0.1 * (high - low)
+    view = ((-last, last), (low - pad, high + pad))
+    layers: list[Layer] = [Curve(np.array([[-last, rest], [last, rest]]), "unstable")]
+    for motion, role in zip(motions, ("main", "second"), strict=False):
+
+        def point(t: FloatArray, motion: Companion = motion) -> FloatArray:
+            return np.stack([t, motion.c3 - motion.b * motion.cosine(t)], axis=-1)
+
+        layers.append(Curve(flat(point, -last, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=48), role))
+    layers.append(Label(np.array([0.85 * last, rest]), "unstable precession", "unstable", (-10.0, 6.0)))
+    return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title=r"(b) $\Omega_3$")

@@ -1,0 +1,80 @@
+"""Where elementary motions can be unstable.
+
+With tau = |B3/B2| the least nutation frequency squared along the hyperbola mf72 is, in units of B2^2,
+
+    least = 2 tau sqrt(1 + tau^2) |1-I| - (1-I)(1 - 2 tau^2),        at x^2 = tau |1-I|/sqrt(1 + tau^2),
+
+negative for I < 1 and tau < 1/(2 sqrt 2) only: there its root is the greatest rate of growth. Not in the paper.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene.sample import flat
+from atlas.scene.words import title
+
+WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0
+EDGE = 1.0 / (2.0 * np.sqrt(2.0))
+TOP = 0.6
+BODIES = ((0.0, "needle"), (0.5, "long solenoid"), (1.0, "sphere"), (1.5, "short solenoid"), (2.0, "loop, disk"))
+
+
+def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
+    """Draw where the greatest growth rate, or the least frequency, is one of ``rates`` times |B2|."""
+    if not all(0.0 < rate < 1.0 for rate in rates):
+        raise DomainError(f"rates of figure stability_map lie between 0 and 1, in units of |B2|, not {rates}.")
+    layers: list[Layer] = [
+        Region(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, EDGE], [0.0, EDGE]]), "unstable_region"),
+        Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
+    ]
+    layers += [Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2]
+    for rate in rates:
+        growing = level(-(rate**2), -1)
+        layers += [Curve(growing, "main"), Label(growing[0], f"${rate:g}$", "main", (-6.0, 6.0))]
+        for side in (-1, 1):
+            line = level(rate**2, side)
+            if len(line):
+                layers += [Curve(line, "second"), Label(line[len(line) // 2], f"${rate:g}$", "second", (5.0, 0.0))]
+    layers += [Points(np.array([[I, 0.0]]), "point") for I, _ in BODIES]
+    layers += [Label(np.array([I, TOP]), name, "note", (0.0, -8.0)) for I, name in BODIES]
+    layers.append(Label(np.array([0.0, EDGE]), r"$\tau=1/(2\sqrt{2})$", "unstable", (4.0, 6.0)))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            r"What the worst elementary motion of a body does, over $I$ and $\tau=\lvert B_3/B_2\rvert$. Shaded: some "
+            r"are unstable; solid lines are levels of the greatest rate $\gamma$ at which a small nutation grows, in "
+            r"units of $\lvert B_2\rvert$, $\gamma^2/B_2^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all "
+            r"are stable; dashed lines are levels of the least nutation frequency. Only bodies longer than they are "
+            r"wide, in a field nearly across their axis, have unstable elementary motions; the edge "
+            r"$\tau=1/(2\sqrt{2})$ belongs to them."
+        ),
+        alt=(
+            "Map over I from 0 to 2 and tau from 0 to 0.6. The unstable rectangle reaches to I = 1 and tau = 0.354; "
+            "level lines of the growth rate fall from its left to its lower edge, level lines of the least nutation "
+            "frequency fill the rest. Five bodies are marked."
+        ),
+        panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B_3/B_2|$", (0.0, 2.0), (0.0, TOP)),),
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def level(value: float, side: int) -> FloatArray:
+    """Return points (I, tau), shape (N, 2), where the least frequency squared is ``value`` B2^2; empty if nowhere.
+
+    ``side`` is -1 for I < 1, 1 for I > 1. With tau = sinh s the least value is |1-I| (exp(2 s) - 2) for I < 1 and
+    (I-1) (2 - exp(-2 s)) for I > 1.
+    """
+
+    def point(s: FloatArray) -> FloatArray:
+        slope = np.exp(2 * s) - 2 if side < 0 else 2 - np.exp(-2 * s)
+        return np.stack([1 + side * value / slope, np.sinh(s)], axis=1)
+
+    top = float(np.arcsinh(TOP))
+    start, stop = (0.0, top) if side > 0 else (0.0, np.log(2 + value) / 2)
+    if side < 0 < value:
+        start, stop = np.log(2 + value) / 2, top
+    if start >= stop:
+        return np.empty((0, 2))
+    return flat(point, start, stop, ((0.0, 2.0), (0.0, TOP)), (WIDTH - MARGIN, HEIGHT - MARGIN))

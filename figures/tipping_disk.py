@@ -1,0 +1,123 @@
+"""A disk that tips over.
+
+Spinning along the field, B2 = 0 and omega = (0, 0, omega3), a body with I > 1 is unstable where
+
+    D = I^2 (omega3 + B3)^2 + 4 (1 - I) B3^2 < 0.
+
+Pushed a little, its axis leaves the field, reaches a greatest angle and comes back, again and again.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.general import GeneralMotion
+from atlas.core.inputs import FloatArray
+from atlas.core.integrals import shape_factors
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel
+from atlas.scene.bodies import drawn_body, row
+from atlas.scene.sample import flat
+from atlas.scene.words import plain, quotient, tex, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
+STEP = 2.5
+
+
+def scene(
+    *,
+    ratio: Any = 2.0,
+    B3: float = 1.0,
+    omega3: float = -1.0,
+    push: float = 1e-3,
+    count: int = 8,
+    azimuth: float = 20.0,
+    elevation: float = 14.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw the body at ``count`` moments of one excursion, and the angle of its axis over three."""
+    I, one_less, _ = shape_factors(ratio)
+    D = (I * (omega3 + B3)) ** 2 + 4 * one_less * B3**2
+    if D >= 0:
+        raise DomainError(
+            f"figure tipping_disk needs an unstable spin: D = {D:g} must be negative, |omega3 + B3| below "
+            f"2 sqrt(I-1) |B3|/I with I > 1."
+        )
+    growth = float(np.sqrt(-D)) / 2
+    motion = GeneralMotion(ratio, (0.0, B3), (push, 0.0, omega3))
+    times = moments(motion, count)
+    far = float(np.degrees(angle(motion.third_axis(np.array([motion.period / 2]))))[0])
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"A disk, $I={tex(quotient(ratio))}$, spins along the field $B'_3={tex(B3)}$ with "
+            rf"$\omega_3={tex(omega3)}$, nearly as Larmor's frame does; there $D={tex(D)}<0$, and a push "
+            rf"$\omega_1={tex(push)}$ grows with the rate $\gamma=\sqrt{{-D}}/2={tex(growth)}$. Above: "
+            rf"{count} moments of its tipping, by equal steps of the angle between its axis and the field; light is "
+            "its "
+            r"first upper side. Below: that angle, with the moments above as dots. "
+            + (
+                "It turns over completely, stays for a while, and turns back."
+                if far > 179.0
+                else rf"It reaches {far:.0f} degrees and comes back."
+            )
+        ),
+        alt=(
+            f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "
+            "time, "
+            f"three times from zero to {plain(round(far))} degrees and back."
+        ),
+        panels=(
+            strip(motion, I, times, (azimuth, elevation)),
+            course(motion, times, unit),
+        ),
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def angle(axis: FloatArray) -> FloatArray:
+    """Return the angle between the axis (..., 3) and e3, in radians, shape (...)."""
+    return np.asarray(np.arctan2(np.hypot(axis[..., 0], axis[..., 1]), axis[..., 2]))
+
+
+def moments(motion: GeneralMotion, count: int) -> FloatArray:
+    """Return times, shape (count,), at which the angle has grown by equal steps from its least to its greatest."""
+    t = np.linspace(0.0, motion.period / 2, 2001)
+    grown = np.maximum.accumulate(angle(motion.third_axis(t)))
+    return np.interp(np.linspace(grown[0], grown[-1], count), grown, t)
+
+
+def strip(motion: GeneralMotion, I: float, times: FloatArray, view: tuple[float, float]) -> Space:
+    """Return the body at these times side by side."""
+    fine = quadric_panel.tolerance(STEP * len(times) / 2)
+    layers: list[Layer] = []
+    for i, (centre, R) in enumerate(zip(row(len(times), STEP, view[0]), motion.rotation(times), strict=True)):
+        layers += drawn_body(I, R, centre, 1.0, fine)
+        layers += [
+            Arrow(centre, centre + 1.15 * R[:, 2], "body_axis"),
+            Arrow(centre, centre + 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$" if i == 0 else ""),
+            Label(centre - 1.15 * quadric_panel.E3, f"{i + 1}", "note", (0.0, -4.0)),
+        ]
+    return Space(tuple(layers), azimuth=view[0], elevation=view[1])
+
+
+def course(motion: GeneralMotion, times: FloatArray, unit: str) -> Plane:
+    """Return the angle of the axis over three periods, with the moments above as dots."""
+    view = ((0.0, 3.0 * motion.period), (0.0, 195.0))
+
+    def point(t: FloatArray) -> FloatArray:
+        return np.stack([t, np.degrees(angle(motion.third_axis(t)))], axis=-1)
+
+    line = flat(point, *view[0], view, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN), pieces=96)
+    layers = (
+        Curve(np.array([[0.0, 90.0], [view[0][1], 90.0]]), "reference"),
+        Curve(line, "main"),
+        Points(point(times), "start"),
+    )
+    return Plane(
+        layers,
+        f"$t$ ({unit})",
+        r"angle of $\mathbf{R}_3$ and $\mathbf{B}$ (degrees)",
+        view[0],
+        (0.0, float(1.12 * line[:, 1].max())),
+    )

@@ -1,0 +1,92 @@
+"""The rotation matrix as two turns.
+
+R(t) = R_B(k t) R_z(phi t), mf90: first the body turns by phi t about its own axis, which still stands along e3, then it
+is carried by k t about the field. No third turn is needed, since the axis keeps its angle with the field.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.elementary import ElementaryMotion
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space, quadric_panel, solids
+from atlas.scene.bodies import drawn_body, row
+from atlas.scene.words import plain, plain_setting, quotient, tex, tex_setting, title
+
+STEP = 3.0
+REACH = 1.55
+
+
+def scene(
+    *,
+    ratio: Any = 0.5,
+    field: tuple[float, float] = (1.0, 1.2),
+    omega2: float = 0.8,
+    part: float = 0.17,
+    azimuth: float = 25.0,
+    elevation: float = 14.0,
+) -> Scene:
+    """Draw the attitudes 1, R_z and R_B R_z at the time ``part`` of a period of the precession."""
+    motion = ElementaryMotion(ratio, field, omega2)
+    if not (motion.k and motion.phi and all(field)):
+        raise DomainError(
+            f"figure two_turns needs B2, B3, k and phi not zero, not field = {field}, k = {motion.k:g}, "
+            f"phi = {motion.phi:g}."
+        )
+    t = part * 2 * np.pi / abs(motion.k)
+    proper, precession = motion.phi * t, motion.k * t
+    R = motion.rotation(t)
+    C, S = np.cos(proper), np.sin(proper)
+    about_axis = np.array([[C, -S, 0.0], [S, C, 0.0], [0.0, 0.0, 1.0]])
+    axis = quadric_panel.in_plane(*field) / np.hypot(*field)
+    fine = quadric_panel.tolerance(1.5 * STEP)
+    steps = ((np.eye(3), r"$1$"), (about_axis, r"$R_z(\phi t)$"), (R, r"$R_\mathbf{B}(kt)\,R_z(\phi t)$"))
+    layers: list[Layer] = []
+    for i, (centre, (attitude, name)) in enumerate(zip(row(3, STEP, azimuth), steps, strict=True)):
+        layers += drawn_body(quotient(ratio), attitude, centre, 1.0, fine)
+        layers += [
+            Arrow(centre, centre + REACH * attitude[:, 2], "body_axis", r"$\mathbf{R}_3$"),
+            Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$"),
+            Label(centre - 1.6 * quadric_panel.E3, name, "label", (0.0, -6.0)),
+        ]
+        if i == 1:
+            layers += sweep(
+                centre + 1.25 * quadric_panel.E3, quadric_panel.E3, 0.45 * quadric_panel.E1, proper, r"$\phi t$", fine
+            )
+        if i == 2:
+            along = float(quadric_panel.E3 @ axis)
+            layers += sweep(
+                centre + REACH * along * axis,
+                axis,
+                REACH * (quadric_panel.E3 - along * axis),
+                precession,
+                r"$kt$",
+                fine,
+            )
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"{tex_setting(ratio, field).capitalize()}, $\omega_2={tex(omega2)}$, in its first attitude; turned by "
+            rf"$\phi t={tex(round(proper, 3))}$ about its axis; and then by $kt={tex(round(precession, 3))}$ about "
+            r"$\mathbf{B}$: this is the attitude $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, mf90."
+        ),
+        alt=(
+            f"Three drawings of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: upright with its seam in "
+            "front; upright with the seam turned about its axis; tilted, its axis carried round the field on a cone."
+        ),
+        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(160.0, 72.0),
+    )
+
+
+def sweep(
+    centre: FloatArray, axis: FloatArray, radius: FloatArray, angle: float, name: str, tolerance: float
+) -> list[Layer]:
+    """Return the arc through ``angle`` about ``axis`` from ``centre + radius``, with an arrow at its end and a name."""
+    last = angle - np.sign(angle) * min(0.35, 0.5 * abs(angle))
+    arc = solids.arc(centre, radius, np.cross(axis, radius), 0.0, last, tolerance)
+    tip = solids.ellipse(centre, radius, np.cross(axis, radius))(np.array([angle]))[0]
+    middle = solids.ellipse(centre, 1.25 * radius, 1.25 * np.cross(axis, radius))(np.array([0.6 * angle]))[0]
+    return [Curve(arc, "turn"), Arrow(arc[-1], tip, "turn"), Label(middle, name, "turn", (0.0, 4.0))]

@@ -1,0 +1,1 @@
+"""Benchmarks of the whole program: run by make, recorded in reports/data."""

@@ -1,0 +1,213 @@
+"""Every public quantity on hostile arguments: a number, inf where it is beyond the floats, or one line; never NaN."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from values import answered, arrays, no_numbers, numbers, ratios, share
+
+import atlas
+from atlas.core import integrals, quadratures, units
+from atlas.core.pseudo_oscillator import PseudoOscillator
+
+pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")  # NumPy's, of a float that overflows to inf
+
+times = arrays(st.one_of(st.floats(-1e3, 1e3), numbers))
+pairs = st.tuples(arrays(numbers), arrays(numbers))
+vectors = st.one_of(
+    st.tuples(numbers, numbers, numbers),
+    st.sampled_from([np.zeros((2, 3)), np.ones((3, 3)), np.ones((2, 1, 3)), (1.0, 2.0), np.ones((0, 3))]),
+)
+bodies = st.one_of(
+    arrays(ratios),
+    st.builds(lambda a, b: atlas.SymmetricBody(a, b * a), st.floats(1e-300, 1e300), st.floats(1e-3, 2.0)),
+)
+
+
+def asked(make: Any, quantities: dict[str, Any]) -> None:
+    """Ask for everything that an object answers."""
+    made = None
+
+    def construct() -> float:
+        nonlocal made
+        made = make()
+        return 0.0
+
+    if answered(construct) is None:
+        return
+    for name, ask in quantities.items():
+        answered(lambda ask=ask: ask(made), name)
+
+
+def attributes(*names: str) -> dict[str, Any]:
+    """Return what asks for attributes."""
+    return {name: lambda made, name=name: getattr(made, name) for name in names}
+
+
+@share(0.15, 60)
+@given(bodies, pairs, arrays(numbers), st.none() | arrays(numbers), times, st.floats(-10, 10), st.integers(0, 9))
+def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any, step: float, count: int) -> None:
+    """All that an elementary motion answers."""
+    asked(
+        lambda: atlas.ElementaryMotion(I, field, omega2, omega3),
+        attributes("omega2", "omega3", "k", "phi")
+        | {
+            "rotation": lambda m: m.rotation(t),
+            "third_axis": lambda m: m.third_axis(t),
+            "angular_velocity": lambda m: m.angular_velocity(t),
+            "field_in_body": lambda m: m.field_in_body(t),
+            "angular_momentum": lambda m: m.angular_momentum(t),
+            "invariants": lambda m: m.invariants(),
+            "invariants at t": lambda m: m.invariants(t),
+            "rotation_grid": lambda m: m.rotation_grid(step, step, count),
+            "beside": lambda m: m.beside.k,
+        },
+    )
+
+
+@share(0.1, 40)
+@given(bodies, pairs, vectors)
+def test_quadric(I: Any, field: Any, omega: Any) -> None:
+    """All that a quadric answers."""
+    asked(
+        lambda: atlas.Quadric(I, field),
+        attributes("beta", "a2", "a3", "semi_axes", "centre", "axes")
+        | {"canonical": lambda q: q.canonical(omega), "residual": lambda q: q.residual(omega)},
+    )
+
+
+@share(0.1, 40)
+@given(bodies, st.tuples(numbers, numbers), arrays(numbers), st.sampled_from([2, 3, 7, 1, 0, 2.5, [0.0, 1.0], [800.0]]))
+def test_hyperbola(I: Any, field: Any, omega2: Any, points: Any) -> None:
+    """All that a hyperbola answers."""
+    asked(
+        lambda: atlas.Hyperbola(I, field),
+        attributes("pole", "unstable_band", "special", "asymptotes")
+        | {
+            "omega3": lambda h: h.omega3(omega2),
+            "frequencies": lambda h: h.frequencies(omega2),
+            "stability": lambda h: h.stability(omega2),
+            "sample": lambda h: h.sample(points),
+        },
+    )
+
+
+@share(0.1, 40)
+@given(arrays(numbers), arrays(numbers), pairs, times)
+def test_ball_motion(inertia: Any, larmor: Any, momentum: Any, t: Any) -> None:
+    """All that a ball answers."""
+    asked(
+        lambda: atlas.BallMotion(inertia, larmor, momentum),
+        attributes("gamma", "k_hat")
+        | {
+            "rotation": lambda m: m.rotation(t),
+            "angular_momentum": lambda m: m.angular_momentum(t),
+            "angular_velocity": lambda m: m.angular_velocity(t),
+        },
+    )
+
+
+@share(0.1, 40)
+@given(arrays(numbers), vectors, vectors, vectors, vectors, st.one_of(st.just(1.0), numbers), times)
+def test_particle_motion(mu: Any, E: Any, B: Any, y: Any, v: Any, c: Any, t: Any) -> None:
+    """All that a particle answers."""
+    asked(
+        lambda: atlas.ParticleMotion(mu, E, B, y, v, c),
+        attributes("cyclotron_frequency", "period", "prime", "drift", "radius", "axes", "case", "kind")
+        | {
+            "position": lambda m: m.position(t),
+            "velocity": lambda m: m.velocity(t),
+            "guiding_centre": lambda m: m.guiding_centre(t),
+        },
+    )
+
+
+@share(0.1, 40)
+@given(bodies, pairs, vectors, vectors, arrays(numbers))
+def test_integrals_and_the_cubic(I: Any, field: Any, omega: Any, K: Any, u: Any) -> None:
+    """The integrals of a state, the cubic and the quartic."""
+    answered(lambda: list(vars(integrals.integrals(I, omega, K)).values()))
+    asked(
+        lambda: PseudoOscillator(I, field, omega),
+        attributes("coefficients", "quartic_coefficients")
+        | {
+            "integrals": lambda p: vars(p.integrals),
+            "acceleration": lambda p: p.acceleration(u),
+            "stiffness": lambda p: p.stiffness(u),
+            "quartic": lambda p: p.quartic(u),
+            "field_in_body": lambda p: quadratures.field_in_body(I, p.integrals, omega, u),
+            "frequency": lambda p: quadratures.frequency(I, p.integrals, u),
+        },
+    )
+
+
+@share(0.05, 40)
+@given(vectors, vectors, numbers, numbers, vectors)
+def test_fields_and_frames(B: Any, E: Any, mu: float, c: float, axis: Any) -> None:
+    """A field, its frame, and what units make of it."""
+    asked(
+        lambda: atlas.Field(B, E, mu, c),
+        attributes("prime")
+        | {
+            "frame": lambda f: f.frame(axis).matrix,
+            "(B2, B3)": lambda f: f.frame(axis).field,
+            "to_user": lambda f: f.frame(axis).to_user(E),
+        },
+    )
+    answered(lambda: units.charge_to_mass(mu, c))
+    answered(lambda: units.cyclotron_frequency(mu, c))
+
+
+@share(0.05, 40)
+@given(vectors, vectors, numbers, numbers, numbers)
+def test_bodies(diagonal: Any, masses: Any, mass: float, radius: float, height: float) -> None:
+    """Bodies by their shapes, their matrices, their points."""
+    for make in (atlas.SymmetricBody.ring, atlas.SymmetricBody.disk, atlas.SymmetricBody.sphere):
+        answered(lambda make=make: [make(mass, radius).I2, make(mass, radius).I3])
+    for make in (atlas.SymmetricBody.cylindrical_shell, atlas.SymmetricBody.spheroid):
+        answered(lambda make=make: [make(mass, radius, height).I2, make(mass, radius, height).I3])
+    answered(lambda: atlas.SymmetricBody.from_mass_matrix(diagonal).axes)
+    answered(lambda: atlas.SymmetricBody.from_point_masses(masses, np.eye(3)).axes)
+    answered(lambda: atlas.SymmetricBody(mass, radius).ratio)
+
+
+CALLS = {
+    "ElementaryMotion.ratio": lambda x: atlas.ElementaryMotion(x, (1.0, 2.0), 0.7),
+    "ElementaryMotion.field": lambda x: atlas.ElementaryMotion(1.5, x, 0.7),
+    "ElementaryMotion.B3": lambda x: atlas.ElementaryMotion(1.5, (1.0, x), 0.7),
+    "ElementaryMotion.omega2": lambda x: atlas.ElementaryMotion(1.5, (1.0, 2.0), x),
+    "ElementaryMotion.omega3": lambda x: atlas.ElementaryMotion(1.5, (0.0, 2.0), 0.0, x),
+    "rotation.t": lambda x: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation(x),
+    "rotation.out": lambda x: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation(1.0, out=x),
+    "rotation_grid.count": lambda x: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation_grid(0.0, 1.0, x),
+    "rotation_grid.out": lambda x: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation_grid(0.0, 1.0, 3, out=x),
+    "column.j": lambda x: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).column(x, 0.0),
+    "Quadric.field": lambda x: atlas.Quadric(1.5, x),
+    "Quadric.canonical": lambda x: atlas.Quadric(1.5, (1.0, 2.0)).canonical(x),
+    "Hyperbola.ratio": lambda x: atlas.Hyperbola(x, (1.0, 2.0)),
+    "Hyperbola.sample": lambda x: atlas.Hyperbola(1.5, (1.0, 2.0)).sample(x),
+    "Hyperbola.reach": lambda x: atlas.Hyperbola(1.5, (1.0, 2.0)).sample(5, reach=x),
+    "BallMotion.momentum": lambda x: atlas.BallMotion(1.0, 0.5, x),
+    "ParticleMotion.mu": lambda x: atlas.ParticleMotion(x, [0, 0, 0], [0, 0, 1], [0, 0, 0], [1, 0, 0]),
+    "ParticleMotion.B": lambda x: atlas.ParticleMotion(1.0, [0, 0, 0], x, [0, 0, 0], [1, 0, 0]),
+    "ParticleMotion.position": lambda x: atlas.ParticleMotion(1, [0, 0, 0], [0, 0, 1], [0] * 3, [1, 0, 0]).position(x),
+    "trochoid.radius": lambda x: atlas.ParticleMotion.trochoid(1.0, [0, 1, 0], [0, 0, 1], x),
+    "Field.B": atlas.Field,
+    "frame.axis": lambda x: atlas.Field([0, 0, 1.0]).frame(x),
+    "SymmetricBody.I3": lambda x: atlas.SymmetricBody(1.0, x),
+    "ring.radius": lambda x: atlas.SymmetricBody.ring(1.0, x),
+    "from_mass_matrix": atlas.SymmetricBody.from_mass_matrix,
+    "from_point_masses": lambda x: atlas.SymmetricBody.from_point_masses(x, np.eye(3)),
+    "larmor_field.units": lambda x: units.larmor_field(1.0, 1.0, x),
+}
+
+
+@share(0.1, 200)
+@given(
+    st.sampled_from(sorted(CALLS)), st.one_of(no_numbers, st.lists(no_numbers | numbers, max_size=4), arrays(numbers))
+)
+def test_what_is_no_number(name: str, value: Any) -> None:
+    """Text, None, NaN, objects and ragged lists in any place are told in one line."""
+    answered(lambda: [CALLS[name](value), 0.0][1], name)

@@ -1,0 +1,219 @@
+"""The command line on any words: JSON or a table, or one line with status 2; no traceback, no NaN without reason."""
+
+import json
+import re
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import click
+import pytest
+from click.testing import CliRunner
+from hypothesis import given
+from hypothesis import strategies as st
+from values import share
+
+from atlas.cli.app import atlas, main
+
+BUILDERS = {"report", "stress", "sweep"}
+"""Commands that write files or run for long: they have tests of their own."""
+
+COMMANDS: dict[str, click.Command] = {
+    name: import_module(f"atlas.cli.{name}").command for name in atlas.commands if name not in BUILDERS
+}
+SECONDS = 60
+"""After which a command hangs."""
+
+good = st.sampled_from(["1", "1.5", "0.5", "2", "-1", "-2", "0", "0.7", "3/2", "1e-3", "0x1.8p0", "-0", "12", "1e3"])
+far = st.sampled_from(
+    ["1e308", "-1e308", "1e-308", "5e-324", "1e160", "1e-160", "1e200", "-1e-200", "1e15", "1e30", "4e9"]
+)
+words = "nan inf -inf 1e999 1e-9999 1e-99999 1_0 x 1,2 -- - 1/0 0x \\d 1e $HOME ../.. {} --json=1 None é \u0661".split()
+bad = st.sampled_from([*words, "", " ", "9" * 5000, "\x1b[2J", "a\nb"])
+number = st.one_of(good, good, good, good, far, far, bad)
+BASES = {
+    "classify": "--ratio 1.5 --field 1 2",
+    "hyperbola": "--ratio 1.5 --field 1 2",
+    "motion": "--ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1",
+    "general": "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1",
+    "ball": "--larmor 0.5 --momentum 0.3 -0.7 --times 0 1",
+    "particle": "--mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1",
+    "check": "FILE --ratio 1.5 --field 1 2 --omega2 0.7",
+    "figure": "",
+    "list": "",
+    "diff": "old new",
+    "verify": "mf999",
+    "bench": "--read nosuch.json",
+}
+NEVER = {
+    "--out",
+    "--page",
+    "--figure",
+    "--store",
+    "--record",
+    "--all",
+    "--explain",
+    "--jobs",
+    "-j",
+    "--mutants",
+    "--anew",
+}
+"""Options that write or start processes: they have tests of their own."""
+
+
+@st.composite
+def lines(draw: Any) -> list[str]:
+    """Draw a command with its usual words, some of them changed, and options of its own or of others."""
+    name = draw(st.sampled_from([*BASES, "motion", "general", "hyperbola", "classify", "particle"]))
+    words = [name, *BASES[name].split()]
+    for i in range(1, len(words)):
+        if re.fullmatch(r"-?[\d.]+", words[i]) and draw(st.integers(0, 3)) == 0:
+            words[i] = draw(number)
+    options = [option for option in COMMANDS[name].params if isinstance(option, click.Option)]
+    for option in draw(st.lists(st.sampled_from(options), max_size=3)):
+        if set(option.opts) & NEVER:
+            continue
+        words.append(option.opts[0])
+        if not option.is_flag:
+            kinds = option.type.choices if isinstance(option.type, click.Choice) else None
+            value = st.one_of(st.sampled_from(kinds), number) if kinds else number
+            words += draw(st.lists(value, min_size=max(0, option.nargs - 1), max_size=option.nargs + 1))
+    if draw(st.integers(0, 9)) == 0:
+        words[draw(st.integers(0, len(words) - 1))] = draw(bad)
+    if draw(st.integers(0, 2)) == 0:
+        words.append("--json")
+    return words
+
+
+@contextmanager
+def watched() -> Iterator[None]:
+    """Fail where something runs for longer than SECONDS."""
+
+    def alarm(_signal: int, _frame: Any) -> None:
+        raise TimeoutError(f"ran for more than {SECONDS} s")
+
+    before = signal.signal(signal.SIGALRM, alarm)
+    signal.alarm(SECONDS)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def ran(words: list[str]) -> tuple[int, str, str]:
+    """Run the program inside this process, as a terminal would; return status, standard output and error."""
+    with CliRunner().isolation() as (out, err, _), watched(), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "argv", ["atlas"])
+        try:
+            main(words)
+        except SystemExit as end:
+            status = int(end.code or 0)
+        sys.stdout.flush()
+        sys.stderr.flush()
+        return status, out.getvalue().decode(), err.getvalue().decode()
+
+
+def judged(words: list[str]) -> None:
+    """Hold an answer against what every answer is."""
+    status, out, err = ran(words)
+    told = (words, out[-300:], err)
+    assert "Traceback" not in err, told
+    assert status in {0, 1, 2}, told
+    if status == 2:
+        assert out == "", told
+        assert err.count("\n") == 1 or err.startswith("Usage:"), told
+        assert len(err) < 1500, told
+        assert "\x1b" not in err, told
+        assert not re.search(r"object at 0x|<class|Error:|errno", err), told
+    elif "--json" in words and out:
+        found = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} in JSON: {told}"))
+        missing = json.dumps(found).count("null")
+        assert missing == 0 or "missing" in found or '"drift": null' in out or words[0] in {"check", "hyperbola"}, told
+    assert "nan" not in out.lower(), told
+
+
+@share(0.7, 60)
+@given(lines())
+def test_any_words_get_an_answer_or_one_line(words: list[str]) -> None:
+    """Numbers, their absence, and options in any order."""
+    judged([word.replace("FILE", "nosuch.csv") for word in words])
+
+
+cells = st.one_of(number, st.sampled_from(["0", "1", "0.5", "-1", "1."]))
+NAMES = [
+    "t",
+    "T",
+    "time",
+    "R11",
+    "r_12",
+    "R33",
+    "Omega1",
+    "omega_2",
+    "Omega3",
+    "w",
+    "x",
+    "y",
+    "z",
+    "q0",
+    "R44",
+    "",
+    "'R13'",
+]
+HEADS = """# ratio = 1.5|# field = 1 2|# field: 1, 2|# omega2 = 0.7|# inertia = 2 3|# ratio: see||# field = 1|#
+|# omega3 = x|# ratio = 1e999|\ufeff|# omega2 = -1|# field = 1e200 1e200""".split("|")
+
+
+@st.composite
+def files(draw: Any) -> bytes:
+    """Draw a CSV file: parameters, names, rows, and what does not belong there."""
+    head = draw(
+        st.lists(
+            st.sampled_from(HEADS),
+            max_size=5,
+        )
+    )
+    names = draw(
+        st.one_of(st.just(["t", "R11", "Omega1"]), st.just(["t", "w", "x", "y", "z"]), st.lists(st.sampled_from(NAMES)))
+    )
+    comma = draw(st.sampled_from([",", ";", " ", "\t"]))
+    count = st.just(len(names)) if draw(st.integers(0, 3)) else st.integers(0, 5)
+    rows = [comma.join(draw(cells) for _ in range(draw(count))) for _ in range(draw(st.integers(0, 5)))]
+    text = draw(st.sampled_from(["\n", "\r\n", "\r"])).join([*head, comma.join(names), *rows])
+    encoding = draw(st.sampled_from(["utf-8"] * 8 + ["utf-16", "utf-8-sig"]))
+    return text.encode(encoding, errors="replace") + draw(st.sampled_from([b"", b"\n", b"\xff", b"\x00"]))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder for the files."""
+    return tmp_path_factory.mktemp("fuzz")
+
+
+@share(0.2, 40)
+@given(content=files(), given_too=st.booleans(), as_json=st.booleans())
+def test_any_file_is_graded_or_told(folder: Path, content: bytes, *, given_too: bool, as_json: bool) -> None:
+    """A CSV file of any content."""
+    file = folder / "mine.csv"
+    file.write_bytes(content)
+    options = "--ratio 1.5 --field 1 2 --omega2 0.7".split() if given_too else []
+    judged(["check", str(file), *options, *(["--json"] if as_json else [])])
+
+
+@share(0.1, 15)
+@given(
+    st.lists(
+        st.one_of(
+            st.sampled_from(sorted(set(BASES) - {"bench", "verify"})),
+            bad,
+            st.sampled_from(["--help", "-h", "--version"]),
+        )
+    )
+)
+def test_any_command_line_has_an_answer(words: list[str]) -> None:
+    """Commands that are none, help anywhere, nothing at all."""
+    judged(words)

@@ -1,0 +1,77 @@
+"""Hostile values, and what every answer must be: numbers, or one line that says why not."""
+
+import math
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from atlas.errors import AtlasError
+
+EXAMPLES = int(os.environ.get("FUZZ_EXAMPLES", "0"))
+"""Cases in all, shared out among the tests; without it the few of `make test`."""
+
+SPECIAL = [0.0, -0.0, 1.0, -1.0, 2.0, 0.5, 1.5, -2.0, math.nextafter(1.0, 2.0), math.nextafter(-1.0, 0.0), math.pi]
+FAR = [
+    1e140,
+    -1e-140,
+    1e160,
+    -1e160,
+    1e200,
+    1e-200,
+    1e308,
+    -1e308,
+    5e-324,
+    2.2250738585072014e-308,
+    2.0**50,
+    -(2.0**60),
+]
+
+numbers = st.one_of(
+    st.sampled_from(SPECIAL),
+    st.sampled_from(SPECIAL + FAR),
+    st.floats(-10, 10),
+    st.floats(allow_nan=False, allow_infinity=False),
+)
+no_numbers = st.sampled_from(
+    [math.nan, math.inf, -math.inf, None, "1", b"1", True, 1j, [], {}, object, "x" * 5000, 10**400, [[1.0, 2.0], [3.0]]]
+)
+ratios = st.one_of(st.sampled_from([1.0, 2.0, 0.5, 1.5]), st.floats(1e-300, 2.0), numbers)
+
+
+def share(part: float, few: int) -> Any:
+    """Return settings for a test that gets this part of all examples, or a few."""
+    return settings(max_examples=max(1, round(EXAMPLES * part)) if EXAMPLES else few)
+
+
+def arrays(elements: Any) -> Any:
+    """Return numbers, or arrays of them of shapes that may meet or not."""
+    shapes = st.sampled_from([(2,), (3,), (2, 1), (1, 3), (0,), (1,)])
+    filled = shapes.flatmap(
+        lambda shape: st.lists(elements, min_size=math.prod(shape), max_size=math.prod(shape)).map(
+            lambda values: np.array(values, dtype=float).reshape(shape)
+        )
+    )
+    masked = filled.map(lambda array: np.ma.masked_array(array, np.arange(array.size).reshape(array.shape) % 2 == 0))
+    return st.one_of(elements, elements, elements, filled, masked)
+
+
+def answered(call: Callable[[], Any], where: str = "") -> Any:
+    """Return what a call answers, or None where it says in one line why it has no answer; never NaN."""
+    try:
+        found = call()
+    except AtlasError as reason:
+        sentence = str(reason)
+        assert sentence.strip(), where
+        assert "\n" not in sentence, where
+        assert "Error" not in sentence, (where, sentence)
+        assert len(sentence) < 600, (where, sentence)
+        return None
+    for value in found if isinstance(found, tuple | list) else found.values() if isinstance(found, dict) else [found]:
+        array = np.asarray(value)
+        if array.dtype.kind == "f":
+            assert not np.isnan(array).any(), (where, found)
+    return found

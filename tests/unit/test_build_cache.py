@@ -1,0 +1,128 @@
+"""The cache: each entry whole or not at all, and never the wrong thing."""
+
+import multiprocessing
+import os
+import random
+import signal
+import time
+from pathlib import Path
+
+import pytest
+
+from atlas.build.cache import DAY, UNUSED, Cache, digest
+
+KEY, OTHER = digest("key"), digest("other")
+LARGE = b"x" * 2_000_000
+
+
+def path_of(cache: Cache, key: str) -> Path:
+    """Return the file of an entry."""
+    (path,) = cache.folder.glob(f"*/{key}")
+    return path
+
+
+def test_what_is_put_is_what_is_found(tmp_path: Path) -> None:
+    """Bytes are found under their key only, also by another process with the same folder."""
+    cache = Cache(tmp_path)
+    assert cache.get(KEY) is None
+    assert cache.put(KEY, b"one\ntwo") == b"one\ntwo"
+    assert Cache(tmp_path).get(KEY) == b"one\ntwo"
+    assert cache.get(OTHER) is None
+    assert cache.recall(KEY, lambda: b"never") == b"one\ntwo"
+    assert cache.recall(OTHER, lambda: b"made") == cache.get(OTHER) == b"made"
+
+
+@pytest.mark.parametrize("damage", [b"", b"x", b"one", b"\n", b"[]", None])
+def test_a_damaged_entry_is_missing_and_heals(tmp_path: Path, damage: bytes | None) -> None:
+    """An entry that is not what was put there counts as missing, and can be put again."""
+    cache = Cache(tmp_path)
+    cache.put(KEY, b"one")
+    path = path_of(cache, KEY)
+    path.write_bytes(path.read_bytes().replace(b"one", b"two") if damage is None else damage)
+    assert cache.get(KEY) is None
+    assert cache.recall(KEY, lambda: b"one") == b"one"
+    assert cache.get(KEY) == b"one"
+
+
+def test_values_are_saved_under_names(tmp_path: Path) -> None:
+    """A value replaces the last one of its name; one that is the same is not written again."""
+    cache = Cache(tmp_path)
+    assert cache.load("name") == {}
+    cache.save("name", {"a": [1, 2.5, "x"]})
+    assert cache.load("name") == {"a": [1, 2.5, "x"]}
+    path = path_of(cache, digest("name", "name"))
+    os.utime(path, ns=(0, 1000))
+    cache.save("name", {"a": [1, 2.5, "x"]})
+    assert path.read_bytes().count(b"\n") == 1
+    cache.save("name", [])
+    assert Cache(tmp_path).load("name") == []
+
+
+def put(folder: str) -> None:
+    """Put a large entry, a few times over."""
+    for _ in range(5):
+        Cache(Path(folder)).put(KEY, LARGE)
+
+
+def test_a_process_killed_at_any_moment_leaves_no_wrong_entry(tmp_path: Path) -> None:
+    """Killed at random moments, a process leaves the entry whole or absent, never half."""
+    context, chance = multiprocessing.get_context("fork"), random.Random(5)  # noqa: S311  reproducible, not secret
+    for _ in range(25):
+        child = context.Process(target=put, args=(str(tmp_path),))
+        child.start()
+        time.sleep(chance.uniform(0, 0.03))
+        if child.pid is not None:
+            os.kill(child.pid, signal.SIGKILL)
+        child.join()
+        assert Cache(tmp_path).get(KEY) in {None, LARGE}
+    put(str(tmp_path))
+    assert Cache(tmp_path).get(KEY) == LARGE
+
+
+def test_two_processes_that_put_the_same_do_no_harm(tmp_path: Path) -> None:
+    """Several processes that put the same entry at once all succeed, and it is whole."""
+    context = multiprocessing.get_context("fork")
+    children = [context.Process(target=put, args=(str(tmp_path),)) for _ in range(4)]
+    for child in children:
+        child.start()
+    for child in children:
+        child.join()
+    assert [child.exitcode for child in children] == [0] * 4
+    assert Cache(tmp_path).get(KEY) == LARGE
+
+
+def test_a_temporary_folder_is_gone_afterwards(tmp_path: Path) -> None:
+    """Whatever happens, nothing stays of a temporary folder."""
+    cache = Cache(tmp_path / "cache")
+    with pytest.raises(FileNotFoundError), cache.temporary() as folder:
+        (folder / "half").write_text((folder / "other").read_text())
+    assert not list((cache.folder / "tmp").iterdir())
+    assert (cache.folder / ".gitignore").read_text() == "*\n"
+
+
+def test_what_is_out_of_use_is_removed(tmp_path: Path) -> None:
+    """Entries that nobody read for long go, and so does what a killed build left; what is in use stays."""
+    cache, now = Cache(tmp_path), time.time()
+    for key in (KEY, OTHER):
+        cache.put(key, b"x")
+        os.utime(path_of(cache, key), (now - UNUSED - 10, now - UNUSED - 10))
+    assert cache.get(OTHER) == b"x"
+    left = [tmp_path / "tmp" / "killed" / "file", path_of(cache, OTHER).with_name(".half.part")]
+    for path in left:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("half")
+    for path in (left[0].parent, left[1]):
+        os.utime(path, (now - DAY - 10, now - DAY - 10))
+    with cache.temporary() as folder:
+        cache.prune()
+        assert folder.is_dir()
+    assert cache.get(OTHER) == b"x"
+    assert not list(tmp_path.glob(f"*/{KEY}"))
+    assert not any(path.exists() for path in left)
+
+
+def test_a_digest_tells_values_apart() -> None:
+    """Values that differ in type, order or last bit have different digests; equal dictionaries have the same."""
+    values = [1, 1.5, "1.5", [1.5], [1.5, 2], [2, 1.5], 1.5000000000000002, None, True, {"a": 1}, {"b": 1}]
+    assert len({digest(value) for value in values}) == len(values)
+    assert digest({"a": 1, "b": 2}) == digest({"b": 2, "a": 1})

@@ -1,0 +1,418 @@
+"""What is drawn again when something changes: exactly what depends on it. And what happens when drawing goes wrong."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import atlas.build.figures as figures_module
+import atlas.build.report as report_module
+import atlas.build.sources as sources_module
+from atlas import AtlasError, places, processes
+from atlas.build import worker
+from atlas.build.cache import Cache, digest
+from atlas.build.figures import Figure, build_figures, draw, find, parts_of
+from atlas.build.report import key_of
+from atlas.build.sources import PACKAGE, Sources
+from atlas.scene import recipes
+
+ROOT = PACKAGE.parent
+WANTED = {
+    "hyperbola": Figure("hyperbola", {"ratio": 1.5}, "vector", ("svg",)),
+    "frequencies": Figure("frequencies", {}, "vector", ("svg",)),
+    "trochoids": Figure("trochoids", {}, "vector", ("svg",)),
+    "quadric": Figure("quadric", {"ratio": 0.5}, "shaded", ("png",)),
+    "horizon": Figure("horizon", {}, "vector", ("svg",)),
+}
+
+
+@pytest.fixture(scope="module")
+def pristine(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Copy the checkout's sources once."""
+    copy = tmp_path_factory.mktemp("checkout")
+    for name in ("atlas", "figures", "templates", "reports"):
+        shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "pyproject.toml", copy)
+    return copy
+
+
+def use(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the keys be made from a copy of the sources."""
+    for module in (sources_module, figures_module, report_module):
+        monkeypatch.setattr(module, "PACKAGE", copy / "atlas")
+    monkeypatch.setattr(places, "_PACKAGE", copy / "atlas")
+    sources_module._files.cache_clear()
+    recipes.load.cache_clear()
+
+
+@pytest.fixture
+def checkout(pristine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Give a fresh copy of the sources and let the keys be made from it."""
+    copy = tmp_path / "checkout"
+    shutil.copytree(pristine, copy)
+    use(copy, monkeypatch)
+    yield copy  # type: ignore[misc]
+    sources_module._files.cache_clear()
+    recipes.load.cache_clear()
+
+
+def figure(recipe: str, *kinds: str, renderer: str = "vector", **parameters: Any) -> Figure:
+    """Return a figure that is wanted, as SVG if nothing else is said."""
+    return Figure(recipe, parameters, renderer, kinds or ("svg",))
+
+
+def made(figures: list[Figure], cache: Cache, jobs: int = 1) -> list[Figure]:
+    """Take or draw figures."""
+    find(figures, cache, Sources(), None)
+    draw(figures, cache, jobs, lambda _done, _total, _what: None)
+    return figures
+
+
+Keys = Callable[..., dict[str, str]]
+
+
+@pytest.fixture
+def keys(pristine: Path) -> Keys:
+    """Give a function that makes the keys of the wanted figures and of a report from the sources as they are then."""
+
+    def found(gl: str | None = "egl", **changed: Figure) -> dict[str, str]:
+        sources = Sources(Cache(pristine / "cache"))
+        wanted = {name: digest(parts_of(one, sources, gl)) for name, one in (WANTED | changed).items()}
+        return wanted | {"report": key_of(places.folder("reports") / "atlas.toml", sources)}
+
+    return found
+
+
+def different(before: dict[str, str], after: dict[str, str]) -> set[str]:
+    """Return the names whose keys differ."""
+    return {name for name in before if before[name] != after[name]}
+
+
+def edit(path: Path, old: str, new: str) -> None:
+    """Replace a text that must be there."""
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    recipes.load.cache_clear()
+
+
+EVERY = set(WANTED)
+CHANGES = [
+    ("a comment in a kernel", "atlas/core/hyperbola.py", "\nclass", "\n# said again\nclass", set()),
+    ("a line break in a recipe", "figures/hyperbola.py", "def scene(", "def scene(\n ", set()),
+    ("the code of a recipe", "figures/hyperbola.py", "def scene(", "NEW = 1\n\n\ndef scene(", {"hyperbola"}),
+    ("the title of a recipe", "figures/trochoids.py", '"""', '"""New: ', {"trochoids"}),
+    (
+        "a kernel that two reach",
+        "atlas/core/hyperbola.py",
+        "\nclass",
+        "\nNEW = 1\n\n\nclass",
+        {"hyperbola", "frequencies"},
+    ),
+    ("a kernel that one reaches", "atlas/core/charge.py", "\nclass", "\nNEW = 1\n\n\nclass", {"trochoids"}),
+    ("the style", "atlas/scene/style.py", '"""', '"""New: ', EVERY),
+    ("the vector renderer", "atlas/draw/plane.py", '"""', '"""New: ', EVERY),
+    ("the shaded renderer", "atlas/draw/shaded.py", '"""', '"""New: ', EVERY),
+    ("a stored record", "reports/data/bench.json", '"date"', '"date" ', {"horizon"}),
+    ("the prose", "reports/atlas.toml", "title", "title ", set()),
+    ("a template", "templates/html/page.html", "<", " <", set()),
+    ("code that no figure reaches", "atlas/report/html.py", "\ndef pages", "\nNEW = 1\n\n\ndef pages", set()),
+]
+
+
+@pytest.mark.parametrize(("file", "old", "new", "again"), [c[1:] for c in CHANGES], ids=[c[0] for c in CHANGES])
+def test_a_change_draws_again_what_depends_on_it(
+    checkout: Path, keys: Keys, file: str, old: str, new: str, again: set[str]
+) -> None:
+    """Each kind of change makes new the keys of exactly those figures that it can alter."""
+    before = keys()
+    edit(checkout / file, old, new)
+    after = keys()
+    changed = different(before, after)
+    assert changed - {"report"} == again
+    cosmetic = file.endswith(".py") and not again and "NEW" not in new
+    assert ("report" in changed) is not cosmetic
+
+
+def test_a_parameter_draws_again_its_figure(checkout: Path, keys: Keys) -> None:
+    """One figure's parameter makes that figure new and no other, down to the last bit."""
+    assert checkout.is_dir()
+    changed = figure("hyperbola", ratio=1.5000000000000002)
+    assert different(keys(), keys(hyperbola=changed)) == {"hyperbola"}
+
+
+def test_the_gl_library_draws_again_what_is_shaded(checkout: Path, keys: Keys) -> None:
+    """Another GL library, or none, makes only the shaded figures new."""
+    assert checkout.is_dir()
+    assert different(keys("egl"), keys("osmesa")) == {"quadric"}
+    assert different(keys("egl"), keys(None)) == {"quadric"}
+
+
+@pytest.mark.parametrize("library", ["matplotlib", "vtk", "python-flint"])
+def test_another_version_of_a_library_draws_all_again(
+    library: str, keys: Keys, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another version of any library makes every figure and every report new."""
+    before = keys()
+    for module in (figures_module, report_module):
+        monkeypatch.setattr(module, "versions", lambda: {"numpy": "2.4.6", library: "99"})
+    assert different(before, keys()) == {*EVERY, "report"}
+
+
+def test_the_place_of_the_checkout_does_not_matter(checkout: Path, keys: Keys, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same sources in another folder have the same keys."""
+    before = keys()
+    elsewhere = checkout.with_name("another name")
+    checkout.rename(elsewhere)
+    use(elsewhere, monkeypatch)
+    assert not different(before, keys())
+
+
+@pytest.mark.parametrize("name", recipes.names())
+def test_a_recipe_declares_the_records_that_it_reads(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a recipe opens of reports/data is what its RECORDS say, for its key depends on them."""
+    data, opened = places.folder("reports") / "data", set[str]()
+    for method in ("open", "read_text", "read_bytes"):
+        monkeypatch.setattr(Path, method, _noting(getattr(Path, method), data, opened))
+    recipe = recipes.load(name)
+    recipe.scene()
+    assert opened == set(recipe.records)
+    assert all((data / record).is_file() for record in recipe.records)
+
+
+def _noting(method: Any, data: Path, opened: set[str]) -> Any:
+    def call(path: Path, *arguments: Any, **more: Any) -> Any:
+        if path.parent == data:
+            opened.add(path.name)
+        return method(path, *arguments, **more)
+
+    return call
+
+
+def test_a_figure_is_drawn_once_and_says_why(tmp_path: Path) -> None:
+    """The first time a figure is drawn, the second time it is taken; both have the same files and facts."""
+    cache = Cache(tmp_path)
+    first = made([figure("trochoids"), figure("trochoids", speeds=(0.5, 1.0))], cache)
+    again = made([figure("trochoids"), figure("trochoids", speeds=(0.5, 1.0))], cache)
+    for one, two in zip(first, again, strict=True):
+        assert one.reason == "drawn: it was never drawn here"
+        assert two.reason == "taken: nothing it depends on has changed"
+        assert one.contents == two.contents
+        assert one.facts == two.facts
+        assert two.contents["svg"].startswith(b"<?xml")
+    assert first[0].contents != first[1].contents
+
+
+def test_what_changed_is_told_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A figure that is drawn again says which parts of what it depends on are new, or that a file was lost."""
+    cache = Cache(tmp_path)
+    made([figure("lssc")], cache)
+    for entry in tmp_path.glob("??/*"):
+        if b"<svg" in entry.read_bytes():
+            entry.write_bytes(b"spoiled")
+    (lost,) = made([figure("lssc")], cache)
+    assert lost.reason == "drawn: a file of it was not there, or damaged"
+    monkeypatch.setattr(figures_module, "versions", dict)
+    (new,) = made([figure("lssc")], cache)
+    assert new.reason == "drawn: changed: libraries"
+
+
+def test_only_the_kind_that_is_missing_is_drawn(tmp_path: Path) -> None:
+    """A figure that is there as SVG is drawn as PDF alone when that is wanted too."""
+    cache = Cache(tmp_path)
+    made([figure("magn")], cache)
+    both = figure("magn", "svg", "pdf")
+    find([both], cache, Sources(), None)
+    assert both.missing().keys() == {"pdf"}
+    made([both], cache)
+    assert both.contents["pdf"].startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_figure_that_fails_does_not_stop_the_others(tmp_path: Path, jobs: int) -> None:
+    """A recipe that raises is returned with its reason, and the others are drawn."""
+    failed, drawn = made([figure("trochoids", mu=0.0), figure("magn")], Cache(tmp_path), jobs)
+    assert "mu" in failed.failure
+    assert "Error" not in failed.failure
+    assert drawn.contents
+
+
+def test_a_worker_that_dies_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """When a worker is killed, the figures that were not finished are drawn by another."""
+    cache, killed = Cache(tmp_path), list[int]()
+    wanted = [figure("trochoids"), figure("magn"), figure("lssc"), figure("horizon")]
+    find(wanted, cache, Sources(), None)
+    whole = processes.pool
+
+    def pool(*arguments: Any) -> Any:
+        found = whole(*arguments)
+        if not killed:
+            monkeypatch.setattr(found, "submit", _killing(found, killed))
+        return found
+
+    monkeypatch.setattr(processes, "pool", pool)
+    draw(wanted, cache, 2, lambda _done, _total, _what: None)
+    assert killed
+    assert [bool(one.contents) for one in wanted] == [True] * 4
+
+
+def _killing(pool: Any, killed: list[int]) -> Any:
+    submit = pool.submit
+
+    def call(*arguments: Any) -> Any:
+        future = submit(*arguments)
+        if not killed:
+            killed.extend(pool._processes)
+            os.kill(killed[0], signal.SIGKILL)
+        return future
+
+    return call
+
+
+class Deadly:
+    """Ends the process that reads it from another one."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return os._exit, (9,)
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_figure_that_kills_its_process_fails_alone(tmp_path: Path, jobs: int) -> None:
+    """A scene that ends the process that draws it is told of; the rest is drawn."""
+    cache = Cache(tmp_path)
+    wanted = [figure("magn"), figure("trochoids"), figure("lssc")]
+    find(wanted, cache, Sources(), None)
+    wanted[1].parameters = {"mu": Deadly()}
+    draw(wanted, cache, jobs, lambda _done, _total, _what: None)
+    assert wanted[1].failure == "the process that drew it came to a sudden end"
+    assert [bool(one.contents) for one in wanted] == [True, False, True]
+
+
+def test_a_single_figure_is_drawn_in_this_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No worker is started for one figure; and where none can be started, several are drawn here as well."""
+
+    def never(*_: object) -> None:
+        raise AssertionError("a worker was started")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(processes, "pool", never)
+        (one,) = made([figure("lssc")], Cache(tmp_path), 2)
+        assert one.contents
+    monkeypatch.setattr(processes, "ProcessPoolExecutor", _denied)
+    assert all(one.contents for one in made([figure("magn"), figure("trochoids")], Cache(tmp_path), 2))
+
+
+def _denied(*_: object) -> None:
+    raise PermissionError(13, "Permission denied")
+
+
+def test_a_script_without_a_guard_builds(tmp_path: Path) -> None:
+    """Workers do not run the script that started them: one that builds at its top level is run once."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from pathlib import Path; from atlas.build.figures import build_figures\n"
+        "print([one.failure for one in build_figures(['magn', 'lssc'], ['svg'], Path('out'), jobs=2)])\n"
+    )
+    done = subprocess.run(
+        [sys.executable, str(script)],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.stdout, done.stderr) == ("['', '']\n", "")
+
+
+def test_an_error_of_the_disk_is_raised(tmp_path: Path) -> None:
+    """If the cache can't be written, that is no failure of a figure."""
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="file"):
+        worker.draw(worker.Task("lssc", {}, "vector", None, {"svg": digest("key")}, tmp_path / "file"))
+
+
+def test_the_costs_of_a_figure_are_noted(tmp_path: Path) -> None:
+    """The points and faces of the scene are counted, and time, memory and bytes noted."""
+    plane, space = made([figure("hyperbola"), figure("cone")], Cache(tmp_path))
+    assert plane.facts["cost"]["points"] > 50
+    assert plane.facts["cost"]["faces"] == 0
+    assert space.facts["cost"]["faces"] > 50
+    assert plane.facts["cost"]["bytes"] == len(plane.contents["svg"])
+    assert min(plane.facts["cost"].values()) >= 0
+
+
+MISBEHAVING = '''"""A recipe that does what it should not."""
+
+from atlas.scene import recipes
+
+
+def scene(*, wrong: str = ""):
+    """Draw what another recipe draws."""
+    print("found it")
+    if wrong == "exit":
+        raise SystemExit(3)
+    return recipes.load("magn").scene()
+'''
+
+
+@pytest.mark.parametrize(("wrong", "complaint"), [("exit", "exit status 3"), ("", "")])
+def test_a_recipe_that_misbehaves_fails_alone(
+    checkout: Path, capfd: pytest.CaptureFixture[str], wrong: str, complaint: str
+) -> None:
+    """A recipe that ends the program is told of; what it prints is no result."""
+    (checkout / "figures" / "misbehaving.py").write_text(MISBEHAVING)
+    (one,) = made([figure("misbehaving", wrong=wrong)], Cache(checkout / "cache"))
+    assert complaint in one.failure
+    assert bool(one.failure) is bool(complaint)
+    assert capfd.readouterr().out == ""
+
+
+def test_a_figure_is_drawn_once_for_each_format(tmp_path: Path) -> None:
+    """The same figure is taken from the cache; another format of it is drawn, and nothing that is there is touched."""
+    (first,) = build_figures(["magn"], ("svg",), tmp_path)
+    times = {file: file.stat().st_mtime_ns for file in first.files}
+    (again,) = build_figures(["magn"], ("svg",), tmp_path)
+    (more,) = build_figures(["magn"], ("svg", "png"), tmp_path)
+    assert [one.reason.partition(":")[0] for one in (first, again, more)] == ["drawn", "taken", "drawn"]
+    assert [file.name for file in more.files] == ["magn.svg", "magn.png"]
+    assert {file: file.stat().st_mtime_ns for file in first.files} == times
+
+
+def test_a_figure_that_was_lost_or_changed_is_put_back(tmp_path: Path) -> None:
+    """What is in the folder is what was drawn, whatever happened to the file."""
+    (made,) = build_figures(["magn"], ("svg",), tmp_path)
+    good = made.files[0].read_bytes()
+    made.files[0].write_text("spoiled")
+    list(build_figures(["magn"], ("svg",), tmp_path))
+    assert made.files[0].read_bytes() == good
+
+
+def test_figures_keep_their_order_and_fail_alone(tmp_path: Path) -> None:
+    """The results come in the order asked for, and one that fails has the reason and no files."""
+    found = list(build_figures(["trochoids", "lssc"], ("svg",), tmp_path, parameters={"mu": 0.0}, jobs=2))
+    assert [one.name for one in found] == ["trochoids", "lssc"]
+    assert all(one.failure and not one.files for one in found)
+    assert "no parameter 'mu'" in found[1].failure
+
+
+def test_parameters_and_the_cache_of_a_folder_are_its_own(tmp_path: Path) -> None:
+    """Other parameters, and another folder, draw anew."""
+    (plain,) = build_figures(["trochoids"], ("svg",), tmp_path / "a")
+    (other,) = build_figures(["trochoids"], ("svg",), tmp_path / "a", parameters={"speeds": (0.5,)})
+    (elsewhere,) = build_figures(["trochoids"], ("svg",), tmp_path / "b")
+    assert "parameters" in other.reason or "never" in other.reason
+    assert elsewhere.reason == plain.reason
+    assert elsewhere.files[0].read_bytes() != other.files[0].read_bytes()
+
+
+def test_a_shaded_figure_is_a_png(tmp_path: Path) -> None:
+    """Any other format of it is refused before anything is drawn."""
+    with pytest.raises(AtlasError, match="a shaded figure is a PNG; 'svg'"):
+        list(build_figures(["cone"], ("png", "svg"), tmp_path, renderer="shaded"))
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,248 @@
+"""Figures on paper: whole files, the same bytes, names that cover nothing."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from drawing import draw
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from pypdf import PdfReader
+
+from atlas import AtlasError
+from atlas.draw import gl, to_figure
+from atlas.draw.files import choose
+from atlas.draw.labels import Tag, place
+from atlas.draw.space import silhouette
+from atlas.draw.view import fit
+from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
+from atlas.scene.style import STYLES
+
+PLATES = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
+
+
+def flat_scene() -> Scene:
+    """Return a scene with a panel of each kind of axis and every layer that a plane can hold."""
+    x = np.linspace(0.01, 1.0, 50)
+    curve = Curve(np.stack([x, x**2], axis=1), "main", "$x^2$")
+    layers = (
+        curve,
+        Points(np.array([[0.5, 0.25]]), "special", "$B'_2$"),
+        Arrow(np.array([0.1, 0.1]), np.array([0.6, 0.8]), "field", r"$\mathbf{B}'$"),
+        Region(np.array([[0.2, 0.0], [0.4, 0.0], [0.4, 1.0]]), "region", "band"),
+        Label(np.array([0.7, 0.2]), "$O$", offset=(4.0, 4.0)),
+    )
+    image = Image(np.arange(4.0), np.arange(3.0), np.array([[1e-3, 1e-2, 0.1], [1.0, 10.0, 100.0]]), "error", "log")
+    panels = (
+        Plane(layers, "$x$", "$y$", legend=True, title="(a)"),
+        Plane(layers, "$x$", "$y$", equal=True, x_limits=(0.0, 1.0), y_limits=(0.0, 1.0)),
+        Plane((curve,), "$x$", "$y$", x_scale="log", y_scale="symlog", legend="beside"),
+        Plane((image,), "$x$", "$y$"),
+    )
+    return Scene("Flat", "A caption.", "An alternative.", panels, columns=2, size=(150.0, 120.0))
+
+
+def ball_scene(**options: Any) -> Scene:
+    """Return a scene with a ball and an arrow."""
+    ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
+    arrow = Arrow(np.zeros(3), np.array([0.0, 1.5, 1.0]), "field", r"$\mathbf{B}$")
+    return Scene("Ball", "A caption.", "A ball.", (Space((ball, arrow), **options),), size=(50.0, 50.0))
+
+
+@pytest.mark.parametrize("kind", ["svg", "pdf", "png"])
+@pytest.mark.parametrize("make", [flat_scene, ball_scene])
+def test_a_scene_drawn_twice_has_the_same_bytes(tmp_path: Path, kind: str, make: Callable[[], Scene]) -> None:
+    """No date, no random name, nothing left over from the first drawing."""
+    first, second = (draw(make(), tmp_path / f"{n}.{kind}").read_bytes() for n in "ab")
+    assert first == second
+    assert len(first) > 1000
+
+
+def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
+    """The seed of hashing, the locale, the time zone, a reader's settings and other figures before do not matter."""
+    program = (
+        "import sys; from pathlib import Path\n"
+        "from atlas.scene import recipes; from atlas.draw import save\n"
+        "for name in ('hyperbola', 'cone', 'error_maps'):\n"
+        "    scene = recipes.load(name).scene()\n"
+        "    save(scene, {Path(sys.argv[1]) / f'{name}.{kind}': kind for kind in ('pdf', 'png', 'svg')})\n"
+    )
+    theirs = tmp_path / "theirs"
+    theirs.mkdir()
+    (tmp_path / "matplotlibrc").write_text(
+        "font.family: monospace\nmathtext.fontset: cm\naxes.formatter.limits: 0, 0\n", encoding="utf-8"
+    )
+    environment = dict(os.environ, PYTHONHASHSEED="7", TZ="Pacific/Chatham", LC_ALL="C")
+    environment["MATPLOTLIBRC"] = str(tmp_path / "matplotlibrc")
+    subprocess.run([sys.executable, "-c", program, str(theirs)], env=environment, check=True)
+    for name in ("cone", "error_maps", "hyperbola"):
+        scene = recipes.load(name).scene()
+        for kind in ("svg", "pdf", "png"):
+            ours = draw(scene, tmp_path / f"ours.{kind}").read_bytes()
+            assert ours == (theirs / f"{name}.{kind}").read_bytes(), (name, kind)
+
+
+def test_a_pdf_is_a_drawing_of_the_size_of_the_scene(tmp_path: Path) -> None:
+    """It has one page of the scene's size and no picture of pixels, and says its title; what SVG draws is on it."""
+    scene = recipes.load("hyperbola").scene()
+    pdf = PdfReader(draw(scene, tmp_path / "a.pdf"))
+    (page,) = pdf.pages
+    size = [float(length) for length in page.mediabox[2:]]
+    assert size == pytest.approx([length * 72.0 / 25.4 for length in scene.size], abs=0.01)
+    assert pdf.metadata is not None
+    assert pdf.metadata.title == scene.title
+    assert not page.images
+    bare = draw(replace(scene, panels=(Plane((), "x", "y"),)), tmp_path / "b.pdf")
+    assert (tmp_path / "a.pdf").stat().st_size > 2 * bare.stat().st_size
+
+
+def test_the_page_has_the_size_of_the_scene(tmp_path: Path) -> None:
+    """Sizes are in millimetres: at 254 dots an inch, ten dots each."""
+    draw(ball_scene(), tmp_path / "ball.png", dpi=254.0)
+    header = (tmp_path / "ball.png").read_bytes()[16:24]
+    assert [int.from_bytes(header[i : i + 4], "big") for i in (0, 4)] == [500, 500]
+
+
+def test_a_drawing_that_fails_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
+    """Whole or not at all."""
+    path = tmp_path / "ball.svg"
+    path.write_text("old", encoding="utf-8")
+    broken = Scene("t", "c", "a", (Plane((Surface(np.eye(4), np.empty((0, 4)), ()),), "x", "y"),))
+    with pytest.raises(AtlasError, match="plane panel cannot hold a Surface"):
+        draw(broken, path)
+    assert path.read_text(encoding="utf-8") == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_picture_in_space_cannot_hold_a_map(tmp_path: Path) -> None:
+    """The error says where it belongs."""
+    image = Image(np.arange(3.0), np.arange(3.0), np.ones((2, 2)), "error")
+    with pytest.raises(AtlasError, match="panel in space cannot hold a map"):
+        draw(Scene("t", "c", "a", (Space((image,)),)), tmp_path / "a.svg")
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        ("a.gif", {}, "format 'gif'.*svg, pdf, png, pgf"),
+        ("a.svg", {"renderer": "etching"}, "no renderer 'etching'; known: vector, shaded"),
+        ("a.svg", {"renderer": "shaded"}, "a shaded figure is a PNG"),
+    ],
+)
+def test_an_unknown_format_or_renderer_is_refused(
+    tmp_path: Path, name: str, options: dict[str, Any], words: Any
+) -> None:
+    """The error says which there are."""
+    if options.get("renderer") == "shaded" and gl.library() is None:
+        pytest.skip("without GL the vector renderer takes over, which writes SVG")
+    with pytest.raises(AtlasError, match=words):
+        draw(ball_scene(), tmp_path / name, **options)
+
+
+def test_without_gl_a_shaded_figure_is_drawn_on_paper(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same file in the other style, and a line that says so and what to do."""
+    monkeypatch.setenv(gl.CHOICE, "none")
+    gl.library.cache_clear()
+    try:
+        done = draw(ball_scene(), tmp_path / "ball.png", "shaded").read_bytes()
+        used, note = choose(ball_scene(), "shaded")
+    finally:
+        gl.library.cache_clear()
+    assert used == "vector"
+    assert "apt-get install" in note
+    assert "\n" not in note
+    assert done == draw(ball_scene(), tmp_path / "paper.png").read_bytes()
+
+
+def test_a_flat_figure_asked_for_shaded_is_drawn_on_paper(tmp_path: Path) -> None:
+    """There is nothing to shade, and nothing to say."""
+    assert draw(flat_scene(), tmp_path / "flat.svg", "shaded").exists()
+    assert choose(flat_scene(), "shaded") == ("vector", "")
+
+
+def boxes(figure: Figure) -> list[tuple[str, Any]]:
+    """Return the extents of all names of a figure, in pixels, with their text."""
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    names = [text for axes in figure.axes for text in axes.texts if text.get_text() and not text.get_path_effects()]
+    return [(text.get_text(), text.get_window_extent(renderer).extents) for text in names]
+
+
+@pytest.mark.parametrize("name", PLATES)
+def test_names_on_a_plate_stay_on_the_page_and_do_not_overlap(name: str) -> None:
+    """Each name of the default figure is inside the page and clear of every other."""
+    figure = to_figure(recipes.load(name).scene())
+    found = boxes(figure)
+    assert len(found) >= 4
+    for text, (left, bottom, right, top) in found:
+        assert left >= 0.0, text
+        assert right <= figure.bbox.width, text
+        assert bottom >= 0.0, text
+        assert top <= figure.bbox.height, text
+    for i, (text, a) in enumerate(found):
+        for other, b in found[i + 1 :]:
+            overlap = (min(a[2], b[2]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[1], b[1]))
+            assert min(overlap) <= 0.0, (text, other)
+
+
+@pytest.mark.parametrize("name", PLATES)
+def test_a_plate_fills_its_page(name: str, tmp_path: Path) -> None:
+    """What is drawn reaches within a tenth of the page's width or height from both edges, and is not cut off."""
+    from matplotlib.image import imread
+
+    picture = imread(draw(recipes.load(name).scene(), tmp_path / "plate.png", dpi=50.0))
+    ink = picture[..., :3].min(axis=2) < 250.0 / 255.0
+    rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
+    height, width = ink.shape
+    margins = [rows[0] / height, 1.0 - rows[-1] / height, columns[0] / width, 1.0 - columns[-1] / width]
+    assert min(margins) > 0.0
+    assert max(margins[:2]) < 0.1 or max(margins[2:]) < 0.1
+
+
+@pytest.mark.parametrize("name", ["hyp_a", "hyp_b", "cone", "loop", "motion_sphere"])
+def test_the_silhouette_lies_on_the_surface_where_the_line_of_sight_grazes_it(name: str) -> None:
+    """Each of its points has F = 0 and grad F . d = 0, to eps times the size of their terms."""
+    (panel,) = recipes.load(name).scene().panels
+    assert isinstance(panel, Space)
+
+    view = fit(panel, (300.0, 250.0))
+    found = 0
+    for surface in view.surfaces:
+        for line in silhouette(surface, view):
+            found += len(line)
+            x = np.concatenate([line, np.ones((len(line), 1))], axis=1)
+            d = np.append(view.towards, 0.0)
+            size = np.sum((np.abs(x) @ np.abs(surface.quadric)) * np.abs(x), axis=1).max()
+            assert np.abs(np.sum((x @ surface.quadric) * x, axis=1)).max() < 1e-12 * size
+            assert np.abs(x @ surface.quadric @ d).max() < 1e-12 * size
+            assert (line @ surface.clip[:, :3].T <= surface.clip[:, 3] + 1e-12).all()
+    assert found > 10
+
+
+def test_a_name_moves_away_from_ink() -> None:
+    """Placed on a dense patch of ink it finds a place beside it; one that must stay stays."""
+    patch = np.stack(np.meshgrid(np.linspace(50.0, 70.0, 30), np.linspace(50.0, 70.0, 30)), axis=-1).reshape(-1, 2)
+    moving = Tag("a", (50.0, 50.0), (3.0, 3.0), (12.0, 8.0), "#000000", 9.0)
+    fixed = Tag("b", (60.0, 60.0), (0.0, 0.0), (12.0, 8.0), "#000000", 9.0)
+    centres = place([moving, fixed], patch, np.ones(len(patch)), (0.0, 0.0, 100.0, 100.0))
+    low, high = centres[0] - (6.0, 4.0), centres[0] + (6.0, 4.0)
+    assert not ((patch > low) & (patch < high)).all(axis=1).any()
+    assert centres[1].tolist() == [60.0, 60.0]
+
+
+@pytest.mark.parametrize("role", list(STYLES))
+def test_every_style_can_be_drawn(role: str) -> None:
+    """Colours are those of a printer: six hexadecimal digits; widths and opacities are in their range."""
+    look = STYLES[role]
+    for colour in filter(None, (look.colour, look.back)):
+        assert len(colour) == 7
+        assert int(colour[1:], 16) >= 0
+    assert 0.0 <= look.fill <= 1.0
+    assert 0.0 <= look.glass <= 1.0
+    assert look.width > 0.0
+    assert len(look.dash) % 2 == 0

@@ -1,0 +1,129 @@
+"""Shaded pictures: translucent surfaces, and labels where the things are."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from drawing import draw
+from numpy.typing import NDArray
+
+from atlas.draw import gl
+from atlas.scene import Arrow, Curve, Points, Scene, Space, recipes, solids
+
+pytestmark = pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
+
+
+def picture(path: Path) -> NDArray[np.int64]:
+    """Return a PNG as whole numbers (H, W, 3)."""
+    from matplotlib.image import imread
+
+    return np.round(255.0 * imread(path)[..., :3]).astype(int)
+
+
+def shown(layers: Any, path: Path, dpi: float = 100.0, **options: Any) -> NDArray[np.int64]:
+    """Draw layers shaded and return the picture (H, W, 3)."""
+    scene = Scene("t", "c", "a", (Space(tuple(layers), azimuth=0.0, elevation=0.0, **options),), size=(40.0, 40.0))
+    return picture(draw(scene, path, renderer="shaded", dpi=dpi))
+
+
+def test_a_second_picture_is_like_the_first(tmp_path: Path) -> None:
+    """Nothing is kept of what was drawn before: other things between two equal scenes change no byte."""
+    ball = [solids.sphere(np.zeros(3), 1.0, 1e-2)]
+    first = shown(ball, tmp_path / "a.png")
+    shown([Curve(np.eye(3), "main"), solids.rectangle(np.zeros(3), *np.eye(3)[:2])], tmp_path / "b.png", dpi=130.0)
+    assert (shown(ball, tmp_path / "c.png") == first).all()
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "c.png").read_bytes()
+    assert (first < 250).any()
+
+
+def test_what_is_inside_a_translucent_ball_shines_through(tmp_path: Path) -> None:
+    """Behind glass a red line is still redder than the glass, but not as red as before it."""
+    ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
+
+    def redness(at: float) -> int:
+        line = Curve(np.array([[at, -0.4, 0.0], [at, 0.4, 0.0]]), "trace")
+        image = shown([ball, line], tmp_path / "ball.png")
+        patch = image[image.shape[0] // 2 - 3 : image.shape[0] // 2 + 4, image.shape[1] // 2]
+        return int((patch[:, 0] - patch[:, 2]).max())
+
+    glass = shown([ball], tmp_path / "glass.png")
+    plain = int(glass[glass.shape[0] // 2, glass.shape[1] // 2, 0] - glass[glass.shape[0] // 2, glass.shape[1] // 2, 2])
+    behind, before = redness(0.0), redness(1.5)
+    assert plain + 20 < behind < before
+
+
+def test_things_are_drawn_where_the_labels_think(tmp_path: Path) -> None:
+    """The centre of a marked point in the picture is where the parallel projection of the page puts it."""
+    corners = np.array([[0.0, -1.0, -1.0], [0.0, 1.0, 1.0]])
+    spot = np.array([[0.3, 0.4, -0.25]])
+    image = shown([Curve(corners, "guide"), Points(spot, "special")], tmp_path / "spot.png", dpi=254.0)
+    red = image[..., 0] - image[..., 1] > 30
+    rows, columns = np.nonzero(red)
+    height, width = red.shape
+    span = (width - 2.0 * 4.0 / 72.0 * 254.0) / 2.0  # a margin of four points on each side of the interval [-1, 1]
+    assert columns.mean() + 0.5 == pytest.approx(0.5 * width + 0.4 * span, abs=1.0)
+    assert rows.mean() + 0.5 == pytest.approx(0.5 * height + 0.25 * span, abs=1.0)
+
+
+def test_light_falls_from_the_upper_left(tmp_path: Path) -> None:
+    """The upper left of a ball is lighter than its lower right."""
+    image = shown([solids.sphere(np.zeros(3), 1.0, 1e-2, role="ball")], tmp_path / "ball.png")
+    height, width = image.shape[:2]
+    upper = image[int(0.3 * height) : int(0.4 * height), int(0.3 * width) : int(0.4 * width)].mean()
+    lower = image[int(0.6 * height) : int(0.7 * height), int(0.6 * width) : int(0.7 * width)].mean()
+    assert upper > lower + 3.0
+
+
+def test_a_picture_has_the_size_of_the_scene(tmp_path: Path) -> None:
+    """Both renderers make the same page."""
+    arrow = Arrow(np.zeros(3), np.ones(3), "field", r"$\mathbf{B}$")
+    scene = Scene("t", "c", "a", (Space((arrow,)), Space((arrow,))), columns=2, size=(63.0, 31.0))
+    sizes = []
+    for renderer in ("vector", "shaded"):
+        draw(scene, tmp_path / "a.png", renderer=renderer, dpi=123.0)
+        sizes.append(picture(tmp_path / "a.png").shape)
+    assert sizes[0] == sizes[1]
+
+
+def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path: Path) -> None:
+    """A figure has the same bytes alone in a process and after another one, of another size."""
+    program = (
+        "import sys\n"
+        "from drawing import draw\n"
+        "from atlas.scene import recipes\n"
+        "for name in sys.argv[2:]:\n"
+        "    draw(recipes.load(name).scene(), f'{sys.argv[1]}/{name}.png', renderer='shaded', dpi=90)\n"
+    )
+    found = []
+    for names in (["loop"], ["motion_sphere", "loop"]):
+        environment = dict(os.environ, PYTHONPATH=str(Path(__file__).parents[1]))
+        subprocess.run([sys.executable, "-c", program, str(tmp_path), *names], env=environment, check=True)
+        found.append((tmp_path / "loop.png").read_bytes())
+    assert found[0] == found[1]
+
+
+def test_a_line_is_as_thick_as_its_style_says_and_round_at_corners(tmp_path: Path) -> None:
+    """A right angle of the heaviest line: its two sides are 5 points thick, and so is the corner across."""
+    sides = np.array([[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0]])
+    image = shown([Curve(sides, "loop")], tmp_path / "angle.png", dpi=288.0)
+    ink = 1.0 - image.min(axis=2) / 255.0 > 0.05
+    height, width = ink.shape
+    thick = 5.0 * 288.0 / 72.0
+    assert ink[:, width // 2].sum() == pytest.approx(thick, abs=1.5)
+    assert ink[height // 2].sum() == pytest.approx(thick, abs=1.5)
+    margin = 4.0 * 288.0 / 72.0  # where the middle of the line is
+    rows, columns = np.nonzero(ink)
+    reach = np.hypot(columns + 0.5 - (width - margin), rows + 0.5 - (height - margin))
+    outside = (columns > width - margin) & (rows > height - margin)
+    assert reach[outside].max() == pytest.approx(0.5 * thick, abs=1.5)
+
+
+@pytest.mark.parametrize("name", ["hyp_b", "loop", "motion_sphere"])
+def test_plates_can_be_shaded(tmp_path: Path, name: str) -> None:
+    """The default plates are drawn, with both sides of the surface in their colours."""
+    image = picture(draw(recipes.load(name).scene(), tmp_path / "plate.png", renderer="shaded", dpi=60.0))
+    assert 0.08 < (image.min(axis=2) < 250).mean() < 0.9

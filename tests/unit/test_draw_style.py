@@ -1,0 +1,169 @@
+"""What a user gets and may change: ordinary figures and plotters, style sheets, text that can be searched, PGF."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from drawing import draw
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from pypdf import PdfReader
+
+import atlas
+from atlas import AtlasError
+from atlas.draw import context, gl, save, to_figure, to_plotter
+from atlas.scene import Curve, Image, Plane, Scene, recipes
+from atlas.scene.style import LINES
+
+
+def lines(count: int = 1) -> Scene:
+    """Return a scene with plotted lines in order of importance."""
+    curves = tuple(Curve(np.array([[0.0, k], [1.0, k]]), role) for k, role in enumerate(LINES[:count]))
+    return Scene("Lines", "A caption.", "An alternative.", (Plane(curves, "$x$", "height of lines"),))
+
+
+def test_a_figure_by_name_is_an_ordinary_figure() -> None:
+    """Its axes are Matplotlib's own, with the limits and the lines of the scene."""
+    figure = atlas.figure("hyperbola", ratio=0.5, field=[1.0, 0.2])
+    assert type(figure) is Figure
+    (axes,) = figure.axes
+    assert isinstance(axes, Axes)
+    (panel,) = recipes.load("hyperbola").scene(ratio=0.5, field=(1.0, 0.2)).panels
+    assert isinstance(panel, Plane)
+    assert axes.get_xlim() == panel.x_limits
+    drawn = [line.get_xydata() for line in axes.lines]
+    for layer in panel.layers:
+        if isinstance(layer, Curve):
+            assert any(np.array_equal(layer.points, points) for points in drawn)
+
+
+@pytest.mark.parametrize(("name", "words"), [("hyperbola", "rest"), ("stability", "unstable"), ("flight", "in space")])
+def test_the_text_of_a_pdf_can_be_searched(tmp_path: Path, name: str, words: str) -> None:
+    """Titles, names and the letters of formulas are text, in embedded fonts."""
+    (page,) = PdfReader(draw(recipes.load(name).scene(), tmp_path / "a.pdf")).pages
+    found = page.extract_text()
+    assert words in found
+    assert any(letter in found for letter in "ωτE")
+    fonts = page["/Resources"]["/Font"]
+    assert fonts
+    for font in fonts.values():
+        one = font.get_object()
+        one = one["/DescendantFonts"][0].get_object() if "/DescendantFonts" in one else one
+        assert "/FontFile2" in one["/FontDescriptor"].get_object()
+
+
+def test_the_look_of_plotted_lines_is_the_cycle_of_the_sheet() -> None:
+    """Colours and widths of the lines are those of axes.prop_cycle, in its order."""
+    with context():
+        cycle = list(mpl.rcParams["axes.prop_cycle"])
+    (axes,) = to_figure(lines(len(LINES))).axes
+    for line, wanted in zip(axes.lines, cycle, strict=True):
+        assert mpl.colors.same_color(line.get_color(), wanted["color"])
+        assert line.get_linewidth() == wanted["linewidth"]
+
+
+def test_a_style_sheet_of_the_user_changes_the_look(tmp_path: Path) -> None:
+    """A file or a dict is layered over the sheet of the package: what it says holds, what it does not say stays."""
+    sheet = tmp_path / "mine.mplstyle"
+    sheet.write_text("axes.labelsize: 13\naxes.prop_cycle: cycler('color', ['ff0000'])\n", encoding="utf-8")
+    for style in (sheet, str(sheet), {"axes.labelsize": 13, "axes.prop_cycle": mpl.cycler(color=["#ff0000"])}):
+        (axes,) = to_figure(lines(), style).axes
+        assert axes.xaxis.label.get_fontsize() == 13.0
+        assert axes.lines[0].get_color() == "#ff0000"
+        assert axes.xaxis.label.get_fontfamily() == ["STIXGeneral"]
+    plain, restyled = draw(lines(), tmp_path / "a.svg").read_bytes(), tmp_path / "b.svg"
+    save(lines(), {restyled: "svg"}, style=str(sheet))
+    assert restyled.read_bytes() != plain
+
+
+def test_a_list_that_begins_with_default_replaces_the_sheet() -> None:
+    """Then nothing of the package's fonts is left."""
+    (axes,) = to_figure(lines(), ["default"]).axes
+    assert axes.xaxis.label.get_fontfamily() == mpl.rcParamsDefault["font.family"]
+
+
+def test_names_with_commas_are_layered() -> None:
+    """As on the command line: --style ggplot,grayscale."""
+    (axes,) = to_figure(lines(), "ggplot,grayscale").axes
+    assert axes.lines[0].get_color() == "#000000"
+
+
+def test_the_settings_of_the_user_stay_as_they_were() -> None:
+    """Nothing that is set for a figure is left behind."""
+    before = dict(mpl.rcParams)
+    to_figure(lines(), "ggplot")
+    assert dict(mpl.rcParams) == before
+
+
+def test_a_style_that_cannot_be_used_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error names the style; one that needs LaTeX says so where there is none."""
+    with pytest.raises(AtlasError, match="'etching'"):
+        to_figure(lines(), "etching")
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    with pytest.raises(AtlasError, match=r"no LaTeX.*no-latex"):
+        to_figure(lines(), {"text.usetex": True})
+
+
+def test_pgf_needs_no_latex_to_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Texts are written as TeX, primes too, and twice the same."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    first, second = (draw(recipes.load("cone").scene(), tmp_path / f"{n}.pgf").read_text("utf-8") for n in "ab")
+    assert first == second
+    assert r"\mathbf{B}'" in first
+    assert "′" not in first
+
+
+@pytest.mark.skipif(not shutil.which("pdflatex"), reason="no pdflatex here")
+def test_pgf_compiles(tmp_path: Path) -> None:
+    """A document that inputs figures, one with underscores in its names, is set without an error."""
+    names = ("cone", "build_cost", "motion")
+    for name in names:
+        draw(recipes.load(name).scene(), tmp_path / f"{name}.pgf")
+    inputs = "".join(rf"\input{{{name}.pgf}}\newpage" for name in names)
+    document = rf"\documentclass{{article}}\usepackage{{pgf,amsmath}}\begin{{document}}{inputs}\end{{document}}"
+    (tmp_path / "all.tex").write_text(document, encoding="utf-8")
+    words = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "all.tex"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, errors="replace", check=False)
+    if "pgf.sty' not found" in done.stdout:
+        pytest.skip("this LaTeX has no pgf")
+    assert done.returncode == 0, done.stdout[-2000:]
+    assert len(PdfReader(tmp_path / "all.pdf").pages) >= len(names)
+
+
+def test_a_map_is_refused_as_pgf(tmp_path: Path) -> None:
+    """PGF holds no pixels: the error says what to ask for instead."""
+    image = Image(np.arange(3.0), np.arange(3.0), np.ones((2, 2)), "error")
+    with pytest.raises(AtlasError, match="ask for a PDF"):
+        draw(Scene("t", "c", "a", (Plane((image,), "x", "y"),)), tmp_path / "a.pgf")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_plotter_needs_a_panel_in_space() -> None:
+    """The error says what draws the scene."""
+    with pytest.raises(AtlasError, match="to_figure"):
+        to_plotter(lines())
+
+
+@pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
+def test_a_plotter_that_may_be_turned_peels() -> None:
+    """Depth peeling is used in the picture, without antialiasing, in the coordinates of the scene; names are labels."""
+    plotter = atlas.plotter("loop")
+    try:
+        first = plotter.screenshot(return_img=True)
+        assert plotter.renderer.GetLastRenderingUsedDepthPeeling()
+        assert plotter.render_window.GetMultiSamples() == 0
+        low, high = np.array(plotter.bounds).reshape(3, 2).T
+        (panel,) = recipes.load("loop").scene().panels
+        for layer in panel.layers:
+            if isinstance(layer, Curve):
+                assert (layer.points >= low - 1e-6).all()
+                assert (layer.points <= high + 1e-6).all()
+        assert any(name.endswith("labels") for name in plotter.actors)
+        plotter.camera.azimuth += 60.0
+        plotter.render()
+        assert (plotter.screenshot(return_img=True) != first).any()
+    finally:
+        plotter.close()

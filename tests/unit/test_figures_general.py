@@ -1,0 +1,243 @@
+"""The figures of bodies and of the general motion as arrays: what is drawn is what the theory says."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from atlas import DomainError, ElementaryMotion, GeneralMotion, Hyperbola, simulate
+from atlas.core.momentum_map import momentum_map, potential
+from atlas.core.separatrix import companions
+from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes
+
+FloatArray = NDArray[np.float64]
+
+EPS = float(np.finfo(float).eps)
+LONG: tuple[Any, ...] = (0.5, (1.0, 0.1), -0.5)
+"""An unstable elementary motion: ratio, field and omega2."""
+
+
+def panels(name: str, **parameters: Any) -> Any:
+    """Return the panels of a figure."""
+    return recipes.load(name).scene(**parameters).panels
+
+
+def layers(panel: Any, kind: Any, role: str = "") -> list[Any]:
+    """Return the layers of one kind, and role, of a panel."""
+    return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", layer.role}]
+
+
+def test_a_rosette_closes_and_the_last_one_does_not() -> None:
+    """With phi/k = p/q the trace ends where it began, within 8 eps of 1 times the turns; the last one is 0.01 away."""
+    *closed, open_ = panels("rosettes")
+    for panel, q in zip(closed, (2, 3, 5), strict=True):
+        (trace,) = layers(panel, Curve, "second_trace")
+        assert np.abs(trace.points[0] - trace.points[-1]).max() <= 8 * EPS * q
+    (trace,) = layers(open_, Curve, "second_trace")
+    assert np.abs(trace.points[0] - trace.points[-1]).max() > 0.01
+
+
+def test_levels_of_the_stability_map_are_least_frequencies() -> None:
+    """On a drawn line the least of the nutation frequency squared along the hyperbola is the level, to 1e-4 B2^2."""
+    (panel,) = panels("stability_map", rates=(0.5,))
+    for role, level in (("main", -0.25), ("second", 0.25)):
+        for line in layers(panel, Curve, role):
+            I, tau = line.points[len(line.points) // 3]
+            if not (0.0 < I < 2.0 and tau > 0.0):
+                continue
+            x = np.sqrt(tau * abs(1 - I) / np.sqrt(1 + tau * tau)) * np.linspace(0.5, 2.0, 2001)
+            found = Hyperbola(I, (1.0, tau)).stability(np.concatenate([x, -x]) - 1.0)
+            assert abs(found.min() - level) <= 1e-4
+
+
+@pytest.mark.parametrize("omega2", [-1.4, 0.7, 2.0])
+def test_rolling_cones_touch_along_the_angular_velocity(omega2: float) -> None:
+    """The drawn angular velocity lies on both cones, within 16 eps of their size, and is that of the motion."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), omega2)
+    for panel, one in zip(panels("rolling_cones", omega2=omega2), (motion, motion.beside), strict=True):
+        (arrow,) = layers(panel, Arrow, "velocity")
+        omega = np.asarray(arrow.tip) / np.linalg.norm(arrow.tip)
+        assert np.abs(np.cross(omega, one.angular_velocity(0.0))).max() <= 8 * EPS * 4
+        cones = layers(panel, Surface)
+        assert len(cones) == 2
+        for cone in cones:
+            x = np.append(omega, 1.0)
+            assert abs(x @ cone.quadric @ x) <= 16 * EPS
+
+
+def test_the_film_strip_shows_the_axis_at_equal_steps() -> None:
+    """The arrows along the axis point as R_3 at i/7 of the period, within 8 eps; all fields point the same way."""
+    (panel,) = panels("film_strip")
+    motion = ElementaryMotion(0.5, (1.0, 1.2), 0.8)
+    arrows = layers(panel, Arrow, "body_axis")
+    times = np.linspace(0.0, 2 * np.pi / motion.k, 8)
+    directions = np.array([np.asarray(a.tip) - np.asarray(a.tail) for a in arrows]) / 1.35
+    assert np.abs(directions - motion.third_axis(times)).max() <= 32 * EPS
+    fields = np.array([np.asarray(a.tip) - np.asarray(a.tail) for a in layers(panel, Arrow, "field")])
+    assert np.abs(np.cross(fields, [0.0, 1.0, 1.2])).max() <= 64 * EPS
+    assert len(layers(panel, Surface, "seam")) == 8
+
+
+def test_the_seam_shows_the_proper_rotation() -> None:
+    """The middle of each painted seam lies in the direction of R_1, within 16 eps of 1."""
+    (panel,) = panels("film_strip")
+    motion = ElementaryMotion(0.5, (1.0, 1.2), 0.8)
+    times = np.linspace(0.0, 2 * np.pi / motion.k, 8)
+    tails = [np.asarray(a.tail) for a in layers(panel, Arrow, "body_axis")]
+    for seam, centre, R in zip(layers(panel, Surface, "seam"), tails, motion.rotation(times), strict=True):
+        middle = np.reshape(seam.grids[0], (-1, 3)).mean(axis=0) - centre
+        assert np.abs(np.cross(middle, R[:, 0])).max() <= 16 * EPS * 8
+
+
+def test_two_turns_make_the_rotation() -> None:
+    """The axis of the third attitude is R_3(t) of the motion, that of the others e3, within 16 eps."""
+    (panel,) = panels("two_turns")
+    motion = ElementaryMotion(0.5, (1.0, 1.2), 0.8)
+    first, second, third = ((np.asarray(a.tip) - np.asarray(a.tail)) / 1.55 for a in layers(panel, Arrow, "body_axis"))
+    assert np.abs(first - [0, 0, 1]).max() <= 16 * EPS
+    assert np.abs(second - [0, 0, 1]).max() <= 16 * EPS
+    assert np.abs(third - motion.third_axis(0.17 * 2 * np.pi / motion.k)).max() <= 16 * EPS
+
+
+def test_every_hyperbola_lies_on_its_moved_quadric() -> None:
+    """Each heavy line lies on one of the quadrics, F = 0 within 1e-9 of its terms, and in a plane across e1."""
+    (panel,) = panels("quadrics_of_bodies")
+    surfaces = layers(panel, Surface)
+    assert len(surfaces) == 8  # two for I = 2 and 1.5
+    for line in layers(panel, Curve, "hyperbola"):
+        x = np.concatenate([line.points, np.ones((len(line.points), 1))], axis=1)
+        values = [np.abs(np.sum((x @ s.quadric) * x, axis=1)).max() / (np.abs(s.quadric).max() * 40) for s in surfaces]
+        assert min(values) <= 1e-9
+
+
+def test_the_energy_is_constant_along_each_orbit_of_the_phase_portrait() -> None:
+    """With nu = (c3 - Omega3)/b, nu'^2/(1 - nu^2) + V is one number on a drawn orbit, within 1e-9 of itself."""
+    I, (B2, B3), omega2 = LONG
+    (panel,) = panels("phase_portrait")
+    omega3 = float(Hyperbola(I, (B2, B3)).omega3(omega2))
+    b, c3 = float(np.hypot(B2, B3)), omega3 + B3
+    value = momentum_map(I, (0.0, omega2, omega3), (0.0, B2, B3))
+    orbits = layers(panel, Curve, "second_trace") + layers(panel, Curve, "unstable")
+    assert len(orbits) == 4 * 3 + 2
+    for orbit in orbits:
+        nu, rate = (c3 - orbit.points[:, 0]) / b, orbit.points[:, 1] / b
+        h = rate**2 / (1 - nu**2) + potential(I, b, value.M3, value.p, nu)
+        assert np.ptp(h) <= 1e-9 * np.abs(h).max()
+
+
+def test_the_three_traces_wave_have_cusps_and_loop() -> None:
+    """About the field the longitude of the axis keeps its sense, stops at cusps, or turns back."""
+    senses = []
+    for panel in panels("nutation_traces"):
+        (trace,) = layers(panel, Curve, "trace")
+        x, y, z = trace.points.T
+        assert np.abs(x * x + y * y + z * z - 1).max() <= 16 * EPS
+        steps = np.diff(np.unwrap(np.arctan2(y, x)))
+        senses.append(float(np.minimum(np.maximum(steps, 0).sum(), np.maximum(-steps, 0).sum())))
+    wave, cusp, loop = senses
+    assert wave == 0.0
+    assert cusp <= 1e-3
+    assert loop > 0.1
+
+
+@pytest.mark.parametrize("push", [1e-2, 1e-4])
+def test_an_escape_follows_the_equations_of_motion(push: float) -> None:
+    """The drawn Omega3(t) is that of an integration of the Euler–Poisson equations, within 1e-5."""
+    ratio, field, omega2 = LONG
+    course, _ = panels("escape", pushes=(push,))
+    (line,) = layers(course, Curve, "main")
+    t = line.points[:, 0]
+    omega3 = float(Hyperbola(ratio, field).omega3(omega2))
+    found = simulate(ratio, field, (push, omega2, omega3), t, rtol=1e-13, atol=1e-14).Omega[:, 2]
+    assert np.abs(found - line.points[:, 1]).max() <= 1e-5
+
+
+def test_the_period_of_an_escape_grows_by_its_logarithmic_law() -> None:
+    """Per decade of the push the period grows by (4/gamma) ln 10, within 1e-6 of itself where the push is small."""
+    _, periods = panels("escape")
+    (law,), (found,) = layers(periods, Curve, "reference"), layers(periods, Curve, "main")
+    growth = np.sqrt(-Hyperbola(*LONG[:2]).stability(LONG[2]))
+    assert np.abs(np.diff(law.points[:, 1]) + 4 / growth * np.log(10)).max() <= 1e-9
+    assert np.abs(np.diff(found.points[:5, 1]) + 4 / growth * np.log(10)).max() <= 1e-6 * 20
+
+
+def test_a_stable_motion_does_not_escape() -> None:
+    """The figure refuses a stable elementary motion and says so."""
+    with pytest.raises(DomainError, match="is stable"):
+        panels("escape", omega2=1.0)
+
+
+def test_the_tipping_disk_follows_the_equations_of_motion() -> None:
+    """The drawn angle is that of an integration, within 1e-3 degrees."""
+    _, course = panels("tipping_disk")
+    (line,) = layers(course, Curve, "main")
+    t, angle = line.points.T
+    R = simulate(2.0, (0.0, 1.0), (1e-3, 0.0, -1.0), t, rtol=1e-13, atol=1e-14).R
+    found = np.degrees(np.arctan2(np.hypot(R[:, 0, 2], R[:, 1, 2]), R[:, 2, 2]))
+    assert np.abs(found - angle).max() <= 1e-3
+
+
+def test_the_separatrix_follows_the_equations_of_motion() -> None:
+    """The drawn Omega3 is that of an integration from its turning point, within 1e-7; the trace is on the sphere."""
+    sphere, course = panels("separatrix")
+    (trace,) = layers(sphere, Curve, "trace")
+    assert np.abs(np.linalg.norm(trace.points, axis=1) - 1).max() <= 8 * EPS
+    for motion, role in zip(companions(*LONG), ("main", "second"), strict=True):
+        (line,) = layers(course, Curve, role)
+        ahead = line.points[line.points[:, 0] >= 0]
+        field, omega = motion.field_in_body(0.0), motion.angular_velocity(0.0)
+        found = simulate(0.5, field, omega, ahead[:, 0], rtol=1e-13, atol=1e-14).Omega[:, 2]
+        assert np.abs(found - ahead[:, 1]).max() <= 1e-7
+
+
+def test_critical_values_are_extrema_of_the_effective_potential() -> None:
+    """At a drawn point (p, h) the potential has an extremum with the value h, within 1e-6 of a dense sample."""
+    nu = np.linspace(-0.9999, 0.9999, 200_001)
+    for panel, I in zip(panels("energy_momentum"), (0.5, 1.5), strict=True):
+        for line in layers(panel, Curve, "main") + layers(panel, Curve, "unstable_line"):
+            for p, h in line.points[len(line.points) // 4 :: max(1, len(line.points) // 3)]:
+                V = potential(I, 1.0, 0.25, p, nu)
+                turns = np.flatnonzero(np.diff(np.sign(np.diff(V)))) + 1
+                assert np.abs(V[turns] - h).min() <= 1e-6 * max(1.0, abs(h))
+
+
+def test_the_motion_map_shows_the_amplitude_of_the_nutation() -> None:
+    """Cells hold the difference of the angles at both turning points of the certified motion, within 1e-4 degrees."""
+    for panel, I in zip(panels("motion_map", cells=12), (2.0, 1.5, 1.0, 0.5), strict=True):
+        (image,) = layers_of_kind(panel, Image)
+        for i, j in ((3, 8), (9, 2), (6, 10)):
+            w2, w3 = (image.x[j] + image.x[j + 1]) / 2, (image.y[i] + image.y[i + 1]) / 2
+            motion = GeneralMotion(I, (1.0, 0.3), (0.0, w2, w3))
+            nu = (w3 + 0.3 - np.array(motion.turning_points)) / np.hypot(1.0, 0.3)
+            swing = np.degrees(np.abs(np.diff(np.arccos(np.clip(nu, -1, 1)))))[0]
+            assert abs(image.values[i, j] - swing) <= 1e-4
+        assert layers_of_kind(panel, Points)
+
+
+def layers_of_kind(panel: Any, kind: Any) -> list[Any]:
+    """Return the layers of one kind, whatever their role."""
+    return [layer for layer in panel.layers if isinstance(layer, kind)]
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters"),
+    [
+        ("rosettes", {"field": (1.0, 0.0)}),
+        ("stability_map", {"rates": (1.5,)}),
+        ("rolling_cones", {"omega2": 0.0}),
+        ("film_strip", {"count": 1}),
+        ("two_turns", {"ratio": 1.0}),
+        ("quadrics_of_bodies", {"field": (0.0, 1.0)}),
+        ("phase_portrait", {"field": (0.0, 1.0)}),
+        ("nutation_traces", {"field": (1.0, 0.0)}),
+        ("tipping_disk", {"ratio": 0.5}),
+        ("separatrix", {"omega2": 1.0}),
+        ("energy_momentum", {"b": -1.0}),
+        ("motion_map", {"cells": 1}),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:
+    """Each figure says in one line what it needs."""
+    with pytest.raises(DomainError, match=f"figure {name}"):
+        panels(name, **parameters)

@@ -1,0 +1,67 @@
+"""Files written whole or not at all, and the one list of libraries."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from atlas import files
+from atlas.libraries import LIBRARIES, release, versions
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_what_is_written_is_there(tmp_path: Path) -> None:
+    """Text is written as UTF-8, bytes as they are, in folders that are made, and nothing else is left."""
+    files.write(tmp_path / "a" / "b.txt", "é")
+    assert (tmp_path / "a" / "b.txt").read_bytes() == "é".encode()
+    files.write(tmp_path / "a" / "b.txt", b"\xff")
+    assert (tmp_path / "a" / "b.txt").read_bytes() == b"\xff"
+    assert [path.name for path in (tmp_path / "a").iterdir()] == ["b.txt"]
+
+
+def test_a_write_that_fails_leaves_the_old_file(tmp_path: Path) -> None:
+    """When an error stops the writing, the old file stands and no other is left beside it."""
+    path = tmp_path / "b.txt"
+    path.write_text("old")
+    with pytest.raises(ZeroDivisionError), files.replacing(path) as part:
+        part.write_text(str(part.write_text("half") / 0))
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_an_error_names_the_file_that_was_meant(tmp_path: Path) -> None:
+    """A folder in the place of the file, or of a folder above it a file, is told by the name that was given."""
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(OSError, match="folder") as told:
+        files.write(tmp_path / "folder", "text")
+    assert told.value.filename == str(tmp_path / "folder")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="file"):
+        files.write(tmp_path / "file" / "b.txt", "text")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "folder"]
+
+
+def test_a_full_disk_names_the_file_that_was_meant(tmp_path: Path) -> None:
+    """The name of the unfinished file stands in no message."""
+    program = (
+        "import resource, signal, sys; from pathlib import Path; from atlas import files\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN); resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
+        "try: files.write(Path(sys.argv[1]), 'x' * 1000)\n"
+        "except OSError as error: print(error.filename)"
+    )
+    path = tmp_path / "b.txt"
+    told = subprocess.check_output([sys.executable, "-c", program, str(path)], text=True)
+    assert told.strip() == str(path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_libraries_are_those_of_the_project() -> None:
+    """The list holds exactly the dependencies in pyproject.toml, in the versions pinned there."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    pinned = dict(line.split("==") for line in project["dependencies"])
+    assert set(LIBRARIES) == set(pinned)
+    assert versions() == {name: pinned[name] for name in LIBRARIES}
+    assert release("no-such-library") is None

@@ -1,0 +1,259 @@
+"""The general motion in NumPy: true to a few ulp anywhere, its laws, and no gap where one kind becomes another."""
+
+from fractions import Fraction
+from functools import partial
+from itertools import chain
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import atlas
+from atlas.core.ball import BallMotion
+from atlas.core.elementary import ElementaryMotion, FreeMotion
+from atlas.core.general import GeneralMotion
+from atlas.core.hyperbola import Hyperbola
+from atlas.errors import AtlasError, DomainError
+from atlas.exact.general import GeneralMotion as Balls
+from atlas.study.borders import BORDERS
+from atlas.study.judges_general import narrow
+from atlas.study.ulps import absolute
+
+ULP1 = 2.0**-52
+
+ORDINARY: list[Any] = [
+    (1.5, (1, 2), (0.3, 0.7, 0.2)),
+    (0.5, (1, 0.25), (0.1, -0.4, 0.3)),
+    (1, (1, 2), (0.3, 0.7, 0.2)),
+    (0.8, (2, -1), (0.2, -3.7, 1)),
+    (1.2, (0, 0), (0.1, 0.2, 0.3)),
+]
+HOSTILE: list[Any] = [
+    (0.5, (3, 1), (1e-8, -1.5, -2)),
+    (0.75, (20, 15), (6, -24.5, -7)),
+    (0.75, (20, 15), (6, -24.5, float(np.nextafter(-7, 0)))),
+    (0.75, (20, 15), (6, -24.5, float(np.nextafter(-7, -8)))),
+    (2, (1, 0.5), (1, -1, -0.5)),
+    (2, (1, 0.5), (float(np.nextafter(1, 2)), -1, -0.5)),
+    (2, (0, 1), (1e-4, 0, -1)),
+    (2, (0, 1), (1e-200, 0, -1)),
+    (2, (0, -1), (0.03, 0.02, 1.1)),
+    (0.5, (1, -3), (0, 1.5, 2)),
+    (0.5, (1e-3, 1), (0.2, 0.3, 1e4)),
+    (1 + 2.0**-52, (1, 2), (0.3, 0.7, 0.2)),
+    (1 - 2.0**-53, (1, 2), (0.3, 0.7, 0.2)),
+    (0.5, (1e-120, 2e-120), (3e-120, -1e-120, 2e-120)),
+    (1.5, (1e120, 2e120), (3e120, -1e120, 2e120)),
+    (0.5, (1, 1), (1e-150, 0.3, 0.2)),
+    (1.5, (1, 1e-9), (0.1, 1e-7, 1e-3)),
+]
+
+
+def worst(found: Any, exact: Balls, times: Any) -> float:
+    """Return the largest error of matrices in ulp of 1."""
+    pairs = ((R, narrow(partial(exact.rotation, t), 1.0)) for R, t in zip(found, times, strict=True))
+    return max(max(absolute(R.flat, chain(*true))) for R, true in pairs)
+
+
+def long_times(motion: GeneralMotion, seed: int) -> Any:
+    """Return times from a thousandth of a period to a million periods, within the phases up to 2^50."""
+    period = motion.period if np.isfinite(motion.period) else 10 / max(map(abs, (*motion.omega, *motion.field)))
+    random = np.random.default_rng(seed)
+    return random.choice([-1, 1], 40) * period * 10 ** random.uniform(-3, 6, 40)
+
+
+@pytest.mark.parametrize("inputs", ORDINARY + HOSTILE)
+def test_every_entry_is_true_up_to_a_million_periods(inputs: Any) -> None:
+    """Entries of R are within 6 ulp of 1 of the balls, on ordinary and on hostile inputs."""
+    motion = GeneralMotion(*inputs)
+    times = long_times(motion, 1)
+    assert worst(motion.rotation(times), Balls(*inputs), times.tolist()) <= 6
+
+
+@pytest.mark.parametrize("inputs", ORDINARY + HOSTILE)
+def test_the_grid_is_the_same_motion(inputs: Any) -> None:
+    """A long uniform grid across t = 0 meets the exact times start + i step to 12 ulp of 1."""
+    motion = GeneralMotion(*inputs)
+    period = motion.period if np.isfinite(motion.period) else 10 / max(map(abs, (*motion.omega, *motion.field)))
+    count, step = 7001, float(period) / 61.7
+    start = -step * 4321.25
+    R = motion.rotation_grid(start, step, count)
+    places = [0, 1, 255, 256, 4321, 4322, 6999, 7000]
+    times = [Fraction(start) + i * Fraction(step) for i in places]
+    assert worst(R[places], Balls(*inputs), times) <= 12
+    assert np.array_equal(motion.rotation_grid(start, step, 0), np.empty((0, 3, 3)))
+
+
+@pytest.mark.parametrize("inputs", ORDINARY + HOSTILE)
+def test_rotation_is_the_identity_at_zero(inputs: Any) -> None:
+    """R(0) = 1, Omega(0) = omega and K(0) = (0, B2, B3), to 4 ulp of 1 and 8 ulp of the largest rate."""
+    I, B, omega = inputs
+    motion, size = GeneralMotion(*inputs), max(map(abs, (*omega, *B)))
+    assert np.abs(motion.rotation(0.0) - np.eye(3)).max() <= 4 * ULP1
+    assert np.abs(motion.angular_velocity(0.0) - omega).max() <= 8 * ULP1 * size
+    assert np.abs(motion.field_in_body(0.0) - [0, *B]).max() <= 8 * ULP1 * size
+    assert I
+
+
+@pytest.mark.parametrize("inputs", ORDINARY + HOSTILE)
+def test_what_is_conserved_stays(inputs: Any) -> None:
+    """R is orthogonal with determinant 1 to 8 ulp of 1, and the five integrals keep to 64 ulp of their terms."""
+    motion = GeneralMotion(*inputs)
+    times = long_times(motion, 2)
+    R = motion.rotation(times)
+    assert np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max() <= 8 * ULP1
+    assert np.abs(np.linalg.det(R) - 1).max() <= 8 * ULP1
+    size = max(map(abs, (*motion.omega, *motion.field)))
+    start = motion.invariants(0.0)
+    for name, values in motion.invariants(times).items():
+        terms = size if name == "c3" else size**2
+        assert np.abs(values - start[name]).max() <= 64 * ULP1 * 4 * terms, name
+
+
+@pytest.mark.parametrize("inputs", ORDINARY)
+def test_columns_and_the_momentum_belong_to_the_matrix(inputs: Any) -> None:
+    """Columns, K = R^T B' and m = R (Omega1, Omega2, I Omega3) are those of R, to 8 ulp of their size."""
+    I, B, omega = inputs
+    motion, t = GeneralMotion(*inputs), np.linspace(-3, 50, 200).reshape(4, 50)
+    R, size = motion.rotation(t), max(map(abs, (*omega, *B)))
+    for j in (1, 2, 3):
+        assert np.abs(motion.column(j, t) - R[..., j - 1]).max() <= 8 * ULP1
+    assert np.abs(motion.field_in_body(t) - np.array([0, *B]) @ R).max() <= 16 * ULP1 * size
+    M = motion.angular_velocity(t) * [1, 1, I]
+    assert np.abs(motion.angular_momentum(t) - np.matvec(R, M)).max() <= 16 * ULP1 * size
+
+
+@pytest.mark.parametrize("inputs", ORDINARY)
+def test_a_motion_goes_on_from_any_of_its_states(inputs: Any) -> None:
+    """The motion that starts in the laboratory from the state at s is at t what the first one is at s + t."""
+    I, B, _ = inputs
+    motion, s, t = GeneralMotion(*inputs), 1.7, np.linspace(-2, 2, 21)
+    R, Omega = motion.rotation(s), motion.angular_velocity(s)
+    again = GeneralMotion.in_laboratory(I, (0, *B), R, R @ Omega)
+    assert np.abs(again.rotation(t) - motion.rotation(s + t)).max() <= 1e-13
+    assert np.abs(again.angular_velocity(t) - motion.angular_velocity(s + t)).max() <= 1e-13
+
+
+def test_any_field_and_any_attitude() -> None:
+    """Turning laboratory, field, attitude and angular velocity together turns the motion."""
+    random = np.random.default_rng(3)
+    frames = [np.linalg.qr(random.normal(size=(3, 3)))[0] for _ in range(3)]
+    first, second, third = (f * np.sign(np.linalg.det(f)) for f in frames)
+    B, w, t = random.normal(size=3), random.normal(size=3), np.linspace(-4, 4, 30)
+    one = GeneralMotion.in_laboratory(0.6, B, first, w).rotation(t)
+    other = GeneralMotion.in_laboratory(0.6, second @ B, second @ first, second @ w).rotation(t)
+    assert np.abs(other - second @ one).max() <= 1e-13
+    assert np.abs(GeneralMotion.in_laboratory(0.6, B, third, w).rotation(0.0) - third).max() <= 8 * ULP1
+    aligned = GeneralMotion.in_laboratory(1.5, (0, 1, 2), np.eye(3), (0.3, 0.7, 0.2)).rotation(t)
+    assert np.abs(aligned - GeneralMotion(1.5, (1, 2), (0.3, 0.7, 0.2)).rotation(t)).max() <= 8 * ULP1
+    with pytest.raises(DomainError, match="rotation matrix"):
+        GeneralMotion.in_laboratory(1.5, (0, 1, 2), np.eye(3) * 2, (0.3, 0.7, 0.2))
+    with pytest.raises(DomainError, match="rotation matrix"):
+        GeneralMotion.in_laboratory(1.5, (0, 1, 2), -np.eye(3), (0.3, 0.7, 0.2))
+
+
+@pytest.mark.parametrize("inputs", [(1.5, (1, 2), 0.7), (0.5, (1, 0.1), -0.5), (1, (1, 2), 0.7), (0.7, (-1, 3), 2.0)])
+def test_on_the_hyperbola_it_is_the_elementary_motion(inputs: Any) -> None:
+    """With the omega3 of mf76, rounded, R agrees with `ElementaryMotion` while a rounding of omega3 has not grown."""
+    I, B, omega2 = inputs
+    elementary, t = ElementaryMotion(I, B, omega2), np.linspace(-20, 20, 101)
+    general = GeneralMotion(I, B, (0, omega2, elementary.omega3))
+    assert np.abs(general.rotation(t) - elementary.rotation(t)).max() <= 1e-13
+
+
+def test_the_ball_in_its_own_frame() -> None:
+    """For I = 1 the motion is that of `BallMotion`, whose frame has the field along e3."""
+    B, omega, t = (0.6, 0.8), (0.0, 0.7, -0.3), np.linspace(-30, 30, 201)
+    frame = np.array([[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]])
+    m = frame @ omega
+    ball = BallMotion(1.0, 1.0, (m[1], m[2])).rotation(t)
+    assert np.abs(frame @ GeneralMotion(1, B, omega).rotation(t) @ frame.T - ball).max() <= 1e-13
+
+
+def test_without_a_field_it_is_the_free_body() -> None:
+    """For B = 0 the motion is that of `FreeMotion`, to 8 ulp of 1."""
+    t = np.linspace(-1e6, 1e6, 101)
+    general, free = GeneralMotion(1.2, (0, 0), (0.1, 0.2, 0.3)), FreeMotion(1.2, (0.1, 0.2, 0.3))
+    assert np.abs(general.rotation(t) - free.rotation(t)).max() <= 8 * ULP1
+
+
+@pytest.mark.parametrize("name", BORDERS)
+def test_there_is_no_gap_at_a_border(name: str) -> None:
+    """From both sides, one ulp and 1e-12 away, R for |t| <= 1/size leaves that of the border by as little."""
+    inputs, value = BORDERS[name]
+    there = GeneralMotion(*inputs(value))
+    size = max(map(abs, (*there.omega, *there.field)))
+    t = np.linspace(-1, 1, 21) / size
+    R = there.rotation(t)
+    for towards in (-np.inf, np.inf):
+        beside = float(np.nextafter(value, towards))
+        for x, bound in ((beside, 16 * ULP1), (value + np.sign(towards) * 1e-12, 2e-11)):
+            assert np.abs(GeneralMotion(*inputs(x)).rotation(t) - R).max() <= bound, (name, x)
+
+
+def test_parameters_broadcast_with_one_another_and_with_time() -> None:
+    """Arrays of parameters give arrays of results, each the same as alone."""
+    ratios, thirds, t = np.array([[0.5], [1.0], [1.5]]), np.array([0.2, -0.7]), np.linspace(0, 5, 2)
+    motions = GeneralMotion(ratios, (1, 2), (0.3, 0.7, thirds))
+    assert motions.kind.shape == motions.period.shape == (3, 2)
+    assert motions.roots.shape == (3, 2, 4)
+    R = motions.rotation(t)
+    alone = GeneralMotion(1.5, (1, 2), (0.3, 0.7, -0.7))
+    assert np.array_equal(R[2, 1], alone.rotation(t[1]))
+    assert motions.rotation_grid(0, 0.1, 5).shape == (3, 2, 5, 3, 3)
+    assert np.isinf(motions.roots[1, 0]).sum() == 2
+    assert motions.turning_points[0][2, 1] == alone.turning_points[0]
+
+
+def test_public_and_refusals() -> None:
+    """`atlas.GeneralMotion` is this class; wrong inputs are refused in words, and so are times beyond reach."""
+    assert atlas.GeneralMotion is GeneralMotion
+    with pytest.raises(AtlasError, match="omega1, omega2, omega3"):
+        GeneralMotion(1.5, (1, 2), (0.3, 0.7))
+    with pytest.raises(DomainError, match="at most 2"):
+        GeneralMotion(2.5, (1, 2), (0.3, 0.7, 0.2))
+    motion = GeneralMotion(1.5, (1, 2), (0.3, 0.7, 0.2))
+    with pytest.raises(AtlasError, match="2\\^50"):
+        motion.rotation(1e17)
+    with pytest.raises(AtlasError, match="2\\^50"):
+        motion.rotation_grid(0, 1e15, 100)
+
+
+def test_a_push_in_the_unstable_band_grows_at_the_rate_of_the_curve() -> None:
+    """While a push from 1e-12 is small, Omega3 leaves the curve like the sinh of the growth rate, to a thousandth."""
+    curve = Hyperbola(0.5, (1, 0.1))
+    rate, motion = curve.growth_rate(-0.5), curve.escape(-0.5, 1e-12)
+    t = np.array([4.0, 8.0, 16.0]) / rate
+    left = motion.angular_velocity(t)[:, 2] - curve.omega3(-0.5)
+    assert left == pytest.approx(1e-12 * np.sinh(rate * t) / rate, rel=1e-3)
+    assert np.array_equal(curve.growth_rate([-0.5, 0.3, 2.0]) > 0, curve.stability([-0.5, 0.3, 2.0]) < 0)
+
+
+def test_a_stable_motion_nutates_with_the_frequency_of_the_linear_theory() -> None:
+    """A push of 1e-6 off a stable motion has the period 2 pi/nu_n to 1e-10 of itself."""
+    curve = Hyperbola(1.5, (1, 2))
+    period = 2 * np.pi / np.sqrt(curve.stability(0.7))
+    assert curve.escape(0.7, 1e-6).period == pytest.approx(period, rel=1e-10)
+
+
+@pytest.mark.parametrize("push", [1e-2, 1e-3])
+def test_an_escape_takes_as_long_and_goes_as_far_as_an_integration_says(push: float) -> None:
+    """Period and reach of an escape agree with DOP853 at 1e-13 to a millionth."""
+    motion = Hyperbola(0.5, (1, 0.1)).escape(-0.5, push)
+    I, (B2, B3), omega = 0.5, motion.field, motion.omega
+
+    def rates(_: float, state: Any) -> Any:
+        (u1, u2, u3), (K1, K2, K3) = state[:3], state[3:]
+        turn = (1 - I) * u3 + (2 - I) * K3
+        Omega = turn * u2 - I * u3 * K2, I * u3 * K1 - turn * u1, u1 * K2 - u2 * K1
+        return [*Omega, *np.cross(state[3:], state[:3])]
+
+    def turning(_: float, state: Any) -> float:
+        return float(state[0] * state[4] - state[1] * state[3])
+
+    start = [*omega, 0.0, B2, B3]
+    found = solve_ivp(rates, (0, 2.2 * motion.period), start, "DOP853", events=turning, rtol=1e-13, atol=1e-15)
+    times, thirds = found.t_events[0], found.y_events[0][:, 2]
+    assert times[2] - times[0] == pytest.approx(motion.period, rel=1e-6)
+    assert [thirds.min(), thirds.max()] == pytest.approx(list(motion.turning_points), rel=1e-6)

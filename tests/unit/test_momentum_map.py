@@ -1,0 +1,131 @@
+"""The energy-momentum map: its critical values, and the kinds of motion over a plane of initial data."""
+
+import numpy as np
+import pytest
+
+import atlas
+from atlas.core.kind_map import KINDS, kind_map, quartic, trace_map, turning_points
+from atlas.core.momentum_map import axis_spin, equator_spin, momentum_map, nutation_squared, potential, section, steady
+from atlas.core.pseudo_oscillator import PseudoOscillator
+
+EPS = float(np.finfo(float).eps)
+BODIES = [(0.5, (1.0, 0.1), -0.5), (2.0, (1.0, -2.0), -3.0), (1.0, (1.0, 2.0), 0.7), (1.5, (-1.0, 2.0), 0.4)]
+SECTIONS = [(0.5, 0.0), (0.5, 0.3), (0.5, -2.0), (1.0, 0.7), (1.5, 0.5), (1.5, 2.0), (2.0, -3.0)]
+
+
+@pytest.mark.parametrize(("ratio", "field", "omega2"), BODIES)
+def test_elementary_motions_are_critical_values(ratio: float, field: tuple, omega2: float) -> None:
+    """The map of an elementary motion is that of the steady precession w = k + b, r = B3/b; 64 eps of its terms."""
+    motion = atlas.ElementaryMotion(ratio, field, omega2)
+    b = float(np.hypot(*field))
+    found = momentum_map(ratio, motion.angular_velocity(0.3), motion.field_in_body(0.3))
+    true = steady(ratio, b, motion.k + b, field[1] / b)
+    for name in ("M3", "p", "h"):
+        assert getattr(found, name) == pytest.approx(getattr(true, name), abs=64 * EPS * 100)
+    stability = atlas.Hyperbola(ratio, field).stability(omega2)
+    assert nutation_squared(ratio, b, motion.k + b, field[1] / b) == pytest.approx(stability, abs=64 * EPS * 100)
+
+
+def test_spins_on_the_axis_and_across_it_are_critical_values() -> None:
+    """The spin about the field, B2 = 0, and the free spin across it, B3 = 0, lie on the threads of the diagram."""
+    for ratio in (0.5, 1.0, 1.7):
+        for B3 in (1.5, -1.5):
+            state = atlas.ElementaryMotion(ratio, (0.0, B3), 0.0, 0.4)
+            found = momentum_map(ratio, state.angular_velocity(0.0), state.field_in_body(0.0))
+            true, D = axis_spin(ratio, 1.5, ratio * (0.4 + B3), int(np.sign(B3)))
+            assert (found.M3, found.p, found.h) == pytest.approx((true.M3, true.p, true.h), abs=64 * EPS)
+            assert pytest.approx(ratio**2 * (0.4 + B3) ** 2 + 4 * (1 - ratio) * B3**2, abs=64 * EPS) == D
+        state = atlas.ElementaryMotion(ratio, (1.5, 0.0), -1.5, 0.4)
+        found = momentum_map(ratio, state.angular_velocity(0.0), state.field_in_body(0.0))
+        true, squared = equator_spin(ratio, 1.5, ratio * 0.4)
+        assert (found.M3, found.p, found.h) == pytest.approx((true.M3, true.p, true.h), abs=64 * EPS)
+        assert squared == pytest.approx((ratio * 0.4) ** 2 + (ratio - 1) * 1.5**2)
+
+
+@pytest.mark.parametrize(("ratio", "M3"), SECTIONS)
+def test_a_section_holds_the_rest_points_of_the_potential(ratio: float, M3: float) -> None:
+    """On each branch V(r) = h and V is flat there, a minimum exactly where the precession is called stable."""
+    branches = section(ratio, 1.0, M3, points=60)
+    assert branches
+    for branch in branches:
+        inside = np.abs(branch.r) < 0.999
+        r, p, h = branch.r[inside], branch.p[inside], branch.h[inside]
+        d = 1e-4 * (1 - np.abs(r))
+        V = np.array([potential(ratio, 1.0, M3, p, r + s * d) for s in (-1, 0, 1)])
+        assert V[1] == pytest.approx(h, rel=1e-9, abs=1e-9)
+        scale = np.abs(V[1]) + branch.w[inside] ** 2 + 1
+        assert (np.abs(V[2] - V[0]) <= 1e-6 * scale).all()
+        bend, clear = (V[0] - 2 * V[1] + V[2]) / d**2, np.abs(branch.stable[inside]) > 1e-2 * scale
+        assert (np.sign(bend) == np.sign(branch.stable[inside]))[clear].all()
+
+
+def test_a_section_has_as_many_branches_as_the_axis_leaves() -> None:
+    """A disk with |M3| < 2 sqrt(A) has all w > 0 and w < 0 in one branch; beyond, the axis cuts it into three."""
+    assert len(section(2.0, 1.0, 1.0)) == 1
+    assert len(section(2.0, 1.0, 2.5, reach=9.0)) == 3
+    for branch in section(0.5, 1.0, 0.4):
+        assert (np.abs(branch.r) <= 1).all()
+        assert (np.diff(branch.w) > 0).all()
+
+
+@pytest.mark.parametrize("ratio", [0.4, 1.0, 1.6])
+def test_the_quartic_is_that_of_the_pseudo_oscillator(ratio: float) -> None:
+    """b^2 q((c3 - u)/b) = Q(u), theorem-top-quartic, within 256 eps of the size of its terms."""
+    rng = np.random.default_rng(5)
+    for omega in rng.normal(size=(20, 3)):
+        B2, B3 = rng.normal(size=2)
+        b, u = np.hypot(B2, B3), rng.normal(size=5)
+        q = quartic(ratio, (B2, B3), omega)
+        Q = PseudoOscillator(ratio, (B2, B3), omega)
+        found = b * b * np.polyval(q, (omega[2] + B3 - u) / b)
+        assert np.abs(found - Q.quartic(u)).max() <= 256 * EPS * 1e3
+
+
+@pytest.mark.parametrize("ratio", [0.4, 0.8, 1.0, 1.6])
+def test_maps_tell_what_a_simulation_does(ratio: float) -> None:
+    """The range of nu, and whether the precession turns back, are those of a long simulation, to 1e-3 of the range."""
+    rng = np.random.default_rng(8)
+    field = (1.0, 0.3)
+    for first in (0.0, 0.5):
+        omega = rng.normal(size=(2, 3))
+        omega[:, 0] *= first
+        low, high, _ = turning_points(ratio, field, omega)
+        traces = trace_map(ratio, field, omega)
+        for start, a, z, trace in zip(omega, low, high, traces, strict=True):
+            run = atlas.simulate(ratio, field, start, np.linspace(0, 60, 12001), rtol=1e-8)
+            K = np.vecmat(np.array([0.0, *field]), run.R)
+            nu = K[:, 2] / np.hypot(*field)
+            assert (nu.min(), nu.max()) == pytest.approx((a, z), abs=1e-3)
+            P = (run.Omega[:, :2] * K[:, :2]).sum(-1)
+            assert (P.min() < -1e-3 and P.max() > 1e-3) == (trace == 2)
+
+
+def test_the_map_of_kinds_knows_both_wells() -> None:
+    """Below the saddle of an unstable elementary motion there are two ranges, above it one; for I >= 1 never two."""
+    ratio, field, omega2 = 0.5, (1.0, 0.1), -0.5
+    omega3 = atlas.Hyperbola(ratio, field).omega3(omega2)
+    w2, w3 = omega2 + np.linspace(-0.05, 0.05, 41), omega3 + np.linspace(-0.05, 0.05, 41)
+    omega = np.stack(np.broadcast_arrays(0.0, w2[:, None], w3), axis=-1)
+    kinds = kind_map(ratio, field, omega)
+    assert kinds[20, 20] == KINDS.index("equilibrium")
+    assert {KINDS[n] for n in np.unique(kinds)} >= {"upper of two ranges", "lower of two ranges"}
+    pushed = omega.copy()
+    pushed[..., 0] = 0.3
+    assert KINDS[kind_map(ratio, field, pushed)[20, 20]] == "one range"
+    assert set(np.unique(kind_map(1.5, field, omega))) <= {0, 1}
+
+
+def test_what_the_map_does_not_take_is_refused() -> None:
+    """No field, a rate 0, a cosine beyond 1, and an end that is none."""
+    with pytest.raises(atlas.DomainError, match="not zero"):
+        momentum_map(1.5, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+    with pytest.raises(atlas.DomainError, match="between -1 and 1"):
+        steady(1.5, 1.0, 1.0, 1.5)
+    with pytest.raises(atlas.DomainError, match="not 0"):
+        steady(1.5, 1.0, 0.0, 0.5)
+    with pytest.raises(atlas.DomainError, match="end = 1"):
+        axis_spin(1.5, 1.0, 0.3, 0)
+    with pytest.raises(atlas.DomainError, match="left out"):
+        potential(1.5, 1.0, 0.3, 0.2, 1.0)
+    with pytest.raises(atlas.DomainError, match="must not be zero"):
+        kind_map(1.5, (0.0, 0.0), (0.0, 0.0, 1.0))

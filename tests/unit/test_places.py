@@ -1,0 +1,70 @@
+"""Strange machines: no home, nothing that can be written, an encoding without the letters."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from atlas import places
+from atlas.cli.encoding import NEAR
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_what_is_remembered_lies_in_the_users_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """XDG_CACHE_HOME comes first, then ~/.cache."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    assert places.own_folder() == tmp_path / "cache" / "atlas"
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    assert places.own_folder() == tmp_path / "home" / ".cache" / "atlas"
+
+
+def test_without_a_home_it_lies_in_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where there is no home, or none that can be written, the environment's folder is taken, or none at all."""
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setattr(sys, "prefix", str(tmp_path / "venv"))
+    monkeypatch.setattr(os.path, "expanduser", lambda path: path)  # as without HOME and without an entry in passwd
+    assert places.own_folder() == tmp_path / "venv" / "atlas"
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    assert places.own_folder() == tmp_path / "venv" / "atlas"
+    monkeypatch.setattr(sys, "prefix", str(tmp_path / "file"))
+    assert places.own_folder() is None
+
+
+def test_matplotlib_has_a_folder_where_home_cannot_be_written(tmp_path: Path) -> None:
+    """No process says a word about it."""
+    folder = tmp_path / "no" / "home"
+    environment = {key: value for key, value in os.environ.items() if key not in {"MPLCONFIGDIR", "XDG_CACHE_HOME"}}
+    done = subprocess.run(
+        [sys.executable, "-m", "atlas", "figure", "magn", "lssc", "--format", "svg", "--out", str(tmp_path / "out")],
+        env=environment | {"HOME": str(folder), "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert len(list((tmp_path / "out").glob("*.svg"))) == 2
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
+def test_no_letter_fails(encoding: str) -> None:
+    """What the encoding of the terminal does not have is written in ASCII, as near as it gets; JSON stays JSON."""
+    program = (
+        "import json, sys; from atlas.cli.encoding import write_plainly; from atlas.cli.present import dump\n"
+        "write_plainly(); print('\u2212\u00d7\u2192\u03c9 \u00e9\u2075'); dump({'a': '\u03c9'})"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env=os.environ | {"PYTHONIOENCODING": encoding, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        check=True,
+    )
+    expected = {"ascii": "-x->? e5", "latin-1": "-×->? é5", "utf-8": "−×→ω é⁵"}[encoding]
+    line, written = done.stdout.decode(encoding).splitlines()
+    assert line == expected
+    assert written == ('{"a": "ω"}' if encoding == "utf-8" else r'{"a": "\u03c9"}')
+    assert all(near.isascii() for near in NEAR.values())

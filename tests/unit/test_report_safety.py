@@ -1,0 +1,265 @@
+"""A report definition of a stranger: its texts are text, and it reads and writes nothing outside its folders."""
+
+import re
+from pathlib import Path
+from random import Random
+
+import pytest
+from lxml import html as reader
+from pypdf import PdfReader
+
+from atlas.errors import AtlasError
+from atlas.report import html, pdf
+from atlas.report.compose import Document, compose
+from atlas.report.definition import Report
+from atlas.report.load import load
+from atlas.report.schema import convert
+from atlas.report.texts import Link, Texts, citations
+
+MARKUP = (
+    "<script>alert(1)</script>",
+    '<img src=x onerror="alert(1)">',
+    '#panic("ran")',
+    '#import "other.typ": all',
+    "`#panic()`{=typst}",
+    "`<b>`{=html}",
+    "[word]{onclick=alert(1)}",
+    "// hidden /* too */",
+    "a line that ends in \\",
+    "{{ 7 * 7 }} <% x %> <$ y $>",
+    "= heading <label> @@ ~ _x",
+    r"\input{/etc/passwd} \href{javascript:alert(1)}{x}",
+)
+BLOCKS = (
+    "---",
+    "---\ntitle: other\n---",
+    "```{=typst}\n#panic()\n```",
+    "```{=html}\n<script>alert(1)</script>\n```",
+    "::: {onclick=alert(1)}\nx\n:::",
+    "> quoted\n\n1. one\n2. two\n\n- a\n    - b\n\n| a | b |\n|---|---|\n| 1 | 2 |\n",
+    "# First\n\n## Second\n\n~~old~~ x^2^ H~2~O **bold**\n\n```\nverbatim #x $y$ \\\n```",
+    "a\\",
+)
+TOKENS = (
+    *"# * _ ` ``` @ // /* */ --- -- ~ \\ [ ] ( ) { } {=typst} = + | ^ < > & ; : ' \" % %> <% {{".split(),
+    *(
+        "#panic()",
+        "<b>",
+        "@mf72",
+        " $x$ ",
+        r" $\text{#panic() b}$ ",
+        "[a](b.html)",
+        "<lab>",
+        "- ",
+        "1. ",
+        "[^1]",
+        " ",
+        "\n\n",
+    ),
+)
+
+
+def definition(text: str, block: str = "") -> Report:
+    """Return a report with a text in every place that takes one."""
+    tables = {"title": text, "ratio": 1.5}, {"title": text, "prime": [1.0, 2.0]}
+    blocks = [
+        {"kind": "prose", "text": block or text},
+        {"kind": "note", "title": text, "text": block or text},
+        {"kind": "listing", "id": "words", "columns": [text, "b"], "rows": [["a", text]], "caption": text},
+        {"kind": "table", "table": "points", "body": "b", "field": "f", "caption": text},
+        {"kind": "equation", "name": "own", "tex": r"a+b"},
+    ]
+    page = {"slug": "index", "title": text, "part": text, "summary": text, "blocks": blocks}
+    report = {"name": "mine", "title": text, "subtitle": text, "authors": [text], "abstract": block or text}
+    return convert(
+        {**report, "pages": [page], "parameters": {"bodies": {"b": tables[0]}, "fields": {"f": tables[1]}}}, Report
+    )
+
+
+def document(report: Report) -> Document:
+    """Compose a report and set its texts."""
+    made = compose(report, {})
+    made.set("html", "typst")
+    return made
+
+
+def visible(made: Document, folder: Path) -> tuple[reader.HtmlElement, str]:
+    """Return the first page, parsed, and the words of the PDF."""
+    page = reader.fromstring(html.pages(made)["index.html"])
+    (folder / "mine.pdf").write_bytes(pdf.Compiler(folder).compile(pdf.source(made)))
+    return page, " ".join(one.extract_text() for one in PdfReader(folder / "mine.pdf").pages)
+
+
+def inert(page: reader.HtmlElement) -> bool:
+    """Tell whether nothing in a page runs, is fetched or listens."""
+    tags = {element.tag for element in page.iter() if isinstance(element.tag, str)}
+    attributes = {name for element in page.iter() for name in element.attrib}
+    return (
+        not tags & {"script", "iframe", "object", "embed", "form", "base", "img", "svg"}
+        and not any(name.startswith("on") for name in attributes)
+        and not any(link.startswith(("javascript:", "data:", "//")) for link in page.xpath("//@href"))
+    )
+
+
+@pytest.mark.parametrize("text", MARKUP)
+def test_markup_in_a_text_is_shown_and_not_obeyed(text: str, tmp_path: Path) -> None:
+    """Wherever a file takes a text, HTML, Typst, raw blocks, attributes and templates in it are only letters."""
+    page, printed = visible(document(definition(text)), tmp_path)
+    assert inert(page)
+    (title,) = page.xpath("//header//p[@class='h']")
+    assert " ".join(title.text_content().split()) == " ".join(text.split())
+    words = re.findall(r"[a-z]{3,}", text)
+    assert all(word in page.xpath("string(//main)") for word in words if word not in {"html", "typst"})
+    assert all(word in printed for word in words if word not in {"html", "typst"})
+
+
+@pytest.mark.parametrize("block", BLOCKS)
+def test_blocks_of_markdown_are_set_in_page_and_pdf(block: str, tmp_path: Path) -> None:
+    """A rule, lists, tables and headings are set; raw blocks, attributes and metadata are text."""
+    page, _ = visible(document(definition("x", block)), tmp_path)
+    assert inert(page)
+    assert len(page.xpath("//h1")) == 1
+
+
+def test_random_signs_never_break_the_pdf_or_leave_a_tag(tmp_path: Path) -> None:
+    """Seeded strings of the signs that mean something to Markdown, HTML, TeX or Typst stand in page and PDF."""
+    random, texts = Random(13), Texts()  # noqa: S311  no secret
+    for number in range(200):
+        texts.add("".join(random.choices(TOKENS, k=random.randint(1, 12))), "here", inline=number % 2 == 0)
+    pieces = texts.set("html", lambda name, _: Link(name))
+    assert inert(reader.fromstring("<div>" + "".join(pieces) + "</div>"))
+    rule = "#let horizontalrule = line(length: 40%)\n"
+    pdf.Compiler(tmp_path).compile(
+        rule + "".join(f"#block([{one}])\n\n" for one in texts.set("typst", lambda name, _: Link(name)))
+    )
+
+
+@pytest.mark.parametrize("link", ["https://a.b/c?d=e#f", "http://a.b", "mailto:a@b.c", "index.html#eq-own", "#eq-own"])
+def test_links_that_are_allowed_stay(link: str) -> None:
+    """Links lead to http, https, mailto and pages of the report."""
+    made = document(definition(f"[word]({link})"))
+    assert f'href="{link}"' in html.pages(made)["index.html"]
+
+
+def test_a_doi_becomes_an_address() -> None:
+    """``doi:`` leads to doi.org."""
+    texts = Texts()
+    texts.add("[paper](doi:10.3390/universe10060250)", "here", inline=True)
+    (text,) = texts.set("html", lambda name, _: Link(name))
+    assert 'href="https://doi.org/10.3390/universe10060250"' in text
+
+
+@pytest.mark.parametrize(
+    "link",
+    [
+        *("javascript:alert(1)", "JaVaScRiPt:alert(1)", "java&#115;cript:alert(1)", "data:text/html,x", "vbscript:x"),
+        *("file:///etc/passwd", "//evil.example/x", "/etc/passwd", "../secret.html", "x.html#a>)[b]", "blob:x"),
+    ],
+)
+def test_other_links_are_refused_with_their_place(link: str) -> None:
+    """Any other scheme, and paths out of the report, are errors that name the block."""
+    with pytest.raises(AtlasError, match=r"(?s)(abstract|page 'index').*not allowed"):
+        document(definition("x", f"[word]({link})"))
+
+
+def test_pictures_in_a_text_are_refused() -> None:
+    """A text can't read a file into the report."""
+    with pytest.raises(AtlasError, match="the abstract: a text holds no pictures"):
+        document(definition("x", "![](/etc/passwd)"))
+
+
+@pytest.mark.parametrize("name", ["a b", "a>#panic()<", "../x", "a/b", 'x"y', "", "-a", "a\n", "ä"])
+def test_names_that_become_anchors_and_files_are_letters_digits_and_hyphens(name: str) -> None:
+    """The id of a figure or table, the name of an equation and the slug of a page are refused otherwise."""
+    for block in (
+        {"kind": "figure", "recipe": "hyperbola", "id": name},
+        {"kind": "table", "table": "points", "id": name},
+        {"kind": "listing", "columns": [], "rows": [], "caption": "", "id": name},
+        {"kind": "equation", "name": name, "tex": "x"},
+    ):
+        page = {"slug": "index", "title": "", "blocks": [block]}
+        with pytest.raises(AtlasError, match=r"block.* 1 \(\w+\), (id|name): must be a text of letters and digits"):
+            convert({"name": "mine", "title": "", "pages": [page]}, Report)
+    with pytest.raises(AtlasError, match="slug: must be a text of small letters and digits"):
+        convert({"name": "mine", "title": "", "pages": [{"slug": name, "title": "", "blocks": []}]}, Report)
+
+
+def test_every_page_has_a_policy_under_which_nothing_runs() -> None:
+    """Each page forbids scripts, frames, forms and all that is not in its folder."""
+    for name, content in html.pages(document(definition("x"))).items():
+        if name.endswith(".html"):
+            (policy,) = reader.fromstring(content).xpath("//meta[@http-equiv='Content-Security-Policy']/@content")
+            assert "default-src 'none'" in policy
+            assert "base-uri 'none'" in policy
+            assert "script-src" not in policy
+            assert not re.search(r"\bhttps?:|\*", policy)
+
+
+def test_a_recipe_is_a_name_and_no_path() -> None:
+    """A figure can't run a file of its own."""
+    from atlas.report.pictures import pictures
+
+    for recipe in ("../evil", "/tmp/evil", "evil.py"):  # noqa: S108  a name that is refused
+        page = {"slug": "index", "title": "", "blocks": [{"kind": "figure", "recipe": recipe}]}
+        with pytest.raises(AtlasError, match="there is no recipe"):
+            pictures(convert({"name": "mine", "title": "", "pages": [page]}, Report))
+
+
+WRONG = {
+    "times = 3.0": "parameters, times: must be a list, each item a number, not 3.0",
+    'times = ["x"]': "parameters, time 1: must be a number, not 'x'",
+    "times = [true]": "parameters, time 1: must be a number, not True",
+    "times = [nan]": "parameters 'times': must be finite, not nan",
+    "times = [0.0], omega_2 = 1.0": "'omega2'",
+    "": "it lacks the key 'omega2', a number",
+}
+
+
+@pytest.mark.parametrize("given", WRONG)
+def test_a_parameter_of_another_type_is_told_by_its_key(given: str, tmp_path: Path) -> None:
+    """One line names the block, the key and what would be right."""
+    file = tmp_path / "mine.toml"
+    more = f"omega2 = 0.5, {given}" if given and "omega_2" not in given else given
+    file.write_text(
+        'name = "mine"\ntitle = "T"\n[parameters.bodies.b]\ntitle = "b"\nratio = 1.5\n'
+        '[parameters.fields.f]\ntitle = "f"\nprime = [1.0, 2.0]\n'
+        '[[pages]]\nslug = "index"\ntitle = "T"\n[[pages.blocks]]\nkind = "table"\ntable = "samples"\n'
+        f'body = "b"\nfield = "f"\nparameters = {{ {more} }}\n',
+        encoding="utf-8",
+    )
+    with pytest.raises(AtlasError) as caught:
+        compose(load(file), {})
+    assert WRONG[given] in str(caught.value)
+    assert "block 1 (table)" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("ratio = nan", "ratio: must be a number, not nan"),
+        ('ratio = "1.5"', "ratio: must be a number, not '1.5'"),
+        ("inertia = [1.0]", "inertia: must be a list of 2 numbers, not [1.0]"),
+        ("inertia = [1.0, inf]", "inertia 2: must be a number, not inf"),
+        ("shape = ['ring']", "shape: must be a text, not ['ring']"),
+    ],
+)
+def test_a_body_of_another_type_is_told_by_its_key(line: str, words: str, tmp_path: Path) -> None:
+    """The sentence names file, line where it can, body, key and what would be right."""
+    file = tmp_path / "mine.toml"
+    file.write_text(
+        f'\ufeffname = "mine"\ntitle = "T"\npages = []\n[parameters.bodies.b]\ntitle = "b"\n{line}\n', encoding="utf-8"
+    )
+    with pytest.raises(AtlasError) as caught:
+        load(file)
+    assert f"bodies 'b', {words}" in str(caught.value)
+    assert str(caught.value).startswith(f"{file}, line 6: ")
+
+
+def test_citations_are_found_as_pandoc_finds_them() -> None:
+    """What counts as a use and what becomes a link are the same names."""
+    text = "See @mf58.1, (@theorem-points); `@mf1`, $x@y$ and a@b.c, @fig:curve and [@tab:points; see @mf2, p. 3]."
+    texts, found = Texts(), []
+    texts.add(text, "here", inline=True)
+    texts.set("html", lambda name, _: found.append(name) or Link(name))
+    assert found == citations(text) == ["mf58.1", "theorem-points", "fig:curve", "tab:points", "mf2"]

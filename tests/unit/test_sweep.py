@@ -1,0 +1,207 @@
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import atlas
+from atlas.cli.app import atlas as program
+from atlas.core.elementary import ElementaryMotion
+from atlas.errors import AtlasError
+from atlas.study.sweep import run
+from atlas.study.sweep.families import FAMILIES, NAME
+from atlas.study.sweep.plan import Plan
+
+GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
+NAMES = ("omega3", "k", "phi", "case", "R12")
+
+
+def sweep(out: Path, **more: Any) -> bytes:
+    """Sweep the grid in parts of 20 rows and return the bytes of the table."""
+    atlas.sweep("elementary", GRID, NAMES, out, rows=20, **more)
+    return out.read_bytes()
+
+
+def test_a_grid_has_every_combination_once_and_its_quantities() -> None:
+    """The last parameter varies fastest, and each row has what the motion of its parameters has."""
+    table = atlas.sweep("elementary", GRID, NAMES)
+    assert list(table) == [*GRID, *NAMES]
+    full = np.meshgrid(*(np.atleast_1d(x) for x in GRID.values()), indexing="ij")
+    for name, values in zip(GRID, full, strict=True):
+        assert np.array_equal(table[name], values.ravel())
+    motion = ElementaryMotion(table["ratio"], (table["B2"], table["B3"]), table["omega2"])
+    for name in ("omega3", "k", "phi", "case"):
+        assert np.array_equal(table[name], getattr(motion, name))
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".npz"])
+def test_the_bytes_do_not_depend_on_who_computed_them(tmp_path: Path, suffix: str) -> None:
+    """One process, two processes and threads of the user write the same file, and leave nothing beside it."""
+    alone = sweep(tmp_path / f"a{suffix}", jobs=1)
+    assert sweep(tmp_path / f"b{suffix}", jobs=2) == alone
+    with ThreadPoolExecutor(2) as pool:
+        assert sweep(tmp_path / f"c{suffix}", executor=pool) == alone
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_dask_writes_the_same_bytes(tmp_path: Path) -> None:
+    """A local cluster of two workers writes the bytes of the single process."""
+    distributed = pytest.importorskip("distributed")
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        assert sweep(tmp_path / "d.csv", executor=client) == sweep(tmp_path / "a.csv", jobs=1)
+
+
+def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
+    """CSV, NPZ and Parquet read back as the columns that were computed, to the bit."""
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    table = atlas.sweep("elementary", GRID, NAMES)
+    for suffix in (".csv", ".npz", ".parquet"):
+        sweep(tmp_path / f"t{suffix}", jobs=1)
+    with np.load(tmp_path / "t.npz") as arrays:
+        found = parquet.read_table(tmp_path / "t.parquet")
+        heading, *lines = (tmp_path / "t.csv").read_text().splitlines()
+        columns = dict(zip(heading.split(","), zip(*(line.split(",") for line in lines), strict=True), strict=True))
+        for name, values in table.items():
+            assert np.array_equal(arrays[name], values)
+            assert found[name].to_pylist() == values.tolist()
+            text = columns[name]
+            assert list(text if values.dtype.kind == "U" else map(float, text)) == values.tolist()
+
+
+def test_a_sweep_that_fails_in_the_middle_goes_on_from_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Parts that were kept are not computed again, and no row is lost or doubled."""
+    whole, part, done = sweep(tmp_path / "a.csv", jobs=1), run.part, []
+
+    def until_three(plan: Plan, start: int, suffix: str) -> bytes:
+        if len(done) == 3:
+            raise KeyboardInterrupt
+        done.append(start)
+        return part(plan, start, suffix)
+
+    monkeypatch.setattr(run, "part", until_three)
+    with pytest.raises(KeyboardInterrupt):
+        sweep(tmp_path / "b.csv", jobs=1)
+    assert not (tmp_path / "b.csv").exists()
+    assert done == [0, 20, 40]
+    monkeypatch.setattr(run, "part", lambda plan, start, suffix: done.append(start) or part(plan, start, suffix))
+    assert sweep(tmp_path / "b.csv", jobs=1) == whole
+    assert done == list(range(0, 154, 20))
+    assert not (tmp_path / "b.csv.parts").exists()
+
+
+def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
+    """After SIGKILL the same command ends with the table of a sweep that nobody disturbed."""
+    arguments = [
+        "sweep", "elementary", "--set", "ratio=0.1:2:40", "--set", "B2=1", "--set", "B3=0.2", "--set",
+        "omega2=-0.9:3:50", "--quantity", "k", "--digits", "20", "--rows", "50", "-j", "1", "--out",
+    ]  # fmt: skip
+    start = [sys.executable, "-m", "atlas", *arguments]
+    killed = subprocess.Popen([*start, tmp_path / "k.csv"])
+    parts = tmp_path / "k.csv.parts"
+    while not list(parts.glob("*.part")) and killed.poll() is None:
+        time.sleep(0.01)
+    killed.send_signal(signal.SIGKILL)
+    killed.wait()
+    assert list(parts.glob("*.part"))
+    assert not (tmp_path / "k.csv").exists()
+    for name in ("k.csv", "a.csv"):
+        assert subprocess.run([*start, tmp_path / name], check=False, capture_output=True).returncode == 0
+    assert (tmp_path / "k.csv").read_bytes() == (tmp_path / "a.csv").read_bytes()
+
+
+def test_parts_of_another_sweep_are_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Other parameters, other parts; and a folder of the user's own is left alone."""
+    monkeypatch.setattr(run, "shutil", type("Kept", (), {"rmtree": staticmethod(lambda _: None)}))
+    sweep(tmp_path / "a.csv", jobs=1)
+    monkeypatch.undo()
+    other = GRID | {"B2": 2.0}
+    atlas.sweep("elementary", other, NAMES, tmp_path / "a.csv", rows=20, jobs=1)
+    atlas.sweep("elementary", other, NAMES, tmp_path / "b.csv", rows=20, jobs=1)
+    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
+    (tmp_path / "c.csv.parts").mkdir()
+    (tmp_path / "c.csv.parts" / "mine").touch()
+    with pytest.raises(AtlasError, match="other files"):
+        sweep(tmp_path / "c.csv", jobs=1)
+    assert (tmp_path / "c.csv.parts" / "mine").exists()
+
+
+def test_rows_outside_the_domain_are_named(tmp_path: Path) -> None:
+    """The error says in which rows it is, and leaves no folder behind."""
+    with pytest.raises(AtlasError, match=r"rows 0 to 2: .*pole"):
+        atlas.sweep(
+            "elementary", {"ratio": 0.5, "B2": 1, "B3": 1, "omega2": [1, -1, 2]}, ["k"], tmp_path / "a.csv", jobs=1
+        )
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_every_quantity_of_every_family_has_a_value_a_row(family: str) -> None:
+    """All quantities of a list of two rows are two finite numbers or two names that a table can hold."""
+    known = FAMILIES[family]
+    given = {name: [0.3 + 0.1 * i, 0.7 + 0.1 * i] for i, name in enumerate(known.needed)}
+    given |= {name: [0.2 + 0.1 * i, -0.4] for i, name in enumerate(known.optional) if name not in {"omega3", "c"}}
+    table = atlas.sweep(family, given, list(known.quantities), listed=True)
+    for name in known.quantities:
+        assert table[name].shape == (2,)
+        assert table[name].dtype == np.dtype(NAME) or np.isfinite(table[name]).all()
+
+
+def test_certified_digits_round_to_the_floats() -> None:
+    """With digits the quantities are text, whose nearest doubles are those of the kernels."""
+    given = {"ratio": [0.5, 1.5], "B2": [1.0, 2.0], "B3": [0.3, 0.4], "omega2": [0.7, 0.9]}
+    names = ["omega3", "k", "phi"]
+    texts, floats = (atlas.sweep("elementary", given, names, listed=True, digits=n) for n in (30, None))
+    for name in names:
+        assert [float(text) for text in texts[name]] == floats[name].tolist()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ("foo --set a=1 --quantity k --out x.csv", "no family 'foo'"),
+        ("ball --set a=1 --quantity gamma --out x.csv", "no parameter 'a'"),
+        ("ball --set inertia=1 --quantity gamma --out x.csv", "larmor is missing"),
+        ("ball --set inertia=1 --quantity k --out x.csv", "no quantity 'k'"),
+        ("ball --set inertia=1 --quantity gamma --out x.txt", "missing"),
+        ("ball --set inertia --quantity gamma --out x.csv", "NAME=VALUES"),
+        ("ball --set inertia=1:2 --quantity gamma --out x.csv", "START:STOP:COUNT"),
+        ("ball --set inertia=-1:2:5:log --quantity gamma --out x.csv", "one sign"),
+        ("ball --set inertia=a --quantity gamma --out x.csv", "not a finite number"),
+        ("ball --list nowhere.csv --quantity gamma --out x.csv", "cannot be read"),
+        ("--out x.csv", "name the family"),
+        ("ball --file a.toml", "with --file"),
+    ],
+)
+def test_a_wrong_sweep_is_one_sentence(arguments: str, says: str) -> None:
+    """What is unknown, missing or no number is said in one line."""
+    result = CliRunner().invoke(program, ["sweep", *arguments.split()])
+    assert result.exit_code
+    assert says in result.output + str(result.exception)
+
+
+def test_a_toml_file_a_list_and_flags_say_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same rows from flags, from a CSV list and from a TOML file give the same table; a wrong key is an error."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rows.csv").write_text("inertia,larmor,m2,m3\n1,0.5,0.2,0.1\n1,0.5,0.2,0.3\n")
+    (tmp_path / "s.toml").write_text(
+        'family = "ball"\nquantities = ["gamma"]\nout = "toml.csv"\n'
+        '[parameters]\ninertia = 1\nlarmor = 0.5\nm2 = "0.2"\nm3 = "0.1:0.3:2"\n'
+    )
+    flags = "ball --set inertia=1 --set larmor=0.5 --set m2=0.2 --set m3=0.1,0.3 --quantity gamma --out flags.csv -j1"
+    for line in (flags, "ball --list rows.csv --quantity gamma --out list.csv -j1", "--file s.toml -j1"):
+        result = CliRunner().invoke(program, ["sweep", *line.split()])
+        assert not result.exit_code, result.output + str(result.exception)
+    assert Path("flags.csv").read_bytes() == Path("list.csv").read_bytes() == Path("toml.csv").read_bytes()
+    (tmp_path / "s.toml").write_text('family = "ball"\nquantities = ["gamma"]\nfoo = 1\n')
+    assert CliRunner().invoke(program, ["sweep", "--file", "s.toml"]).exit_code == 2
