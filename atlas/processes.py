@@ -27,6 +27,13 @@ class _Pool(ProcessPoolExecutor):
         with _without_main():
             return super().submit(function, *args, **kwargs)
 
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """End the processes; of a broken pool also one that was started while the others were ended (CPython waits)."""
+        if self._broken:
+            for process in list((self._processes or {}).values()):
+                process.kill()
+        super().shutdown(wait, cancel_futures=cancel_futures)
+
 
 @contextmanager
 def _without_main() -> Iterator[None]:

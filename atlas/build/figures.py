@@ -3,7 +3,7 @@
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import as_completed
+from concurrent.futures import Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -138,7 +138,12 @@ def _drawn(figures: Sequence[Figure], cache: Cache, jobs: int) -> Iterator[tuple
             return
         broken = False
         try:
-            futures = {pool.submit(worker.draw, task): figure for figure, task in waiting.items()}
+            futures: dict[Future[str], Figure] = {}
+            try:
+                for figure, task in waiting.items():
+                    futures[pool.submit(worker.draw, task)] = figure
+            except BrokenProcessPool:
+                broken = True
             for future in as_completed(futures):
                 try:
                     failure = future.result()

@@ -114,7 +114,7 @@ NOISE = {("motion", 3), *((name, panel) for name in ("error_maps", "motion_map")
 
 
 MEASURED = {"build_cost"}
-"""Figures of nothing but times on record, which a new record changes; `test_report_costs` draws them from a fixed one."""
+"""Figures of times on record, which a new record changes; `test_report_costs` draws them from a fixed one."""
 
 
 @pytest.mark.parametrize("name", sorted(set(recipes.names()) - MEASURED))
