@@ -1,13 +1,16 @@
 """The two frequencies along the hyperbola.
 
-Precession k = omega2/B2hat, mf84, and proper rotation phi, mf77, over omega2; and their quotient, mf91, which tells
-the motions that repeat themselves (rational) from the others, beside that of the free body, mf92.
+Precession k = omega2/B2hat, mf84, and proper rotation phi, mf77, over omega2; and their quotient, mf91, which is
+rational for the motions that repeat themselves, theorem-closed, beside that of the free body, mf92.
 """
+
+from fractions import Fraction
 
 import numpy as np
 
+from atlas.core.elementary import ElementaryMotion
 from atlas.core.hyperbola import Hyperbola
-from atlas.core.inputs import FloatArray
+from atlas.core.inputs import FloatArray, whole
 from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
@@ -15,6 +18,11 @@ from atlas.scene.hyperbola_plane import Window, components, graph
 from atlas.scene.words import plain, plain_setting, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
+TOP = 4.0
+"""How far panel (b) goes, in units of the free body's quotient."""
+MOST = 8
+BESIDE = 4.4
+"""Millimetres from a dot to its p/q."""
 CLOSE = 1e-9
 """Nearer to the pole than this part of B2, a float omega2 does not tell phi well enough to draw."""
 
@@ -24,20 +32,27 @@ def scene(
     ratio: float = 1.5,
     field: tuple[float, float] = (1.0, 2.0),
     reach: float = 2.6,
+    order: int = 3,
     unit: str = "time",
 ) -> Scene:
-    """Draw k and phi, and below phi/k, for omega2 up to ``reach`` times B2 from the pole."""
+    """Draw k, phi and phi/k up to ``reach`` times B2 from the pole; p/q is marked for |p| and q up to ``order``."""
+    order = whole(order, "order", 1)
+    if order > MOST:
+        raise DomainError(f"figure frequencies marks p/q up to order = {MOST}, not {order}.")
     B2, B3 = components(field)
     if B2 == 0:
         raise DomainError("With B2 = 0 all elementary motions have omega2 = 0, so nothing can be drawn over omega2.")
     I, one_less, _ = shape_factors(ratio)
     free = one_less / I * B3 / float(np.hypot(B2, B3))
+    hyperbola = Hyperbola(ratio, field)
+    found = closed(hyperbola, free, order) if free else {}
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
     proper = (
         r"the proper rotation $\phi$, mf77, which is zero at rest and at $\omega_2=-2B_2$ and has its pole, dotted, at "
         r"$\omega_2=-B_2$. (b) Their quotient, mf91: the motion repeats itself where it is rational. Dashed: the free "
         r"body "
-        rf"that precesses as fast about the same axis, mf92, with $\phi/k{tex_equals(free)}$."
+        rf"that precesses as fast about the same axis, mf92, with $\phi/k{tex_equals(free)}$. Dots: the motions that "
+        rf"repeat themselves after {counted(order)} of the precession, with their $\phi/k=p/q$."
         if free
         else r"the proper rotation $\phi$, mf77, which is zero on the whole curve. (b) Their quotient, mf91."
     )
@@ -60,14 +75,38 @@ def scene(
             )
         ),
         panels=(
-            frequencies(Hyperbola(ratio, field), (B2, B3), ends, unit),
-            quotients((B2, B3), ends, free, unit),
+            frequencies(hyperbola, (B2, B3), ends, found, unit),
+            quotients((B2, B3), ends, free, found, unit),
         ),
         size=(WIDTH, HEIGHT),
     )
 
 
-def frequencies(hyperbola: Hyperbola, field: tuple[float, float], ends: tuple[float, float], unit: str) -> Plane:
+def counted(order: int) -> str:
+    """Return 'one turn', 'up to 3 turns'."""
+    return "one turn" if order == 1 else f"up to {order} turns"
+
+
+def closed(hyperbola: Hyperbola, free: float, order: int) -> dict[Fraction, ElementaryMotion]:
+    """Return the motions with phi/k = p/q, |p| and q up to ``order``, that panel (b) shows, by p/q.
+
+    Neither ``free``, which no motion has, is among them nor twice that, which belongs to the state of rest.
+    """
+    wanted = {Fraction(p, q) for q in range(1, order + 1) for p in range(-order, order + 1) if p}
+    return {
+        r: hyperbola.closed(r.numerator, r.denominator)
+        for r in sorted(wanted)
+        if abs(r) < 0.95 * TOP * abs(free) and min(abs(float(r) - free), abs(float(r) - 2 * free)) > CLOSE * abs(free)
+    }
+
+
+def frequencies(
+    hyperbola: Hyperbola,
+    field: tuple[float, float],
+    ends: tuple[float, float],
+    found: dict[Fraction, ElementaryMotion],
+    unit: str,
+) -> Plane:
     """Panel (a): k and phi."""
     B2, _ = field
     k, phi = hyperbola.frequencies(np.array(ends))
@@ -93,6 +132,8 @@ def frequencies(hyperbola: Hyperbola, field: tuple[float, float], ends: tuple[fl
         pieces = (view.level(0.0),)
     layers += [Curve(piece, "main", "" if order else r"$\phi$") for order, piece in enumerate(pieces)]
     side = float(np.copysign(1.0, B2))
+    marks = [m for m in found.values() if ends[0] < m.omega2 < ends[1] and abs(m.phi) < top]
+    layers += [Points(np.array([[m.omega2, m.phi], [m.omega2, m.k]]), "point") for m in marks]
     layers += [
         Points(np.array([[0.0, 0.0]]), "rest"),
         Points(np.array([[-2 * B2, 0.0]]), "special"),
@@ -102,10 +143,16 @@ def frequencies(hyperbola: Hyperbola, field: tuple[float, float], ends: tuple[fl
     return Plane(tuple(layers), "", f"frequency (1/{unit})", view.x, view.y, title="(a) precession, proper rotation")
 
 
-def quotients(field: tuple[float, float], ends: tuple[float, float], free: float, unit: str) -> Plane:
+def quotients(
+    field: tuple[float, float],
+    ends: tuple[float, float],
+    free: float,
+    found: dict[Fraction, ElementaryMotion],
+    unit: str,
+) -> Plane:
     """Panel (b): phi/k by mf91, which is finite at rest, where both vanish; ``free`` is that of the free body."""
     B2, _ = field
-    top = 4 * abs(free) or 1.0
+    top = TOP * abs(free) or 1.0
     view = Window(ends, (-top, top))
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     if free:
@@ -118,6 +165,14 @@ def quotients(field: tuple[float, float], ends: tuple[float, float], free: float
         layers += [Curve(piece, "main") for piece in pieces]
     else:
         layers.append(Curve(view.level(0.0), "main"))
+    for r, motion in found.items():
+        at = np.array([motion.omega2, float(r)])
+        if ends[0] < motion.omega2 < ends[1]:
+            x = 1 + motion.omega2 / B2
+            scale = np.array([(WIDTH - MARGIN) / (ends[1] - ends[0]), (HEIGHT / 2 - MARGIN) / (2 * top)])  # mm
+            across = np.array([free / (x * x * B2), 1.0]) / scale  # to the side, as drawn
+            away = across / np.hypot(*(across * scale)) * BESIDE * np.copysign(1.0, free * x)
+            layers += [Points(at[None], "point"), Label(at - away, f"${r}$", "label", (0.0, 0.0))]
     layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))
     layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))
     return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient")

@@ -4,14 +4,10 @@ The quadrics mf58 of constant Omega_3 in one field, from the loop, I = 2, to a s
 one side, each about its centre -B'. At I = 1 the two sheets meet in a cone; for longer bodies they join to a tube.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
-from atlas.core.inputs import FloatArray
-from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Scene, Space, Surface, quadric_panel, quadrics
+from atlas.scene import Curve, Label, Layer, Scene, Space, quadric_panel, quadrics, solids
 from atlas.scene.bodies import row
 from atlas.scene.words import body_name, listed, tex, tex_vector, title
 
@@ -33,15 +29,15 @@ def scene(
         )
     b = float(np.hypot(*field))
     (right,) = row(2, 1.0, azimuth)[1:] * 2
-    each = [pieces(I, field, REACH * b) for I in ratios]
-    extents = [along(surfaces, right) for surfaces in each]
+    each = [quadrics.pieces(I, field, REACH * b, quadric_panel.tolerance(2 * REACH * b)) for I in ratios]
+    extents = [solids.extent(surfaces, right) for surfaces in each]
     layers: list[Layer] = []
     place, gap = 0.0, 0.35 * b
     for I, surfaces, (left, end) in zip(ratios, each, extents, strict=True):
         shift = (place - left) * right
         place += end - left + gap
         for surface in surfaces:
-            layers.append(moved(surface, shift))
+            layers.append(solids.moved(surface, shift))
             curve = quadrics.hyperbola(quadrics.quadric_matrix(I, field), surface, quadric_panel.tolerance(3 * b))
             layers += [Curve(points + shift, "hyperbola") for points in curve]
         centre = quadric_panel.in_plane(-field[0], -field[1]) + shift
@@ -61,36 +57,4 @@ def scene(
         ),
         panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(WIDTH, HEIGHT),
-    )
-
-
-def pieces(I: float, field: tuple[float, float], reach: float) -> list[Surface]:
-    """Return the pieces of the quadric within ``reach`` of its centre along its axis."""
-    quadric, Q = Quadric(I, field), quadrics.quadric_matrix(I, field)
-    fine = quadric_panel.tolerance(2 * reach)
-    if quadric.kind == "two-sheet hyperboloid":
-        vertex = abs(float(quadric.semi_axes[quadrics.sheet_axis(quadric)]))
-        return [quadrics.sheet(quadric, Q, *span, fine) for span in ((vertex, reach), (-reach, -vertex))]
-    return [quadrics.sheet(quadric, Q, -reach, reach, fine)]
-
-
-def along(surfaces: list[Surface], right: FloatArray) -> tuple[float, float]:
-    """Return the least and the largest coordinate along the unit vector ``right`` (3,)."""
-    found = np.concatenate([np.ravel(grid @ right) for surface in surfaces for grid in surface.grids])
-    return float(found.min()), float(found.max())
-
-
-def moved(surface: Surface, shift: FloatArray) -> Surface:
-    """Return a surface moved by ``shift`` (3,)."""
-    back = np.eye(4)
-    back[:3, 3] = -shift
-    clip = surface.clip.copy()
-    clip[:, 3] += clip[:, :3] @ shift
-    return replace(
-        surface,
-        quadric=back.T @ surface.quadric @ back,
-        clip=clip,
-        grids=tuple(grid + shift for grid in surface.grids),
-        wires=tuple(wire + shift for wire in surface.wires),
-        rims=tuple(rim + shift for rim in surface.rims),
     )

@@ -102,7 +102,7 @@ class _Drawing:
         for wire in surface.wires:
             self.line(wire, style_of("wire"), _WIRE, 0.1)
         for rim in surface.rims:
-            self.line(rim, style_of("rim"))
+            self.line(rim, replace(style_of("rim"), hidden=not opaque))
         for line in silhouette(surface, view):
             self.line(line, style_of("silhouette"))
 

@@ -12,14 +12,17 @@ FloatArray = NDArray[np.float64]
 
 _SEAM = 0.16
 _FLAT = 1e-3
+_WINDINGS = 5.0
+"""Windings of a solenoid on a piece as high as its radius."""
 
 
-def proportions(I: float) -> tuple[float, float]:
+def proportions(I: float, *, solid: bool = False) -> tuple[float, float]:
     """Return radius and height of the cylindrical shell with I3/I2 = I whose farthest point is at the distance 1.
 
-    I3 = m r^2 and I2 = m (r^2/2 + h^2/12), so h/r = sqrt(12/I - 6), for 0 < I <= 2: a ring for I = 2.
+    I3 = m r^2 and I2 = m (r^2/2 + h^2/12), so h/r = sqrt(12/I - 6), for 0 < I <= 2: a ring for I = 2. A ``solid``
+    cylinder has I3 = m r^2/2 and I2 = m (r^2/4 + h^2/12), so h/r = sqrt(6/I - 3): a disk for I = 2.
     """
-    slope = float(np.sqrt(max(12.0 / I - 6.0, 0.0)))
+    slope = float(np.sqrt(max(12.0 / I - 6.0, 0.0) / (2.0 if solid else 1.0)))
     radius = 1.0 / float(np.hypot(1.0, slope / 2.0))
     return radius, slope * radius
 
@@ -51,6 +54,23 @@ def drawn_body(I: float, attitude: FloatArray, centre: FloatArray, size: float, 
     ]
     seam = _seam(side, centre, (first, second, axis), radius, height)
     return [side, *ends, seam]
+
+
+def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float) -> list[Layer]:
+    """Return the layers of an open cylindrical shell with I3/I2 = I < 2, its windings and its painted seam.
+
+    Arguments are those of `drawn_body`.
+    """
+    first, second, axis = np.asarray(attitude).T
+    radius, height = (size * length for length in proportions(I))
+    side = solids.cylinder(centre, axis, radius, height, tolerance, role="solid")
+    places = np.linspace(-0.5, 0.5, max(3, round(_WINDINGS * height / radius)) + 1)[1:-1]
+    ends = [  # from inside, so that one looks into the shell
+        solids.disk(centre + sign * height / 2 * axis, -sign * axis, radius, tolerance, role="solid")
+        for sign in (-1.0, 1.0)
+    ]
+    coils = [Curve(solids.circle(centre + h * height * axis, axis, radius, tolerance), "coil") for h in places]
+    return [side, *ends, *coils, _seam(side, centre, (first, second, axis), radius, height)]
 
 
 def _seam(

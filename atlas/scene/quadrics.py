@@ -97,6 +97,18 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     return Surface(Q, clip, (grid,), (*meridians, *parallels), tuple(rims), role=role)
 
 
+def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:
+    """Return the sheets of the quadric mf58 of a body within ``reach`` of its centre along its axis.
+
+    ``field`` is (B2, B3) of B', of which neither vanishes; a hyperboloid of one sheet and a cone are one surface.
+    """
+    quadric, Q = Quadric(ratio, field), quadric_matrix(ratio, field)
+    if quadric.kind == "two-sheet hyperboloid":
+        vertex = abs(float(quadric.semi_axes[sheet_axis(quadric)]))
+        return [sheet(quadric, Q, *span, tolerance) for span in ((vertex, reach), (-reach, -vertex))]
+    return [sheet(quadric, Q, -reach, reach, tolerance)]
+
+
 def centre_value(Q: FloatArray, centre: FloatArray) -> float:
     """Return F at the centre, -(1 - I) B2^2."""
     x = np.append(centre, 1.0)

@@ -1,6 +1,7 @@
-"""Pieces of simple quadrics: sphere, cone, cylinder with its lids, disk, rectangle."""
+"""Pieces of simple quadrics: sphere, cone, cylinder with its lids, disk, rectangle; and surfaces moved elsewhere."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -141,3 +142,26 @@ def rectangle(
     )
     Q = matrix(np.zeros((3, 3)), normal, -float(normal @ centre))
     return Surface(Q, clip, (grid,), (), (rim,), role=role, label=label)
+
+
+def moved(surface: Surface, shift: FloatArray) -> Surface:
+    """Return a surface moved by ``shift`` (3,)."""
+    back = np.eye(4)
+    back[:3, 3] = -shift
+    clip = surface.clip.copy()
+    clip[:, 3] += clip[:, :3] @ shift
+    return replace(
+        surface,
+        quadric=back.T @ surface.quadric @ back,
+        clip=clip,
+        grids=tuple(grid + shift for grid in surface.grids),
+        wires=tuple(wire + shift for wire in surface.wires),
+        rims=tuple(rim + shift for rim in surface.rims),
+        within=tuple(back.T @ form @ back for form in surface.within),
+    )
+
+
+def extent(surfaces: Sequence[Surface], along: FloatArray) -> tuple[float, float]:
+    """Return the least and the largest coordinate of surfaces along the unit vector ``along`` (3,)."""
+    found = np.concatenate([np.ravel(grid @ along) for surface in surfaces for grid in surface.grids])
+    return float(found.min()), float(found.max())

@@ -1,0 +1,98 @@
+"""A ruler of bodies.
+
+All that the field asks of a body is I = I3/I2, mf41.1. On the scale from 0 to 2 stand a needle, a rod, a long solenoid,
+a sphere, a short solenoid, a disk and a loop, each drawn with its true proportions; above it is the quadric mf58 of its
+initial angular velocities with constant Omega_3.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Points, Scene, Space, quadric_panel, quadrics, solids
+from atlas.scene.bodies import proportions, row, solenoid
+from atlas.scene.words import tex_vector, title
+
+WIDTH, HEIGHT = 178.0, 92.0
+BODIES = (
+    ("needle", 0.02),
+    ("rod", 0.2),
+    ("long solenoid", 0.5),
+    ("sphere", 1.0),
+    ("short solenoid", 1.5),
+    ("disk", 2.0),
+    ("loop", 2.0),
+)
+KINDS = ((0.5, "one sheet"), (1.0, "cone"), (1.5, "two sheets"))
+STEP, ABOVE, NAMES, RULER, TICK = 2.7, 3.1, -1.35, -2.9, 0.12
+SIZE, REACH = 0.72, 1.75
+"""|B'| of the drawn quadrics, and how far they go along their axis in units of it."""
+
+
+def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, elevation: float = 12.0) -> Scene:
+    """Draw seven bodies, their places on the scale of I, and their quadrics in the field B' = (0, B2, B3)."""
+    if not all(field):
+        raise DomainError(f"figure body_ruler needs B2, B3 not zero, not field = {field}.")
+    unit = SIZE / float(np.hypot(*field))
+    prime = (unit * field[0], unit * field[1])
+    fine = quadric_panel.tolerance(STEP * len(BODIES) / 2)
+    places = row(len(BODIES), STEP, azimuth)
+    low, high = places[0] - 0.3 * (places[1] - places[0]), places[-1] + 0.3 * (places[1] - places[0])
+
+    def on_scale(I: float, height: float = 0.0) -> FloatArray:
+        return low + I / 2 * (high - low) + (RULER + height) * quadric_panel.E3
+
+    layers: list[Layer] = []
+    for place, (name, I) in zip(places, BODIES, strict=True):
+        layers += body(name, I, place, fine)
+        layers.append(Label(place + NAMES * quadric_panel.E3, name, "label", (0.0, 0.0)))
+        foot = place + (NAMES - 0.3) * quadric_panel.E3
+        layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
+        layers.append(Points(on_scale(I)[None], "point"))
+        surfaces = quadrics.pieces(I, prime, REACH * SIZE, fine)
+        shift = place + ABOVE * quadric_panel.E3 + quadric_panel.in_plane(*prime)
+        for surface in surfaces:
+            layers.append(solids.moved(surface, shift))
+            line = quadrics.hyperbola(quadrics.quadric_matrix(I, prime), surface, fine)
+            layers += [Curve(points + shift, "hyperbola") for points in line]
+    layers.append(Curve(np.stack([on_scale(0.0), on_scale(2.0)]), "basis"))
+    for mark in np.linspace(0.0, 2.0, 9):
+        layers.append(Curve(np.stack([on_scale(mark), on_scale(mark, -TICK)]), "basis"))
+        if 2 * mark == round(2 * mark):
+            layers.append(Label(on_scale(mark, -4 * TICK), f"${mark:g}$", "label", (0.0, 0.0)))
+    layers += [Label(on_scale(I, -9 * TICK), kind, "note", (0.0, 0.0)) for I, kind in KINDS]
+    layers.append(Label(on_scale(0.0), "$I$", "label", (-10.0, 0.0)))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            r"Every symmetric body has its place on the scale of $I=I_3/I_2$, and none lies beyond 2. Seven bodies "
+            r"with their true proportions, the needle with $I=0.02$, the rod with 0.2; above each is the surface mf58 "
+            rf"of its initial angular velocities with constant $\Omega_3$ for $\mathbf{{B}}'$ along "
+            rf"${tex_vector((0.0, *field))}$, with the hyperbola of its motions. Bodies longer than a sphere have one "
+            r"sheet, flatter ones two. A disk and a loop have one $I$ and therefore one surface: the field does not "
+            r"tell them apart."
+        ),
+        alt=(
+            "A scale of I from 0 to 2 with seven bodies drawn over it, a needle, a rod, a long solenoid, a sphere, a "
+            "short solenoid, a disk and a loop, each joined by a line to its value; over them tubes for the first "
+            "three, a double cone for the sphere, and pairs of bowls for the rest, the same pair for disk and loop."
+        ),
+        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def body(name: str, I: float, centre: FloatArray, tolerance: float) -> list[Layer]:
+    """Return the layers of an upright body whose farthest point is at the distance 1."""
+    up = quadric_panel.E3
+    if name == "sphere":
+        return [solids.sphere(centre, 1.0, tolerance, role="solid")]
+    if name == "loop":
+        return [Curve(solids.circle(centre, up, 1.0, tolerance), "loop")]
+    if name == "disk":
+        return [solids.disk(centre, up, 1.0, tolerance, role="solid")]
+    if name.endswith("solenoid"):
+        return solenoid(I, np.eye(3), centre, 1.0, tolerance)
+    radius, height = proportions(I, solid=True)
+    top = solids.disk(centre + height / 2 * up, up, radius, tolerance, role="solid")
+    return [solids.cylinder(centre, up, radius, height, tolerance, role="solid"), top]

@@ -1,0 +1,104 @@
+"""Kinds and sizes of the quadrics.
+
+The surface mf58 depends on the body by I = I3/I2, on the field by the angle beta between e2 and I^-1 B', tan(beta) =
+B3/(I B2), and by the length of B', which is its scale: so the plane (I, beta) holds every quadric once. Regions are its
+kinds; the lines are levels of the semi-axes C1, C2, C3 of mf61b and mf63 in units of |B'|.
+"""
+
+import numpy as np
+from contourpy import contour_generator
+
+from atlas.core.inputs import FloatArray, whole
+from atlas.core.quadric import Quadric
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
+from atlas.scene.words import listed, title
+
+WIDTH, HEIGHT = 178.0, 72.0
+MOST = 2000
+RIGHT = 90.0
+ROOM = 0.055
+"""Half the gap in a level line for its value, as a part of the panel."""
+
+
+def scene(
+    *,
+    C1: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8),
+    C2: tuple[float, ...] = (0.3, 0.6, 1.0, 2.0),
+    C3: tuple[float, ...] = (0.15, 0.3, 0.4),
+    cells: int = 240,
+) -> Scene:
+    """Draw the regions, and levels of C1, C2, C3 in units of |B'|, from a grid of ``cells`` a side."""
+    levels = (C1, C2, C3)
+    cells = whole(cells, "The number of cells", 2)
+    if not all(level > 0 for row in levels for level in row) or cells > MOST:
+        raise DomainError(
+            f"figure kinds_of_quadric takes positive levels of the semi-axes and at most {MOST} cells, not "
+            f"{levels} and {cells}."
+        )
+    I = 2.0 * np.arange(1, cells + 1) / cells
+    beta = RIGHT * (np.arange(cells) + 0.5) / cells
+    axes = semi_axes(I[None, :], beta[:, None])
+    panels = []
+    for k, row in enumerate(levels):
+        layers: list[Layer] = [
+            Region(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, RIGHT], [0.0, RIGHT]]), "region"),
+            Region(np.array([[1.0, 0.0], [2.0, 0.0], [2.0, RIGHT], [1.0, RIGHT]]), "shade"),
+            Curve(np.array([[1.0, 0.0], [1.0, RIGHT]]), "unstable"),
+        ]
+        for value in row:
+            for line in contour_generator(I, beta, axes[..., k]).lines(value):
+                place = line[named(line)]
+                layers += [Curve(piece, "main") for piece in beside(line, place)]
+                layers.append(Label(place, f"${value:g}$", "main", (0.0, 0.0)))
+        if k == 0:
+            layers.append(Label(np.array([1.0, 0.92 * RIGHT]), "cone", "unstable", (0.0, 0.0)))
+        if k == 1:
+            layers += [
+                Label(np.array([0.32, 0.92 * RIGHT]), "one sheet", "label", (0.0, 0.0)),
+                Label(np.array([1.55, 0.92 * RIGHT]), "two sheets", "label", (0.0, 0.0)),
+            ]
+        name = rf"({'abc'[k]}) $C_{k + 1}/|\mathbf{{B}}'|$"
+        y_label = r"$\beta$ (degrees)" if k == 0 else ""
+        panels.append(Plane(tuple(layers), r"$I=I_3/I_2$", y_label, (0.0, 2.0), (0.0, RIGHT), title=name))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            r"Every quadric mf58 once, up to its size: across, the body; upwards, the angle $\beta$ between "
+            r"$\mathbf{e}_2$ and $\mathbb{I}^{-1}\mathbf{B}'$, from a field across the body's axis to one along it. "
+            r"The kind depends on the body alone: one sheet for $I<1$, two for $I>1$, and a cone on the line between "
+            r"them. At the lower edge the surface is a pair of planes, at the upper one a line. Levels of the "
+            r"semi-axes, "
+            + listed([rf"({'abc'[k]}) $C_{k + 1}$" for k in range(3)])
+            + r", in units of $\lvert\mathbf{B}'\rvert$: $C_1$ and $C_2$ vanish towards the cone as "
+            r"$\sqrt{\lvert1-I\rvert}$, and for slender bodies in a field along the axis $C_2$ has no bound."
+        ),
+        alt=(
+            "Three maps over I from 0 to 2 and beta from 0 to 90 degrees, the left half shaded as hyperboloids of one "
+            "sheet, the right half as those of two sheets, with the line I = 1 of the cones between them; level lines "
+            "of the three semi-axes run symmetrically away from that line."
+        ),
+        panels=tuple(panels),
+        columns=3,
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def semi_axes(I: FloatArray, beta: FloatArray) -> FloatArray:
+    """Return C1, C2, C3 (..., 3) for |B'| = 1; I and beta (degrees, between 0 and 90) broadcast."""
+    steep = I * np.tan(np.radians(beta))  # B3/B2
+    B2 = 1.0 / np.sqrt(1.0 + steep * steep)
+    return np.asarray(Quadric(np.broadcast_to(I, B2.shape), (B2, steep * B2)).semi_axes)
+
+
+def named(line: FloatArray) -> int:
+    """Return which point of a level line bears its value: the one farthest from the cone and from the edges."""
+    I, beta = line.T
+    return int(np.argmax(np.abs(I - 1.0) * np.minimum(1.0 - np.abs(I - 1.0), 0.4) * np.sin(2 * np.radians(beta))))
+
+
+def beside(line: FloatArray, place: FloatArray) -> list[FloatArray]:
+    """Return the two parts of a level line that leave room for its value at ``place`` (2,)."""
+    away = np.hypot(*((line - place) / [2.0, RIGHT]).T) > ROOM
+    ends = np.flatnonzero(np.diff(away)) + 1
+    return [piece for piece, kept in zip(np.split(line, ends), away[np.append(0, ends)], strict=True) if kept]

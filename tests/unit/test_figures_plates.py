@@ -1,0 +1,101 @@
+"""The figures of the bodies' scale, of the quadrics' sizes and of closed motions: what is drawn is what it says."""
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from atlas import DomainError, Hyperbola, SymmetricBody, simulate
+from atlas.scene import Curve, Label, Points, Surface, quadrics, recipes
+
+FloatArray = NDArray[np.float64]
+
+EPS = float(np.finfo(float).eps)
+
+
+def panels(name: str, **parameters: Any) -> Any:
+    """Return the panels of a figure."""
+    return recipes.load(name).scene(**parameters).panels
+
+
+def layers(panel: Any, kind: Any, role: str = "") -> list[Any]:
+    """Return the layers of one kind, and role, of a panel."""
+    return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", layer.role}]
+
+
+def test_the_drawn_cylinders_have_the_moments_of_their_place_on_the_scale() -> None:
+    """I of needle, rod and solenoids from the drawn radius and height, 8 eps; and they stand there on the scale."""
+    (panel,) = panels("body_ruler")
+    sides = [s for s in layers(panel, Surface, "solid") if np.ndim(s.grids[0]) == 3 and len(s.clip)]
+    makers = (SymmetricBody.solid_cylinder,) * 2 + (SymmetricBody.cylindrical_shell,) * 2
+    found = []
+    for side, maker in zip(sides, makers, strict=True):
+        grid = side.grids[0].reshape(-1, 3)
+        height = float(np.ptp(grid[:, 2]))
+        radius = float(np.linalg.norm(grid[:, :2] - (grid.min(0) + grid.max(0))[:2] / 2, axis=1).max())
+        found.append(maker(1.0, radius, height).ratio)
+    marks = np.array([layer.points[0] for layer in layers(panel, Points, "point")])
+    along = np.linalg.norm(marks - marks[-1], axis=1)
+    scale = 2.0 - along / (along[3] / 1.0)  # the sphere is the fourth
+    assert np.abs(scale[[0, 1, 2, 4]] - found).max() <= 1e-3  # the grid's corners are on the circle, its box is not
+    assert scale[5] == scale[6] == 2.0
+
+
+def test_disk_and_loop_have_one_quadric() -> None:
+    """The surfaces over the disk and the loop are the same but for their place, 8 eps in their forms."""
+    (panel,) = panels("body_ruler")
+    forms = [s.quadric[:3, :3] for s in layers(panel, Surface, "surface")]
+    assert len(forms) == 4 + 2 * 3
+    assert np.abs(forms[-1] - forms[-3]).max() <= 8 * EPS
+
+
+def test_levels_are_semi_axes_by_the_eigenvalues_of_the_form() -> None:
+    """On a drawn level sqrt|F(centre)/lambda| of the matrix of mf58.1 is that level, within 3e-3 of itself."""
+    for k, (panel, order) in enumerate(zip(panels("kinds_of_quadric"), ("omega1", "least", "greatest"), strict=True)):
+        names = {round(float(label.text.strip("$")), 6) for label in layers(panel, Label, "main")}
+        for line in layers(panel, Curve, "main"):
+            I, beta = line.points[len(line.points) // 2]
+            tau = I * np.tan(np.radians(beta))
+            B2 = 1 / np.hypot(1.0, tau)
+            Q = quadrics.quadric_matrix(I, (B2, tau * B2))
+            rest = quadrics.centre_value(Q, np.array([0.0, -B2, -tau * B2]))
+            values = np.linalg.eigvalsh(Q[1:3, 1:3])
+            chosen = {"omega1": Q[0, 0], "least": values[0], "greatest": values[1]}[order]
+            found = np.sqrt(abs(rest / chosen))
+            assert min(abs(found / name - 1) for name in names) <= 3e-3, (k, I, beta, found)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.5])
+def test_a_marked_motion_repeats_itself(ratio: float) -> None:
+    """After q turns of the precession an integration of the equations of motion finds R = 1 again, within 1e-8."""
+    above, below = panels("frequencies", ratio=ratio)
+    names = {label.text.strip("$"): label for label in layers(below, Label, "label")}
+    dots = [mark.points[0] for mark in layers(below, Points, "point")]
+    assert len(dots) >= 6
+    for (omega2, quotient), text in zip(dots, names, strict=False):
+        assert quotient == float(Fraction(text))
+        hyperbola = Hyperbola(ratio, (1.0, 2.0))
+        k, _ = hyperbola.frequencies(omega2)
+        period = 2 * np.pi * Fraction(text).denominator / abs(k)
+        omega = (0.0, omega2, float(hyperbola.omega3(omega2)))
+        R = simulate(ratio, (1.0, 2.0), omega, np.array([0.0, period]), rtol=1e-11, atol=1e-12).R[-1]
+        assert np.abs(R - np.eye(3)).max() <= 1e-8
+    for pair in layers(above, Points, "point"):
+        (omega2, phi), (_, k) = pair.points
+        assert min(abs(phi / k - quotient) for at, quotient in dots if at == omega2) <= 8 * EPS * 4
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters"),
+    [
+        ("body_ruler", {"field": (0.0, 1.0)}),
+        ("kinds_of_quadric", {"C1": (-1.0,)}),
+        ("frequencies", {"order": 50}),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:
+    """Each figure says in one line what it needs."""
+    with pytest.raises(DomainError, match=f"figure {name}"):
+        panels(name, **parameters)
