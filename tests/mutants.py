@@ -1,8 +1,9 @@
 """Do the tests notice a slip? One token of the code is changed at a time, in a copy, and the tests that concern it run.
 
-`python tests/mutants.py core exact study --count 60 --seed 0` draws so many changes, evenly over the lines of these
-packages of `atlas`, and lists those that survive. The tests that concern a file import it, or import what imports it,
-nearest first; they stop at the first failure. A test that runs for more than LIMIT seconds has noticed.
+`python tests/mutants.py core exact figures --count 60 --seed 0` draws so many changes, evenly over the tokens of these
+packages of `atlas` and of the recipes, and lists those that survive. The tests that concern a file import it, or import
+what imports it, nearest first; what is loaded by name is in LOADED. They stop at the first failure. A test that runs
+for more than LIMIT seconds has noticed.
 
 Why not mutmut or cosmic-ray: they put calls in the place of functions, which the recipes and the digests of sources,
 read as text here, take for other code; and a sample with a seed is all that is wanted.
@@ -29,6 +30,16 @@ from queue import SimpleQueue
 ROOT = Path(__file__).resolve().parents[1]
 LIMIT, FILES, DISTANCE = 600, 5, 3
 """Seconds, test files and imports between a test and what it concerns, at most."""
+
+FIGURES = ("test_snapshots", "test_figures_general", "test_figures_2d", "test_figures_3d", "test_curves")
+LOADED = {
+    "figures/": FIGURES,
+    "atlas/scene/": FIGURES,
+    "atlas/draw/": ("test_draw_figure", "test_draw_shaded"),
+    "atlas/report/": ("test_report_tables", "test_report_records", "test_report_formulas"),
+    "atlas/study/": ("test_stress", "test_bench_record", "test_bench_figures"),
+}
+"""The tests of what no test imports, since it is loaded by its name."""
 
 SWAPS = {
     "+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==",
@@ -145,7 +156,9 @@ def concerned(path: str, root: Path) -> tuple[str, ...]:
         found += sorted(near, key=lambda test: (test.name != own, test.stat().st_size))
         users = [source for source in sources if imports(source) & reached]
         reached |= {source.relative_to(root).as_posix().removesuffix(".py").replace("/", ".") for source in users}
-    return tuple(test.relative_to(root).as_posix() for test in found[:FILES])
+    names = [test.relative_to(root).as_posix() for test in found[:FILES]]
+    loaded = [f"tests/unit/{name}.py" for start, tests in LOADED.items() if path.startswith(start) for name in tests]
+    return tuple(dict.fromkeys([*names, *loaded]))
 
 
 def tested(copy: Path, tests: Iterable[str], *words: str) -> tuple[bool, str]:
@@ -185,7 +198,7 @@ def survivors(packages: list[str], count: int, seed: int, jobs: int) -> tuple[in
     """Return how many mutants were tried, and those that no test noticed."""
     with tempfile.TemporaryDirectory() as temporary:
         clean = copied(Path(temporary) / "clean")
-        places = [clean / "atlas" / package for package in packages]
+        places = [clean / "figures" if package == "figures" else clean / "atlas" / package for package in packages]
         files = [file for place in places for file in ([place] if place.is_file() else sorted(place.rglob("*.py")))]
         every = [mutant for path in files for mutant in mutants(path, clean)]
         random.Random(seed).shuffle(every)  # noqa: S311  reproducible, not secret
@@ -220,7 +233,9 @@ def survivors(packages: list[str], count: int, seed: int, jobs: int) -> tuple[in
 def main() -> None:
     """Run from the command line; status 1 if more than a twentieth survives."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0] if __doc__ else "")
-    parser.add_argument("packages", nargs="+", help="packages or files of atlas: core study/check.py ...")
+    parser.add_argument(
+        "packages", nargs="+", help="packages or files of atlas, or figures: core study/check.py figures ..."
+    )
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=2)

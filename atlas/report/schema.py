@@ -81,7 +81,7 @@ def _check_union(raw: Any, union: inspect.UnionType, where: str, key: str) -> No
         raise SchemaError(where, f"must be a table, not {_shown(raw)}", key)
     if "kind" not in raw:
         raise SchemaError(where, f"it lacks the key 'kind', one of {', '.join(kinds)}")
-    if raw["kind"] not in kinds:
+    if not isinstance(raw["kind"], str) or raw["kind"] not in kinds:
         raise SchemaError(where, str(unknown("block kind", raw["kind"], kinds)).rstrip("."), "kind")
     return _check_record(raw, kinds[raw["kind"]], f"{where} ({raw['kind']})")
 

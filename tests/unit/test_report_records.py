@@ -30,6 +30,7 @@ MISTAKES = {
         "'recipe'",
     ),
     "a misspelt kind": (HEAD + PAGE + '[[pages.blocks]]\nkind = "figur"', "block 1", "'figur'", "'figure'"),
+    "a kind that is no text": (HEAD + PAGE + "[[pages.blocks]]\nkind = [1]", "block 1", "no block kind [1]"),
     "no kind": (HEAD + PAGE + '[[pages.blocks]]\ntext = "x"', "block 1", "'kind'"),
     "a missing key": (HEAD + PAGE + '[[pages.blocks]]\nkind = "prose"', "block 1 (prose)", "'text'"),
     "a wrong type": (

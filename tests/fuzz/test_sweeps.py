@@ -1,0 +1,85 @@
+"""A sweep of any words or file: a whole table of numbers, or one line and no file."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from test_commands import number, ran
+from values import share
+
+from atlas.study.sweep.families import FAMILIES as KNOWN
+
+FAMILIES = {
+    "elementary": {"ratio": "1.5", "B2": "1", "B3": "0.3", "omega2": "0.7"},
+    "quadric": {"ratio": "1.5", "B2": "1", "B3": "0.3"},
+    "ball": {"larmor": "0.5", "m2": "0.3", "m3": "-0.7"},
+}
+one = st.one_of(number, st.tuples(number, number).map(":".join), st.tuples(number, number).map(",".join))
+ranges = st.one_of(
+    one,
+    st.tuples(number, number, st.sampled_from(["2", "3", "0", "-1", "1.5", "x", ""])).map(":".join),
+    st.tuples(number, number, st.sampled_from(["2:log", "3:log", "2:exp"])).map(":".join),
+)
+
+
+@st.composite
+def asked(draw: Any) -> list[str]:
+    """Draw a sweep of a family with some of its parameters changed, left out or foreign, and its quantities."""
+    family = draw(st.sampled_from(list(FAMILIES)))
+    given = dict(FAMILIES[family])
+    for name in draw(st.lists(st.sampled_from([*given, "nosuch", "t"]), max_size=2, unique=True)):
+        given[name] = draw(ranges)
+        if draw(st.integers(0, 5)) == 0:
+            del given[name]
+    words = [family, *(word for name, value in given.items() for word in ("--set", f"{name}={value}"))]
+    names = draw(st.lists(st.sampled_from([*KNOWN[family].quantities, "nosuch"]), min_size=1, max_size=3))
+    words += [word for name in names for word in ("--quantity", name)]
+    if draw(st.integers(0, 4)) == 0:
+        words += ["--digits", draw(st.sampled_from(["1", "20", "0", "x", "1000"]))]
+    return words
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder for the tables."""
+    return tmp_path_factory.mktemp("sweeps")
+
+
+@share(0.03, 25)
+@given(words=asked(), kind=st.sampled_from(["csv", "csv", "csv", "npz", "txt"]))
+def test_any_sweep_is_a_table_or_a_line(folder: Path, words: list[str], kind: str) -> None:
+    """Ranges that are none, names of others, extreme numbers: all rows or no file."""
+    out = folder / f"mine.{kind}"
+    for before in folder.iterdir():
+        before.unlink()
+    status, _, err = ran(["sweep", *words, "-j", "1", "--out", str(out)])
+    told = (words, err)
+    assert "Traceback" not in err, told
+    if status:
+        assert status == 2, told
+        assert err.count("\n") == 1, told
+        assert len(err) < 1500, told
+        assert not out.exists(), told
+    else:
+        assert out.stat().st_size, told
+    assert {path.name for path in folder.iterdir()} <= {out.name}, told
+
+
+@share(0.01, 10)
+@given(content=st.recursive(st.one_of(number, st.integers(), st.booleans()), lambda inner: st.lists(inner, max_size=3)))
+def test_any_file_of_a_sweep_is_a_table_or_a_line(folder: Path, content: Any) -> None:
+    """A TOML file in which a value has any type."""
+    file, out = folder / "sweep.toml", folder / "mine.csv"
+    file.write_text(
+        f'family = "elementary"\nquantities = ["phi"]\nout = {json.dumps(str(out))}\n'
+        f"[parameters]\nratio = 1.5\nB2 = 1\nB3 = {json.dumps(content)}\nomega2 = 0.7\n"
+    )
+    status, _, err = ran(["sweep", "--file", str(file), "-j", "1"])
+    assert "Traceback" not in err, (content, err)
+    assert status in {0, 2}, (content, err)
+    assert (err.count("\n") == 1 and not out.exists()) if status else out.exists(), (content, err)
+    out.unlink(missing_ok=True)
+    file.unlink()
