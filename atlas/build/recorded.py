@@ -16,7 +16,6 @@ from atlas.paper import EQUATIONS, LABEL
 from atlas.places import folder
 from atlas.report.blocks import Errata, Ledger, Recorded
 from atlas.report.definition import Report
-from atlas.report.letters import typeset
 from atlas.report.numbers import Number
 from atlas.report.recorded import Appendices, Finding
 from atlas.report.tables.model import Column, Data
@@ -111,7 +110,7 @@ def _trial() -> dict[str, Data]:
         "survivors": Data(
             (Column("Why they survive"), Column("Entries, with the number of survivors")),
             tuple(
-                (typeset(why), ", ".join(f"@{label} ({count})" for label, count in counts.items()))
+                (why, ", ".join(f"@{label} ({count})" for label, count in counts.items()))
                 for why, counts in reasons.items()
             ),
             "Changed forms that the trial does not refute.",
@@ -154,6 +153,7 @@ def _bench() -> dict[str, Data]:
 def _stress() -> dict[str, Data]:
     """Return the worst error of each quantity on record, and the regime in which it was met."""
     from atlas.study.stress import LIMITS, LONG, SHORT, read_ratchet
+    from atlas.study.titles import title
 
     worst: dict[str, tuple[float, str]] = {}
     for name, ulps in read_ratchet().items():
@@ -162,7 +162,7 @@ def _stress() -> dict[str, Data]:
     order = [*(name for name in LIMITS if name in worst), *(name for name in worst if name not in LIMITS)]
     rows: tuple[tuple[str | Number, ...], ...] = tuple(
         (
-            typeset(name),
+            title(name),
             _ulps(worst[name][0]),
             Number(f"{LIMITS[name]:g}") if name in LIMITS else "none",
             _met(name, *worst[name]),
@@ -209,9 +209,10 @@ def _rebuilds() -> dict[str, Data]:
 def _met(quantity: str, ulps: float, regime: str) -> str:
     """Say where the worst error was met, if it is one, and whether it breaks a promise."""
     from atlas.study.stress import LIMITS
+    from atlas.study.titles import title
 
     broken = "**limit exceeded:** " if ulps > LIMITS.get(quantity, math.inf) else ""
-    return broken + _words(typeset(regime)) if ulps > BEST else ""
+    return broken + title(regime) if ulps > BEST else ""
 
 
 def _ulps(worst: float) -> Number:

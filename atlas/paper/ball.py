@@ -8,12 +8,16 @@ EQUATIONS = (
         number=None,
         section="III",
         kind="claim",
-        says=("Angular momentum of the rotating particles: m = sum of g_i [R_i, dR_i/dt] = R I R^T omega = R I Omega"),
+        says=(
+            r"Angular momentum of the rotating particles: $\mathbf{m} = \sum g_i [\mathbf{R}_i, "
+            r"\dot{\mathbf{R}}_i] = R I R^T "
+            r"\boldsymbol{\omega} = R I \boldsymbol{\Omega}$"
+        ),
         tex=(
             r"\mathbf{m}=\sum_Nm_N[\mathbf{x}_N,\dot{\mathbf{x}}_N]=\sum_ig_i[\mathbf{R}_i,\dot{\mathbf{R}}_i]="
             r"RIR^T\boldsymbol{\omega}=RI\boldsymbol{\Omega}"
         ),
-        assumptions=("R(t) is a rotation", "g is diagonal"),
+        assumptions=("$R(t)$ is a rotation", "$g$ is diagonal"),
     ),
     Equation(
         label="mf30.0",
@@ -30,7 +34,7 @@ EQUATIONS = (
         kind="claim",
         says="The angular momentum of a ball lies along its axis of rotation",
         tex=r"""\mathbf{m}=I_0\boldsymbol{\omega}=I_0R\boldsymbol{\Omega},\qquad[\boldsymbol{\omega},\mathbf{m}]=0""",
-        assumptions=("I1 = I2 = I3", "R(t) is a rotation"),
+        assumptions=("$I_1 = I_2 = I_3$", "$R(t)$ is a rotation"),
         quote=(
             r"for all t the instantaneous rotation axis $\boldsymbol{\omega}$ remains parallel with the vector "
             "of angular momentum"
@@ -43,7 +47,7 @@ EQUATIONS = (
         kind="derivation step",
         says="Poisson equations of the ball",
         tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf31",
@@ -52,25 +56,25 @@ EQUATIONS = (
         kind="derivation step",
         says="Euler equations of the ball",
         tex=r"\dot{\boldsymbol{\Omega}}=-\frac{\mu}{2c}[R^T\mathbf{B}, \boldsymbol{\Omega}]",
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
         label="mf32",
         number=22,
         section="III",
         kind="derivation step",
-        says="The angular momentum of the ball precesses about B",
+        says=r"The angular momentum of the ball precesses about $\mathbf{B}$",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
         label="mf33",
         number=23,
         section="III",
         kind="derivation step",
-        says="Length of the angular momentum and its projection on B are conserved",
+        says=r"Length of the angular momentum and its projection on $\mathbf{B}$ are conserved",
         tex=r"\mathbf{m}^2=\text{const}, \qquad (\mathbf{m}, \mathbf{B})=\text{const}",
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
         label="text-ball-body-precession",
@@ -82,7 +86,7 @@ EQUATIONS = (
             "those of the field"
         ),
         tex=r"""\ddot{\boldsymbol{\Omega}}=[\mathbf{K},[\mathbf{K},\boldsymbol{\Omega}]],\qquad\mathbf{K}=\frac{\mu}{2c}R^T\mathbf{B}""",
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
         quote=(
             r"Components $\Omega_i$ of angular velocity $\boldsymbol{\omega}$ with respect to body-fixed frame "
             r"precess with the same frequency around the components $(R^T\mathbf{B})_i$"
@@ -93,9 +97,12 @@ EQUATIONS = (
         number=None,
         section="III",
         kind="claim",
-        says=("Within the rotations the Poisson equations, not linear once m is known, may be replaced by linear ones"),
+        says=(
+            r"Within the rotations the Poisson equations, not linear once $\mathbf{m}$ is known, may be replaced by "
+            "linear ones"
+        ),
         tex=r"-\frac{1}{I_0}\epsilon_{jab}(R^T\mathbf{m})_aR_{ib}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj}",
-        assumptions=("I1 = I2 = I3", "R(t) is a rotation"),
+        assumptions=("$I_1 = I_2 = I_3$", "$R(t)$ is a rotation"),
         quote="have the same solutions in the set of orthogonal matrices",
     ),
     Equation(
@@ -103,12 +110,12 @@ EQUATIONS = (
         number=24,
         section="III",
         kind="derivation step",
-        says="Poisson equations of the ball, linear in R",
+        says="Poisson equations of the ball, linear in $R$",
         tex=(
             r"\dot R_{ij}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj},\qquad\text{or, equivalently}\quad\dot{\mathbf{R}"
             r"}_j=\frac{1}{I_0}[\mathbf{m},\mathbf{R}_j]"
         ),
-        assumptions=("I1 = I2 = I3", "R(t) is a rotation"),
+        assumptions=("$I_1 = I_2 = I_3$", "$R(t)$ is a rotation"),
     ),
     Equation(
         label="mf35",
@@ -117,7 +124,7 @@ EQUATIONS = (
         kind="derivation step",
         says="Rate of the angular momentum of the ball",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{2c}[\mathbf{B}, \mathbf{m}]",
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
         label="text-ball-frame",
@@ -126,7 +133,7 @@ EQUATIONS = (
         kind="claim",
         says="For a ball the axes of the laboratory may be chosen freely: the inertia tensor stays diagonal",
         tex=r"""R\,(I_0\mathbf{1})R^T=I_0\mathbf{1}""",
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
         quote=(
             "we can choose the directions of Laboratory axes as convenient, this will not violate the diagonal "
             "form of inertia tensor"
@@ -143,7 +150,10 @@ EQUATIONS = (
             r"\\ 0 & 0 & 1 \end{pmatrix}\begin{pmatrix} 0 \\ m_2 \\ m_3 \end{pmatrix}=\begin{pmatrix} m_2\sin"
             r"\alpha t \\ m_2\cos\alpha t \\ m_3 \end{pmatrix}"
         ),
-        assumptions=("I1 = I2 = I3", "B along e3, m(0) in the plane (e2, e3)"),
+        assumptions=(
+            "$I_1 = I_2 = I_3$",
+            r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{m}(0)$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",
+        ),
     ),
     Equation(
         label="mf37",
@@ -158,12 +168,12 @@ EQUATIONS = (
         number=None,
         section="III",
         kind="claim",
-        says="At t = 0 the ansatz mf38 fixes k and gamma",
+        says=r"At $t = 0$ the ansatz @mf38 fixes $\hat{\mathbf{k}}$ and $\gamma$",
         tex=(
             r"\hat{k}_2=-\frac{m_2}{\gamma I_0},\qquad\hat{k}_3=-\frac{\alpha I_0+m_3}{\gamma I_0},\qquad I_0^2"
             r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2"
         ),
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
         label="mf38",
@@ -185,7 +195,11 @@ EQUATIONS = (
             r"\gamma t&\hat{k}_2\hat{k}_3(1-\cos\gamma t)&\hat{k}_3^2+\hat{k}_2^2\cos\gamma t\end{pmatrix} "
             r"\end{aligned}"
         ),
-        assumptions=("I1 = I2 = I3", "B along e3, m(0) in the plane (e2, e3)", "k and gamma of mf39"),
+        assumptions=(
+            "$I_1 = I_2 = I_3$",
+            r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{m}(0)$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",
+            r"$\hat{\mathbf{k}}$ and $\gamma$ of @mf39",
+        ),
     ),
     Equation(
         label="mf39",
@@ -197,16 +211,18 @@ EQUATIONS = (
             r"\hat{k}_2=-\frac{m_2}{\sqrt{m_2^2+(\alpha I_0+m_3)^2}},\quad\hat{k}_3=-\frac{m_3+\alpha I_0}{\sqrt"
             r"{m_2^2+(\alpha I_0+m_3)^2}},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}"
         ),
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
         label="text-ball-two-rotations",
         number=None,
         section="III",
         kind="claim",
-        says="The motion of the ball is a rotation about k by -gamma t, then one about B by -alpha t",
+        says=r"The motion of the ball is a rotation about $\hat{\mathbf{k}}$ by $-\gamma t$, then one "
+        r"about $\mathbf{B}$ by $-\alpha "
+        "t$",
         tex=r"R(t)=R_{\hat{\mathbf{B}}}(-\alpha t)\,R_{\hat{\mathbf{k}}}(-\gamma t)",
-        assumptions=("I1 = I2 = I3",),
+        assumptions=("$I_1 = I_2 = I_3$",),
         quote="The total motion can be thought as a superposition of two rotations",
     ),
     Equation(
@@ -214,20 +230,20 @@ EQUATIONS = (
         number=None,
         section="III",
         kind="claim",
-        says="A ball launched along B: k = (0, 0, -1) and gamma = alpha + m3/I0",
+        says=r"A ball launched along $\mathbf{B}$: $\hat{\mathbf{k}} = (0, 0, -1)$ and $\gamma = \alpha + m_3/I_0$",
         tex=r"\hat{\mathbf{k}}=(0,0,-1)^T,\qquad\gamma=\alpha+\frac{m_3}{I_0}",
-        assumptions=("I1 = I2 = I3", "m(0) and B parallel in the same sense"),
+        assumptions=("$I_1 = I_2 = I_3$", r"$\mathbf{m}(0)$ and $\mathbf{B}$ parallel in the same sense"),
     ),
     Equation(
         label="mf40",
         number=30,
         section="III",
         kind="claim",
-        says="A ball launched along B turns about B steadily",
+        says=r"A ball launched along $\mathbf{B}$ turns about $\mathbf{B}$ steadily",
         tex=(
             r"R=\begin{pmatrix} \cos \frac{m_3}{I_0} t & -\sin \frac{m_3}{I_0} t & 0 \\ \sin \frac{m_3}"
             r"{I_0} t & \cos \frac{m_3}{I_0} t & 0 \\ 0 & 0 & 1 \end{pmatrix}"
         ),
-        assumptions=("I1 = I2 = I3", "m(0) along B"),
+        assumptions=("$I_1 = I_2 = I_3$", r"$\mathbf{m}(0)$ along $\mathbf{B}$"),
     ),
 )

@@ -2,7 +2,7 @@
 
 from atlas.paper.equation import Equation
 
-_FIELD = "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0"
+_FIELD = r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$"
 
 EQUATIONS = (
     Equation(
@@ -10,19 +10,28 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="One elementary motion, and no other, has phi/k = r, for every r but two",
+        says=r"One elementary motion, and no other, has $\phi/k = r$, for every $r$ but two",
         tex=r"\frac{\phi}{k}=r\iff k=-b\,\frac{2(1-I)\hat B_3-Ir}{(1-I)\hat B_3-Ir},\qquad r\ne\frac{(1-I)\hat "
         r"B_3}{I},\ "
         r"\frac{2(1-I)\hat B_3}{I}",
-        assumptions=(_FIELD, "omega2 differs from -B'2", "I differs from 1", "k differs from 0, the motion at rest"),
+        assumptions=(
+            _FIELD,
+            r"$\omega_2$ differs from $-B'_2$",
+            "$I$ differs from 1",
+            "$k$ differs from 0, the motion at rest",
+        ),
     ),
     Equation(
         label="theorem-closed-free",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="What the field does to the proper rotation at the same precession depends on k alone",
+        says="What the field does to the proper rotation at the same precession depends on $k$ alone",
         tex=r"\frac{\phi_B}{\phi}=\frac{2b+k}{b+k}",
-        assumptions=(_FIELD, "omega2 differs from -B'2", "phi of mf92 for the same k, I differs from 1"),
+        assumptions=(
+            _FIELD,
+            r"$\omega_2$ differs from $-B'_2$",
+            r"$\phi$ of @mf92 for the same $k$, $I$ differs from 1",
+        ),
     ),
 )

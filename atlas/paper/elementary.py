@@ -14,7 +14,10 @@ EQUATIONS = (
             r"_2) \end{pmatrix}, \qquad \text{then} \quad \boldsymbol{\Omega}(0)=\begin{pmatrix} 0 \\ \omega_2 "
             r"\\ \omega_3(\omega_2) \end{pmatrix}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
     ),
     Equation(
         label="text-body-precession",
@@ -23,7 +26,10 @@ EQUATIONS = (
         kind="claim",
         says="In the body-fixed frame the angular velocity precesses about the third axis with the frequency $\\phi$",
         tex=r"""\dot{\boldsymbol{\Omega}}=-\phi\,[\mathbf{e}_3,\boldsymbol{\Omega}]""",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
         quote=(
             r"vector of angular velocity in the body-fixed frame $\mathbf{R}_i$ precesses around the third axis "
             r"$\mathbf{R}_3$ with the frequency $\phi$"
@@ -34,7 +40,7 @@ EQUATIONS = (
         number=74,
         section="V",
         kind="derivation step",
-        says="Poisson equations for a row of R",
+        says="Poisson equations for a row of $R$",
         tex=r"\dot{\boldsymbol{\gamma}}=[\boldsymbol{\gamma}, \boldsymbol{\Omega}(t)]",
     ),
     Equation(
@@ -42,7 +48,7 @@ EQUATIONS = (
         number=75,
         section="V",
         kind="derivation step",
-        says="Poisson equations for a row of R in components",
+        says="Poisson equations for a row of $R$ in components",
         tex=(
             r"\begin{aligned} "
             r"\dot\gamma_1&=\gamma_2\omega_3-\gamma_3\Omega_2(t),\\ "
@@ -58,7 +64,10 @@ EQUATIONS = (
         kind="derivation step",
         says="An integral of the rows",
         tex=r"\Omega_1\gamma_1+\Omega_2\gamma_2+\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3=c",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
     ),
     Equation(
         label="mf82",
@@ -67,16 +76,16 @@ EQUATIONS = (
         kind="derivation step",
         says="One ratio of the components of the field",
         tex=r"\frac{B'_3}{B'_2}=\frac{B_3}{B_2}=\frac{\hat{B}_3}{\hat{B}_2}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="text-row-constants",
         number=None,
         section="V",
         kind="claim",
-        says="The constants c of the three rows",
+        says="The constants $c$ of the three rows",
         tex=r"c=0,\qquad c=\omega_2,\qquad c=\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="mf83",
@@ -89,19 +98,22 @@ EQUATIONS = (
             r"\Bigr)+\Omega_2\dot\gamma_3\Bigr],\qquad\gamma_2=\frac{1}{\omega_2^2}\Bigl[\Omega_2\Bigl(c-\frac{"
             r"\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3\Bigr)-\Omega_1\dot\gamma_3\Bigr]"
         ),
-        assumptions=("omega2 differs from 0",),
+        assumptions=(r"$\omega_2$ differs from 0",),
     ),
     Equation(
         label="mf84",
         number=79,
         section="V",
         kind="derivation step",
-        says="The third entry of a row is a harmonic oscillator with frequency k",
+        says="The third entry of a row is a harmonic oscillator with frequency $k$",
         tex=(
             r"\ddot\gamma_3+k^2\gamma_3=c\frac{\hat{B}_3\omega_2}{\hat{B}_2}, \qquad \text{where} \quad k=\frac{"
             r"\omega_2}{\hat{B}_2}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
     ),
     Equation(
         label="mf85",
@@ -110,7 +122,7 @@ EQUATIONS = (
         kind="derivation step",
         says="General solution for the third entry of a row",
         tex=r"\gamma_3(t)=b\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2 k^2}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from 0"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
         label="mf86",
@@ -126,14 +138,14 @@ EQUATIONS = (
             r"_3^2\Bigr]\cos\phi t+\frac{b}{\hat{B}_2}\sin(kt+k_0)\sin\phi t "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from 0"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
         label="mf87",
         number=82,
         section="V",
         kind="derivation step",
-        says="A row at t = 0",
+        says="A row at $t = 0$",
         tex=(
             r"\begin{aligned} "
             r"\gamma_1(0)&=-\frac{b}{\hat{B}_2}\sin k_0,\\ "
@@ -141,7 +153,7 @@ EQUATIONS = (
             r"\gamma_3(0)&=b\cos k_0+c\frac{\hat{B}_2\hat{B}_3}{\omega_2} "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from 0"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
         label="mf88",
@@ -158,7 +170,7 @@ EQUATIONS = (
         ),
         assumptions=(
             "$\\omega_2$ differs from 0",
-            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
         ),
     ),
     Equation(
@@ -176,9 +188,9 @@ EQUATIONS = (
             r"\cos kt \end{pmatrix}"
         ),
         assumptions=(
-            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
-            "omega2 differs from -B'2",
-            "k = omega2/hat B2, phi of mf77",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+            r"$k = \omega_2/\hat{B}_2$, $\phi$ of @mf77",
         ),
     ),
     Equation(
@@ -186,9 +198,9 @@ EQUATIONS = (
         number=None,
         section="V",
         kind="claim",
-        says="Of the moments and of $\\mu$ the matrix mf89 knows only through $\\phi$: $k$ does not depend on them",
+        says=r"Of the moments and of $\mu$ the matrix @mf89 knows only through $\phi$: $k$ does not depend on them",
         tex=r"""k=\frac{\omega_2\lvert\mathbf{B}\rvert}{B_2}""",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
         quote=(
             "The dependence of the rotation matrix on the inertia moments $I_2$, $I_3$ as well as on the "
             r"charge-mass ratio $\mu$ is hidden in the frequency $\phi$"
@@ -199,26 +211,26 @@ EQUATIONS = (
         number=85,
         section="V",
         kind="claim",
-        says="The rotation matrix is a proper rotation followed by a precession about B",
+        says=r"The rotation matrix is a proper rotation followed by a precession about $\mathbf{B}$",
         tex=(
             r"R(t)=R_{\hat{\mathbf{B}}}(t,k)\times R_{OZ}(t,\phi)=\begin{pmatrix}\cos kt&-\hat{B}_3\sin kt&"
             r"\hat{B}_2\sin kt\\\hat{B}_3\sin kt&\hat{B}_2^2+\hat{B}_3^2\cos kt&\hat{B}_2\hat{B}_3(1-\cos kt)\\-"
             r"\hat{B}_2\sin kt&\hat{B}_2\hat{B}_3(1-\cos kt)&\hat{B}_3^2+\hat{B}_2^2\cos kt\end{pmatrix}\times"
             r"\begin{pmatrix}\cos\phi t&-\sin\phi t&0\\\sin\phi t&\cos\phi t&0\\0&0&1\end{pmatrix}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="text-precession",
         number=None,
         section="V",
         kind="claim",
-        says="The two factors of mf90 turn about B by kt and about OZ by phi t",
+        says=r"The two factors of @mf90 turn about $\mathbf{B}$ by $kt$ and about $OZ$ by $\phi t$",
         tex=(
             r"R_{\hat{\mathbf{B}}}(t,k)=\cos kt\,\mathbf{1}+(1-\cos kt)\,\hat{\mathbf{B}}\hat{\mathbf{B}}^T+"
             r"\sin kt\,[\hat{\mathbf{B}},\cdot\,]"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
         quote=(
             r"first around the laboratory axis $OZ$ by the angle $\phi t$ and then around the $\mathbf{B}$-axis "
             "by the angle $kt$"
@@ -231,7 +243,10 @@ EQUATIONS = (
         kind="claim",
         says="The third inertia axis precesses about the field with the frequency $k$",
         tex=r"""\dot{\mathbf{R}}_3=k\,[\hat{\mathbf{B}},\mathbf{R}_3]""",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
         quote=(
             "the motion is the composition of a proper rotation around third inertia axis with precession of "
             "this axis around the vector of magnetic field"
@@ -242,9 +257,12 @@ EQUATIONS = (
         number=None,
         section="V",
         kind="claim",
-        says="For I2 = I3 there is no proper rotation: phi = 0",
+        says=r"For $I_2 = I_3$ there is no proper rotation: $\phi = 0$",
         tex=r"I_2=I_3\implies\phi=0",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
         quote=r"admits the limit of totally symmetric body $I_2=I_3$, this implies $\phi=0$",
     ),
     Equation(
@@ -257,7 +275,10 @@ EQUATIONS = (
             r"\phi_B=\frac{(I_2-I_3)\hat{B}_3(2\lvert \mathbf{B}'\rvert+k_B)}{I_3(\lvert \mathbf{B}'\rvert+"
             "k_B)}k_B"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
     ),
     Equation(
         label="text-free-general",
@@ -269,7 +290,7 @@ EQUATIONS = (
             "$\\mathbf{m}$ with the frequency $|\\mathbf{m}|/I_2$"
         ),
         tex=r"""\dot{\mathbf{R}}_3=\frac{1}{I_2}[\mathbf{m},\mathbf{R}_3],\qquad(\mathbf{m},\mathbf{R}_3)=\text{const}""",
-        assumptions=("no magnetic field", "I1 = I2"),
+        assumptions=("no magnetic field", "$I_1 = I_2$"),
         quote="the most general motion of a free symmetrical body is the precession without nutation",
     ),
     Equation(
@@ -279,7 +300,7 @@ EQUATIONS = (
         kind="claim",
         says="Proper rotation of the free body beside it",
         tex=r"\phi=\frac{I_2-I_3}{I_3}\hat{B}_3k_B",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
         label="text-affirmation-free",
@@ -287,23 +308,23 @@ EQUATIONS = (
         section="V",
         kind="claim",
         says=(
-            "Affirmation: the matrix mf89 with the frequency mf92 is the motion of the free body launched "
-            "with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2))"
+            "Affirmation: the matrix @mf89 with the frequency @mf92 is the motion of the free body launched "
+            r"with $\boldsymbol{\Omega}(0) = (0, \omega_2, I_2 \omega_2 B_3/(I_3 B_2))$"
         ),
         tex=(
             r"\boldsymbol{\Omega}(0)=\Bigl(0,\omega_2,\frac{I_2\omega_2B_3}{I_3B_2}\Bigr)^T,\qquad\mathbf{m}="
             r"\frac{I_2\omega_2}{B_2}\mathbf{B}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
         label="text-free-frequency",
         number=None,
         section="V",
         kind="claim",
-        says="The free body precesses with k = |m|/I2 = omega2/hat B2",
+        says=r"The free body precesses with $k = |\mathbf{m}|/I_2 = \omega_2/\hat{B}_2$",
         tex=r"k=\frac{\lvert\mathbf{m}\rvert}{I_2}=\frac{\omega_2}{\hat{B}_2}=k_B",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
         label="text-free-proper",
@@ -312,7 +333,7 @@ EQUATIONS = (
         kind="claim",
         says="Proper rotation of the free body through its angular momentum",
         tex=r"""\phi=\frac{I_2-I_3}{I_2I_3}m_3=\frac{I_2-I_3}{I_3}\hat{B}_3\frac{\omega_2}{\hat{B}_2}=\frac{I_2-I_3}{I_3}\hat{B}_3k_B""",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "no magnetic field"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
         label="text-momentum-moves",
@@ -322,8 +343,8 @@ EQUATIONS = (
         says="The components of angular momentum are not conserved in the elementary motion",
         tex=r"\dot{\mathbf{m}}\ne0",
         assumptions=(
-            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
-            "omega2 differs from -B'2",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
             "$I$ differs from 1, $\\omega_2$ from 0 (the paper excepts neither)",
         ),
         quote=(
@@ -336,27 +357,36 @@ EQUATIONS = (
         number=None,
         section="V",
         kind="claim",
-        says="In the elementary motion Omega3(t) = omega2 = const",
+        says=r"In the elementary motion $\Omega_3(t) = \omega_2 = \text{const}$",
         tex=r"\Omega_3(t)=\omega_2=\text{const}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
     ),
     Equation(
         label="mf93",
         number=88,
         section="V",
         kind="claim",
-        says="The projection of the angular momentum on B is conserved in the elementary motion",
+        says=r"The projection of the angular momentum on $\mathbf{B}$ is conserved in the elementary motion",
         tex=r"(\mathbf{m}(t), \mathbf{B})=\text{const}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
     ),
     Equation(
         label="text-momentum-plane",
         number=None,
         section="V",
         kind="claim",
-        says="The angular momentum always lies in the plane orthogonal to B",
+        says=r"The angular momentum always lies in the plane orthogonal to $\mathbf{B}$",
         tex=r"(\mathbf{m}(t),\mathbf{B})=0",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
         quote="the angular momentum always lies in the plane orthogonal to the constant vector of magnetic field",
     ),
 )

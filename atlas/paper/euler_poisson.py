@@ -8,18 +8,18 @@ EQUATIONS = (
         number=10,
         section="II",
         kind="definition",
-        says="Second-order system for R and the multipliers with a given matrix A",
+        says="Second-order system for $R$ and the multipliers with a given matrix $A$",
         tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}-A_{ik}g_{kj}, \qquad R^TR=\mathbf{1}",
-        assumptions=("g is symmetric and non-degenerate", "lambda is symmetric", "A is a given matrix"),
+        assumptions=("$g$ is symmetric and non-degenerate", r"$\lambda$ is symmetric", "$A$ is a given matrix"),
     ),
     Equation(
         label="Aff100",
         number=None,
         section="II",
         kind="claim",
-        says="Affirmation: the second-order system The.1 is equivalent to the first-order system mf22, mf21",
+        says="Affirmation: the second-order system @The.1 is equivalent to the first-order system @mf22, @mf21",
         tex=r"\text{(10)}\iff\text{(11), (12)}",
-        assumptions=("R is a rotation", "the inertia tensor is invertible"),
+        assumptions=("$R$ is a rotation", "the inertia tensor is invertible"),
     ),
     Equation(
         label="text-multipliers-algebraic",
@@ -28,7 +28,7 @@ EQUATIONS = (
         kind="claim",
         says="The multipliers are functions of $R$ and $\\dot R$ alone",
         tex=(r"\lambda=-\bigl(\hat\Omega^2+\hat w+R^TA\bigr)g=\lambda^T,\qquad w=I^{-1}\{\text{right side of (11)}\}"),
-        assumptions=("R is a rotation", "I and g are diagonal", "$\\hat v\\,x=[v,x]$"),
+        assumptions=("$R$ is a rotation", "$I$ and $g$ are diagonal", "$\\hat v\\,x=[v,x]$"),
         quote=r"these equations determine $\lambda_{jk}$ algebraically, as some functions of $R$ and $\dot R$",
     ),
     Equation(
@@ -46,28 +46,28 @@ EQUATIONS = (
         number=11,
         section="II",
         kind="derivation step",
-        says="Euler equations for a given matrix A",
+        says="Euler equations for a given matrix $A$",
         tex=(
             r"I_{ka}\dot\Omega_a=[I\boldsymbol{\Omega},\boldsymbol{\Omega}]_k+\frac12 \epsilon_{kij}\left"
             r"[(AI)_{ai}R_{aj}+(RI)_{ai}A_{aj}\right]-\frac12 I_{ka}\epsilon_{aij}A_{bi}R_{bj}"
         ),
-        assumptions=("R is a rotation", "A is any matrix"),
+        assumptions=("$R$ is a rotation", "$A$ is any matrix"),
     ),
     Equation(
         label="mf21",
         number=12,
         section="II",
         kind="derivation step",
-        says="Poisson equations: the components of angular velocity in the body-fixed frame drive R",
+        says="Poisson equations: the components of angular velocity in the body-fixed frame drive $R$",
         tex=r"\dot R_{ij}=-\epsilon_{jab}\Omega_a R_{ib}, \qquad R_{ij}(0)=\delta_{ij}",
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="text-inertia-tensor",
         number=None,
         section="II",
         kind="claim",
-        says="The inertia tensor is tr(g) - g: it gives the kinetic energy of the rotating particles",
+        says=r"The inertia tensor is $\operatorname{tr}(g) - g$: it gives the kinetic energy of the rotating particles",
         tex=r"I_{ij}=\Bigl(\sum_a g_{aa}\Bigr)\delta_{ij}-g_{ij}",
     ),
     Equation(
@@ -75,7 +75,7 @@ EQUATIONS = (
         number=None,
         section="II",
         kind="claim",
-        says="Moments of mass and of inertia: 2 g1 = I2 + I3 - I1, and so on",
+        says="Moments of mass and of inertia: $2 g_1 = I_2 + I_3 - I_1$, and so on",
         tex=r"2g_1=I_2+I_3-I_1,\qquad 2g_2=I_3+I_1-I_2,\qquad 2g_3=I_1+I_2-I_3",
     ),
     Equation(
@@ -83,7 +83,7 @@ EQUATIONS = (
         number=None,
         section="II",
         kind="claim",
-        says="Poisson equations keep R orthogonal: R R^T stays what it is at t = 0",
+        says="Poisson equations keep $R$ orthogonal: $R R^T$ stays what it is at $t = 0$",
         tex=r"\frac{d}{dt}(RR^T)=0",
     ),
     Equation(
@@ -98,7 +98,7 @@ EQUATIONS = (
             r"\boldsymbol{\Omega}]\Bigr\},\\ &I'=SIS^T,\quad g'=SgS^T,\quad\boldsymbol{\Omega}'=S\boldsymbol{"
             r"\Omega},\quad\mathbf{K}'=S\mathbf{K} \end{aligned}"
         ),
-        assumptions=("S is a rotation", "$\\mathbf{K}=R^T\\mathbf{B}$, $R'=SRS^T$"),
+        assumptions=("$S$ is a rotation", "$\\mathbf{K}=R^T\\mathbf{B}$, $R'=SRS^T$"),
         quote=(
             "Note that this system is composed of $SO(3)$ vectors and tensors, so it is covariant under the rotations"
         ),
@@ -108,7 +108,7 @@ EQUATIONS = (
         number=None,
         section="II",
         kind="derivation step",
-        says="The matrix A of the magnetic force written through R and Omega, step by step",
+        says=r"The matrix $A$ of the magnetic force written through $R$ and $\boldsymbol{\Omega}$, step by step",
         tex=(
             r"\begin{aligned} "
             r"\epsilon_{ijk}B_j\dot R_{ka}&=\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}=\epsilon_{ijk}\epsilon"
@@ -118,21 +118,21 @@ EQUATIONS = (
             r"&=R_{ia}(\mathbf{B}R\boldsymbol{\Omega})-(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a "
             r"\end{aligned}"
         ),
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf24",
         number=13,
         section="II",
         kind="derivation step",
-        says="The matrix A of the magnetic force through R and Omega",
+        says=r"The matrix $A$ of the magnetic force through $R$ and $\boldsymbol{\Omega}$",
         tex=(
             r"\begin{aligned} "
             r"A_{ia}&=-\frac{\mu}{c}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_b R_{kc}=\frac{\mu}{c}\left[(R"
             r"\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})\right] "
             r"\end{aligned}"
         ),
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf25",
@@ -147,7 +147,7 @@ EQUATIONS = (
             r"\boldsymbol{\Omega}]\right\} "
             r"\end{aligned}"
         ),
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf26",
@@ -164,16 +164,16 @@ EQUATIONS = (
             r"\Omega}]_1 "
             r"\end{aligned}"
         ),
-        assumptions=("I and g are diagonal",),
+        assumptions=("$I$ and $g$ are diagonal",),
     ),
     Equation(
         label="text-other-components",
         number=None,
         section="II",
         kind="claim",
-        says="What mf26 says of the first component holds for the second and third",
+        says="What @mf26 says of the first component holds for the second and third",
         tex=r"""I[R^T\mathbf{B},\boldsymbol{\Omega}]-[IR^T\mathbf{B},\boldsymbol{\Omega}]+[R^T\mathbf{B},I\boldsymbol{\Omega}]=2[gR^T\mathbf{B},\boldsymbol{\Omega}]""",
-        assumptions=("I and g are diagonal",),
+        assumptions=("$I$ and $g$ are diagonal",),
         quote="and similar expressions for the second and third components",
     ),
     Equation(
@@ -186,7 +186,7 @@ EQUATIONS = (
             r"I\dot{\boldsymbol{\Omega}}=[I\boldsymbol{\Omega}, \boldsymbol{\Omega}]-\frac{\mu}{c}[gR^T"
             r"\mathbf{B}, \boldsymbol{\Omega}]"
         ),
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf28",
@@ -195,7 +195,7 @@ EQUATIONS = (
         kind="derivation step",
         says="Rate of the angular momentum in the laboratory frame",
         tex=r"\dot{\mathbf{m}}=-\frac{\mu}{c}[RgR^T\mathbf{B}, RI^{-1}R^T\mathbf{m}]",
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf29",
@@ -204,19 +204,20 @@ EQUATIONS = (
         kind="derivation step",
         says="Rate of the angular momentum in the body-fixed frame",
         tex=r"\dot{\mathbf{M}}=[\mathbf{M}, I^{-1}\mathbf{M}]-\frac{\mu}{c}[gR^T\mathbf{B}, I^{-1}\mathbf{M}]",
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="text-grioli",
         number=None,
         section="II",
         kind="claim",
-        says="With e3 along B the magnetic torque holds the third row of R: the form deduced by Grioli",
+        says=r"With $\mathbf{e}_3$ along $\mathbf{B}$ the magnetic torque holds the third row of $R$: the form "
+        "deduced by Grioli",
         tex=(
             r"I'\dot{\boldsymbol{\Omega}}=[I'\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu\lvert\mathbf{B}"
             r"\rvert}{c}[g'\mathbf{G}_3,\boldsymbol{\Omega}]"
         ),
-        assumptions=("B along e3",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$",),
     ),
     Equation(
         label="text-flight",
@@ -225,6 +226,6 @@ EQUATIONS = (
         kind="claim",
         says="The path of any point of the body: flight and rotation together",
         tex=r"""\mathbf{y}_N(t)=\mathbf{y}_0(t)+R(t)\,\mathbf{x}_N(0)""",
-        assumptions=("the constraint forces do no work in a rigid motion", "mf17, mf21 and mf27"),
+        assumptions=("the constraint forces do no work in a rigid motion", "@mf17, @mf21 and @mf27"),
     ),
 )

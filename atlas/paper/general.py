@@ -2,9 +2,9 @@
 
 from atlas.paper.equation import Equation
 
-_BODY = "I1 = I2, third axis of inertia along e3 at t = 0"
-_LETTERS = "units of I2: M3 = I c3, p = (M, K)/b, h = 2 H, nu = K3/b"
-_CURVE = "q(nu) is the square of the rate of nu, as in theorem-top"
+_BODY = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
+_LETTERS = r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $h = 2 H$, $\nu = K_3/b$"
+_CURVE = r"$q(\nu)$ is the square of the rate of $\nu$, as in @theorem-top"
 
 EQUATIONS = (
     Equation(
@@ -12,17 +12,18 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="In Larmor's frame: an uncharged symmetric top in the potential (I3 - I2) b^2 nu^2/2, nu = cos(theta)",
+        says=r"In Larmor's frame: an uncharged symmetric top in the potential $(I_3 - I_2) b^2 \nu^2/2$, $\nu = \cos "
+        r"(\theta)$",
         tex=r"\begin{aligned} \dot\nu^2=q(\nu)&=(1-\nu^2)\left(h-\frac{M_3^2}{I}-b^2-(I-1)b^2\nu^2\right)-(p-M_3\nu)^2,"
         r"\\ \dot\psi+b&=\frac{p-M_3\nu}{1-\nu^2},\qquad\dot\chi=c_3-\nu(\dot\psi+b) \end{aligned}",
-        assumptions=(_BODY, _LETTERS, "z along B, |nu| < 1 for the angles"),
+        assumptions=(_BODY, _LETTERS, r"$z$ along $\mathbf{B}$, $|\nu| < 1$ for the angles"),
     ),
     Equation(
         label="theorem-top-quartic",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="The quartic q of the top is the quartic Q of the pseudo-oscillator in other letters",
+        says="The quartic $q$ of the top is the quartic $Q$ of the pseudo-oscillator in other letters",
         tex=r"Q(u)=b^2q\left(\frac{c_3-u}{b}\right),\qquad E'=h-2bp,\qquad c_5=bp-b^2+(1-I)c_3^2",
         assumptions=(_BODY, _LETTERS),
     ),
@@ -31,18 +32,18 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="From a root e of any quartic Q the solution of du^2 = Q(u) in the function of Weierstrass",
+        says="From a root $e$ of any quartic $Q$ the solution of $du^2 = Q(u)$ in the function of Weierstrass",
         tex=r"\begin{aligned} u&=e+\frac{Q'(e)/4}{\wp(t)-Q''(e)/24},\\ g_2&=a_0a_4-4a_1a_3+3a_2^2,\qquad "
         r"g_3=a_0a_2a_4+2a_1"
         r"a_2a_3-a_2^3-a_0a_3^2-a_1^2a_4 \end{aligned}",
-        assumptions=("Q = a0 u^4 + 4 a1 u^3 + 6 a2 u^2 + 4 a3 u + a4", "Q(e) = 0, u = e at t = 0"),
+        assumptions=("$Q = a_0 u^4 + 4 a_1 u^3 + 6 a_2 u^2 + 4 a_3 u + a_4$", "$Q(e) = 0$, $u = e$ at $t = 0$"),
     ),
     Equation(
         label="theorem-lame",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="Up to a steady turn the Cayley-Klein parameters obey real equations of Lame's kind, the same for any p",
+        says="Up to a steady turn the Cayley–Klein parameters obey real equations of Lamé's kind, the same for any $p$",
         tex=r"\ddot a=\left(\tfrac34A\nu^2-\tfrac12A\nu-C\right)a,\qquad\ddot\eta=\left(\tfrac34A\nu^2+\tfrac12A\nu-C"
         r"\right)\eta,\qquad A=(I-1)b^2,\quad 4C=h-\frac{M_3^2}{I}-b^2+M_3^2",
         assumptions=(_BODY, _LETTERS, _CURVE, r"$a=\xi\,e^{i(M_3-c_3)t/2}$, with $\eta$ the opposite sign"),
@@ -52,8 +53,8 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="Where nu = -1 or 1 the rate dnu is imaginary, and of its two signs one alone leaves a residue, which "
-        "is 1",
+        says=r"Where $\nu = -1$ or 1 the rate $d\nu/dt$ is imaginary, and of its two signs one alone leaves a residue, "
+        "which is 1",
         tex=r"q(\mp1)=-(p\pm M_3)^2,\qquad\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}=\frac{\dot\nu+i(p-M_3"
         r"\nu)}{2"
         r"\dot\nu}=\frac{1\pm1}{2}\quad\text{where}\quad\dot\nu=\pm i(p+M_3)",
@@ -64,7 +65,7 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="The Cayley-Klein parameters in sigma functions, their exponents in closed form",
+        says="The Cayley–Klein parameters in sigma functions, their exponents in closed form",
         tex=r"\begin{aligned} \frac{\dot\xi}{\xi}&=i\lambda_-+\zeta(z_-)+\zeta(t-z_-)-\tfrac12\zeta(t-z_0)-"
         r"\tfrac12"
         r"\zeta(t+z_0),\qquad\xi=\xi_0e^{(i\lambda_-+\zeta(z_-))t}\frac{\sigma(t-z_-)}{\sqrt{\sigma(t-z_0)\sigma("
@@ -73,7 +74,7 @@ EQUATIONS = (
         assumptions=(
             _BODY,
             _LETTERS,
-            "nu = e at t = 0, q(e) = 0, |e| < 1",
+            r"$\nu = e$ at $t = 0$, $q(e) = 0$, $|e| < 1$",
             (
                 r"$\nu=-1$ at the zero of $\xi$, $\nu=1$ at that of $\eta$, $\nu$ infinite at $\pm z_0$; $\eta$ with "
                 "the other index"

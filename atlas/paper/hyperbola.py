@@ -19,7 +19,7 @@ EQUATIONS = (
         number=59,
         section="V",
         kind="derivation step",
-        says="Euler equations for a constant Omega3",
+        says=r"Euler equations for a constant $\Omega_3$",
         tex=(
             r"\begin{aligned} "
             r"\dot\Omega_1&=[(1-I)\omega_3+(2-I)B'_3]\Omega_2-I\omega_3K_2,\\ "
@@ -27,30 +27,33 @@ EQUATIONS = (
             r"\Omega_1K_2-\Omega_2K_1&=0 "
             r"\end{aligned}"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "Omega3 = omega3 = const"),
+        assumptions=(
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$\Omega_3 = \omega_3 = \text{const}$",
+        ),
     ),
     Equation(
         label="mf66",
         number=60,
         section="V",
         kind="derivation step",
-        says="Rate of the field seen from the body for a constant Omega3",
+        says=r"Rate of the field seen from the body for a constant $\Omega_3$",
         tex=r"\dot K_1=\omega_3K_2-B'_3\Omega_2, \qquad \dot K_2=-\omega_3K_1+B'_3\Omega_1, \qquad K_3=B'_3",
-        assumptions=("Omega3 = omega3 = const",),
+        assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$",),
     ),
     Equation(
         label="mf67",
         number=61,
         section="V",
         kind="derivation step",
-        says="Three integrals for a constant Omega3",
+        says=r"Three integrals for a constant $\Omega_3$",
         tex=(
             r"\Omega_1^2(t)+\Omega_2^2(t)=\omega_1^2+\omega_2^2, \qquad K_1^2(t)+K_2^2(t)={B'_2}^2, \qquad "
             r"\Omega_1(t)K_1(t)+\Omega_2(t)K_2(t)=\omega_2B'_2"
         ),
         assumptions=(
             "$\\omega_1^2+\\omega_2^2>0$",
-            "Omega3 = omega3 = const",
+            r"$\Omega_3 = \omega_3 = \text{const}$",
         ),
     ),
     Equation(
@@ -58,26 +61,26 @@ EQUATIONS = (
         number=62,
         section="V",
         kind="derivation step",
-        says="K1, K2 are proportional to Omega1, Omega2",
+        says=r"$K_1$, $K_2$ are proportional to $\Omega_1$, $\Omega_2$",
         tex=(
             r"K_1=\frac{\omega_2B'_2}{\omega_1^2+\omega_2^2}\Omega_1, \qquad K_2=\frac{\omega_2B'_2}{\omega_1^2+"
             r"\omega_2^2}\Omega_2"
         ),
-        assumptions=("Omega3 = omega3 = const", "omega1^2 + omega2^2 > 0"),
+        assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$", r"$\omega_1^2 + \omega_2^2 > 0$"),
     ),
     Equation(
         label="mf69",
         number=63,
         section="V",
         kind="derivation step",
-        says="Precession of Omega by the Euler equations",
+        says=r"Precession of $\boldsymbol{\Omega}$ by the Euler equations",
         tex=(
             r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\text{where}\quad\phi'\equiv(1-I)"
             r"\omega_3+(2-I)B'_3-\frac{IB'_2\omega_2\omega_3}{\omega_1^2+\omega_2^2}"
         ),
         assumptions=(
             "$\\omega_1^2+\\omega_2^2>0$",
-            "Omega3 = omega3 = const",
+            r"$\Omega_3 = \omega_3 = \text{const}$",
         ),
     ),
     Equation(
@@ -85,12 +88,12 @@ EQUATIONS = (
         number=64,
         section="V",
         kind="derivation step",
-        says="Precession of Omega by the equations for K",
+        says=r"Precession of $\boldsymbol{\Omega}$ by the equations for $\mathbf{K}$",
         tex=(
             r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\text{where}\quad\phi\equiv\omega_3"
             r"-\frac{B'_3(\omega_1^2+\omega_2^2)}{B'_2\omega_2}"
         ),
-        assumptions=("Omega3 = omega3 = const", "omega2 differs from 0"),
+        assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
         label="mf71",
@@ -102,36 +105,39 @@ EQUATIONS = (
             r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-\frac{I{B'_2}^2\omega_2^2"
             r"\omega_3}{\omega_1^2+\omega_2^2}=0"
         ),
-        assumptions=("omega2 differs from 0",),
+        assumptions=(r"$\omega_2$ differs from 0",),
     ),
     Equation(
         label="mf71.1",
         number=66,
         section="V",
         kind="derivation step",
-        says="The necessary condition mf58.1 again",
+        says="The necessary condition @mf58.1 again",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="mf72",
         number=67,
         section="V",
         kind="derivation step",
-        says="The initial data of the motions: a hyperbola in the plane omega1 = 0",
+        says=r"The initial data of the motions: a hyperbola in the plane $\omega_1 = 0$",
         tex=r"B'_3\omega_2^2-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "Omega3 = omega3 = const"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\Omega_3 = \omega_3 = \text{const}$",
+        ),
     ),
     Equation(
         label="text-combining",
         number=None,
         section="V",
         kind="claim",
-        says="mf71 and mf71.1 together leave only omega1 = 0",
+        says=r"@mf71 and @mf71.1 together leave only $\omega_1 = 0$",
         tex=r"\text{(65), (66)}\implies\omega_1=0",
         assumptions=(
             "$\\omega_2$ differs from 0",
-            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
         ),
         quote=(
             "Combining this with the necessary condition [...], we conclude that the initial data should be "
@@ -151,7 +157,7 @@ EQUATIONS = (
             r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "1 < I <= 2"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
     ),
     Equation(
         label="mf74",
@@ -166,7 +172,7 @@ EQUATIONS = (
             r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "0 < I < 1"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
     ),
     Equation(
         label="mf75",
@@ -181,19 +187,19 @@ EQUATIONS = (
             r"a_3&\equiv\sqrt{\frac{2\sin\beta}{1+\sin\beta}} "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 1"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
     ),
     Equation(
         label="mf76",
         number=71,
         section="V",
         kind="derivation step",
-        says="The hyperbola resolved for omega3",
+        says=r"The hyperbola resolved for $\omega_3$",
         tex=(
             r"\omega_3(\omega_2)=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}, \qquad \omega_2"
             r"\in\mathbb{R}\setminus\{-B'_2\}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="mf77",
@@ -205,6 +211,9 @@ EQUATIONS = (
             r"\phi=\omega_3(\omega_2)-\frac{B'_3}{B'_2}\omega_2=\frac{B'_3\omega_2(1-I)(\omega_2+2B'_2)}{IB'_2("
             r"\omega_2+B'_2)}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
     ),
 )

@@ -8,7 +8,7 @@ EQUATIONS = (
         number=1,
         section="II",
         kind="definition",
-        says="Action of n free particles held together by Lagrange multipliers",
+        says="Action of $n$ free particles held together by Lagrange multipliers",
         tex=(
             r"\begin{aligned} "
             r"S=\int dt\,&\frac12\sum_{N=1}^{n}m_N\dot{\mathbf{y}}_N^2+\frac12\sum_{A,B=2}^{4}\lambda_{AB}\left"
@@ -17,7 +17,7 @@ EQUATIONS = (
             r"\mathbf{y}_\beta-\mathbf{y}_1)-a_{A\beta}\right] "
             r"\end{aligned}"
         ),
-        assumptions=("lambda_AB is symmetric",),
+        assumptions=(r"$\lambda_{AB}$ is symmetric",),
     ),
     Equation(
         label="text-constraints",
@@ -36,7 +36,7 @@ EQUATIONS = (
         number=2,
         section="II",
         kind="definition",
-        says="Potential energy of the body: the sum over its particles of mf13",
+        says="Potential energy of the body: the sum over its particles of @mf13",
         tex=r"-U=\sum_{N=1}^n e_NA_0(\mathbf{y}_N)+\frac{e_N}{c}(\mathbf{A}(\mathbf{y}_N), \dot{\mathbf{y}}_N)",
     ),
     Equation(
@@ -57,7 +57,7 @@ EQUATIONS = (
             r"m_\alpha\mathbf{E}+\frac{\mu}{c}m_\alpha[\dot{\mathbf{y}}_\alpha,\mathbf{B}] "
             r"\end{aligned}"
         ),
-        assumptions=("lambda_AB is symmetric", "all particles have the same charge-to-mass ratio mu"),
+        assumptions=(r"$\lambda_{AB}$ is symmetric", r"all particles have the same charge-to-mass ratio $\mu$"),
     ),
     Equation(
         label="mf17",
@@ -66,7 +66,7 @@ EQUATIONS = (
         kind="derivation step",
         says="The centre of mass moves as one charged point particle",
         tex=r"\ddot{\mathbf{y}}_0=\mu\mathbf{E}+\frac{\mu}{c}[\dot{\mathbf{y}}_0, \mathbf{B}]",
-        assumptions=("all particles have the same charge-to-mass ratio mu",),
+        assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
     ),
     Equation(
         label="text-translation",
@@ -78,7 +78,7 @@ EQUATIONS = (
             "do not change its acceleration"
         ),
         tex=r"""\ddot{\mathbf{y}}_0\ \text{does not depend on}\ \mathbf{x}_N,\ \dot{\mathbf{x}}_N""",
-        assumptions=("all particles have the same charge-to-mass ratio mu",),
+        assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="rotational motion of the body does not affect its translational motion",
     ),
     Equation(
@@ -87,8 +87,8 @@ EQUATIONS = (
         section="II",
         kind="claim",
         says=(
-            "The constraints keep all distances and angles, so that every solution is x_N(t) = R(t) x_N(0) "
-            "with an orthogonal R"
+            r"The constraints keep all distances and angles, so that every solution is $\mathbf{x}_N(t) = R(t) "
+            r"\mathbf{x}_N(0)$ with an orthogonal $R$"
         ),
         tex=r"\mathbf{x}_N(t)=R(t)\,\mathbf{x}_N(0),\qquad R^TR=\mathbf{1}",
         assumptions=("the vectors from particle 1 to particles 2, 3, 4 are independent",),
@@ -124,7 +124,7 @@ EQUATIONS = (
             r"m_\alpha\mathbf{E}+\frac{\mu}{c}m_\alpha[\dot{\mathbf{x}}_\alpha,\mathbf{B}] "
             r"\end{aligned}"
         ),
-        assumptions=("mf16 and mf17", "all particles have the same charge-to-mass ratio mu"),
+        assumptions=("@mf16 and @mf17", r"all particles have the same charge-to-mass ratio $\mu$"),
     ),
     Equation(
         label="mf19",
@@ -136,7 +136,7 @@ EQUATIONS = (
             r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i(\sum m_N\mathbf{x}_N)-A_{ia}g_{aj}, \qquad R^TR="
             r"\mathbf{1}, \qquad R(0)=\mathbf{1}"
         ),
-        assumptions=("x_N(t) = R(t) x_N(0)", "the particles obey mf18"),
+        assumptions=(r"$\mathbf{x}_N(t) = R(t) \mathbf{x}_N(0)$", "the particles obey @mf18"),
     ),
     Equation(
         label="mf20",
@@ -167,7 +167,7 @@ EQUATIONS = (
             r"x_A^{(j}x_1^{k)}-2x_1^{j}x_1^{k}\right] "
             r"\end{aligned}"
         ),
-        assumptions=("lambda_AB is symmetric", "round brackets on indices: sum of both orders, no factor 1/2"),
+        assumptions=(r"$\lambda_{AB}$ is symmetric", "round brackets on indices: sum of both orders, no factor $1/2$"),
     ),
     Equation(
         label="text-multipliers-symmetric",
@@ -176,7 +176,7 @@ EQUATIONS = (
         kind="claim",
         says="The matrix of the constraint forces is symmetric",
         tex=r"""\lambda_{jk}=\lambda_{kj}""",
-        assumptions=("lambda_AB is symmetric",),
+        assumptions=(r"$\lambda_{AB}$ is symmetric",),
         quote=r"while $\lambda_{jk}(t)$ is the symmetric matrix",
     ),
     Equation(
@@ -185,10 +185,10 @@ EQUATIONS = (
         section="II",
         kind="claim",
         says=(
-            "The electric field drops out of the rotation: the second term of mf19 vanishes about the centre of mass"
+            "The electric field drops out of the rotation: the second term of @mf19 vanishes about the centre of mass"
         ),
         tex=r"\mu E_i\sum m_Nx_N^j=0",
-        assumptions=("the sum of m_N x_N is zero",),
+        assumptions=(r"the sum of $m_N \mathbf{x}_N$ is zero",),
         quote="the electric field do not affect the motion of rotational degrees of freedom",
     ),
     Equation(
@@ -201,7 +201,7 @@ EQUATIONS = (
             "relative acceleration"
         ),
         tex=r"""\ddot{\mathbf{x}}_N\ \text{does not depend on}\ \mathbf{y}_0,\ \dot{\mathbf{y}}_0""",
-        assumptions=("all particles have the same charge-to-mass ratio mu",),
+        assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="so the translational motion does not affect the rotational motion of the body",
     ),
 )

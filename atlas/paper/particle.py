@@ -29,18 +29,18 @@ EQUATIONS = (
         number=None,
         section="VII",
         kind="claim",
-        says="Without a magnetic field the particle falls along E",
+        says=r"Without a magnetic field the particle falls along $\mathbf{E}$",
         tex=r"\mathbf{y}(t)=\mathbf{y}_0+\mathbf{C}t+\frac12 \mu\mathbf{E}t^2",
-        assumptions=("B = 0",),
+        assumptions=(r"$\mathbf{B} = 0$",),
     ),
     Equation(
         label="text-helix",
         number=None,
         section="VII",
         kind="claim",
-        says="Without an electric field the particle moves on a helix about an axis along B",
+        says=r"Without an electric field the particle moves on a helix about an axis along $\mathbf{B}$",
         tex=r"\frac{d}{dt}\lvert\mathbf{y}_2\rvert^2=0,\qquad\ddot{\mathbf{y}}_{\Vert}=0",
-        assumptions=("E = 0",),
+        assumptions=(r"$\mathbf{E} = 0$",),
         quote="particle moves along a helical line located on a cylinder",
     ),
     Equation(
@@ -48,39 +48,39 @@ EQUATIONS = (
         number=91,
         section="VII",
         kind="derivation step",
-        says="Motion along B, integrated once",
+        says=r"Motion along $\mathbf{B}$, integrated once",
         tex=r"\dot{\mathbf{y}}_{\Vert}=\mathbf{C}_{\Vert}+\mu\mathbf{E}_{\Vert}t",
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="mf4",
         number=92,
         section="VII",
         kind="derivation step",
-        says="Motion across B, integrated once",
+        says=r"Motion across $\mathbf{B}$, integrated once",
         tex=(
             r"\dot{\mathbf{y}}_{\bot}=\frac{\mu}{c}[\mathbf{y}_{\bot}, \mathbf{B}]+\mathbf{C}_{\bot}+\mu"
             r"\mathbf{E}_{\bot}t"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="mf5",
         number=93,
         section="VII",
         kind="derivation step",
-        says="Motion along B",
+        says=r"Motion along $\mathbf{B}$",
         tex=r"\mathbf{y}_{\Vert}(t)=\mathbf{y}_{\Vert 0}+\mathbf{C}_{\Vert}t+\frac12 \mu\mathbf{E}_{\Vert}t^2",
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="text-parallel-acceleration",
         number=None,
         section="VII",
         kind="claim",
-        says="Along B the particle moves with the acceleration |mu E_perp|",
+        says=r"Along $\mathbf{B}$ the particle moves with the acceleration $|\mu \mathbf{E}_\bot|$",
         tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\bot}\rvert",
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
         quote=r"moves with the acceleration $\lvert\mu\mathbf{E}_{\bot}\rvert$ along the axis $\mathbf{B}$",
     ),
     Equation(
@@ -88,23 +88,23 @@ EQUATIONS = (
         number=None,
         section="VII",
         kind="claim",
-        says="A vector orthogonal to B is minus its double product with B over B^2",
+        says=r"A vector orthogonal to $\mathbf{B}$ is minus its double product with $\mathbf{B}$ over $\mathbf{B}^2$",
         tex=r"\mathbf{E}_{\bot}=-[[\mathbf{E}_{\bot},\mathbf{B}],\mathbf{B}]/\mathbf{B}^2",
-        assumptions=("(E_perp, B) = 0",),
+        assumptions=(r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",),
     ),
     Equation(
         label="mf6",
         number=94,
         section="VII",
         kind="derivation step",
-        says="The electric field across B absorbed by a uniform motion",
+        says=r"The electric field across $\mathbf{B}$ absorbed by a uniform motion",
         tex=(
             r"\begin{aligned} "
             r"\dot{\mathbf{y}}_{\bot}&=\frac{\mu}{c}[\mathbf{y}_{\bot}-\frac{c t[\mathbf{E}_{\bot}, \mathbf{B}"
             r"]}{\lvert \mathbf{B}\rvert^2}, \mathbf{B}]+\mathbf{C}_{\bot} "
             r"\end{aligned}"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="mf7",
@@ -118,16 +118,16 @@ EQUATIONS = (
             r"\mathbf{y}_1-\frac{c[\mathbf{C}_{\bot},\mathbf{B}]+c^2\mathbf{E}_{\bot}}{\mu\mathbf{B}^2},"
             r"\mathbf{B}\Bigr]"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="mf8",
         number=96,
         section="VII",
         kind="derivation step",
-        says="The twice shifted variable precesses about B",
+        says=r"The twice shifted variable precesses about $\mathbf{B}$",
         tex=r"\dot{\mathbf{y}}_2=-\frac{\mu}{c}[\mathbf{B}, \mathbf{y}_2]",
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="mf9",
@@ -142,29 +142,29 @@ EQUATIONS = (
             r"\omega&=\frac{\lvert \mu\mathbf{B}\rvert}{c} "
             r"\end{aligned}"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="text-drift-direction",
         number=None,
         section="VII",
         kind="claim",
-        says="[E_perp, B] points along e1",
+        says=r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{e}_1$",
         tex=r"[\mathbf{E}_{\bot},\mathbf{B}]=\lvert\mathbf{E}_{\bot}\rvert\lvert\mathbf{B}\rvert\mathbf{e}_1",
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="mf10",
         number=98,
         section="VII",
         kind="derivation step",
-        says="General solution across B",
+        says=r"General solution across $\mathbf{B}$",
         tex=(
             r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert"
             r"\mathbf{B}\rvert}+\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1+a\left\{\mathbf{e}"
             r"_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="text-time-shift",
@@ -177,7 +177,7 @@ EQUATIONS = (
             r"\omega_0}{\omega};\mathbf{C}'_{\bot},0\Bigr),\\ &\mathbf{C}'_{\bot}=\mathbf{C}_{\bot}-\mu\mathbf{E}_{"
             r"\bot}\frac{\omega_0}{\omega} \end{aligned}"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
         quote=r"By choosing the time reference point, we can give any desired value to the constant $\omega_0$",
     ),
     Equation(
@@ -185,13 +185,14 @@ EQUATIONS = (
         number=None,
         section="VII",
         kind="claim",
-        says="With C_perp = c [E_perp, B]/B^2 the first two terms of mf10 vanish",
+        says=r"With $\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$ the first two terms of @mf10 "
+        "vanish",
         tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies\frac{[\mathbf{C}_{"
             r"\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}+\frac{\mu\lvert\mathbf{E}_{"
             r"\bot}\rvert}{\omega}t\mathbf{e}_1=0"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
         quote="the first two terms in Eq. (98) vanish",
     ),
     Equation(
@@ -199,9 +200,12 @@ EQUATIONS = (
         number=None,
         section="VII",
         kind="claim",
-        says="That choice puts the particle at y_perp(0) = a e2",
+        says=r"That choice puts the particle at $\mathbf{y}_\bot(0) = a \mathbf{e}_2$",
         tex=r"\mathbf{y}_{\bot}(0)=a\mathbf{e}_2",
-        assumptions=("B along e3, E in the plane (e2, e3)", "omega0 = 0"),
+        assumptions=(
+            r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",
+            r"$\omega_0 = 0$",
+        ),
         quote="This corresponds to the choice of initial position",
     ),
     Equation(
@@ -216,16 +220,16 @@ EQUATIONS = (
             r"\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}\equiv \mathbf{O}(t)+\mathbf{P}(t) "
             r"\end{aligned}"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="text-drift",
         number=None,
         section="VII",
         kind="claim",
-        says="The guiding centre moves along e1 with the speed mu |E_perp|/omega",
+        says=r"The guiding centre moves along $\mathbf{e}_1$ with the speed $\mu |\mathbf{E}_\bot|/\omega$",
         tex=r"\dot{\mathbf{O}}=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}\mathbf{e}_1",
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
         quote=(
             r"the point $\mathbf{O}(t)$ moves in the direction of $\mathbf{e}_1$ with the speed equal to "
             r"$\mu\lvert\mathbf{E}_{\bot}\rvert/\omega$"
@@ -236,12 +240,13 @@ EQUATIONS = (
         number=None,
         section="VII",
         kind="claim",
-        says="C_perp = c [E_perp, B]/B^2 - mu |E_perp| e1 is a constant of mf2: a velocity",
+        says=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2 - \mu |\mathbf{E}_\bot| \mathbf{e}_1$ "
+        "is a constant of @mf2: a velocity",
         tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}-\mu\lvert\mathbf{E}_{\bot}"
             r"\rvert\mathbf{e}_1"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="mf10.1",
@@ -253,7 +258,7 @@ EQUATIONS = (
             r"x(t)=\frac{\mu \lvert \mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t, \qquad y(t)=\frac{\mu "
             r"\lvert \mathbf{E}_{\bot}\rvert}{\omega}+a\cos\omega t"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="text-trochoid",
@@ -265,7 +270,7 @@ EQUATIONS = (
             r"x=r\theta+a\sin\theta,\qquad y=r+a\cos\theta,\qquad\theta=\omega t,\quad "
             r"r=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^2}"
         ),
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
         quote="These are parametric equations of a plane curve called trochoid",
     ),
     Equation(
@@ -273,9 +278,9 @@ EQUATIONS = (
         number=101,
         section="VII",
         kind="derivation step",
-        says="The trajectory: motion along B plus motion across B",
+        says=r"The trajectory: motion along $\mathbf{B}$ plus motion across $\mathbf{B}$",
         tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t)",
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="mf12",
@@ -314,7 +319,7 @@ EQUATIONS = (
         number=104,
         section="VII",
         kind="claim",
-        says="Lagrangian of a charged particle; it implies mf1",
+        says="Lagrangian of a charged particle; it implies @mf1",
         tex=(
             r"L=K-U=\frac{m}{2}\dot{\mathbf{y}}^2+eA_0+\frac{e}{c}(\mathbf{A},\dot{\mathbf{y}})=\frac{m}{2}\dot{"
             r"\mathbf{y}}^2+e(\mathbf{y},\mathbf{E})+\frac{e}{2c}([\mathbf{y},\dot{\mathbf{y}}],\mathbf{B})"

@@ -10,7 +10,7 @@ EQUATIONS = (
         kind="claim",
         says="Mass matrix of the symmetric body",
         tex=r"g=\frac12 \,\mathrm{diag}(I_3,I_3,2I_2-I_3)",
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="text-laboratory",
@@ -22,7 +22,10 @@ EQUATIONS = (
             "$\\mathbf{e}_2$ and $\\mathbf{e}_3$"
         ),
         tex=r"""S\,\mathbb{I}\,S^T=\mathbb{I},\qquad S\mathbf{B}=(0,B_2,B_3)^T""",
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "S is a rotation about e3"),
+        assumptions=(
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$S$ is a rotation about $\mathbf{e}_3$",
+        ),
         quote=(
             "without spoiling the diagonal form of inertia tensor in our equations, the Laboratory system can "
             "be chosen as shown"
@@ -41,21 +44,22 @@ EQUATIONS = (
         number=32,
         section="IV",
         kind="definition",
-        says="The field in units of a frequency, B', and its components K in the body-fixed frame",
+        says=r"The field in units of a frequency, $\mathbf{B}'$, and its components $\mathbf{K}$ in the body-fixed "
+        "frame",
         tex=(
             r"\mathbf{B}'\equiv\frac{\mu}{2c}\mathbf{B}= \begin{pmatrix} 0\\ B'_2>0 \\ B'_3>0 \end{pmatrix}, "
             r"\qquad \mathbf{K}(t)\equiv\frac{\mu}{2c}\mathbf{B}R(t)=\begin{pmatrix} (\mathbf{B}'R)_1 \\ ("
             r"\mathbf{B}'R)_2 \\ (\mathbf{B}'R)_3 \end{pmatrix}, \qquad \text{then} \quad \mathbf{K}(0)="
             r"\mathbf{B}'"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="mf41.1",
         number=33,
         section="IV",
         kind="definition",
-        says="The ratio of moments I and the energy E'",
+        says="The ratio of moments $I$ and the energy $E'$",
         tex=r"I\equiv\frac{I_3}{I_2}, \qquad E'\equiv\frac{2E}{I_2}",
     ),
     Equation(
@@ -63,12 +67,12 @@ EQUATIONS = (
         number=34,
         section="IV",
         kind="derivation step",
-        says="Euler equations through K",
+        says=r"Euler equations through $\mathbf{K}$",
         tex=(
             r"\mathbb{I}\dot{\boldsymbol{\Omega}}=[\mathbb{I}\boldsymbol{\Omega}, \boldsymbol{\Omega}]-2["
             r"\mathbf{K}g, \boldsymbol{\Omega}]"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="mf43",
@@ -77,7 +81,7 @@ EQUATIONS = (
         kind="derivation step",
         says="Rate of the field seen from the body",
         tex=r"\dot{\mathbf{K}}=-[\boldsymbol{\Omega}, \mathbf{K}]",
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf44",
@@ -86,7 +90,7 @@ EQUATIONS = (
         kind="derivation step",
         says="First integral: energy",
         tex=r"\Omega_1^2+\Omega_2^2+I\Omega_3^2=E'=\omega_1^2+\omega_2^2+I\omega_3^2",
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="mf45",
@@ -95,7 +99,7 @@ EQUATIONS = (
         kind="derivation step",
         says="Second integral: length of the field",
         tex=r"\mathbf{K}^2={B'_2}^2+{B'_3}^2",
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf46",
@@ -110,7 +114,7 @@ EQUATIONS = (
             r"\dot\Omega_3&=\Omega_1 K_2-\Omega_2 K_1 "
             r"\end{aligned}"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="mf47",
@@ -125,40 +129,40 @@ EQUATIONS = (
             r"\dot K_3&=-(\Omega_1 K_2-\Omega_2 K_1) "
             r"\end{aligned}"
         ),
-        assumptions=("R(t) is a rotation",),
+        assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
         label="mf48",
         number=40,
         section="IV",
         kind="derivation step",
-        says="Third integral c3",
+        says="Third integral $c_3$",
         tex=r"K_3+\Omega_3=c_3=\omega_3+B'_3",
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="mf49",
         number=41,
         section="IV",
         kind="derivation step",
-        says="Fourth integral c5",
+        says="Fourth integral $c_5$",
         tex=(
             r"\Omega_1 K_1+\Omega_2 K_2-\Omega_3^2+(2-I)c_3\Omega_3=c_5=\omega_2 B'_2-\omega_3^2+(2-I)(\omega_3+"
             r"B'_3)\omega_3"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="text-four-integrals",
         number=None,
         section="IV",
         kind="claim",
-        says="The four integrals mf44, mf45, mf48, mf49 are independent",
+        says="The four integrals @mf44, @mf45, @mf48, @mf49 are independent",
         tex=(
             r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}="
             "4"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
         quote="This system admits four integrals of motion",
     ),
     Equation(
@@ -174,21 +178,24 @@ EQUATIONS = (
             r"K_3&=-\Omega_3+c_3 "
             r"\end{aligned}"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "E' - I Omega3^2 differs from 0"),
+        assumptions=(
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$E' - I \Omega_3^2$ differs from 0",
+        ),
     ),
     Equation(
         label="mf51",
         number=43,
         section="IV",
         kind="derivation step",
-        says="Linear equations for Omega1, Omega2 when Omega3 is known",
+        says=r"Linear equations for $\Omega_1$, $\Omega_2$ when $\Omega_3$ is known",
         tex=(
             r"\dot\Omega_1=\phi(t)\Omega_2+\dot f(t)\Omega_1, \qquad \dot\Omega_2=-\phi(t)\Omega_1+\dot f(t)"
             r"\Omega_2"
         ),
         assumptions=(
             "$E'-I\\Omega_3^2$ differs from 0",
-            "I1 = I2, third axis of inertia along e3 at t = 0",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
         ),
     ),
     Equation(
@@ -203,8 +210,8 @@ EQUATIONS = (
         ),
         assumptions=(
             "$E'-I\\Omega_3^2$ differs from 0",
-            "I1 = I2, third axis of inertia along e3 at t = 0",
-            "f is meant up to a constant",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            "$f$ is meant up to a constant",
         ),
     ),
     Equation(
@@ -212,14 +219,14 @@ EQUATIONS = (
         number=45,
         section="IV",
         kind="derivation step",
-        says="Omega1, Omega2 by quadratures",
+        says=r"$\Omega_1$, $\Omega_2$ by quadratures",
         tex=(
             r"\Omega_1(t)=f_0\sqrt{E'-I\Omega_3^2(t)}\sin(\Phi(t)+\phi_0), \qquad \Omega_2(t)=f_0\sqrt{E'-I"
             r"\Omega_3^2(t)}\cos(\Phi(t)+\phi_0)"
         ),
         assumptions=(
             "$E'-I\\Omega_3^2$ differs from 0",
-            "I1 = I2, third axis of inertia along e3 at t = 0",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
         ),
     ),
     Equation(
@@ -227,21 +234,21 @@ EQUATIONS = (
         number=46,
         section="IV",
         kind="derivation step",
-        says="Second derivative of Omega3",
+        says=r"Second derivative of $\Omega_3$",
         tex=(
             r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1 K_1+\Omega_2 k_2)-I\Omega_3(K_1^2+K_2^2)+[c_3-\Omega"
             r"_3](\Omega_1^2+\Omega_2^2)"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="mf55",
         number=47,
         section="IV",
         kind="claim",
-        says="Omega3 of any motion obeys a cubic pseudo-oscillator",
+        says=r"$\Omega_3$ of any motion obeys a cubic pseudo-oscillator",
         tex=r"\ddot\Omega_3=a_0+a_1\Omega_3+a_2\Omega_3^2+a_3\Omega_3^3",
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="mf56",
@@ -257,14 +264,14 @@ EQUATIONS = (
             "a_3&=-2(1-I) "
             r"\end{aligned}"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="text-cubic-degree",
         number=None,
         section="IV",
         kind="claim",
-        says="The polynomial on the right side of mf55 has the degree three",
+        says="The polynomial on the right side of @mf55 has the degree three",
         tex=r"""a_3=-2(1-I)\ne0""",
         assumptions=("$I$ differs from 1",),
         quote="a root of the third degree polynomial",
@@ -283,6 +290,6 @@ EQUATIONS = (
             r"\omega_2^2+I(\omega_3^2-\Omega_3^2)] "
             r"\end{aligned}"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
 )

@@ -8,9 +8,12 @@ EQUATIONS = (
         number=50,
         section="IV",
         kind="derivation step",
-        says="Condition on the initial data for a constant Omega3",
+        says=r"Condition on the initial data for a constant $\Omega_3$",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0"),
+        assumptions=(
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+        ),
     ),
     Equation(
         label="mf58",
@@ -19,7 +22,10 @@ EQUATIONS = (
         kind="derivation step",
         says="The same condition: a surface of second order",
         tex=r"\omega_1^2+(\omega_2+B'_2)^2-\frac{IB'_2}{B'_3}(\omega_2+B'_2)(\omega_3+B'_3)=(1-I){B'_2}^2",
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0"),
+        assumptions=(
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+        ),
     ),
     Equation(
         label="text-quadric-origin",
@@ -28,7 +34,7 @@ EQUATIONS = (
         kind="claim",
         says="The surface passes through the origin",
         tex=r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
         quote="the surface always pass through the origin of coordinate system",
     ),
     Equation(
@@ -36,7 +42,7 @@ EQUATIONS = (
         number=52,
         section="IV",
         kind="derivation step",
-        says="The condition resolved for omega3: a two-parametric family of constant solutions",
+        says=r"The condition resolved for $\omega_3$: a two-parametric family of constant solutions",
         tex=(
             r"\begin{aligned} "
             r"\Omega_3(t)&=\omega_3(\omega_1, \omega_2)=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega"
@@ -45,7 +51,7 @@ EQUATIONS = (
             r"\omega_2&\in\mathbb{R}\setminus \{-B'_2\} "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="mf61a",
@@ -62,7 +68,7 @@ EQUATIONS = (
             r"(\frac{\beta}{2}+\frac{\pi}{4}\right) "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "tan(beta) = B'3/(I B'2)"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\tan\beta = B'_3/(I B'_2)$"),
     ),
     Equation(
         label="text-turned",
@@ -74,7 +80,7 @@ EQUATIONS = (
             "counter-clockwise by $\\beta/2+\\pi/4$"
         ),
         tex=r"""\boldsymbol{\omega}+\mathbf{B}'=\sum_i\omega'_i\mathbf{e}'_i,\qquad\mathbf{e}'_2=\cos\Bigl(\frac{\beta}{2}+\frac{\pi}{4}\Bigr)\mathbf{e}_2+\sin\Bigl(\frac{\beta}{2}+\frac{\pi}{4}\Bigr)\mathbf{e}_3""",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
         quote=(
             r"by shifting the origin of coordinate system to the point $-\mathbf{B}'$, and subsequent rotation "
             "counter-clockwise"
@@ -85,18 +91,18 @@ EQUATIONS = (
         number=None,
         section="IV",
         kind="claim",
-        says="beta, the angle between e2 and I^-1 B', has tan(beta) = B'3/(I B'2)",
+        says=r"$\beta$, the angle between $\mathbf{e}_2$ and $I^{-1} \mathbf{B}'$, has $\tan\beta = B'_3/(I B'_2)$",
         tex=r"\tan\beta=\frac{B'_3}{IB'_2}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="text-beta-range",
         number=None,
         section="IV",
         kind="claim",
-        says="The canonical axes are turned by more than pi/4 and less than pi/2",
+        says=r"The canonical axes are turned by more than $\pi/4$ and less than $\pi/2$",
         tex=r"\frac{\pi}{4}<\frac{\beta}{2}+\frac{\pi}{4}<\frac{\pi}{2}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="mf60",
@@ -111,14 +117,14 @@ EQUATIONS = (
             r"a_3&\equiv\frac{2\sin\beta}{1+\sin\beta} "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
         label="mf61b",
         number=55,
         section="IV",
         kind="claim",
-        says="I > 1: a hyperboloid of two sheets",
+        says="$I > 1$: a hyperboloid of two sheets",
         tex=(
             r"\begin{aligned} "
             r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=-1,\\ "
@@ -127,16 +133,16 @@ EQUATIONS = (
             r"C_3^2&\equiv\frac{2(I-1){B'_2}^2\sin\beta}{1+\sin\beta} "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "1 < I <= 2"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
     ),
     Equation(
         label="text-two-sheets",
         number=None,
         section="IV",
         kind="claim",
-        says="For I > 1 the squared semi-axes are positive: the surface is a hyperboloid of two sheets",
+        says="For $I > 1$ the squared semi-axes are positive: the surface is a hyperboloid of two sheets",
         tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "1 < I <= 2"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
         quote="Hence the surface of initial data is a hyperboloid of two sheets",
     ),
     Equation(
@@ -144,7 +150,7 @@ EQUATIONS = (
         number=None,
         section="IV",
         kind="claim",
-        says="A sufficiently short cylindrical surface has 1 < I < 2, a long one 0 < I < 1",
+        says="A sufficiently short cylindrical surface has $1 < I < 2$, a long one $0 < I < 1$",
         tex=r"I=\frac{12r^2}{6r^2+h^2}>1\iff h<\sqrt6\,r",
         assumptions=("shell of radius $r$, height $h$ and mass $m_0$: $I_3=m_0r^2$, $I_2=m_0r^2/2+m_0h^2/12$",),
         quote="This body could be a charged sufficiently short cylindrical surface",
@@ -154,18 +160,18 @@ EQUATIONS = (
         number=None,
         section="IV",
         kind="claim",
-        says="I = 2 is a plane body",
+        says="$I = 2$ is a plane body",
         tex=r"I=2\iff g_3=0",
-        assumptions=("I1 = I2",),
+        assumptions=("$I_1 = I_2$",),
     ),
     Equation(
         label="text-tangent-planes",
         number=None,
         section="IV",
         kind="claim",
-        says="I = 2: the two sheets touch the planes omega3 = 0 and omega3 = -2 B'3",
+        says=r"$I = 2$: the two sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$",
         tex=r"I=2:\quad\omega_3\ge0\ \text{or}\ \omega_3\le-2B'_3",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 2"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 2$"),
         quote="the sheets of the hyperboloid are tangent to the horizontal planes",
     ),
     Equation(
@@ -173,18 +179,18 @@ EQUATIONS = (
         number=56,
         section="IV",
         kind="claim",
-        says="I = 1: a cone",
+        says="$I = 1$: a cone",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3}=\frac{{\omega'_2}^2}{a_2}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 1"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
     ),
     Equation(
         label="text-cone-semi-axes",
         number=None,
         section="IV",
         kind="claim",
-        says="The cone mf62 has the semi-axes a2 and a3 of mf60",
+        says="The cone @mf62 has the semi-axes $a_2$ and $a_3$ of @mf60",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3^2}=\frac{{\omega'_2}^2}{a_2^2}",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 1"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
         quote="turn into the cone [...] with semi axes $a_2$ and $a_3$ written in equation (54)",
     ),
     Equation(
@@ -192,7 +198,7 @@ EQUATIONS = (
         number=57,
         section="IV",
         kind="claim",
-        says="I < 1: a hyperboloid of one sheet",
+        says="$I < 1$: a hyperboloid of one sheet",
         tex=(
             r"\begin{aligned} "
             r"\frac{{\omega'_1}^2}{C_1^2}-\frac{{\omega'_2}^2}{C_2^2}+\frac{{\omega'_3}^2}{C_3^2}&=1,\\ "
@@ -201,16 +207,16 @@ EQUATIONS = (
             r"C_3^2&\equiv\frac{2(1-I){B'_2}^2\sin\beta}{1+\sin\beta} "
             r"\end{aligned}"
         ),
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "0 < I < 1"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
     ),
     Equation(
         label="text-one-sheet",
         number=None,
         section="IV",
         kind="claim",
-        says="For I < 1 the squared semi-axes are positive: the surface is a hyperboloid of one sheet",
+        says="For $I < 1$ the squared semi-axes are positive: the surface is a hyperboloid of one sheet",
         tex=r"C_1^2>0,\qquad C_2^2>0,\qquad C_3^2>0",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "0 < I < 1"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
         quote="Hence the surface of initial data is a hyperboloid of one sheet",
     ),
     Equation(
@@ -220,7 +226,7 @@ EQUATIONS = (
         kind="claim",
         says="Not all constant solutions of the pseudo-oscillator are motions of the body",
         tex=r"\omega_1B'_2\ne0\implies\dot\Omega_3(0)\ne0",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
         quote="Not all of them generate solutions to the original problem",
     ),
 )

@@ -9,14 +9,17 @@ EQUATIONS = (
         section="Atlas",
         kind="theorem",
         says=(
-            "First integral of the cubic pseudo-oscillator: a quartic with leading coefficient I - 1, and "
-            "Q' is twice the cubic"
+            "First integral of the cubic pseudo-oscillator: a quartic with leading coefficient $I - 1$, and "
+            "$Q'$ is twice the cubic"
         ),
         tex=(
             r"\dot u^2=Q(u)=(E'-Iu^2)\left(b^2-(c_3-u)^2\right)-\left(u^2-(2-I)c_3u+c_5\right)^2,\qquad Q'(u)="
             "2(a_0+a_1u+a_2u^2+a_3u^3)"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0", "u = Omega3, b = |B'|"),
+        assumptions=(
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$u = \Omega_3$, $b = |\mathbf{B}'|$",
+        ),
     ),
     Equation(
         label="theorem-points",
@@ -33,21 +36,21 @@ EQUATIONS = (
             r"\ddot\Omega_3(0)&=B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2"
             r"-I{B'_2}^2\omega_3 \end{aligned}"
         ),
-        assumptions=("I1 = I2, third axis of inertia along e3 at t = 0",),
+        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
         label="theorem-stability",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="Square of the nutation frequency along the hyperbola, $p$ being the cubic of mf55",
+        says="Square of the nutation frequency along the hyperbola, $p$ being the cubic of @mf55",
         tex=(
             r"\begin{aligned} \nu_n^2=-p'(\omega_3)&={B'_2}^2\,\frac{(1+\tau^2)x^4+(1-I)(2\tau^2-1)x^2+\tau^2(1-I)^2}"
             r"{x^2}\\ &=\kappa^2+(1-I)b^2(3\hat{B}_3^2-1)+(1-I)^2\frac{b^4\hat{B}_3^2}{\kappa^2} \end{aligned}"
         ),
         assumptions=(
-            "I1 = I2, third axis of inertia along e3 at t = 0",
-            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             "$\\omega_2$ differs from $-B'_2$",
             "$\\tau=B'_3/B'_2$, $x=(\\omega_2+B'_2)/B'_2$, $b=|\\mathbf{B}'|$, $\\kappa=k+b$",
         ),
@@ -63,7 +66,7 @@ EQUATIONS = (
         ),
         tex=r"Q(\omega_3+v)=v^2\left[p'(\omega_3)+(1-I)\,v\,(4B'_3-v)\right]",
         assumptions=(
-            "I1 = I2, third axis of inertia along e3 at t = 0",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
             "an elementary motion: $\\omega_1=0$ and $p(\\omega_3)=0$",
         ),
     ),
@@ -78,8 +81,8 @@ EQUATIONS = (
             r"X=\omega_2+B'_2"
         ),
         assumptions=(
-            "I1 = I2, third axis of inertia along e3 at t = 0",
-            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             "$\\omega_2$ differs from $-B'_2$",
             "$1\\le I\\le2$",
         ),
@@ -98,8 +101,8 @@ EQUATIONS = (
             r",\qquad\tau\le\frac{1}{2\sqrt2}"
         ),
         assumptions=(
-            "I1 = I2, third axis of inertia along e3 at t = 0",
-            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             "$\\omega_2$ differs from $-B'_2$",
             "$0<I<1$",
         ),
@@ -118,8 +121,8 @@ EQUATIONS = (
             r"\Omega_3(t)=\omega_3+\frac{4B'_3}{1+4(1-I){B'_3}^2t^2}"
         ),
         assumptions=(
-            "I1 = I2, third axis of inertia along e3 at t = 0",
-            "B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             "$0<I<1$",
         ),
     ),
@@ -134,7 +137,7 @@ EQUATIONS = (
             r"-(1-I){B'_2}^2"
         ),
         assumptions=(
-            "I1 = I2, third axis of inertia along e3 at t = 0",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
             "$\\mathbf{B}'=(0,B'_2,0)$",
         ),
     ),
@@ -155,18 +158,18 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="I = 1: every point of the line omega1 = 0, omega2 = -B'2 is a motion",
+        says=r"$I = 1$: every point of the line $\omega_1 = 0$, $\omega_2 = -B'_2$ is a motion",
         tex=r"R=R_{\hat{\mathbf{B}}}(-bt)\,R_{OZ}\left((\omega_3+B'_3)t\right)",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "I = 1"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
     ),
     Equation(
         label="theorem-equatorial-field",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="B'3 = 0: every point of the line omega1 = 0, omega2 = -B'2 is a motion, for every I",
+        says=r"$B'_3 = 0$: every point of the line $\omega_1 = 0$, $\omega_2 = -B'_2$ is a motion, for every $I$",
         tex=r"R=R_{\mathbf{e}_2}(-B'_2t)\,R_{OZ}(\omega_3t)",
-        assumptions=("B' = (0, B'2, 0)",),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, 0)$",),
     ),
     Equation(
         label="theorem-quadric-lines",
@@ -174,20 +177,23 @@ EQUATIONS = (
         section="Atlas",
         kind="theorem",
         says=(
-            "I < 1: the quadric holds the two lines omega2 = -B'2, omega1 = ±sqrt(1-I) B'2, omega3 free, "
-            "which mf59 loses"
+            r"$I < 1$: the quadric holds the two lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$, "
+            r"$\omega_3$ free, which @mf59 loses"
         ),
         tex=r"\omega_2=-B'_2,\qquad\omega_1=\pm\sqrt{1-I}\,B'_2",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "0 < I < 1"),
+        assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
     ),
     Equation(
         label="theorem-momentum",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="In the elementary motion the angular momentum precesses about B with the frequency k",
+        says=r"In the elementary motion the angular momentum precesses about $\mathbf{B}$ with the frequency $k$",
         tex=r"\dot{\mathbf{m}}=k[\hat{\mathbf{B}},\mathbf{m}]",
-        assumptions=("B' = (0, B'2, B'3) with B'2 > 0, B'3 > 0", "omega2 differs from -B'2"),
+        assumptions=(
+            r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
+            r"$\omega_2$ differs from $-B'_2$",
+        ),
     ),
     Equation(
         label="theorem-moment",
@@ -202,36 +208,36 @@ EQUATIONS = (
             r"\dot{\mathbf{m}}=\frac{\mu}{2c}\Bigl\{[\mathbf{m},\mathbf{B}]-\frac{d}{dt}\bigl(R\,\mathbb{I}\,R^T\mathbf{B}"
             r"\bigr)\Bigr\}"
         ),
-        assumptions=("all particles have the same charge-to-mass ratio mu",),
+        assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
     ),
     Equation(
         label="theorem-drift",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="The guiding centre drifts with c [E, B]/B^2 whatever the charge",
+        says=r"The guiding centre drifts with $c [\mathbf{E}, \mathbf{B}]/\mathbf{B}^2$ whatever the charge",
         tex=r"\dot{\mathbf{O}}=\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}",
-        assumptions=("B along e3, E in the plane (e2, e3)",),
+        assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
         label="theorem-ball-rest",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="m2 = 0, m3 = -alpha I0: gamma = 0 and the ball turns about B by -alpha t",
+        says=r"$m_2 = 0$, $m_3 = -\alpha I_0$: $\gamma = 0$ and the ball turns about $\mathbf{B}$ by $-\alpha t$",
         tex=r"R=R_{OZ}(-\alpha t)",
-        assumptions=("I1 = I2 = I3", "B along e3"),
+        assumptions=("$I_1 = I_2 = I_3$", r"$\mathbf{B}$ along $\mathbf{e}_3$"),
     ),
     Equation(
         label="theorem-angles",
         number=None,
         section="Atlas",
         kind="theorem",
-        says="Rates of the Euler angles about B",
+        says=r"Rates of the Euler angles about $\mathbf{B}$",
         tex=r"\dot\psi=\frac{P/b}{1-\nu^2},\qquad\dot\chi=u-\nu\dot\psi,\qquad\nu=\frac{c_3-u}{b}",
         assumptions=(
-            "I1 = I2, third axis of inertia along e3 at t = 0",
-            "z along B, nu = K3/b, P = Omega1 K1 + Omega2 K2",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$z$ along $\mathbf{B}$, $\nu = K_3/b$, $P = \Omega_1 K_1 + \Omega_2 K_2$",
             "$b>0$, $|\\nu|<1$",
         ),
     ),
@@ -240,15 +246,15 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="Logarithmic derivatives of the Cayley-Klein parameters of the general motion",
+        says="Logarithmic derivatives of the Cayley–Klein parameters of the general motion",
         tex=(
             r"\frac{\dot\xi}{\xi}=\frac12 \left[\frac{\dot\nu}{1+\nu}+i\left(\frac{P/b}{1+\nu}+u\right)"
             r"\right],\qquad\frac{\dot\eta}{\eta}=\frac12 \left[-\frac{\dot\nu}{1-\nu}+i\left(\frac{P/b}{1-\nu"
             r"}-u\right)\right]"
         ),
         assumptions=(
-            "I1 = I2, third axis of inertia along e3 at t = 0",
-            "z along B",
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            r"$z$ along $\mathbf{B}$",
             r"$\xi=\cos\frac{\theta}{2}\,e^{i(\psi+\chi)/2}$, $\eta=\sin\frac{\theta}{2}\,e^{i(\psi-\chi)/2}$",
             "$b>0$, $|\\nu|<1$",
         ),

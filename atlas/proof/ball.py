@@ -204,78 +204,90 @@ TRIALS = (
         label="text-momentum",
         printed="m = g1*cross(R1,dR1) + g2*cross(R2,dR2) + g3*cross(R3,dR3) = R*I*T(R)*omega = R*I*Omega",
         model=kinematic_model,
-        follows="m = sum of m_N [x, dx/dt] for three masses on the principal axes",
+        follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the principal axes",
     ),
     Trial(
         label="mf30.0",
         printed="I1 = I2 = I3 = I0",
         model=uniform_ball_model,
-        follows="the moments of a uniform ball, integrated, I0 = 2 M r^2/5",
+        follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$",
     ),
     Trial(
         label="text-ball-axis",
         printed="m = I0*omega = I0*R*Omega; cross(omega,m) = 0",
         model=round_model,
-        follows="m = sum of m_N [x, dx/dt] for three masses on the principal axes with equal moments",
+        follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the "
+        "principal axes with equal moments",
     ),
     Trial(
         label="mf30",
         printed="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
         model=general.poisson_model,
-        follows="mf21",
+        follows="@mf21",
     ),
     Trial(
-        label="mf31", printed="dOmega = -mu/(2*c)*cross(T(R)*Bf,Omega)", model=ball_model, follows="mf27 with g = I0/2"
+        label="mf31",
+        printed="dOmega = -mu/(2*c)*cross(T(R)*Bf,Omega)",
+        model=ball_model,
+        follows="@mf27 with $g = I_0/2$",
     ),
     Trial(
-        label="mf32", printed="dm = -mu/(2*c)*cross(Bf,m)", model=ball_model, follows="m = I0 R Omega, mf30 and mf31"
+        label="mf32",
+        printed="dm = -mu/(2*c)*cross(Bf,m)",
+        model=ball_model,
+        follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @mf30 and @mf31",
     ),
     Trial(
         label="mf33",
         printed="d(m[1]^2 + m[2]^2 + m[3]^2) = 0; d(m[1]*Bf[1] + m[2]*Bf[2] + m[3]*Bf[3]) = 0",
         model=momentum_flow_model,
-        follows="mf32",
+        follows="@mf32",
     ),
     Trial(
         label="text-ball-body-precession",
         printed="d2(Omega) = cross(K,cross(K,Omega))",
         model=body_flow_model,
-        follows="mf31 and mf43: a precession about K with the frequency |K| = alpha has this second rate",
+        follows=r"@mf31 and @mf43: a precession about $\mathbf{K}$ with the frequency $|\mathbf{K}| = \alpha$ has this "
+        "second rate",
         corrected="d(Omega) = -cross(Omega + K,Omega); d(Omega + K) = 0",
         corrected_tex=(
             r"\dot{\boldsymbol{\Omega}}=-[\boxed{\boldsymbol{\Omega}+\mathbf{K}},\boldsymbol{\Omega}],\qquad"
             r"\boxed{\boldsymbol{\Omega}+\mathbf{K}=\text{const}}"
         ),
         grade="wording",
-        note="It is so at each instant, but R^T B moves as well. What stands still in the body is Omega + K, and the"
-        " components turn about that with the frequency gamma of mf39, not with Larmor's.",
+        note=r"It is so at each instant, but $R^T \mathbf{B}$ moves as well. What stands still in the body is "
+        r"$\boldsymbol{\Omega} + \mathbf{K}$, and the components turn about that with the frequency $\gamma$ of "
+        "@mf39, not with Larmor's.",
     ),
     Trial(
         label="text-linear-poisson",
         printed="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
         model=ball_model,
-        follows="det R = 1",
+        follows=r"$\det R = 1$",
     ),
     Trial(
         label="mf34",
         printed="dR[i,j] = 1/I0*eps[i,a,b]*m[a]*R[b,j]; dRj[j] = 1/I0*cross(m,Rj[j])",
         model=ball_model,
-        follows="mf30 and m = I0 R Omega",
+        follows=r"@mf30 and $\mathbf{m} = I_0 R \boldsymbol{\Omega}$",
     ),
     Trial(
-        label="mf35", printed="dm = -mu/(2*c)*cross(Bf,m)", model=ball_model, follows="m = I0 R Omega, mf30 and mf31"
+        label="mf35",
+        printed="dm = -mu/(2*c)*cross(Bf,m)",
+        model=ball_model,
+        follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @mf30 and @mf31",
     ),
     Trial(
         label="text-ball-frame",
         printed="R*(I0*one)*T(R) = I0*one",
         model=frame_model,
-        follows="R R^T = 1",
+        follows="$R R^T = 1$",
     ),
     Trial(
         label="mf36",
         printed=f"m = {_LEFT}*[0, m2, m3] = [m2*sin(alpha*t), m2*cos(alpha*t), m3]",
         model=larmor_model,
-        follows="mf35 by substitution, alpha of mf37",
+        follows=r"@mf35 by substitution, $\alpha$ of @mf37",
         defines=("m",),
         solves="d(m) = -mu/(2*c)*cross([0, 0, b],m); at0(m) = [0, m2, m3]",
     ),
@@ -283,19 +295,19 @@ TRIALS = (
         label="mf37",
         printed="alpha = mu*b/(2*c)",
         model=larmor_frequency_model,
-        follows="the rate of the angle of m about B in mf32",
+        follows=r"the rate of the angle of $\mathbf{m}$ about $\mathbf{B}$ in @mf32",
     ),
     Trial(
         label="text-ball-ansatz",
         printed="k2 = -m2/(gamma*I0); k3 = -(alpha*I0 + m3)/(gamma*I0); I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
         model=start_model,
-        follows="the rate of the ansatz at t = 0 is m/I0",
+        follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$",
     ),
     Trial(
         label="mf38",
         printed=f"R = {_EXPANDED} = {_LEFT}*{_RIGHT}",
         model=motion_model,
-        follows="mf34 by substitution, with m of mf36 and k, gamma of mf39",
+        follows=r"@mf34 by substitution, with $\mathbf{m}$ of @mf36 and $\hat{\mathbf{k}}$, $\gamma$ of @mf39",
         defines=("R",),
         solves=_LINEAR,
     ),
@@ -304,7 +316,7 @@ TRIALS = (
         printed="k2 = -m2/sqrt(m2^2 + (alpha*I0 + m3)^2); k3 = -(m3 + alpha*I0)/sqrt(m2^2 + (alpha*I0 + m3)^2);"
         " gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2)",
         model=constants_model,
-        follows="the rate of the ansatz at t = 0 is m/I0, for all initial data",
+        follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$, for all initial data",
         defines=("k2", "k3", "gamma"),
         solves="k2^2 + k3^2 = 1; gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0",
         corrected="gamma*k2 = -m2/I0; gamma*k3 = -(m3 + alpha*I0)/I0; gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2);"
@@ -317,8 +329,8 @@ TRIALS = (
             r"\hat{k}_2^2+\hat{k}_3^2=1},\quad\gamma=\frac{1}{I_0}\sqrt{m_2^2+(\alpha I_0+m_3)^2}"
         ),
         grade="missing case",
-        note="Right but for one point, m2 = 0 and m3 = -alpha I0, where it reads 0/0: there gamma = 0 and k is any unit"
-        " vector, see theorem-ball-rest.",
+        note=r"Right but for one point, $m_2 = 0$ and $m_3 = -\alpha I_0$, where it reads $0/0$: there $\gamma = 0$ "
+        r"and $\hat{\mathbf{k}}$ is any unit vector, see @theorem-ball-rest.",
     ),
     Trial(
         label="text-ball-two-rotations",
@@ -331,23 +343,22 @@ TRIALS = (
         label="text-ball-parallel",
         printed="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
         model=parallel_model,
-        follows="mf39 with m2 = 0",
+        follows="@mf39 with $m_2 = 0$",
         also=(
             Part(
                 line="k2 = 0; k3 = 1; gamma = -(alpha + m3/I0)",
                 model=lambda: parallel_model(-1),
             ),
         ),
-        note="In the same sense as B, or against it with m3 > -alpha I0. For m3 < -alpha I0 both signs turn round, "
-        "k3 = 1"
-        " and gamma = -(alpha + m3/I0), since gamma is a root and never negative. The product, and so mf40, is the "
-        "same.",
+        note=r"In the same sense as $\mathbf{B}$, or against it with $m_3 > -\alpha I_0$. For $m_3 < -\alpha I_0$ "
+        r"both signs turn round, $\hat k_3 = 1$ and $\gamma = -(\alpha + m_3/I_0)$, since $\gamma$ is a root and "
+        "never negative. The product, and so @mf40, is the same.",
     ),
     Trial(
         label="mf40",
         printed="R = [[cos(m3/I0*t), -sin(m3/I0*t), 0], [sin(m3/I0*t), cos(m3/I0*t), 0], [0, 0, 1]]",
         model=parallel_motion_model,
-        follows="mf34 by substitution with m = (0, 0, m3)",
+        follows=r"@mf34 by substitution with $\mathbf{m} = (0, 0, m_3)$",
         defines=("R",),
         solves=_LINEAR,
     ),

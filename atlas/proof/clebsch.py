@@ -116,33 +116,33 @@ TRIALS = (
         printed="S = P*R; d(S[i,j]) = -eps[j,a,b]*(Omega[a] + K[a])*S[i,b]; T(S)*Bp = K;"
         " S2 = P2*R; d(S2[i,j]) = -eps[j,a,b]*(Omega[a] + 2*K[a])*S2[i,b]; T(S2)*Bp = K",
         model=frame_model,
-        follows="mf21, with P = R_B(bt) and P2 = R_B(2bt)",
+        follows="@mf21, with $P = R_B(bt)$ and $P_2 = R_B(2bt)$",
         defines=("S", "S2"),
-        note="The last equation, in the reversed time, is what theorem-pair needs.",
+        note="The last equation, in the reversed time, is what @theorem-pair needs.",
     ),
     Trial(
         label="theorem-larmor",
         printed="J*d(W) = cross(J*W,W) + cross(K,J*K); d(K) = cross(K,W); W = Omega + K",
         model=tensor_model,
-        follows="mf27 and mf43",
-        note="Larmor's theorem, exact in the field and for every inertia tensor. The torque [K, J K] is that of the"
-        " potential (K, J K)/2, quadratic in the field.",
+        follows="@mf27 and @mf43",
+        note=r"Larmor's theorem, exact in the field and for every inertia tensor. The torque $[\mathbf{K}, J "
+        r"\mathbf{K}]$ is that of the potential $(\mathbf{K}, J \mathbf{K})/2$, quadratic in the field.",
     ),
     Trial(
         label="theorem-momentum-canonical",
         printed=f"L = {_L}; M = gradOmega(L); dot(M,Omega) - L = 1/2*dot(Omega,J*Omega);"
         " d(M) = cross(M,Omega) + cross(J*Omega,K)",
         model=tensor_model,
-        follows="mf27, with the Lagrangian mf14 summed over the body",
+        follows="@mf27, with the Lagrangian @mf14 summed over the body",
         defines=("L",),
-        note="The last equation is that of Euler and Poincaré for L, in which K moves with the body.",
+        note=r"The last equation is that of Euler and Poincaré for $L$, in which $\mathbf{K}$ moves with the body.",
     ),
     Trial(
         label="theorem-lie-poisson",
         printed="H = 1/2*dot(M,inv(J)*M) + 1/2*dot(K,J*K); d(M) = cross(M,gradM(H)) + cross(K,gradK(H));"
         " d(K) = cross(K,gradM(H)); d(H) = 0; d(dot(K,K)) = 0; d(dot(M,K)) = 0",
         model=poisson_model,
-        follows="mf27 and mf43 with Omega = J^-1 M - K",
+        follows=r"@mf27 and @mf43 with $\boldsymbol{\Omega} = J^{-1} \mathbf{M} - \mathbf{K}$",
         defines=("H",),
     ),
     Trial(
@@ -152,32 +152,32 @@ TRIALS = (
         " eps[l,i,j]*br(br(M[i],M[j]),K[k]) + 2*eps[l,i,j]*br(br(M[j],K[k]),M[i]) = 0;"
         " br(M[i],dot(K,K)) = 0; br(M[i],dot(M,K)) = 0; br(K[i],dot(M,K)) = 0",
         model=poisson_model,
-        follows="the bracket with which H generates the equations of theorem-lie-poisson",
-        note="Jacobi's identity, here contracted with eps, which loses nothing since the bracket is antisymmetric, "
-        "for the"
-        " coordinates is that for all functions, since a bracket is a derivation.",
+        follows="the bracket with which $H$ generates the equations of @theorem-lie-poisson",
+        note=r"Jacobi's identity, here contracted with $\varepsilon$, which loses nothing since the bracket is "
+        "antisymmetric, for the coordinates is that for all functions, since a bracket is a derivation.",
     ),
     Trial(
         label="theorem-kinetic-energy",
         printed="energy = 1/2*dot(W,J*W) + 1/2*dot(K,J*K) - dot(M,K); d(energy) = 0",
         model=tensor_model,
-        follows="M = J W, W = Omega + K, mf27 and mf43",
-        note="F is not needed. The two Hamiltonians differ by a Casimir, which generates the turn of Larmor's frame.",
+        follows=r"$\mathbf{M} = J \mathbf{W}$, $\mathbf{W} = \boldsymbol{\Omega} + \mathbf{K}$, @mf27 and @mf43",
+        note="$F$ is not needed. The two Hamiltonians differ by a Casimir, which generates the turn of Larmor's frame.",
     ),
     Trial(
         label="theorem-clebsch",
         printed="F = dot(M,M) - dot(K,adj(J)*K); adj(J)*J = det(J)*one; d(F) = 0;"
         " cross(J*Omega,J*K) = adj(J)*cross(Omega,K)",
         model=tensor_model,
-        follows="mf27 and mf43; det J J^-1 is the matrix of cofactors",
+        follows=r"@mf27 and @mf43; $\det J J^{-1}$ is the matrix of cofactors",
         defines=("F",),
-        note="The last identity is why: (J W, [K, J K]) = (K, det J J^-1 [K, W]).",
+        note=r"The last identity is why: $(J \mathbf{W}, [\mathbf{K}, J \mathbf{K}]) = (\mathbf{K}, \det J J^{-1} "
+        r"[\mathbf{K}, \mathbf{W}])$.",
     ),
     Trial(
         label="theorem-involution",
         printed="F = dot(M,M) - det(J)*dot(K,inv(J)*K); br(F,H) = 0; d(F) = 0; rank(H,F,dot(M,K),dot(K,K)) = 4",
         model=poisson_model,
-        follows="the bracket of theorem-bracket; the gradients at one point, moments 2, 3, 4",
+        follows="the bracket of @theorem-bracket; the gradients at one point, moments 2, 3, 4",
         defines=("F",),
         note="Independent at one point, so at all but those of a set of measure zero.",
     ),
@@ -186,14 +186,15 @@ TRIALS = (
         printed="F = 2*I2*H + (1 - I2/I3)*M3^2 - I2*(I2 + I3)*dot(K,K); M3 = I3*c3;"
         " c5 = dot(M,K)/I2 - dot(K,K) + (1 - I)*c3^2; E = 2/I2*(H - dot(M,K))",
         model=symmetric_model,
-        follows="mf44, mf48 and mf49 at any state",
+        follows="@mf44, @mf48 and @mf49 at any state",
     ),
     Trial(
         label="theorem-pair",
         printed="other = -2*K - Omega; Jrate = -J*d(other); Krate = -d(K)",
         model=reversed_model,
-        follows="mf27 and mf43 at the state (-2K - Omega, K), against their rates along the motion, time reversed",
-        note="R follows: by theorem-larmor-frame S is one motion for both, and R(t) of the other is"
-        " R_B(-bt) S(-t) = R_B(-2bt) R(-t), the S2 of theorem-larmor-frame at -t.",
+        follows=r"@mf27 and @mf43 at the state $(-2\mathbf{K} - \boldsymbol{\Omega}, \mathbf{K})$, against their rates "
+        "along the motion, time reversed",
+        note="$R$ follows: by @theorem-larmor-frame $S$ is one motion for both, and $R(t)$ of the other is $R_B(-bt) "
+        "S(-t) = R_B(-2bt) R(-t)$, the $S_2$ of @theorem-larmor-frame at $-t$.",
     ),
 )

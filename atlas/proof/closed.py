@@ -29,16 +29,15 @@ TRIALS = (
         " kr = -b*(2*(1 - I)*hB3 - I*r)/((1 - I)*hB3 - I*r); at(phi,kr)/kr = r; I*(b + kr)*((1 - I)*hB3 - I*r)"
         " = -I*b*(1 - I)*hB3",
         model=closed_model,
-        follows="mf77 and mf84",
+        follows="@mf77 and @mf84",
         defines=("kr",),
-        note="The first relation is linear in k: one root, none where the coefficient of k is 0. By the last one b + "
-        "k_r"
-        " is not 0 if I differs from 1; k_r is 0 for the second r that is left out.",
+        note="The first relation is linear in $k$: one root, none where the coefficient of $k$ is 0. By the last one "
+        "$b + k_r$ is not 0 if $I$ differs from 1; $k_r$ is 0 for the second $r$ that is left out.",
     ),
     Trial(
         label="theorem-closed-free",
         printed="phi/free = (2*b + k)/(b + k)",
         model=closed_model,
-        follows="mf77, mf84 and mf92",
+        follows="@mf77, @mf84 and @mf92",
     ),
 )

@@ -189,22 +189,23 @@ TRIALS = (
         label="The.1",
         printed="ddRg[i,j] = -R[i,k]*Lam[k,j] - A[i,k]*g[k,j]",
         model=multiplier_model,
-        follows="mf19 about the centre of mass, solved for the multipliers",
+        follows="@mf19 about the centre of mass, solved for the multipliers",
         definition=True,
     ),
     Trial(
         label="Aff100",
         printed=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_MF22})",
         model=multiplier_model,
-        follows="The.1 with R^T d2R/dt2 = hat(Omega)^2 + hat(dOmega/dt)",
-        note="The multipliers are symmetric if and only if mf22 holds: one identity proves both directions, for every"
-        " rotation, every symmetric mass matrix and every matrix A. That g be non-degenerate is not needed, only I.",
+        follows=r"@The.1 with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
+        note="The multipliers are symmetric if and only if @mf22 holds: one identity proves both directions, for "
+        "every rotation, every symmetric mass matrix and every matrix $A$. That $g$ be non-degenerate is not "
+        "needed, only $I$.",
     ),
     Trial(
         label="text-multipliers-algebraic",
         printed="lam = -(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega) + T(R)*A)*g = T(lam)",
         model=algebraic_model,
-        follows="The.1 with the rate of Omega of mf22, for any matrix A",
+        follows=r"@The.1 with the rate of $\boldsymbol{\Omega}$ of @mf22, for any matrix $A$",
         defines=("lam",),
         solves="R*(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega))*g = -R*lam - A*g",
     ),
@@ -217,14 +218,14 @@ TRIALS = (
         corrected_tex=r"\boxed{\det I=I_1I_2I_3}\ne0",
         grade="missing case",
         slip="text-rigid-plane",
-        note="For a plane body, the loop of Section IV, g3 = 0. The Affirmation needs only that the inertia tensor be"
-        " non-degenerate, which it is for every body that is no rod.",
+        note="For a plane body, the loop of Section IV, $g_3 = 0$. The Affirmation needs only that the inertia "
+        "tensor be non-degenerate, which it is for every body that is no rod.",
     ),
     Trial(
         label="mf22",
         printed=f"IdOmega[k] = {_MF22}",
         model=multiplier_model,
-        follows="the symmetry of the multipliers in The.1",
+        follows="the symmetry of the multipliers in @The.1",
     ),
     Trial(
         label="mf21",
@@ -236,32 +237,32 @@ TRIALS = (
         label="text-inertia-tensor",
         printed="I[i,j] = g[a,a]*delta[i,j] - g[i,j]",
         model=inertia_model,
-        follows="the kinetic energy of four particles that turn with Omega",
+        follows=r"the kinetic energy of four particles that turn with $\boldsymbol{\Omega}$",
     ),
     Trial(
         label="text-mass-moments",
         printed="2*g1 = I2 + I3 - I1; 2*g2 = I3 + I1 - I2; 2*g3 = I1 + I2 - I3",
         model=diagonal_model,
-        follows="I = tr(g) - g",
+        follows=r"$I = \operatorname{tr}(g) - g$",
     ),
     Trial(
         label="text-orthogonal",
         printed="d(R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]) = 0",
         model=matrix_flow_model,
-        follows="mf21 for any matrix R",
+        follows="@mf21 for any matrix $R$",
     ),
     Trial(
         label="text-covariance",
         printed="rate(seen(I),seen(g),S*K,S*Omega) = S*rate(I,g,K,Omega); hat(S*Omega) = seen(hat(Omega))",
         model=covariance_model,
-        follows="the right side of mf27 and that of mf21, for any rotation S",
-        note="The rates go over into one another, and R = 1 at the start stays what it is.",
+        follows="the right side of @mf27 and that of @mf21, for any rotation $S$",
+        note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
     ),
     Trial(
         label="mf23",
         printed=_MF23.format(sign="").replace("= ", "= ", 1) + " = R[i,a]*dot(Bf,R*Omega) - (R*Omega)[i]*(T(R)*Bf)[a]",
         model=magnetic_model,
-        follows="mf21 and R R^T = 1",
+        follows="@mf21 and $R R^T = 1$",
         corrected=_MF23.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
         corrected_tex=(
             r"\begin{aligned} \epsilon_{ijk}B_j\dot R_{ka}&=\boxed{-}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}="
@@ -270,21 +271,21 @@ TRIALS = (
             r"=\boxed{(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})} \end{aligned}"
         ),
         grade="misprint",
-        note="The minus of mf21 is lost at the first step and back in mf24.",
+        note="The minus of @mf21 is lost at the first step and back in @mf24.",
     ),
     Trial(
         label="mf24",
         printed="A[i,a] = -mu/c*eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
         " = mu/c*((R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega))",
         model=magnetic_model,
-        follows="mf20 and mf21",
+        follows="@mf20 and @mf21",
     ),
     Trial(
         label="mf25",
         printed="IdOmega = cross(I*Omega,Omega) - mu/(2*c)*(I*cross(T(R)*Bf,Omega) - cross(I*T(R)*Bf,Omega)"
         " + cross(T(R)*Bf,I*Omega))",
         model=magnetic_model,
-        follows="mf22 with the matrix A of mf20",
+        follows="@mf22 with the matrix $A$ of @mf20",
     ),
     Trial(
         label="mf26",
@@ -292,45 +293,45 @@ TRIALS = (
         " = (I1 - I2 + I3)*K2*Omega3 - (I1 - I3 + I2)*K3*Omega2 = 2*g2*K2*Omega3 - 2*g3*K3*Omega2 ="
         " 2*cross(g*K,Omega)[1]",
         model=diagonal_model,
-        follows="I = tr(g) - g, K = R^T B",
+        follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$",
     ),
     Trial(
         label="text-other-components",
         printed="I*cross(K,Omega) - cross(I*K,Omega) + cross(K,I*Omega) = 2*cross(g*K,Omega)",
         model=diagonal_model,
-        follows="I = tr(g) - g, K = R^T B, all three components",
+        follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$, all three components",
     ),
     Trial(
         label="mf27",
         printed="IdOmega = cross(I*Omega,Omega) - mu/c*cross(g*T(R)*Bf,Omega)",
         model=magnetic_model,
-        follows="mf22 with the matrix A of mf20",
+        follows="@mf22 with the matrix $A$ of @mf20",
     ),
     Trial(
         label="mf28",
         printed="dm = -mu/c*cross(R*g*T(R)*Bf,R*inv(I)*T(R)*m)",
         model=momentum_model,
-        follows="m = R I Omega, mf21 and mf27",
+        follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$, @mf21 and @mf27",
     ),
     Trial(
         label="mf29",
         printed="dM = cross(M,inv(I)*M) - mu/c*cross(g*T(R)*Bf,inv(I)*M)",
         model=momentum_model,
-        follows="M = I Omega and mf27",
+        follows=r"$\mathbf{M} = I \boldsymbol{\Omega}$ and @mf27",
     ),
     Trial(
         label="text-grioli",
         printed="IdOmega = cross(I*Omega,Omega) - mu*b/c*cross(g*G3,Omega)",
         model=grioli_model,
-        follows="mf27 with B = (0, 0, b)",
+        follows=r"@mf27 with $\mathbf{B} = (0, 0, b)$",
     ),
     Trial(
         label="text-flight",
         printed="R*(I*w - IdOmega) = m[N]*cross(R*x[N], R*(hat(Omega)*hat(Omega) + hat(w))*x[N]"
         " - mu/c*cross(R*hat(Omega)*x[N],Bf))",
         model=flight_model,
-        follows="d'Alembert's principle for y_N = y_0 + R x_N(0), four particles: the force and the torque that"
-        " are not those of the constraints",
+        follows=r"d'Alembert's principle for $\mathbf{y}_N = \mathbf{y}_0 + R \mathbf{x}_N(0)$, four particles: the "
+        "force and the torque that are not those of the constraints",
         also=(
             Part(
                 line="0 = m[N]*(ddy0 + R*(hat(Omega)*hat(Omega) + hat(w))*x[N] - mu*E"
@@ -338,7 +339,8 @@ TRIALS = (
                 model=flight_model,
             ),
         ),
-        note="Both vanish if mf17 holds and the rate w of Omega is that of mf27, and only then. A force that is for all"
-        " particles in proportion to their masses has no torque about the centre of mass, and is left out of it.",
+        note=r"Both vanish if @mf17 holds and the rate $w$ of $\boldsymbol{\Omega}$ is that of @mf27, and only then. "
+        "A force that is for all particles in proportion to their masses has no torque about the centre of "
+        "mass, and is left out of it.",
     ),
 )

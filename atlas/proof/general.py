@@ -86,20 +86,20 @@ TRIALS = (
         printed=f"d(nu)^2 = {_q}; P/b/(1 - nu^2) + b = (p - M3*nu)/(1 - nu^2);"
         " u - nu*P/b/(1 - nu^2) = c3 - nu*(p - M3*nu)/(1 - nu^2); d(M3) = 0; d(p) = 0; d(h) = 0; M3 = I*c3",
         model=top_model,
-        follows="mf42 and mf43 at any state, and the rates of theorem-angles",
+        follows="@mf42 and @mf43 at any state, and the rates of @theorem-angles",
     ),
     Trial(
         label="theorem-top-quartic",
         printed=f"{_Q} = b^2*({_q})",
         model=letters_model,
-        follows="E' and c5 by theorem-clebsch-symmetric, for all u, nu = (c3 - u)/b",
+        follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$, $\nu = (c_3 - u)/b$",
     ),
     Trial(
         label="theorem-weierstrass",
         printed="Q = a0*u^4 + 4*a1*u^3 + 6*a2*u^2 + 4*a3*u + a4; x = e + slope(Q)/4/(P - bend(Q)/24);"
         " g2 = a0*a4 - 4*a1*a3 + 3*a2^2; g3 = a0*a2*a4 + 2*a1*a2*a3 - a2^3 - a0*a3^2 - a1^2*a4",
         model=weierstrass_model,
-        follows="P' = P1 with P1^2 = 4 P^3 - g2 P - g3, the equation of Weierstrass",
+        follows="$P' = P_1$ with $P_1^2 = 4 P^3 - g_2 P - g_3$, the equation of Weierstrass",
         defines=("Q", "x", "g2", "g3"),
         solves="d(x) = -slope(Q)/4*P1/(P - bend(Q)/24)^2;"
         " (slope(Q)/4)^2*(4*P^3 - g2*P - g3)/(P - bend(Q)/24)^4 = at(Q,x)",
@@ -112,29 +112,29 @@ TRIALS = (
         " x2 = -1/2*w/(1 - nu); y2 = 1/2*(p - M3)/(1 - nu) = 1/2*((p - M3*nu)/(1 - nu) - M3);"
         " d(x2) + x2^2 - y2^2 = 3/4*A*nu^2 + 1/2*A*nu - C; d(y2) + 2*x2*y2 = 0",
         model=curve_model,
-        follows="a'/a = x + i y by theorem-cayley-klein in Larmor's frame, so a''/a = (x + i y)' + (x + i y)^2",
+        follows="$a'/a = x + i y$ by @theorem-cayley-klein in Larmor's frame, so $a''/a = (x + i y)' + (x + i y)^2$",
         defines=("C", "x", "y", "x2", "y2"),
-        note="The potentials have no pole where nu = -1 or 1. So $\\xi$ and $\\eta$ are regular there, and their zeros"
-        " are simple.",
+        note=r"The potentials have no pole where $\nu = -1$ or 1. So $\xi$ and $\eta$ are regular there, and their "
+        "zeros are simple.",
     ),
     Trial(
         label="theorem-residues",
         printed="q = (1 - nu^2)*(g - A*nu^2) - (p - M3*nu)^2 = w^2; at(q,-1) = -(p + M3)^2; at(q,1) = -(p - M3)^2;"
         " 1/2*(s*(p + M3) + p + M3)/(s*(p + M3)) = 1/2*(1 + s); 1/2*(-s*(p - M3) + p - M3)/(-s*(p - M3)) = 1/2*(1 - s)",
         model=lambda: tuple(curve_model(s) for s in (1, -1)),
-        follows="theorem-top, with A = (I - 1) b^2 and g = h - M3^2/I - b^2",
+        follows="@theorem-top, with $A = (I - 1) b^2$ and $g = h - M_3^2/I - b^2$",
         defines=("q",),
-        note="At nu = -1, with w0 = i s (p + M3) the rate of nu and s = ±1, the logarithmic rate of $\\xi$ is"
-        " [w0 + i(p + M3)]/(2 w0 (t - z)): residue 1 or 0.",
+        note=r"At $\nu = -1$, with $w_0 = i s (p + M_3)$ the rate of $\nu$ and $s = \pm 1$, the logarithmic rate of "
+        r"$\xi$ is $[w_0 + i(p + M_3)]/(2 w_0 (t - z))$: residue 1 or 0.",
     ),
     Trial(
         label="theorem-sigma",
         printed=_SIGMA,
         model=sigma_model,
-        follows="theorem-cayley-klein, theorem-top and theorem-weierstrass, with the addition theorem of zeta",
+        follows="@theorem-cayley-klein, @theorem-top and @theorem-weierstrass, with the addition theorem of zeta",
         defines=("x", "Z", "Y", "lam"),
-        note="By the addition theorem, which is taken from the textbooks, the four zeta functions sum to"
-        " (P1 + Z1)/(2(P - Z)) - P1/(2(P - P(z0))). Here Z1 = i Y is the rate at the zero z. Tried for alpha; beta is"
-        " its mirror image: nu, e, M3, c3 with the opposite signs.",
+        note="By the addition theorem, which is taken from the textbooks, the four zeta functions sum to $(P_1 + "
+        "Z_1)/(2(P - Z)) - P_1/(2(P - P(z_0)))$. Here $Z_1 = i Y$ is the rate at the zero $z$. Tried for "
+        r"$\alpha$; $\beta$ is its mirror image: $\nu$, $e$, $M_3$, $c_3$ with the opposite signs.",
     ),
 )

@@ -166,7 +166,7 @@ TRIALS = (
         label="mf64",
         printed="d(omega3) = 0; at0(Omega1) = omega1; at0(Omega2) = omega2",
         model=constant_model,
-        follows="the ansatz: Omega3 is the constant omega3",
+        follows=r"the ansatz: $\Omega_3$ is the constant $\omega_3$",
         definition=True,
     ),
     Trial(
@@ -174,13 +174,13 @@ TRIALS = (
         printed="dOmega1 = ((1 - I)*omega3 + (2 - I)*B3)*Omega2 - I*omega3*K2;"
         " dOmega2 = -((1 - I)*omega3 + (2 - I)*B3)*Omega1 + I*omega3*K1; dOmega3 = Omega1*K2 - Omega2*K1",
         model=constant_model,
-        follows="mf42 with Omega3 = omega3",
+        follows=r"@mf42 with $\Omega_3 = \omega_3$",
     ),
     Trial(
         label="mf66",
         printed="dK1 = omega3*K2 - B3*Omega2; dK2 = -omega3*K1 + B3*Omega1; K3 = B3",
         model=constant_model,
-        follows="mf43 and mf48 with Omega3 = omega3",
+        follows=r"@mf43 and @mf48 with $\Omega_3 = \omega_3$",
     ),
     Trial(
         label="mf67",
@@ -188,27 +188,27 @@ TRIALS = (
         " at0(Omega1^2 + Omega2^2) = omega1^2 + omega2^2; at0(K1^2 + K2^2) = B2^2;"
         " at0(Omega1*K1 + Omega2*K2) = omega2*B2",
         model=proportional_model,
-        follows="mf65 and mf66",
+        follows="@mf65 and @mf66",
     ),
     Trial(
         label="mf68",
         printed="K1 = omega2*B2/(omega1^2 + omega2^2)*Omega1; K2 = omega2*B2/(omega1^2 + omega2^2)*Omega2",
         model=circle_model,
-        follows="mf67 and the last equation of mf65",
+        follows="@mf67 and the last equation of @mf65",
     ),
     Trial(
         label="mf69",
         printed="dOmega1 = phip*Omega2; dOmega2 = -phip*Omega1;"
         " phip = (1 - I)*omega3 + (2 - I)*B3 - I*B2*omega2*omega3/(omega1^2 + omega2^2)",
         model=precession_model,
-        follows="mf65 and mf68",
+        follows="@mf65 and @mf68",
         defines=("phip",),
     ),
     Trial(
         label="mf70",
         printed="nu1 = phi*Omega2; nu2 = -phi*Omega1; phi = omega3 - B3*(omega1^2 + omega2^2)/(B2*omega2)",
         model=precession_model,
-        follows="mf66 and mf68; nu is the rate of Omega that they give",
+        follows=r"@mf66 and @mf68; $\nu$ is the rate of $\boldsymbol{\Omega}$ that they give",
         defines=("phi",),
     ),
     Trial(
@@ -216,59 +216,58 @@ TRIALS = (
         printed="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2"
         " - I*B2^2*omega2^2*omega3/(omega1^2 + omega2^2) = 0",
         model=agreement_model,
-        follows="phi' = phi in mf69, mf70, solved for omega3",
+        follows=r"$\phi' = \phi$ in @mf69, @mf70, solved for $\omega_3$",
     ),
-    Trial(label="mf71.1", printed=_MF711, model=condition_model, follows="mf58.1"),
+    Trial(label="mf71.1", printed=_MF711, model=condition_model, follows="@mf58.1"),
     Trial(
         label="mf72",
         printed=_MF72,
         model=motion_model,
-        follows="mf71.1 and the last equation of mf65 at t = 0",
-        note="That omega1 = 0 follows from the last equation of mf65; mf71 and mf71.1 do not suffice, see"
-        " text-combining.",
+        follows="@mf71.1 and the last equation of @mf65 at $t = 0$",
+        note=r"That $\omega_1 = 0$ follows from the last equation of @mf65; @mf71 and @mf71.1 do not suffice, see "
+        "@text-combining.",
     ),
     Trial(
         label="text-combining",
         printed="omega1 = 0",
         model=both_conditions_model,
-        follows="every omega that obeys mf71 and mf71.1",
+        follows=r"every $\boldsymbol{\omega}$ that obeys @mf71 and @mf71.1",
         corrected="omega1*omega3 = 0; omega1*(omega1^2 + omega2^2 + (2 - I)*B2*omega2) = 0",
         corrected_tex=(
             r"\text{(65), (66)}\implies\omega_1=0\quad\boxed{\text{or}\quad\omega_3=0,\ "
             r"\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2=0}"
         ),
         grade="gap in the argument",
-        note="The circle omega3 = 0, omega1^2 + omega2^2 + (2-I) B'2 omega2 = 0 obeys both conditions too. The"
-        " motions are"
-        " on the hyperbola all the same, by the last equation of mf65 at t = 0.",
+        note=r"The circle $\omega_3 = 0$, $\omega_1^2 + \omega_2^2 + (2-I) B'_2 \omega_2 = 0$ obeys both conditions "
+        "too. The motions are on the hyperbola all the same, by the last equation of @mf65 at $t = 0$.",
     ),
     Trial(
         label="mf73",
         printed=f"w2^2/C2s - w3^2/C3s = 1; {_plane_axes('(I - 1)')}",
         model=lambda: canonical_model("above", plane=True),
-        follows="mf61b with omega1 = 0",
+        follows=r"@mf61b with $\omega_1 = 0$",
         defines=AXES,
     ),
     Trial(
         label="mf74",
         printed=f"-w2^2/C2s + w3^2/C3s = 1; {_plane_axes('(1 - I)')}",
         model=lambda: canonical_model("below", plane=True),
-        follows="mf63 with omega1 = 0",
+        follows=r"@mf63 with $\omega_1 = 0$",
         defines=AXES,
     ),
     Trial(
         label="mf75",
         printed=_MF75,
         model=degenerate_model,
-        follows="mf62 with omega1 = 0, a2 and a3 as defined in this line",
+        follows=r"@mf62 with $\omega_1 = 0$, $a_2$ and $a_3$ as defined in this line",
         defines=("a2", "a3"),
-        note="The letters a2 and a3 have another meaning here than in mf60: the roots of the former.",
+        note="The letters $a_2$ and $a_3$ have another meaning here than in @mf60: the roots of the former.",
     ),
     Trial(
         label="mf76",
         printed=f"omega3 = {_MF76}",
         model=lambda: motion_model()[0],
-        follows="mf72 for omega2 different from -B'2",
+        follows=r"@mf72 for $\omega_2$ different from $-B'_2$",
         corrected=f"omega3 = {_MF76}",
         corrected_also=(
             Part(line=f"omega2 = -B2; I = 1; {_MF72}", model=lambda: motion_model()[1]),
@@ -283,14 +282,14 @@ TRIALS = (
         ),
         grade="missing case",
         slip="mf59",
-        note="The formula is right, and -B'2 is excluded in words. For I = 1 the line omega2 = -B'2 is lost with it, "
-        "and"
-        " every point of that is a motion, see theorem-ball-line; for any other I nothing is missing.",
+        note=r"The formula is right, and $-B'_2$ is excluded in words. For $I = 1$ the line $\omega_2 = -B'_2$ is "
+        "lost with it, and every point of that is a motion, see @theorem-ball-line; for any other $I$ nothing "
+        "is missing.",
     ),
     Trial(
         label="mf77",
         printed="phi = omega3 - B3/B2*omega2 = B3*omega2*(1 - I)*(omega2 + 2*B2)/(I*B2*(omega2 + B2))",
         model=frequency_model,
-        follows="mf69 on the hyperbola mf76",
+        follows="@mf69 on the hyperbola @mf76",
     ),
 )

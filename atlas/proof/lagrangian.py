@@ -200,13 +200,13 @@ TRIALS = (
         printed="2*dL[A,be] = dot(y[A] - y[1], y[be] - y[1]) - a[A,be];"
         " (1 + delta[A,C])*dL[A,C] = dot(y[A] - y[1], y[C] - y[1]) - a[A,C]",
         model=action_model,
-        follows="the action 1.6 for six particles, differentiated",
+        follows="the action @1.6 for six particles, differentiated",
     ),
     Trial(
         label="mf15",
         printed="minusU = e[N]*A0[N] + e[N]/c*dot(A[N],dy[N])",
         model=potential_model,
-        follows="the sum of mf13 over the particles, with the potentials mf12",
+        follows="the sum of @mf13 over the particles, with the potentials @mf12",
         definition=True,
     ),
     Trial(
@@ -216,32 +216,32 @@ TRIALS = (
         " m[A]*ddy[A] = lam[A,C]*(y[C] - y[1]) + 1/2*lam[A,al]*(y[al] - y[1]) + mu*m[A]*E + mu/c*m[A]*cross(dy[A],Bf);"
         " m[al]*ddy[al] = 1/2*lam[A,al]*(y[A] - y[1]) + mu*m[al]*E + mu/c*m[al]*cross(dy[al],Bf)",
         model=particles_model,
-        follows="the variation of the action 1.6, mf15 for six particles",
+        follows="the variation of the action @1.6, @mf15 for six particles",
     ),
     Trial(
         label="mf17",
         printed="ddy0 = mu*E + mu/c*cross(dy0,Bf)",
         model=particles_model,
-        follows="the sum of mf16 over six particles",
+        follows="the sum of @mf16 over six particles",
     ),
     Trial(
         label="text-translation",
         printed="stirred(ddy0) = ddy0",
         model=particles_model,
-        follows="mf16 summed over six particles, at two states with the same centre of mass",
+        follows="@mf16 summed over six particles, at two states with the same centre of mass",
     ),
     Trial(
         label="text-rigid",
         printed="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
         model=rigid_model,
-        follows="the constraints keep the products X^T X of the frame, so that R = X X0^-1 is orthogonal",
+        follows="the constraints keep the products $X^T X$ of the frame, so that $R = X X_0^{-1}$ is orthogonal",
         note="Three fixed products with an independent frame fix every further particle in it.",
     ),
     Trial(
         label="text-rigid-plane",
         printed="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)",
         model=plane_model,
-        follows="the products with three vectors of one plane, which are all that 1.6 fixes of a further particle",
+        follows="the products with three vectors of one plane, which are all that @1.6 fixes of a further particle",
         corrected="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)",
         corrected_model=spatial_model,
         corrected_tex=(
@@ -249,8 +249,8 @@ TRIALS = (
             r"\lvert\mathbf{y}_\beta-\mathbf{y}_1\rvert=\text{const}"
         ),
         grade="missing case",
-        note="Particles 1 to 4 must not lie in one plane. In a plane body they do, and then 1.6 leaves every further"
-        " particle free to rise out of the plane. One particle beside the plane, however light, mends it.",
+        note="Particles 1 to 4 must not lie in one plane. In a plane body they do, and then @1.6 leaves every "
+        "further particle free to rise out of the plane. One particle beside the plane, however light, mends it.",
     ),
     Trial(
         label="mf18",
@@ -260,7 +260,7 @@ TRIALS = (
             )
         ),
         model=relative_model,
-        follows="mf16 less m_N times mf17, for six particles",
+        follows="@mf16 less $m_N$ times @mf17, for six particles",
         corrected=_line(
             _RELATIVE.format(
                 lost=" + m[1]*lami + mu*m[1]*E", lostA=" + m[A]*lami + mu*m[A]*E", lostal=" + m[al]*lami + mu*m[al]*E"
@@ -271,39 +271,40 @@ TRIALS = (
         ),
         corrected_also=(Part(line="lami = -mu*E", model=relative_model),),
         grade="wording",
-        note="The letter lambda^i is defined nowhere. As the multiplier that keeps the sum of m_N x_N zero it is -mu "
-        "E^i,"
-        " and then the printed form is right: the two terms cancel, and the electric field is gone already here.",
+        note=r"The letter $\lambda^i$ is defined nowhere. As the multiplier that keeps the sum of $m_N \mathbf{x}_N$ "
+        r"zero it is $-\mu \mathbf{E}^i$, and then the printed form is right: the two terms cancel, and the "
+        "electric field is gone already here.",
     ),
     Trial(
         label="mf19",
         printed="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total - A[i,a]*g[a,j]",
         model=rotation_model,
-        follows="the equations of six particles at x_N = R x_N(0), times x_N^j(0), summed; the electric force kept",
+        follows=r"the equations of six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$, times $\mathbf{x}_N^j(0)$, "
+        "summed; the electric force kept",
         corrected="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total[j] - A[i,a]*g[a,j]",
         corrected_tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_N\boxed{x_N^j}\Bigr)-A_{ia}g_{aj}",
         grade="misprint",
-        note="The second term lacks its index j. It vanishes about the centre of mass, so nothing later suffers.",
+        note="The second term lacks its index $j$. It vanishes about the centre of mass, so nothing later suffers.",
     ),
     Trial(
         label="mf20",
         printed="A[i,a] = mu/c*eps[i,n,p]*Bf[n]*dR[p,a]",
         model=rotation_model,
-        follows="the magnetic force on six particles at x_N = R x_N(0)",
+        follows=r"the magnetic force on six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$",
         definition=True,
     ),
     Trial(
         label="1.32",
         printed="g[i,j] = m[N]*x[N,i]*x[N,j]",
         model=rotation_model,
-        follows="the matrix that multiplies the second derivative of R in mf19",
+        follows="the matrix that multiplies the second derivative of $R$ in @mf19",
         definition=True,
     ),
     Trial(
         label="1.38",
         printed=_line(_MULTIPLIERS.format(sign="-")),
         model=rotation_model,
-        follows="the forces of the constraints on six particles, times x_N^j(0), summed",
+        follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
         corrected=_line(_MULTIPLIERS.format(sign="+")),
         corrected_tex=(
             r"\begin{aligned}"
@@ -312,13 +313,13 @@ TRIALS = (
             r"\boxed{+}2x_1^{j}x_1^{k}\right] \end{aligned}"
         ),
         grade="misprint",
-        note="The last sign is wrong: the products of x_1 with itself add.",
+        note=r"The last sign is wrong: the products of $\mathbf{x}_1$ with itself add.",
     ),
     Trial(
         label="text-multipliers-symmetric",
         printed="lamM[j,k] = lamM[k,j]",
         model=rotation_model,
-        follows="the forces of the constraints on six particles, times x_N^j(0), summed",
+        follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
     ),
     Trial(
         label="text-electric-field",
@@ -330,6 +331,6 @@ TRIALS = (
         label="text-rotation-apart",
         printed="carried(ddx[N]) = ddx[N]",
         model=relative_model,
-        follows="mf16 less mf17 for six particles, at two states that differ by a shift and a velocity",
+        follows="@mf16 less @mf17 for six particles, at two states that differ by a shift and a velocity",
     ),
 )

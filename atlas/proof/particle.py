@@ -206,8 +206,8 @@ _MF11 = "yperp = mu*E2/omega*t*e1 + a*(e1*sin(omega*t) + e2*cos(omega*t))"
 _TROCHOID = "x = mu*E2/omega*t + a*sin(omega*t); yy = mu*E2/{omega} + a*cos(omega*t)"
 _SIGNED = r",\qquad\omega=\boxed{\frac{\mu\lvert\mathbf{B}\rvert}{c}}"
 _SENSE = (
-    "Said for any charge, it holds for mu > 0 only; with omega = mu |B|/c, of the sign of the charge,"
-    " it holds for both."
+    r"Said for any charge, it holds for $\mu > 0$ only; with $\omega = \mu |\mathbf{B}|/c$, of the sign of the "
+    "charge, it holds for both."
 )
 
 
@@ -245,13 +245,13 @@ TRIALS = (
         label="mf1",
         printed="m*ddy = e*E + e/c*cross(v,Bf); ddy = mu*E + mu/c*cross(v,Bf)",
         model=lagrangian_model,
-        follows="the variation of the Lagrangian mf14",
+        follows="the variation of the Lagrangian @mf14",
     ),
     Trial(
         label="mf2",
         printed="dy = mu*E*t + mu/c*cross(y,Bf) + C",
         model=velocity_model,
-        follows="its rate is mf1",
+        follows="its rate is @mf1",
         defines=("dy",),
         solves="d(dy) = mu*E + mu/c*cross(dy,Bf)",
     ),
@@ -259,7 +259,7 @@ TRIALS = (
         label="text-no-magnetic-field",
         printed="y = y0 + C*t + 1/2*mu*E*t^2",
         model=fall_model,
-        follows="mf1 with B = 0 by substitution",
+        follows=r"@mf1 with $\mathbf{B} = 0$ by substitution",
         defines=("y",),
         solves="d2(y) = mu*E; at0(y) = y0; at0(d(y)) = C",
     ),
@@ -267,20 +267,22 @@ TRIALS = (
         label="text-helix",
         printed="d(y2[1]^2 + y2[2]^2) = 0; d2(y2) = -(mu*b/c)^2*y2; d2(ypar) = 0",
         model=helix_model,
-        follows="mf2 with E = 0, y2 counted from the axis",
+        follows=r"@mf2 with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
     ),
-    Trial(label="mf3", printed="dypar = Cpar + mu*Epar*t", model=split_model, follows="mf2 projected on B"),
+    Trial(
+        label="mf3", printed="dypar = Cpar + mu*Epar*t", model=split_model, follows=r"@mf2 projected on $\mathbf{B}$"
+    ),
     Trial(
         label="mf4",
         printed="dyperp = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t",
         model=split_model,
-        follows="mf2 projected across B",
+        follows=r"@mf2 projected across $\mathbf{B}$",
     ),
     Trial(
         label="mf5",
         printed="ypar = ypar0 + Cpar*t + 1/2*mu*Epar*t^2",
         model=parallel_model,
-        follows="mf3 by substitution",
+        follows="@mf3 by substitution",
         defines=("ypar",),
         solves="d(ypar) = Cpar + mu*Epar*t; at0(ypar) = ypar0",
     ),
@@ -288,42 +290,42 @@ TRIALS = (
         label="text-parallel-acceleration",
         printed="dot(d2(ypar),d2(ypar)) = mu^2*dot(Eperp,Eperp)",
         model=fall_along_model,
-        follows="mf5",
+        follows="@mf5",
         corrected="dot(d2(ypar),d2(ypar)) = mu^2*dot(Epar,Epar)",
         corrected_tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\boxed{\Vert}}\rvert",
         grade="misprint",
-        note="The wrong part of E.",
+        note=r"The wrong part of $\mathbf{E}$.",
     ),
     Trial(
         label="text-double-product",
         printed="Eperp = -cross(cross(Eperp,Bf),Bf)/dot(Bf,Bf)",
         model=orthogonal_model,
-        follows="(E_perp, B) = 0",
+        follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
     ),
     Trial(
         label="mf6",
         printed="dyperp = mu/c*cross(yperp - c*t*cross(Eperp,Bf)/b^2,Bf) + Cperp",
         model=split_model,
-        follows="mf4",
+        follows="@mf4",
     ),
     Trial(
         label="mf7",
         printed="dy1 = mu/c*cross(y1,Bf) + Cperp - c*cross(Eperp,Bf)/b^2;"
         " dy1 = mu/c*cross(y1 - (c*cross(Cperp,Bf) + c^2*Eperp)/(mu*b^2),Bf)",
         model=shifted_model,
-        follows="mf4 for y1 = y_perp - c t [E_perp, B]/B^2",
+        follows=r"@mf4 for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
     ),
     Trial(
         label="mf8",
         printed="dy2 = -mu/c*cross(Bf,y2)",
         model=shifted_model,
-        follows="mf4 for the twice shifted variable",
+        follows="@mf4 for the twice shifted variable",
     ),
     Trial(
         label="mf9",
         printed="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = abs(mu*b)/c",
         model=charges_model,
-        follows="mf8 by substitution, for either sign of the charge",
+        follows="@mf8 by substitution, for either sign of the charge",
         defines=("y2", "omega"),
         solves="d(y2) = -mu/c*cross(Bf,y2)",
         corrected="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = mu*b/c",
@@ -338,13 +340,13 @@ TRIALS = (
         label="text-drift-direction",
         printed="cross(Eperp,Bf) = E2*b*e1",
         model=charges_model,
-        follows="B along e3, E_perp along e2",
+        follows=r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}_\bot$ along $\mathbf{e}_2$",
     ),
     Trial(
         label="mf10",
         printed=_MF10,
         model=charges_model,
-        follows="mf4 by substitution, for either sign of the charge, omega of mf9",
+        follows=r"@mf4 by substitution, for either sign of the charge, $\omega$ of @mf9",
         defines=("yperp",),
         solves=_SOLVES,
         corrected=_MF10 + "; omega = mu*b/c",
@@ -362,33 +364,34 @@ TRIALS = (
         label="text-time-shift",
         printed="first + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)) = then",
         model=later_model,
-        follows="mf10 as corrected at t + omega0/omega with omega0 = 0 and C_perp less mu E_perp omega0/omega",
-        note="C_perp changes with it, since mf2 names the time.",
+        follows=r"@mf10 as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
+        r"\mathbf{E}_\bot \omega_0/\omega$",
+        note=r"$\mathbf{C}_\bot$ changes with it, since @mf2 names the time.",
     ),
     Trial(
         label="text-first-two-terms",
         printed="(cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1 = 0",
         model=lambda: signed_model("origin"),
-        follows="C_perp = c [E_perp, B]/B^2",
+        follows=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
         corrected="(cross(Cperp,Bf) + c*Eperp)/(omega*b) = 0",
         corrected_tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies"
             r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}"
         ),
         grade="wording",
-        note="Only the first term vanishes, both summands of its numerator together; the drift stays, as mf11 has it.",
+        note="Only the first term vanishes, both summands of its numerator together; the drift stays, as @mf11 has it.",
     ),
     Trial(
         label="text-initial-position",
         printed="at0(yperp) = a*e2",
         model=start_model,
-        follows="mf10 as corrected with that C_perp and omega0 = 0",
+        follows=r"@mf10 as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
     ),
     Trial(
         label="mf11",
         printed=_MF11,
         model=lambda: charges_model("origin"),
-        follows="mf4 by substitution, for either sign of the charge, omega of mf9",
+        follows=r"@mf4 by substitution, for either sign of the charge, $\omega$ of @mf9",
         defines=("yperp",),
         solves=f"{_SOLVES}; at0(yperp) = a*e2",
         corrected=_MF11 + "; omega = mu*b/c",
@@ -405,19 +408,19 @@ TRIALS = (
         label="text-drift",
         printed="drift = mu*E2/omega*e1",
         model=drift_model,
-        follows="mf1 solved for the velocity that does not change, for either sign of the charge, omega of mf9",
+        follows=r"@mf1 solved for the velocity that does not change, for either sign of the charge, $\omega$ of @mf9",
         corrected="drift = c*cross(Eperp,Bf)/b^2",
         corrected_tex=r"\dot{\mathbf{O}}=\boxed{\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}}",
         grade="sign of the charge",
         slip="mf9",
-        note="The drift doesn't depend on the charge; with the positive omega of mf9 a negative one would drift"
-        " backwards.",
+        note=r"The drift doesn't depend on the charge; with the positive $\omega$ of @mf9 a negative one would drift "
+        "backwards.",
     ),
     Trial(
         label="text-trochoid-constant",
         printed="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2*e1",
         model=lambda: signed_model("trochoid"),
-        follows="the shift of the trochoid by a length along e2",
+        follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
         corrected="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2/omega*e1",
         corrected_tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}"
@@ -431,7 +434,7 @@ TRIALS = (
         label="mf10.1",
         printed=_TROCHOID.format(omega="omega").replace("yy", "y"),
         model=lambda: charges_model("trochoid"),
-        follows="mf10 with the constant chosen there; dimensions",
+        follows="@mf10 with the constant chosen there; dimensions",
         defines=("x", "y"),
         solves="d(x) = mu/c*b*y + dot(Cperp,e1); d(y) = -mu/c*b*x + mu*E2*t",
         corrected=_TROCHOID.format(omega="omega^2").replace("yy", "y") + "; omega = mu*b/c",
@@ -441,24 +444,23 @@ TRIALS = (
             r"y(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^{\boxed{2}}}+a\cos\omega t" + _SIGNED
         ),
         grade="misprint",
-        note="The shift of y must be a length, mu |E_perp|/omega^2, as C_perp must be a velocity; and, as in mf9,"
-        " omega takes"
-        " the sign of the charge.",
+        note=r"The shift of $y$ must be a length, $\mu |\mathbf{E}_\bot|/\omega^2$, as $\mathbf{C}_\bot$ must be a "
+        r"velocity; and, as in @mf9, $\omega$ takes the sign of the charge.",
     ),
     Trial(
         label="text-trochoid",
         printed="x = r*omega*t + a*sin(omega*t); y = r + a*cos(omega*t)",
         model=rolling_model,
         follows=(
-            "mf10.1 as corrected: the middle of the circle is at the height r and moves by r while it turns by one "
-            "radian"
+            "@mf10.1 as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
+            "turns by one radian"
         ),
     ),
     Trial(
         label="mf10.2",
         printed="y = ypar + yperp",
         model=split_model,
-        follows="the projections on B and across it",
+        follows=r"the projections on $\mathbf{B}$ and across it",
         definition=True,
     ),
     Trial(
@@ -472,19 +474,19 @@ TRIALS = (
             r"\frac12\begin{pmatrix}B_2y_3-B_3y_2\\B_3y_1-\boxed{B_1}y_3\\B_1y_2-B_2y_1\end{pmatrix}"
         ),
         grade="misprint",
-        note="A lower-case b_1 that means nothing here stands for B_1.",
+        note="A lower-case $b_1$ that means nothing here stands for $B_1$.",
     ),
     Trial(
         label="text-potentials",
         printed="E = grad(A0) - 1/c*partial_t(A); Bf = curl(A)",
         model=lagrangian_model,
-        follows="the potentials mf12",
+        follows="the potentials @mf12",
     ),
     Trial(
         label="mf13",
         printed="U = -(e*A0 + e/c*dot(A,v))",
         model=lagrangian_model,
-        follows="its generalised force -dU/dy + d/dt dU/dv is the Lorentz force",
+        follows="its generalised force $-dU/dy + d/dt dU/dv$ is the Lorentz force",
         defines=("U",),
         solves="force(U) = e*E + e/c*cross(v,Bf)",
     ),
@@ -492,7 +494,7 @@ TRIALS = (
         label="mf14",
         printed="L = m/2*dot(v,v) + e*A0 + e/c*dot(A,v) = m/2*dot(v,v) + e*dot(y,E) + e/(2*c)*dot(cross(y,v),Bf)",
         model=lagrangian_model,
-        follows="the potentials mf12, and mf1 by variation",
+        follows="the potentials @mf12, and @mf1 by variation",
         defines=("L",),
         solves="m*acceleration(L) = e*E + e/c*cross(v,Bf)",
     ),

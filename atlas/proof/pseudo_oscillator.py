@@ -183,34 +183,34 @@ TRIALS = (
         label="text-mass-matrix",
         printed="g1 = 1/2*I3; g2 = 1/2*I3; g3 = 1/2*(2*I2 - I3)",
         model=symmetric_body_model,
-        follows="I = tr(g) - g with I1 = I2",
+        follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
     ),
     Trial(
         label="text-laboratory",
         printed="S*J*T(S) = J; S*B = [0, B2, B3]",
         model=laboratory_model,
-        follows="a rotation about e3 by the angle between e2 and the part of B across e3",
-        note="B3 > 0 is a choice of the sense of e3. What the choice B2 > 0, B3 > 0 leaves out are a field along the "
-        "axis"
-        " of the body and one across it.",
+        follows=r"a rotation about $\mathbf{e}_3$ by the angle between $\mathbf{e}_2$ and the part of $\mathbf{B}$ "
+        r"across $\mathbf{e}_3$",
+        note=r"$B_3 > 0$ is a choice of the sense of $\mathbf{e}_3$. What the choice $B_2 > 0$, $B_3 > 0$ leaves out "
+        "are a field along the axis of the body and one across it.",
     ),
     Trial(
         label="mf41.0",
         printed="at0(Omega) = at0(R*Omega) = w",
         model=frame_model,
-        follows="Omega = R^T omega and R(0) = 1",
+        follows=r"$\boldsymbol{\Omega} = R^T \boldsymbol{\omega}$ and $R(0) = 1$",
     ),
     Trial(
         label="mf41",
         printed="Bprime = mu/(2*c)*Bf = [0, B2, B3]; K = mu/(2*c)*BR(Bf,R) = BR(Bprime,R); at0(K) = Bprime",
         model=frame_model,
-        follows="K_j = B'_i R_ij and R(0) = 1",
+        follows="$K_j = B'_i R_{ij}$ and $R(0) = 1$",
     ),
     Trial(
         label="mf41.1",
         printed="I = I3/I2; E = 2*energy/I2",
         model=state_model,
-        follows="the energy is (I2 Omega1^2 + I2 Omega2^2 + I3 Omega3^2)/2 and makes mf44",
+        follows=r"the energy is $(I_2 \Omega_1^2 + I_2 \Omega_2^2 + I_3 \Omega_3^2)/2$ and makes @mf44",
         defines=("I", "E"),
         solves="Omega1^2 + Omega2^2 + I*Omega3^2 = E",
     ),
@@ -218,46 +218,46 @@ TRIALS = (
         label="mf42",
         printed="IdOmega = cross(I*Omega,Omega) - 2*cross(g*K,Omega)",
         model=field_model,
-        follows="mf27 and mf41",
+        follows="@mf27 and @mf41",
     ),
-    Trial(label="mf43", printed="dK = -cross(Omega,K)", model=field_model, follows="mf21 and mf41"),
+    Trial(label="mf43", printed="dK = -cross(Omega,K)", model=field_model, follows="@mf21 and @mf41"),
     Trial(
         label="mf44",
         printed="Omega1^2 + Omega2^2 + I*Omega3^2 = E; d(Omega1^2 + Omega2^2 + I*Omega3^2) = 0;"
         " at0(E) = omega1^2 + omega2^2 + I*omega3^2",
         model=state_model,
-        follows="mf42, mf43",
+        follows="@mf42, @mf43",
     ),
     Trial(
         label="mf45",
         printed="d(K1^2 + K2^2 + K3^2) = 0; at0(K1^2 + K2^2 + K3^2) = B2^2 + B3^2",
         model=state_model,
-        follows="mf43",
+        follows="@mf43",
     ),
     Trial(
         label="mf46",
         printed="d(Omega1) = (1 - I)*Omega3*Omega2 - I*Omega3*K2 + (2 - I)*Omega2*K3;"
         " d(Omega2) = -(1 - I)*Omega3*Omega1 + I*Omega3*K1 - (2 - I)*Omega1*K3; d(Omega3) = Omega1*K2 - Omega2*K1",
         model=state_model,
-        follows="mf42 in components",
+        follows="@mf42 in components",
     ),
     Trial(
         label="mf47",
         printed="d(K1) = Omega3*K2 - Omega2*K3; d(K2) = -Omega3*K1 + Omega1*K3; d(K3) = -(Omega1*K2 - Omega2*K1)",
         model=state_model,
-        follows="mf43 in components",
+        follows="@mf43 in components",
     ),
     Trial(
         label="mf48",
         printed="K3 + Omega3 = c3; d(K3 + Omega3) = 0; at0(c3) = omega3 + B3",
         model=state_model,
-        follows="mf46 and mf47",
+        follows="@mf46 and @mf47",
     ),
     Trial(
         label="mf49",
         printed=f"{_C5} = c5; d({_C5}) = 0; at0(c5) = omega2*B2 - omega3^2 + (2 - I)*(omega3 + B3)*omega3",
         model=state_model,
-        follows="mf46 and mf47",
+        follows="@mf46 and @mf47",
     ),
     Trial(
         label="text-four-integrals",
@@ -265,7 +265,9 @@ TRIALS = (
         model=state_model,
         defines=("F",),
         solves="rank(F) = 4; d(F) = 0",
-        follows="their rates, and their gradients at one point, Omega = (1, 2, 3), K = (4, 5, 6)",
+        follows=r"their rates, and their gradients at one point, $\boldsymbol{\Omega} = (1, 2, 3)$, "
+        r"$\mathbf{K} = (4, 5, "
+        "6)$",
         note="Independent at one point, so at all but those of a set of measure zero.",
     ),
     Trial(
@@ -273,48 +275,53 @@ TRIALS = (
         printed=f"K1 = (Omega1*{_P} - Omega2*d(Omega3))/(E - I*Omega3^2);"
         f" K2 = (Omega2*{_P} + Omega1*d(Omega3))/(E - I*Omega3^2); K3 = -Omega3 + c3",
         model=state_model,
-        follows="mf46, mf48 and mf49",
+        follows="@mf46, @mf48 and @mf49",
     ),
-    Trial(label="mf51", printed=_MF51, model=state_model, follows="mf46 with K of mf50, phi and f of mf52"),
+    Trial(
+        label="mf51",
+        printed=_MF51,
+        model=state_model,
+        follows=r"@mf46 with $\mathbf{K}$ of @mf50, $\phi$ and $f$ of @mf52",
+    ),
     Trial(
         label="mf52",
         printed="phi = ((2 - I)*c3*E - (E + I*c5)*Omega3)/(E - I*Omega3^2); f = ln(sqrt(E - I*Omega3^2))",
         model=state_model,
-        follows="mf51 by substitution",
+        follows="@mf51 by substitution",
         defines=("phi", "f"),
         solves=_MF51,
-        note="f counts up to a constant: the logarithm of a quantity with a dimension.",
+        note="$f$ counts up to a constant: the logarithm of a quantity with a dimension.",
     ),
     Trial(
         label="mf53",
         printed="Omega1 = f0*sqrt(E - I*u^2)*sin(Phi + phi0); Omega2 = f0*sqrt(E - I*u^2)*cos(Phi + phi0)",
         model=quadrature_model,
-        follows="mf51 by substitution, with two constants",
+        follows="@mf51 by substitution, with two constants",
         defines=("Omega1", "Omega2"),
         solves=_MF51,
-        note="General for mf51 alone; mf44 then leaves f0^2 = 1.",
+        note="General for @mf51 alone; @mf44 then leaves $f_0^2 = 1$.",
     ),
     Trial(
         label="mf54",
         printed=_MF54.format(K="k2"),
         model=state_model,
-        follows="the rate of the last equation of mf46, with mf46, mf47 and mf48",
+        follows="the rate of the last equation of @mf46, with @mf46, @mf47 and @mf48",
         corrected=_MF54.format(K="K2"),
         corrected_tex=(
             r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1K_1+\Omega_2\boxed{K_2})-I\Omega_3(K_1^2+K_2^2)"
             r"+[c_3-\Omega_3](\Omega_1^2+\Omega_2^2)"
         ),
         grade="misprint",
-        note="A lower-case k_2 that means nothing here stands for K_2.",
+        note="A lower-case $k_2$ that means nothing here stands for $K_2$.",
     ),
     Trial(
-        label="mf55", printed=_MF55, model=state_model, follows="mf54 and the four integrals, with mf56 as corrected"
+        label="mf55", printed=_MF55, model=state_model, follows="@mf54 and the four integrals, with @mf56 as corrected"
     ),
     Trial(
         label="mf56",
         printed=_MF56.format(x="1"),
         model=bare_model,
-        follows="mf54 and the four integrals",
+        follows="@mf54 and the four integrals",
         defines=("a0", "a1", "a2", "a3"),
         solves=_MF55,
         corrected=_MF56.format(x="I"),
@@ -323,14 +330,14 @@ TRIALS = (
             r"a_2&=6(1-I)c_3,&a_3&=-2(1-I) \end{aligned}"
         ),
         grade="misprint",
-        note="A 1 stands for I.",
+        note="A 1 stands for $I$.",
     ),
     Trial(
         label="text-cubic-degree",
         printed="leading = -2*(1 - I); leading^2 > 0",
         model=degree_model,
-        follows="mf55 with mf56 as corrected",
-        note="For the ball, I = 1, both a2 and a3 vanish, and mf55 is a harmonic oscillator.",
+        follows="@mf55 with @mf56 as corrected",
+        note="For the ball, $I = 1$, both $a_2$ and $a_3$ vanish, and @mf55 is a harmonic oscillator.",
     ),
     Trial(
         label="mf57",
@@ -339,6 +346,6 @@ TRIALS = (
         " - I*Omega3*(Bsquare - (B3 + (omega3 - Omega3))^2)"
         " + (B3 + (omega3 - Omega3))*(omega1^2 + omega2^2 + I*(omega3^2 - Omega3^2))",
         model=initial_model,
-        follows="mf55, mf56 as corrected, and the integrals at t = 0",
+        follows="@mf55, @mf56 as corrected, and the integrals at $t = 0$",
     ),
 )

@@ -181,13 +181,13 @@ def decide_linear(
         sign = -1 if relation.sign.startswith(">") else 1
         ends = [sign * difference.subs(beta, end) for end in (0, sympy.pi / 2)]
         if sympy.diff(difference, beta, 2) != 0:
-            return Outcome("undecided", "not linear in beta")
+            return Outcome("undecided", r"not linear in $\beta$")
         if min(ends) < 0 or (min(ends) == 0 and max(ends) == 0):
             near = sympy.Rational(1, 1000) if ends[0] == min(ends) else sympy.Rational(1570, 1000)
             values: dict[str, Any] = {"beta": near, "left": relation.left[0], "right": relation.right[0]}
             shown = {name: str(sympy.sympify(value).subs(beta, near).n(12)) for name, value in values.items()}
             return Outcome("refuted", "exact counterexample", {**shown, "relation": relation.text})
-    return Outcome("proved", "linear in beta, and true at both ends")
+    return Outcome("proved", r"linear in $\beta$, and true at both ends")
 
 
 @cache
@@ -254,13 +254,14 @@ TRIALS = (
         label="mf58.1",
         printed=_MF581,
         model=condition_model,
-        follows="mf57 with Omega3 = omega3: every omega for which the cubic vanishes",
+        follows=r"@mf57 with $\Omega_3 = \omega_3$: every $\boldsymbol{\omega}$ for which the cubic vanishes",
     ),
     Trial(
         label="mf58",
         printed=_MF58,
         model=condition_model,
-        follows="mf58.1, and the other way round: the two differ by the factor B'3 for every omega",
+        follows="@mf58.1, and the other way round: the two differ by the factor $B'_3$ for every "
+        r"$\boldsymbol{\omega}$",
         also=(
             Part(
                 line=f"{_MF581.removesuffix(' = 0')} = B3*({_MF58.partition(' = ')[0]} - (1 - I)*B2^2)",
@@ -268,12 +269,14 @@ TRIALS = (
             ),
         ),
     ),
-    Trial(label="text-quadric-origin", printed=_MF58, model=origin_model, follows="mf58 at omega = 0"),
+    Trial(
+        label="text-quadric-origin", printed=_MF58, model=origin_model, follows=r"@mf58 at $\boldsymbol{\omega} = 0$"
+    ),
     Trial(
         label="mf59",
         printed=f"omega3 = {_MF59}",
         model=lambda: condition_model()[0],
-        follows="mf58.1 for omega2 different from -B'2",
+        follows=r"@mf58.1 for $\omega_2$ different from $-B'_2$",
         corrected=f"omega3 = {_MF59}",
         corrected_also=(
             Part(line="omega2 = -B2; omega1 = sign*sqrt(1 - I)*B2; " + _MF581, model=lost_lines_model),
@@ -288,15 +291,16 @@ TRIALS = (
             r"\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1} \end{aligned}"
         ),
         grade="missing case",
-        note="The family is right, and -B'2 is excluded in words. But it is not all of mf58.1: for I <= 1 the lines"
-        " omega2 = -B'2, omega1 = ±sqrt(1-I) B'2 with any omega3 obey it too; for I > 1 nothing is missing.",
+        note=r"The family is right, and $-B'_2$ is excluded in words. But it is not all of @mf58.1: for $I \le 1$ the "
+        r"lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$ with any $\omega_3$ obey it too; for $I > "
+        "1$ nothing is missing.",
     ),
     Trial(
         label="mf61a",
         printed="w1 = omega1; w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3 + B3)*sin(beta/2 + pi/4);"
         " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
         model=coordinates_model,
-        follows="lengths from the centre -B' are kept, and the form mf58 becomes that of mf60",
+        follows=r"lengths from the centre $-\mathbf{B}'$ are kept, and the form @mf58 becomes that of @mf60",
         defines=("w1", "w2", "w3"),
         solves="w1^2 + w2^2 + w3^2 = length; w1^2 - w2^2/a2 + w3^2/a3 = form",
     ),
@@ -305,40 +309,40 @@ TRIALS = (
         printed="w1 = omega1; w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3 + B3)*sin(beta/2 + pi/4);"
         " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
         model=turned_model,
-        follows="components along the turned axes, against mf61a",
+        follows="components along the turned axes, against @mf61a",
     ),
     Trial(
         label="text-beta",
         printed="tan(beta) = B3/(I*B2)",
         model=angle_model,
-        follows="I^-1 B' = r (0, cos beta, sin beta)",
+        follows=r"$I^{-1} \mathbf{B}' = r (0, \cos \beta, \sin \beta)$",
     ),
     Trial(
         label="text-beta-range",
         printed="pi/4 < beta/2 + pi/4 < pi/2",
         model=range_model,
-        follows="tan(beta) > 0",
+        follows=r"$\tan\beta > 0$",
         check=decide_linear,
     ),
     Trial(
         label="mf60",
         printed=f"w1^2 - w2^2/a2 + w3^2/a3 = (1 - I)*B2^2; a2 = {_A2}; a3 = {_A3}",
         model=canonical_model,
-        follows="mf58 in the coordinates along its own eigenvectors",
+        follows="@mf58 in the coordinates along its own eigenvectors",
         defines=("a2", "a3"),
     ),
     Trial(
         label="mf61b",
         printed=f"w1^2/C1s - w2^2/C2s + w3^2/C3s = -1; {axes_line('(I - 1)')}",
         model=lambda: canonical_model("above"),
-        follows="mf60",
+        follows="@mf60",
         defines=AXES,
     ),
     Trial(
         label="text-two-sheets",
         printed="C1s = (I - 1)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
         model=lambda: axes_model(above=True),
-        follows="mf61b, 0 < sin(beta) < 1 and I > 1",
+        follows=r"@mf61b, $0 < \sin\beta < 1$ and $I > 1$",
     ),
     Trial(
         label="text-short-cylinder",
@@ -347,53 +351,58 @@ TRIALS = (
         follows="the moments of the surface, integrated",
     ),
     Trial(
-        label="text-plane-body", printed="2 - I = 2*g3/I2", model=plane_body_model, follows="I = tr(g) - g with I1 = I2"
+        label="text-plane-body",
+        printed="2 - I = 2*g3/I2",
+        model=plane_body_model,
+        follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
     ),
     Trial(
         label="text-tangent-planes",
         printed="(omega3 + B3)^2 - B3^2"
         " = B3^2*(omega1^2 + omega2^2)*(omega1^2 + (omega2 + 2*B2)^2)/(4*B2^2*(omega2 + B2)^2)",
         model=loop_model,
-        follows="mf58.1 with I = 2",
-        note="Never negative, and zero only at omega = 0 and at omega = -2 B': there the sheets touch the planes"
-        " omega3 = 0 and omega3 = -2 B'3.",
+        follows="@mf58.1 with $I = 2$",
+        note=r"Never negative, and zero only at $\boldsymbol{\omega} = 0$ and at $\boldsymbol{\omega} = -2 "
+        r"\mathbf{B}'$: there the sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$.",
     ),
     Trial(
         label="mf62",
         printed="w1^2 + w3^2/a3 = w2^2/a2",
         model=lambda: canonical_model("one"),
-        follows="mf60 with I = 1, a2 and a3 as there",
+        follows="@mf60 with $I = 1$, $a_2$ and $a_3$ as there",
     ),
     Trial(
         label="text-cone-semi-axes",
         printed="w1^2 + w3^2/a3^2 = w2^2/a2^2",
         model=lambda: canonical_model("one"),
-        follows="mf60 with I = 1",
+        follows="@mf60 with $I = 1$",
         corrected="w1^2 + w3^2/a3 = w2^2/a2",
         corrected_tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{\boxed{(\sqrt{a_3})^2}}=\frac{{\omega'_2}^2}{\boxed{(\sqrt{a_2})^2}}",
         grade="wording",
-        note="The semi-axes are the roots of a2 and a3, as mf75 has them under the same letters.",
+        note="The semi-axes are the roots of $a_2$ and $a_3$, as @mf75 has them under the same letters.",
     ),
     Trial(
         label="mf63",
         printed=f"w1^2/C1s - w2^2/C2s + w3^2/C3s = 1; {axes_line('(1 - I)')}",
         model=lambda: canonical_model("below"),
-        follows="mf60",
+        follows="@mf60",
         defines=AXES,
     ),
     Trial(
         label="text-one-sheet",
         printed="C1s = (1 - I)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
         model=lambda: axes_model(above=False),
-        follows="mf63, 0 < sin(beta) < 1 and I < 1",
+        follows=r"@mf63, $0 < \sin\beta < 1$ and $I < 1$",
     ),
     Trial(
         label="text-not-all",
         printed=f"{_MF581}; omega1*B2 > 0",
         model=leaving_points_model,
         follows=(
-            "points of the quadric with omega1 > 0, at which Omega3 starts with the rate omega1 B'2, theorem-points"
+            r"points of the quadric with $\omega_1 > 0$, at which $\Omega_3$ starts with the rate $\omega_1 "
+            "B'_2$, @theorem-points"
         ),
-        note="By the last equation of mf46 at t = 0, where K = B'. The other half of the quadric is its mirror image.",
+        note=r"By the last equation of @mf46 at $t = 0$, where $\mathbf{K} = \mathbf{B}'$. The other half of the "
+        "quadric is its mirror image.",
     ),
 )

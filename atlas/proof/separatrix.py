@@ -139,9 +139,11 @@ TRIALS = (
         label="theorem-steady",
         printed=f"q = {_q}; at(q,r) = 0; slope(q,r) = 2*(1 - r^2)*(M3*w - r*(w^2 + A)); G - A*r^2 = w^2*(1 - r^2)",
         model=steady_model,
-        follows="theorem-top: q(r) = 0 is the last equation with w = (p - M3 r)/(1 - r^2), and q' then has the factor",
+        follows="@theorem-top: $q(r) = 0$ is the last equation with $w = (p - M_3 r)/(1 - r^2)$, and $q'$ then has the "
+        "factor",
         defines=("q",),
-        note="With |r| < 1 the slope vanishes exactly if M3 w = r (w^2 + A). See theorem-nutation for k and hat B3.",
+        note="With $|r| < 1$ the slope vanishes exactly if $M_3 w = r (w^2 + A)$. See @theorem-nutation for $k$ and "
+        r"$\hat{B}_3$.",
     ),
     Trial(
         label="theorem-nutation",
@@ -149,43 +151,44 @@ TRIALS = (
         " w^2 - A*(3*r^2 - 1) + A^2*r^2/w^2 = (w - A*r/w)^2 + A*(1 - r)*(1 + 3*r)"
         " = (w + A*r/w)^2 + A*(1 + r)*(1 - 3*r); momentum*(k + b) = hB3*((k + b)^2 + (I - 1)*b^2)",
         model=precession_model,
-        follows="theorem-steady; the last relation is mf76 in these letters, so that w = k + b and r = hat B3",
+        follows="@theorem-steady; the last relation is @mf76 in these letters, so that $w = k + b$ "
+        r"and $r = \hat{B}_3$",
         defines=("q",),
-        note="For I > 1 take the upper sign with |r|: the bound A (1 - r)(1 + 3r) is met at w^2 = A |r|. For I "
-        "< 1"
-        " take the sign that makes the last term -|A|(1 + |r|)(1 - 3 |r|): stable if |r| > 1/3.",
+        note="For $I > 1$ take the upper sign with $|r|$: the bound $A (1 - r)(1 + 3r)$ is met at $w^2 = A |r|$. For "
+        "$I < 1$ take the sign that makes the last term $-|A|(1 + |r|)(1 - 3 |r|)$: stable if $|r| > 1/3$.",
     ),
     Trial(
         label="theorem-companion-range",
         printed=f"{_q} = A*(nu - r)^2*((nu + r)^2 - (1 - z)*(z - r^2)/z); z = -w^2/A",
         model=range_model,
-        follows="theorem-steady with A = -w^2/z, z = w^2/((1-I) b^2)",
+        follows="@theorem-steady with $A = -w^2/z$, $z = w^2/((1-I) b^2)$",
     ),
     Trial(
         label="theorem-companion-roots",
         printed="(1 + g^2)*r = -x; M3 = w*g^2/(1 + g^2)*x; -A = w^2*(1 + g^2); c = A*(r - e)*(3*r + e);"
         f" {_q} = A*(nu - r)^2*(nu - e)*(nu + 2*r + e)",
         model=family_model,
-        follows="theorem-companion-range with z = 1/(1 + g^2), g = tan(gamma), x = cos(2 delta - gamma)/cos(gamma)",
-        note="In theorem-companion-range (e + r)^2 = (1-z)(z-r^2)/z is (e + r/z)^2 z = (1-z)(1-e^2), met by any two"
-        " angles.",
+        follows=r"@theorem-companion-range with $z = 1/(1 + g^2)$, $g = \tan\gamma$, $x = \cos (2 \delta - "
+        r"\gamma)/\cos\gamma$",
+        note="In @theorem-companion-range $(e + r)^2 = (1-z)(z-r^2)/z$ is $(e + r/z)^2 z = (1-z)(1-e^2)$, met by any "
+        "two angles.",
     ),
     Trial(
         label="theorem-companion",
         printed=_SPINOR,
         model=family_model,
-        follows="theorem-top and theorem-cayley-klein by substitution, T = S/C",
+        follows="@theorem-top and @theorem-cayley-klein by substitution, $T = S/C$",
         defines=("L", "ar", "ai", "br", "bi", "N1", "N2", "x"),
         solves=_TURNED,
-        note="x is $\\nu=(|\\xi|^2-|\\eta|^2)/(|\\xi|^2+|\\eta|^2)$. Both turn in the laboratory by -b t/2 more."
-        " The formula holds for c of either sign and 0; c > 0 is the separatrix of an unstable elementary motion.",
+        note=r"$x$ is $\nu=(|\xi|^2-|\eta|^2)/(|\xi|^2+|\eta|^2)$. Both turn in the laboratory by $-b t/2$ more. The "
+        "formula holds for $c$ of either sign and 0; $c > 0$ is the separatrix of an unstable elementary motion.",
     ),
     Trial(
         label="theorem-companion-nutation",
         printed="S2 = T^2/(1 - c*T^2);"
         " x = r + (e - r)*(1 - c*T^2)/(1 - A*(e - r)^2*T^2) = r + (e - r)/(1 + (c - A*(e - r)^2)*S2)",
         model=double_model,
-        follows="T' = (1 - c T^2)/2, T = S/C, S2 = S^2",
+        follows="$T' = (1 - c T^2)/2$, $T = S/C$, $S_2 = S^2$",
         defines=("S2", "x"),
         solves="d(x)^2 = (x - r)^2*(c + d1*(x - r) + A*(x - r)^2); c + d1*(e - r) + A*(e - r)^2 = 0",
     ),
@@ -193,7 +196,7 @@ TRIALS = (
         label="theorem-companion-triple",
         printed="x = r - 4*r/(1 + 4*a*r^2*t^2)",
         model=triple_model,
-        follows="theorem-companion-nutation with c = 0, e = -3r",
+        follows="@theorem-companion-nutation with $c = 0$, $e = -3r$",
         defines=("x",),
         solves="d(x)^2 = -a*(x - r)^3*(x + 3*r)",
     ),
@@ -203,34 +206,34 @@ TRIALS = (
         " = (M1 - 1/2*M3*n1)^2 + (M2 - 1/2*M3*n2)^2 + 1/4*D*(1 - nu^2) + 1/2*M3^2*(1 - nu)^2;"
         " d(M1^2 + M2^2 - A*(1 - nu^2)) = 0; d(p) = 0; start(D) = I^2*(Omega3 + b)^2 + 4*(1 - I)*b^2",
         model=axis_model,
-        follows="theorem-top; p - M3 = M1 n1 + M2 n2 - M3 (1 - nu)",
+        follows=r"@theorem-top; $p - M_3 = M_1 n_1 + M_2 n_2 - M_3 (1 - \nu)$",
         defines=("D",),
-        note="Every term is positive away from nu = 1, M1 = M2 = 0, so a small push stays small for all times.",
+        note=r"Every term is positive away from $\nu = 1$, $M_1 = M_2 = 0$, so a small push stays small for all times.",
     ),
     Trial(
         label="theorem-axis-escape",
         printed="e = abs3/a - 1; c = -D; ai = M3*(1 - e)/(1 + e)*T; N1 = 1 + ai^2;"
         " N2 = s^2*(1 - c*T^2); x = (N1 - N2)/(N1 + N2)",
         model=escape_model,
-        follows="theorem-top and theorem-cayley-klein by substitution, p = M3, T = S/C",
+        follows="@theorem-top and @theorem-cayley-klein by substitution, $p = M_3$, $T = S/C$",
         defines=("ai", "N1", "N2", "x"),
         solves=f"d(x)^2 = {_qx}; {_q} = (1 - nu)^2*(A*(1 + nu)^2 - M3^2);"
         " d(ai)/N1 + 1/2*c3 = 1/2*(c3 + (p - M3*x)/(1 + x)); (p - M3*x)/(1 - x) = M3",
-        note="As t grows 1 - x tends to 0 as exp(-sqrt(c) t): so the motion starts as near to the axis as one"
-        " likes, and leaves it.",
+        note=r"As $t$ grows $1 - x$ tends to 0 as $\exp (-\sqrt{c} t)$: so the motion starts as near to the axis as "
+        "one likes, and leaves it.",
     ),
     Trial(
         label="theorem-axis-pushed",
         printed="d(nu)^2 = 4*dx^2/(1 + x)^4;"
         " (1 - nu^2)*(G - A*nu^2) - (p - M3*nu)^2 = 4*x*(s1^2*(1 + x)^2 + x*(4*A - M3^2*(1 + x)^2))/(1 + x)^4",
         model=pushed_model,
-        follows="theorem-top with p = M3 and h - M3^2/I - b^2 = s1^2 + A at t = 0",
+        follows="@theorem-top with $p = M_3$ and $h - M_3^2/I - b^2 = s_1^2 + A$ at $t = 0$",
     ),
     Trial(
         label="theorem-axis-pendulum",
         printed="x = -T",
         model=pendulum_model,
-        follows="theorem-top by substitution, T = tanh(sqrt(A) t)",
+        follows=r"@theorem-top by substitution, $T = \tanh(\sqrt{A} t)$",
         defines=("x",),
         solves=f"d(x)^2 = {_qx}",
     ),

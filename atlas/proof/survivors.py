@@ -4,7 +4,7 @@ import re
 
 _SYMMETRIC = "The indices of a symmetric matrix are exchanged, which changes nothing."
 _CONSTANTS = "A constant of integration is arbitrary: its sign, a factor or a shift gives another one."
-_FIRST_K = "At t = 0 the first component of K is 0, whatever multiplies it."
+_FIRST_K = r"At $t = 0$ the first component of $\mathbf{K}$ is 0, whatever multiplies it."
 
 REASONS: dict[str, tuple[tuple[str, str], ...]] = {
     "1.6": (("", _SYMMETRIC),),
@@ -17,34 +17,40 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
     "text-multipliers-symmetric": (("", "A matrix is equal to itself."),),
     "The.1": (("", _SYMMETRIC),),
     "Aff100": (("", _SYMMETRIC),),
-    "text-multipliers-algebraic": (("", "Without the transpose it says only what lam stands for."),),
+    "text-multipliers-algebraic": (("", r"Without the transpose it says only what $\lambda$ stands for."),),
     "text-nondegenerate": (("", "All three moments are positive, and so is the product of any three of them."),),
     "mf22": (("", _SYMMETRIC),),
     "text-inertia-tensor": (("", _SYMMETRIC),),
-    "mf23": (("", "R R^T is symmetric: its indices are exchanged, which changes nothing."),),
-    "text-flight": (("", "What is linear in x_N sums to zero about the centre of mass, whatever multiplies it."),),
+    "mf23": (("", "$R R^T$ is symmetric: its indices are exchanged, which changes nothing."),),
+    "text-flight": (
+        ("", r"What is linear in $\mathbf{x}_N$ sums to zero about the centre of mass, whatever multiplies it."),
+    ),
     "mf30.0": (("", "Every moment of a ball is the same number, so one may stand for another."),),
-    "text-ball-body-precession": (("", "The vector product of Omega with itself is 0, whatever multiplies it."),),
-    "mf36": (("", "The first column of the matrix is multiplied by the first component of m(0), which is 0."),),
-    "text-mass-matrix": (("", "g1 = g2, so one may stand for the other."),),
+    "text-ball-body-precession": (
+        ("", r"The vector product of $\boldsymbol{\Omega}$ with itself is 0, whatever multiplies it."),
+    ),
+    "mf36": (
+        ("", r"The first column of the matrix is multiplied by the first component of $\mathbf{m}(0)$, which is 0."),
+    ),
+    "text-mass-matrix": (("", "$g_1 = g_2$, so one may stand for the other."),),
     "mf45": (("", _FIRST_K),),
     "text-quadric-origin": (
-        (r"\(omega2 (\+ -|- )B2\) \^ 2", "At the origin only the square of B'2 is left of that bracket."),
-        ("", "At the origin all components of omega are 0, whatever multiplies them or exchanges them."),
+        (r"\(omega2 (\+ -|- )B2\) \^ 2", "At the origin only the square of $B'_2$ is left of that bracket."),
+        ("", r"At the origin $\boldsymbol{\omega} = 0$, whatever multiplies or exchanges its components."),
     ),
-    "mf59": (("", "For I > 1 both terms stay positive with this change, and so does their sum."),),
-    "mf61a": (("", "Only the square of omega'1 occurs."),),
+    "mf59": (("", "For $I > 1$ both terms stay positive with this change, and so does their sum."),),
+    "mf61a": (("", r"Only the square of $\omega'_1$ occurs."),),
     "text-beta-range": (
         (r"-\(pi / 4\)|pi / 5", "The lower bound is a weaker one."),
         (r"< 2 \* \(pi / 2\)|< pi \* 2", "The upper bound is a weaker one."),
-        ("beta / 3", "A third of beta lies between the same bounds as half of it."),
+        ("beta / 3", r"A third of $\beta$ lies between the same bounds as half of it."),
     ),
-    "text-not-all": (("", "B'3 is positive as B'2 is."),),
+    "text-not-all": (("", "$B'_3$ is positive as $B'_2$ is."),),
     "text-cubic-degree": (("", "The square of twice a number is positive as well."),),
     "mf64": (("", "Any of the initial components is a constant."),),
     "mf67": (("", _FIRST_K),),
     "mf85": (("", _CONSTANTS),),
-    "mf93": (("", "The first component of B' is 0, whatever multiplies it."),),
+    "mf93": (("", r"The first component of $\mathbf{B}'$ is 0, whatever multiplies it."),),
     "mf2": (("", _CONSTANTS),),
     "mf9": (("", _CONSTANTS),),
     "mf10": (("", _CONSTANTS),),
@@ -54,22 +60,22 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
         ("", "At a fixed place the vector potential doesn't change with time: its partial rate is 0."),
     ),
     "theorem-stable-short": (
-        ("S = ", "Only the square of S occurs."),
+        ("S = ", "Only the square of $S$ occurs."),
         ("", "What is positive or not negative stays so with this factor or power."),
     ),
     "theorem-band": (("", "What is positive stays so with this change."),),
     "theorem-band-ends": (("", "All three factors stay positive with this change, and so does their product."),),
-    "theorem-equatorial-field": (("", "With B'3 = 0 the component hat B2 is 1."),),
+    "theorem-equatorial-field": (("", r"With $B'_3 = 0$ the component $\hat{B}_2$ is 1."),),
     "theorem-bracket": (
         (r"eps\[j, i, k\]", "A sum that is 0 may change its sign."),
         ("", "A multiple of a function that commutes with everything commutes with everything."),
     ),
     "theorem-clebsch": (("", "A tensor and its negative have the same cofactors."),),
     "theorem-involution": (("", "A multiple of a conserved function is conserved, and has the same level sets."),),
-    "theorem-steady": (("", "At a root q is 0, whatever multiplies it."),),
+    "theorem-steady": (("", "At a root $q$ is 0, whatever multiplies it."),),
     "theorem-nutation": (
-        (r"bend\(q, -r\)", "The second derivative of q is an even function."),
-        ("", "At a double root q and its slope are 0, whatever multiplies them."),
+        (r"bend\(q, -r\)", "The second derivative of $q$ is an even function."),
+        ("", "At a double root $q$ and its slope are 0, whatever multiplies them."),
     ),
     "theorem-companion": (("", "1 to any power is 1."),),
     "theorem-axis-stable": (("", "The rate of a constant is 0, whatever the constant."),),

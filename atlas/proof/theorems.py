@@ -241,7 +241,7 @@ TRIALS = (
         label="theorem-quartic",
         printed=f"Q = {_Q}",
         model=quartic_model,
-        follows="mf46 to mf49, for any state",
+        follows="@mf46 to @mf49, for any state",
         defines=("Q",),
         solves="here(Q) = udot^2; slope(Q) = 2*p; leading(Q) = I - 1",
     ),
@@ -249,36 +249,36 @@ TRIALS = (
         label="theorem-points",
         printed=f"at0(d(Omega3)) = omega1*B2; at0(d2(Omega3)) = {_CONDITION}",
         model=state_model,
-        follows="mf46 and mf47 at t = 0, and the cubic at omega3",
+        follows=r"@mf46 and @mf47 at $t = 0$, and the cubic at $\omega_3$",
         also=(Part(line=f"p = {_CONDITION}", model=cubic_model),),
-        note="A constant Omega3 has both rates zero. Conversely, if omega1 B'2 = 0 and mf58.1 holds, the constant"
-        " omega3 solves mf55 with the right rate at the start, and mf55 has only one such solution. With B'2 > 0 these"
-        " points are the hyperbola mf72 and, for I = 1, the line of theorem-ball-line.",
+        note=r"A constant $\Omega_3$ has both rates zero. Conversely, if $\omega_1 B'_2 = 0$ and @mf58.1 holds, the "
+        r"constant $\omega_3$ solves @mf55 with the right rate at the start, and @mf55 has only one such "
+        "solution. With $B'_2 > 0$ these points are the hyperbola @mf72 and, for $I = 1$, the line of "
+        "@theorem-ball-line.",
     ),
     Trial(
         label="theorem-stability",
         printed="minus_slope = B2^2*((1 + tau^2)*x^4 + (1 - I)*(2*tau^2 - 1)*x^2 + tau^2*(1 - I)^2)/x^2"
         " = kappa2 + (1 - I)*b2*(3*hB3s - 1) + (1 - I)^2*b2^2*hB3s/kappa2",
         model=stability_model,
-        follows="mf56 as corrected, on the hyperbola mf76",
-        note="Omega3 = omega3 + eps obeys eps'' = p'(omega3) eps to first order. The letter kappa2 is the square of"
-        " k + b, b2 that of b.",
+        follows="@mf56 as corrected, on the hyperbola @mf76",
+        note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\varepsilon'' = p'(\omega_3) \varepsilon$ to first order. "
+        r"Here $\kappa = k + b$.",
     ),
     Trial(
         label="theorem-root",
         printed="(E - I*(omega3 + v)^2)*(Bsquare - (c3 - omega3 - v)^2)"
         " - ((omega3 + v)^2 - (2 - I)*c3*(omega3 + v) + c5)^2 = v^2*(slope + (1 - I)*v*(4*B3 - v))",
         model=root_model,
-        follows="theorem-quartic at omega3 + v, for every elementary motion",
-        note="Where p'(omega3) < 0 there is no other real v near 0 with Q >= 0: the motion is stable. Where "
-        "p'(omega3) >"
-        " 0 it is not. Where p'(omega3) = 0 the sign of the next term decides.",
+        follows=r"@theorem-quartic at $\omega_3 + v$, for every elementary motion",
+        note=r"Where $p'(\omega_3) < 0$ there is no other real $v$ near 0 with $Q \ge 0$: the motion is stable. Where "
+        r"$p'(\omega_3) > 0$ it is not. Where $p'(\omega_3) = 0$ the sign of the next term decides.",
     ),
     Trial(
         label="theorem-stable-short",
         printed="minus_slope = X^2 + (I - 1)*B2^2 + S^2; S = tau*(X^2 - (I - 1)*B2^2)/X",
         model=stability_model,
-        follows="theorem-stability, X = omega2 + B'2",
+        follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
         defines=("S",),
         also=(Part(line="X^2 > 0; (I - 1)*B2^2 >= 0", model=short_model),),
     ),
@@ -286,7 +286,7 @@ TRIALS = (
         label="theorem-band",
         printed=f"minus_slope = B2^2*(1 + t2)*(z - ym)*(z - yp)/z; ym = {_YM}; yp = {_YP}; 8*t2 = 1 - root^2",
         model=band_model,
-        follows="theorem-stability with z = x^2, t2 = tau^2 = (1 - root^2)/8 and $0\\le\\text{root}<1$",
+        follows=r"@theorem-stability with $z = x^2$, $t_2 = \tau^2 = (1 - \text{root}^2)/8$ and $0\le\text{root}<1$",
         defines=("ym", "yp"),
         solves="ym > 0; yp >= ym",
         also=(
@@ -298,43 +298,44 @@ TRIALS = (
             ),
             Part(line="1 - I > 0; gain > 0", model=signs_model),
         ),
-        note="Not positive exactly between the two roots and at them; for 8 tau^2 > 1 positive everywhere. Inside the"
-        " band the motion is unstable by theorem-root, at its ends by theorem-band-ends.",
+        note=r"Not positive exactly between the two roots and at them; for $8 \tau^2 > 1$ positive everywhere. Inside "
+        "the band the motion is unstable by @theorem-root, at its ends by @theorem-band-ends.",
     ),
     Trial(
         label="theorem-band-ends",
         printed="v = 4*B3/(1 + 4*(1 - I)*B3^2*t^2)",
         model=leaving_model,
-        follows="theorem-root with p'(omega3) = 0: omega3 is a triple root of Q",
+        follows=r"@theorem-root with $p'(\omega_3) = 0$: $\omega_3$ is a triple root of $Q$",
         defines=("v",),
         solves="d(v)^2 = (1 - I)*v^3*(4*B3 - v); d2(v) = (1 - I)*v^2*(6*B3 - 2*v); at0(v) = 4*B3",
         also=(Part(line="(1 - I)*v^3*(4*B3 - v) > 0", model=between_model),),
-        note="This motion has the constants of the elementary one, comes as near to it as one likes for t to minus"
-        " infinity, and yet leaves it by 4 B'3. At the ends E' - I omega3^2 = omega2^2 > 0, so that mf50 brings K near"
-        " as well.",
+        note="This motion has the constants of the elementary one, comes as near to it as one likes for $t$ to minus "
+        r"infinity, and yet leaves it by $4 B'_3$. At the ends $E' - I \omega_3^2 = \omega_2^2 > 0$, so that "
+        r"@mf50 brings $\mathbf{K}$ near as well.",
     ),
     Trial(
         label="theorem-equatorial-stability",
         printed="minus_slope = I^2*omega3^2 - (1 - I)*B2^2",
         model=lambda: equatorial_model("upright"),
-        follows="mf56 as corrected, with B'3 = 0 and omega2 = -B'2, any omega3",
+        follows=r"@mf56 as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
         also=(Part(line="minus_slope = X^2 - (1 - I)*B2^2", model=lambda: equatorial_model("level")),),
-        note="With B'3 = 0 the root of Q that theorem-root has where p'(omega3) = 0 is fourfold, and for I < 1 Q is"
-        " negative beside it: there the ends belong to the stable motions.",
+        note=r"With $B'_3 = 0$ the root of $Q$ that @theorem-root has where $p'(\omega_3) = 0$ is fourfold, and for "
+        "$I < 1$ the quartic $Q$ is negative beside it: there the ends belong to the stable motions.",
     ),
     Trial(
         label="theorem-ball-nutation",
         printed="minus_slope = omega1^2 + (omega2 + B2)^2 + (omega3 + B3)^2",
         model=ball_nutation_model,
-        follows="mf56 as corrected, with I = 1",
-        note="So every motion of the ball is stable but the one with omega = -B'. There the ball rests in Larmor's"
-        " frame, and pushed by delta it turns in that frame with the angular velocity delta, however small.",
+        follows="@mf56 as corrected, with $I = 1$",
+        note=r"So every motion of the ball is stable but the one with $\boldsymbol{\omega} = -\mathbf{B}'$. There the "
+        r"ball rests in Larmor's frame, and pushed by $\delta$ it turns in that frame with the angular velocity "
+        r"$\delta$, however small.",
     ),
     Trial(
         label="theorem-ball-line",
         printed="k = -b; phi = omega3 + B3; R = P*Q",
         model=lambda: turning_model("ball"),
-        follows="mf21 and mf27 by substitution, omega2 = -B2, I = 1, any omega3",
+        follows=r"@mf21 and @mf27 by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
         defines=("R",),
         solves=_MOTION,
     ),
@@ -342,7 +343,7 @@ TRIALS = (
         label="theorem-equatorial-field",
         printed="k = -B2/hB2; phi = omega3; R = P*Q",
         model=lambda: turning_model("equator"),
-        follows="mf21 and mf27 by substitution, B3 = 0, omega2 = -B2, any I and omega3",
+        follows=r"@mf21 and @mf27 by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
         defines=("R",),
         solves=_MOTION,
     ),
@@ -351,32 +352,32 @@ TRIALS = (
         printed="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0;"
         " omega1^2 = (1 - I)*B2^2; omega2 = -B2",
         model=lines_model,
-        follows="mf58.1 by substitution, any omega3",
+        follows=r"@mf58.1 by substitution, any $\omega_3$",
     ),
     Trial(
         label="theorem-momentum",
         printed="dm = k*cross(hat_B,m)",
         model=elementary.matrix_model,
-        follows="mf28 with R of mf89 and Omega of mf78",
+        follows=r"@mf28 with $R$ of @mf89 and $\boldsymbol{\Omega}$ of @mf78",
     ),
     Trial(
         label="theorem-moment",
         printed="dm = mu/(2*c)*(cross(m,Bf) - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf)",
         model=torque_model,
-        follows="mf28 and mf21, any inertia tensor; the bracket is R times the rate of R I R^T times R^T",
+        follows="@mf28 and @mf21, any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
     ),
     Trial(
         label="theorem-drift",
         printed="drift = c*cross(Eperp,Bf)/b^2",
         model=drift_model,
-        follows="mf1 solved for the velocity that does not change, for either sign of the charge",
-        note="The rest of the velocity turns about B by mf8 and is zero in the mean.",
+        follows="@mf1 solved for the velocity that does not change, for either sign of the charge",
+        note=r"The rest of the velocity turns about $\mathbf{B}$ by @mf8 and is zero in the mean.",
     ),
     Trial(
         label="theorem-ball-rest",
         printed="R = [[cos(alpha*t), sin(alpha*t), 0], [-sin(alpha*t), cos(alpha*t), 0], [0, 0, 1]]",
         model=rest_model,
-        follows="mf34 by substitution with m = (0, 0, -alpha I0)",
+        follows=r"@mf34 by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
         defines=("R",),
         solves="d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one",
     ),
@@ -384,14 +385,14 @@ TRIALS = (
         label="theorem-angles",
         printed="psi1 = P/b/(1 - nu^2); chi1 = u - nu*psi1",
         model=angles_model,
-        follows="R = R_z(psi) R_x(theta) R_z(chi) with any rates",
+        follows=r"$R = R_z(\psi) R_x(\theta) R_z(\chi)$ with any rates",
     ),
     Trial(
         label="theorem-cayley-klein",
         printed="d(ca)/ca = 1/2*d(nu)/(1 + nu); 1/2*(psi1 + chi1) = 1/2*(P/b/(1 + nu) + u);"
         " d(sb)/sb = -1/2*d(nu)/(1 - nu); 1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) - u)",
         model=angles_model,
-        follows="alpha = cos(theta/2) exp(i (psi + chi)/2), beta = sin(theta/2) exp(i (psi - chi)/2): moduli and"
-        " arguments",
+        follows=r"$\alpha = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\beta = \sin (\theta/2) \exp (i (\psi - "
+        r"\chi)/2)$: moduli and arguments",
     ),
 )

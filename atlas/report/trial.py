@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import Equation
-from atlas.report.letters import typeset
 from atlas.report.recorded import Finding
 
 SECTIONS = tuple(dict.fromkeys(entry.section for entry in EQUATIONS.values()))
@@ -90,8 +89,8 @@ def entries(
 
 
 def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list[Use]) -> EntryView:
-    def words(plain: str) -> int | None:
-        return keep(typeset(plain, scalar_omega=entry.section == "VII"), inline=True) if plain else None
+    def words(markdown: str) -> int | None:
+        return keep(markdown, inline=True) if markdown else None
 
     how = found.method if not found.follows else f"{found.method}, from {found.follows}"
     return EntryView(
