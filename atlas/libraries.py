@@ -25,6 +25,7 @@ LIBRARIES = (
     "click",
     "rich",
     "msgspec",
+    "pylatexenc",
 )
 """The dependencies in pyproject.toml; a test compares the two."""
 

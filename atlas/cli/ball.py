@@ -6,7 +6,7 @@ import click
 
 from atlas.cli.numbers import along, answer, certificate
 from atlas.cli.options import REAL, Command, chosen_times, exactly, examples, output_options, times_options
-from atlas.cli.present import Line, Sheet, show
+from atlas.cli.present import Line, Printout, show
 
 NAMES = ("inertia", "larmor", "momentum")
 
@@ -42,7 +42,7 @@ def command(**options: Any) -> None:
 
     texts = answer(options, {name: options[name] for name in NAMES}, floats, balls)
     if texts is not None:
-        show(sheet(texts, options))
+        show(printout(texts, options))
 
 
 def described(motion: Any, times: list[float], R: Any, m: Any) -> dict[str, Any]:
@@ -51,7 +51,7 @@ def described(motion: Any, times: list[float], R: Any, m: Any) -> dict[str, Any]
     return {"gamma": motion.gamma, "k_hat": motion.k_hat, "samples": samples}
 
 
-def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
+def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
     """Lay the certified texts out, three rows a time."""
     lines = [
         Line("gamma", "frequency of the turn about k_hat", texts["gamma"], "1/time", "mf39"),
@@ -63,4 +63,4 @@ def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
         for i in range(3)
     ]
     heading = ("t", "R_i1", "R_i2", "R_i3", "m_i") if rows else ()
-    return Sheet("charged ball, B along e3", lines, heading, rows, [certificate(options)])
+    return Printout("charged ball, B along e3", lines, heading, rows, [certificate(options)])

@@ -7,7 +7,7 @@ import click
 
 from atlas import files
 from atlas.cli.options import Command, Many, Place, examples
-from atlas.cli.present import Sheet, dump, show
+from atlas.cli.present import Printout, dump, show
 from atlas.cli.progress import bar
 
 OUT = Path("build/bench.json")
@@ -58,7 +58,7 @@ def command(
         dump(_plain(found))
     else:
         for table in tables(found):
-            show(Sheet(table.title, heading=table.heading, rows=table.rows, notes=table.notes, justify="left"))
+            show(Printout(table.title, heading=table.heading, rows=table.rows, notes=table.notes, justify="left"))
         click.echo(machine_line(found))
     if read is None:
         records.write(found, place)

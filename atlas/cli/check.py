@@ -15,7 +15,7 @@ from atlas.cli.options import (
     examples,
     field_options,
 )
-from atlas.cli.present import Sheet, dump, show
+from atlas.cli.present import Printout, dump, show
 
 if TYPE_CHECKING:
     from atlas.study.check import Check
@@ -89,9 +89,9 @@ def tables(found: "Check") -> None:
     title = f"{found.file}: {found.rows} row{'s' * (found.rows != 1)}, case {found.case}"
     heading, rows = found.column_table()
     if rows:
-        show(Sheet(title, heading=heading, rows=rows))
+        show(Printout(title, heading=heading, rows=rows))
     else:
         click.echo(f"{title}: nothing to compare with, so no column is graded")
     heading, rows = found.drift_table()
     if rows:
-        show(Sheet("what should not change", heading=heading, rows=rows, justify="left"))
+        show(Printout("what should not change", heading=heading, rows=rows, justify="left"))

@@ -16,7 +16,7 @@ from atlas.cli.options import (
     field_options,
     output_options,
 )
-from atlas.cli.present import Line, Sheet, show
+from atlas.cli.present import Line, Printout, show
 from atlas.errors import DomainError
 
 QUANTITIES = ("beta", "a2", "a3", "semi_axes", "centre", "axes")
@@ -51,7 +51,7 @@ def command(**options: Any) -> None:
 
     texts = answer(options, body_parameters(options), floats, balls)
     if texts is not None:
-        show(sheet(texts, options))
+        show(printout(texts, options))
 
 
 def described(quadric: Any) -> dict[str, Any]:
@@ -67,7 +67,7 @@ def described(quadric: Any) -> dict[str, Any]:
     return record | ({"missing": missing} if missing else {})
 
 
-def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
+def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
     """Lay the certified texts out."""
     lines = [
         _line("beta", texts["beta"], "rad", "angle from e2 to I^-1 B'", "mf61a"),
@@ -83,7 +83,7 @@ def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
         rows = texts["axes"]
         lines.append(_line(f"e'_{index + 1}", rows and _tuple(rows[index]), "", "canonical axis", "mf61a"))
     notes = [*dict.fromkeys(texts.get("missing", {}).values()), certificate(options)]
-    return Sheet(title=texts["kind"], lines=lines, notes=notes)
+    return Printout(title=texts["kind"], lines=lines, notes=notes)
 
 
 def _line(symbol: str, value: str | None, unit: str, says: str, label: str) -> Line:

@@ -7,7 +7,7 @@ import click
 
 from atlas import files
 from atlas.cli.options import Command, Place, examples
-from atlas.cli.present import Sheet, dump, show
+from atlas.cli.present import Printout, dump, show
 
 if TYPE_CHECKING:
     from atlas.build.compare import Change, Comparison
@@ -121,7 +121,7 @@ def tables(found: "Comparison") -> None:
 
 def _table(title: str, heading: tuple[str, ...], rows: list[tuple[str, ...]]) -> None:
     if rows:
-        show(Sheet(title, heading=heading, rows=rows, justify="left"))
+        show(Printout(title, heading=heading, rows=rows, justify="left"))
 
 
 def _place(cell: Any) -> dict[str, str]:

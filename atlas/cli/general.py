@@ -21,7 +21,7 @@ from atlas.cli.options import (
     output_options,
     times_options,
 )
-from atlas.cli.present import Line, Sheet, show
+from atlas.cli.present import Line, Printout, show
 from atlas.errors import DomainError
 
 SCALARS = {
@@ -73,7 +73,7 @@ def command(**options: Any) -> None:
 
     texts = answer(options, body_parameters(options) | {"omega": options["omega"]}, floats, balls, spare=SPARE)
     if texts is not None:
-        show(sheet(texts, options))
+        show(printout(texts, options))
 
 
 def described(motion: Any, times: list[float], R: Any, Omega: Any, m: Any) -> dict[str, Any]:
@@ -91,7 +91,7 @@ def described(motion: Any, times: list[float], R: Any, Omega: Any, m: Any) -> di
     return found | {"samples": samples}
 
 
-def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
+def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
     """Lay the certified texts out, three rows a time."""
     low, high = texts["turning_points"]
     roots = ", ".join(_complex(*root) for root in texts["roots"])
@@ -106,7 +106,7 @@ def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
         for i in range(3)
     ]
     heading = ("t", "R_i1", "R_i2", "R_i3", "Omega_i [1/time]", "m_i/I2 [1/time]") if rows else ()
-    return Sheet(f"general motion: {texts['kind']}", lines, heading, rows, [certificate(options)])
+    return Printout(f"general motion: {texts['kind']}", lines, heading, rows, [certificate(options)])
 
 
 def _complex(x: str, y: str) -> str:

@@ -19,7 +19,7 @@ from atlas.cli.options import (
     field_options,
     output_options,
 )
-from atlas.cli.present import Line, Sheet, show
+from atlas.cli.present import Line, Printout, show
 
 CROSS = "With B3 = 0 the curve is this line and another, omega2 = -B2, on which omega3 is free."
 COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
@@ -60,7 +60,7 @@ def command(**options: Any) -> None:
 
     texts = answer(options, body_parameters(options), floats, balls)
     if texts is not None:
-        show(sheet(texts, options, [] if chosen_field(options)[1] else [CROSS]))
+        show(printout(texts, options, [] if chosen_field(options)[1] else [CROSS]))
 
 
 def curve_of(options: dict[str, Any]) -> Any:
@@ -83,7 +83,7 @@ def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
     return {"pole": curve.pole, "unstable_band": curve.unstable_band, "points": rows}
 
 
-def sheet(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -> Sheet:
+def printout(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -> Printout:
     """Lay the certified texts out, a row a point."""
     band = texts["unstable_band"]
     lines = [
@@ -94,4 +94,4 @@ def sheet(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -> S
     ]
     heading = [f"{name} [1/time]" for name in COLUMNS[:-1]] + ["nutation^2 [1/time^2]"]
     rows = [[f"{float(row['omega2'])!r}", *(row[name] for name in COLUMNS[1:])] for row in texts["points"]]
-    return Sheet("hyperbola of elementary motions, mf72", lines, heading, rows, [*notes, certificate(options)])
+    return Printout("hyperbola of elementary motions, mf72", lines, heading, rows, [*notes, certificate(options)])

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from atlas.cli.options import Command, shapes
-from atlas.cli.present import Sheet, dump, show
+from atlas.cli.present import Printout, dump, show
 from atlas.errors import AtlasError
 
 
@@ -43,7 +43,7 @@ def lay_out(record: dict[str, Any]) -> None:
         (("report", "title"), list(record["reports"].items())),
         (("shape", "dimensions"), bodies),
     ):
-        show(Sheet("", heading=heading, rows=rows, justify="left"))
+        show(Printout("", heading=heading, rows=rows, justify="left"))
 
 
 def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str], list[str]]:

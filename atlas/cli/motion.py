@@ -20,7 +20,7 @@ from atlas.cli.options import (
     output_options,
     times_options,
 )
-from atlas.cli.present import Line, Sheet, show
+from atlas.cli.present import Line, Printout, show
 
 LABELS = {
     "precession": ("mf76", "mf84", "mf77"),
@@ -68,7 +68,7 @@ def command(**options: Any) -> None:
     given = {name: options[name] for name in ("omega2", "omega3") if options[name] is not None}
     texts = answer(options, body_parameters(options) | given, floats, balls)
     if texts is not None:
-        show(sheet(texts, options))
+        show(printout(texts, options))
 
 
 def described(motion: Any, times: list[float], R: Any, Omega: Any, m: Any) -> dict[str, Any]:
@@ -79,7 +79,7 @@ def described(motion: Any, times: list[float], R: Any, Omega: Any, m: Any) -> di
     return {name: getattr(motion, name) for name in names} | {"samples": samples}
 
 
-def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
+def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
     """Lay the certified texts out, three rows a time."""
     omega3, k, phi = LABELS.get(texts["case"], ("given", "", ""))
     axis = "m" if texts["case"] == "free body" else "B"
@@ -94,4 +94,4 @@ def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
         for i in range(3)
     ]
     heading = ("t", "R_i1", "R_i2", "R_i3", "Omega_i [1/time]", "m_i/I2 [1/time]") if rows else ()
-    return Sheet(f"elementary motion: {texts['case']}", lines, heading, rows, [certificate(options)])
+    return Printout(f"elementary motion: {texts['case']}", lines, heading, rows, [certificate(options)])

@@ -7,7 +7,7 @@ import click
 
 from atlas.cli.numbers import along, answer, certificate
 from atlas.cli.options import REAL, Command, F, chosen_times, exactly, examples, output_options, times_options
-from atlas.cli.present import Line, Sheet, show
+from atlas.cli.present import Line, Printout, show
 
 ZERO = ("0",) * 3
 VECTORS = ("electric", "magnetic", "position", "velocity")
@@ -61,7 +61,7 @@ def command(**options: Any) -> None:
     parameters = {name: options[name] for name in ("mu", *VECTORS, "units")}
     texts = answer(options, parameters, floats, balls)
     if texts is not None:
-        show(sheet(texts, options))
+        show(printout(texts, options))
 
 
 def speed_of_light(units: str) -> float:
@@ -80,7 +80,7 @@ def described(motion: Any, times: list[float], y: Any, v: Any) -> dict[str, Any]
     return {"cyclotron_frequency": motion.cyclotron_frequency, "drift": drift, "samples": samples}
 
 
-def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
+def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
     """Lay the certified texts out, three rows a time."""
     time, speed, length = {
         "natural": ("1/time", "length/time", "length"),
@@ -98,4 +98,4 @@ def sheet(texts: dict[str, Any], options: dict[str, Any]) -> Sheet:
         for i in range(3)
     ]
     heading = ("t", f"y_i [{length}]", f"v_i [{speed}]") if rows else ()
-    return Sheet("point charge in constant fields", lines, heading, rows, [certificate(options)])
+    return Printout("point charge in constant fields", lines, heading, rows, [certificate(options)])

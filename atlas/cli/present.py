@@ -26,7 +26,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Sheet:
+class Printout:
     """What a command prints: single quantities, then one table with a unit in each heading."""
 
     title: str
@@ -37,39 +37,39 @@ class Sheet:
     justify: Literal["left", "right"] = "right"
 
 
-def explained(reasons: Sequence[Sequence[str]]) -> Sheet:
-    """Return the sheet that says of each part of a build, by kind and name, why it was made or taken."""
-    return Sheet("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
+def explained(reasons: Sequence[Sequence[str]]) -> Printout:
+    """Return what says of each part of a build, by kind and name, why it was made or taken."""
+    return Printout("why", heading=("part", "name", "reason"), rows=reasons, justify="left")
 
 
-def show(sheet: Sheet) -> None:
-    """Print a sheet, as wide as the terminal, and wider where digits would be cut; in a file or a pipe as it needs."""
+def show(printout: Printout) -> None:
+    """Print it, as wide as the terminal, and wider where digits would be cut; in a file or a pipe as it needs."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
     console = Console(width=None if sys.stdout.isatty() else 250, highlight=False, soft_wrap=True)
-    if sheet.title:
-        console.print(sheet.title, style="bold", markup=False)
-    if sheet.lines:
+    if printout.title:
+        console.print(printout.title, style="bold", markup=False)
+    if printout.lines:
         table = Table(box=None, show_header=False, pad_edge=False)
-        quantities = [(line.symbol, line.value, line.unit, line.says, line.label) for line in sheet.lines]
+        quantities = [(line.symbol, line.value, line.unit, line.says, line.label) for line in printout.lines]
         for index, cells in enumerate(zip(*quantities, strict=True)):
             words = index == 3
             table.add_column(no_wrap=not words, min_width=None if words else max(map(len, cells)))
         for cells in quantities:
             table.add_row(*(Text(cell) for cell in cells))
         _print(console, table)
-    if sheet.heading:
+    if printout.heading:
         table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-        for index, name in enumerate(sheet.heading):
-            width = max(map(len, (name, *(row[index] for row in sheet.rows))))
-            table.add_column(Text(name), justify=sheet.justify, no_wrap=True, min_width=width)
-        for row in sheet.rows:
+        for index, name in enumerate(printout.heading):
+            width = max(map(len, (name, *(row[index] for row in printout.rows))))
+            table.add_column(Text(name), justify=printout.justify, no_wrap=True, min_width=width)
+        for row in printout.rows:
             table.add_row(*(Text(cell) for cell in row))
         _print(console, table)
-    for note in sheet.notes:
+    for note in printout.notes:
         console.print(note, style="dim", markup=False)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from atlas.cli.options import Command, Many, examples, jobs_option, out_option, style_option
-from atlas.cli.present import Sheet, explained, show
+from atlas.cli.present import Printout, explained, show
 from atlas.cli.progress import bar
 
 if TYPE_CHECKING:
@@ -72,4 +72,4 @@ def _explain(built: "Built") -> None:
         from atlas.build.costs import HEADING, rows
 
         note = "A figure from the cache shows what it cost when it was drawn."
-        show(Sheet("what the figures cost", heading=HEADING, rows=rows(built.costs), notes=[note]))
+        show(Printout("what the figures cost", heading=HEADING, rows=rows(built.costs), notes=[note]))

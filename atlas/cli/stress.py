@@ -5,7 +5,7 @@ import os
 import click
 
 from atlas.cli.options import Command, examples
-from atlas.cli.present import Sheet, dump, show
+from atlas.cli.present import Printout, dump, show
 from atlas.cli.progress import bar
 
 
@@ -46,8 +46,12 @@ def command(samples: int, seed: int, jobs: int | None, renew: bool, arrays: bool
     else:
         heading, rows = result.table()
         title = "worst errors found, in units in the last place"
-        show(Sheet(title, heading=heading[:-1], rows=[row[:-1] for row in rows]))
-        show(Sheet("the inputs that give them, as hexadecimal doubles", notes=[f"{row[0]}: {row[-1]}" for row in rows]))
+        show(Printout(title, heading=heading[:-1], rows=[row[:-1] for row in rows]))
+        show(
+            Printout(
+                "the inputs that give them, as hexadecimal doubles", notes=[f"{row[0]}: {row[-1]}" for row in rows]
+            )
+        )
         click.echo(f"{result.samples} values in {result.seconds:.0f} s, seed {result.seed}")
     for worst, why in bad:
         click.echo(f"atlas: {worst.quantity} is off by {worst.ulps:.3g} ulp, {why}, in: {worst.regime}", err=True)

@@ -7,7 +7,8 @@ from typing import Any
 import click
 
 from atlas.cli.options import Command, examples
-from atlas.cli.present import Sheet, dump, show
+from atlas.cli.plain import plain
+from atlas.cli.present import Printout, dump, show
 from atlas.cli.progress import bar
 
 COLUMNS = (
@@ -60,14 +61,15 @@ def command(
     with bar("trials") as tell:
         run = proof.mutants if mutants else proof.verify
         found = run(labels or None, lambda label, done, total: tell(done, total, label), **options)
-    status = _mutants(found, as_json) if mutants else _verdicts(found, as_json, record)
+    status = _mutants(found, as_json) if mutants else _verdicts(found, as_json, record, named=bool(labels))
     if record:
         proof.record.save(found, *([proof.record.MUTANTS] if mutants else []))
     return status
 
 
-def _verdicts(found: Any, as_json: bool, record: bool) -> int:
-    """Show verdicts and what differs from the record; return the exit status."""
+def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
+    """Show verdicts, more of those asked for by name, and what differs from the record; return the exit status."""
+    from atlas.paper import EQUATIONS
     from atlas.proof.record import differs
     from atlas.proof.verdict import slips
 
@@ -84,15 +86,18 @@ def _verdicts(found: Any, as_json: bool, record: bool) -> int:
                 one.verdict,
                 one.grade,
                 one.corrected_verdict,
-                one.method,
+                plain(one.method),
                 f"{one.seconds:.1f}",
             ]
             for one in found
         ]
-        show(Sheet("the paper's equations on trial, as printed", heading=heading, rows=rows, justify="left"))
+        show(Printout("the paper's equations on trial, as printed", heading=heading, rows=rows, justify="left"))
         for one in found:
-            if one.grade:
-                words = {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
+            if one.grade or named:
+                says = {"says": EQUATIONS[one.label].says, "tried from": one.follows} if named else {}
+                words = {name: plain(text) for name, text in says.items()}
+                words |= {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
+                words |= {"note": plain(one.note)} if named else {}
                 words = {name: text for name, text in words.items() if text}
                 click.echo("\n".join([one.label, *(f"  {name + ':':16}{text}" for name, text in words.items())]))
         totals = Counter(one.verdict for one in found)
@@ -111,7 +116,7 @@ def _mutants(found: Any, as_json: bool) -> int:
     """Show what became of the mutants; return the exit status."""
     from atlas.proof.survivors import reason
 
-    why = {(one.label, line): reason(one.label, line) for one in found for _, line, _ in one.survivors}
+    why = {(one.label, line): plain(reason(one.label, line)) for one in found for _, line, _ in one.survivors}
     unexplained = [(label, line) for (label, line), text in why.items() if not text]
     if as_json:
         dump({"mutants": [one.as_dict() | {"survivors": _explained(one, why)} for one in found]})
@@ -127,7 +132,7 @@ def _mutants(found: Any, as_json: bool) -> int:
             for one in found
         ]
         heading = ("label", "mutants", "noticed", "survive", "because")
-        show(Sheet("forms changed in one place", heading=heading, rows=rows, justify="left"))
+        show(Printout("forms changed in one place", heading=heading, rows=rows, justify="left"))
         for one in found:
             for what, line, decision in one.survivors:
                 click.echo(f"{one.label} survives {what}: {line} ({decision})")

@@ -32,6 +32,7 @@ HEAVY: Mapping[str, str] = {
     "brotli": "brotli",
     "rich": "rich",
     "msgspec": "msgspec",
+    "pylatexenc": "pylatexenc",
     "heyoka": "heyoka",
 }
 """The libraries of pyproject.toml but click, which parses the command line, and the modules that show their use."""
@@ -194,7 +195,7 @@ def test_every_library_is_watched() -> None:
 
 
 def test_every_command_has_a_case() -> None:
-    """No command is left out, and each module of atlas.cli that holds one has its door."""
+    """No command is left out, and each module of atlas.cli that holds one is a command."""
     assert {case.words.split()[0] for case in CASES} == set(command_line.commands)
     texts = {path.stem: path.read_text(encoding="utf-8") for path in (CHECKOUT / "atlas" / "cli").glob("*.py")}
     assert {name for name, text in texts.items() if "\n@click.command(" in text} == set(command_line.commands)

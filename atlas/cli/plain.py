@@ -1,0 +1,30 @@
+r"""TeX and citations of the ledger as plain Unicode: ``$\omega_2\ne-B'_2$, @mf76`` becomes ``ω_2≠-B'_2, mf76``."""
+
+import re
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pylatexenc.latex2text import LatexNodes2Text
+
+_CITATION = re.compile(r"(?<!\w)@(?=\w)")
+_MISSING = {"ne": "≠", "bot": "⊥", "det": "det", "operatorname": "%s", "mathbf": "%s"}
+"""What pylatexenc has no text for, and upright bold letters, which it would write with letters few fonts have."""
+
+
+def plain(markdown: str) -> str:
+    """Return a text of the ledger or of the trial as it is shown on a terminal."""
+    converter, macros = _converter()
+    return _CITATION.sub("", converter.latex_to_text(markdown, latex_context=macros))
+
+
+@cache
+def _converter() -> "tuple[LatexNodes2Text, Any]":
+    """Return pylatexenc's converter, and the macros that its reader knows."""
+    from pylatexenc import latex2text, latexwalker, macrospec
+
+    texts, macros = latex2text.get_default_latex_context_db(), latexwalker.get_default_latex_context_db()
+    specs = [latex2text.MacroTextSpec(name, text) for name, text in _MISSING.items()]
+    texts.add_context_category("atlas", macros=specs, prepend=True)
+    macros.add_context_category("atlas", macros=[macrospec.MacroSpec("operatorname", "{")])
+    return latex2text.LatexNodes2Text(latex_context=texts, keep_braced_groups=True), macros

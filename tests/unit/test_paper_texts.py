@@ -1,0 +1,58 @@
+"""The texts of the ledger and of the trial: TeX and citations as a report reads them, plain Unicode on a terminal."""
+
+import re
+
+import pytest
+
+from atlas.cli.plain import plain
+from atlas.paper import EQUATIONS, LABEL
+from atlas.proof import record
+from atlas.proof.survivors import REASONS
+from atlas.study.stress import LIMITS, read_ratchet
+from atlas.study.titles import title
+
+TEXTS = [
+    *(text for entry in EQUATIONS.values() for text in (entry.says, *entry.assumptions)),
+    *(text for verdict in record.load().values() for text in (verdict.method, verdict.follows, verdict.note)),
+    *(why for reasons in REASONS.values() for _, why in reasons),
+    *(title(name) for key in (*LIMITS, *read_ratchet()) for name in key.split(" | ")),
+]
+LETTER = re.compile(r"alpha|beta|gamma|lambda|omega|Omega|theta|tau|phi|psi|^sqrt|^hat|[A-Z]'?\d|[a-z]\d|[_^<>=]")
+
+
+def test_no_letter_stands_outside_a_formula() -> None:
+    """Outside dollar signs there is no name of a Greek letter, no index, no power, no relation and no bare label."""
+    for text in TEXTS:
+        words = re.sub(r"@[\w.-]+", "", "".join(text.split("$")[::2]))
+        assert text.count("$") % 2 == 0, text
+        assert not [word for word in re.findall(r"[\w'^=<>]+", words) if LETTER.search(word)], text
+        assert not LABEL.search(words), text
+
+
+def test_every_citation_is_one_of_the_ledger() -> None:
+    """What follows a sign of citation is a label."""
+    cited = [name.rstrip(".") for text in TEXTS for name in re.findall(r"@([\w.-]+)", text)]
+    assert len(cited) > 200
+    assert set(cited) <= set(EQUATIONS)
+
+
+def test_nothing_of_a_text_is_lost_on_a_terminal() -> None:
+    """No TeX is left, and every letter, digit and sign of a formula is still there."""
+    for text in TEXTS:
+        shown = plain(text)
+        assert not re.search(r"[\\$@]", shown), text
+        kept = re.sub(r"\\[A-Za-z]+|[@${}\\,\s]", "", text)
+        assert [sign for sign in kept if sign not in shown] == [], text
+
+
+@pytest.mark.parametrize(
+    ("tex", "shown"),
+    [
+        (r"$\omega_2\ne-B'_2$, see @mf76.", "ω_2≠-B'_2, see mf76."),
+        (r"$[\mathbf{E}_\bot,\mathbf{B}]$", "[E_⊥,B]"),
+        (r"$\operatorname{tr}(g)-g$, $\det R=1$, $e^{i\xi}$", "tr(g)-g, det R=1, e^{iξ}"),
+    ],
+)
+def test_tex_is_shown_in_unicode(tex: str, shown: str) -> None:
+    """Letters, relations and citations as one would type them."""
+    assert plain(tex) == shown
