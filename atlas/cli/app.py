@@ -17,7 +17,7 @@ LONG = 400
 """Characters of a word that an error repeats whole."""
 
 
-class Door(click.Command):
+class LazyCommand(click.Command):
     """A command that is loaded when it is called: until then its name and one line of help are known."""
 
     def make_context(self, *arguments: Any, **more: Any) -> click.Context:
@@ -26,7 +26,22 @@ class Door(click.Command):
         return command.make_context(*arguments, **more)
 
 
+class Atlas(click.Group):
+    """The group of all commands."""
+
+    def invoke(self, context: click.Context) -> Any:
+        """Run a command. Raises click.ClickException for a library that is not installed."""
+        try:
+            return super().invoke(context)
+        except ModuleNotFoundError as error:
+            if (error.name or "").startswith("atlas"):
+                raise
+            message = f"the library {error.name} is not installed; in a checkout, `make setup` installs it"
+            raise click.ClickException(message) from error
+
+
 @click.group(
+    cls=Atlas,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
     help="The exact motion of a charged symmetric body in constant electric and magnetic fields.",
     epilog="Angles are in radians; B' = mu B/(2c) and all angular velocities share one unit of 1/time.",
@@ -53,7 +68,7 @@ for name, says in {
     "bench": "Measure error against time.",
     "stress": "Hunt for the worst errors.",
 }.items():
-    atlas.add_command(Door(name, short_help=says))
+    atlas.add_command(LazyCommand(name, short_help=says))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -210,6 +210,14 @@ def test_a_read_only_folder_is_told_before_any_work(tmp_path: Path, monkeypatch:
     assert f"'{tmp_path / 'new'}' cannot be written: its folder is read-only" in result.stderr
 
 
+def test_a_library_that_is_missing_is_told_in_one_line() -> None:
+    """As after new code came with new libraries: what is missing, and what installs it."""
+    block = "import sys; sys.modules['pylatexenc'] = None; from atlas.cli.app import main; main(['verify', 'mf76'])"
+    result = subprocess.run([sys.executable, "-c", block], capture_output=True, text=True, check=False)
+    assert result.returncode == 1
+    assert result.stderr == "atlas: the library pylatexenc is not installed; in a checkout, `make setup` installs it\n"
+
+
 def test_every_shape_that_is_listed_has_a_quadric() -> None:
     """What `atlas list` names, `atlas classify` takes, with the dimensions that stand beside it."""
     for shape, sizes in record("list")["shapes"].items():

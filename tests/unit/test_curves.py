@@ -117,9 +117,9 @@ def test_a_trace_asks_for_one_column(name: str, monkeypatch: pytest.MonkeyPatch)
     from atlas.core.elementary import ElementaryMotion
 
     for owner in ElementaryMotion.__mro__:
-        for door in ("rotation", "rotation_grid"):
-            if door in vars(owner):
-                monkeypatch.setattr(owner, door, never)
+        for method in ("rotation", "rotation_grid"):
+            if method in vars(owner):
+                monkeypatch.setattr(owner, method, never)
     assert recipes.load(name).scene().panels
 
 

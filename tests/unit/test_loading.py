@@ -1,4 +1,4 @@
-"""What each door of the package loads: of the heavy libraries nothing but what it needs, in any process it starts."""
+"""What each entry point of the package loads: of the heavy libraries only what it needs, in any process it starts."""
 
 import os
 import subprocess
