@@ -109,7 +109,7 @@ class Drawn(JSONSnapshotExtension):
         return alike(json.loads(serialized_data), json.loads(snapshot_data), 1e-9)
 
 
-NOISE = {("motion", 3), *((name, panel) for name in ("error_maps", "motion_map") for panel in range(4))}
+NOISE = {("invariants", 0), *((name, panel) for name in ("error_maps", "motion_map") for panel in range(4))}
 """Panels of rounding errors or of roots by iteration, which differ between processors: only their structure is kept."""
 
 
