@@ -65,8 +65,8 @@ def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, to
     radius, height = (size * length for length in proportions(I))
     side = solids.cylinder(centre, axis, radius, height, tolerance, role="solid")
     places = np.linspace(-0.5, 0.5, max(3, round(_WINDINGS * height / radius)) + 1)[1:-1]
-    ends = [  # from inside, so that one looks into the shell
-        solids.disk(centre + sign * height / 2 * axis, -sign * axis, radius, tolerance, role="solid")
+    ends = [
+        solids.disk(centre + sign * height / 2 * axis, sign * axis, radius, tolerance, role="opening")
         for sign in (-1.0, 1.0)
     ]
     coils = [Curve(solids.circle(centre + h * height * axis, axis, radius, tolerance), "coil") for h in places]

@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from atlas import DomainError, Hyperbola, SymmetricBody, simulate
-from atlas.scene import Curve, Label, Points, Surface, quadrics, recipes
+from atlas.scene import Arrow, Curve, Label, Points, Surface, quadrics, recipes
 
 FloatArray = NDArray[np.float64]
 
@@ -87,12 +87,44 @@ def test_a_marked_motion_repeats_itself(ratio: float) -> None:
         assert min(abs(phi / k - quotient) for at, quotient in dots if at == omega2) <= 8 * EPS * 4
 
 
+def test_the_line_on_the_torus_is_straight_and_closes_with_the_trace() -> None:
+    """On the torus the tube's angle grows gamma/alpha times as fast as the other; R_1 comes back after two turns."""
+    left, right, _, open_ = panels("ball_torus")
+    for layer in layers(left, Curve, "trajectory"):
+        x, y, z = layer.points.T
+        first = np.unwrap(np.arctan2(y, x))
+        second = np.unwrap(np.arctan2(z, np.hypot(x, y) - 1.0))
+        off = (second - 2.5 * first) - (second - 2.5 * first)[0]
+        assert np.abs(off).max() <= 256 * EPS * 10
+    (closed,), (dense,) = layers(right, Curve, "trajectory"), layers(open_, Curve, "second_trace")
+    assert np.abs(closed.points[0] - closed.points[-1]).max() <= 64 * EPS
+    assert np.abs(dense.points[0] - dense.points[-1]).max() > 0.01
+    assert np.abs(np.linalg.norm(dense.points, axis=1) - 1).max() <= 8 * EPS
+
+
+def test_the_solenoid_flies_as_a_charge_does_and_its_axis_keeps_its_angle() -> None:
+    """After two turns the centre has moved by drift, v_par t and a_par t^2/2, 64 eps; the axis has one angle to B."""
+    E, v, B = np.array([0.6, 0.0, 0.1]), np.array([0.0, 6.2, -0.6]), np.array([0.0, 0.9, 2.0])
+    (panel,) = panels("flight_poster", turns=2.0)
+    (path,) = layers(panel, Curve, "flight_path")
+    size = np.linalg.norm(B)
+    t, n = 4 * np.pi / size, B / size
+    moved = t * np.cross(E, B) / size**2 + (n @ v * t + n @ E * t * t / 2) * n
+    assert np.abs(path.points[-1] - path.points[0] - moved).max() <= 64 * EPS * np.abs(moved).max()
+    axes = np.array([np.asarray(arrow.tip) - np.asarray(arrow.tail) for arrow in layers(panel, Arrow, "body_axis")])
+    slope = axes @ n / np.linalg.norm(axes, axis=1)
+    assert np.abs(slope - B[2] / size).max() <= 64 * EPS
+    assert np.ptp(axes[:, 0]) > 0.1
+
+
 @pytest.mark.parametrize(
     ("name", "parameters"),
     [
         ("body_ruler", {"field": (0.0, 1.0)}),
         ("kinds_of_quadric", {"C1": (-1.0,)}),
         ("frequencies", {"order": 50}),
+        ("flight_poster", {"ratio": 2.0}),
+        ("ball_torus", {"ratios": (0.1,), "turns": (1.0,)}),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:

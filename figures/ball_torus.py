@@ -1,0 +1,127 @@
+"""Two turns of a ball on a torus.
+
+Every motion of a ball is R = R_z(-alpha t) R_k(-gamma t), mf38: its attitude is a pair of angles, a point of a torus,
+and moves on it along a line of constant slope. If gamma/alpha is rational the line closes and with it the trace of each
+point of the ball; if not, both come as near as one likes to where they have been, and never come back.
+"""
+
+import numpy as np
+
+from atlas.core.ball import BallMotion
+from atlas.core.inputs import FloatArray, positive
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.camera import frame
+from atlas.scene.sample import curve
+from atlas.scene.words import listed, plain, tex, title
+
+WIDTH, HEIGHT = 150.0, 128.0
+TORUS = (1.0, 0.42)
+"""Radii of the torus, and of its tube."""
+VIEW = (25.0, 52.0)
+STEPS, MOST = 240, 400.0
+FEW = 40.0
+"""Beyond so many radians of the Larmor turn the trace on the sphere is a thin line."""
+
+
+def scene(
+    *,
+    larmor: float = 0.8,
+    m3: float = 0.5,
+    ratios: tuple[float, ...] = (2.5, 2.618034),
+    turns: tuple[float, ...] = (2.0, 13.0),
+) -> Scene:
+    """Draw balls (I0 = 1) with gamma/alpha in ``ratios`` for ``turns`` of alpha = ``larmor``; m3 is that of m."""
+    larmor = positive(larmor, "larmor")
+    least = abs(1.0 + m3 / larmor)
+    if not (0 < len(ratios) == len(turns) <= 4 and all(r >= least for r in ratios) and all(turns)):
+        raise DomainError(
+            f"figure ball_torus takes one to four ratios and as many turns, not 0; gamma/alpha is at least "
+            f"|1 + m3/alpha| = {least:g}, not {ratios}."
+        )
+    if max(abs(r * n) for r, n in zip(ratios, turns, strict=True)) > MOST:
+        raise DomainError(f"figure ball_torus draws at most {MOST:g} turns.")
+    panels: list[Space] = []
+    for ratio, count in zip(ratios, turns, strict=True):
+        m2 = larmor * float(np.sqrt(ratio * ratio - least * least))
+        ball = BallMotion(1.0, larmor, momentum=(m2, m3))
+        stop = count * 2 * np.pi / larmor
+        panels += [torus(ball, larmor, stop), trace(ball, larmor, stop)]
+    shown = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            r"Left, the attitude of a ball as a point of the torus of its two angles, $\alpha t$ the long way round "
+            r"and $\gamma t$ the short way. Right, the way of the point $\mathbf{R}_1$ "
+            rf"of the same ball. From above, $\gamma/\alpha$ is {shown}, with $\alpha={tex(larmor)}$ and "
+            rf"$m_3={tex(m3)}\,I_0$. A rational quotient closes the line and the trace; otherwise they fill the torus, "
+            r"and on the sphere a zone."
+        ),
+        alt=(
+            f"{len(ratios)} rows of two pictures: a line that winds round a torus, closed in the first row and dense "
+            "in the second, and beside it the trace of a point of a ball, a closed curve with loops in the first row "
+            "and a net that fills a zone of the sphere in the second."
+        ),
+        panels=tuple(panels),
+        columns=2,
+        size=(WIDTH, HEIGHT * len(ratios) / 2),
+    )
+
+
+def on_torus(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the point (..., 3) of the torus with these angles, round its axis e3 and round its tube."""
+    far = TORUS[0] + TORUS[1] * np.cos(second)
+    return np.stack([far * np.cos(first), far * np.sin(first), TORUS[1] * np.sin(second)], axis=-1)
+
+
+def hidden(points: FloatArray) -> FloatArray:
+    """Tell which points (N, 3) of the torus lie behind a part of it, by steps along the ray to the eye."""
+    towards = frame(Space((), *VIEW))[2]
+    way = np.linspace(0.02, 2.0 * (TORUS[0] + TORUS[1]), STEPS)
+    x, y, z = np.moveaxis(points[:, None] + way[:, None] * towards, -1, 0)
+    return np.asarray(((np.hypot(x, y) - TORUS[0]) ** 2 + z * z < TORUS[1] ** 2 * (1 - 1e-3)).any(axis=1))
+
+
+def seen(points: FloatArray, role: str) -> list[Layer]:
+    """Return the visible parts of a line on the torus."""
+    gone = hidden(points)
+    pieces = np.split(np.arange(len(points)), np.flatnonzero(np.diff(gone)) + 1)
+    return [Curve(points[piece[0] : piece[-1] + 2], role) for piece in pieces if not gone[piece[0]]]
+
+
+def outline(round_: FloatArray) -> list[Layer]:
+    """Return the visible parts of the two lines along which rays to the eye graze the torus."""
+    towards = frame(Space((), *VIEW))[2]
+    slope = -np.arctan2(towards[0] * np.cos(round_) + towards[1] * np.sin(round_), towards[2])
+    return [layer for turned in (slope, slope + np.pi) for layer in seen(on_torus(round_, turned), "silhouette")]
+
+
+def torus(ball: BallMotion, larmor: float, stop: float) -> Space:
+    """Return the panel of the torus with its net and the line of the motion."""
+    round_ = np.linspace(0.0, 2 * np.pi, 181)
+    layers: list[Layer] = []
+    for angle in np.arange(24) * np.pi / 12:
+        layers += seen(on_torus(np.full_like(round_, angle), round_), "guide")
+    for angle in np.arange(8) * np.pi / 4:
+        layers += seen(on_torus(round_, np.full_like(round_, angle)), "guide")
+    fine = quadric_panel.tolerance(1.5)
+    pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
+    line = curve(lambda t: on_torus(larmor * t, ball.gamma * t), 0.0, stop, fine, pieces=pieces)
+    layers += [*outline(round_), *seen(line, "trajectory")]
+    layers.append(Points(line[:1], "start"))
+    return Space(tuple(layers), *VIEW)
+
+
+def trace(ball: BallMotion, larmor: float, stop: float) -> Space:
+    """Return the panel of the ball with the way of R_1, the field and the axis k at t = 0."""
+    fine = quadric_panel.tolerance(1.5)
+    pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
+    way = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, fine, pieces=pieces)
+    layers: list[Layer] = [
+        solids.sphere(quadric_panel.O, 1.0, fine, role="ball"),
+        Curve(way, "trajectory" if larmor * stop < FEW else "second_trace"),
+        Points(way[:1], "start", r"$\mathbf{R}_1(0)$"),
+        Arrow(quadric_panel.E3, 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
+    ]
+    k = quadric_panel.in_plane(*ball.k_hat)
+    return Space((*layers, Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$")), 25.0, 20.0)

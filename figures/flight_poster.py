@@ -1,0 +1,93 @@
+"""The flight of a solenoid.
+
+A charged solenoid drawn at equal steps of time on its flight through constant E and B: its centre runs on the path of a
+point charge, mf17, mf11, and about the centre it turns by the elementary motion mf89; the painted seam shows how.
+"""
+
+import numpy as np
+
+from atlas.core.elementary import ElementaryMotion
+from atlas.core.inputs import FloatArray, number, positive, vector, whole
+from atlas.core.particle import ParticleMotion
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Layer, Scene, Space, quadric_panel
+from atlas.scene.bodies import proportions, solenoid
+from atlas.scene.camera import frame
+from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.words import plain, plain_setting, plain_vector, quotient, tex, tex_setting, tex_vector, title
+
+WIDTH, HEIGHT = 150.0, 200.0
+AXIS, CORNER = 1.7, 0.22
+"""How far an axis is drawn in units of the body, and the length of the fields' arrows as a part of the height."""
+
+
+def scene(
+    *,
+    ratio: float = 0.8,
+    field: tuple[float, float] = (0.45, 1.0),
+    omega2: float = 0.62,
+    mu: float = 1.0,
+    c: float = 1.0,
+    E: tuple[float, float, float] = (0.6, 0.0, 0.1),
+    velocity: tuple[float, float, float] = (0.0, 6.2, -0.6),
+    size: float = 0.8,
+    count: int = 15,
+    turns: float = 2.25,
+    azimuth: float = 40.0,
+    elevation: float = 30.0,
+) -> Scene:
+    """Draw ``count`` attitudes of a body of this ``size`` in ``turns`` of its centre; the centre starts at 0."""
+    mu, c, size, count = number(mu, "mu"), positive(c, "c"), positive(size, "size"), whole(count, "count")
+    I = quotient(ratio)
+    if not (mu and any(field) and I < 2 and 2 <= count <= 60):
+        raise DomainError(
+            f"figure flight_poster needs a charge, a field, a solenoid (I < 2) and 2 to 60 attitudes, not mu = {mu:g}, "
+            f"field = {field}, I = {I:g}, count = {count}."
+        )
+    B = 2 * c / mu * quadric_panel.in_plane(*field)
+    particle = ParticleMotion(mu, E, B, (0.0, 0.0, 0.0), vector(velocity, "velocity"), c)
+    motion = ElementaryMotion(ratio, field, omega2)
+    stop = positive(turns, "turns") * particle.period
+    times = np.linspace(0.0, stop, count)
+    centres, attitudes = particle.position(times), motion.rotation(times)
+    fine = quarter_pixel(float(np.ptp(centres, axis=0).max()), HEIGHT)
+    end = 0.5 * size * proportions(I)[1]
+    layers: list[Layer] = [Curve(curve(particle.position, 0.0, stop, fine, pieces=64), "flight_path")]
+    near = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
+    for i in np.argsort(centres @ near):  # from the farthest to the nearest, as they cover one another
+        centre, R = centres[i], attitudes[i]
+        layers += solenoid(I, R, centre, size, fine)
+        layers.append(Arrow(centre + end * R[:, 2], centre + AXIS * size * R[:, 2], "body_axis"))
+    layers += fields(B, np.asarray(E, dtype=float), centres, size, (azimuth, elevation))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The flight of {tex_setting(ratio, field)}, $\mu={tex(mu)}$, $c={tex(c)}$, through "
+            rf"$\mathbf{{E}}={tex_vector(E)}$, launched with the velocity ${tex_vector(velocity)}$ and "
+            rf"$\omega_2={tex(omega2)}$, at {count} equal steps of time. The centre circles about $\mathbf{{B}}$, "
+            r"drifts across both fields and gains speed along $\mathbf{B}$, as any point charge does. The body's axis "
+            r"goes round $\mathbf{B}$ at a constant angle and at a rate of its own, and $\mathbf{E}$ has no part in "
+            r"that."
+        ),
+        alt=(
+            f"{count} drawings of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)} along a helix that "
+            f"widens upwards in the electric field {plain_vector(E)}: an open cylinder with windings and a dark seam, "
+            "its axis leaning now to one side, now to another, always at one angle to the magnetic field."
+        ),
+        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def fields(B: FloatArray, E: FloatArray, centres: FloatArray, size: float, eye: tuple[float, float]) -> list[Layer]:
+    """Return arrows along the fields, in the lower right corner of what the bodies cover on paper."""
+    view = frame(Space((), azimuth=eye[0], elevation=eye[1]))
+    flat = centres @ view.T
+    length = CORNER * float(np.ptp(flat[:, 1]))
+    corner = np.array([flat[:, 0].max() - 0.4 * length, flat[:, 1].min() - size, 0.0]) @ view
+    named = ((B, "field", r"$\mathbf{B}$"), (E, "electric", r"$\mathbf{E}$"))
+    return [
+        Arrow(corner, corner + length * along / np.linalg.norm(along), role, name)
+        for along, role, name in named
+        if along.any()
+    ]
