@@ -27,7 +27,7 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(eq=False)
 class Figure:
-    """A figure that is wanted in some kinds of files (svg, pdf, png), and what became of it.
+    """A figure that is wanted in some kinds of files (svg, pdf, png, pgf, csv), and what became of it.
 
     `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
     """
@@ -192,10 +192,11 @@ def build_figures(
     """Put each of the recipes into out/NAME.FORMAT for each format, each file whole or not at all.
 
     `style` is a style sheet of Matplotlib, a file or a name, applied on top of the package's own. `jobs` of them are
-    drawn at once, one a core when it is not given. What the cache in `out` has is not drawn again.
-    A figure that fails does not stop the others. Raises AtlasError for a shaded figure that is no PNG.
+    drawn at once, one a core when it is not given. What the cache in `out` has is not drawn again. The format csv is
+    the data of the figure, see `atlas.scene.data`. A figure that fails does not stop the others. Raises AtlasError for
+    a shaded figure that is neither PNG nor CSV.
     """
-    other = [one for one in formats if one != "png"]
+    other = [one for one in formats if one not in {"png", "csv"}]
     if renderer == "shaded" and other:
         raise AtlasError(f"a shaded figure is a PNG; {other[0]!r} is drawn by the vector renderer")
     from atlas.draw import gl

@@ -186,14 +186,17 @@ def _check(name: str, file: Path, out: Path, cache: Cache) -> None:
 def _figures(
     found: "Mapping[str, Picture]", formats: Sequence[str], style: str | None, library: str | None
 ) -> "dict[Figure, Picture]":
-    """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF."""
+    """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
+
+    The pages offer each figure as PDF and PNG too, and its data as CSV.
+    """
     from atlas.build.figures import Figure
 
-    lines = tuple({"html": "svg", "pdf": "pdf"}[one] for one in formats)
+    lines, shaded = (("svg", "pdf", "png", "csv"), ("png", "csv")) if "html" in formats else (("pdf",), ("png",))
     return {
         Figure(one.recipe, one.parameters, one.renderer, kinds, style): one
         for one in found.values()
-        for kinds in [("png",) if one.renderer == "shaded" and library else lines]
+        for kinds in [shaded if one.renderer == "shaded" and library else lines]
         if not one.failure
     }
 
@@ -207,7 +210,8 @@ def _describe(figure: "Figure", picture: "Picture") -> None:
         facts = figure.facts
         picture.caption, picture.alt, picture.size = facts["caption"], facts["alt"], tuple(facts["size"])
         picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
-        picture.file = f"figures/{picture.stem}.{'png' if figure.kinds == ('png',) else 'svg'}"
+        picture.file = f"figures/{picture.stem}.{'svg' if 'pdf' in figure.kinds else 'png'}"
+        picture.files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds}
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
 
 
@@ -237,12 +241,10 @@ def _pages(document: "Document", figures: "dict[Figure, Picture]", cache: Cache,
 
     code = sources.closure([PACKAGE / "report" / "fonts.py"])
     pages = html.pages(document)
-    pictures = {
-        picture.file: figure.contents[figure.kinds[0]] for figure, picture in figures.items() if not picture.failure
-    }
-    files = {name: page.encode() for name, page in pages.items()} | pictures
+    drawn = {name: figure.contents[kind] for figure, picture in figures.items() for kind, name in picture.files.items()}
+    files = {name: page.encode() for name, page in pages.items()} | drawn
     files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))
-    files[RECORD] = record_of(document, pictures)
+    files[RECORD] = record_of(document, drawn)
     return {f"{document.report.name}/{name}": content for name, content in files.items()}
 
 
@@ -254,7 +256,7 @@ def _pdf(document: "Document", figures: "dict[Figure, Picture]", cache: Cache, _
         (work / "figures").mkdir()
         for figure, picture in figures.items():
             if not picture.failure:
-                (work / picture.file).with_suffix(f".{figure.kinds[-1]}").write_bytes(figure.contents[figure.kinds[-1]])
+                (work / picture.printed).write_bytes(figure.contents[picture.printed.rpartition(".")[2]])
         source = pdf.source(document)
         return {f"{document.report.name}.pdf": pdf.Compiler(work).compile(source)}
 

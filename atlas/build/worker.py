@@ -18,7 +18,7 @@ from typing import Any
 from atlas.build.cache import Cache
 from atlas.errors import AtlasError
 from atlas.places import settle_matplotlib
-from atlas.scene import Curve, Image, Points, Region, Scene, Surface, recipes
+from atlas.scene import Curve, Image, Points, Region, Scene, Surface, data, recipes
 
 
 @dataclass(frozen=True)
@@ -60,11 +60,14 @@ def _draw(task: Task) -> None:
     scene = recipes.load(task.recipe).scene(**task.parameters)
     computed = time.perf_counter()
     cache = Cache(task.cache)
+    renderer, note = choose(scene, task.renderer)
     with cache.temporary() as folder:
-        paths = {kind: folder / f"figure.{kind}" for kind in task.keys}
-        renderer, note = choose(scene, task.renderer)
-        save(scene, {path: kind for kind, path in paths.items()}, task.renderer, task.style)
+        paths = {kind: folder / f"figure.{kind}" for kind in task.keys if kind != "csv"}
+        if paths:
+            save(scene, {path: kind for kind, path in paths.items()}, task.renderer, task.style)
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
+    if "csv" in task.keys:
+        contents["csv"] = data.table(scene).encode()
     facts = {
         "title": scene.title,
         "caption": scene.caption,

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         "atlas figure hyp_a hyp_b",
         "atlas figure quadric --set ratio=0.5 field=1,0.1 --format pdf --out plots",
         "atlas figure quadric --renderer shaded",
+        "atlas figure hyperbola --format csv",
     ),
 )
 @click.argument("names", nargs=-1, metavar="NAME...")
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
     "--format",
     "formats",
     cls=Many,
-    type=click.Choice(["svg", "pdf", "png", "pgf"]),
-    help="svg, pdf, png, pgf; the first three when left out.",
+    type=click.Choice(["svg", "pdf", "png", "pgf", "csv"]),
+    help="svg, pdf, png, pgf, csv (the points drawn); the first three when left out.",
 )
 @click.option(
     "--renderer",

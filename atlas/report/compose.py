@@ -70,12 +70,13 @@ class Document:
         """Return the function that finds what a citation says and where it leads, given its name and place."""
 
         def link(name: str, where: str) -> Link:
+            says = EQUATIONS[name].says if name in EQUATIONS else ""
             if name in self.ledger:
                 words = f"({name})" if EQUATIONS[name].number is not None else self.equations.get(name, f"({name})")
-                return Link(words, f"{self.ledger[name]}.html" if target == "html" else "", f"ledger-{name}")
+                return Link(words, f"{self.ledger[name]}.html" if target == "html" else "", f"ledger-{name}", says)
             if name in self.targets:
                 file, anchor, words = self.targets[name]
-                return Link(words, file if target == "html" else "", anchor)
+                return Link(words, file if target == "html" else "", anchor, says)
             if name in EQUATIONS:
                 return Link(f"({name})")
             raise AtlasError(f"{where}: {unknown('equation, figure, table or page', f'@{name}', self.citable)}")

@@ -2,7 +2,7 @@
 
 from atlas.report.blocks import Block
 from atlas.report.parameters import Parameters
-from atlas.report.schema import Record, Slug
+from atlas.report.schema import Id, Record, Slug
 
 
 class Page(Record, frozen=True):
@@ -16,7 +16,7 @@ class Page(Record, frozen=True):
 
 
 class Report(Record, frozen=True):
-    """The whole file."""
+    """The whole file; ``cover`` is the id of the figure on the front page."""
 
     name: str
     title: str
@@ -24,4 +24,5 @@ class Report(Record, frozen=True):
     subtitle: str = ""
     authors: tuple[str, ...] = ()
     abstract: str = ""
+    cover: Id | None = None
     parameters: Parameters = Parameters()

@@ -1,19 +1,32 @@
-"""The pages: plain HTML with MathML, one stylesheet, embedded fonts; no script, nothing from the network."""
+"""The pages: plain HTML with MathML, one stylesheet, embedded fonts, one small script; nothing from the network."""
 
+import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import Any
+from html import unescape
+from typing import Any, NamedTuple
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
+from atlas.errors import AtlasError, unknown
 from atlas.places import folder
-from atlas.report.compose import Document
+from atlas.report.blocks.figure import FigureView
+from atlas.report.compose import Document, PageView
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
+from atlas.report.search import index
 from atlas.report.versions import versions
 
 
+class Card(NamedTuple):
+    """A figure that stands for a page on the front page."""
+
+    page: PageView
+    figure: FigureView
+
+
 def pages(document: Document) -> dict[str, str]:
-    """Set a document, whose texts are set, as pages; the keys are file names, the stylesheet among them."""
+    """Set a document, whose texts are set, as pages; the keys are file names, stylesheet and scripts among them."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "html"),
         autoescape=True,
@@ -21,21 +34,66 @@ def pages(document: Document) -> dict[str, str]:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["plain"] = plain
     texts = [Markup(text) for text in document.written["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
-    common: dict[str, Any] = {"document": document, "texts": texts, "versions": versions(), "report": document.report}
+    figures = [
+        Card(page, block)
+        for page in document.pages
+        for block in page.blocks
+        if isinstance(block, FigureView) and not block.failure
+    ]
+    common: dict[str, Any] = {
+        "document": document,
+        "texts": texts,
+        "versions": versions(),
+        "report": document.report,
+        "cover": _cover(document, figures),
+        "cards": list({card.page.slug: card for card in reversed(figures)}.values())[::-1],
+    }
     set_pages = {
-        page.file: template.render(page=page, before=before, after=after, **common)
+        page.file: anchored(template.render(page=page, before=before, after=after, **common))
         for before, page, after in _neighbours(document.pages)
     }
     style = environment.get_template("style.css").render(faces=FACES)
-    return {"style.css": style, **set_pages}
+    script = (folder("templates") / "html" / "page.js").read_text(encoding="utf-8")
+    return {"style.css": style, "page.js": script, "index.js": index(document, set_pages, texts), **set_pages}
 
 
 def fonts(set_pages: Mapping[str, str], recall: Recall = anew) -> dict[str, bytes]:
     """Cut the fonts for the letters of some pages; the keys are file names."""
     texts = (text for name, text in set_pages.items() if name.endswith(".html"))
     return {f"fonts/{name}": content for name, content in all_subsets(texts, recall).items()}
+
+
+def anchored(page: str) -> str:
+    """Give each heading inside a page an anchor made of its words, and a link to it."""
+    seen: Counter[str] = Counter(re.findall(r' id="([^"]+)"', page))
+
+    def heading(match: re.Match[str]) -> str:
+        words = unescape(re.sub(r"<math.*?</math>|<[^>]+>", " ", match[2], flags=re.DOTALL))
+        name = "-".join(re.findall(r"[a-z0-9]+", words.lower())) or "section"
+        seen[name] += 1
+        name = name if seen[name] == 1 else f"{name}-{seen[name]}"
+        link = f'<a class="anchor" href="#{name}" aria-label="Link to {escape(" ".join(words.split()))}">#</a>'
+        return f'<h{match[1]} id="{name}">{match[2]} {link}</h{match[1]}>'
+
+    return re.sub(r"<h([23])>(.*?)</h\1>", heading, page, flags=re.DOTALL)
+
+
+def plain(markdown: str) -> str:
+    r"""Return a text with formulas in plain letters, for who does not see it: ``$\omega_2$`` is omega_2."""
+    return " ".join(re.sub(r"\\(?:mathbf|mathrm|text|boldsymbol|hat|dot|[,;!])|[\\${}*]", " ", markdown).split())
+
+
+def _cover(document: Document, figures: Sequence[Card]) -> Card | None:
+    """Return the figure of the front page: the one that the report names."""
+    if document.report.cover is None:
+        return None
+    anchor = f"fig-{document.report.cover}"
+    if f"fig:{document.report.cover}" not in document.targets:
+        raise AtlasError(f"cover: {unknown('figure', document.report.cover, document.citable)}")
+    return next((card for card in figures if card.figure.id == anchor), None)
 
 
 def _neighbours(pages: Sequence[Any]) -> list[tuple[Any, Any, Any]]:

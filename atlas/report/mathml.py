@@ -26,8 +26,8 @@ def mend(math: str) -> str:
     r"""Mend one formula.
 
     The TeX repeated inside it goes. ``\mathbf`` is upright, as in print. Accents don't stretch. A prime, which the math
-    font draws raised, isn't raised again. What ``\boxed`` marks gets its class. Function names get the thin spaces that
-    TeX gives them.
+    font draws raised, isn't raised again, and stands above an index. What ``\boxed`` marks gets its class. Function
+    names get the thin spaces that TeX gives them.
     """
     root = ET.fromstring(math.replace(_NAMESPACE, ""))  # noqa: S314  pandoc's output, not a stranger's
     semantics = root.find("semantics")
@@ -54,9 +54,12 @@ def _mended(element: ET.Element) -> ET.Element:
         base, prime = element[0], element[-1]
         prime.attrib = {"lspace": "0", "rspace": "0"}
         beside = ET.Element("mrow")
-        beside.extend([base, prime])
         if element.tag == "msup":
+            beside.extend([base, prime])
             return beside
+        above = ET.Element("mpadded", {"width": "0"})
+        above.append(prime)
+        beside.extend([base, above])
         indexed = ET.Element("msub")
         indexed.extend([beside, element[1]])
         return indexed

@@ -1,11 +1,13 @@
 """The pictures that a report wants: each figure block's recipe, renderer and parameters, each picture once."""
 
+import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from atlas.errors import AtlasError, unknown
 from atlas.report.body_and_field import chosen
+from atlas.report.numbers import plain
 
 if TYPE_CHECKING:
     from atlas.report.blocks.figure import Figure
@@ -20,7 +22,7 @@ class Picture:
     recipe, renderer, parameters    what to draw
     caption, alt, size    what the scene says of itself, and its size in millimetres
     given       all parameters of the scene as text
-    file        its place in the report: SVG or PNG
+    file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
     failure     why there is none, or nothing; `remark` what the reader should know of how it was drawn
     """
 
@@ -33,6 +35,7 @@ class Picture:
     size: tuple[float, float] = (120.0, 30.0)
     given: Mapping[str, str] = field(default_factory=dict)
     file: str = ""
+    files: Mapping[str, str] = field(default_factory=dict)
     failure: str = ""
     remark: str = ""
 
@@ -40,6 +43,13 @@ class Picture:
     def printed(self) -> str:
         """The file that the PDF shows: PDF in the place of SVG."""
         return self.file.replace(".svg", ".pdf")
+
+    @property
+    def command(self) -> str:
+        """The command that draws it."""
+        settings = [f"{name}={_typed(value)}" for name, value in self.parameters.items() if value is not None]
+        words = ["atlas", "figure", self.recipe, *(["--set", *settings] if settings else [])]
+        return shlex.join([*words, *(["--renderer", "shaded"] if self.renderer == "shaded" else [])])
 
 
 def pictures(report: "Report") -> dict[str, Picture]:
@@ -114,3 +124,12 @@ def _recipe(name: str) -> tuple[Any, str]:
         return recipes.load(name), ""
     except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
         return None, f"{type(error).__name__}: {error}"
+
+
+def _typed(value: Any) -> str:
+    """Write a parameter as it is typed after ``--set``."""
+    if isinstance(value, tuple | list):
+        return ",".join(map(_typed, value)) + ("," if len(value) == 1 else "")
+    if isinstance(value, bool):
+        return str(value).lower()
+    return plain(value) if isinstance(value, float | int) else str(value)

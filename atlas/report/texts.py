@@ -34,11 +34,12 @@ class Memory(Protocol):
 
 
 class Link(NamedTuple):
-    """What a citation says, and the page (none in the PDF) and anchor that it leads to, if any."""
+    """What a citation says, the page (none in the PDF) and anchor that it leads to, if any, and what stands there."""
 
     words: str
     page: str = ""
     anchor: str = ""
+    says: str = ""
 
 
 @dataclass(frozen=True)
@@ -159,7 +160,8 @@ class _Checked:
             name = part["citationId"]
             link = self.cite(name, self.text.where)
             words = _words(link.words)
-            node = [_link(words, f"{link.page}#{link.anchor}")] if link.anchor else words
+            says = link.says if self.target == "html" else ""
+            node = [_link(words, f"{link.page}#{link.anchor}", says)] if link.anchor else words
             if name in self.anchors:
                 node = [{"t": "Span", "c": [[self.anchors.pop(name), [], []], node]}]
             space = [{"t": "Space"}]
@@ -185,9 +187,9 @@ def _words(text: str) -> Tree:
     return [{"t": "Str", "c": text}]
 
 
-def _link(words: Tree, url: str) -> dict[str, Any]:
+def _link(words: Tree, url: str, title: str = "") -> dict[str, Any]:
     """Return a link as a node."""
-    return {"t": "Link", "c": [["", [], []], words, [url, ""]]}
+    return {"t": "Link", "c": [["", [], []], words, [url, title]]}
 
 
 def _tex(tex: str, target: Target) -> str:

@@ -126,7 +126,7 @@ def italic(letter: str) -> str:
 def test_pages_hold_no_markup_that_was_not_set(built: Built) -> None:
     """No TeX, no Markdown, no template syntax, no citation is left in what the reader sees."""
     for path, page in pages(built):
-        for element in page.xpath("//script | //annotation"):
+        for element in page.xpath("//script[not(@src='page.js')] | //annotation"):
             pytest.fail(f"{path.name} holds {element.tag}")
         text = page.text_content()
         assert not re.search(r"\\[a-zA-Z]+|\$|\{\{|\}\}|\{%|@\w|\*\*|::", text), path.name
@@ -149,16 +149,18 @@ def test_every_link_and_file_is_there(built: Built) -> None:
 
 
 def test_every_figure_has_its_words(built: Built) -> None:
-    """A picture has alternative text without TeX; a figure a number, a caption and its recipe's name."""
+    """A picture has alternative text without TeX; a figure a number, a caption, its recipe's name and its command."""
     numbers = []
     for _, page in pages(built):
-        for image in page.xpath("//img"):
+        for image in page.xpath("//main//img"):
             assert len(image.get("alt")) > 20
             assert not re.search(r"[\\$]", image.get("alt"))
         for figure in page.xpath("//figure[not(contains(@class, 'table'))]"):
             (caption,) = figure.xpath("figcaption")
             numbers += re.findall(r"^\s*Figure (\d+)\.", caption.text_content())
             assert "Recipe" in caption.text_content()
+            if figure.xpath(".//img"):
+                assert f"atlas figure {caption.xpath('string(.//code)')}" in caption.text_content()
     assert sorted(numbers) == ["1", "2", "3"]
 
 
@@ -203,7 +205,12 @@ def test_a_figure_that_fails_leaves_a_note_and_stops_nothing(built: Built) -> No
 
 def test_a_figure_shown_twice_is_drawn_once(built: Built) -> None:
     """The same recipe with the same parameters is one file."""
-    assert [path.suffix for path in (built.index.parent / "figures").iterdir()] == [".svg"]
+    assert sorted(path.suffix for path in (built.index.parent / "figures").iterdir()) == [
+        ".csv",
+        ".pdf",
+        ".png",
+        ".svg",
+    ]
 
 
 def test_the_pdf_has_the_same_content(built: Built) -> None:

@@ -171,7 +171,7 @@ def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dic
     assert sorted(found) == sorted(refuted)
     grades = [GRADES.index(refuted[label].grade) for label in found]
     assert grades == sorted(grades)
-    headings = pages["slips.html"].xpath("//h3[@class='grade']/text()")
+    headings = pages["slips.html"].xpath("//h2[@class='grade']/text()")
     assert headings == [grade.capitalize() for grade in GRADES]
     for label, element in found.items():
         assert element.xpath("./div[contains(@class, 'sides')]/div[2]//*[@class='changed']"), label
@@ -185,7 +185,7 @@ def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dic
         example = element.xpath("string(./div[@class='counterexample'])")
         counter = refuted[label].counterexample
         assert counter.get("relation", counter.get("reason")) in example
-        back = {anchor for _, anchor in links(element.xpath("./h2")[0], "slips.html")}
+        back = {anchor for _, anchor in links(element.xpath("./h3")[0], "slips.html")}
         shared = {f"erratum-{refuted[label].slip}"} if refuted[label].slip else set()
         assert back == {f"ledger-{label}"} | shared
 
@@ -251,8 +251,8 @@ def test_a_report_without_a_ledger_reads_no_record(tmp_path: Path) -> None:
     report = load(file)
     assert gather(report) == Appendices()
     document = compose(report, {})
-    assert document.cite("html")("mf76", "") == ("(mf76)", "index.html", "eq-mf76")
-    assert document.cite("html")("mf77", "") == ("(mf77)", "", "")
+    assert document.cite("html")("mf76", "") == ("(mf76)", "index.html", "eq-mf76", EQUATIONS["mf76"].says)
+    assert document.cite("html")("mf77", "") == ("(mf77)", "", "", "")
 
 
 @pytest.mark.parametrize(

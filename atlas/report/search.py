@@ -1,0 +1,63 @@
+"""What the search box of a report looks through, and the equations that stand behind their numbers."""
+
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from html import unescape
+from itertools import pairwise
+
+from atlas.report.blocks.equation import EquationView
+from atlas.report.blocks.ledger import LedgerView
+from atlas.report.compose import Document
+
+_START = re.compile(
+    r'<(?:h[23]|figure|section)\b[^>]*? id="([^"]+)"[^>]*>|<div class="equation" id="([^"]+)">'
+    r'|<main id="([^"]+)">|</main>'
+)
+_TITLE = re.compile(r"<h[123][^>]*>(.*?)</h[123]>|(?:<figcaption[^>]*>)<b>(.*?)</b>|^(.*?)</h[23]>", re.DOTALL)
+_TAG = re.compile(r'<div class="tag"><span>(.*?)</span> <a[^>]*>(.*?)</a>', re.DOTALL)
+
+
+def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) -> str:
+    """Return the index of a report as a script, which a page opened from disk can load: ``atlasIndex({...})``.
+
+    ``sections`` holds rows (page, anchor, title, words) of its sections, figures, tables and equations in the order of
+    the pages, ``equations`` the formula of each label as HTML. Formulas are no words that can be searched.
+    """
+    sections = [
+        row for page in document.pages for row in _sections(page.file, f"{page.number} {page.title}", pages[page.file])
+    ]
+    content = json.dumps({"sections": sections, "equations": _equations(document, texts)}, ensure_ascii=False)
+    return f"atlasIndex({content});\n"
+
+
+def _sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, str]]:
+    """Cut a page at its anchors."""
+    starts = list(_START.finditer(html))
+    for start, end in pairwise(starts):
+        anchor = next(filter(None, start.groups()))
+        content = html[start.end() : end.start()]
+        tag, title = _TAG.search(content), _TITLE.search(content)
+        if anchor.startswith("eq-") and tag:
+            yield file, anchor, f"Equation {tag[1]} {tag[2]}", page
+        else:
+            head = _words(next(filter(None, title.groups()), "")) if title else page
+            yield file, anchor, page if anchor.startswith("page-") else f"{head} — {page}", _words(content)
+
+
+def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
+    """Return the formulas of a report by label: those of the ledger and those displayed."""
+    found = {}
+    for page in document.pages:
+        for block in page.blocks:
+            if isinstance(block, EquationView):
+                found[block.label] = texts[block.text]
+            elif isinstance(block, LedgerView):
+                found |= {entry.label: texts[entry.formula] for entry in block.entries}
+    return found
+
+
+def _words(html: str) -> str:
+    """Return the words of a piece of HTML."""
+    html = re.sub(r"<math.*?</math>", " ", html, flags=re.DOTALL)
+    return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())

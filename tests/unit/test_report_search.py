@@ -1,0 +1,130 @@
+"""The search box, headings with anchors, the front page, and the command under a figure."""
+
+import json
+import shlex
+from pathlib import Path
+
+import click
+import pytest
+from lxml import html as reader
+
+from atlas.cli.app import atlas as command_line
+from atlas.cli.figure import setting
+from atlas.errors import AtlasError
+from atlas.report import html
+from atlas.report.compose import compose
+from atlas.report.load import load
+from atlas.report.pictures import Picture, pictures
+
+REPORT = """
+name = "mine"
+title = "Mine"
+cover = "curve"
+[parameters.bodies.b]
+title = "b"
+ratio = 1.5
+[parameters.fields.f]
+title = "f"
+prime = [1.0, 2.0]
+[[pages]]
+slug = "index"
+title = "First"
+[[pages.blocks]]
+kind = "prose"
+text = "See @mf76.\\n\\n## A heading of $\\\\omega_2$\\n\\nwords\\n\\n## A heading of $k$\\n\\nmore <words>"
+[[pages.blocks]]
+kind = "equation"
+label = "mf76"
+[[pages]]
+slug = "second"
+title = "Second"
+[[pages.blocks]]
+kind = "figure"
+recipe = "hyperbola"
+id = "curve"
+body = "b"
+field = "f"
+[[pages.blocks]]
+kind = "table"
+table = "points"
+body = "b"
+field = "f"
+"""
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Return the pages of a small report."""
+    file = tmp_path_factory.mktemp("report") / "mine.toml"
+    file.write_text(REPORT)
+    report = load(file)
+    document = compose(report, pictures(report))
+    document.set("html")
+    return html.pages(document)
+
+
+def test_what_is_found_is_there(made: dict[str, str]) -> None:
+    """Each row of the index leads to an anchor of a page, and each heading, figure, table and equation has a row."""
+    content = json.loads(made["index.js"].removeprefix("atlasIndex(").removesuffix(");\n"))
+    anchors = {(file, anchor) for file, anchor, _, _ in content["sections"]}
+    for file, anchor in anchors:
+        assert reader.fromstring(made[file]).get_element_by_id(anchor) is not None
+    assert anchors == {
+        ("index.html", "page-index"),
+        ("index.html", "a-heading-of"),
+        ("index.html", "a-heading-of-2"),
+        ("index.html", "eq-mf76"),
+        ("second.html", "page-second"),
+        ("second.html", "fig-curve"),
+        ("second.html", "tab-1"),
+    }
+    words = {anchor: text for _, anchor, _, text in content["sections"]}
+    assert "more <words>" in words["a-heading-of-2"]
+    assert content["equations"]["mf76"].startswith('<p><math display="block"')
+
+
+def test_an_equation_is_named_where_it_is_cited(made: dict[str, str]) -> None:
+    """Without a script the link of a citation says in words what the equation says."""
+    (link,) = reader.fromstring(made["index.html"]).xpath("//main//a[@href='index.html#eq-mf76']")
+    assert "hyperbola" in link.get("title").lower()
+
+
+def test_the_front_page_shows_the_report(made: dict[str, str]) -> None:
+    """The figure that the report names, and a picture of each page that has one."""
+    page = reader.fromstring(made["index.html"])
+    assert page.xpath("//a[@class='cover']/@href") == ["second.html#fig-curve"]
+    assert page.xpath("//nav[@class='cards']/a/@href") == []  # a single picture needs no list
+    assert not reader.fromstring(made["second.html"]).xpath("//header")
+
+
+def test_a_cover_that_is_no_figure_is_an_error(tmp_path: Path) -> None:
+    """The message names what was asked for."""
+    (tmp_path / "mine.toml").write_text(REPORT.replace('cover = "curve"', 'cover = "curves"'))
+    report = load(tmp_path / "mine.toml")
+    document = compose(report, pictures(report))
+    document.set("html")
+    with pytest.raises(AtlasError, match=r"cover: .*curves"):
+        html.pages(document)
+
+
+def test_what_a_table_shows_can_be_heard(made: dict[str, str]) -> None:
+    """A head that is a formula is there in plain letters too, and a table that scrolls has a name."""
+    page = reader.fromstring(made["second.html"])
+    heads = [head.text_content() for head in page.xpath("//th[.//*[local-name()='math']]/span[@class='spoken']")]
+    assert "omega_2" in heads
+    (box,) = page.xpath("//div[@class='scroll']")
+    assert box.get("tabindex") == "0"
+    assert page.get_element_by_id(box.get("aria-labelledby")).text_content().startswith("Table 1.")
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [{}, {"ratio": 0.5, "field": (1.0, 1e-7)}, {"ratios": (0.3,), "unit": "s", "words": "a b", "on": True}],
+)
+def test_the_command_under_a_figure_makes_it(parameters: dict[str, object]) -> None:
+    """What is typed is read as the parameters that the figure has."""
+    name, *arguments = shlex.split(Picture("", "quadric", "shaded", parameters).command)[1:]
+    context = command_line.commands[name].make_context(name, arguments, click.Context(command_line, info_name="atlas"))
+    assert context.params["names"] == ("quadric",)
+    assert context.params["renderer"] == "shaded"
+    assert dict(setting(one) for one in context.params["settings"]) == parameters
