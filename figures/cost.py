@@ -5,8 +5,8 @@ Drawn from the stored record of the benchmark, which `make bench` renews.
 
 from atlas.scene.layers import Layer, Plane, Scene
 from atlas.scene.words import listed, title
+from atlas.study.bench.figures import decades, line, measured, pairs
 from atlas.study.bench.methods import title as name
-from atlas.study.bench.plates import decades, line, measured, pairs
 from atlas.study.bench.record import Record, read
 
 RECORDS = ("bench.json",)

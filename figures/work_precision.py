@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from atlas.errors import AtlasError
 from atlas.scene.layers import Layer, Plane, Points, Scene
 from atlas.scene.words import listed, plain, title
+from atlas.study.bench.figures import by_method, case_title, decades, line, measured, pairs, power, runs_of
 from atlas.study.bench.methods import MARKS
 from atlas.study.bench.methods import title as name
-from atlas.study.bench.plates import by_method, case_title, decades, line, measured, pairs, power, runs_of
 from atlas.study.bench.record import Record, Run, read
 
 RECORDS = ("bench.json",)

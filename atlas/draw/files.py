@@ -1,7 +1,7 @@
 """A scene into files: each whole or not at all, the same bytes each time."""
 
-from collections.abc import Mapping
-from contextlib import ExitStack
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -17,6 +17,10 @@ _PERCENT = r"\catcode`\%=\active"
 _UNDERSCORE = r"\catcode`\_=\active\def_{\ifmmode\sb\else\_\fi}"
 """Matplotlib lets a percent sign stand in a text for PGF; so may an underscore."""
 FORMATS = ("svg", "pdf", "png", "pgf")
+
+_FORMULAS: dict[Any, Any] = {}
+_FOR_TYPESETTERS = ["GPOS", "GSUB", "GDEF", "MATH"]
+"""Tables of a font that place its glyphs, which in a PDF have their places: to subset them takes half of the time."""
 
 
 def save(scene: Scene, files: Mapping[Path, str], renderer: str = "vector", style: Any = None) -> None:
@@ -40,7 +44,7 @@ def save(scene: Scene, files: Mapping[Path, str], renderer: str = "vector", styl
             raise AtlasError(
                 f"a map of values is no PGF, which holds no pixels; ask for a PDF instead of {path.name!r}"
             )
-    with context(style), ExitStack() as stack:
+    with context(style), _formulas_parsed_once(), ExitStack() as stack:
         figure = to_figure(scene, style, shaded=used == "shaded")
         for path, kind in files.items():
             _write(figure, stack.enter_context(replacing(path)), kind, scene)
@@ -66,7 +70,11 @@ def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
     }
     if kind == "pgf":
         _write_pgf(figure, path)
-    else:
+        return
+    from fontTools.subset import Options
+
+    tables = [*Options._drop_tables_default, *_FOR_TYPESETTERS]  # noqa: SLF001  there is no public way to leave them out
+    with _replaced(Options, "_drop_tables_default", tables):
         figure.savefig(path, format=kind, metadata=metadata[kind])
 
 
@@ -78,13 +86,40 @@ def _write_pgf(figure: "Figure", path: Path) -> None:
     from matplotlib.backend_bases import RendererBase
     from matplotlib.backends.backend_pgf import RendererPgf
 
-    measured = RendererPgf.get_text_width_height_descent
-    RendererPgf.get_text_width_height_descent = RendererBase.get_text_width_height_descent
-    try:
+    size = "get_text_width_height_descent"
+    with _replaced(RendererPgf, size, getattr(RendererBase, size)):
         figure.savefig(path, format="pgf")
-    finally:
-        RendererPgf.get_text_width_height_descent = measured
     commands = path.read_text(encoding="utf-8")
     for ours, tex in (("′", "'"), (r"\mathdefault", ""), (_PERCENT, _UNDERSCORE + _PERCENT)):
         commands = commands.replace(ours, tex)
     path.write_text(commands, encoding="utf-8")
+
+
+@contextmanager
+def _formulas_parsed_once() -> Iterator[None]:
+    """Parse a formula of one size once in a process: Matplotlib does it again for each file."""
+    import matplotlib as mpl
+    from matplotlib.mathtext import MathTextParser
+
+    plain = MathTextParser._parse_cached  # noqa: SLF001  its cache is one renderer's, and holds fifty
+    fonts = tuple(mpl.rcParams.find_all(r"^mathtext\.").values())
+
+    def parsed(parser: MathTextParser, *key: Any) -> Any:
+        place = (parser._output_type, fonts, *key)  # noqa: SLF001  the kind of result that its renderer takes
+        if place not in _FORMULAS:
+            _FORMULAS[place] = plain(parser, *key)
+        return _FORMULAS[place]
+
+    with _replaced(MathTextParser, "_parse_cached", parsed):
+        yield
+
+
+@contextmanager
+def _replaced(owner: Any, name: str, value: Any) -> Iterator[None]:
+    """Give an attribute of Matplotlib's or fontTools' another value for a while."""
+    before = getattr(owner, name)
+    setattr(owner, name, value)
+    try:
+        yield
+    finally:
+        setattr(owner, name, before)

@@ -33,7 +33,7 @@ DRIVERS = (
 )
 PACKAGES = ("libegl1", "libgl1-mesa-dri")
 
-_TRIAL = """
+_PROBE = """
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkRenderer
 import vtkmodules.vtkRenderingOpenGL2
 window = vtkRenderWindow()
@@ -43,13 +43,13 @@ window.AddRenderer(vtkRenderer())
 window.Render()
 print(window.GetClassName())
 """
-_PATIENCE = 60.0
+_TIMEOUT = 60.0
 _APT = "/usr/bin/apt-get"
 
 
 @cache
 def library() -> str | None:
-    """Return 'egl', 'osmesa', 'native' (not Linux) or None; the variable ATLAS_GL overrides what the trial finds.
+    """Return 'egl', 'osmesa', 'native' (not Linux) or None; the variable ATLAS_GL overrides what the probe finds.
 
     Raises AtlasError where that variable is none of these.
     """
@@ -60,16 +60,16 @@ def library() -> str | None:
         if choice not in KNOWN:
             raise AtlasError(f"{CHOICE}={choice} names no GL library; known: {', '.join((*KNOWN, NONE))}")
         return choice
-    note = _note()
+    file = _answer_file()
     try:
-        known = json.loads(note.read_text(encoding="utf-8"))["library"] if note else None
+        known = json.loads(file.read_text(encoding="utf-8"))["library"] if file else None
     except (OSError, ValueError, KeyError, TypeError):
-        known = None  # no note, or half a note: ask again
+        known = None  # there is none, or half of one: probe again
     if known not in {*KNOWN, NONE}:
         known = next((name for name in _candidates() if _draws(name)), NONE)
-        if note:
-            with suppress(OSError):  # another trial next time
-                files.write(note, json.dumps({"library": known}))
+        if file:
+            with suppress(OSError):  # it is probed again next time
+                files.write(file, json.dumps({"library": known}))
     return None if known == NONE else str(known)
 
 
@@ -82,14 +82,15 @@ def prepare() -> str | None:
 
 
 def advice() -> str:
-    """Return the line that says what is left out without GL, and which command brings it."""
+    """Return the line that says what is left out without GL, and which command installs it."""
     return (
-        f"no GL library can draw off-screen: shaded figures are drawn by the vector renderer; to have them: {_remedy()}"
+        "no GL library can draw off-screen: shaded figures are drawn by the vector renderer; to have them: "
+        f"{_install_command()}"
     )
 
 
-def _remedy() -> str:
-    """Return the command that brings what is missing."""
+def _install_command() -> str:
+    """Return the command that installs what is missing."""
     if _vtk() is None:
         return f"{sys.executable} -m pip install pyvista vtk"
     return f"sudo apt-get install {' '.join(PACKAGES)}"
@@ -115,11 +116,11 @@ def _draws(name: str) -> bool:
         environment[VARIABLE] = WINDOWS[name]
     try:
         child = subprocess.run(  # noqa: S603  our own program, in our own interpreter
-            [sys.executable, "-c", _TRIAL],
+            [sys.executable, "-c", _PROBE],
             env=environment,
             capture_output=True,
             text=True,
-            timeout=_PATIENCE,
+            timeout=_TIMEOUT,
             check=False,
         )
     except (OSError, subprocess.TimeoutExpired):
@@ -127,7 +128,7 @@ def _draws(name: str) -> bool:
     return child.returncode == 0 and (name not in WINDOWS or WINDOWS[name] in child.stdout)
 
 
-def _note() -> Path | None:
+def _answer_file() -> Path | None:
     """Return where the answer is remembered: a file named after all that it depends on; None without a place for it."""
     seen = [sys.prefix, sys.platform, str(_vtk()), *os.uname()[1:5:3]] if hasattr(os, "uname") else [sys.prefix]
     seen += [f"{key}={os.environ.get(key, '')}" for key in ("LD_LIBRARY_PATH", "LIBGL_DRIVERS_PATH", "DISPLAY")]
@@ -157,7 +158,7 @@ def _install() -> bool:
 
 
 def main(arguments: list[str]) -> int:
-    """Print in one line what can draw; with --install, bring it first where possible. Only a misspelt choice fails."""
+    """Print in one line what can draw; with --install, install it first if possible. Only a misspelt choice fails."""
     try:
         found = library()
     except AtlasError as error:
@@ -165,9 +166,9 @@ def main(arguments: list[str]) -> int:
         return 2
     if found is None and "--install" in arguments and _vtk() is not None and CHOICE not in os.environ and _install():
         library.cache_clear()
-        note = _note()
-        if note:
-            note.unlink(missing_ok=True)
+        file = _answer_file()
+        if file:
+            file.unlink(missing_ok=True)
         found = library()
         if found:
             print(f"installed {' '.join(PACKAGES)} for the shaded figures ({found})")  # noqa: T201  the one line

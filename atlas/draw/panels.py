@@ -33,10 +33,10 @@ def to_figure(scene: Scene, style: Any = None, *, shaded: bool = False) -> Figur
         grid = figure.add_gridspec(rows, scene.columns, **edges)
         panels = [(figure.add_subplot(grid[divmod(k, scene.columns)]), panel) for k, panel in enumerate(scene.panels)]
         for axes, panel in panels:
-            axes.set_title(typeset(panel.title))
             if isinstance(panel, Plane):
                 draw_plane(axes, panel)
             else:
+                axes.set_title(typeset(panel.title), y=1.0)
                 axes.set_axis_off()
         if framed:
             FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once

@@ -5,7 +5,8 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import ScalarFormatter
+from matplotlib.axis import Axis
+from matplotlib.ticker import NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
 from atlas.draw.sheet import style_of
@@ -18,15 +19,18 @@ FloatArray = NDArray[np.float64]
 
 _AREAS, _LINES, _MARKS = 1.0, 2.0, 3.0
 _WHITE = "#ffffff"
+_DECADES = 6
+"""An axis with more powers of ten has no ticks between them: a reader could not tell them apart."""
 _BAR = (1.03, 0.0, 1.0 / 30.0, 1.0)
 
 
 def draw_plane(axes: Axes, panel: Plane) -> None:
-    """Draw the layers of a panel, its scales, labels, legend and colorbar; names come after the layout.
+    """Draw the layers of a panel, its scales, title, labels, legend and colorbar; names come after the layout.
 
     Raises AtlasError for a layer that belongs into a panel in space.
     """
     _scale(axes, panel)
+    axes.spines[:].set_in_layout(False)  # they are where the axes are
     entries = []
     for order, layer in enumerate(panel.layers):
         artist = _draw(axes, layer, 1e-3 * order)
@@ -41,8 +45,12 @@ def draw_plane(axes: Axes, panel: Plane) -> None:
         axes.set_yticks(np.arange(1, len(panel.y_names) + 1), [typeset(name) for name in panel.y_names])
         axes.tick_params(axis="y", length=0)
     for axis in (axes.xaxis, axes.yaxis):
+        if axis.get_scale() != "linear" and len(axis.get_major_locator()()) > _DECADES:
+            axis.set_minor_locator(NullLocator())
         if type(axis.get_major_formatter()) is ScalarFormatter:
             axis.set_major_formatter(_Formatter())
+    above = _factor(axes.yaxis) or mpl.rcParams["xtick.labeltop"]
+    axes.set_title(typeset(panel.title), y=None if above else 1.0)  # None: it is measured what stands above the axes
     if panel.legend == "beside":
         axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     elif panel.legend and entries:
@@ -94,7 +102,11 @@ def _map(axes: Axes, image: Image) -> None:
     """Draw a map of values as pixels, with its colorbar beside it."""
     low, high = image.limits or (np.nanmin(image.values), np.nanmax(image.values))
     norm = (mpl.colors.LogNorm if image.scale == "log" else mpl.colors.Normalize)(low, high)
-    mesh = axes.pcolormesh(image.x, image.y, image.values, norm=norm, rasterized=True)
+    ends = [(edges[0], edges[-1]) for edges in (image.x, image.y)]
+    axes.set(xlim=ends[0], ylim=ends[1])
+    (left, bottom), (right, top) = axes.transScale.transform(np.transpose(ends))
+    place = {"extent": (left, right, bottom, top), "transform": axes.transLimits + axes.transAxes}
+    mesh = axes.imshow(image.values, norm=norm, origin="lower", aspect="auto", interpolation="none", **place)
     bar = axes.figure.colorbar(mesh, cax=axes.inset_axes(_BAR), label=typeset(image.label))
     bar.minorticks_off()
 
@@ -108,6 +120,13 @@ class _Formatter(ScalarFormatter):
             return str(super().get_offset())
         finally:
             self.set_useMathText(False)
+
+
+def _factor(axis: Axis) -> str:
+    """Return the power of ten that stands above the numbers of an axis, if any."""
+    formatter = axis.get_major_formatter()
+    formatter.format_ticks(axis.get_majorticklocs())
+    return formatter.get_offset()
 
 
 def _threshold(panel: Plane, column: int) -> float:

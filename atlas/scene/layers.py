@@ -90,7 +90,10 @@ class Region:
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """A map of ``values`` (len(y)-1, len(x)-1) over the cells between the edges ``x`` and ``y``."""
+    """A map of ``values`` (len(y)-1, len(x)-1) over the cells between the edges ``x`` and ``y``.
+
+    On the scales of its panel the edges are at equal steps.
+    """
 
     x: FloatArray
     y: FloatArray

@@ -342,7 +342,7 @@ def test_a_broken_recipe_hides_no_other(bad_recipe: Path) -> None:
 
 
 def test_without_gl_a_shaded_figure_says_what_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A line drawing in place of a shaded plate is told in one line, with the command that brings the rest."""
+    """A line drawing in place of a shaded figure is told in one line, with the command that brings the rest."""
     from atlas.draw import gl
 
     monkeypatch.setenv(gl.CHOICE, gl.NONE)

@@ -24,7 +24,7 @@ from atlas.draw.view import fit
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
 from atlas.scene.style import STYLES
 
-PLATES = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
+IN_SPACE = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
 
 
 def flat_scene() -> Scene:
@@ -173,7 +173,7 @@ def boxes(figure: Figure) -> list[tuple[str, Any]]:
     return [(text.get_text(), text.get_window_extent(renderer).extents) for text in names]
 
 
-@pytest.mark.parametrize("name", PLATES)
+@pytest.mark.parametrize("name", IN_SPACE)
 def test_names_on_a_plate_stay_on_the_page_and_do_not_overlap(name: str) -> None:
     """Each name of the default figure is inside the page and clear of every other."""
     figure = to_figure(recipes.load(name).scene())
@@ -190,12 +190,12 @@ def test_names_on_a_plate_stay_on_the_page_and_do_not_overlap(name: str) -> None
             assert min(overlap) <= 0.0, (text, other)
 
 
-@pytest.mark.parametrize("name", PLATES)
+@pytest.mark.parametrize("name", IN_SPACE)
 def test_a_plate_fills_its_page(name: str, tmp_path: Path) -> None:
     """What is drawn reaches within a tenth of the page's width or height from both edges, and is not cut off."""
     from matplotlib.image import imread
 
-    picture = imread(draw(recipes.load(name).scene(), tmp_path / "plate.png", dpi=50.0))
+    picture = imread(draw(recipes.load(name).scene(), tmp_path / "figure.png", dpi=50.0))
     ink = picture[..., :3].min(axis=2) < 250.0 / 255.0
     rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
     height, width = ink.shape

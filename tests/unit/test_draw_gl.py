@@ -75,14 +75,14 @@ def test_a_folder_that_cannot_be_written_does_no_harm(fresh: Path, monkeypatch: 
 @pytest.mark.usefixtures("fresh")
 def test_a_child_that_dies_means_no(monkeypatch: pytest.MonkeyPatch) -> None:
     """A crash of the trial is an answer, not a crash of ours."""
-    monkeypatch.setattr(gl, "_TRIAL", "import os; os.abort()")
+    monkeypatch.setattr(gl, "_PROBE", "import os; os.abort()")
     assert gl.library() is None
 
 
 @pytest.mark.usefixtures("fresh")
 def test_a_child_that_opens_another_window_means_no(monkeypatch: pytest.MonkeyPatch) -> None:
     """VTK may fall back to a window that needs a screen: what counts is the one asked for."""
-    monkeypatch.setattr(gl, "_TRIAL", "print('vtkXOpenGLRenderWindow')")
+    monkeypatch.setattr(gl, "_PROBE", "print('vtkXOpenGLRenderWindow')")
     assert gl.library() is None
 
 

@@ -29,7 +29,7 @@ def bare(surface: Surface) -> Surface:
 
 
 def of(name: str, **parameters: Any) -> list[Surface]:
-    """Return the surfaces of a plate."""
+    """Return the surfaces of a figure."""
     return [x for x in recipes.load(name).scene(**parameters).panels[0].layers if isinstance(x, Surface)]
 
 

@@ -124,6 +124,6 @@ def test_a_line_is_as_thick_as_its_style_says_and_round_at_corners(tmp_path: Pat
 
 @pytest.mark.parametrize("name", ["hyp_b", "loop", "motion_sphere"])
 def test_plates_can_be_shaded(tmp_path: Path, name: str) -> None:
-    """The default plates are drawn, with both sides of the surface in their colours."""
-    image = picture(draw(recipes.load(name).scene(), tmp_path / "plate.png", renderer="shaded", dpi=60.0))
+    """The default figures are drawn, with both sides of the surface in their colours."""
+    image = picture(draw(recipes.load(name).scene(), tmp_path / "figure.png", renderer="shaded", dpi=60.0))
     assert 0.08 < (image.min(axis=2) < 250).mean() < 0.9

@@ -116,7 +116,7 @@ def test_hostile_parameters_give_a_picture_or_one_sentence(name: str, field: tup
 
 @pytest.mark.parametrize("field", FIELDS)
 def test_hyperbolas_of_several_bodies_draw_in_every_field(field: tuple[float, float]) -> None:
-    """The plate of several bodies is whole in each field."""
+    """The figure of several bodies is whole in each field."""
     check(load("hyperbolas").scene(field=field))
 
 

@@ -1,4 +1,4 @@
-"""The plates in space as arrays: what is drawn is what the paper says."""
+"""The figures in space as arrays: what is drawn is what the paper says."""
 
 import os
 import subprocess
@@ -19,7 +19,7 @@ from atlas.scene.style import style
 FloatArray = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
-PLATES = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
+IN_SPACE = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
 HYPERBOLOIDS = [
     ("quadric", {"ratio": 1.5, "field": (1.0, 2.0)}),
     ("quadric", {"ratio": 2.0, "field": (1.0, 0.05)}),
@@ -35,7 +35,7 @@ HYPERBOLOIDS = [
 
 
 def layers(name: str, kind: Any, role: str = "", **parameters: Any) -> list[Any]:
-    """Return the layers of one kind, and role, of a plate."""
+    """Return the layers of one kind, and role, of a figure."""
     (panel,) = recipes.load(name).scene(**parameters).panels
     return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", layer.role}]
 
@@ -170,7 +170,7 @@ def test_a_plate_refuses_what_it_does_not_show(name: str, parameters: dict[str, 
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("name", PLATES)
+@pytest.mark.parametrize("name", IN_SPACE)
 def test_plates_have_words_and_known_roles(name: str) -> None:
     """Captions and alternative texts are sentences, these without TeX; roles have styles; points are finite."""
     scene = recipes.load(name).scene()
@@ -236,5 +236,5 @@ def test_a_plate_looks_the_same_in_any_unit_of_frequency(tmp_path: Any, name: st
     pictures = []
     for factor in (1.0, scale):
         scene = recipes.load(name).scene(field=tuple(factor * component for component in field))
-        pictures.append(imread(draw(scene, tmp_path / "plate.png", dpi=50.0)))
+        pictures.append(imread(draw(scene, tmp_path / "figure.png", dpi=50.0)))
     assert np.abs(pictures[0] - pictures[1]).mean() < 5e-4

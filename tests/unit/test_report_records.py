@@ -118,10 +118,10 @@ def test_a_file_of_another_kind_is_no_report(tmp_path: Path) -> None:
 def test_every_report_of_the_folder_is_sound(name: str) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""
     report = load(find(name))
-    plates = pictures(report)
-    document = compose(report, plates, gather(report))
+    found = pictures(report)
+    document = compose(report, found, gather(report))
     assert report.name == name
-    for plate in plates.values():
-        assert not plate.failure
-        assert recipes.load(plate.recipe).scene(**plate.parameters).alt
+    for picture in found.values():
+        assert not picture.failure
+        assert recipes.load(picture.recipe).scene(**picture.parameters).alt
     assert len(document.texts.set("html", document.cite("html"))) == len(document.texts.texts)

@@ -36,7 +36,7 @@ def inner(grid: FloatArray) -> FloatArray:
 def test_no_face_leaves_its_surface(tolerance: float) -> None:
     """Half a pixel at most where a quarter is asked: a quarter for each direction of the mesh."""
     for surface in pieces(tolerance):
-        fine = tolerance if surface.role != "surface" else 3e-3  # a plate knows its own size
+        fine = tolerance if surface.role != "surface" else 3e-3  # a figure knows its own size
         points = inner(surface.grids[0])
         gradient = 2.0 * (points @ surface.quadric[:3, :3] + surface.quadric[:3, 3])
         lifted = np.concatenate([points, np.ones((len(points), 1))], axis=1)
