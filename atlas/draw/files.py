@@ -102,7 +102,7 @@ def _formulas_parsed_once() -> Iterator[None]:
     from matplotlib.mathtext import MathTextParser
 
     plain = MathTextParser._parse_cached  # noqa: SLF001  its cache is one renderer's, and holds fifty
-    fonts = tuple(mpl.rcParams.find_all(r"^mathtext\.").values())
+    fonts = tuple(mpl.rcParams[name] for name in mpl.rcParams if name.startswith("mathtext."))
 
     def parsed(parser: MathTextParser, *key: Any) -> Any:
         place = (parser._output_type, fonts, *key)  # noqa: SLF001  the kind of result that its renderer takes

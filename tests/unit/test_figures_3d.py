@@ -228,7 +228,7 @@ def test_a_flat_figure_asked_for_shaded_loads_no_vtk(tmp_path: Any) -> None:
 
 @pytest.mark.parametrize("name", ["quadric", "loop"])
 @pytest.mark.parametrize("scale", [1e-55, 1e55])
-def test_a_plate_looks_the_same_in_any_unit_of_frequency(tmp_path: Any, name: str, scale: float) -> None:
+def test_a_figure_looks_the_same_in_any_unit_of_frequency(tmp_path: Any, name: str, scale: float) -> None:
     """Multiplying B' by a number changes nothing on the page but the rounding of a few pixels."""
     from matplotlib.image import imread
 
