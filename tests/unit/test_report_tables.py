@@ -102,6 +102,21 @@ def test_the_charge_of_a_body_follows_from_its_mass() -> None:
         table("charges")
 
 
+def test_the_bodies_that_could_exist_have_the_frequencies_of_their_charge() -> None:
+    """b is 3 eps0 E B/(2 rho r), delta the free limit |1-I| B2hat B3hat b/k, and the flight radiates before the turn."""
+    more: dict[str, object] = {"radii": [1e-6, 1e-2], "density": 2500.0, "surface_field": 1e9, "magnet": 10.0}
+    data = compute("sizes", Request((), more, 2))
+    for r, row in zip((1e-6, 1e-2), data.rows, strict=True):
+        b = 3 * 8.8541878188e-12 * 1e9 * 10.0 / (2 * 2500.0 * r)
+        assert row[4] == Number(f"{b:.1e}")
+    assert row[6] == Number(f"{0.5 * 0.4 * b / 6.283185307179586:.1e}")
+    for row in compute("radiation", Request((), more, 2)).rows:
+        flight, magnetic, electric = (float(cell.digits) for cell in row[1:] if isinstance(cell, Number))
+        assert 1e20 * flight < min(magnetic, electric)
+    with pytest.raises(AtlasError, match="positive"):
+        compute("sizes", Request((), {**more, "density": 0.0}, 2))
+
+
 def test_every_number_has_a_unit() -> None:
     """Each numeric column names its unit in its head, or a column of units stands beside it."""
     more = {

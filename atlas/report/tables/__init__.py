@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from atlas.errors import unknown
-from atlas.report.tables import ball, bodies, body_and_field, charges, flight, motion, particle, points, quadric
+from atlas.report.tables import ball, bodies, body_and_field, charges, flight, motion, particle, points, quadric, sizes
 from atlas.report.tables.model import Data, Maker, Request
 
 TABLES: Mapping[str, Maker] = MappingProxyType(
@@ -19,6 +19,8 @@ TABLES: Mapping[str, Maker] = MappingProxyType(
         "ball": ball.ball,
         "particle": particle.particle,
         "flight": flight.flight,
+        "sizes": sizes.sizes,
+        "radiation": sizes.radiation,
     }
 )
 

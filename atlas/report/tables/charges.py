@@ -2,13 +2,11 @@
 
 from math import pi
 
+from atlas.core.units import ELECTRIC_CONSTANT
 from atlas.errors import AtlasError
 from atlas.report.numbers import Number
 from atlas.report.schema import Record
 from atlas.report.tables.model import Column, Data, Request
-
-EPSILON_0 = 8.8541878188e-12
-"""Electric constant in F/m (CODATA 2022)."""
 
 
 def charges(request: Request) -> Data:
@@ -20,7 +18,7 @@ def charges(request: Request) -> Data:
         if body is None or one.physical is None or body.mass is None or body.radius is None:
             raise AtlasError("this table needs bodies with mass and radius, and a field with a charge-to-mass ratio.")
         charge = float(one.physical.mu) * body.mass
-        field = charge / (4 * pi * EPSILON_0 * body.radius**2)
+        field = charge / (4 * pi * ELECTRIC_CONSTANT * body.radius**2)
         rows.append((body.title, *(Number(f"{value:.1e}") for value in (body.mass, body.radius, charge, field))))
     return Data(
         (

@@ -1,0 +1,107 @@
+"""Bodies that could exist, by their size: the charge that they can hold, their frequencies, and what they radiate."""
+
+from math import atan2, hypot, pi
+
+from atlas.core.hyperbola import Hyperbola
+from atlas.core.laboratory import damping_of_flight, greatest_charge, greatest_ratio, magnetic_power, quadrupole_power
+from atlas.core.units import ELEMENTARY_CHARGE, cyclotron_frequency
+from atlas.errors import AtlasError
+from atlas.report.numbers import Number
+from atlas.report.schema import Record
+from atlas.report.tables.model import RATE, Column, Data, Request
+
+RATIO, TILT = 1.5, 2.0
+"""I3/I2 of the body and B3/B2 of the field, those of the short solenoid in the oblique field."""
+YEAR = 31_557_600.0
+
+
+class Parameters(Record, frozen=True):
+    """Radii in m, density in kg/m^3, the field that the surface bears in V/m, the magnet's field in T."""
+
+    radii: tuple[float, ...]
+    density: float
+    surface_field: float
+    magnet: float
+
+
+def sizes(request: Request) -> Data:
+    """Charge, charge-to-mass ratio and Larmor's frequency of balls that hold as much charge as their surface bears."""
+    asked = taken(request)
+    rows = []
+    for r in asked.radii:
+        e, mu = greatest_charge(r, asked.surface_field), greatest_ratio(r, asked.density, asked.surface_field)
+        b = cyclotron_frequency(mu, asked.magnet) / 2
+        values = (r, e, e / ELEMENTARY_CHARGE, mu, b, 2 * pi / b)
+        rows.append((*(two(value) for value in values), two(off_the_field(b))))
+    return Data(
+        (
+            Column("$r$", "m"),
+            Column("$e$", "C"),
+            Column("$e/e_0$"),
+            Column(r"$\mu$", "C kg$^{-1}$"),
+            Column("$b$", RATE),
+            Column(r"$2\pi/b$", "s"),
+            Column(r"$\delta$", "rad"),
+        ),
+        tuple(rows),
+        f"Balls of {asked.density:g} kg m$^{{-3}}$ with the largest charge $e$ that a surface field of "
+        f"{two(asked.surface_field).tex()} V m$^{{-1}}$ allows, in {asked.magnet:g} T: number of elementary charges "
+        r"$e_0$, charge-to-mass ratio, Larmor's frequency and its period; and the angle $\delta$ between $\mathbf{m}$ "
+        r"and $\mathbf{B}$ in the elementary motion with $k=2\pi$ s$^{-1}$ of a body that is as large and as charged, "
+        f"but has $I={RATIO:g}$, for $\\tau={TILT:g}$.",
+        "Two digits: the shape of a body changes the first.",
+    )
+
+
+def radiation(request: Request) -> Data:
+    """Times in which such bodies lose their energy by radiation: by their flight, and by their rotation."""
+    asked = taken(request)
+    rows = []
+    for r in asked.radii:
+        mu = greatest_ratio(r, asked.density, asked.surface_field)
+        mass = greatest_charge(r, asked.surface_field) / mu
+        larmor = cyclotron_frequency(mu, asked.magnet) / 2
+        inertia = 0.4 * mass * r * r
+        energy = inertia * larmor * larmor / 2
+        times = (
+            1 / damping_of_flight(mu, mass, 2 * larmor),
+            energy / magnetic_power(mu, inertia * larmor, larmor),
+            energy / quadrupole_power(mu, (inertia, RATIO * inertia), pi / 2, larmor),
+        )
+        rows.append((two(r), *(two(time / YEAR) for time in times)))
+    return Data(
+        (
+            Column("$r$", "m"),
+            Column("flight, electric dipole", "years"),
+            Column("rotation, magnetic dipole", "years"),
+            Column("rotation, electric quadrupole", "years"),
+        ),
+        tuple(rows),
+        "How long the bodies of @tab:real-sizes would take to radiate their energy away: that of the flight at the "
+        r"cyclotron frequency $2b$; that of the rotation at the rate $b$, once by the moment $\mu\mathbf{m}/2$ that "
+        rf"precesses across the field, once, with $I={RATIO:g}$, by the quadrupole of an axis that goes round a right "
+        "angle off it.",
+        "Two digits. Energy over power at the start, with the formulas of the text.",
+    )
+
+
+def off_the_field(b: float) -> float:
+    """Angle between m and B in the elementary motion with k = 2 pi 1/s, from mf72 and m/I2 = (0, omega2, I omega3)."""
+    unit = b / hypot(1.0, TILT)
+    B2, B3 = unit, TILT * unit
+    omega2 = 2 * pi * B2 / b
+    third = RATIO * float(Hyperbola(RATIO, (B2, B3)).omega3(omega2))
+    return abs(atan2(omega2 * B3 - third * B2, omega2 * B2 + third * B3))
+
+
+def taken(request: Request) -> Parameters:
+    """Return the parameters, which are all positive."""
+    asked = request.take(Parameters)
+    if not (asked.radii and min(*asked.radii, asked.density, asked.surface_field, asked.magnet) > 0):
+        raise AtlasError("this table takes radii, density, surface_field and magnet, all of them positive.")
+    return asked
+
+
+def two(value: float) -> Number:
+    """Return a number of two digits."""
+    return Number(f"{value:.1e}")

@@ -1,0 +1,70 @@
+"""Bodies that could exist: the charge that they hold and what they radiate, against sums over point charges."""
+
+import numpy as np
+import pytest
+
+from atlas import BallMotion, DomainError
+from atlas.core import laboratory
+from atlas.core.units import ELECTRIC_CONSTANT, SPEED_OF_LIGHT
+
+EPS = float(np.finfo(float).eps)
+
+
+def derivative(values: np.ndarray, rate: float, order: int) -> np.ndarray:
+    """Return a derivative of samples over one period 2 pi/rate along the first axis, by their harmonics."""
+    n = np.fft.fftfreq(len(values), 1 / len(values)) * rate
+    shape = (-1, *(1 for _ in values.shape[1:]))
+    return np.fft.ifft(((1j * n) ** order).reshape(shape) * np.fft.fft(values, axis=0), axis=0).real
+
+
+def test_the_charge_makes_the_field_and_the_mass_is_that_of_the_ball() -> None:
+    """E = e/(4 pi eps0 r^2), and e/mu is 4/3 pi r^3 rho, within 8 eps."""
+    r, rho, E = 3e-7, 2500.0, 1e9
+    e, mu = laboratory.greatest_charge(r, E), laboratory.greatest_ratio(r, rho, E)
+    assert abs(e / (4 * np.pi * ELECTRIC_CONSTANT * r**2) / E - 1) <= 8 * EPS
+    assert abs(e / mu / (4 / 3 * np.pi * r**3 * rho) - 1) <= 8 * EPS
+    with pytest.raises(DomainError, match="radius"):
+        laboratory.greatest_charge(0.0, E)
+
+
+def test_the_dipole_of_a_flying_charge_loses_energy_at_the_rate_of_larmor() -> None:
+    """The second derivative of e x(t) on a circle, put into Larmor's formula, over m v^2/2: 1e-12 of it."""
+    mu, mass, omega, radius = 2.0, 3.0, 5.0, 0.7
+    t = np.arange(32) * 2 * np.pi / omega / 32
+    dipole = mu * mass * radius * np.stack([np.cos(omega * t), np.sin(omega * t)], axis=1)
+    power = (derivative(dipole, omega, 2) ** 2).sum(1).mean() / (6 * np.pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**3)
+    found = laboratory.damping_of_flight(mu, mass, omega)
+    assert abs(found / (power / (mass * (radius * omega) ** 2 / 2)) - 1) <= 1e-12
+
+
+def test_the_magnetic_moment_of_a_ball_radiates_by_its_precession() -> None:
+    """The second derivative of mu m(t)/2 of the ball's motion mf36 gives the power, 1e-12 of it."""
+    mu, alpha = 3.0, 0.8
+    ball = BallMotion(2.0, alpha, momentum=(1.3, -0.4))
+    t = np.arange(32) * 2 * np.pi / alpha / 32
+    second = derivative(mu / 2 * ball.angular_momentum(t), alpha, 2)
+    power = (second**2).sum(1).mean() / (6 * np.pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**5)
+    assert abs(laboratory.magnetic_power(mu, 1.3, alpha) / power - 1) <= 1e-12
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.2, np.pi / 2])
+def test_the_quadrupole_of_point_charges_radiates_as_the_formula_says(angle: float) -> None:
+    """Six charges mu m_N on the axes of a body that goes round a cone: third derivative of sum e(3 x x - x^2), 1e-11."""
+    mu, k, g1, g3 = 2.0, 0.9, 0.7, 1.9
+    body = np.concatenate([np.eye(3), -np.eye(3)])
+    masses = np.tile([g1 / 2, g1 / 2, g3 / 2], 2)
+    c, s = np.cos(angle), np.sin(angle)
+    tilt = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    t = np.arange(64) * 2 * np.pi / k / 64
+    turn = np.zeros((64, 3, 3))
+    turn[:, 0, 0] = turn[:, 1, 1] = np.cos(k * t)
+    turn[:, 1, 0], turn[:, 0, 1], turn[:, 2, 2] = np.sin(k * t), -np.sin(k * t), 1.0
+    x = (turn @ tilt @ body.T).swapaxes(1, 2)
+    e = mu * masses
+    assert np.abs((e[:, None] * x).sum(1)).max() <= 8 * EPS  # no electric dipole
+    D = 3 * np.einsum("n,tni,tnj->tij", e, x, x) - np.einsum("n,tni,tni->t", e, x, x)[:, None, None] * np.eye(3)
+    third = derivative(D, k, 3)
+    power = (third**2).sum((1, 2)).mean() / (720 * np.pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**5)
+    moments = (g1 + g3, 2 * g1)
+    assert abs(laboratory.quadrupole_power(mu, moments, angle, k) / power - 1) <= 1e-11
+    assert laboratory.quadrupole_power(mu, (1.0, 1.0), angle, k) == 0.0
