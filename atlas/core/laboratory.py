@@ -1,8 +1,8 @@
 """A body that could exist, in SI units: the charge that it can hold, and what its motion in a magnet radiates.
 
-All parts have one charge-to-mass ratio mu, so the electric dipole moment about the centre of mass is mu times the sum of
-m x, which is zero: what turns about the centre radiates by its magnetic dipole mu m/2, m the angular momentum, and by
-its electric quadrupole only. Not in the paper, which leaves radiation out.
+All parts have one charge-to-mass ratio mu, so the electric dipole moment about the centre of mass is mu times the sum
+of m x, which is zero: what turns about the centre radiates by its magnetic dipole mu m/2, m the angular momentum, and
+by its electric quadrupole only. Not in the paper, which leaves radiation out.
 """
 
 from math import cos, pi, sin

@@ -49,7 +49,7 @@ def test_the_magnetic_moment_of_a_ball_radiates_by_its_precession() -> None:
 
 @pytest.mark.parametrize("angle", [0.3, 1.2, np.pi / 2])
 def test_the_quadrupole_of_point_charges_radiates_as_the_formula_says(angle: float) -> None:
-    """Six charges mu m_N on the axes of a body that goes round a cone: third derivative of sum e(3 x x - x^2), 1e-11."""
+    """Six charges mu m_N on the axes of a body that goes round a cone: sum e(3 x x - x^2) gives the power, 1e-11."""
     mu, k, g1, g3 = 2.0, 0.9, 0.7, 1.9
     body = np.concatenate([np.eye(3), -np.eye(3)])
     masses = np.tile([g1 / 2, g1 / 2, g3 / 2], 2)

@@ -103,7 +103,7 @@ def test_the_charge_of_a_body_follows_from_its_mass() -> None:
 
 
 def test_the_bodies_that_could_exist_have_the_frequencies_of_their_charge() -> None:
-    """b is 3 eps0 E B/(2 rho r), delta the free limit |1-I| B2hat B3hat b/k, and the flight radiates before the turn."""
+    """Frequency 3 eps0 E B/(2 rho r), angle |1-I| B2hat B3hat b/k at its limit; the flight radiates before the turn."""
     more: dict[str, object] = {"radii": [1e-6, 1e-2], "density": 2500.0, "surface_field": 1e9, "magnet": 10.0}
     data = compute("sizes", Request((), more, 2))
     for r, row in zip((1e-6, 1e-2), data.rows, strict=True):

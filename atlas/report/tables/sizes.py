@@ -25,7 +25,7 @@ class Parameters(Record, frozen=True):
 
 
 def sizes(request: Request) -> Data:
-    """Charge, charge-to-mass ratio and Larmor's frequency of balls that hold as much charge as their surface bears."""
+    """Return charge, charge-to-mass ratio and Larmor's frequency of balls that hold all that their surface bears."""
     asked = taken(request)
     rows = []
     for r in asked.radii:
@@ -54,7 +54,7 @@ def sizes(request: Request) -> Data:
 
 
 def radiation(request: Request) -> Data:
-    """Times in which such bodies lose their energy by radiation: by their flight, and by their rotation."""
+    """Return how long such bodies take to radiate their energy away, by their flight and by their rotation."""
     asked = taken(request)
     rows = []
     for r in asked.radii:
