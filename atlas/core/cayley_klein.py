@@ -14,7 +14,7 @@ from flint import acb, arb, ctx
 
 from atlas.core.inputs import FloatArray, real
 from atlas.core.nutation import Functions, Hyperbolic, Linear, Steady, Trigonometric, wide
-from atlas.core.phase import Phases, circle_of
+from atlas.core.phase import EVEN, ROUNDER, WHOLE, Phases, tangents
 from atlas.core.rotation import target
 from atlas.core.threads import shared
 from atlas.core.wide import Wide
@@ -24,8 +24,9 @@ from atlas.exact.theta import infinite
 FIRST = 256
 """Binary digits with which the constants are tried first."""
 
-BLOCK = 3000
-"""Times evaluated at once, so that what they need stays in the second-level cache."""
+BLOCK, PART = 6000, 3000
+"""Times evaluated at once, so that what they need stays in the second-level cache and NumPy copies no array that it
+broadcasts; and matrices made from them at once, so few that the library does not thread the product."""
 
 FREQUENCY, WEIGHT = 2.0**-120, 2.0**-80
 """Radius to which frequencies (of the largest) and weights (of themselves) are known before they are rounded."""
@@ -39,6 +40,9 @@ PAIRS = tuple((i, j) for i in range(4) for j in range(i, 4))
 QUATERNION = (0, 1, 3, 2)
 """Places of w, x, y, z among them."""
 
+
+SIGNS = np.subtract, np.add, np.add, np.subtract
+"""How cos and sin of a sum of two angles, and of their difference, come out of products: both cos, then both sin."""
 
 KINDS: Mapping[str, Callable[..., Functions]] = {
     "trigonometric": Trigonometric,
@@ -61,7 +65,8 @@ class CayleyKlein:
             found = exact.solution
             lattice, pair = found.lattice, (found.alpha, found.beta)
             periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
-            turns = [x.rate / (2 * arb.pi()) for x in pair] + ([1 / (4 * lattice.half)] if periodic else [])
+            rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
+            turns = [x / (2 * arb.pi()) for x in rates] + ([1 / (4 * lattice.half)] if periodic else [])
             origin = found.origin / (4 * lattice.half) if periodic else arb(0)
             if not all(x.is_finite() for x in (*turns, found.origin)):
                 return False
@@ -81,11 +86,18 @@ class CayleyKlein:
             self.functions, self.periodic = functions, periodic
             self.frequencies = [wide(x) for x in turns]
             self.origins = [Wide(0), Wide(0), wide(origin)] if periodic else None
-            self.phases = Phases(self.frequencies, self.origins)
+            self.phases = self._phases()
             self.values, self.slopes = (_real_parts(x, largest) for x in (values, slopes))
             least = np.abs(self.values).min(where=self.values != 0, initial=1.0)
             self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
         return True
+
+    def _phases(self) -> Phases:
+        """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter."""
+        rounders = np.full((len(self.frequencies), 1), EVEN)
+        if self.periodic and isinstance(self.functions, Hyperbolic):
+            rounders[2] = ROUNDER
+        return Phases(self.frequencies, self.origins, rounders)
 
     def on_grid(self, start: Wide, step: Wide) -> "CayleyKlein":
         """Return the same with whole numbers i for times, which stand for start + i step."""
@@ -93,7 +105,7 @@ class CayleyKlein:
         other.frequencies = [(f * step).turn() for f in self.frequencies]
         origins = self.origins or [Wide(0)] * len(self.frequencies)
         other.origins = [(o + f * start).turn() for f, o in zip(self.frequencies, origins, strict=True)]
-        other.phases = Phases(other.frequencies, other.origins)
+        other.phases = other._phases()  # noqa: SLF001  of this class
         if isinstance(self.functions, Hyperbolic | Linear) and not self.periodic:
             functions = copy(self.functions)
             functions.line = functions.line.on_grid(start, step)
@@ -109,23 +121,20 @@ class Evaluation:
         count = parameters.phases.words.shape[1]
         self.table = np.concatenate([parameters.values, parameters.slopes]) if slopes else parameters.values
         self.work = np.empty((8, count, size))
-        self.circles = np.empty((2, count, size))
         self.rows = np.empty((parameters.functions.count, size))
         self.sums = np.empty((2, len(self.table), size))
-        self.versine, self.products = np.empty(size), Products(size)
+        self.circles, self.products = np.empty((8, size)), Products(size)
 
     def parts(self, t: FloatArray) -> FloatArray:
         """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m)."""
         m, functions = t.size, self.of.functions
-        rows, (cos, sin) = self.rows[:, :m], self.circles[..., :m]
-        angles = self.of.phases.angles(t, self.work[..., :m])
+        rows, angles = self.rows[:, :m], self.of.phases.reduced(t, self.work[..., :m])
         if isinstance(functions, Hyperbolic) and functions.periodic:
             u, e = angles[:2]
             functions.fill(rows, *functions.line.at(u[2], e[2]))
             u[:2] += functions.twist * u[2]
             angles = tuple(x[:2] for x in angles)
-            cos, sin = cos[:2], sin[:2]
-        circle_of(angles, cos, sin, self.versine[:m])
+        cos, sin = tangents(angles)
         if isinstance(functions, Trigonometric):
             functions.fill(rows, sin[2], cos[2])
         elif isinstance(functions, Steady):
@@ -133,21 +142,41 @@ class Evaluation:
         elif not functions.periodic:
             near = np.clip(t, -functions.line.longest, functions.line.longest)
             functions.fill(rows, *functions.line.at(near))
+        cos, sin = self._phases(cos, sin)
         sums, result = self.sums[..., :m]
         np.matmul(self.table, rows, out=sums)
         pairs, turned = sums.reshape(-1, 2, 2, m), result.reshape(-1, 2, 2, m)
-        np.multiply(pairs[:, 0], cos[:2], out=turned[:, 0])
-        np.multiply(pairs[:, 1], cos[:2], out=turned[:, 1])
-        pairs *= sin[:2]
+        np.multiply(pairs, cos, out=turned)
+        pairs *= sin
         turned[:, 0] -= pairs[:, 1]
         turned[:, 1] += pairs[:, 0]
         if self.of.faint:
             result /= np.abs(result[:4]).max(axis=0)
         return np.asarray(result)
 
+    def _phases(self, cos: FloatArray, sin: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return cos and sin of the phases of alpha and beta, half the sum and half the difference of those given.
+
+        All have a common factor, since only their ratios are given.
+        """
+        cc, ss, sc, cs, *circles = found = self.circles[:, : cos.shape[1]]
+        np.multiply(cos[0], cos[1], out=cc)
+        np.multiply(sin[0], sin[1], out=ss)
+        np.multiply(sin[0], cos[1], out=sc)
+        np.multiply(cos[0], sin[1], out=cs)
+        for combine, x, y, out in zip(SIGNS, (cc, cc, sc, sc), (ss, ss, cs, cs), circles, strict=True):
+            combine(x, y, out=out)
+        return found[4:6], found[6:]
+
     def at(self, t: FloatArray) -> FloatArray:
         """Return the ten products at times t, (10, m)."""
         return self.products.of(self.parts(t))
+
+
+def combined(products: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
+    """Write the linear combinations of products (10, m) that `weights` (10, n) describe into (m, n)."""
+    for i in range(0, len(rows), PART):
+        np.matmul(products[:, i : i + PART].T, weights, out=rows[i : i + PART])
 
 
 class Products:
@@ -162,7 +191,8 @@ class Products:
         unit, square, out = self.unit[:, :m], self.square[:m], self.out[:, :m]
         np.multiply(q, q, out=unit)
         np.add.reduce(unit, axis=0, out=square)
-        np.divide(q, square, out=unit)
+        np.divide(WHOLE, square, out=square)
+        np.multiply(q, square, out=unit)
         np.multiply(unit[0], q, out=out[:4])
         np.multiply(unit[1], q[1:], out=out[4:7])
         np.multiply(unit[2], q[2:], out=out[7:9])

@@ -9,7 +9,7 @@ import numpy as np
 from flint import arb, ctx, fmpq
 
 from atlas.core.body import SymmetricBody, moments
-from atlas.core.cayley_klein import FIRST, CayleyKlein, Evaluation, entries, evaluate
+from atlas.core.cayley_klein import FIRST, CayleyKlein, Evaluation, combined, entries, evaluate
 from atlas.core.inputs import FloatArray, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import Motion, components
@@ -91,7 +91,7 @@ class General:
         def prepare(size: int) -> Any:
             """Return what fills a block."""
             evaluation = Evaluation(self.parts, size)
-            return lambda times, rows: np.matmul(evaluation.at(times).T, weights, out=rows)
+            return lambda times, rows: combined(evaluation.at(times), weights, rows)
 
         return evaluate(t, shape, out, prepare)
 

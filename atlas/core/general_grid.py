@@ -12,7 +12,7 @@ from math import ceil, inf
 import numpy as np
 from flint import acb, arb, ctx
 
-from atlas.core.cayley_klein import BLOCK, CayleyKlein, Evaluation, Products
+from atlas.core.cayley_klein import BLOCK, CayleyKlein, Evaluation, Products, combined
 from atlas.core.general import General
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation import wide
@@ -24,13 +24,13 @@ from atlas.exact.cayley_klein import Parameter
 from atlas.exact.general import GeneralMotion
 from atlas.exact.theta import infinite
 
-FINE, COARSE = 256, 6
+FINE, COARSE = 256, 24
 """Times in the fine table, and coarse times in one product."""
 
-GROUP = 64 * COARSE
+GROUP = 16 * COARSE
 """Coarse times whose exponentials are made at once."""
 
-FEW = 4 * FINE * COARSE
+FEW = FINE * COARSE
 """Shorter grids are evaluated time by time: their tables would cost more."""
 
 CANCELLING = 8.0
@@ -133,7 +133,7 @@ def fill_each(one: General, parts: CayleyKlein, out: FloatArray) -> None:
         evaluation = Evaluation(parts, min(high - low, BLOCK))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
-            np.matmul(evaluation.at(np.arange(float(i), float(j))).T, one.entries, out=rows[i:j])
+            combined(evaluation.at(np.arange(float(i), float(j))), one.entries, rows[i:j])
 
     shared(fill, len(out), BLOCK)
 
@@ -157,9 +157,8 @@ def fill_products(
                 for place, (functions, table) in enumerate(zip(coarse, tables, strict=True)):
                     for part in (0, 1):
                         np.matmul(functions[k - i : k - i + m], table[part], out=q[place + 2 * part, :m])
-                np.matmul(
-                    products.of(q[:, :m].reshape(4, m * FINE)).T, one.entries, out=rows[k * FINE : (k + m) * FINE]
-                )
+                found = products.of(q[:, :m].reshape(4, m * FINE))
+                combined(found, one.entries, rows[k * FINE : (k + m) * FINE])
 
     shared(fill, len(out) // FINE, GROUP, FINE)
 

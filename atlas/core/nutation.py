@@ -4,7 +4,7 @@ Their weights are those of `atlas.exact.theta.Sum`, rearranged so that no sum ca
 the cosh x by which all that is hyperbolic is divided, is left out: it drops out of the matrix.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -47,7 +47,7 @@ class Steady:
 
 
 class Trigonometric:
-    """sin k v and cos k v, k = 1, 3, ..., halved; and 1/2 where one of the sums is constant."""
+    """sin v and cos v times powers of F = 2 cos 2v, and 1 where one of the sums is constant, up to a common factor."""
 
     twist = None
 
@@ -58,30 +58,29 @@ class Trigonometric:
 
     def weights(self, sum_: Sum) -> list[acb]:
         """Return the weight of each row in a sum."""
-        none = [acb(0)] * (2 * self.terms)
         if sum_.doubled:
-            return [*none, sum_.even[0]]
-        pairs = [x for pair in zip(sum_.odd, sum_.even, strict=True) for x in pair]
-        return (pairs + none)[: 2 * self.terms] + [acb(0)] * self.constant
+            return [acb(0)] * (2 * self.terms) + [sum_.even[0]]
+        pairs = zip(sum_.odd[: self.terms], sum_.even[: self.terms], strict=True)
+        return _powers(pairs, ONE_ODD) + [acb(0)] * (2 * max(0, self.terms - len(sum_.odd)) + self.constant)
 
-    def fill(self, rows: FloatArray, half_sin: FloatArray, half_cos: FloatArray) -> None:
-        """Fill the rows from sin(v)/2 and cos(v)/2."""
-        rows[0], rows[1] = half_sin, half_cos
-        if self.constant:
-            rows[-1] = 0.5
+    def fill(self, rows: FloatArray, s: FloatArray, c: FloatArray) -> None:
+        """Fill the rows, times 2 (s^2 + c^2), from numbers in the ratio of sin(v/2) to cos(v/2)."""
+        sin, cos = rows[:2]
+        square = s * s
+        np.multiply(c, c, out=cos)
+        whole = np.add(square, cos, out=rows[-1] if self.constant else None)
+        cos -= square
+        np.multiply(s, c, out=sin)
+        sin += sin
         if self.terms == 1:
             return
-        # 2 cos 2v, by which each pair follows from the two before it
-        factor = np.multiply(half_sin, half_sin)
-        factor *= -16.0
+        factor = np.divide(sin, whole, out=square)
+        factor *= factor
+        factor *= -4.0
         factor += 2.0
         pairs = rows[: 2 * self.terms].reshape(self.terms, 2, -1)
-        np.multiply(pairs[0], factor, out=pairs[1])
-        pairs[1, 0] += pairs[0, 0]
-        pairs[1, 1] -= pairs[0, 1]
-        for n in range(2, self.terms):
+        for n in range(1, self.terms):
             np.multiply(pairs[n - 1], factor, out=pairs[n])
-            pairs[n] -= pairs[n - 2]
 
 
 class Hyperbolic:
@@ -101,8 +100,8 @@ class Hyperbolic:
             self.inverse = 2 * (2 * self.reach).cosh()
             self.peak, self.part = float((1 / self.inverse).sqrt().mid()), float((1 / self.inverse).mid())
             slope, start = 4 * slope * lattice.half / arb.pi(), arb(0)
-            twists = [x.twist * 4 * lattice.half / arb.pi() / 2 for x in (found.alpha, found.beta)]
-            self.twist = np.array([[float(x.mid())] for x in twists])
+            first, second = (x.twist * 2 * lattice.half / arb.pi() for x in (found.alpha, found.beta))
+            self.twist = np.array([[float(x.mid())] for x in (first + second, first - second)])
         self.line = Line(wide(slope), wide(start))
         self.sech = any(sum_.doubled for sum_ in sums)
         polynomials = [self._polynomials(sum_) for sum_ in sums]
@@ -125,19 +124,9 @@ class Hyperbolic:
 
     def _polynomials(self, sum_: Sum) -> list[acb]:
         """Return the weights of tanh x W^j and of W^j by turns: both are polynomials in 2 cosh 2x = W/part."""
-        total = [acb(0)] * (2 * len(sum_.odd))
-        C = fmpq_poly([0, 1])
-        half = fmpq(1, 2)
-        if sum_.doubled:  # sinh 2nx = tanh x (1 + cosh 2x) times a polynomial
-            before, pair = (-1 - C * half, C * half), (C * 0, C * 0 + 1)
-        else:
-            before, pair = (C * 0 - 1, C * 0 + 1), (C * 0 + 1, C * 0 + 1)
-        for weights in zip(sum_.odd, sum_.even, strict=True):
-            for place, (weight, polynomial) in enumerate(zip(weights, pair, strict=True)):
-                for j, c in enumerate(polynomial.coeffs()):
-                    total[2 * j + place] += weight * acb(c) * (self.inverse**j if j else 1)
-            before, pair = pair, tuple(C * x - y for x, y in zip(pair, before, strict=True))
-        return total
+        pairs = zip(sum_.odd, sum_.even, strict=True)
+        found = _powers(pairs, ONE_EVEN if sum_.doubled else ONE_ODD)
+        return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(found)]
 
     def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
         """Fill the rows from x + rest."""
@@ -237,6 +226,27 @@ class Line:
             left += self.start_rest
             x = total
         return x, left
+
+
+F, HALF = fmpq_poly([0, 1]), fmpq(1, 2)
+ONE_ODD = (F * 0 - 1, F * 0 + 1), (F * 0 + 1, F * 0 + 1)
+"""For k = -1 and 1 the polynomials in F = 2 cos 2v (2 cosh 2x) by which sin v and cos v (sinh, cosh) are multiplied to
+give sin kv and cos kv; each next pair is F times the one before it less the one before that."""
+ONE_EVEN = (-1 - F * HALF, F * HALF), (F * 0, F * 0 + 1)
+"""The same for k = -2 and 0; sinh 2nx is tanh x (1 + cosh 2x) times a polynomial."""
+
+
+def _powers(weights: Iterable[tuple[acb, acb]], start: Sequence[Sequence[fmpq_poly]]) -> list[acb]:
+    """Return the weights of both functions times powers of F by turns, from those for rising k."""
+    before, pair = start
+    total = list[acb]()
+    for both in weights:
+        total += [acb(0), acb(0)]
+        for place, (weight, polynomial) in enumerate(zip(both, pair, strict=True)):
+            for j, c in enumerate(polynomial.coeffs()):
+                total[2 * j + place] += weight * acb(c)
+        before, pair = pair, [F * x - y for x, y in zip(pair, before, strict=True)]
+    return total
 
 
 def _terms(sum_: Sum) -> int:

@@ -30,10 +30,16 @@ SPLITTER = np.array(2.0**27 + 1)
 ROUNDER, QUANTUM = np.array(1.5 * 2.0**52), np.array(1.5 * 2.0**27)
 """Adding and subtracting them rounds to whole numbers, the last digit of the sum being the parity, and to 2^-25."""
 
+EVEN = 2 * ROUNDER
+"""The same for even numbers."""
+
+NEAR = 2.0**21
+"""Half a phase, in radians, up to which three products of words hold it."""
+
 QUARTER = TURN.scaled(-2)
 HEAD = round(float(QUARTER.scaled(26))) / 2.0**26
 MINUS_HEAD, MINUS_TAIL = np.array(-HEAD), np.array(float(Wide.exactly(HEAD) - QUARTER))
-QUARTER_TURN = np.array(float(QUARTER))
+QUARTER_TURN, MINUS_BOTH = np.array(float(QUARTER)), np.array([MINUS_HEAD, MINUS_TAIL])[:, None, None]
 """pi/2, and -pi/2 as a head of 27 digits, whose product with a multiple of 2^-25 below one is exact, and a tail."""
 
 HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0, np.float64(1.0).view(np.int64), 63))
@@ -44,18 +50,27 @@ class Phases:
 
     `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
     `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
-    (2, 1, n, 1) are those of P0.
+    (2, 1, n, 1) are those of P0. `radians` (2, n, 1) are half the frequency in radians as a head of 26 digits and a
+    rest. `rounder` (n, 1) rounds to the half turns that are left out: to EVEN ones if a phase is wanted by whole turns.
     """
 
-    def __init__(self, turns: Sequence[Wide], origins: Sequence[Wide] | None = None) -> None:
+    def __init__(
+        self, turns: Sequence[Wide], origins: Sequence[Wide] | None = None, rounder: FloatArray = ROUNDER
+    ) -> None:
         halves = [turn.scaled(1) for turn in turns]
         ordinary = any(halves) and all(abs(p.magnitude) <= SAFE for p in halves if p)
         exponents = [0 if ordinary else p.magnitude if p else NEVER for p in halves]
         self.exponents = None if ordinary else np.array(exponents)[:, None]
         self._keep(_columns([p.scaled(-x).words(2) for p, x in zip(halves, exponents, strict=True)]))
-        self.reach = min((_reach(p) for p in turns if p), default=float("inf"))
-        self.enough = min(self.reach * self.reach, float(np.finfo(float).max))
+        self._within(min((_reach(p) for p in turns if p), default=float("inf")))
+        self.rounder = rounder
         self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
+        radians = [_head(p.scaled(-x) * QUARTER) for p, x in zip(halves, exponents, strict=True)]
+        self.radians = _columns([(head, float(rest)) for head, rest in radians])
+        self.near = min((float(Wide.exactly(NEAR) / abs(p * QUARTER)) for p in halves if p), default=float("inf"))
+        if self.origins is not None:
+            first, rest = self.origins
+            self.starts = -first * MINUS_HEAD, rest * QUARTER_TURN - first * MINUS_TAIL
 
     @classmethod
     def of_words(cls, words: FloatArray) -> Self:
@@ -64,8 +79,8 @@ class Phases:
         self._keep(words)
         still = words[0] == 0
         self.exponents = np.where(still, NEVER, 0) if still.any() else None
-        self.origins = None
-        self.reach = self.enough = float("inf")
+        self.origins, self.rounder, self.near = None, ROUNDER, -1.0
+        self._within(float("inf"))
         return self
 
     def _keep(self, words: FloatArray) -> None:
@@ -74,6 +89,10 @@ class Phases:
         head = P0 * SPLITTER - (P0 * SPLITTER - P0)
         self.words = np.array([-P0, P1])
         self.halves = np.array([head, P0 - head])[:, None]
+
+    def _within(self, reach: float) -> None:
+        """Keep the longest time."""
+        self.reach, self.longest = reach, min(reach, float(np.finfo(float).max))
 
     def circle(
         self,
@@ -109,19 +128,30 @@ class Phases:
         The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near LIMIT the
         whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8 there.
         """
-        if not np.vdot(t, t) <= self.enough:
+        half, rest, sign, free = self.reduced(t, work, low)
+        parity = sign.view(np.int64)
+        np.left_shift(parity, SIGN_BIT, out=parity)
+        np.bitwise_or(parity, ONE_BITS, out=parity)
+        return half, rest, sign, free
+
+    def reduced(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
+        """Return what `angles` does with the number of half turns, plus `rounder`, in the place of their sign."""
+        far = max(t.max(initial=0.0), -t.min(initial=0.0))
+        if not far <= self.longest:
             self._check(t)
         if self.exponents is not None:
             t = np.ldexp(t, self.exponents)
             low = None if low is None else np.ldexp(low, self.exponents)
-        # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
-        parts, rest, coarse = work[:6], work[6], work[7]
         halves = work[6:] if t.ndim > 1 else work[6:, :1]
         upper, lower = halves
         np.multiply(t, SPLITTER, out=upper)
         np.subtract(upper, t, out=lower)
         upper -= lower
         np.subtract(t, upper, out=lower)
+        if far <= self.near:
+            return self._reduced_near(t, halves, work, low)
+        # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
+        parts, rest, coarse = work[:6], work[6], work[7]
         np.multiply(self.words, t, out=parts[::5])
         np.multiply(self.halves, halves, out=parts[1:5].reshape(2, 2, *rest.shape))
         np.add.reduce(parts, axis=0, out=rest)
@@ -130,24 +160,21 @@ class Phases:
             rest -= coarse
         # `whole` half turns and `product`, what is left of them, come with the sign turned round
         product, whole, y = parts[:3]
-        np.add(product, ROUNDER, out=whole)
-        np.subtract(whole, ROUNDER, out=coarse)
+        np.add(product, self.rounder, out=whole)
+        np.subtract(whole, self.rounder, out=coarse)
         product -= coarse
         # in half turns the phase is rest - coarse, coarse a multiple of 2^-25
         np.add(product, QUANTUM, out=coarse)
         coarse -= QUANTUM
         product -= coarse
         rest -= product
-        parity = whole.view(np.int64)
         if self.origins is not None:
             coarse -= self.origins[0]
             rest += self.origins[1]
-            np.add(coarse, ROUNDER, out=y)
-            parity += y.view(np.int64)
-            y -= ROUNDER
+            np.add(coarse, self.rounder, out=y)
+            whole.view(np.int64)[:] += y.view(np.int64)
+            y -= self.rounder
             coarse -= y
-        np.left_shift(parity, SIGN_BIT, out=parity)
-        np.bitwise_or(parity, ONE_BITS, out=parity)
         # in radians, and halved: coarse MINUS_HEAD is exact, y is small
         np.multiply(coarse, MINUS_TAIL, out=y)
         rest *= QUARTER_TURN
@@ -157,6 +184,38 @@ class Phases:
         coarse -= product
         coarse += y
         return product, coarse, whole, rest
+
+    def _reduced_near(
+        self, t: FloatArray, halves: FloatArray, work: FloatArray, low: FloatArray | None
+    ) -> tuple[FloatArray, ...]:
+        """Return the same for half phases up to NEAR, by Cody and Waite: half f t less w pi/2, both cut.
+
+        With F0 + F1 half the frequency and t0 + t1 the time, F0 t0 and w times the head of pi/2 have 53 digits, and
+        their difference, below 2, is exact. The rest, F0 t1 + F1 t less w times the tail, is below 1/8: two sums of it
+        are within 2^-57, two products within 2^-59, and F1 and the tail lack 2^-59: in all 2^-55.7 of x/2, 0.3 w of x.
+        """
+        both, product, whole, w = work[:2], work[2], work[3], work[7]
+        np.multiply(self.radians[0], halves, out=both)
+        np.multiply(self.words[0], t, out=product)
+        if self.origins is not None:
+            product -= self.origins[0]
+        np.subtract(self.rounder, product, out=whole)
+        np.subtract(whole, self.rounder, out=w)
+        np.multiply(w, MINUS_BOTH, out=work[4:6])
+        both += work[4:6]
+        head, rest = both
+        np.multiply(self.radians[1], t, out=product)
+        rest += product
+        if low is not None:
+            np.multiply(self.radians[0], low, out=product)
+            rest += product
+        if self.origins is not None:
+            head += self.starts[0]
+            rest += self.starts[1]
+        np.add(head, rest, out=product)
+        head -= product
+        head += rest
+        return product, head, whole, rest
 
     def _check(self, t: FloatArray) -> None:
         """Raise AtlasError for a time that is out of reach."""
@@ -187,6 +246,16 @@ def circle_of(angles: Sequence[FloatArray], cos: FloatArray, sin: FloatArray, ve
     versine += sign[0] < NOTHING
 
 
+def tangents(angles: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Return numbers in the ratio of cos(x/2) to sin(x/2), from what `Phases.reduced` returns and in its place."""
+    u, e, _, free = angles
+    np.tan(u, out=u)
+    np.multiply(u, e, out=free)
+    e += u
+    np.subtract(WHOLE, free, out=free)
+    return free, e
+
+
 def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
     """Return words by word and frequency, shape (words, n, 1), to broadcast against times."""
     return np.array(rows).T[:, :, None]
@@ -195,6 +264,14 @@ def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
 def _reach(turns: Wide) -> float:
     """Return the longest time within LIMIT."""
     return float(np.nextafter(float(Wide.exactly(LIMIT) / abs(turns * TURN)), np.inf))
+
+
+def _head(x: Wide) -> tuple[float, Wide]:
+    """Cut a number into a double of 26 digits and the rest."""
+    if not x:
+        return 0.0, x
+    head = round(float(x.scaled(26 - x.magnitude))) * 2.0 ** (x.magnitude - 26)
+    return head, x - Wide.exactly(head)
 
 
 def _cut(turn: Wide) -> tuple[float, float]:

@@ -74,10 +74,20 @@ def test_either_word_of_a_frequency_is_needed(word: int) -> None:
 
 
 def test_the_lower_half_of_the_first_word_is_needed() -> None:
-    """The exact error of the product, made from halves, carries digits at moderate phases already."""
+    """The exact error of the product, made from halves, carries digits wherever two words of time are multiplied."""
+    f, t = 1.2345, np.linspace(9e6, 1e7, 20)
+    phases = phases_of(f)
+    assert worst(phases, f, t) < 4
+    phases.halves[1] = 0.0
+    assert worst(phases, f, t) > 100
+
+
+def test_the_rest_of_half_a_frequency_is_needed() -> None:
+    """At moderate phases, where a head of 26 digits is multiplied exactly, what it lacks carries digits."""
     f, t = 1.2345, np.linspace(900, 1000, 20)
     phases = phases_of(f)
-    phases.halves[1] = 0.0
+    assert worst(phases, f, t) < 4
+    phases.radians[1] = 0.0
     assert worst(phases, f, t) > 100
 
 
