@@ -6,13 +6,14 @@ the result in place.
 """
 
 from fractions import Fraction
-from math import ceil
+from math import ceil, frexp
 
 import numpy as np
 
 from atlas.core.basis import LEFT, SCALE, Basis
 from atlas.core.double_double import DoubleDouble
 from atlas.core.inputs import FloatArray
+from atlas.core.phase import Phases
 from atlas.core.rotation import DoubleRotation
 from atlas.core.threads import shared
 from atlas.errors import AtlasError
@@ -20,11 +21,17 @@ from atlas.errors import AtlasError
 FINE, SHORT = 128, 32
 """Times in the fine table, and in that of a grid of fewer than LONG matrices."""
 
-FEW, LONG = 8192, 65536
+FEW, LONG = 5000, 65536
 """Shorter grids than FEW are evaluated time by time: any table would cost more."""
 
 HUGE = 2.0**900
 """Longest step, so that its halves are floats."""
+
+CLOSE = 2.0**-20
+"""Part of the longest time below which a time is near zero."""
+
+TINY = 2.0**-900
+"""Last digit of the times from which on none of their products is lost."""
 
 ROWS = 48
 """Coarse times a product: large enough to pay for its call, small enough that the library does not thread it."""
@@ -47,7 +54,7 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
         raise AtlasError(f"The grid from {start} by {step} to {last} leaves the phases up to 2^50, |t| <= {reach:.6g}.")
     if count < FEW:
         functions = Basis(turning.phases, count, len(turning.weights)).at(
-            *moments(start, step, np.arange(float(count)))
+            *moments(turning.phases, start, step, np.arange(float(count)))
         )
         np.matmul(functions.T, turning.entries, out=out.reshape(-1, 9))
         return
@@ -56,10 +63,27 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
     run(turning, start, step, range(cut - 1, -1, -1), out[:cut])
 
 
-def moments(start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the times start + i step in two words, exact to 2^-104 of themselves."""
-    t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
-    return t.hi, t.low
+def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
+    """Return the times start + i step as doubles and what these lack, None for nothing, for rising or falling i.
+
+    What they lack is at most half an ulp, and known to 2^-104 of the time. Where phases are short and times do not come
+    near zero, both numbers are cut instead where the last digit of a double twice as large as any time is: then the
+    first words are exact.
+    """
+    first, last = (start + step * float(index[i]) for i in (0, -1))
+    far = max(abs(first), abs(last))
+    digit = 2.0 ** (frexp(far)[1] - 52)
+    away = start == 0 or first / far > CLOSE < last / far or -first / far > CLOSE < -last / far
+    if not (far <= phases.near and digit > TINY and away):
+        t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
+        return t.hi, t.low
+    origin, stride = (round(x / digit) * digit for x in (start, step))
+    times, low = index * stride, None
+    times += origin
+    if start != origin or step != stride:
+        low = index * (step - stride)
+        low += start - origin
+    return times, low
 
 
 def run(turning: DoubleRotation, start: float, step: float, indices: range, out: FloatArray) -> None:
@@ -76,23 +100,24 @@ def run(turning: DoubleRotation, start: float, step: float, indices: range, out:
 
     def functions(basis: Basis, low: int, high: int) -> FloatArray:
         """Return the functions at the coarse times low to high."""
-        return basis.at(*moments(start, step, indices.start + sign * fine * np.arange(float(low), float(high)))).T
+        index = indices.start + sign * fine * np.arange(float(low), float(high))
+        return basis.at(*moments(turning.phases, start, step, index)).T
 
     def fill(low: int, high: int) -> None:
-        """Fill the blocks low to high, counted from the origin."""
-        basis = Basis(turning.phases, min(COARSE, high - low), size)
-        for i in range(low, high, COARSE):
+        """Fill the blocks low to high, counted from the origin, and what is left after the last."""
+        basis = Basis(turning.phases, min(COARSE, high - low) + 1, size)
+        for i in range(low, max(high, 1), COARSE):
             j = min(i + COARSE, high)
+            ends = rest if j == blocks else 0
+            found = functions(basis, i, j + bool(ends))
             if backward:
-                product(functions(basis, i, j)[::-1], table, out[count - j * fine : count - i * fine])
+                product(found[: j - i][::-1], table, out[count - j * fine : count - i * fine])
+                product(found[j - i :], table[:, -9 * ends :], out[:ends])
             else:
-                product(functions(basis, i, j), table, out[i * fine : j * fine])
+                product(found[: j - i], table, out[i * fine : j * fine])
+                product(found[j - i :], table[:, : 9 * ends], out[count - ends :])
 
     shared(fill, blocks, COARSE, fine)
-    if rest:
-        last = functions(Basis(turning.phases, 1, size), blocks, blocks + 1)
-        part, end = (slice(-9 * rest, None), slice(0, rest)) if backward else (slice(9 * rest), slice(-rest, None))
-        product(last, table[:, part], out[end])
 
 
 def fine_table(turning: DoubleRotation, step: float, fine: int) -> FloatArray:
@@ -100,7 +125,7 @@ def fine_table(turning: DoubleRotation, step: float, fine: int) -> FloatArray:
 
     Its errors would be those of every matrix of the grid: so it is made in long doubles, where the machine has them.
     """
-    t, low = moments(0.0, step, np.arange(float(fine)))
+    t, low = moments(turning.phases, 0.0, step, np.arange(float(fine)))
     half, left_out, sign, _ = turning.phases.angles(t, np.empty((8, 2, fine)), low)
     x = half.astype(np.longdouble) + left_out
     versine = 2 * np.sin(x) ** 2
@@ -113,22 +138,20 @@ def fine_table(turning: DoubleRotation, step: float, fine: int) -> FloatArray:
     C, S = C[:, None], S[:, None]
     matrices = np.stack([first * C + second * S, second * C - first * S, third])
     left, right = turning.resolution
-    # the factors L_r that differ, times all matrices at once; then each takes the columns that its Q_r leaves
+    # the factors L_r that differ, times all matrices at once; then each is multiplied by its Q_r, of zeros and ones
     kinds = LEFT[: len(left)]
     distinct = left[[kinds.index(kind) for kind in range(max(kinds) + 1)]]
     products = (distinct.reshape(-1, 3) @ matrices.transpose(2, 0, 1).reshape(3, -1)).astype(np.float64)
     columns = products.reshape(len(distinct), 3, 3, fine)[list(kinds)]  # r, row, column, time
-    table = np.zeros((len(left), fine, 3, 3))
-    scaled = columns * SCALE[: len(left), None, None, None]
-    for r, Q in enumerate(right):
-        for i, j in zip(*np.nonzero(Q), strict=True):
-            table[r, :, :, j] = Q[i, j] * scaled[r, :, i].T
+    table = np.matmul(columns.transpose(0, 3, 1, 2), (right * SCALE[: len(left), None, None])[:, None])
     return np.ascontiguousarray(table.swapaxes(2, 3)) if turning.inverse else table
 
 
 def product(functions: FloatArray, table: FloatArray, out: FloatArray) -> None:
     """Write functions (m, r) times table (r, 9 L) into out (m L, 3, 3), a few rows at a time."""
     m = len(functions)
+    if not m:
+        return
     functions, rows = np.ascontiguousarray(functions), out.reshape(m, -1)
     whole = m - m % ROWS
     np.matmul(
@@ -136,4 +159,5 @@ def product(functions: FloatArray, table: FloatArray, out: FloatArray) -> None:
         table,
         out=rows[:whole].reshape(whole // ROWS, ROWS, rows.shape[1]),
     )
-    np.matmul(functions[whole:], table, out=rows[whole:])
+    if whole < m:
+        np.matmul(functions[whole:], table, out=rows[whole:])

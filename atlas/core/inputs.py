@@ -1,6 +1,7 @@
 """What a user typed, as float64, or one sentence that says what is wrong with it."""
 
 import reprlib
+from math import isfinite
 from numbers import Number
 from typing import Any
 
@@ -39,6 +40,8 @@ def _not_real(value: Any, name: str) -> AtlasError:
 
 def number(value: Any, name: str) -> float:
     """Return `value` as one finite float."""
+    if type(value) is float and isfinite(value):
+        return value + 0.0
     array = real(value, name)
     if array.ndim:
         raise AtlasError(f"{name} must be one number, not an array of shape {array.shape}.")
@@ -55,6 +58,8 @@ def positive(value: Any, name: str) -> float:
 
 def whole(value: Any, name: str, least: int = 0) -> int:
     """Return `value` as a whole number, at least `least`."""
+    if type(value) is int and value >= least:
+        return value
     result = number(value, name)
     if result != int(result) or result < least:
         raise AtlasError(f"{name} must be a whole number, at least {least}, not {reprlib.repr(value)}.")

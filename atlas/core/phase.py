@@ -50,8 +50,8 @@ class Phases:
 
     `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
     `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
-    (2, 1, n, 1) are those of P0. `radians` (2, n, 1) are half the frequency in radians as a head of 26 digits and a
-    rest. `rounder` (n, 1) rounds to the half turns that are left out: to EVEN ones if a phase is wanted by whole turns.
+    (2, 1, n, 1) are those of P0. `radians` (3, n, 1) are half the frequency in radians: a head of 26 digits, the rest,
+    and both. `rounder` (n, 1) rounds to the half turns that are left out: to EVEN ones if a phase is wanted by whole turns.
     """
 
     def __init__(
@@ -65,8 +65,7 @@ class Phases:
         self._within(min((_reach(p) for p in turns if p), default=float("inf")))
         self.rounder = rounder
         self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
-        radians = [_head(p.scaled(-x) * QUARTER) for p, x in zip(halves, exponents, strict=True)]
-        self.radians = _columns([(head, float(rest)) for head, rest in radians])
+        self.radians = _columns([_head(p.scaled(-x) * QUARTER) for p, x in zip(halves, exponents, strict=True)])
         self.near = min((float(Wide.exactly(NEAR) / abs(p * QUARTER)) for p in halves if p), default=float("inf"))
         if self.origins is not None:
             first, rest = self.origins
@@ -207,7 +206,7 @@ class Phases:
         np.multiply(self.radians[1], t, out=product)
         rest += product
         if low is not None:
-            np.multiply(self.radians[0], low, out=product)
+            np.multiply(self.radians[2], low, out=product)
             rest += product
         if self.origins is not None:
             head += self.starts[0]
@@ -266,12 +265,12 @@ def _reach(turns: Wide) -> float:
     return float(np.nextafter(float(Wide.exactly(LIMIT) / abs(turns * TURN)), np.inf))
 
 
-def _head(x: Wide) -> tuple[float, Wide]:
-    """Cut a number into a double of 26 digits and the rest."""
+def _head(x: Wide) -> tuple[float, float, float]:
+    """Cut a number into a double of 26 digits and the rest; and the number."""
     if not x:
-        return 0.0, x
+        return 0.0, 0.0, 0.0
     head = round(float(x.scaled(26 - x.magnitude))) * 2.0 ** (x.magnitude - 26)
-    return head, x - Wide.exactly(head)
+    return head, float(x - Wide.exactly(head)), float(x)
 
 
 def _cut(turn: Wide) -> tuple[float, float]:
