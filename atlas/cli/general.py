@@ -36,6 +36,11 @@ SCALARS = {
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for: a zero of the motion has none."""
 
+UNKNOWN = (
+    f"with {SPARE} binary digits the number cannot be told from zero, and that it is zero does not follow from a "
+    "symmetry of the motion."
+)
+
 
 @click.command(
     "general",
@@ -106,7 +111,12 @@ def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
         for i in range(3)
     ]
     heading = ("t", "R_i1", "R_i2", "R_i3", "Omega_i [1/time]", "m_i/I2 [1/time]") if rows else ()
-    return Printout(f"general motion: {texts['kind']}", lines, heading, rows, [certificate(options)])
+    from atlas.exact.digits import NOT_CERTIFIED
+
+    notes = [certificate(options)]
+    if any(NOT_CERTIFIED in row for row in rows):
+        notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
+    return Printout(f"general motion: {texts['kind']}", lines, heading, rows, notes)
 
 
 def _complex(x: str, y: str) -> str:

@@ -15,6 +15,7 @@ from typing import Any, Self
 from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
+from atlas.exact import two_turns
 from atlas.exact.body import ratio_of
 from atlas.exact.cayley_klein import Parameter, Solution, matrix
 from atlas.exact.elementary import ElementaryMotion
@@ -270,11 +271,11 @@ class GeneralMotion:
     def quaternion(self, t: Any) -> list[arb]:
         """Return a unit quaternion of R(t), scalar first."""
         a, b, _, _ = self.parameters(t)
-        q = self._from_frame(a, b)
+        q = self.from_frame(a, b)
         size = sum((x * x for x in q), arb(0)).sqrt()
         return [x / size for x in q]
 
-    def _from_frame(self, a: acb, b: acb) -> list[arb]:
+    def from_frame(self, a: acb, b: acb) -> list[arb]:
         """Return the quaternion R_z(-chi0) R_x(-theta0) (alpha, beta) R_z(chi0), not normalised."""
         c, s, C, S = self.tilt()
         w, x, y, z = a.real, b.real, b.imag, a.imag
@@ -287,8 +288,11 @@ class GeneralMotion:
             return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
         if self._elementary is not None:
             return self._elementary.rotation(t)
+        found = two_turns.rotation(self, rational(t, "the time"))
+        if found is not None:
+            return found
         a, b, _, _ = self.parameters(t)
-        return matrix(self._from_frame(a, b))
+        return matrix(self.from_frame(a, b))
 
     def column(self, j: int, t: Any) -> list[Real]:
         """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
@@ -305,7 +309,7 @@ class GeneralMotion:
         if self._elementary is not None:
             return self._elementary.angular_velocity(t)
         a, b, da, db = self.parameters(t)
-        q, dq = self._from_frame(a, b), self._from_frame(da, db)
+        q, dq = self.from_frame(a, b), self.from_frame(da, db)
         w, x, y, z = q
         dw, dx, dy, dz = dq
         square = (w * w + x * x + y * y + z * z) / 2

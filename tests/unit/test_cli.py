@@ -485,3 +485,13 @@ def test_general_says_what_a_separatrix_has_not() -> None:
     out = record("general", *"--ratio 0.5 --field 1 -3 --omega 0 1.5 2".split())
     assert out["kind"] == "separatrix, triple root"
     assert "nome" not in out
+
+
+def test_general_says_why_a_number_has_no_digits() -> None:
+    """What is zero by symmetry is printed as 0; what falls off as exp(-t) is not certified, and the table says why."""
+    motion = "--ratio 2 --field 1 0.5 --omega 1 -1 -0.5 --times 1e5"
+    out = CliRunner().invoke(command, ["general", *motion.split()], catch_exceptions=False).stdout
+    assert out.count("not certified") == 5
+    assert "not certified: with 4096 binary digits" in out
+    motion = "--ratio 1.5 --field 1 0 --omega 0.3 -1 0 --times 1"
+    assert "not certified" not in CliRunner().invoke(command, ["general", *motion.split()]).stdout

@@ -11,6 +11,7 @@ from oracles.taylor import taylor as integrated
 
 from atlas.errors import DomainError
 from atlas.exact.digits import certified
+from atlas.exact.cayley_klein import matrix
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.free import FreeMotion
 from atlas.exact.general import GeneralMotion
@@ -181,3 +182,25 @@ def test_what_has_no_limit_is_refused_with_a_reason() -> None:
         _ = GeneralMotion(*KINDS["separatrix"]).precession_per_period
     with pytest.raises(DomainError, match="triple root"):
         _ = GeneralMotion(*KINDS["separatrix, triple root"]).nome
+
+
+@pytest.mark.parametrize(
+    ("motion", "place"),
+    [
+        (GeneralMotion(1.5, (1, 0), (0.3, -1, 0)), (1, 0)),
+        (GeneralMotion(1, (1, 0), (0.3, -1, 0)), (1, 0)),
+        (GeneralMotion(2, (0, 1), (1e-4, 0, -1)), (2, 0)),
+    ],
+)
+def test_what_is_zero_by_symmetry_is_exactly_zero(motion: GeneralMotion, place: tuple[int, int]) -> None:
+    """Where the body swings in a plane of Larmor's frame, or is a ball, an entry that stays zero has no radius."""
+    R = motion.rotation(7.3)
+    assert [(i, j) for i in range(3) for j in range(3) if R[i][j] == 0] == [place]
+
+
+@pytest.mark.parametrize("inputs", [KINDS["ball"], KINDS["separatrix between B and -B"], MORE[12]])
+def test_two_turns_are_the_matrix_of_the_parameters(inputs: Any) -> None:
+    """Both roads to R(t) enclose the same entries, narrowly."""
+    motion = GeneralMotion(*inputs)
+    two, one = motion.rotation(2.7), matrix(motion.from_frame(*motion.parameters(2.7)[:2]))
+    assert largest(arb(x) - arb(y) for a, b in zip(two, one, strict=True) for x, y in zip(a, b, strict=True)) < 1e-90

@@ -1,0 +1,54 @@
+"""Motions that are two turns one after the other, as balls: entries that are zero throughout are exactly zero.
+
+Where M = II (Omega + K) is along neither the field nor the axis, p = M3 = 0, the body swings in a plane of Larmor's
+frame like a pendulum, and R(t) = R_B(-b t) R_n(delta), n across the plane. The ball is R(t) = R_B(-b t) R_M(|M| t).
+"""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from flint import acb, arb, fmpq
+
+from atlas.exact.inputs import Real, root, sin_cos
+
+if TYPE_CHECKING:
+    from atlas.exact.general import GeneralMotion
+
+Matrix = list[list[Real]]
+
+
+def rotation(motion: "GeneralMotion", t: fmpq) -> Matrix | None:
+    """Return R(t) as the product of two turns, None for a motion that is no such product."""
+    q = motion.quartic
+    if motion.is_steady or (motion.kind != "ball" and not q.c3 == q.momentum == 0):
+        return None
+    s, c = sin_cos(-motion.b * t)
+    larmor = turn(motion.field, c, s)
+    if motion.kind == "ball":
+        M = [w + k for w, k in zip(motion.omega, motion.field, strict=True)]
+        s, c = sin_cos(root(sum((x * x for x in M), fmpq(0))) * t)
+        return product(larmor, turn(M, c, s))
+    # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
+    phase = acb(0, motion.b * t / 2).exp()
+    a, b, _, _ = motion.parameters(t)
+    w, x, y, _ = motion.from_frame(a * phase, b * phase)
+    n = (motion.field[1], -motion.field[0]) if q.across != 0 else (motion.omega[0], motion.omega[1])
+    along = arb(x * n[0] + y * n[1]) / root(n[0] ** 2 + n[1] ** 2)
+    square = w * w + along * along
+    return product(larmor, turn((*n, fmpq(0)), (w * w - along * along) / square, 2 * w * along / square))
+
+
+def turn(vector: Sequence[fmpq], cos: Real, sin: Real) -> Matrix:
+    """Return the turn about a vector that is not zero by the angle whose cosine and sine are given, by Rodrigues."""
+    size = root(sum((x * x for x in vector), fmpq(0)))
+    x, y, z = n = [v / size if v != 0 else fmpq(0) for v in vector]
+    across = ((fmpq(0), -z, y), (z, fmpq(0), -x), (-y, x, fmpq(0)))
+    return [
+        [(cos if i == j else fmpq(0)) + (1 - cos) * (n[i] * n[j]) + sin * across[i][j] for j in range(3)]
+        for i in range(3)
+    ]
+
+
+def product(first: Matrix, second: Matrix) -> Any:
+    """Return the product of two matrices."""
+    return [[sum((first[i][k] * second[k][j] for k in range(3)), fmpq(0)) for j in range(3)] for i in range(3)]
