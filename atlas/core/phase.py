@@ -51,7 +51,7 @@ class Phases:
     `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
     `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
     (2, 1, n, 1) are those of P0. `radians` (3, n, 1) are half the frequency in radians: a head of 26 digits, the rest,
-    and both. `rounder` (n, 1) rounds to the half turns that are left out: EVEN ones if a phase is wanted by whole turns.
+    and both. `rounder` (n, 1) rounds to the half turns that are left out: EVEN ones for whole turns.
     """
 
     def __init__(

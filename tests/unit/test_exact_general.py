@@ -10,8 +10,8 @@ from flint import arb, ctx, fmpq
 from oracles.taylor import taylor as integrated
 
 from atlas.errors import DomainError
-from atlas.exact.digits import certified
 from atlas.exact.cayley_klein import matrix
+from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.free import FreeMotion
 from atlas.exact.general import GeneralMotion
