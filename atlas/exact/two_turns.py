@@ -14,7 +14,7 @@ from atlas.exact.inputs import Real, root, sin_cos
 if TYPE_CHECKING:
     from atlas.exact.general import GeneralMotion
 
-Matrix = list[list[Real]]
+Matrix = list[list[Any]]
 
 
 def rotation(motion: "GeneralMotion", t: fmpq) -> Matrix | None:
@@ -49,6 +49,6 @@ def turn(vector: Sequence[fmpq], cos: Real, sin: Real) -> Matrix:
     ]
 
 
-def product(first: Matrix, second: Matrix) -> Any:
+def product(first: Matrix, second: Matrix) -> Matrix:
     """Return the product of two matrices."""
     return [[sum((first[i][k] * second[k][j] for k in range(3)), fmpq(0)) for j in range(3)] for i in range(3)]
