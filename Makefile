@@ -16,7 +16,7 @@ SEED   ?= 0
 .PHONY: help report test figures verify bench stress mutants rebuilds curves lint clean setup lock FORCE
 
 help:
-	@echo 'make report    build/report/atlas/index.html and build/report/atlas.pdf'
+	@echo 'make report    build/report/atlas/index.html and build/report/atlas.pdf, and the guide beside them'
 	@echo 'make test      lint, types, floors and tests'
 	@echo 'make figures   every figure as SVG, PDF and PNG in build/figures'
 	@echo 'make build/figures/NAME.svg|pdf|png   one figure'
@@ -33,6 +33,7 @@ MADE    := build/report/.made
 report: $(MADE)
 	@echo build/report/atlas/index.html
 	@echo build/report/atlas.pdf
+	@echo build/report/guide/index.html
 
 # What is installed may bring a GL library or take it away; so may the variable ATLAS_GL, which stands in the stamp.
 GL      := $(wildcard /etc/ld.so.cache /usr/lib/*/dri /usr/share/glvnd/egl_vendor.d)
@@ -41,6 +42,7 @@ STAMP   := build/report/atlas.pdfbuild/report/atlas/index.html gl=$(ATLAS_GL)
 
 $(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(if $(filter-out $(THERE) $(shell cat $(MADE) 2>/dev/null),$(STAMP)),FORCE)
 	@$(ATLAS) report >/dev/null
+	@$(ATLAS) report guide >/dev/null
 	@echo 'gl=$(ATLAS_GL)' >$@
 
 figures: setup

@@ -155,6 +155,7 @@ def _texts(block: Any) -> list[int]:
     from atlas.report.blocks.figure import FigureView
     from atlas.report.blocks.ledger import ErrataView, LedgerView
     from atlas.report.blocks.prose import NoteView, ProseView
+    from atlas.report.blocks.reference import ReferenceView
 
     match block:
         case ProseView() | EquationView():
@@ -165,6 +166,8 @@ def _texts(block: Any) -> list[int]:
             return [block.caption]
         case LedgerView() | ErrataView():
             return [number for entry in block.entries for number in entry.texts]
+        case ReferenceView():
+            return block.texts
         case _:
             return [block.caption, *([] if block.note is None else [block.note])]
 

@@ -10,11 +10,12 @@ from collections import Counter, defaultdict
 from collections.abc import Sequence
 from statistics import median
 
+from atlas.build.reference import described
 from atlas.build.sources import PACKAGE
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, LABEL
 from atlas.places import folder
-from atlas.report.blocks import Errata, Ledger, Recorded
+from atlas.report.blocks import Errata, Ledger, Recorded, Reference
 from atlas.report.definition import Report
 from atlas.report.numbers import Number
 from atlas.report.recorded import Appendices, Finding
@@ -37,7 +38,8 @@ def gather(report: Report) -> Appendices:
     for source, read in {"trial": _trial, "bench": _bench, "stress": _stress, "rebuilds": _rebuilds}.items():
         if source in wanted:
             tables |= {f"{source}: {name}": data for name, data in read().items()}
-    return Appendices(_findings() if trial else {}, tables)
+    names = described() if any(isinstance(block, Reference) for block in blocks) else {}
+    return Appendices(_findings() if trial else {}, tables, names)
 
 
 def _findings() -> dict[str, Finding]:

@@ -1,5 +1,7 @@
 """A report file as typed records: what a user may write, and nothing else; the blocks are in `atlas.report.blocks`."""
 
+import msgspec
+
 from atlas.report.blocks import Block
 from atlas.report.parameters import Parameters
 from atlas.report.schema import Id, Record, Slug
@@ -16,7 +18,7 @@ class Page(Record, frozen=True):
 
 
 class Report(Record, frozen=True):
-    """The whole file; ``cover`` is the id of the figure on the front page."""
+    """The whole file; ``cover`` is the id of the figure on the front page, ``related`` names reports to link to."""
 
     name: str
     title: str
@@ -25,4 +27,5 @@ class Report(Record, frozen=True):
     authors: tuple[str, ...] = ()
     abstract: str = ""
     cover: Id | None = None
+    related: dict[str, str] = msgspec.field(default_factory=dict)
     parameters: Parameters = Parameters()

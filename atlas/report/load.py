@@ -7,6 +7,7 @@ from pathlib import Path
 from atlas.errors import AtlasError, unknown
 from atlas.report.blocks import Block, Figure, Listing, Recorded, Table
 from atlas.report.definition import Report
+from atlas.report.find import names
 from atlas.report.schema import SchemaError, convert
 
 
@@ -37,6 +38,9 @@ def _consistent(report: Report) -> Report:
     for page in report.pages:
         for place, block in enumerate(page.blocks, 1):
             _called(block, report, f"page {page.slug!r}, block {place}")
+    for name in report.related:
+        if name not in names():
+            raise AtlasError(f"related: {unknown('report', name, names(), 'in reports/')}")
     if not report.pages or report.pages[0].slug != "index":
         raise AtlasError("the first page must have the slug 'index': that is the file that readers open.")
     return report

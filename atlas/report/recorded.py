@@ -40,8 +40,18 @@ class Finding:
 
 
 @dataclass(frozen=True)
+class Described:
+    """A public name of the package: its arguments as they are written, its docstring, and the names inside it."""
+
+    arguments: str
+    docstring: str
+    members: Mapping[str, "Described"] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Appendices:
-    """The findings by label, and the recorded tables by name."""
+    """The findings by label, the recorded tables by name, and the public names of the package."""
 
     findings: Mapping[str, Finding] = field(default_factory=dict)
     tables: Mapping[str, Data] = field(default_factory=dict)
+    reference: Mapping[str, Described] = field(default_factory=dict)

@@ -1,8 +1,8 @@
 """The data of a figure as CSV: every drawn point with its panel, layer, role and label.
 
 A scene keeps coordinates as numbers, so that nothing is measured from a picture. Lines that begin with ``#`` come
-first: the title, the parameters, and what the axes of each panel show. ``numpy.genfromtxt(file, delimiter=",",
-names=True, dtype=None, comments="#")`` reads the rest, and so does ``pandas.read_csv(file, comment="#")``.
+first: the title, the parameters, and what the axes of each panel show. The rest is read by ``csv.DictReader``, or all
+of it by ``pandas.read_csv(file, comment="#")``.
 """
 
 import csv

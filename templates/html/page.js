@@ -9,7 +9,7 @@ narrow.addEventListener("change", fold);
 fold();
 
 const focusable = () => {
-  for (const box of document.querySelectorAll(".formula")) {
+  for (const box of document.querySelectorAll(".formula, pre")) {
     if (box.scrollWidth > box.clientWidth) box.tabIndex = 0; else box.removeAttribute("tabindex");
   }
 };

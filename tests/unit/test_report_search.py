@@ -20,6 +20,8 @@ REPORT = """
 name = "mine"
 title = "Mine"
 cover = "curve"
+[related]
+atlas = "The atlas"
 [parameters.bodies.b]
 title = "b"
 ratio = 1.5
@@ -115,6 +117,15 @@ def test_what_a_table_shows_can_be_heard(made: dict[str, str]) -> None:
     (box,) = page.xpath("//div[@class='scroll']")
     assert box.get("tabindex") == "0"
     assert page.get_element_by_id(box.get("aria-labelledby")).text_content().startswith("Table 1.")
+
+
+def test_related_reports_stand_beside(made: dict[str, str], tmp_path: Path) -> None:
+    """Each page leads to the reports that are named; a name that there is not is an error."""
+    for name in ("index.html", "second.html"):
+        assert "The atlas" in reader.fromstring(made[name]).xpath("//nav//a[@href='../atlas/index.html']/text()")
+    (tmp_path / "mine.toml").write_text(REPORT.replace("atlas =", "atlass ="))
+    with pytest.raises(AtlasError, match=r"related: .*'atlass'"):
+        load(tmp_path / "mine.toml")
 
 
 @pytest.mark.parametrize(

@@ -8,11 +8,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from atlas.report.blocks import equation, figure, ledger, prose, table
+from atlas.report.blocks import equation, figure, ledger, prose, reference, table
 from atlas.report.blocks.equation import Equation
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.ledger import Errata, Ledger
 from atlas.report.blocks.prose import Note, Prose
+from atlas.report.blocks.reference import Reference
 from atlas.report.blocks.table import Listing, Recorded, Table
 
 __all__ = [
@@ -27,11 +28,12 @@ __all__ = [
     "Note",
     "Prose",
     "Recorded",
+    "Reference",
     "Table",
     "kind_of",
 ]
 
-Block: TypeAlias = Prose | Note | Equation | Figure | Table | Listing | Recorded | Ledger | Errata
+Block: TypeAlias = Prose | Note | Equation | Figure | Table | Listing | Recorded | Ledger | Errata | Reference
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,7 @@ KINDS: Mapping[str, Kind] = {
     "recorded": Kind(Recorded, table.view_recorded, "table"),
     "ledger": Kind(Ledger, ledger.view_ledger, "ledger"),
     "errata": Kind(Errata, ledger.view_errata, "errata"),
+    "reference": Kind(Reference, reference.view, "reference"),
 }
 
 

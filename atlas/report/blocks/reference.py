@@ -1,0 +1,74 @@
+"""A reference of the package: its public names with their arguments, and what their docstrings say."""
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from atlas.errors import unknown
+from atlas.report.recorded import Described
+from atlas.report.schema import Record
+
+if TYPE_CHECKING:
+    from atlas.report.compose import Composer
+
+_CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
+_SIGN = re.compile(r"([!-/:-@\[-_{-~])")
+
+
+class Reference(Record, frozen=True, tag_field="kind", tag="reference"):
+    """Public names of the package, such as "Quadric", in their order."""
+
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class DescribedView:
+    """A name with its arguments, the number of its text, and the names inside it."""
+
+    name: str
+    arguments: str
+    text: int
+    members: tuple["DescribedView", ...] = ()
+
+
+@dataclass(frozen=True)
+class ReferenceView:
+    """The names that are described."""
+
+    entries: tuple[DescribedView, ...]
+
+    @property
+    def texts(self) -> list[int]:
+        """The numbers of all texts."""
+        return [one.text for entry in self.entries for one in (entry, *entry.members)]
+
+
+def view(block: Reference, composer: "Composer") -> ReferenceView:
+    """Take in the docstrings of the names that a block lists."""
+    known = composer.recorded.reference
+
+    def described(name: str, one: Described) -> DescribedView:
+        members = tuple(described(inner, what) for inner, what in one.members.items())
+        return DescribedView(name, one.arguments, composer.text(markdown(one.docstring)), members)
+
+    for name in block.names:
+        if name not in known:
+            raise unknown("public name", name, known, "in atlas")
+    return ReferenceView(tuple(described(name, known[name]) for name in block.names))
+
+
+def markdown(docstring: str) -> str:
+    """Return a docstring as Markdown: indented lines and what stands in backticks as code, all else as it is."""
+    paragraphs = []
+    for paragraph in docstring.split("\n\n"):
+        if all(line.startswith("    ") for line in paragraph.splitlines()):
+            paragraphs.append(paragraph)
+            continue
+        parts = _CODE.split(paragraph)  # text, backticks, code, text, ...
+        words = "".join(
+            f"`{part}`" if place % 3 == 2 else _SIGN.sub(r"\\\1", part)
+            for place, part in enumerate(parts)
+            if place % 3 != 1
+        )
+        paragraphs.append(re.sub(r"^\\- ", "- ", words, flags=re.MULTILINE))
+    return "\n\n".join(paragraphs)

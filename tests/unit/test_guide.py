@@ -1,0 +1,95 @@
+"""The guide: what stands in it can be typed, and gives what stands below it."""
+
+import doctest
+import re
+import shlex
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import atlas
+from atlas.build.reference import described
+from atlas.cli import main
+from atlas.places import folder
+from atlas.report.blocks.reference import markdown
+from atlas.report.texts import Link, Text, Texts
+
+FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def blocks() -> list[tuple[str, str, str]]:
+    """Return the page, the language and the text of each block of code, in their order."""
+    pages = tomllib.loads((folder("reports") / "guide.toml").read_text("utf-8"))["pages"]
+    texts = [(page["slug"], block["text"]) for page in pages for block in page["blocks"] if "text" in block]
+    return [(slug, *found) for slug, text in texts for found in BLOCK.findall(text)]
+
+
+def test_every_block_of_the_guide_gives_what_it_shows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Files are written, sessions of Python and of the shell are gone through in one folder and in one process."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "100")
+    (tmp_path / "figures").mkdir()
+    for recipe in folder("figures").glob("*.py"):
+        (tmp_path / "figures" / recipe.name).symlink_to(recipe)
+    names, failures = {"__name__": "guide"}, []
+    for page, language, text in blocks():
+        if text.startswith("# "):
+            place = text.split()[1]
+            (tmp_path / place).write_text(text.partition("\n")[2] if place.endswith(".py") else text, "utf-8")
+        elif language == "python":
+            test = doctest.DocTestParser().get_doctest(text, names, page, None, None)
+            runner = doctest.DocTestRunner(optionflags=FLAGS, verbose=False)
+            runner.run(test, out=failures.append, clear_globs=False)
+            names = test.globs
+        else:
+            assert language == "console"
+            failures += [told for typed, shown in sessions(text) if (told := shell(typed, shown, capsys))]
+    assert not failures, "".join(failures)
+
+
+def sessions(text: str) -> list[tuple[str, str]]:
+    """Return the command lines of a block, each with what it prints."""
+    return re.findall(r"^\$ atlas (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE)
+
+
+def shell(typed: str, shown: str, capsys: pytest.CaptureFixture[str]) -> str:
+    """Run a command line in this process; return what is wrong with what it prints, or nothing."""
+    capsys.readouterr()
+    with pytest.MonkeyPatch.context() as patch:
+        for module in ("atlas.scene.recipes", "atlas.build.figures", "atlas.build.sources"):
+            patch.setattr(f"{module}.folder", lambda kind: Path(kind) if kind == "figures" else folder(kind))
+        with pytest.raises(SystemExit) as ended:
+            main(shlex.split(typed))
+    out, err = capsys.readouterr()
+    if doctest.OutputChecker().check_output(shown, out + err, FLAGS) and ended.value.code in {0, 2}:
+        return ""
+    return f"$ atlas {typed}\nexpected:\n{shown}\ngot ({ended.value.code}):\n{out}{err}\n"
+
+
+def test_the_reference_holds_every_public_name() -> None:
+    """Each public name of the package stands in the reference, with its arguments, its docstring and its members."""
+    pages = tomllib.loads((folder("reports") / "guide.toml").read_text("utf-8"))["pages"]
+    listed = [name for page in pages for block in page["blocks"] for name in block.get("names", ())]
+    assert sorted(listed) == sorted(set(atlas.__all__) - {"__version__"})
+    known = described()
+    assert known["Quadric"].arguments == "(ratio, field)"
+    assert known["Quadric"].docstring.startswith("The surface mf58")
+    assert known["ElementaryMotion"].members["rotation"].arguments == "(t, out=None)"  # inherited
+    assert known["ElementaryMotion"].members["k"].arguments == ""  # a value
+    assert known["SymmetricBody"].members["ring"].arguments == "(mass, radius)"
+    assert known["AtlasError"].arguments == ""
+    assert all(one.docstring for name in known.values() for one in (name, *name.members.values()))
+
+
+def test_a_docstring_is_shown_as_it_is_written() -> None:
+    """Signs of Markdown are letters, backticks and indented lines are code, dashes are lists."""
+    text = "A `x` of omega'_1^2 * 2 < [y].\n\n    E = m_0 c^2\n\n- one ``a`b``\n- two"
+    (piece,) = Texts([Text(markdown(text), "here", False, {})]).set("html", lambda name, _: Link(name))
+    assert "<code>x</code> of omega" in piece
+    assert "_1^2 * 2 &lt; [y]." in piece
+    assert "<pre><code>E = m_0 c^2</code></pre>" in piece
+    assert piece.count("<li>") == 2
