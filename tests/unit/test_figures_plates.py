@@ -1,6 +1,7 @@
 """The figures of the bodies' scale, of the quadrics' sizes and of closed motions: what is drawn is what it says."""
 
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -87,6 +88,39 @@ def test_a_marked_motion_repeats_itself(ratio: float) -> None:
         assert min(abs(phi / k - quotient) for at, quotient in dots if at == omega2) <= 8 * EPS * 4
 
 
+def test_the_colours_of_the_surface_are_rates_of_the_equations_of_motion() -> None:
+    """In each band an integration departs at a rate of that band, 1e-6 of B2^2; its points are on mf58, 1e-12."""
+    (panel,) = panels("ribbon")
+    bands = layers(panel, Surface)
+    widest = max(np.abs(s.grids[0][..., 0]).max() for s in bands if s.role == "rate_4")
+    t = np.array([0.0, 1e-4, 2e-4])
+    assert len([s for s in bands if s.role.startswith("rate")]) == 5 * 4
+    for surface in (s for s in bands if s.role.startswith("rate")):
+        k = int(surface.role[-1])
+        for grid in surface.grids:
+            points = grid.reshape(-1, 3)
+            x = np.concatenate([points, np.ones((len(points), 1))], axis=1)
+            assert np.abs(np.sum(x @ surface.quadric * x, axis=1)).max() <= 1e-12 * 40
+        omega = surface.grids[0][20, 12]
+        Omega3 = simulate(1.5, (1.0, 1.0), tuple(omega), t, rtol=1e-13, atol=1e-15).Omega[:, 2]
+        rate = abs(-3 * Omega3[0] + 4 * Omega3[1] - Omega3[2]) / 2e-4
+        assert k * widest / 5 - 1e-6 <= rate <= (k + 1) * widest / 5 + 1e-6
+
+
+def test_the_line_on_the_surface_is_thin_where_a_nutation_is_slow() -> None:
+    """By nu_n^2 = kappa^2 + (1-I) b^2 (3 B3hat^2 - 1) + ..., kappa = k + b, the classes are in order along the line."""
+    (panel,) = panels("ribbon")
+    found: dict[str, list[float]] = {}
+    for k in range(4):
+        for line in layers(panel, Curve, f"nutation_{k}"):
+            kappa2 = ((line.points[1:-1, 1] + 1.0) * np.sqrt(2.0)) ** 2  # omega2/B2hat + b
+            square = kappa2 - 0.5 * 2.0 * 0.5 + 0.25 * 4.0 * 0.5 / kappa2
+            found.setdefault(f"{k}", []).extend(np.sqrt(square))
+    assert list(found) == ["0", "1", "2", "3"]
+    for slow, fast in pairwise(found.values()):
+        assert max(slow) <= min(fast) * (1 + 1e-9)
+
+
 def test_the_line_on_the_torus_is_straight_and_closes_with_the_trace() -> None:
     """On the torus the tube's angle grows gamma/alpha times as fast as the other; R_1 comes back after two turns."""
     left, right, _, open_ = panels("ball_torus")
@@ -124,6 +158,8 @@ def test_the_solenoid_flies_as_a_charge_does_and_its_axis_keeps_its_angle() -> N
         ("kinds_of_quadric", {"C1": (-1.0,)}),
         ("frequencies", {"order": 50}),
         ("flight_poster", {"ratio": 2.0}),
+        ("ribbon", {"ratio": 1.0}),
+        ("ribbon", {"ratio": 0.5, "field": (1.0, 0.1)}),
         ("ball_torus", {"ratios": (0.1,), "turns": (1.0,)}),
     ],
 )

@@ -1,0 +1,159 @@
+"""The hyperbola on its quadric.
+
+On the whole surface mf58 a constant Omega_3 solves mf55, but from a point of it Omega_3 departs at the rate |omega_1 B2|,
+theorem-points: the surface is coloured by that rate. Only the hyperbola omega_1 = 0 stays; it is coloured by the
+frequency of a small nutation, theorem-stability.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from atlas.core.hyperbola import Hyperbola
+from atlas.core.inputs import FloatArray
+from atlas.core.quadric import Quadric
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, Surface, quadric_panel, quadrics
+from atlas.scene.bodies import drawn_body
+from atlas.scene.hyperbola_plane import places
+from atlas.scene.words import plain_setting, tex, tex_setting, title
+
+WIDTH, HEIGHT = 120.0, 118.0
+BANDS, CLASSES = 5, 4
+REACH = 2.0
+"""How far the sheets go along their axis, in units of |B'|."""
+BODY, OFF, SPIN = 0.17, 0.42, 0.42
+"""Size of the small bodies, their distance from their points and the length of their arrows, in units of |B'|."""
+ALONG, ACROSS = 60, 24
+
+
+def scene(
+    *, ratio: float = 1.5, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 42.0, elevation: float = 16.0
+) -> Scene:
+    """Draw the surface for a body that is no ball, in a field with B2, B3 > 0."""
+    quadric = Quadric(ratio, field)
+    if quadric.kind not in {"one-sheet hyperboloid", "two-sheet hyperboloid"} or min(field) < 0:
+        raise DomainError(f"figure ribbon needs B2, B3 > 0 and I other than 1, not field = {field}, I = {ratio:g}.")
+    b = float(np.hypot(*field))
+    widest = float(np.sqrt(radius_squared(quadric, field, np.array(REACH * b))))
+    edges = np.linspace(0.0, widest, BANDS + 1)
+    hyperbola = Hyperbola(ratio, field)
+    levels = thresholds(hyperbola, b)
+    layers: list[Layer] = [*bands(ratio, quadric, field, REACH * b, edges)]
+    for omega2, omega3 in hyperbola.branches(1201, reach=3.0 * REACH):
+        points = np.stack([np.zeros_like(omega2), omega2, omega3], axis=1)
+        axis = np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)]
+        inside = np.abs((points - quadric.centre) @ axis) <= REACH * b
+        nutation = np.sqrt(np.asarray(hyperbola.stability(omega2)))
+        layers += classed(points[inside], nutation[inside], levels)
+    for sheet in quadrics.pieces(ratio, field, REACH * b, quadric_panel.tolerance(REACH * b)):
+        layers += [Curve(rim, "rim") for rim in sheet.rims]
+    layers += bodies(ratio, field, b)
+    first, *_, last = levels / b
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The surface mf58 for {tex_setting(ratio, field)}, in {BANDS} colours from pale to dark by the rate "
+            rf"$\lvert\omega_1B_2\rvert$ at which $\Omega_3$ departs from each of its points, in equal steps up to "
+            rf"${tex(round(widest * field[0], 2))}$ at the rim. Only from the heavy line it does not depart. That line "
+            r"is the darker and wider the faster a small nutation about the motion is, in four classes by $\nu_n/b$ "
+            rf"from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$: the least near the bends. Small "
+            r"bodies stand beside the motions at rest, at $-2\mathbf{B}'$ and with $\omega_3=0$, with an arrow along "
+            r"$\boldsymbol{\omega}$."
+        ),
+        alt=(
+            f"The quadric of {plain_setting(ratio, field)} in five colours, palest in a band along the hyperbola, with "
+            "small bodies beside three points of that line, which is thin and light near the bends of its branches and "
+            "wide and dark away from them."
+        ),
+        panels=(Space(tuple(layers), azimuth, elevation),),
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def radius_squared(quadric: Quadric, field: tuple[float, float], height: FloatArray) -> FloatArray:
+    """Return the square of the semi-axis along omega_1 of the cross section at a height from the centre."""
+    D = 1.0 / (quadric.a2 if quadrics.sheet_axis(quadric) == 1 else -quadric.a3)
+    return np.asarray(height * height * D - quadric_rest(quadric, field))
+
+
+def quadric_rest(quadric: Quadric, field: tuple[float, float]) -> float:
+    """Return the square of C1, with the sign of I - 1: that of mf60 with its sign changed."""
+    return float(quadric.semi_axes[0]) ** 2 * (1.0 if quadric.kind == "two-sheet hyperboloid" else -1.0)
+
+
+def bands(
+    ratio: float, quadric: Quadric, field: tuple[float, float], reach: float, edges: FloatArray
+) -> Iterator[Surface]:
+    """Yield the pieces of the surface between planes omega_1 = ± edges, up to a height ``reach`` on both sides."""
+    Q = quadrics.quadric_matrix(ratio, field)
+    w = quadrics.sheet_axis(quadric)
+    j = 3 - w
+    stretch = float(quadric.semi_axes[j] / quadric.semi_axes[0])
+    centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
+    rest = quadric_rest(quadric, field)
+    vertex = float(quadric.semi_axes[w]) if rest > 0.0 else 0.0
+    slope = float(quadric.semi_axes[w] / quadric.semi_axes[0]) ** 2
+
+    def height(radius: float) -> float:
+        return float(np.sqrt(max(0.0, slope * (radius * radius + rest))))
+
+    for k, (inner, outer) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+        start, bend = max(vertex, height(inner)), max(vertex, height(outer))
+        steps = np.linspace(0.0, 1.0, ALONG) ** 2  # a sheet is round at its vertex
+        parts = [(start + (min(bend, reach) - start) * steps, (0.0,))]
+        if bend < reach:
+            parts.append((np.linspace(bend, reach, ALONG), (1.0, -1.0)))
+        for sheet in (1.0, -1.0):
+            for side in (1.0, -1.0):
+                grids = []
+                for h, halves in parts:
+                    radius = np.sqrt(np.maximum(radius_squared(quadric, field, h), 0.0))
+                    safe = np.where(radius > 0.0, radius, 1.0)
+                    low, high = (np.arccos(np.clip(c / safe, 0.0, 1.0)) for c in (outer, inner))
+                    for half in halves:
+                        one, two = (half * low, half * high) if half else (-high, high)
+                        v = one[:, None] + (two - one)[:, None] * np.linspace(0.0, 1.0, ACROSS)
+                        canonical = np.zeros((*v.shape, 3))
+                        canonical[..., 0] = side * radius[:, None] * np.cos(v)
+                        canonical[..., j] = stretch * radius[:, None] * np.sin(v)
+                        canonical[..., w] = sheet * h[:, None]
+                        grids.append(centre + canonical @ axes)
+                n, middle = axes[w], float(axes[w] @ centre)
+                clip = [[*(sheet * n), sheet * middle + reach], [*(-sheet * n), -sheet * middle]]
+                clip += [[side, 0.0, 0.0, outer], [-side, 0.0, 0.0, -inner]]
+                yield Surface(Q, np.array(clip), tuple(grids), role=f"rate_{k}")
+
+
+def thresholds(hyperbola: Hyperbola, b: float) -> FloatArray:
+    """Return the frequencies of nutation that divide the classes, in 1/time: quarters of what is drawn of them."""
+    omega2 = np.concatenate([branch[0] for branch in hyperbola.branches(801, reach=REACH)])
+    values = np.asarray(hyperbola.stability(omega2))
+    if values.min() <= 0.0:
+        raise DomainError(
+            "figure ribbon needs a field in which all elementary motions are stable; see figure stability."
+        )
+    return np.quantile(np.sqrt(values), np.arange(1, CLASSES) / CLASSES)
+
+
+def classed(points: FloatArray, values: FloatArray, levels: FloatArray) -> list[Layer]:
+    """Return a line in pieces, each with the role of the class of its values."""
+    found = np.digitize(values, levels)
+    starts = np.append(0, np.flatnonzero(np.diff(found)) + 1)
+    ends = np.append(starts[1:], len(points) - 1)
+    return [Curve(points[i : j + 1], f"nutation_{found[i]}") for i, j in zip(starts, ends, strict=True) if j > i]
+
+
+def bodies(ratio: float, field: tuple[float, float], b: float) -> list[Layer]:
+    """Return small bodies beside the named points of the hyperbola, with arrows along omega."""
+    Q = quadrics.quadric_matrix(ratio, field)
+    layers: list[Layer] = []
+    for place in places(ratio, field):
+        point = quadric_panel.in_plane(*place.at)
+        normal = Q[:3, :3] @ point + Q[:3, 3]
+        centre = point + OFF * b * normal / np.linalg.norm(normal)
+        layers += [Points(point[None], place.role, place.text), Curve(np.stack([point, centre]), "guide")]
+        layers += drawn_body(ratio, np.eye(3), centre, BODY * b, quadric_panel.tolerance(REACH * b))
+        if point.any():
+            layers.append(Arrow(centre, centre + SPIN * b * point / np.linalg.norm(point), "velocity"))
+    return layers
