@@ -1,8 +1,8 @@
 """The hyperbola on its quadric.
 
-On the whole surface mf58 a constant Omega_3 solves mf55, but from a point of it Omega_3 departs at the rate |omega_1 B2|,
-theorem-points: the surface is coloured by that rate. Only the hyperbola omega_1 = 0 stays; it is coloured by the
-frequency of a small nutation, theorem-stability.
+On the whole surface mf58 a constant Omega_3 solves mf55, but from a point of it Omega_3 departs at the rate
+|omega_1 B2|, theorem-points: the surface is coloured by that rate. Only the hyperbola omega_1 = 0 stays; it is coloured
+by the frequency of a small nutation, theorem-stability.
 """
 
 from collections.abc import Iterator
@@ -35,10 +35,10 @@ def scene(
     if quadric.kind not in {"one-sheet hyperboloid", "two-sheet hyperboloid"} or min(field) < 0:
         raise DomainError(f"figure ribbon needs B2, B3 > 0 and I other than 1, not field = {field}, I = {ratio:g}.")
     b = float(np.hypot(*field))
-    widest = float(np.sqrt(radius_squared(quadric, field, np.array(REACH * b))))
+    widest = float(np.sqrt(radius_squared(quadric, np.array(REACH * b))))
     edges = np.linspace(0.0, widest, BANDS + 1)
     hyperbola = Hyperbola(ratio, field)
-    levels = thresholds(hyperbola, b)
+    levels = thresholds(hyperbola)
     layers: list[Layer] = [*bands(ratio, quadric, field, REACH * b, edges)]
     for omega2, omega3 in hyperbola.branches(1201, reach=3.0 * REACH):
         points = np.stack([np.zeros_like(omega2), omega2, omega3], axis=1)
@@ -71,13 +71,13 @@ def scene(
     )
 
 
-def radius_squared(quadric: Quadric, field: tuple[float, float], height: FloatArray) -> FloatArray:
+def radius_squared(quadric: Quadric, height: FloatArray) -> FloatArray:
     """Return the square of the semi-axis along omega_1 of the cross section at a height from the centre."""
     D = 1.0 / (quadric.a2 if quadrics.sheet_axis(quadric) == 1 else -quadric.a3)
-    return np.asarray(height * height * D - quadric_rest(quadric, field))
+    return np.asarray(height * height * D - quadric_rest(quadric))
 
 
-def quadric_rest(quadric: Quadric, field: tuple[float, float]) -> float:
+def quadric_rest(quadric: Quadric) -> float:
     """Return the square of C1, with the sign of I - 1: that of mf60 with its sign changed."""
     return float(quadric.semi_axes[0]) ** 2 * (1.0 if quadric.kind == "two-sheet hyperboloid" else -1.0)
 
@@ -91,14 +91,15 @@ def bands(
     j = 3 - w
     stretch = float(quadric.semi_axes[j] / quadric.semi_axes[0])
     centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
-    rest = quadric_rest(quadric, field)
+    rest = quadric_rest(quadric)
     vertex = float(quadric.semi_axes[w]) if rest > 0.0 else 0.0
     slope = float(quadric.semi_axes[w] / quadric.semi_axes[0]) ** 2
 
     def height(radius: float) -> float:
         return float(np.sqrt(max(0.0, slope * (radius * radius + rest))))
 
-    for k, (inner, outer) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for k, inner in enumerate(edges[:-1]):
+        outer = edges[k + 1]
         start, bend = max(vertex, height(inner)), max(vertex, height(outer))
         steps = np.linspace(0.0, 1.0, ALONG) ** 2  # a sheet is round at its vertex
         parts = [(start + (min(bend, reach) - start) * steps, (0.0,))]
@@ -108,7 +109,7 @@ def bands(
             for side in (1.0, -1.0):
                 grids = []
                 for h, halves in parts:
-                    radius = np.sqrt(np.maximum(radius_squared(quadric, field, h), 0.0))
+                    radius = np.sqrt(np.maximum(radius_squared(quadric, h), 0.0))
                     safe = np.where(radius > 0.0, radius, 1.0)
                     low, high = (np.arccos(np.clip(c / safe, 0.0, 1.0)) for c in (outer, inner))
                     for half in halves:
@@ -125,7 +126,7 @@ def bands(
                 yield Surface(Q, np.array(clip), tuple(grids), role=f"rate_{k}")
 
 
-def thresholds(hyperbola: Hyperbola, b: float) -> FloatArray:
+def thresholds(hyperbola: Hyperbola) -> FloatArray:
     """Return the frequencies of nutation that divide the classes, in 1/time: quarters of what is drawn of them."""
     omega2 = np.concatenate([branch[0] for branch in hyperbola.branches(801, reach=REACH)])
     values = np.asarray(hyperbola.stability(omega2))
