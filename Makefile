@@ -13,13 +13,13 @@ SEED   ?= 0
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures verify bench stress mutants rebuilds curves lint clean setup lock FORCE
+.PHONY: help report test figures picture verify bench stress mutants rebuilds curves lint clean setup lock FORCE
 
 help:
 	@echo 'make report    build/report/atlas/index.html and build/report/atlas.pdf, and the guide beside them'
 	@echo 'make test      lint, types, floors and tests'
 	@echo 'make figures   every figure as SVG, PDF and PNG in build/figures'
-	@echo 'make build/figures/NAME.svg|pdf|png   one figure'
+	@echo 'make build/figures/NAME.svg|pdf|png   one figure;   make picture   the picture of the README'
 	@echo 'make verify    the proofs about the paper'"'"'s equations'
 	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 hostile calls'
 	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
@@ -47,6 +47,12 @@ $(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(if $(filter-out $(THERE) $(shell cat 
 
 figures: setup
 	@$(ATLAS) figure --all
+
+# The picture of the README: one precession, moment by moment, small.
+picture: setup
+	@$(ATLAS) figure film_strip --format png >/dev/null
+	@$(BIN)/python -c "from PIL import Image; im = Image.open('build/figures/film_strip.png').convert('RGB'); im.resize((1000, round(1000 * im.height / im.width)), Image.Resampling.LANCZOS).quantize(128).save('reports/data/precession.png', optimize=True)"
+	@echo reports/data/precession.png
 
 build/figures/%: FORCE | setup
 	@$(ATLAS) figure $(basename $*) --format $(patsubst .%,%,$(suffix $*))

@@ -5,7 +5,7 @@ import re
 import shlex
 import tomllib
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import click
 import pytest
@@ -15,26 +15,61 @@ from atlas.places import folder
 from atlas.report.blocks import KINDS, Block
 
 CHECKOUT = Path(__file__).resolve().parents[2]
-EXAMPLES = re.findall(
-    r"^    atlas (.+?)(?:\s{2,}#.*|\s+# .*)?$", (CHECKOUT / "README.md").read_text("utf-8"), re.MULTILINE
-)
+README = (CHECKOUT / "README.md").read_text("utf-8")
+GUIDE = (CHECKOUT / "reports" / "guide.toml").read_text("utf-8")
+EXAMPLES = [
+    *re.findall(r"^    atlas (.+?)(?:\s{2,}#.*|\s+# .*)?$", README, re.MULTILINE),
+    *re.findall(r'^  \["`atlas ([^`]+)`"', GUIDE, re.MULTILINE),
+]
 
 
 @pytest.mark.parametrize("words", EXAMPLES)
-def test_the_readme_types_what_the_command_line_takes(
+def test_the_documents_type_what_the_command_line_takes(
     words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Each command line of the README is read without complaint."""
+    """Each command line of the README, and of the list in the guide, is read without complaint."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.csv").touch()
     name, *arguments = shlex.split(words)
     parent = click.Context(command_line, info_name="atlas")
-    assert command_line.commands[name].make_context(name, arguments, parent).params
+    assert command_line.commands[name].make_context(name, arguments, parent).params is not None
 
 
-def test_there_are_examples_in_the_readme() -> None:
-    """Every command but those that `make` runs has one."""
-    assert {words.split()[0] for words in EXAMPLES} == set(command_line.commands) - {"list", "bench", "stress"}
+def test_every_command_has_an_example() -> None:
+    """It stands in the README or in the list in the guide."""
+    assert {words.split()[0] for words in EXAMPLES} == set(command_line.commands)
+
+
+def test_the_readme_in_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the README types in Python runs as it stands."""
+    monkeypatch.chdir(tmp_path)
+    (lines,) = re.findall(r"^```python\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(lines, names)  # noqa: S102  our own document
+    assert names["R"].shape == (1_000_000, 3, 3)
+    assert (tmp_path / "portrait.pdf").stat().st_size > 1000
+
+
+@pytest.mark.parametrize(
+    ("line", "method", "tolerance"),
+    [
+        ("`ElementaryMotion.rotation`", "ours", None),
+        ("the formula in plain NumPy", "plain", None),
+        ("heyoka, Taylor series, tolerance 1e-14", "heyoka", 1e-14),
+        ("SciPy, DOP853, tolerance 1e-10", "DOP853", 1e-10),
+    ],
+)
+def test_the_readme_quotes_the_benchmark(line: str, method: str, tolerance: float | None) -> None:
+    """Errors and times of the README are those on record, to a factor of two."""
+    record = json.loads((CHECKOUT / "reports" / "data" / "bench.json").read_text("utf-8"))
+    (run,) = [
+        one
+        for one in record["runs"]
+        if (one["case"], one["method"], one["horizon"], one.get("tolerance")) == ("elementary", method, 1e4, tolerance)
+    ]
+    ((error, milliseconds),) = re.findall(rf"^\| {re.escape(line)} \| (\S+) \| (\S+) ms \|$", README, re.MULTILINE)
+    assert 0.5 < float(error) / run["error"] < 2
+    assert 0.5 < float(milliseconds) / (1e3 * run["seconds"]) < 2
 
 
 def test_every_kind_of_block_has_its_name() -> None:
