@@ -23,6 +23,7 @@ from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 Window: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
 WIDTH, HEIGHT, MARGIN = 110.0, 84.0, 13.0
+RANGES = {"levels": (1, 40)}
 
 
 def scene(

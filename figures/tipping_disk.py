@@ -22,6 +22,7 @@ from atlas.scene.words import plain, quotient, tex, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
 STEP = 2.5
+RANGES = {"count": (2, 24)}
 
 
 def scene(

@@ -16,6 +16,7 @@ Every frequency here is an angular one, in rad/s: divide by 2 pi for turns a sec
 those with mu_0 = 4 pi 1e-7 N/A^2, which since 2019 is a measured value, right to 1.6e-10.
 """
 
+import reprlib
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -76,7 +77,8 @@ def system(name: str | System) -> System:
     for known in (SI, GAUSSIAN):
         if isinstance(name, str) and name.casefold() == known.name.casefold():
             return known
-    raise AtlasError(f"Units are 'SI' or 'Gaussian', not {name!r}.")
+    shown = reprlib.repr(name) if isinstance(name, str) else type(name).__name__
+    raise AtlasError(f"Units are 'SI' or 'Gaussian', not {shown}.")
 
 
 def charge_to_mass(charge: Any, mass: Any) -> float:
