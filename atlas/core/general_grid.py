@@ -24,13 +24,13 @@ from atlas.exact.cayley_klein import Parameter
 from atlas.exact.general import GeneralMotion
 from atlas.exact.theta import infinite
 
-FINE, COARSE = 256, 24
+FINE, COARSE = 128, 34
 """Times in the fine table, and coarse times in one product."""
 
 GROUP = 16 * COARSE
 """Coarse times whose exponentials are made at once."""
 
-FEW = FINE * COARSE
+FEW = 30_000
 """Shorter grids are evaluated time by time: their tables would cost more."""
 
 CANCELLING = 8.0

@@ -3,13 +3,14 @@
 The question: what does a row of parameters cost, and how true is it?
 
 Ordinary rows, seeded: I in (0.1, 2), B2, B3, omega2 normal; times below 1e4. Errors are in ulps of each number, of 1 in
-a matrix, against balls at a few of the rows. All on one core, by turns.
+a matrix, against balls at a few of the rows. All on one core, by turns, in processor time.
 """
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import chain
 from statistics import median
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from atlas.exact.digits import enclosed
 from atlas.study.bench.case import FloatArray
 from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.elementary import formula
+from atlas.study.bench.methods import MATRIX, SCALARS, SURFACE
 from atlas.study.bench.record import Rows
 from atlas.study.ulps import absolute, own
 
@@ -45,7 +47,7 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
     """Yield error and time a row, ours and plain, of every quantity."""
     for task in _tasks(count):
         with one_core():
-            times = interleave({"ours": task.ours, "plain": task.plain}, rounds)
+            times = interleave({"ours": task.ours, "plain": task.plain}, rounds, clock=process_time)
         for method, job in (("ours", task.ours), ("plain", task.plain)):
             values = job()
             chosen = np.unique(np.linspace(0, count - 1, JUDGED).astype(int)).tolist()
@@ -79,10 +81,10 @@ def _tasks(count: int) -> list[Task]:
         return list(chain(*enclosed(lambda: motion.rotation(t[i]), BITS)))
 
     return [
-        Task("omega3, k, phi of a curve", lambda: _curve(w2), lambda: _plain_curve(w2), exact_curve),
-        Task("quadric with its axes", lambda: _quadric(I, B2, B3), lambda: _plain_quadric(I, B2, B3), exact_quadric),
+        Task(SCALARS, lambda: _curve(w2), lambda: _plain_curve(w2), exact_curve),
+        Task(SURFACE, lambda: _quadric(I, B2, B3), lambda: _plain_quadric(I, B2, B3), exact_quadric),
         Task(
-            "R at one time of each motion",
+            MATRIX,
             lambda: ElementaryMotion(I, (B2, B3), w2).rotation(t),
             lambda: _plain_matrix(I, B2, B3, w2, t),
             exact_matrix,

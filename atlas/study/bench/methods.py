@@ -24,6 +24,10 @@ CASES = {
     "particle": "charged particle",
 }
 
+SCALARS, SURFACE, MATRIX = "omega3, k, phi of a curve", "quadric with its axes", "R at one time of each motion"
+ANY, EVEN = "R of the general motion at any times", "R of the general motion on a grid"
+"""Quantities of many rows, and of many matrices of one motion."""
+
 LINES = {
     "ours": "main",
     "ours_out": "main",

@@ -8,7 +8,7 @@ from typing import TypeAlias, TypeVar
 from msgspec.structs import replace
 
 from atlas.errors import AtlasError
-from atlas.study.bench import arrays, ball, elementary, general, particle
+from atlas.study.bench import arrays, ball, dense, elementary, general, particle
 from atlas.study.bench.case import Case
 from atlas.study.bench.cost import costs
 from atlas.study.bench.integrators import Integrator, integrators
@@ -84,7 +84,8 @@ def run(
     scope = scope or (QUICK if quick else FULL)
     peers = integrators() if peers is None else peers
     counts = scope.counts if any(case.name == "elementary" for case in chosen) else ()
-    total, done = len(chosen) * (len(peers) + 2) + len(counts) + bool(counts), 0
+    wide = any(case.name == "general" for case in chosen)
+    total, done = len(chosen) * (len(peers) + 2) + len(counts) + bool(counts) + wide, 0
 
     def say(what: str) -> None:
         nonlocal done
@@ -109,6 +110,9 @@ def run(
     if counts:
         say(f"{scope.rows} motions at once")
         many.extend(arrays.rows(scope.rows, scope.rounds(scope.rows)))
+    if wide:
+        say(f"{scope.rows} matrices of the general motion")
+        many.extend(dense.rows(scope.rows, scope.rounds(scope.rows)))
     if progress is not None:
         progress(total, total, "done")
     return Record(

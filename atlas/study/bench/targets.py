@@ -4,11 +4,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from atlas.study.bench.methods import OURS
+from atlas.study.bench.methods import ANY, EVEN, MATRIX, OURS, SCALARS, SURFACE
 from atlas.study.bench.record import Record
 
 LIMIT = 4 * 2.0**-52
 """Four ulp of 1: the accuracy that the limits of speed are for."""
+
+LIMITS = (
+    (SCALARS, "ours", 150.0),
+    (SURFACE, "ours", 1000.0),
+    (MATRIX, "ours", 1500.0),
+    (ANY, "ours", 100.0),
+    (EVEN, "ours_grid", 20.0),
+)
+"""Nanoseconds that a row of many may take, by quantity and method."""
 
 Verdict: TypeAlias = Literal["met", "missed", "wrong values", "not measured"]
 
@@ -28,9 +37,8 @@ def targets(record: Record) -> list[Target]:
 
     Speed is worth nothing where a value is wrong: then no limit is met.
     """
-    if not record.costs:
-        return []
-    every = [*_speed(record), *_never_slower(record), *_latency(record)]
+    every = [*_speed(record), *_never_slower(record), *_latency(record)] if record.costs else []
+    every += _many(record)
     wrong = any((cost.error or 0.0) > LIMIT for cost in record.costs if cost.method in OURS)
     return [replace(item, verdict="wrong values") if wrong and item.found is not None else item for item in every]
 
@@ -65,6 +73,18 @@ def _latency(record: Record) -> Iterator[Target]:
     yield _below("one single time (us)", None if single is None else single / 1e3, 50.0)
     made = [item.again for item in record.setups if item.case == "elementary" and item.method == "ours" and item.again]
     yield _below("a motion made (ms)", made[0] * 1e3 if made else None, 1.0)
+
+
+def _many(record: Record) -> Iterator[Target]:
+    """Judge a row of many motions, and a matrix of the general motion: nanoseconds, and heyoka's time over ours."""
+    found = {(row.quantity, row.method): row.nanoseconds for row in record.rows}
+    for quantity, method, limit in LIMITS:
+        if (quantity, method) in found:
+            yield _below(f"{quantity} (ns)", found.get((quantity, method)), limit)
+    for quantity, method, factor in ((ANY, "ours", 3.0), (EVEN, "ours_grid", 15.0)):
+        theirs, ours = found.get((quantity, "heyoka")), found.get((quantity, method))
+        if ours is not None:
+            yield _above(f"{quantity}, heyoka's dense output over ours", theirs and theirs / ours, factor)
 
 
 def _ratio(record: Record, method: str, count: int, field: str) -> float | None:

@@ -1,0 +1,63 @@
+"""A million matrices of the general motion: at arbitrary times and on a uniform grid, beside heyoka's dense output.
+
+The question: what does one of many matrices of one motion cost, and how true is it, where no elementary formula exists?
+
+The motion of `general` from t = 0, 1024 matrices a unit of time, in rising order, as dense output takes its times.
+Errors are in ulps of 1, against balls at a few of the times; beside the nanoseconds stands the plain formula of the
+elementary motion at the same times. All on one core, by turns, in processor time.
+"""
+
+from collections.abc import Iterator
+from functools import partial
+from itertools import chain
+from statistics import median
+from time import process_time
+
+import numpy as np
+from flint import ctx
+
+from atlas.exact.digits import enclosed
+from atlas.exact.general import GeneralMotion as Exact
+from atlas.study.bench import elementary, general
+from atlas.study.bench.case import Grid, Solve
+from atlas.study.bench.clock import Job, interleave, one_core, ratio
+from atlas.study.bench.cost import Times
+from atlas.study.bench.integrators import integrators
+from atlas.study.bench.methods import ANY, EVEN
+from atlas.study.bench.record import Rows
+from atlas.study.ulps import absolute
+
+STEP, SEED, JUDGED, BITS = 2.0**-10, 5, 40, 80
+TOLERANCE = 1e-16
+
+
+def rows(count: int, rounds: int) -> Iterator[Rows]:
+    """Yield error and time a matrix, ours at both kinds of times, and heyoka's where it is installed."""
+    grid = Grid(0.0, STEP, count)
+    given = np.sort(np.random.default_rng(SEED).uniform(0.0, STEP * count, count))
+    given[0] = 0.0
+    anywhere = Times(0.0, 0.0, count, given)
+    solve: dict[tuple[str, str], tuple[Solve, Grid]] = {
+        (ANY, "ours"): (general.ours(), anywhere),
+        (EVEN, "ours_grid"): (general.ours_on_grid(), grid),
+    }
+    for peer in integrators():
+        if peer.name == "heyoka" and peer.present:
+            dense = peer.prepare(general.case(), TOLERANCE, np.inf)
+            solve |= {(ANY, "heyoka"): (dense, anywhere), (EVEN, "heyoka"): (dense, grid)}
+    plain, exact = elementary.plain(), Exact(*general.PARAMETERS.values())
+    jobs = {f"{what} {method}": _job(*way) for (what, method), way in solve.items()}
+    with one_core():
+        times = interleave({"plain": _job(plain, anywhere)} | jobs, rounds, clock=process_time)
+    for (what, method), (evaluate, at) in solve.items():
+        values = evaluate(at)
+        chosen = np.unique(np.linspace(0, count - 1, JUDGED).astype(int)).tolist()
+        with ctx.workprec(BITS + 16):
+            true = [list(chain(*enclosed(partial(exact.rotation, float(at.times[i])), BITS))) for i in chosen]
+            worst = max(max(absolute(values[i].flat, balls)) for i, balls in zip(chosen, true, strict=True))
+        seconds = times[f"{what} {method}"]
+        yield Rows(what, method, count, worst, median(seconds) / count * 1e9, ratio(seconds, times["plain"]))
+
+
+def _job(solve: Solve, grid: Grid) -> Job:
+    return lambda: solve(grid)
