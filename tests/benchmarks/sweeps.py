@@ -1,0 +1,99 @@
+"""Rows a second of a sweep against its workers, its memory, and the same table through Dask.
+
+The question: what does a table of ten million elementary motions cost, on one process, on two, on Dask's workers?
+
+Each sweep is a process of its own, `python -m benchmarks.sweeps`, which prints seconds, the largest memory of the
+sweeping process and of its largest worker, and the digest of the table: the same bytes wherever it was computed.
+"""
+
+import argparse
+import hashlib
+import json
+import resource
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import atlas
+
+QUANTITIES = ("omega3", "k", "phi", "R13")
+RATIOS, FIELDS = 20, 50
+
+
+def swept(rows: int, jobs: int, dask: bool) -> dict[str, Any]:
+    """Sweep at least so many rows in this process and say what it took."""
+    count = -(-rows // (RATIOS * FIELDS))
+    parameters = {"ratio": _even(0.1, 2.0, RATIOS), "B2": 1.0, "B3": _even(0.1, 3.0, FIELDS), "t": 7.0}
+    parameters["omega2"] = _even(-0.9, 3.0, count)
+    with tempfile.TemporaryDirectory() as folder, _executor(jobs, dask) as executor:
+        out, start = Path(folder) / "table.npz", perf_counter()
+        atlas.sweep("elementary", parameters, QUANTITIES, out, jobs=jobs, executor=executor)
+        seconds, digest = perf_counter() - start, hashlib.sha256()
+        with out.open("rb") as file:
+            while block := file.read(1 << 20):
+                digest.update(block)
+    own, largest = (
+        resource.getrusage(who).ru_maxrss / 1024 for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    )
+    return {
+        "rows": RATIOS * FIELDS * count,
+        "seconds": seconds,
+        "own": own,
+        "worker": largest,
+        "digest": digest.hexdigest()[:12],
+    }
+
+
+@contextmanager
+def _executor(jobs: int, dask: bool) -> Iterator[Any]:
+    """Give a client of a local cluster of Dask, or nothing."""
+    if not dask:
+        yield None
+        return
+    from distributed import Client, LocalCluster
+
+    with (
+        LocalCluster(n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        Client(cluster) as client,
+    ):
+        yield client
+
+
+def _even(first: float, last: float, count: int) -> list[float]:
+    return [first + (last - first) * i / max(count - 1, 1) for i in range(count)]
+
+
+def main() -> None:
+    """Measure each way in a process of its own, and print."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.sweeps", description=__doc__)
+    parser.add_argument("--rows", type=int, default=10_000_000)
+    parser.add_argument("--way", nargs=2, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.way:
+        print(json.dumps(swept(options.rows, int(options.way[0]), options.way[1] == "dask")))  # noqa: T201
+        return
+    ways = [("1", "alone"), ("2", "processes"), *([("2", "dask")] if find_spec("distributed") else [])]
+    digests = set()
+    for way in ways:
+        command = [sys.executable, "-m", "benchmarks.sweeps", "--rows", str(options.rows), "--way", *way]
+        ended = subprocess.run(command, capture_output=True, text=True, check=True)
+        found = json.loads(ended.stdout.splitlines()[-1])
+        digests.add(found["digest"])
+        print(  # noqa: T201  what was asked for
+            f"{way[0]} {way[1]:10} {found['rows']} rows in {found['seconds']:6.1f} s, "
+            f"{found['rows'] / found['seconds']:9.0f} rows/s, {found['own']:5.0f} MB, largest worker "
+            f"{found['worker']:5.0f} MB, {found['digest']}",
+            flush=True,
+        )
+    print("the same bytes" if len(digests) == 1 else "THE TABLES DIFFER")  # noqa: T201  the same
+    sys.exit(len(digests) != 1)
+
+
+if __name__ == "__main__":
+    main()
