@@ -1,4 +1,4 @@
-"""Map of all motions with omega1 = 0.
+"""Map of all motions that start in the plane of axis and field.
 
 How far the axis of the body nods, the difference between the largest and the least angle to the field, over the initial
 angular velocity (0, omega2, omega3). The map is zero on the hyperbola mf72 alone; its jumps are separatrices.

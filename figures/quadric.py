@@ -1,4 +1,4 @@
-"""The quadric of constant Omega_3.
+"""The quadric of the initial data.
 
 The surface mf58 with what the paper's Figure Hyp shows: B' and I^-1 B', the angle beta, the shifted centre -B', the
 canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on which the true motions lie, mf72.

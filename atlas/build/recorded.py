@@ -147,7 +147,7 @@ def _bench() -> dict[str, Data]:
             tuple(map(_head, table.heading)),
             tuple(zip(*columns, strict=True)),
             f"{table.title}.",
-            " ".join([*table.notes, line]),
+            (*table.notes, line),
         )
     return found
 
@@ -176,7 +176,7 @@ def _stress() -> dict[str, Data]:
         "is on record where less was found."
     )
     columns = (Column("Quantity"), Column("Worst error", "ulp"), Column("Limit", "ulp"), Column("Met where"))
-    return {"worst errors": Data(columns, rows, "Worst errors on record.", note)}
+    return {"worst errors": Data(columns, rows, "Worst errors on record.", (note,))}
 
 
 def _rebuilds() -> dict[str, Data]:
@@ -205,7 +205,7 @@ def _rebuilds() -> dict[str, Data]:
         f"long. Its figures alone take {drawings:.1f} s of one core; the whole takes {one / drawings:.2f} times that. "
         f"Measured on {record['machine']}, on {record['date']}."
     )
-    return {"changes": Data(columns, rows, "What a change makes anew, and how long that takes.", note)}
+    return {"changes": Data(columns, rows, "What a change makes anew, and how long that takes.", (note,))}
 
 
 def _met(quantity: str, ulps: float, regime: str) -> str:

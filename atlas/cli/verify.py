@@ -7,9 +7,9 @@ from typing import Any
 import click
 
 from atlas.cli.options import Command, examples
-from atlas.cli.plain import plain
 from atlas.cli.present import Printout, dump, show
 from atlas.cli.progress import bar
+from atlas.plain import plain
 
 COLUMNS = (
     "label",

@@ -1,13 +1,14 @@
 """From a report file to what the templates see: blocks numbered, tables computed, texts and citations collected."""
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any
 
 from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
+from atlas.plain import plain
 from atlas.report.blocks import KINDS, Block, kind_of
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.ledger import pages_of
@@ -31,6 +32,7 @@ class PageView:
     blocks: tuple[Any, ...]
     templates: tuple[str, ...]
     part: str = ""
+    appendix: bool = False
 
     @property
     def file(self) -> str:
@@ -42,8 +44,8 @@ class PageView:
 class Document:
     """A report ready to be set: its pages, pictures, texts, and where each citation leads.
 
-    `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of the displayed
-    equations; `ledger` the page of each entry of the ledger; `errata` the page of the errata; `abstract` and `given`
+    `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations;
+    `ledger` the page of each entry of the ledger; `errata` the page of the errata; `abstract`, `given` and `symbols`
     are numbers of texts.
     """
 
@@ -54,6 +56,7 @@ class Document:
     targets: dict[str, tuple[str, str, str]] = field(default_factory=dict)
     abstract: int = 0
     given: list[int] = field(default_factory=list)
+    symbols: list[tuple[int, list[str]]] = field(default_factory=list)
     equations: dict[str, str] = field(default_factory=dict)
     ledger: dict[str, str] = field(default_factory=dict)
     errata: str = ""
@@ -70,18 +73,30 @@ class Document:
         """Return the function that finds what a citation says and where it leads, given its name and place."""
 
         def link(name: str, where: str) -> Link:
-            says = EQUATIONS[name].says if name in EQUATIONS else ""
+            says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
             if name in self.ledger:
-                words = f"({name})" if EQUATIONS[name].number is not None else self.equations.get(name, f"({name})")
-                return Link(words, f"{self.ledger[name]}.html" if target == "html" else "", f"ledger-{name}", says)
+                page = f"{self.ledger[name]}.html" if target == "html" else ""
+                return Link(self.number(name), page, f"ledger-{name}", says)
             if name in self.targets:
                 file, anchor, words = self.targets[name]
                 return Link(words, file if target == "html" else "", anchor, says)
             if name in EQUATIONS:
-                return Link(f"({name})")
+                return Link(self.number(name))
             raise AtlasError(f"{where}: {unknown('equation, figure, table or page', f'@{name}', self.citable)}")
 
         return link
+
+    def number(self, label: str) -> str:
+        """Return the number of an equation as it is cited: as printed in the paper, our own, or else its label."""
+        printed = EQUATIONS[label].number if label in EQUATIONS else None
+        return f"({printed})" if printed is not None else self.equations.get(label, f"({label})")
+
+    @property
+    def cover(self) -> Picture | None:
+        """The picture of the cover."""
+        blocks = (block for page in self.report.pages for block in page.blocks if isinstance(block, Figure))
+        chosen = next((block for block in blocks if block.id and block.id == self.report.cover), None)
+        return self.pictures[keys(chosen, self.report)[0]] if chosen else None
 
     @property
     def citable(self) -> list[str]:
@@ -112,8 +127,12 @@ def compose(report: Report, pictures: Mapping[str, Picture], recorded: Appendice
         document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
         templates = tuple(KINDS[kind_of(block)].template for block in page.blocks)
         document.pages.append(
-            PageView(number, page.slug, page.title, page.summary, tuple(blocks), templates, page.part)
+            PageView(number, page.slug, page.title, page.summary, tuple(blocks), templates, page.part, page.appendix)
         )
+    composer.where = "the index"
+    document.symbols = [
+        (composer.text(f"${one.tex}$", inline=True), composer.anchors(one.at)) for one in report.index.symbols
+    ]
     return document
 
 
@@ -123,7 +142,7 @@ class Composer:
     def __init__(self, document: Document, recorded: Appendices) -> None:
         self.document, self.report, self.recorded = document, document.report, recorded
         self.where = ""
-        self.figures = self.tables = self.own = 0
+        self.figures = self.tables = 0
         self.uses: defaultdict[str, list[Use]] = defaultdict(list)
         self.begin(document.report.pages[0])
 
@@ -131,6 +150,7 @@ class Composer:
         """Go on to a page."""
         self.page = page
         self.cited: set[str] = set()
+        self.said: set[str] = set()
 
     def view(self, block: Block) -> Any:
         """Return the view of a block."""
@@ -157,6 +177,17 @@ class Composer:
                 self.use(name, anchor, words)
         return self.text(markdown, inline=True)
 
+    def once(self, sentence: str) -> str:
+        """Return a sentence that has not been said on this page, else nothing."""
+        new = sentence not in self.said
+        self.said.add(sentence)
+        return sentence if new else ""
+
+    def anchors(self, names: Iterable[str]) -> list[str]:
+        """Return where names lead in the PDF. Raises AtlasError for one that is not there."""
+        find, targets = self.document.cite("typst"), self.document.targets
+        return [targets[name][1] if name in targets else find(name, self.where).anchor for name in names]
+
     def use(self, label: str, anchor: str, words: str) -> None:
         """Note that a place of this page uses an equation, once."""
         place = Use(self.page.title, f"{self.page.slug}.html", anchor, words)
@@ -176,11 +207,11 @@ class Composer:
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
         return f"{kind}-{name}"
 
-    def own_number(self, label: str) -> str:
-        """Return the number of an equation that has none in the paper: that of its first display, or a new one."""
-        if label not in self.document.equations:
-            self.own += 1
-        return self.document.equations.get(label, f"(A{self.own})")
+    def number(self, label: str) -> str:
+        """Return the number of an equation; one that has none in the paper gets the next of our own."""
+        if label not in EQUATIONS or EQUATIONS[label].number is None:
+            self.document.equations.setdefault(label, f"(A{len(self.document.equations) + 1})")
+        return self.document.number(label)
 
     def pictures(self, block: Figure) -> tuple[Picture, ...]:
         """Return the pictures of a figure block."""

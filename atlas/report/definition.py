@@ -8,17 +8,38 @@ from atlas.report.schema import Id, Record, Slug
 
 
 class Page(Record, frozen=True):
-    """One page of the HTML, one section of the PDF; pages of one part stand together in the contents."""
+    """One page of the HTML, one chapter of the PDF; pages of one part stand together in the contents.
+
+    An appendix is lettered and set in small type.
+    """
 
     slug: Slug
     title: str
     blocks: tuple[Block, ...]
     summary: str = ""
     part: str = ""
+    appendix: bool = False
+
+
+class Symbol(Record, frozen=True):
+    """A symbol of the index: its TeX, and the equations, figures, tables or pages where it is explained."""
+
+    tex: str
+    at: tuple[str, ...]
+
+
+class Index(Record, frozen=True):
+    """The index of the PDF: words, whose pages are found there, and symbols."""
+
+    words: tuple[str, ...] = ()
+    symbols: tuple[Symbol, ...] = ()
 
 
 class Report(Record, frozen=True):
-    """The whole file; ``cover`` is the id of the figure on the front page, ``related`` names reports to link to."""
+    """The whole file.
+
+    ``cover`` is the id of the figure on the front page and on the cover of the PDF, ``related`` names reports to link to.
+    """
 
     name: str
     title: str
@@ -29,3 +50,4 @@ class Report(Record, frozen=True):
     cover: Id | None = None
     related: dict[str, str] = msgspec.field(default_factory=dict)
     parameters: Parameters = Parameters()
+    index: Index = Index()

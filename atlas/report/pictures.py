@@ -19,7 +19,7 @@ class Picture:
     """A picture that is drawn once for all the blocks that show it: what is wanted, and what became of it.
 
     stem        its name among the files of the report
-    recipe, renderer, parameters    what to draw
+    recipe, renderer, parameters    what to draw; `title` is that of the recipe
     caption, alt, size    what the scene says of itself, and its size in millimetres
     given       all parameters of the scene as text
     file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
@@ -30,6 +30,7 @@ class Picture:
     recipe: str
     renderer: str
     parameters: Mapping[str, Any]
+    title: str = ""
     caption: str = ""
     alt: str = ""
     size: tuple[float, float] = (120.0, 30.0)
@@ -89,7 +90,8 @@ def _wanted(block: "Figure", report: "Report") -> Iterator[tuple[str, Picture]]:
             raise unknown("parameter", name, recipe.parameters, f"of the recipe {block.recipe!r}")
     for renderer in ("shaded", "vector") if block.renderer == "both" else (block.renderer,):
         key = f"{block.recipe} {sorted(parameters.items(), key=str)} {renderer}"
-        yield key, Picture("", block.recipe, renderer, parameters, failure=failure)
+        title = recipe.title if recipe else block.recipe
+        yield key, Picture("", block.recipe, renderer, parameters, title, failure=failure)
 
 
 def _parameters(block: "Figure", recipe: Any, report: "Report") -> Mapping[str, Any]:

@@ -115,6 +115,8 @@ def _fits(raw: Any, kind: inspect.Type) -> bool:
         case inspect.IntType():
             whole = isinstance(raw, int) and not isinstance(raw, bool)
             return whole and (kind.ge is None or kind.le is None or kind.ge <= raw <= kind.le)
+        case inspect.BoolType():
+            return isinstance(raw, bool)
         case inspect.StrType():
             return isinstance(raw, str) and (kind.pattern is None or bool(re.fullmatch(kind.pattern, raw)))
         case inspect.LiteralType():
@@ -133,6 +135,8 @@ def _words(kind: inspect.Type) -> str:  # noqa: PLR0911  one line for each type
             return f"a list of {len(kind.item_types)} numbers"
         case inspect.LiteralType():
             return f"one of {', '.join(map(repr, kind.values))}"
+        case inspect.BoolType():
+            return "true or false"
         case inspect.StrType():
             return "a text" if kind.pattern is None else f"a text of {PATTERNS[kind.pattern]}"
         case inspect.FloatType():

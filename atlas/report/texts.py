@@ -111,6 +111,11 @@ def citations(markdown: str) -> list[str]:
     return [name for name in _CITED.findall(markdown) if name]
 
 
+def first_sentence(markdown: str) -> str:
+    """Return the first sentence of a text, without its stop: what a list of figures shows of a caption."""
+    return re.split(r"\.(?:\s+(?=[A-Z$@])|\s*$)", markdown.strip(), maxsplit=1)[0]
+
+
 def cited(markdown: str, replace: Callable[[str], str]) -> str:
     """Replace the citations of a text."""
     return _CITED.sub(lambda match: replace(match[1]) if match[1] else match[0], markdown)

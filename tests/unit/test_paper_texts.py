@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from atlas.cli.plain import plain
+from atlas.plain import plain
 from atlas.paper import EQUATIONS, LABEL
 from atlas.proof import record
 from atlas.proof.survivors import REASONS

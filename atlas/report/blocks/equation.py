@@ -44,15 +44,11 @@ def view(block: Equation, composer: "Composer") -> EquationView:
     if block.label is not None:
         entry = equation(block.label)
         label, tex = block.label, entry.tex
-        number = f"({entry.number})" if entry.number is not None else ""
     else:
-        label, number, tex = str(block.name), "", str(block.tex)
-    words = f"({label})" if number else composer.own_number(label)
-    number = number or words
-    document = composer.document
-    first = composer.target(label, f"eq-{label}", words)
-    document.equations.setdefault(label, number)
-    ledger = document.ledger.get(label, "")
+        label, tex = str(block.name), str(block.tex)
+    number = composer.number(label)
+    first = composer.target(label, f"eq-{label}", number)
+    ledger = composer.document.ledger.get(label, "")
     if ledger:
         composer.use(label, f"eq-{label}" if first else f"page-{composer.page.slug}", "display")
     return EquationView(label, number, composer.text(f"$${tex.strip()}$$"), block.scale, first, ledger)

@@ -32,12 +32,16 @@ class Figure(Record, frozen=True, tag_field="kind", tag="figure"):
 
 @dataclass(frozen=True)
 class FigureView:
-    """A figure with its pictures; `width` and `height` in millimetres are those of each, `given` its parameters."""
+    """A figure with its pictures; `width` and `height` in millimetres are those of each, `given` its parameters.
+
+    `short` stands in the list of figures.
+    """
 
     number: int
     id: str
     pictures: tuple[Picture, ...]
     caption: int
+    short: int
     alt: str
     width: float
     height: float
@@ -66,8 +70,9 @@ def view(block: Figure, composer: "Composer") -> FigureView:
     composer.figures += 1
     pictures = composer.pictures(block)
     first = pictures[0]
-    caption = block.caption or first.caption or f"The recipe {block.recipe} failed."
+    caption = LABEL.sub(r"@\g<0>", block.caption or first.caption or f"The recipe {block.recipe} failed.")
     width, height = first.size
+    bodies = composer.report.parameters.bodies
     shown = block.width or width
     anchor = composer.anchor("fig", block.id, "Figure", composer.figures)
     given = ", ".join(f"{name} = {value}" for name, value in first.given.items() if value != "None")
@@ -75,7 +80,8 @@ def view(block: Figure, composer: "Composer") -> FigureView:
         composer.figures,
         anchor,
         pictures,
-        composer.caption(LABEL.sub(r"@\g<0>", caption), anchor, f"Figure {composer.figures}"),
+        composer.caption(caption, anchor, f"Figure {composer.figures}"),
+        composer.text(f"{first.title}: {bodies[block.body].title}" if block.body else first.title, inline=True),
         first.alt or first.failure,
         shown,
         height * shown / width,

@@ -40,7 +40,10 @@ class ErrataView:
 
 
 def view_ledger(block: Ledger, composer: "Composer") -> LedgerView:
-    """Set out the entries of one section."""
+    """Set out the entries of one section, each theorem with a number."""
+    for label, entry in EQUATIONS.items():
+        if entry.section == block.section and entry.kind == "theorem":
+            composer.number(label)
     return LedgerView(
         entries(
             lambda entry, _: entry.section == block.section, composer.recorded.findings, composer.text, composer.uses

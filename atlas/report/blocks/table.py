@@ -11,6 +11,7 @@ from atlas.report.numbers import Number, room
 from atlas.report.schema import Id, Record
 from atlas.report.tables import compute
 from atlas.report.tables.model import Column, Data, Request
+from atlas.report.texts import first_sentence
 
 if TYPE_CHECKING:
     from atlas.report.compose import Composer
@@ -94,6 +95,7 @@ class TableView:
     columns: tuple[ColumnView, ...]
     rows: tuple[tuple[Cell, ...], ...]
     caption: int
+    short: int
     note: int | None
     name: str = ""
     command: str = ""
@@ -151,9 +153,21 @@ def _view(
             )
         )
     rows = tuple(tuple(_cell(value, composer) for value in row) for row in data.rows)
-    note = composer.caption(data.note, anchor, words) if data.note else None
-    caption = composer.caption(block.caption or data.caption, anchor, words)
-    return TableView(composer.tables, anchor, tuple(columns), rows, caption, note, name, command)
+    proven = all(cell.proven for row in data.rows for cell in row if isinstance(cell, Number))
+    sentences = [*data.notes, *([] if proven else ["What is not proven is starred."])]
+    note = " ".join(filter(None, map(composer.once, sentences)))
+    caption = block.caption or data.caption
+    return TableView(
+        composer.tables,
+        anchor,
+        tuple(columns),
+        rows,
+        composer.caption(caption, anchor, words),
+        composer.text(first_sentence(caption), inline=True),
+        composer.caption(note, anchor, words) if note else None,
+        name,
+        composer.once(command),
+    )
 
 
 def _cell(value: str | Number, composer: "Composer") -> Cell:

@@ -2,7 +2,7 @@
 
 from atlas.errors import AtlasError
 from atlas.report.schema import Record
-from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, quantity
+from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
 
 
 class Parameters(Record, frozen=True):
@@ -34,5 +34,4 @@ def ball(request: Request) -> Data:
         (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
         tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
         r"The general motion of the ball, @mf38, in a field along $\mathbf{e}_3$.",
-        CERTIFIED,
     )

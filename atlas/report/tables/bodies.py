@@ -1,7 +1,7 @@
 """Bodies side by side in one field: what surface each has."""
 
 from atlas.report.schema import Record
-from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, column
+from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
 
 
 def bodies(request: Request) -> Data:
@@ -23,5 +23,4 @@ def bodies(request: Request) -> Data:
         ),
         tuple((name, ratio, q.kind, *rest) for name, q, ratio, *rest in zip(names, made, *columns, strict=True)),
         "The bodies in one field: ratio of the moments @mf41.1, kind, angle and semi-axes of the quadric.",
-        CERTIFIED,
     )

@@ -36,8 +36,11 @@ def body_and_field(request: Request) -> Data:
         (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit"), Column("")),
         tuple(rows),
         f"The {body.title} in the {field.title}, and what follows from them by @mf41 and @mf41.1.",
-        r"The moments and $I$ are proven to the last digit printed; $\mu$ and $\mathbf{B}'$ are rounded once, to the "
-        r"nearest double, and all further numbers of this report take that double as exact.",
+        (
+            "The moments and $I$ are proven to the last digit printed.",
+            r"$\mu$ and $\mathbf{B}'$ are rounded once, to the nearest double.",
+            "All further numbers of this report take that double as exact.",
+        ),
     )
 
 

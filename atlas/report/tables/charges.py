@@ -30,5 +30,5 @@ def charges(request: Request) -> Data:
         ),
         tuple(rows),
         "The charges of the bodies, and the field of a point charge as large at the distance of the radius.",
-        "Two digits: the field at the surface is of this order, and depends on the shape.",
+        ("Two digits: the field at the surface is of this order, and depends on the shape.",),
     )

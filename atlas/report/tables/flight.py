@@ -2,7 +2,7 @@
 
 from atlas.report.numbers import Number
 from atlas.report.schema import Record, Vector
-from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, scaled
+from atlas.report.tables.model import Column, Data, Request, certified, scaled
 from atlas.report.tables.particle import exact_particle
 
 
@@ -36,5 +36,4 @@ def flight(request: Request) -> Data:
         ),
         tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
         r"The flight of the centre of mass $\mathbf{y}_0$, @mf10.2, and of the point $\mathbf{y}_N$ of the body.",
-        CERTIFIED,
     )

@@ -9,7 +9,6 @@ from atlas.report.numbers import Number
 from atlas.report.schema import Record, convert
 
 RATE = r"s$^{-1}$"
-CERTIFIED = "Every digit printed is proven; a value that cannot be proven is starred."
 
 T = TypeVar("T", bound=Record)
 
@@ -24,12 +23,12 @@ class Column:
 
 @dataclass(frozen=True)
 class Data:
-    """A table, the caption it has unless the report gives another, and what is said below it."""
+    """A table, the caption it has unless the report gives another, and the sentences below it."""
 
     columns: tuple[Column, ...]
     rows: tuple[tuple[str | Number, ...], ...]
     caption: str
-    note: str = ""
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

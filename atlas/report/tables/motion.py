@@ -2,7 +2,7 @@
 
 from atlas.report.numbers import Number, plain
 from atlas.report.schema import Record
-from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, column, quantity
+from atlas.report.tables.model import RATE, Column, Data, Request, certified, column, quantity
 
 
 class Motion(Record, frozen=True):
@@ -43,7 +43,6 @@ def motion(request: Request) -> Data:
         (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
         tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
         rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$: initial data, frequencies and integrals.",
-        CERTIFIED,
     )
 
 
@@ -64,5 +63,4 @@ def samples(request: Request) -> Data:
         tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
         rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "
         r"@mf78, and the body's axis in the laboratory, the third column of @mf89.",
-        CERTIFIED,
     )

@@ -8,7 +8,7 @@ from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.numbers import Number
 from atlas.report.schema import Record, Vector
-from atlas.report.tables.model import CERTIFIED, Column, Data, Request, certified, column, scaled
+from atlas.report.tables.model import Column, Data, Request, certified, column, scaled
 
 
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
@@ -45,6 +45,10 @@ def particle(request: Request) -> Data:
         (Column("$t$", "s"), *(Column(f"$y_{j}$", unit) for j in (1, 2, 3))),
         tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
         "The path of the particle, @mf10.2, in the laboratory frame.",
-        rf"Cyclotron frequency $\omega={frequency}$ s$^{{-1}}$, drift "
-        rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {speed} s$^{{-1}}$. {CERTIFIED}",
+        (
+            (
+                rf"Cyclotron frequency $\omega={frequency}$ s$^{{-1}}$, drift "
+                rf"$c[\mathbf{{E}},\mathbf{{B}}]/\mathbf{{B}}^2=({drifts})$ {speed} s$^{{-1}}$."
+            ),
+        ),
     )

@@ -6,7 +6,7 @@ from typing import Any
 from atlas.errors import AtlasError
 from atlas.report.numbers import Number
 from atlas.report.schema import Record
-from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, column
+from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
 
 
 class Parameters(Record, frozen=True):
@@ -64,7 +64,6 @@ def points(request: Request) -> Data:
         rows,
         r"Points of the hyperbola @mf72, frequencies of precession $k$ and of proper rotation $\phi$, @mf77, and the "
         r"square of the frequency of nutation $\nu_n$, @theorem-stability.",
-        CERTIFIED,
     )
 
 

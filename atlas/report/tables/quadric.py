@@ -1,7 +1,7 @@
 """One body's quadric of initial data: its kind and its canonical form, mf58 to mf63."""
 
 from atlas.report.schema import Record
-from atlas.report.tables.model import CERTIFIED, RATE, Column, Data, Request, certified, quantity
+from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
 
 
 def quadric(request: Request) -> Data:
@@ -41,7 +41,6 @@ def quadric(request: Request) -> Data:
             for name, symbol, value, unit in rows
         ),
         f"The quadric of initial data of the {_title(request)}, @mf58, in canonical form.",
-        CERTIFIED,
     )
 
 
