@@ -11,6 +11,7 @@ from markupsafe import Markup, escape
 
 from atlas.errors import AtlasError, unknown
 from atlas.places import folder
+from atlas.plain import plain
 from atlas.report.blocks.figure import FigureView
 from atlas.report.compose import Document, PageView
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
@@ -79,11 +80,6 @@ def anchored(page: str) -> str:
         return f'<h{match[1]} id="{name}">{match[2]} {link}</h{match[1]}>'
 
     return re.sub(r"<h([23])>(.*?)</h\1>", heading, page, flags=re.DOTALL)
-
-
-def plain(markdown: str) -> str:
-    r"""Return a text with formulas in plain letters, for who does not see it: ``$\omega_2$`` is omega_2."""
-    return " ".join(re.sub(r"\\(?:mathbf|mathrm|text|boldsymbol|hat|dot|[,;!])|[\\${}*]", " ", markdown).split())
 
 
 def _cover(document: Document, figures: Sequence[Card]) -> Card | None:

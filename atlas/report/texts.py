@@ -111,9 +111,10 @@ def citations(markdown: str) -> list[str]:
     return [name for name in _CITED.findall(markdown) if name]
 
 
-def first_sentence(markdown: str) -> str:
-    """Return the first sentence of a text, without its stop: what a list of figures shows of a caption."""
-    return re.split(r"\.(?:\s+(?=[A-Z$@])|\s*$)", markdown.strip(), maxsplit=1)[0]
+def beginning(markdown: str) -> str:
+    """Return a caption up to its first comma or stop outside formulas: what a list of tables shows of it."""
+    found = re.match(r"(?:\$[^$]*\$|[^$])+?(?=[,.]\s|\.?$)", " ".join(markdown.split()))
+    return found[0] if found else markdown
 
 
 def cited(markdown: str, replace: Callable[[str], str]) -> str:

@@ -11,7 +11,7 @@ from atlas.report.numbers import Number, room
 from atlas.report.schema import Id, Record
 from atlas.report.tables import compute
 from atlas.report.tables.model import Column, Data, Request
-from atlas.report.texts import first_sentence
+from atlas.report.texts import beginning
 
 if TYPE_CHECKING:
     from atlas.report.compose import Composer
@@ -157,13 +157,15 @@ def _view(
     sentences = [*data.notes, *([] if proven else ["What is not proven is starred."])]
     note = " ".join(filter(None, map(composer.once, sentences)))
     caption = block.caption or data.caption
+    short, bodies = beginning(caption), composer.report.parameters.bodies
+    titles = [bodies[block.body].title] if isinstance(block, Table) and block.body else []
     return TableView(
         composer.tables,
         anchor,
         tuple(columns),
         rows,
         composer.caption(caption, anchor, words),
-        composer.text(first_sentence(caption), inline=True),
+        composer.text(f"{short}: {titles[0]}" if titles and titles[0] not in short else short, inline=True),
         composer.caption(note, anchor, words) if note else None,
         name,
         composer.once(command),
