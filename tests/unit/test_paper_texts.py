@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from atlas.plain import plain
 from atlas.paper import EQUATIONS, LABEL
+from atlas.plain import plain
 from atlas.proof import record
 from atlas.proof.survivors import REASONS
 from atlas.study.stress import LIMITS, read_ratchet
