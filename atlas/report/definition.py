@@ -38,7 +38,7 @@ class Index(Record, frozen=True):
 class Report(Record, frozen=True):
     """The whole file.
 
-    ``cover`` is the id of the figure on the front page and on the cover of the PDF, ``related`` names reports to link to.
+    ``cover`` is the id of the figure on the front page and on the cover; ``related`` names reports to link to.
     """
 
     name: str

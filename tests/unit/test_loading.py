@@ -126,7 +126,7 @@ kind = "figure"
 recipe = "flight"
 renderer = "shaded"
 """
-PAGES = "msgspec numpy jinja2 typst multiprocessing"
+PAGES = "msgspec numpy jinja2 typst multiprocessing pylatexenc"
 FONTS = "brotli fontTools"
 
 

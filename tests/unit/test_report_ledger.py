@@ -251,8 +251,9 @@ def test_a_report_without_a_ledger_reads_no_record(tmp_path: Path) -> None:
     report = load(file)
     assert gather(report) == Appendices()
     document = compose(report, {})
-    assert document.cite("html")("mf76", "") == ("(71)", "index.html", "eq-mf76", "mf76: The hyperbola resolved for ω_3")
-    assert document.cite("html")("mf77", "") == ("(mf77)", "", "", "")
+    says = "mf76: The hyperbola resolved for ω_3"
+    assert document.cite("html")("mf76", "") == ("(71)", "index.html", "eq-mf76", says)
+    assert document.cite("html")("mf77", "") == ("(72)", "", "", "")
 
 
 @pytest.mark.parametrize(

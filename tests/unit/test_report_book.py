@@ -1,0 +1,127 @@
+"""The PDF as a book: parts and appendices, lists and index, equations by number, no sentence said twice on a page."""
+
+from pathlib import Path
+
+import pytest
+from pypdf import PdfReader
+
+from atlas.build.report import build_report
+from atlas.errors import AtlasError
+from atlas.report.compose import compose
+from atlas.report.load import load
+from atlas.report.recorded import Appendices
+from atlas.report.tables.model import Data
+from atlas.report.texts import beginning
+
+BOOK = r"""
+name = "book"
+title = "A Small Book"
+
+[parameters.bodies.ball]
+title = "charged ball"
+ratio = 1.0
+
+[parameters.fields.oblique]
+title = "oblique field"
+prime = [1.0, 2.0]
+
+[index]
+words = ["nutation", "proper rotation"]
+symbols = [{ tex = "\\omega_3", at = ["mf76"] }]
+
+[[pages]]
+slug = "index"
+title = "The first chapter"
+part = "The motion"
+
+[[pages.blocks]]
+kind = "prose"
+text = '''
+Proper rotation, @mf77, has no nutation; the hyperbola is @mf76.
+
+## A section
+'''
+
+[[pages.blocks]]
+kind = "equation"
+label = "mf76"
+
+[[pages.blocks]]
+kind = "table"
+table = "quadric"
+body = "ball"
+field = "oblique"
+
+[[pages]]
+slug = "second"
+title = "The second chapter"
+part = "Appendices"
+appendix = true
+
+[[pages.blocks]]
+kind = "prose"
+text = "In the appendix @theorem-points stands."
+"""
+
+
+@pytest.fixture(scope="module")
+def book(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """Set the book and return the text of its pages."""
+    folder = tmp_path_factory.mktemp("book")
+    (folder / "book.toml").write_text(BOOK, encoding="utf-8")
+    built = build_report(folder / "book.toml", folder, formats=("pdf",))
+    return [" ".join(page.extract_text().split()) for page in PdfReader(built.pdf).pages]
+
+
+def test_contents_and_headings_are_numbered_alike(book: list[str]) -> None:
+    """Part, chapter, section and appendix have one number in the contents and where they begin."""
+    contents, body = book[1], " ".join(book[2:])
+    for words in ("Part I The motion", "1 The first chapter", "1.1 A section", "A The second chapter"):
+        assert words in contents
+        assert words in body
+    assert "Tables Table 1 The quadric of initial data of the charged ball" in contents
+
+
+def test_equations_are_cited_by_the_printed_number(book: list[str]) -> None:
+    """The text has the number; the label stands beside the display, for those who hold the source."""
+    body = " ".join(book[2:])
+    assert "Proper rotation, (72), has no nutation; the hyperbola is (71)." in body
+    assert body.count("mf76") == 1
+
+
+def test_the_index_finds_words_and_symbols(book: list[str]) -> None:
+    """Each word of the index has the pages of its paragraphs, each symbol that of its equation."""
+    index = next(page for page in book if "Index" in page and "nutation" in page and "Contents" not in page)
+    assert "nutation 1 proper rotation 1" in index
+    assert "3 1 nutation" in index
+
+
+def test_a_symbol_of_the_index_leads_somewhere(tmp_path: Path) -> None:
+    """A name that there is not is told with the nearest one."""
+    (tmp_path / "book.toml").write_text(BOOK.replace('at = ["mf76"]', 'at = ["mf7b"]'), encoding="utf-8")
+    with pytest.raises(AtlasError, match="the index: .*'@mf7b'"):
+        compose(load(tmp_path / "book.toml"), {}, Appendices())
+
+
+@pytest.mark.parametrize(
+    ("caption", "short"),
+    [
+        ("The quadric of the ball, @mf58, in canonical form.", "The quadric of the ball"),
+        ("The trial in numbers.", "The trial in numbers"),
+        ("Drift $c[E, B]$ of a particle. More.", "Drift $c[E, B]$ of a particle"),
+    ],
+)
+def test_a_list_of_tables_shows_the_beginning_of_a_caption(caption: str, short: str) -> None:
+    """Up to the first comma or stop that stands outside formulas."""
+    assert beginning(caption) == short
+
+
+def test_no_sentence_stands_below_two_tables_of_a_page(tmp_path: Path) -> None:
+    """A note and the command that made a table are said once a page."""
+    tables = "".join(f'[[pages.blocks]]\nkind = "recorded"\nsource = "bench"\ntable = "{name}"\n\n' for name in "AB")
+    (tmp_path / "book.toml").write_text(BOOK + "\n" + tables, encoding="utf-8")
+    records = {f"bench: {name}": Data((), (), name, (f"Only {name}.", "Measured here.")) for name in "AB"}
+    document = compose(load(tmp_path / "book.toml"), {}, Appendices({}, records))
+    first, second = document.pages[1].blocks[1:]
+    assert [document.texts[one.note].markdown for one in (first, second)] == ["Only A. Measured here.", "Only B."]
+    assert (first.command, second.command) == ("atlas bench", "")
