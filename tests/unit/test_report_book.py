@@ -99,7 +99,7 @@ def test_the_index_finds_words_and_symbols(book: list[str]) -> None:
 def test_a_symbol_of_the_index_leads_somewhere(tmp_path: Path) -> None:
     """A name that there is not is told with the nearest one."""
     (tmp_path / "book.toml").write_text(BOOK.replace('at = ["mf76"]', 'at = ["mf7b"]'), encoding="utf-8")
-    with pytest.raises(AtlasError, match="the index: .*'@mf7b'"):
+    with pytest.raises(AtlasError, match=r"the index: .*'@mf7b'"):
         compose(load(tmp_path / "book.toml"), {}, Appendices())
 
 
