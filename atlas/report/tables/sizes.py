@@ -49,7 +49,7 @@ def sizes(request: Request) -> Data:
         r"$e_0$, charge-to-mass ratio, Larmor's frequency and its period; and the angle $\delta$ between $\mathbf{m}$ "
         r"and $\mathbf{B}$ in the elementary motion with $k=2\pi$ s$^{-1}$ of a body that is as large and as charged, "
         f"but has $I={RATIO:g}$, for $\\tau={TILT:g}$.",
-        "Two digits: the shape of a body changes the first.",
+        ("Two digits: the shape of a body changes the first.",),
     )
 
 
@@ -81,7 +81,7 @@ def radiation(request: Request) -> Data:
         r"cyclotron frequency $2b$; that of the rotation at the rate $b$, once by the moment $\mu\mathbf{m}/2$ that "
         rf"precesses across the field, once, with $I={RATIO:g}$, by the quadrupole of an axis that goes round a right "
         "angle off it.",
-        "Two digits. Energy over power at the start, with the formulas of the text.",
+        ("Two digits.", "Energy over power at the start, with the formulas of the text."),
     )
 
 
