@@ -43,7 +43,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field).capitalize()}, started next to the unstable elementary motion "
+            rf"{tex_setting(ratio, field, first='A')}, started next to the unstable elementary motion "
             rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. (a) $\Omega_3$ stays for a while, leaves with the rate "
             rf"$\gamma={tex(growth)}$, goes round the two stable motions in turn, and comes back again and again. (b) "
             "The period "

@@ -51,7 +51,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field).capitalize()}, $\omega_2={tex(omega2)}$, at {count} moments of one turn of "
+            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, at {count} moments of one turn of "
             rf"its precession; below each, the part of the period $2\pi/k$ that has gone by. The axis $\mathbf{{R}}_3$ "
             r"keeps its angle with $\mathbf{B}$: there is no nutation. The dark seam shows the proper rotation; in one "
             rf"turn of the precession the body turns by $\phi/k={tex(motion.phi / motion.k)}$ turns about its own "

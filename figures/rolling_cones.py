@@ -41,7 +41,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"(a) {tex_setting(ratio, field).capitalize()}, $\omega_2={tex(omega2)}$: the body cone about "
+            rf"(a) {tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$: the body cone about "
             r"$\mathbf{R}_3$ (amber) rolls on the space cone about $\mathbf{B}$ (green); they touch along the "
             r"instantaneous axis $\boldsymbol{\omega}=k\hat{\mathbf{B}}+\phi\mathbf{R}_3$, whose tip draws the polhode "
             rf"in the body and the herpolhode in space. Here $k={tex(motion.k)}$ and $\phi={tex(motion.phi)}$. (b) The "

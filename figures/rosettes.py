@@ -49,9 +49,7 @@ def scene(
             rf"{tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back in its first attitude "
             "after "
             rf"{listed([str(q) for _, q in fractions])} turns of the precession. The last motion, from "
-            rf"$\omega_2={tex(omega2)}$, has been followed over {plain(turns)} turns. Every rational but two belongs "
-            "to "
-            r"exactly one elementary motion, so closed motions lie densely in the family."
+            rf"$\omega_2={tex(omega2)}$, has been followed over {plain(turns)} turns."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "

@@ -41,7 +41,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field).capitalize()}: both motions that leave the unstable precession "
+            rf"{tex_setting(ratio, field, first='A')}: both motions that leave the unstable precession "
             rf"$\omega_2={tex(omega2)}$ and return to it. (a) One of them, the trace of the axis with $\mathbf{{B}}$ "
             r"upright; dashed: the circle of the precession. (b) $\Omega_3$ over time, a rational function of "
             rf"$\cosh\gamma t$ with $\gamma={tex(growth)}$. A motion next to it repeats such excursions for ever, the "

@@ -68,7 +68,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field).capitalize()}, $\omega_2={tex(omega2)}$, in its first attitude; turned by "
+            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, in its first attitude; turned by "
             rf"$\phi t={tex(round(proper, 3))}$ about its axis; and then by $kt={tex(round(precession, 3))}$ about "
             r"$\mathbf{B}$: this is the attitude $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, mf90."
         ),

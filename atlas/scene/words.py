@@ -64,10 +64,13 @@ def body_name(ratio: Any) -> str:
     return "short solenoid" if I3 > I2 else "long solenoid"
 
 
-def tex_setting(ratio: Any, field: Sequence[float]) -> str:
-    """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3)."""
+def tex_setting(ratio: Any, field: Sequence[float], *, first: str = "a") -> str:
+    """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3).
+
+    ``first`` is its first word: 'A' where a sentence begins with it.
+    """
     vector = tex_vector((0.0, *field))
-    return rf"a {body_name(ratio)} with $I={tex(quotient(ratio))}$ in the field $\mathbf{{B}}'={vector}$"
+    return rf"{first} {body_name(ratio)} with $I={tex(quotient(ratio))}$ in the field $\mathbf{{B}}'={vector}$"
 
 
 def plain_setting(ratio: Any, field: Sequence[float]) -> str:

@@ -68,6 +68,15 @@ def test_levels_are_semi_axes_by_the_eigenvalues_of_the_form() -> None:
             assert min(abs(found / name - 1) for name in names) <= 3e-3, (k, I, beta, found)
 
 
+@pytest.mark.parametrize("name", ["escape", "separatrix", "film_strip", "two_turns", "rolling_cones"])
+def test_a_caption_that_begins_with_the_body_keeps_its_letters(name: str) -> None:
+    """It begins with 'A', and the ratio and the field are the capitals I and B of the paper."""
+    caption = recipes.load(name).scene().caption.removeprefix("(a) ")
+    assert caption.startswith("A ")
+    assert "$I=" in caption
+    assert r"\mathbf{B}'" in caption
+
+
 @pytest.mark.parametrize("ratio", [0.5, 1.5])
 def test_a_marked_motion_repeats_itself(ratio: float) -> None:
     """After q turns of the precession an integration of the equations of motion finds R = 1 again, within 1e-8."""
