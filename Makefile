@@ -13,7 +13,7 @@ SEED   ?= 0
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures picture verify bench stress mutants rebuilds curves lint clean setup lock FORCE
+.PHONY: help report test figures picture accessibility verify bench stress mutants rebuilds curves lint clean setup lock FORCE
 
 help:
 	@echo 'make report    build/report/atlas/index.html and build/report/atlas.pdf, and the guide beside them'
@@ -23,6 +23,7 @@ help:
 	@echo 'make verify    the proofs about the paper'"'"'s equations'
 	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 hostile calls'
 	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
+	@echo 'make accessibility   the linter axe-core on every page, in Chromium: needs node and npm'
 	@echo 'make rebuilds  how long each kind of change takes;   make curves   points drawn against error'
 	@echo 'make lint      ruff, mypy, import-linter;   make clean   removes build/'
 
@@ -67,6 +68,12 @@ bench: setup $(VENV)/.bench
 stress: setup
 	@$(ATLAS) stress
 	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz
+
+# Needs node, npm and Chromium.
+accessibility: report
+	@npm install --silent --no-save --prefix build/accessibility axe-core@4.14.1 playwright-core@1.65.1
+	@node tests/accessibility.mjs build/report/atlas build/accessibility
+	@node tests/accessibility.mjs build/report/guide build/accessibility
 
 mutants: setup
 	@$(BIN)/python tests/mutants.py $(PACKAGES) --count $(COUNT) --seed $(SEED) --jobs $(JOBS)

@@ -41,7 +41,7 @@ def _sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, 
         if anchor.startswith("eq-") and tag:
             yield file, anchor, f"Equation {tag[1]} {tag[2]}", page
         else:
-            head = _words(next(filter(None, title.groups()), "")) if title else page
+            head = _words(next(filter(None, title.groups()), "")).removesuffix(".") if title else page
             yield file, anchor, page if anchor.startswith("page-") else f"{head} — {page}", _words(content)
 
 
@@ -59,5 +59,5 @@ def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
 
 def _words(html: str) -> str:
     """Return the words of a piece of HTML."""
-    html = re.sub(r"<math.*?</math>", " ", html, flags=re.DOTALL)
+    html = re.sub(r'<math.*?</math>|<a class="anchor".*?</a>', " ", html, flags=re.DOTALL)
     return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
