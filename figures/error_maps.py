@@ -27,7 +27,7 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
             rf"Largest error in any entry of $R(t)$, mf89, for {tex_setting(ratio, field)}: (a, b) over $\omega_2$, "
             rf"(c, d) over $I$ at $\omega_2={tex(omega2)}$ in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$. "
             r"(a, c) The formula in double precision as anyone would write it: the error grows with the phase, and "
-            r"faster near the pole $\omega_2=-B_2'$ and for small $I$, until no digit is left. (b, d) The atlas: at "
+            r"faster near the pole $\omega_2=-B'_2$ and for small $I$, until no digit is left. (b, d) The atlas: at "
             rf"most ${tex(float(f'{worst:.1e}'))}$ anywhere in these maps.{empty}"
         ),
         alt=(
@@ -36,8 +36,8 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
             f"and the largest error in them is {worst:.1e}."
         ),
         panels=(
-            panel(first, first.plain, r"$\omega_2/|B_2'|$", "(a) plain formula"),
-            panel(first, first.ours, r"$\omega_2/|B_2'|$", "(b) the atlas"),
+            panel(first, first.plain, r"$\omega_2/|B'_2|$", "(a) plain formula"),
+            panel(first, first.ours, r"$\omega_2/|B'_2|$", "(b) the atlas"),
             panel(second, second.plain, "$I$", "(c) plain formula", "log"),
             panel(second, second.ours, "$I$", "(d) the atlas", "log"),
         ),

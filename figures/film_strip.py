@@ -43,7 +43,7 @@ def scene(
         layers += drawn_body(quotient(ratio), R, centre, 1.0, fine)
         ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), fine)
         layers += [
-            Curve(ring, "precession"),
+            Curve(ring, "trace"),
             Arrow(centre, centre + 1.35 * R[:, 2], "body_axis"),
             Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
             Label(centre - 1.35 * quadric_panel.E3, rf"${i}/{count - 1}$", "note", (0.0, -5.0)),

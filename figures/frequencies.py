@@ -48,9 +48,9 @@ def scene(
     found = closed(hyperbola, free, order) if free else {}
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
     proper = (
-        r"the proper rotation $\phi$, mf77, which is zero at rest and at $\omega_2=-2B_2$ and has its pole, dotted, at "
-        r"$\omega_2=-B_2$. (b) Their quotient, mf91: the motion repeats itself where it is rational. Dashed: the free "
-        r"body "
+        r"the proper rotation $\phi$, mf77, which is zero at rest and at $\omega_2=-2B'_2$ and has its pole, dotted, "
+        r"at $\omega_2=-B'_2$. (b) Their quotient, mf91: the motion repeats itself where it is rational. Dashed: the "
+        r"free body "
         rf"that precesses as fast about the same axis, mf92, with $\phi/k{tex_equals(free)}$. Dots: the motions that "
         rf"repeat themselves after {counted(order)} of the precession, with their $\phi/k=p/q$."
         if free
@@ -127,7 +127,7 @@ def frequencies(
         near = max(1 / (x * (1 + 2 * top / float(np.abs(phi).min()))), CLOSE)
         pieces = graph(proper, B2, view, near, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN))
         layers.append(Curve(view.upright(-B2), "pole"))
-        layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B_2$", "note", (4.0, 5.0)))
+        layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B'_2$", "note", (4.0, 5.0)))
     else:
         pieces = (view.level(0.0),)
     layers += [Curve(piece, "main", "" if order else r"$\phi$") for order, piece in enumerate(pieces)]
@@ -138,7 +138,7 @@ def frequencies(
         Points(np.array([[0.0, 0.0]]), "rest"),
         Points(np.array([[-2 * B2, 0.0]]), "special"),
         Label(np.array([0.0, 0.0]), "rest", "label", (5.0 * side, -5.0)),
-        Label(np.array([-2 * B2, 0.0]), r"$\omega_2=-2B_2$", "label", (0.0, 6.0)),
+        Label(np.array([-2 * B2, 0.0]), r"$\omega_2=-2B'_2$", "label", (0.0, 6.0)),
     ]
     return Plane(tuple(layers), "", f"frequency (1/{unit})", view.x, view.y, title="(a) precession, proper rotation")
 

@@ -19,11 +19,11 @@ def scene(
     *,
     ratio: float = 1.5,
     field: tuple[float, float] = (1.0, 2.0),
-    reach: float = 2.6,
+    reach: float = 1.7,
     unit: str = "time",
 ) -> Scene:
-    """Draw both branches, the asymptotes and the named points; ``reach`` sets how far, in units of the field."""
-    view, (B2, B3) = window(field, reach), components(field)
+    """Draw both branches, the asymptotes and the named points as far as ``reach`` times the larger of B2 and B3."""
+    view, (B2, B3) = window(field, reach, square=True), components(field)
     centre = np.array([-B2, -B3])
     bands = unstable(ratio, field)
     named = places(ratio, field)
@@ -43,11 +43,11 @@ def scene(
     s2, s3 = np.copysign(1.0, field)
     layers.append(Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)))
     layers += [
-        Label(np.array(place.at), place.text, "label", (5 * s2 * turn, -4 * s3 * turn))
+        Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
         for place, turn in zip(named, (1, -1, -1), strict=False)
     ]
     if B2:
-        layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B_2$", "note", (4.0, 5.0)))
+        layers.append(Label(np.array([-B2, view.y[0]]), r"$\omega_2=-B'_2$", "note", (4.0, 5.0)))
     layers += [
         Label(np.array([np.clip(sum(interval) / 2, *view.x), view.y[1]]), "unstable", "unstable", (0.0, -6.0))
         for interval in bands[-1:]
@@ -63,6 +63,7 @@ def scene(
                 y_label=rf"$\omega_3$ (1/{unit})",
                 x_limits=view.x,
                 y_limits=view.y,
+                equal=True,
             ),
         ),
         size=(WIDTH, HEIGHT),
@@ -100,18 +101,18 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
     sentences = [f"{what} {tex_setting(ratio, field)}."]
     line = rf"the line $\omega_2={tex(-B2)}$, on which $\omega_3$ is free"
     if B2 == 0:
-        sentences.append(r"With $B_2=0$ the curve is the line $\omega_2=0$: the body spins along the field.")
+        sentences.append(r"With $B'_2=0$ the curve is the line $\omega_2=0$: the body spins along the field.")
     elif B3 == 0:
-        sentences.append(rf"With $B_3=0$ the curve falls apart into the line $\omega_3=0$ and {line}.")
+        sentences.append(rf"With $B'_3=0$ the curve falls apart into the line $\omega_3=0$ and {line}.")
     elif one_less == 0:
         sentences.append(rf"For a ball it falls apart into the line along $\mathbf{{B}}'$ and {line}.")
     else:
         sentences.append(
             r"Dashed: the asymptote through the centre $-\mathbf{B}'$ along $\mathbb{I}^{-1}\mathbf{B}'$; dotted: the "
             r"pole "
-            rf"$\omega_2=-B_2={tex(-B2)}$."
+            rf"$\omega_2=-B'_2={tex(-B2)}$."
         )
-        zeros = rf"$\omega_3$ is zero at rest and at $\omega_2=-(2-I)B_2={tex((I - 2) * B2)}$."
+        zeros = rf"$\omega_3$ is zero at rest and at $\omega_2=-(2-I)B'_2={tex((I - 2) * B2)}$."
         sentences.append(zeros if I != 2 else r"Both zeros of $\omega_3$ have met in the state of rest.")
     order = r"\le" if B3 else "<"  # the ends of a band belong to it, theorem-band-ends; for B3 = 0 they do not
     where = listed([rf"${tex(a)}{order}\omega_2{order}{tex(b)}$" for a, b in bands]) if bands else ""

@@ -41,7 +41,7 @@ def scene(
     layers += [Points(np.array([place.at]), place.role) for place in common]
     layers.append(Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)))
     layers += [
-        Label(np.array(place.at), place.text, "label", (5 * s2 * turn, -4 * s3 * turn))
+        Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
         for place, turn in zip(common, (1, -1), strict=True)
     ]
     for ratio in ratios:
@@ -55,11 +55,12 @@ def scene(
             r"field "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
-                r"All have the centre $-\mathbf{B}'$ and the dotted asymptote $\omega_2=-B_2$, and all pass through "
+                r"All have the centre $-\mathbf{B}'$ and the dotted asymptote $\omega_2=-B'_2$, and all pass through "
                 r"the "
                 r"state of rest and through $-2\mathbf{B}'$; the dashed asymptotes run along "
                 r"$\mathbb{I}^{-1}\mathbf{B}'$. "
-                r"Black dots: the points $\omega_2=-(2-I)B_2$, where $\omega_3=0$ again."
+                r"Black dots: the points $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ again. "
+                "The scales of the two axes differ."
                 if B2 and B3
                 else "In such a field the curve is the same for every body, and falls apart into straight lines."
                 if B2

@@ -4,14 +4,22 @@ The axis R_3(t) of an elementary motion on the unit sphere, the third column of 
 with the frequency k. The thin line is the trace of the first axis R_1(t), which feels the proper rotation phi as well.
 """
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
+from atlas.core.inputs import FloatArray
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.camera import frame
 from atlas.scene.sample import curve
 from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
+
+MANY = 400.0
+"""A first axis that turns by more radians than these would cover the sphere, and is not drawn."""
+STRIDE = 0.2
+Layers: TypeAlias = list[Layer]
 
 
 def scene(
@@ -33,15 +41,20 @@ def scene(
     angle = float(np.arctan2(np.hypot(axis[0], axis[1]), axis[2]))
     rate = max(abs(motion.k), abs(motion.phi)) or 1.0
     time = turns * 2.0 * np.pi / (abs(motion.k) or rate)
-    layers: list[Layer] = [solids.sphere(quadric_panel.O, 1.0, fine), *quadric_panel.basis((1.7, 1.55, 1.45))]
+    eye = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
+    layers: Layers = [solids.sphere(quadric_panel.O, 1.0, fine), *quadric_panel.basis((1.7, 1.55, 1.45))]
     layers.append(Arrow(quadric_panel.O, 1.65 * axis, "field", r"$\mathbf{B}$" if any(field) else r"$\mathbf{m}$"))
     if np.sin(angle) > 1e-9 and motion.k:
         layers.append(solids.cone(quadric_panel.O, axis, angle, 1.0, fine))
         period = 2.0 * np.pi / abs(motion.k)
         layers.append(Curve(curve(motion.third_axis, 0.0, period, fine), "trace"))
-    if rate * time < 400.0:
+        layers += heads(motion.third_axis, period * np.array([0.2, 0.7]), eye, "trace", "")
+    drawn = rate * time < MANY
+    if drawn:
         pieces = max(8, int(4.0 * rate * time / np.pi))
         layers.append(Curve(curve(lambda t: motion.column(1, t), 0.0, time, fine, pieces=pieces), "second_trace"))
+        starts = np.arange(1.0, 2.0 * turns) * time / (2.0 * turns)
+        layers += heads(lambda t: motion.column(1, t), starts, eye, "second_trace", r"$\mathbf{R}_1(t)$")
     later = 0.42 * 2.0 * np.pi / (abs(motion.k) or rate)
     layers += [
         Arrow(quadric_panel.O, motion.third_axis(later), "body_axis", r"$\mathbf{R}_3(t)$"),
@@ -53,10 +66,30 @@ def scene(
         title(__doc__),
         rf"The third inertia axis $\mathbf{{R}}_3(t)$ goes round ${name}$ on the unit sphere (heavy line) for "
         rf"{tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$: $k={tex(motion.k)}$, $\phi={tex(motion.phi)}$. "
-        rf"The thin line is the trace of $\mathbf{{R}}_1(t)$ over {plain(turns)} periods of the precession.",
+        + (
+            rf"The thin line is the trace of $\mathbf{{R}}_1(t)$ over {plain(turns)} periods of the precession; "
+            r"arrowheads show which way both run."
+            if drawn
+            else r"Arrowheads show which way it runs."
+        ),
         f"A unit sphere for {plain_setting(ratio, field)} with omega2 = {plain(omega2)}; the third axis of the body "
         "precesses "
-        f"on a circular cone around {'B' if any(field) else 'm'}, starting from e3; the first axis traces a rosette.",
+        f"on a circular cone around {'B' if any(field) else 'm'}, starting from e3"
+        + ("; the first axis traces a rosette." if drawn else "."),
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 100.0),
     )
+
+
+def heads(path: Callable[[FloatArray], FloatArray], times: FloatArray, eye: FloatArray, role: str, name: str) -> Layers:
+    """Return arrowheads on a path over the unit sphere at some times; that nearest to the eye has a name."""
+    shift = 1e-6 * float(times[-1])
+    tips, speed = path(times), np.linalg.norm(path(times + shift) - path(times), axis=1) / shift
+    if not speed.all():
+        return []
+    tails = path(times - STRIDE / speed)
+    named = int(np.argmax(tips @ eye))
+    return [
+        Arrow(tail, tip, role, name if k == named else "")
+        for k, (tail, tip) in enumerate(zip(tails, tips, strict=True))
+    ]

@@ -40,7 +40,7 @@ def scene(
     nu2 = -still.stiffness(still.omega3)
     librations = [Libration(start(ratio, field, number(value, "omega1"), omega2)) for value in omega1]
     law = (
-        rf"dashed: the law $\lvert\omega_1B_2\rvert/\nu_n$ near the hyperbola, where nutation has the frequency "
+        rf"dashed: the law $\lvert\omega_1B'_2\rvert/\nu_n$ near the hyperbola, where nutation has the frequency "
         rf"$\nu_n{tex_equals(float(np.sqrt(nu2)))}$."
         if nu2 > 0
         else r"it does not shrink with $\omega_1$, for the point of the hyperbola with this $\omega_2$ is unstable."
@@ -50,7 +50,7 @@ def scene(
         caption=(
             rf"Points of the quadric mf58 of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$, off the "
             r"hyperbola. From each, a constant $\Omega_3$ would solve mf55, but the body leaves at the rate "
-            r"$\dot\Omega_3(0)=\omega_1B_2$; only with $\omega_1=0$ it stays. (a) The motion of $\Omega_3$ for "
+            r"$\dot\Omega_3(0)=\omega_1B'_2$; only with $\omega_1=0$ it stays. (a) The motion of $\Omega_3$ for "
             r"$\omega_1$ "
             rf"equal to {listed([f'${tex(value)}$' for value in omega1])}; dashed: the rate at the start. (b) The "
             rf"largest "
@@ -137,7 +137,7 @@ def departures(
     if nu2 > 0:
         slope = abs(field[0]) / float(np.sqrt(nu2))
         law = np.array([[x, slope * x] for x in (ends[0], min(ends[1], 2.0 * top / slope))])
-        layers.insert(0, Curve(law, "reference", r"$|\omega_1B_2|/\nu_n$"))
+        layers.insert(0, Curve(law, "reference", r"$|\omega_1B'_2|/\nu_n$"))
     return Plane(
         tuple(layers),
         rf"$|\omega_1|$ (1/{unit})",

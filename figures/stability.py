@@ -55,8 +55,8 @@ def scene(
                 if bands
                 else "It is positive. "
             )
-            + r"(b) Levels of $\nu_n^2/B_2^2$ for this body in every field, over $\tau=\lvert B_3/B_2\rvert$ and "
-            r"$\lvert x\rvert=\lvert(\omega_2+B_2)/B_2\rvert$; dotted: the field of (a). "
+            + r"(b) Levels of $\nu_n^2/{B'_2}^2$ for this body in every field, over $\tau=\lvert B'_3/B'_2\rvert$ and "
+            r"$\lvert x\rvert=\lvert(\omega_2+B'_2)/B'_2\rvert$; dotted: the field of (a). "
             + (
                 r"Shaded, its edge included but for $\tau=0$: unstable, for $\tau\le1/(2\sqrt2)$ only."
                 if long
@@ -104,7 +104,7 @@ def course(
     layers += [
         Points(np.array([[0.0, B2 * B2 * rest]]), "rest"),
         Label(np.array([0.0, B2 * B2 * rest]), "rest", "label", (float(np.copysign(6.0, B2)), -2.0)),
-        Label(np.array([-B2, view.y[1]]), r"$\omega_2=-B_2$", "note", (4.0, -6.0)),
+        Label(np.array([-B2, view.y[1]]), r"$\omega_2=-B'_2$", "note", (4.0, -6.0)),
     ]
     return Plane(
         tuple(layers),
@@ -136,11 +136,11 @@ def chart(ratio: Any, field: tuple[float, float], levels: tuple[float, ...]) -> 
     layers.append(Curve(view.upright(tau), "limit"))
     return Plane(
         tuple(layers),
-        r"$\tau=|B_3/B_2|$",
-        r"$|x|=|(\omega_2+B_2)/B_2|$",
+        r"$\tau=|B'_3/B'_2|$",
+        r"$|x|=|(\omega_2+B'_2)/B'_2|$",
         view.x,
         view.y,
-        title=r"(b) levels of $\nu_n^2/B_2^2$",
+        title=r"(b) levels of $\nu_n^2/{B'_2}^2$",
     )
 
 

@@ -43,11 +43,11 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     return Scene(
         title=title(__doc__),
         caption=(
-            r"What the worst elementary motion of a body does, over $I$ and $\tau=\lvert B_3/B_2\rvert$. Shaded: some "
-            r"are unstable; solid lines are levels of the greatest rate $\gamma$ at which a small nutation grows, in "
-            r"units of $\lvert B_2\rvert$, $\gamma^2/B_2^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all "
-            r"are stable; dashed lines are levels of the least nutation frequency. Only bodies longer than they are "
-            r"wide, in a field nearly across their axis, have unstable elementary motions; the edge "
+            r"What the worst elementary motion of a body does, over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. Shaded: "
+            r"some are unstable; solid lines are levels of the greatest rate $\gamma$ at which a small nutation grows, "
+            r"in units of $\lvert B'_2\rvert$, $\gamma^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere "
+            r"all are stable; dashed lines are levels of the least nutation frequency. Only bodies longer than they "
+            r"are wide, in a field nearly across their axis, have unstable elementary motions; the edge "
             r"$\tau=1/(2\sqrt{2})$ belongs to them."
         ),
         alt=(
@@ -55,7 +55,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
             "level lines of the growth rate fall from its left to its lower edge, level lines of the least nutation "
             "frequency fill the rest. Five bodies are marked."
         ),
-        panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B_3/B_2|$", (0.0, 2.0), (0.0, TOP)),),
+        panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP)),),
         size=(WIDTH, HEIGHT),
     )
 

@@ -11,6 +11,7 @@ from atlas.draw.labels import write as write_tags
 from atlas.draw.sheet import style_of
 from atlas.draw.text import extent, points
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
+from atlas.scene.style import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,7 +21,6 @@ Places = Callable[[FloatArray], FloatArray]
 
 _OVER = 10.0
 _BACK, _EVERY = 150, 15
-_WHITE = "#ffffff"
 _FAR, _EDGE = 1e6, 1e-6
 _FRAME = 1.5
 """Names keep so far off the frame, clear of its ticks."""
@@ -43,9 +43,8 @@ def write(axes: "Axes", panel: Plane) -> None:
         for text, anchors, offset, role in _requests(size, layer, places, bool(panel.legend)):
             high = points("xtick.labelsize" if role == "note" else "axes.labelsize")
             first, *elsewhere = [(float(x), float(y)) for x, y in np.atleast_2d(anchors)]
-            tags.append(
-                Tag(text, first, offset, extent(text, high), style_of(role).colour, high, tuple(elsewhere), owner)
-            )
+            colour = readable(style_of(role).colour)
+            tags.append(Tag(text, first, offset, extent(text, high), colour, high, tuple(elsewhere), owner))
     if tags:
         ink, weights, owners = _ink(size, panel, places)
         window = (_FRAME, _FRAME, size[0] - _FRAME, size[1] - _FRAME)
@@ -65,8 +64,7 @@ def _requests(
     elif isinstance(layer, Image) or keyed or not layer.label:
         return
     elif isinstance(layer, Points):
-        role = "label" if style_of(layer.role).colour == _WHITE else layer.role
-        yield layer.label, places(layer.points)[:1], (4.0, 4.0), role
+        yield layer.label, places(layer.points)[:1], (4.0, 4.0), layer.role
     elif isinstance(layer, Curve):
         found = places(layer.points)
         seen = found[((found >= -_EDGE) & (found <= np.array(size) + _EDGE)).all(axis=1)]

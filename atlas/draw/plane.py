@@ -13,12 +13,11 @@ from atlas.draw.sheet import style_of
 from atlas.draw.text import typeset
 from atlas.errors import AtlasError
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
-from atlas.scene.style import INK
+from atlas.scene.style import INK, WHITE
 
 FloatArray = NDArray[np.float64]
 
 _AREAS, _LINES, _MARKS = 1.0, 2.0, 3.0
-_WHITE = "#ffffff"
 _DECADES = 6
 """An axis with more powers of ten has no ticks between them: a reader could not tell them apart."""
 _BAR = (1.03, 0.0, 1.0 / 30.0, 1.0)
@@ -93,7 +92,7 @@ def _draw(axes: Axes, layer: Layer, rise: float) -> Any:
 def marker(role: str) -> dict[str, Any]:
     """Return the marker of a role as keywords of `Axes.plot`."""
     look = style_of(role)
-    edge = INK if look.colour == _WHITE else look.colour
+    edge = INK if look.colour == WHITE else look.colour
     shape, size = ("o", 0.5 * look.size) if look.marker == "." else (look.marker or "o", look.size)
     return {"marker": shape, "ms": size, "mfc": look.colour, "mec": edge, "mew": 0.7}
 

@@ -13,6 +13,7 @@ from atlas.draw.text import extent, points
 from atlas.errors import AtlasError
 from atlas.scene.camera import frame, shown
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Points, Region, Space, Surface
+from atlas.scene.style import readable
 
 FloatArray = NDArray[np.float64]
 
@@ -92,7 +93,7 @@ def _tags(layer: Layer, eye: FloatArray) -> Iterator[Tag]:
         text, at, offset, role = request
         size = points("axes.labelsize" if role == "note" else "font.size")
         first, *elsewhere = ((float(x), float(y)) for x, y in np.atleast_2d(at) @ eye[:2].T)
-        yield Tag(text, first, offset, extent(text, size), _ink(role), size, tuple(elsewhere))
+        yield Tag(text, first, offset, extent(text, size), readable(style_of(role).colour), size, tuple(elsewhere))
 
 
 def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, float], str] | None:
@@ -113,13 +114,6 @@ def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, 
         points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
         request = layer.label, points[int(np.argmax(points @ (eye[0] + eye[1])))], (3.0, 3.0), "note"
     return request if request and request[0] else None
-
-
-def _ink(role: str) -> str:
-    """Return the colour of a name: that of the thing, unless it would not be read on white."""
-    colour = style_of(role).colour
-    red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
-    return colour if 0.30 * red + 0.59 * green + 0.11 * blue < 0.62 else style_of("label").colour
 
 
 def _fit(flat: FloatArray, tags: list[Tag], inside: FloatArray) -> float:

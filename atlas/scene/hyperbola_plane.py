@@ -55,10 +55,14 @@ def components(field: Any) -> tuple[float, float]:
     return B2, B3
 
 
-def window(field: Any, reach: float = 2.6) -> Window:
-    """Return the window that reaches ``reach`` times each component of the field from the centre."""
+def window(field: Any, reach: float = 2.6, *, square: bool = False) -> Window:
+    """Return the window that reaches ``reach`` times each component of the field from the centre.
+
+    If ``square``, it reaches as far in both directions, so many times the larger component.
+    """
     B2, B3 = components(field)
-    half = reach * (abs(B2) or abs(B3)), reach * (abs(B3) or abs(B2))
+    largest = max(abs(B2), abs(B3))
+    half = (reach * largest,) * 2 if square else (reach * (abs(B2) or largest), reach * (abs(B3) or largest))
     return Window((-B2 - half[0], -B2 + half[0]), (-B3 - half[1], -B3 + half[1]))
 
 
@@ -166,5 +170,5 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
     ]
     zero = special["omega2 = -(2-I) B2"]
     if B2 and B3 and zero[0] not in {0.0, -B2}:
-        found.append(Place(r"$\omega_2=-(2-I)B_2$", "the second point with omega 3 = 0", zero, "point"))
+        found.append(Place(r"$\omega_2=-(2-I)B'_2$", "the second point with omega 3 = 0", zero, "point"))
     return tuple(found)

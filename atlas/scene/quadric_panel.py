@@ -55,13 +55,20 @@ def tolerance(reach: float) -> float:
     return quarter_pixel(2.0 * reach, WIDTH)
 
 
-def extent(quadric: Quadric, field: tuple[float, float]) -> float:
-    """Return how far from -B' along its axis a sheet is drawn, in 1/time: past the origin, towards the tip of B'."""
+def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
+    """Return how far from -B' along its axis a sheet is drawn, in 1/time: on the side of the origin and on the other.
+
+    On its side a sheet goes past the origin, towards the tip of B'; a tube no further than it is wide, on either side.
+    """
     b = float(np.hypot(*field))
     w = quadrics.sheet_axis(quadric)
     origin = abs(float(np.asarray(quadric.axes)[w] @ in_plane(*field)))
     vertex = abs(float(quadric.semi_axes[w])) if quadric.kind == "two-sheet hyperboloid" else 0.0
-    return max(origin + 0.75 * b, 1.4 * vertex)
+    high = max(origin + 0.75 * b, 1.4 * vertex)
+    if quadric.kind != "one-sheet hyperboloid":
+        return high, high
+    width = 2.0 * max(abs(float(c)) for k, c in enumerate(quadric.semi_axes) if k != w)
+    return min(high, origin + width), min(high, width)
 
 
 def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = "both") -> list[Surface]:
@@ -70,14 +77,15 @@ def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = 
     ``field`` is (B2, B3) of B', of which neither vanishes. A hyperboloid of one sheet and a cone are one surface.
     """
     Q = quadrics.quadric_matrix(I, field)
-    high = extent(quadric, field)
+    high, low = extent(quadric, field)
     fine = tolerance(high if which == "both" else 0.6 * high)  # one sheet alone, and its axis from the centre
-    if quadric.kind != "two-sheet hyperboloid":
-        return [quadrics.sheet(quadric, Q, -high, high, fine)]
     w = quadrics.sheet_axis(quadric)
+    below = float(np.asarray(quadric.axes)[w] @ in_plane(*field)) < 0.0
+    if quadric.kind != "two-sheet hyperboloid":
+        return [quadrics.sheet(quadric, Q, *((-high, low) if below else (-low, high)), fine)]
     vertex = abs(float(quadric.semi_axes[w]))
     spans = [(vertex, high), (-high, -vertex)]
-    if float(np.asarray(quadric.axes)[w] @ in_plane(*field)) < 0.0:
+    if below:
         spans.reverse()
     return [quadrics.sheet(quadric, Q, *span, fine) for span in (spans if which == "both" else spans[:1])]
 
@@ -110,7 +118,7 @@ def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
         return []
     pieces = sheets(I, quadric, field, which)
     below = which == "origin" and float(np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)] @ in_plane(*field)) < 0.0
-    reach = 0.75 * b if below else 1.14 * extent(quadric, field)
+    reach = 0.75 * b if below else 1.14 * extent(quadric, field)[0]
     return [*pieces, *hyperbolas(I, pieces, field), *canonical(quadric, reach, 0.75 * b)]
 
 

@@ -1,7 +1,9 @@
 """How each role looks: one palette, one set of widths, read by both renderers.
 
-Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one panel,
-their dashes or widths differ too. Widths, marker sizes and tubes are in printer's points.
+A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, plum an angular velocity, navy
+what moves (the body's axis R_3, a path, the hyperbola of the motions), pale blue R_1, vermilion instability, brown the
+body. Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one
+panel, their dashes or widths differ too. Widths, marker sizes and tubes are in printer's points.
 """
 
 from collections.abc import Mapping
@@ -10,18 +12,21 @@ from types import MappingProxyType
 
 from atlas.errors import AtlasError, nearest
 
+WHITE = "#ffffff"
 INK = "#1a1a1a"
 NAVY = "#16325c"
-BLUE = "#2b6cb0"
+BLUE = "#3d85c6"
 SKY = "#7fb3dc"
-CRIMSON = "#a3202f"
+PINK = "#c96a78"
+CRIMSON = "#b01c2e"
 VERMILION = "#d4552b"
-OCHRE = "#d9962b"
-GREEN = "#2c8a6b"
-PLUM = "#6a3d86"
+GREEN = "#1f8a62"
+PLUM = "#75459a"
 SLATE = "#5c6670"
 GREY = "#8b929a"
 PALE = "#c3c9d0"
+TEXT_CONTRAST = 4.5
+"""What text needs to be read on white (WCAG 2, level AA)."""
 
 
 @dataclass(frozen=True)
@@ -59,29 +64,29 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "canonical": Style(PLUM, 0.7, tube=1.3),
         "body_axis": Style(NAVY, 1.2, tube=2.6),
         # vectors of the physics
-        "field": Style(CRIMSON, 1.3, tube=3.0),
-        "field_inverse": Style(OCHRE, 1.1, tube=2.6),
+        "field": Style(CRIMSON, 1.4, tube=3.6),
+        "field_inverse": Style(PINK, 1.1, tube=2.6),
         "electric": Style(BLUE, 1.2, tube=2.6),
         "momentum": Style(GREEN, 1.2, tube=2.6),
-        "velocity": Style(BLUE, 1.2, tube=2.6),
+        "velocity": Style(PLUM, 1.2, tube=2.6),
         "component": Style(SLATE, 0.8, tube=1.8),
         "turn": Style(PLUM, 1.1, tube=2.4),
         # curves of the paper
-        "hyperbola": Style(NAVY, 1.5, tube=3.2),
-        "branch": Style(NAVY, 1.1, tube=2.6),
+        "hyperbola": Style(NAVY, 1.5, tube=2.6),
+        "branch": Style(NAVY, 1.1, tube=2.2),
         "asymptote": Style(GREY, 0.6, (5.0, 2.5), tube=1.0),
         "pole": Style(GREY, 0.6, (1.2, 1.8), tube=1.0),
         "trajectory": Style(NAVY, 1.1, tube=2.6),
         "flight_path": Style(BLUE, 1.1, hidden=False, tube=2.4),
-        "trace": Style(CRIMSON, 1.2, tube=2.8),
-        "second_trace": Style(BLUE, 0.6, tube=1.2),
+        "trace": Style(NAVY, 1.2, tube=2.8),
+        "second_trace": Style("#6b8fc9", 0.7, tube=1.4),
         "coil": Style("#8a5a1f", 0.5, hidden=False, tube=1.0),
         "loop": Style("#8a5a1f", 2.0, tube=5.0),
         "seam_line": Style("#6b4517", 2.0, tube=4.0),
         "precession": Style(GREEN, 0.9, tube=2.0),
         "unstable": Style(VERMILION, 1.5, tube=3.0),
-        "map_curve": Style("#ffffff", 1.1),
-        "map_border": Style("#ffffff", 0.7, (1.0, 1.6)),
+        "map_curve": Style(WHITE, 1.1),
+        "map_border": Style(WHITE, 0.7, (1.0, 1.6)),
         "unstable_line": Style(VERMILION, 1.2, (4.0, 1.6), tube=2.4),
         "angle": Style(SLATE, 0.6, tube=0.9),
         "construction": Style(GREY, _THIN, (3.0, 2.0), tube=0.8),
@@ -96,9 +101,9 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         # marked points
         "point": Style(INK, marker="o", size=3.6, tube=4.4),
         "origin": Style(INK, marker="o", size=3.4, tube=4.4),
-        "centre": Style(PLUM, marker="o", size=3.4, tube=4.4),
+        "centre": Style(CRIMSON, marker="o", size=3.4, tube=4.4),
         "special": Style(CRIMSON, marker="D", size=3.8, tube=4.6),
-        "rest": Style("#ffffff", marker="o", size=4.2, tube=4.8),
+        "rest": Style(WHITE, marker="o", size=4.2, tube=4.8),
         "start": Style(NAVY, marker="o", size=3.8, tube=4.6),
         "sample": Style(SLATE, marker=".", size=2.6, tube=2.6),
         # areas and surfaces
@@ -129,6 +134,22 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "shade": Style(PALE, fill=0.35),
     }
 )
+
+
+def contrast(colour: str) -> float:
+    """Return the contrast of a colour with white, (1 + 0.05)/(Y + 0.05) with its relative luminance Y (WCAG 2)."""
+    parts = [int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return 1.05 / (0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2] + 0.05)
+
+
+def readable(colour: str) -> str:
+    """Return the colour of a text on white: the colour itself, darker if its contrast needs that; for white ink."""
+    if colour == WHITE:
+        return INK
+    while contrast(colour) < TEXT_CONTRAST:
+        colour = "#" + "".join(f"{int(0.96 * int(colour[i : i + 2], 16)):02x}" for i in (1, 3, 5))
+    return colour
 
 
 def style(role: str) -> Style:

@@ -45,7 +45,7 @@ def test_what_is_inside_a_translucent_ball_shines_through(tmp_path: Path) -> Non
     ball = solids.sphere(np.zeros(3), 1.0, 1e-2)
 
     def redness(at: float) -> int:
-        line = Curve(np.array([[at, -0.4, 0.0], [at, 0.4, 0.0]]), "trace")
+        line = Curve(np.array([[at, -0.4, 0.0], [at, 0.4, 0.0]]), "field")
         image = shown([ball, line], tmp_path / "ball.png")
         patch = image[image.shape[0] // 2 - 3 : image.shape[0] // 2 + 4, image.shape[1] // 2]
         return int((patch[:, 0] - patch[:, 2]).max())

@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+from itertools import combinations
 from pathlib import Path
 
 import matplotlib as mpl
@@ -15,8 +16,9 @@ from pypdf import PdfReader
 import atlas
 from atlas import AtlasError
 from atlas.draw import context, gl, save, to_figure, to_plotter
+from atlas.draw.sheet import style_of
 from atlas.scene import Curve, Image, Plane, Scene, recipes
-from atlas.scene.style import LINES
+from atlas.scene.style import LINES, STYLES, readable
 
 
 def lines(count: int = 1) -> Scene:
@@ -167,3 +169,47 @@ def test_a_plotter_that_may_be_turned_peels() -> None:
         assert (plotter.screenshot(return_img=True) != first).any()
     finally:
         plotter.close()
+
+
+VECTORS = ("field", "field_inverse", "electric", "momentum", "velocity", "body_axis")
+# How red, green and blue (linear) are seen without the red, the green or the blue cones: Machado, Oliveira and
+# Fernandes, IEEE Trans. Vis. Comput. Graph. 15 (2009) 1291, severity 1.
+CONES = {
+    "all": np.eye(3),
+    "no red": np.array([[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]]),
+    "no green": np.array([[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]]),
+    "no blue": np.array([[1.256, -0.077, -0.179], [-0.078, 0.931, 0.148], [0.005, 0.691, 0.304]]),
+}
+
+
+def lab(linear: np.ndarray) -> np.ndarray:
+    """Return the place of a linear RGB colour in CIELAB, whose distances are those of perception."""
+    to_xyz = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+    x, y, z = np.cbrt(to_xyz @ np.clip(linear, 0.0, 1.0) / to_xyz.sum(axis=1))
+    return np.array([116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)])
+
+
+@pytest.mark.parametrize("role", STYLES)
+def test_a_name_can_be_read_on_white(role: str) -> None:
+    """The text of every role has a contrast of 4.5 at least, by the luminance that Matplotlib's colours have."""
+    red, green, blue = (((c + 0.055) / 1.055) ** 2.4 for c in mpl.colors.to_rgb(readable(STYLES[role].colour)))
+    assert 1.05 / (0.05 + 0.2126 * red + 0.7152 * green + 0.0722 * blue) >= 4.5
+
+
+@pytest.mark.parametrize("cones", CONES)
+def test_vectors_of_the_physics_keep_apart_for_every_eye(cones: str) -> None:
+    """Their colours stay 9 apart at least in CIELAB, of which 2 can just be seen, also without one kind of cones."""
+    seen = [
+        lab(CONES[cones] @ (((np.array(mpl.colors.to_rgb(STYLES[role].colour)) + 0.055) / 1.055) ** 2.4))
+        for role in VECTORS
+    ]
+    assert min(np.linalg.norm(a - b) for a, b in combinations(seen, 2)) > 9.0
+
+
+def test_lines_that_are_components_keep_apart_in_grey() -> None:
+    """Two of the three first lines of the cycle differ by 15 in lightness, or by their dashes."""
+    with context():
+        looks = [style_of(role) for role in LINES[:3]]
+    light = [lab(((np.array(mpl.colors.to_rgb(look.colour)) + 0.055) / 1.055) ** 2.4)[0] for look in looks]
+    for (a, one), (b, other) in combinations(zip(light, looks, strict=True), 2):
+        assert abs(a - b) > 15.0 or one.dash != other.dash

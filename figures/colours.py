@@ -1,0 +1,70 @@
+"""The colours of the figures.
+
+One colour means one thing in the whole atlas; this is the key to all of its figures.
+"""
+
+import numpy as np
+
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.words import title
+
+COLUMN, ROW, LENGTH = 6.6, 1.0, 1.5
+VECTORS = (
+    ("field", r"$\mathbf{B}$ and $\mathbf{B}'$"),
+    ("field_inverse", r"$\mathrm{I\!I}^{-1}\mathbf{B}'$"),
+    ("electric", r"$\mathbf{E}$"),
+    ("momentum", r"$\mathbf{m}$"),
+    ("velocity", r"$\boldsymbol{\omega}$, $\boldsymbol{\Omega}$, a rotation"),
+    ("body_axis", r"the body's axis $\mathbf{R}_3$"),
+)
+CURVES = (
+    ("hyperbola", "elementary motions"),
+    ("trace", r"path of $\mathbf{R}_3$"),
+    ("second_trace", r"path of $\mathbf{R}_1$"),
+    ("unstable", "unstable motions"),
+    ("asymptote", "asymptote"),
+    ("pole", r"pole, $\omega_2=-B'_2$"),
+)
+COMPONENTS = (("main", "first component"), ("second", "second component"), ("third", "third component"))
+MARKS = (("rest", "rest"), ("centre", r"$-\mathbf{B}'$"), ("special", r"$-2\mathbf{B}'$"))
+
+
+def scene() -> Scene:
+    """Draw each role that has a colour of its own beside its meaning, in three columns."""
+    layers: list[Layer] = []
+    for row, (role, name) in enumerate(VECTORS):
+        tail, tip = place(0, row)
+        layers += [Arrow(tail, tip, role), beside(tip, name)]
+    for column, roles in ((1, CURVES), (2, COMPONENTS)):
+        for row, (role, name) in enumerate(roles):
+            ends = place(column, row)
+            layers += [Curve(ends, role), beside(ends[1], name)]
+    for row, (role, name) in enumerate(MARKS, len(COMPONENTS)):
+        ends = place(2, row)
+        layers += [Points(ends.mean(axis=0)[None], role), beside(ends[1], name)]
+    for column, (role, name) in enumerate((("surface", "initial data"), ("solid", "the body"))):
+        ends = place(column, len(VECTORS))
+        half = 0.5 * (ends[1] - ends[0])
+        layers.append(solids.rectangle(ends.mean(axis=0), half, 0.3 * quadric_panel.E3, role=role))
+        layers.append(beside(ends[1], name))
+    return Scene(
+        title(__doc__),
+        "The colours of the figures: in each of them a colour means one thing. They differ in lightness too, so that "
+        "they stay apart in grey print, and to those who do not see all of them. A name has the colour of its thing, "
+        "darker where it could not be read on white.",
+        "Three columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image under "
+        "the inverse inertia tensor pink, E blue, m green, angular velocities plum, the body's axis and the elementary "
+        "motions navy, the unstable ones vermilion.",
+        (Space(tuple(layers), azimuth=0.0, elevation=0.0),),
+        size=(160.0, 50.0),
+    )
+
+
+def place(column: int, row: int) -> np.ndarray:
+    """Return both ends (2, 3) of the sample in a column and a row."""
+    return quadric_panel.in_plane(COLUMN * column, -ROW * row) + np.outer([0.0, LENGTH], quadric_panel.E2)
+
+
+def beside(end: np.ndarray, name: str) -> Label:
+    """Return the meaning of a sample, to the right of its end."""
+    return Label(end, name, "label", (5.0, 0.0))
