@@ -4,6 +4,8 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from itertools import count, product
+from string import ascii_uppercase
 from typing import Any
 
 from atlas.errors import AtlasError, unknown
@@ -23,9 +25,12 @@ from atlas.report.versions import parameters
 
 @dataclass(frozen=True)
 class PageView:
-    """A page: its place in the contents, the views of its blocks and the names of their templates."""
+    """A page: its place in the contents, the views of its blocks and the names of their templates.
 
-    number: int
+    `number` is that of the chapter, or the letter of the appendix.
+    """
+
+    number: str
     slug: str
     title: str
     summary: str
@@ -115,7 +120,9 @@ def compose(report: Report, pictures: Mapping[str, Picture], recorded: Appendice
     document.abstract = document.texts.add(report.abstract, "the abstract")
     document.given = [document.texts.add(line, "the parameters", inline=True) for line in parameters(report.parameters)]
     composer = Composer(document, recorded or Appendices())
-    for number, page in enumerate(report.pages, 1):
+    chapters = map(str, count(1))
+    appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
+    for page in report.pages:
         composer.begin(page)
         blocks = []
         for place, block in enumerate(page.blocks, 1):
@@ -127,7 +134,10 @@ def compose(report: Report, pictures: Mapping[str, Picture], recorded: Appendice
         document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
         templates = tuple(KINDS[kind_of(block)].template for block in page.blocks)
         document.pages.append(
-            PageView(number, page.slug, page.title, page.summary, tuple(blocks), templates, page.part, page.appendix)
+            PageView(
+                next(appendices if page.appendix else chapters),
+                *(page.slug, page.title, page.summary, tuple(blocks), templates, page.part, page.appendix),
+            )
         )
     composer.where = "the index"
     document.symbols = [
