@@ -56,7 +56,12 @@ def panel(name: str, I: float, b: float, M3: float, reach: float, unit: str) -> 
     branches = section(I, b, M3, reach=3.0 * reach)
     ends = [axis_spin(I, b, M3, end) for end in (1, -1)]
     lines = [(part, "unstable_line" if unstable else "main") for one in branches for part, unstable in runs(one)]
-    near = np.concatenate([line[np.abs(line[:, 0]) <= reach * b] for line, _ in lines])
+    near = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * b] for line, _ in lines)])
+    if not len(near):
+        raise DomainError(
+            f"figure energy_momentum: with M3 = {M3:g} and b = {b:g} no steady precession at I = {I:g} has |p| below "
+            f"reach b = {reach * b:g}; give a larger reach, or an M3 nearer to b."
+        )
     low, high = float(near[:, 1].min()), float(near[:, 1].max())
     pad = 0.08 * (high - low)
     layers: list[Layer] = [Curve(line, role) for line, role in lines]

@@ -83,7 +83,7 @@ def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
     free = inner[-1] is Ellipsis
     kinds = set(inner) - {Ellipsis}
     plural = _PLURAL.get(inner[0], "values") if len(kinds) == 1 else "values"
-    many = f"a list of at most {MOST} {plural}" if free else f"{COUNTS.get(len(inner), len(inner))} {plural}"
+    many = f"a list of 1 to {MOST} {plural}" if free else f"{COUNTS.get(len(inner), len(inner))} {plural}"
     if free and not isinstance(value, list | tuple):
         value = (value,)
     if not isinstance(value, list | tuple) or not (0 < len(value) <= MOST if free else len(value) == len(inner)):
