@@ -54,7 +54,7 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"The surface mf58 for {tex_setting(ratio, field)}, in {BANDS} colours from pale to dark by the rate "
-            rf"$\lvert\omega_1B_2\rvert$ at which $\Omega_3$ departs from each of its points, in equal steps up to "
+            rf"$\lvert\omega_1B'_2\rvert$ at which $\Omega_3$ departs from each of its points, in equal steps up to "
             rf"${tex(round(widest * field[0], 2))}$ at the rim. Only from the heavy line it does not depart. That line "
             r"is the darker and wider the faster a small nutation about the motion is, in four classes by $\nu_n/b$ "
             rf"from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$: the least near the bends. Small "
