@@ -74,15 +74,17 @@ class Change:
 CHANGES = (
     Change("nothing", BUILD),
     Change("a comment in a kernel", BUILD, "atlas/core/hyperbola.py", line("from typing", "# {}")),
-    Change("a sentence", BUILD, REPORT, line("The right branch of @fig:loop", "It was measured {} times.")),
-    Change("a sentence, pages only", PAGES, REPORT, line("The right branch of @fig:loop", "It was seen {} times.")),
+    Change("a sentence", BUILD, REPORT, line("The right branch, in @fig:hyperbolas", "It was measured {} times.")),
+    Change(
+        "a sentence, pages only", PAGES, REPORT, line("The right branch, in @fig:hyperbolas", "It was seen {} times.")
+    ),
     Change("a template of the pages", BUILD, "templates/html/page.html", swap("<body", '<body data-number="{}"')),
     Change("a number of a table", BUILD, REPORT, swap("omega2 = [-3.0,", "omega2 = [-3.{:03d},")),
-    Change("a parameter of a 2-D figure", BUILD, REPORT, parameter("loop-hyperbola", "reach", 2.5)),
-    Change("the same, pages only", PAGES, REPORT, parameter("loop-hyperbola", "reach", 2.3)),
+    Change("a parameter of a 2-D figure", BUILD, REPORT, parameter("short-hyperbola", "reach", 2.5)),
+    Change("the same, pages only", PAGES, REPORT, parameter("short-hyperbola", "reach", 2.3)),
     Change("a parameter of a line drawing in space", BUILD, REPORT, parameter("loop-motion", "omega2", 0.8)),
-    Change("a parameter of a shaded figure", BUILD, REPORT, parameter("short-sphere", "omega2", 0.8)),
-    Change("the same, pages only", PAGES, REPORT, parameter("short-sphere", "omega2", 0.9)),
+    Change("a parameter of a shaded figure", BUILD, REPORT, parameter("ribbon", "azimuth", 45.0)),
+    Change("the same, pages only", PAGES, REPORT, parameter("ribbon", "azimuth", 40.0)),
     Change("the code of a recipe", BUILD, "figures/stability.py", line("import numpy", "NEW = {}")),
     Change("a kernel", BUILD, "atlas/core/charge.py", line("import numpy", "NEW = {}")),
     Change("a record that a figure shows", BUILD, "reports/data/build_costs.json", blank),

@@ -68,5 +68,5 @@ def test_the_record_becomes_a_table(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     rebuilds.store([taken], rebuilds.Cold(10.0, 5.0, 8.0))
     table = recorded._rebuilds()["changes"]
     assert table.rows == (("A sentence", "`atlas report`", Number("0"), Number("1"), "set", Number("1.20")),)
-    assert "5.0 s on two cores and 10.0 s on one, 2.00 times as long" in table.note
-    assert "1.25 times that" in table.note
+    assert "5.0 s on two cores and 10.0 s on one, 2.00 times as long" in " ".join(table.notes)
+    assert "1.25 times that" in " ".join(table.notes)
