@@ -10,7 +10,6 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.report import fonts
-from atlas.report.blocks.figure import GUTTER
 from atlas.report.blocks.table import Cell
 from atlas.report.compose import Document
 from atlas.report.versions import versions
@@ -45,7 +44,6 @@ def source(document: Document) -> str:
         versions=versions(),
         family=TEXT_FONT,
         math=MATH_FONT,
-        gutter=GUTTER,
     )
 
 

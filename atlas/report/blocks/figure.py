@@ -12,9 +12,6 @@ from atlas.report.schema import Id, Record
 if TYPE_CHECKING:
     from atlas.report.compose import Composer
 
-ROOM, TALL, GUTTER = 152.0, 160.0, 1.0
-"""Millimetres in print: width of the text, height that a figure may have, space between two pictures."""
-
 
 class Figure(Record, frozen=True, tag_field="kind", tag="figure"):
     """A recipe with its parameters; ``both`` sets the shaded picture beside the line drawing."""
@@ -46,13 +43,6 @@ class FigureView:
     width: float
     height: float
     given: int
-
-    @property
-    def printed(self) -> tuple[float, float]:
-        """Width and height of each picture in print: side by side within the text, with room below for words."""
-        count = len(self.pictures)
-        scale = min(1.0, (ROOM - GUTTER * (count - 1)) / count / self.width, TALL / self.height)
-        return scale * self.width, scale * self.height
 
     @property
     def failure(self) -> str:
