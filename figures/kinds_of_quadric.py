@@ -44,7 +44,7 @@ def scene(
         layers: list[Layer] = [
             Region(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, RIGHT], [0.0, RIGHT]]), "region"),
             Region(np.array([[1.0, 0.0], [2.0, 0.0], [2.0, RIGHT], [1.0, RIGHT]]), "shade"),
-            Curve(np.array([[1.0, 0.0], [1.0, RIGHT]]), "unstable"),
+            Curve(np.array([[1.0, 0.0], [1.0, RIGHT]]), "silhouette"),
         ]
         for value in row:
             for line in contour_generator(I, beta, axes[..., k]).lines(value):
@@ -52,7 +52,7 @@ def scene(
                 layers += [Curve(piece, "main") for piece in beside(line, place)]
                 layers.append(Label(place, f"${value:g}$", "main", (0.0, 0.0)))
         if k == 0:
-            layers.append(Label(np.array([1.0, 0.92 * RIGHT]), "cone", "unstable", (0.0, 0.0)))
+            layers.append(Label(np.array([1.0, 0.92 * RIGHT]), "cone", "label", (0.0, 0.0)))
         if k == 1:
             layers += [
                 Label(np.array([0.32, 0.92 * RIGHT]), "one sheet", "label", (0.0, 0.0)),

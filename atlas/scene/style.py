@@ -77,7 +77,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "asymptote": Style(GREY, 0.6, (5.0, 2.5), tube=1.0),
         "pole": Style(GREY, 0.6, (1.2, 1.8), tube=1.0),
         "trajectory": Style(NAVY, 1.1, tube=2.6),
-        "flight_path": Style(BLUE, 1.1, hidden=False, tube=2.4),
+        "flight_path": Style(NAVY, 1.1, hidden=False, tube=2.4),
         "trace": Style(NAVY, 1.2, tube=2.8),
         "second_trace": Style("#6b8fc9", 0.7, tube=1.4),
         "coil": Style("#8a5a1f", 0.5, hidden=False, tube=1.0),
