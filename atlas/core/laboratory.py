@@ -11,11 +11,6 @@ from typing import Any
 from atlas.core.inputs import number, positive
 from atlas.core.units import ELECTRIC_CONSTANT, SPEED_OF_LIGHT
 
-AIR = 3e6
-"""V/m: where air of ordinary pressure breaks down."""
-FIELD_EMISSION = 1e9
-"""V/m: where a negative surface in vacuum begins to lose electrons."""
-
 
 def greatest_charge(radius: Any, surface_field: float) -> float:
     """Charge 4 pi eps0 r^2 E, in C, of a ball (radius in m) that makes the field E (V/m) at its surface."""
