@@ -1,7 +1,10 @@
+import csv
+import gc
 import signal
 import subprocess
 import sys
 import time
+import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -120,6 +123,35 @@ def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
     assert (tmp_path / "k.csv").read_bytes() == (tmp_path / "a.csv").read_bytes()
 
 
+def test_memory_does_not_grow_with_the_parts(tmp_path: Path) -> None:
+    """What a part needed is given back after it, also where the collector of garbage would wait."""
+    given = {"ratio": 0.5, "B2": 1.0, "B3": 0.3, "omega2": np.linspace(0.1, 2, 12_000), "t": 7.0}
+    gc.disable()
+    try:
+        for _ in range(2):
+            tracemalloc.start()
+            atlas.sweep("elementary", given, ["R11"], tmp_path / "a.csv", rows=2000, jobs=1)
+            left, _ = tracemalloc.get_traced_memory()
+            tracemalloc.stop()
+    finally:
+        gc.enable()
+    assert left < 500_000
+
+
+def test_a_name_with_a_comma_is_one_cell(tmp_path: Path) -> None:
+    """A CSV file reads back as the table, whatever its cases are called."""
+    given = {"ratio": 0.5, "B2": 1.0, "B3": [0.0, 0.3], "omega2": [-1.0, 0.4], "omega1": 0.1, "omega3": 0.2}
+    out = atlas.sweep("general", given, ["kind", "period"], tmp_path / "a.csv", listed=True, jobs=1)
+    assert isinstance(out, Path)
+    with out.open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    table = atlas.sweep("general", given, ["kind", "period"], listed=True)
+    assert isinstance(table, dict)
+    assert [row["kind"] for row in rows] == table["kind"].tolist()
+    assert any("," in row["kind"] for row in rows)
+    assert [float(row["period"]) for row in rows] == table["period"].tolist()
+
+
 def test_parts_of_another_sweep_are_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Other parameters, other parts; and a folder of the user's own is left alone."""
     monkeypatch.setattr(run, "shutil", type("Kept", (), {"rmtree": staticmethod(lambda _: None)}))
@@ -157,11 +189,16 @@ def test_every_quantity_of_every_family_has_a_value_a_row(family: str) -> None:
         assert table[name].dtype == np.dtype(NAME) or np.isfinite(table[name]).all()
 
 
-def test_certified_digits_round_to_the_floats() -> None:
+@pytest.mark.parametrize(
+    ("family", "names"),
+    [("elementary", ["omega3", "k", "phi"]), ("general", ["period", "nome", "spin_per_period", "least", "largest"])],
+)
+def test_certified_digits_round_to_the_floats(family: str, names: list[str]) -> None:
     """With digits the quantities are text, whose nearest doubles are those of the kernels."""
     given = {"ratio": [0.5, 1.5], "B2": [1.0, 2.0], "B3": [0.3, 0.4], "omega2": [0.7, 0.9]}
-    names = ["omega3", "k", "phi"]
-    texts, floats = (atlas.sweep("elementary", given, names, listed=True, digits=n) for n in (30, None))
+    if family == "general":
+        given |= {"omega1": [0.3, 0.1], "omega3": [0.2, -0.4]}
+    texts, floats = (atlas.sweep(family, given, names, listed=True, digits=n) for n in (30, None))
     for name in names:
         assert [float(text) for text in texts[name]] == floats[name].tolist()
 

@@ -15,12 +15,17 @@ NAME = "U28"
 """Text in a table: the names of cases and kinds, none of which is longer."""
 
 
+PERIODIC = ("period", "precession_per_period", "spin_per_period", "modulus", "nome")
+"""Numbers of a general motion that belong to its nutation."""
+
+
 @dataclass(frozen=True)
 class Family:
     """A family: parameters needed, and others with the value that they have when left out (None: left out).
 
     `make` takes the parameters, arrays or numbers, and returns the kernels' objects; each quantity is got from these
     and the parameters. `exact` does the same with `atlas.exact` for certified digits, of the quantities in `certified`.
+    So many motions as `at_once` are there at a time.
     """
 
     needed: tuple[str, ...]
@@ -29,12 +34,19 @@ class Family:
     quantities: Mapping[str, Callable[[Any, Row], Any]]
     exact: Callable[[Row], Any] | None = None
     certified: tuple[str, ...] = ()
+    at_once: int = 50_000
 
     def columns(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str]) -> dict[str, NDArray[Any]]:
         """Return the quantities of rows of parameters, arrays of floats or of text."""
-        made, size = self.make(parameters), next(iter(parameters.values())).size
-        found = {name: np.broadcast_to(self.quantities[name](made, parameters), size) for name in names}
-        return {name: x.astype(NAME if x.dtype.kind == "U" else np.float64) for name, x in found.items()}
+        size = next(iter(parameters.values())).size
+        found: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
+        for start in range(0, size, self.at_once):
+            rows = {name: x[start : start + self.at_once] for name, x in parameters.items()}
+            made, count = self.make(rows), min(self.at_once, size - start)
+            for name, column in found.items():
+                values = np.broadcast_to(self.quantities[name](made, rows), count)
+                column.append(values.astype(NAME if values.dtype.kind == "U" else np.float64))
+        return {name: np.concatenate(column) for name, column in found.items()}
 
     def digits(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int) -> dict[str, Any]:
         """Return the quantities as text with certified digits, row by row."""
@@ -83,6 +95,22 @@ def _exact_elementary(p: Row) -> Any:
     from atlas.exact.elementary import ElementaryMotion
 
     return ElementaryMotion(p["ratio"], (p["B2"], p["B3"]), p["omega2"], p.get("omega3"))
+
+
+def _general(p: Row) -> Any:
+    from atlas.core.general import GeneralMotion
+
+    return GeneralMotion(p["ratio"], (p["B2"], p["B3"]), (p["omega1"], p["omega2"], p["omega3"]))
+
+
+def _exact_general(p: Row) -> Any:
+    from atlas.exact.general import GeneralMotion
+
+    return GeneralMotion(p["ratio"], (p["B2"], p["B3"]), (p["omega1"], p["omega2"], p["omega3"]))
+
+
+def _turning_point(i: int, made: Any, _: Row) -> Any:
+    return made.turning_points[i]
 
 
 def _stability(_: Any, p: Row) -> Any:
@@ -161,6 +189,20 @@ FAMILIES: Mapping[str, Family] = {
         | _vector("m", "angular_momentum"),
         _exact_elementary,
         ("omega3", "k", "phi"),
+    ),
+    "general": Family(
+        ("ratio", "B2", "B3", "omega1", "omega2", "omega3"),
+        {"t": 0.0},
+        _general,
+        {name: _of(name) for name in ("kind", *PERIODIC)}
+        | {"least": partial(_turning_point, 0), "largest": partial(_turning_point, 1)}
+        | _matrix()
+        | _vector("Omega", "angular_velocity")
+        | _vector("K", "field_in_body")
+        | _vector("m", "angular_momentum"),
+        _exact_general,
+        (*PERIODIC, "least", "largest"),
+        at_once=200,
     ),
     "free": Family(
         ("ratio", "omega1", "omega2", "omega3"),

@@ -1,5 +1,6 @@
 """The sweep itself: parts of the table computed anywhere, kept as files until the table is whole."""
 
+import gc
 import os
 import shutil
 from collections import deque
@@ -75,6 +76,8 @@ def part(plan: Plan, start: int, suffix: str) -> bytes:
         return FORMATS[suffix][0](plan.columns())
     except AtlasError as error:
         raise type(error)(f"In the rows {start} to {start + plan.count - 1}: {error}") from error
+    finally:
+        gc.collect()  # an array of motions refers to itself: few objects, but megabytes, which would wait for many more
 
 
 def _compute(plan: Plan, parts: Path, suffix: str, executor: Any, jobs: int | None, progress: Progress | None) -> None:

@@ -17,8 +17,13 @@ Load = Callable[[int], bytes]
 
 def csv_part(columns: Columns) -> bytes:
     """Return rows as text; floats with the shortest digits that read back the same."""
-    cells = [x.tolist() if x.dtype.kind == "U" else map(repr, x.tolist()) for x in columns.values()]
+    cells = [map(_quoted if x.dtype.kind == "U" else repr, x.tolist()) for x in columns.values()]
     return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
+
+
+def _quoted(text: str) -> str:
+    """Return a name as it stands in a CSV file, between quotes if it holds a comma."""
+    return f'"{text}"' if "," in text else text
 
 
 def array_part(columns: Columns) -> bytes:
