@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import chain
 from statistics import median
-from time import process_time
 from typing import Any
 
 import numpy as np
@@ -47,7 +46,7 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
     """Yield error and time a row, ours and plain, of every quantity."""
     for task in _tasks(count):
         with one_core():
-            times = interleave({"ours": task.ours, "plain": task.plain}, rounds, clock=process_time)
+            times = interleave({"ours": task.ours, "plain": task.plain}, rounds)
         for method, job in (("ours", task.ours), ("plain", task.plain)):
             values = job()
             chosen = np.unique(np.linspace(0, count - 1, JUDGED).astype(int)).tolist()

@@ -1,5 +1,6 @@
 """How long? Jobs timed by turns within one run, so that whatever else the machine does meets all of them alike.
 
+On one thread the time is the processor's: what else the machine does is not in it, but for what it does to the caches.
 Only medians and ratios within a round are used: an absolute time on a busy machine says little.
 """
 
@@ -8,7 +9,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from statistics import median
-from time import perf_counter
+from time import process_time
 from typing import Any, TypeAlias
 
 Job: TypeAlias = Callable[[], Any]
@@ -41,19 +42,19 @@ def one_core() -> Iterator[None]:
 
 
 def once(job: Job) -> tuple[float, Any]:
-    """Return the seconds of one call and what it gave."""
-    start = perf_counter()
+    """Return the processor's seconds for one call and what it gave."""
+    start = process_time()
     result = job()
-    return perf_counter() - start, result
+    return process_time() - start, result
 
 
 def interleave(
-    jobs: Mapping[str, Job], rounds: int, least: float = 1e-3, clock: Callable[[], float] = perf_counter
+    jobs: Mapping[str, Job], rounds: int, least: float = 1e-3, clock: Callable[[], float] = process_time
 ) -> dict[str, list[float]]:
     """Time every job once a round, in turns and every second round backwards; return seconds a call, by round.
 
-    A job shorter than ``least`` seconds is called in a loop that lasts about that long. ``clock`` is the processor's
-    time where all jobs take one core and others may take it too.
+    A job shorter than ``least`` seconds is called in a loop that lasts about that long. ``clock`` is another one where
+    jobs take several threads.
     """
     loops: dict[str, int] = {}
     for name, job in jobs.items():

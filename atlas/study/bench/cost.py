@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from statistics import median
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
@@ -107,7 +108,7 @@ def _timed(
             rows.append(replace(row, status="failed", note=said(raised)))
     needed = {"fill/1", *(f"{work.against}/1" for work, _ in errors)}
     jobs |= {work.key: work.job for work in bases if work.key in needed} if errors else {}
-    times = interleave(jobs, rounds)
+    times = interleave(jobs, rounds, clock=perf_counter if bases else process_time)
     for work, error in errors:
         seconds, base = times[work.key], times.get(f"{work.against}/1")
         each, to_fill = median(seconds) / count * 1e9, ratio(seconds, times["fill/1"])

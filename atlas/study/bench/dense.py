@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from functools import partial
 from itertools import chain
 from statistics import median
-from time import process_time
 
 import numpy as np
 from flint import ctx
@@ -48,7 +47,7 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
     plain, exact = elementary.plain(), Exact(*general.PARAMETERS.values())
     jobs = {f"{what} {method}": _job(*way) for (what, method), way in solve.items()}
     with one_core():
-        times = interleave({"plain": _job(plain, anywhere)} | jobs, rounds, clock=process_time)
+        times = interleave({"plain": _job(plain, anywhere)} | jobs, rounds)
     for (what, method), (evaluate, at) in solve.items():
         values = evaluate(at)
         chosen = np.unique(np.linspace(0, count - 1, JUDGED).astype(int)).tolist()
