@@ -5,6 +5,7 @@
 
 import json
 import math
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from syrupy.assertion import SnapshotAssertion
 from syrupy.extensions.json import JSONSnapshotExtension
 
 import atlas
-from atlas.scene import Arrow, Curve, Label, Layer, Panel, Plane, Space, Surface, recipes
+from atlas.scene import Arrow, Curve, Label, Layer, Panel, Plane, Space, Surface, recipes, style
 
 ULPS, EPS = 4, float(np.finfo(float).eps)
 """What another processor's rounding may change."""
@@ -162,12 +163,17 @@ def drawn(layer: Layer, *, noise: bool) -> dict[str, Any]:
     if noise:
         return record
     if isinstance(layer, Arrow):
-        return record | {"tail": layer.tail, "tip": layer.tip}
+        return record | {"tail": layer.tail, "tip": layer.tip, "offset": layer.offset}
     if isinstance(layer, Label):
         return record | {"at": layer.at, "offset": layer.offset}
     if isinstance(layer, Surface):
         corners = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
-        return record | {"quadric": layer.quadric, "clip": layer.clip, "extent": [corners.min(0), corners.max(0)]}
+        extent = [corners.min(0), corners.max(0)]
+        places = corners[np.linspace(0, len(corners) - 1, 5).round().astype(int)]
+        counts = [len(corners), len(layer.wires), len(layer.rims)]
+        return record | {
+            "quadric": layer.quadric, "clip": layer.clip, "extent": extent, "places": places, "counts": counts
+        }  # fmt: skip
     if isinstance(layer, Curve):
         size = np.ptp(layer.points, axis=0)
         steps = np.diff(layer.points, axis=0) / np.where(size > 0.0, size, 1.0)
@@ -176,6 +182,11 @@ def drawn(layer: Layer, *, noise: bool) -> dict[str, Any]:
         course = np.stack([np.interp(along, length, part) for part in layer.points.T], axis=1)
         return record | {"ends": layer.points[[0, -1]], "course": np.round(course / size.max(), 6)}
     return record | {name: getattr(layer, name) for name in ("points", "x", "y", "values") if hasattr(layer, name)}
+
+
+def test_the_styles_are_what_they_were(snapshot: SnapshotAssertion) -> None:
+    """Colour, width, dashes and size of each role, as they were looked at."""
+    assert {role: plain(asdict(one)) for role, one in style.STYLES.items()} == snapshot.use_extension(Drawn)
 
 
 def test_a_changed_number_is_noticed() -> None:
