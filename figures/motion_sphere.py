@@ -70,7 +70,8 @@ def scene(
             rf"The thin line is the trace of $\mathbf{{R}}_1(t)$ over {plain(turns)} periods of the precession; "
             r"arrowheads show which way both run."
             if drawn
-            else r"Arrowheads show which way it runs."
+            else rf"Arrowheads show which way it runs. The trace of $\mathbf{{R}}_1(t)$ over {plain(turns)} periods of "
+            r"the precession would fill a band of the sphere, and is not drawn."
         ),
         f"A unit sphere for {plain_setting(ratio, field)} with omega2 = {plain(omega2)}; the third axis of the body "
         "precesses "
