@@ -82,7 +82,7 @@ def test_figures_follow_the_record(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
 
 def test_unknown_case_or_horizon_is_an_error() -> None:
     """The sentence says which there are."""
-    with pytest.raises(AtlasError, match="elementary, ball, particle"):
+    with pytest.raises(AtlasError, match="elementary, general, ball, particle"):
         recipes.load("horizon").scene(cases=("balloon",))
     with pytest.raises(AtlasError, match="100, 1000"):
         recipes.load("work_precision").scene(horizon=3.0)
