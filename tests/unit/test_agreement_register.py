@@ -27,7 +27,7 @@ MACHINERY = {
         "basis cayley_klein charge charges double_double frequencies general_grid grid gyration inputs motion nutation "
         "phase rational rotation threads turnings wide".split()
     ),
-    "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "taylor", "theta"},
+    "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "taylor", "theta", "two_turns"},
 }
 """Modules that compute for the others, and hold no formula of their own."""
 
@@ -38,6 +38,7 @@ ELSEWHERE = {
         "closed": "test_closed.py",
         "invariants": "test_elementary.py",
         "kind_map": "test_momentum_map.py",
+        "laboratory": "test_laboratory.py",
         "momentum_map": "test_momentum_map.py",
         "separatrix": "test_separatrix.py",
     },
@@ -74,8 +75,8 @@ UNTIED = {
     **{
         f"GeneralMotion.{name}": SERIES
         for name in (
-            "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body in_cell "
-            "in_laboratory invariants is_steady kind modulus nome parameters period precession_per_period quaternion "
+            "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body from_frame "
+            "in_cell in_laboratory invariants is_steady kind modulus nome parameters period precession_per_period quaternion "
             "roots rotation rotation_grid solution spin_per_period third_axis tilt trigonometric turning_points"
         ).split()
     },
