@@ -76,8 +76,9 @@ UNTIED = {
         f"GeneralMotion.{name}": SERIES
         for name in (
             "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body from_frame "
-            "in_cell in_laboratory invariants is_steady kind modulus nome parameters period precession_per_period quaternion "
-            "roots rotation rotation_grid solution spin_per_period third_axis tilt trigonometric turning_points"
+            "in_cell in_laboratory invariants is_steady kind modulus nome parameters period "
+            "precession_per_period quaternion roots rotation rotation_grid solution spin_per_period "
+            "third_axis tilt trigonometric turning_points"
         ).split()
     },
     "ElementaryMotion.omega": GIVEN,

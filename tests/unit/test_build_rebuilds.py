@@ -70,3 +70,11 @@ def test_the_record_becomes_a_table(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert table.rows == (("A sentence", "`atlas report`", Number("0"), Number("1"), "set", Number("1.20")),)
     assert "5.0 s on two cores and 10.0 s on one, 2.00 times as long" in " ".join(table.notes)
     assert "1.25 times that" in " ".join(table.notes)
+
+
+def test_the_record_is_of_this_code() -> None:
+    """The stored times are those of the code that builds and of the changes as they are; its command renews it."""
+    found = json.loads(rebuilds.stored().read_text(encoding="utf-8"))
+    assert found["command"] == "make rebuilds"
+    assert found["code"] == rebuilds.code()
+    assert {change["name"] for change in found["changes"]} == {change.name for change in changes.CHANGES}
