@@ -106,7 +106,8 @@ def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
         graded = {grade: len(labels) for grade, labels in slips(found).items() if labels}
         if graded:
             each = ", ".join(f"{count} {grade}" for grade, count in graded.items())
-            click.echo(f"{sum(graded.values())} distinct slips: {each}")
+            count = sum(graded.values())
+            click.echo(f"{count} distinct slip{'s' if count != 1 else ''}: {each}")
     for label, was, now in different:
         click.echo(f"atlas: {label} was recorded as {was} and is found {now}", err=True)
     return int(bool(different) and not record)
