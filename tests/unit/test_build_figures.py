@@ -267,7 +267,7 @@ def _killing(pool: Any, killed: list[int]) -> Any:
 
     def call(*arguments: Any) -> Any:
         future = submit(*arguments)
-        if not killed:
+        if not killed and len(pool._processes) == 2:  # both are there: none is started while the pool breaks
             killed.extend(pool._processes)
             os.kill(killed[0], signal.SIGKILL)
         return future
