@@ -1,5 +1,6 @@
 """Two turns in a row, R = R_n(k t) R_z(phi t), mf90: the matrix of every motion in elementary functions."""
 
+import reprlib
 from collections.abc import Mapping
 from functools import cached_property
 from types import MappingProxyType
@@ -117,7 +118,12 @@ def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...]
 def target(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
     """Return the array to fill: a new one, or the caller's if it fits."""
     if out is None:
-        return np.empty(shape)
+        try:
+            return np.empty(shape)
+        except (ValueError, MemoryError) as error:  # more than NumPy can count, more than there is
+            raise AtlasError(
+                f"there is no memory for an array of shape {reprlib.repr(shape)}: ask for less."
+            ) from error
     if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray):
         raise AtlasError(f"out must be a NumPy array of shape {shape}, not of type {type(out).__name__}.")
     if out.shape != shape or out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:

@@ -46,7 +46,7 @@ def attributes(*names: str) -> dict[str, Any]:
     return {name: lambda made, name=name: getattr(made, name) for name in names}
 
 
-@share(0.15, 60)
+@share(0.1, 60)
 @given(bodies, pairs, arrays(numbers), st.none() | arrays(numbers), times, st.floats(-10, 10), st.integers(0, 9))
 def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any, step: float, count: int) -> None:
     """All that an elementary motion answers."""
@@ -63,6 +63,25 @@ def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any,
             "invariants at t": lambda m: m.invariants(t),
             "rotation_grid": lambda m: m.rotation_grid(step, step, count),
             "beside": lambda m: m.beside.k,
+        },
+    )
+
+
+@share(0.05, 25)
+@given(ratios, st.tuples(numbers, numbers), st.tuples(numbers, numbers, numbers), times, st.floats(-10, 10))
+def test_general_motion(I: Any, field: Any, omega: Any, t: Any, step: float) -> None:
+    """All that a general motion answers."""
+    asked(
+        lambda: atlas.GeneralMotion(I, field, omega),
+        attributes("turning_points", "period", "precession_per_period", "spin_per_period", "modulus", "nome")
+        | {
+            "rotation": lambda m: m.rotation(t),
+            "third_axis": lambda m: m.third_axis(t),
+            "angular_velocity": lambda m: m.angular_velocity(t),
+            "field_in_body": lambda m: m.field_in_body(t),
+            "angular_momentum": lambda m: m.angular_momentum(t),
+            "invariants": lambda m: m.invariants(),
+            "rotation_grid": lambda m: m.rotation_grid(step, step, 9),
         },
     )
 

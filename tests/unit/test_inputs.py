@@ -85,6 +85,8 @@ def test_anything_else_is_one_sentence_with_its_name(
         (lambda: larmor_field(1.0, 1.0, np.ma.masked_array([0.0], [True])), "not MaskedArray."),
         (lambda: larmor_field(1.0, 1.0, "x" * 5000), "Units are 'SI' or 'Gaussian'"),
         (lambda: atlas.Hyperbola(1.5, (1.0, 2.0)).sample(3e10), "at most 100000000, not 3e+10"),
+        (lambda: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation_grid(0.0, 1.0, 1e140), "is no memory for an"),
+        (lambda: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation_grid(0.0, 1.0, 10**15), "(1000000000000000, 3"),
         (lambda: recipes.load("tipping_disk").scene(count=-90), "count must lie between 2 and 24, not -90"),
         (lambda: recipes.load("phase_portrait").scene(levels=-1), "levels must lie between 1 and 40, not -1"),
     ],
