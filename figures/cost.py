@@ -7,7 +7,7 @@ from atlas.scene.layers import Layer, Plane, Scene
 from atlas.scene.words import listed, title
 from atlas.study.bench.figures import decades, line, measured, pairs
 from atlas.study.bench.methods import title as name
-from atlas.study.bench.record import Record, read
+from atlas.study.bench.results import Results, read
 
 RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")
@@ -35,7 +35,7 @@ def scene(*, columns: int = 1) -> Scene:
     )
 
 
-def each(record: Record) -> Plane:
+def each(record: Results) -> Plane:
     """Draw nanoseconds a matrix on one thread."""
     layers: list[Layer] = []
     for method in SHOWN:
@@ -45,7 +45,7 @@ def each(record: Record) -> Plane:
     return _plane(layers, "time for one matrix (ns)")
 
 
-def multiples(record: Record) -> Plane:
+def multiples(record: Results) -> Plane:
     """Draw the multiples of filling the memory."""
     layers: list[Layer] = []
     for method, threads in (("plain_out", 1), ("ours_out", 1), ("ours_out", 2), ("grid_out", 1), ("grid_out", 2)):

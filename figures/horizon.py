@@ -10,7 +10,7 @@ from atlas.scene.layers import Curve, Layer, Plane, Scene
 from atlas.scene.words import listed, tex, title
 from atlas.study.bench.figures import by_method, case_title, decades, line, measured, pairs, runs_of
 from atlas.study.bench.methods import OURS
-from atlas.study.bench.record import Record, Run, read
+from atlas.study.bench.results import Results, Run, read
 
 RECORDS = ("bench.json",)
 LIMIT = 4 * 2.0**-52
@@ -41,7 +41,7 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
     )
 
 
-def panels(record: Record, cases: tuple[str, ...]) -> tuple[Plane, ...]:
+def panels(record: Results, cases: tuple[str, ...]) -> tuple[Plane, ...]:
     """Draw the runs of each case, all on the same axes."""
     layers = {case: tuple(drawn(runs_of(record, case))) for case in cases}
     points = [layer.points for case in cases for layer in layers[case]]

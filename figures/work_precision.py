@@ -12,7 +12,7 @@ from atlas.scene.words import listed, plain, title
 from atlas.study.bench.figures import by_method, case_title, decades, line, measured, pairs, power, runs_of
 from atlas.study.bench.methods import MARKS
 from atlas.study.bench.methods import title as name
-from atlas.study.bench.record import Record, Run, read
+from atlas.study.bench.results import Results, Run, read
 
 RECORDS = ("bench.json",)
 
@@ -42,7 +42,7 @@ def scene(
     )
 
 
-def panels(record: Record, cases: tuple[str, ...], horizon: float) -> tuple[Plane, ...]:
+def panels(record: Results, cases: tuple[str, ...], horizon: float) -> tuple[Plane, ...]:
     """Draw the runs of each case up to the horizon, all on the same axes."""
     layers = {case: tuple(drawn([run for run in runs_of(record, case) if run.horizon == horizon])) for case in cases}
     points = [layer.points for case in cases for layer in layers[case]]

@@ -37,7 +37,7 @@ LOADED = {
     "atlas/scene/": FIGURES,
     "atlas/draw/": ("test_draw_figure", "test_draw_shaded"),
     "atlas/report/": ("test_report_tables", "test_report_records", "test_report_formulas"),
-    "atlas/study/": ("test_stress", "test_bench_record", "test_bench_figures"),
+    "atlas/study/": ("test_stress", "test_bench_results", "test_bench_figures"),
 }
 """The tests of what no test imports, since it is loaded by its name."""
 

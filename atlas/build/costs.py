@@ -10,12 +10,12 @@ from atlas.errors import AtlasError
 from atlas.places import folder
 
 if TYPE_CHECKING:
-    from atlas.build.figures import Figure
+    from atlas.build.figures import FigureBuild
 
 HEADING = ("scene", "from", "points", "faces", "compute [ms]", "draw [ms]", "peak [MB]", "kB")
 
 
-def write(path: Path, name: str, figures: Sequence["Figure"], times: Mapping[str, float], jobs: int) -> Path:
+def write(path: Path, name: str, figures: Sequence["FigureBuild"], times: Mapping[str, float], jobs: int) -> Path:
     """Write the costs of a build as JSON; `times` are the clock's readings at the end of each step, in order."""
     steps = {
         step: round(end - start, 4) for (step, end), start in zip([*times.items()][1:], times.values(), strict=False)
@@ -33,7 +33,7 @@ def write(path: Path, name: str, figures: Sequence["Figure"], times: Mapping[str
 
 def keep(path: Path, data: Path | None = None) -> Path:
     """Keep the costs of a build as the record of which the figure `build_cost` is drawn, with machine and date."""
-    from atlas.study.bench.record import machine, today, versions
+    from atlas.study.bench.results import machine, today, versions
 
     found = json.loads(path.read_text(encoding="utf-8"))
     if any(scene["from"] == "failed" for scene in found["scenes"]):
@@ -69,7 +69,7 @@ def rows(path: Path) -> list[list[str]]:
     ]
 
 
-def _scene(figure: "Figure") -> dict[str, Any]:
+def _scene(figure: "FigureBuild") -> dict[str, Any]:
     """Return the entry of one figure; what it cost when it was drawn, if it comes from the cache."""
     if figure.failure:
         return {"scene": figure.name, "from": "failed", "reason": figure.failure}

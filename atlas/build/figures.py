@@ -26,7 +26,7 @@ Progress = Callable[[int, int, str], None]
 
 
 @dataclass(eq=False)
-class Figure:
+class FigureBuild:
     """A figure that is wanted in some kinds of files (svg, pdf, png, pgf, csv), and what became of it.
 
     `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
@@ -70,7 +70,7 @@ class Figure:
                 self.facts, self.contents[kind] = worker.read(entry)
 
 
-def parts_of(figure: Figure, sources: Sources, gl: str | None) -> dict[str, str]:
+def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str, str]:
     """Return what a figure depends on, each part as a digest under its name."""
     from atlas.scene import recipes
 
@@ -90,7 +90,7 @@ def parts_of(figure: Figure, sources: Sources, gl: str | None) -> dict[str, str]
     }
 
 
-def find(figures: Sequence[Figure], cache: Cache, sources: Sources, gl: str | None) -> None:
+def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str | None) -> None:
     """Take from the cache what there is of some figures, and note why the rest must be drawn."""
     for figure in figures:
         figure.parts = parts_of(figure, sources, gl)
@@ -105,7 +105,7 @@ def find(figures: Sequence[Figure], cache: Cache, sources: Sources, gl: str | No
     sources.save()
 
 
-def draw(figures: Sequence[Figure], cache: Cache, jobs: int, progress: Progress) -> None:
+def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Progress) -> None:
     """Draw what is missing of some figures: a single one in this process, several by as many workers as `jobs`.
 
     What is shaded is drawn first, for it takes longest. Raises OSError when the cache can't be written.
@@ -119,7 +119,7 @@ def draw(figures: Sequence[Figure], cache: Cache, jobs: int, progress: Progress)
         progress(done, len(figures), figure.recipe)
 
 
-def _drawn(figures: Sequence[Figure], cache: Cache, jobs: int) -> Iterator[tuple[Figure, str]]:
+def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
     """Draw figures, and go through them as they are finished, each with the reason if it failed.
 
     If a worker dies, what was not finished is drawn again by a single one, so that it is known which figure it is that
@@ -138,7 +138,7 @@ def _drawn(figures: Sequence[Figure], cache: Cache, jobs: int) -> Iterator[tuple
             return
         broken = False
         try:
-            futures: dict[Future[str], Figure] = {}
+            futures: dict[Future[str], FigureBuild] = {}
             try:
                 for figure, task in waiting.items():
                     futures[pool.submit(worker.draw, task)] = figure
@@ -203,13 +203,13 @@ def build_figures(
 
     cache = Cache(out / caches.NAME)
     cache.prune()
-    figures = [Figure(name, parameters or {}, renderer, tuple(formats), style) for name in names]
+    figures = [FigureBuild(name, parameters or {}, renderer, tuple(formats), style) for name in names]
     find(figures, cache, Sources(cache), gl.library())
     draw(figures, cache, jobs or cores(), progress)
     return [_put(figure, out) for figure in figures]
 
 
-def _put(figure: Figure, out: Path) -> Files:
+def _put(figure: FigureBuild, out: Path) -> Files:
     """Put the files of a figure in their places, if they are not there."""
     name = figure.recipe
     if figure.failure:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import atlas
-from atlas.report.recorded import Described
+from atlas.report.appendices import Described
 
 
 def described() -> dict[str, Described]:

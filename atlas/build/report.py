@@ -17,15 +17,15 @@ from typing import TYPE_CHECKING, Any
 
 from atlas.build import cache as caches
 from atlas.build.cache import Cache, digest
-from atlas.build.record import RECORD, record_of
 from atlas.build.sources import PACKAGE, Sources
 from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import folder
 from atlas.report.find import find
+from atlas.report.manifest import MANIFEST, manifest_of
 
 if TYPE_CHECKING:
-    from atlas.build.figures import Figure
+    from atlas.build.figures import FigureBuild
     from atlas.report.compose import Document
     from atlas.report.pandoc import Target
     from atlas.report.pictures import Picture
@@ -119,7 +119,7 @@ def _build(
 ) -> Built:
     """Build a report, and note in the cache from what and with which files."""
     from atlas.build import costs, figures
-    from atlas.build.recorded import gather
+    from atlas.build.appendices import gather
     from atlas.draw import gl
     from atlas.report.compose import compose
     from atlas.report.load import load
@@ -178,30 +178,30 @@ def _check(name: str, file: Path, out: Path, cache: Cache) -> None:
     if name.startswith("."):
         raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
     pages = out / name
-    known = (pages / RECORD).exists() or cache.load(f"report {name}")
+    known = (pages / MANIFEST).exists() or cache.load(f"report {name}")
     if pages.is_dir() and any(pages.iterdir()) and not known:
         raise AtlasError(f"{pages} holds files that are of no report; move them, or choose another --out.")
 
 
 def _figures(
     found: "Mapping[str, Picture]", formats: Sequence[str], style: str | None, library: str | None
-) -> "dict[Figure, Picture]":
+) -> "dict[FigureBuild, Picture]":
     """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
 
     The pages offer each figure as PDF and PNG too, and its data as CSV.
     """
-    from atlas.build.figures import Figure
+    from atlas.build.figures import FigureBuild
 
     lines, shaded = (("svg", "pdf", "png", "csv"), ("png", "csv")) if "html" in formats else (("pdf",), ("png",))
     return {
-        Figure(one.recipe, one.parameters, one.renderer, kinds, style): one
+        FigureBuild(one.recipe, one.parameters, one.renderer, kinds, style): one
         for one in found.values()
         for kinds in [shaded if one.renderer == "shaded" and library else lines]
         if not one.failure
     }
 
 
-def _describe(figure: "Figure", picture: "Picture") -> None:
+def _describe(figure: "FigureBuild", picture: "Picture") -> None:
     """Let a report know what a figure says and how large it is, or why there is none."""
     from atlas.report.numbers import shown
 
@@ -235,7 +235,9 @@ def _set_texts(document: "Document", formats: Sequence[str], cache: Cache, sourc
     cache.save(name, texts.used)
 
 
-def _pages(document: "Document", figures: "dict[Figure, Picture]", cache: Cache, sources: Sources) -> dict[str, bytes]:
+def _pages(
+    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
+) -> dict[str, bytes]:
     """Return the pages of a report with what belongs to them, by their places."""
     from atlas.report import html
 
@@ -244,11 +246,13 @@ def _pages(document: "Document", figures: "dict[Figure, Picture]", cache: Cache,
     drawn = {name: figure.contents[kind] for figure, picture in figures.items() for kind, name in picture.files.items()}
     files = {name: page.encode() for name, page in pages.items()} | drawn
     files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))
-    files[RECORD] = record_of(document, drawn)
+    files[MANIFEST] = manifest_of(document, drawn)
     return {f"{document.report.name}/{name}": content for name, content in files.items()}
 
 
-def _pdf(document: "Document", figures: "dict[Figure, Picture]", cache: Cache, _sources: Sources) -> dict[str, bytes]:
+def _pdf(
+    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, _sources: Sources
+) -> dict[str, bytes]:
     """Return the PDF of a report."""
     from atlas.report import pdf
 

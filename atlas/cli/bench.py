@@ -40,16 +40,16 @@ def command(
 
     The record holds machine, versions and command. Figures and report pages are drawn from the stored record.
     """
-    from atlas.study.bench import record as records
+    from atlas.study.bench import results
     from atlas.study.bench.run import run
     from atlas.study.bench.tables import machine_line, tables
 
     if read is not None:
         if cases or quick or out or store:
             raise click.UsageError("--read shows a record that is there: nothing but --json goes with it.")
-        found = records.read(read)
+        found = results.read(read)
     else:
-        place = records.stored() if store else out or OUT
+        place = results.stored() if store else out or OUT
         files.check(place)
         words = ["atlas bench", *(["--quick"] if quick else []), *(f"--case {case}" for case in cases)]
         with bar("bench") as tell:
@@ -61,7 +61,7 @@ def command(
             show(Printout(table.title, heading=table.heading, rows=table.rows, notes=table.notes, justify="left"))
         click.echo(machine_line(found))
     if read is None:
-        records.write(found, place)
+        results.write(found, place)
 
 
 def _plain(record: Any) -> Any:

@@ -10,7 +10,7 @@ from atlas.cli.options import Command, Place, examples
 from atlas.cli.present import Printout, dump, show
 
 if TYPE_CHECKING:
-    from atlas.build.compare import Change, Comparison
+    from atlas.report.compare import Change, Comparison
 
 ROOM = 44
 """Characters of a long text that the table on the terminal shows."""
@@ -41,11 +41,11 @@ def command(old: Path, new: Path, page: Path | None, as_json: bool) -> int:
 
     The exit status is 0 if nothing changed, 1 if something did, 2 if one of the two is not a built report.
     """
-    from atlas.build.compare import compare
+    from atlas.report.compare import compare
 
     found = compare(old, new)
     if page is not None:
-        from atlas.build.compare_page import as_page
+        from atlas.report.compare_page import as_page
 
         files.write(page, as_page(found))
     if as_json:
@@ -63,8 +63,8 @@ def record(found: "Comparison") -> dict[str, Any]:
 
     return {
         "changed": found.changed,
-        "old": {"folder": str(found.old.folder), "title": found.old.record.title},
-        "new": {"folder": str(found.new.folder), "title": found.new.record.title},
+        "old": {"folder": str(found.old.folder), "title": found.old.manifest.title},
+        "new": {"folder": str(found.new.folder), "title": found.new.manifest.title},
         "numbers": [
             {
                 **_place(cell),
@@ -87,7 +87,7 @@ def record(found: "Comparison") -> dict[str, Any]:
 
 def tables(found: "Comparison") -> None:
     """Print a comparison: one line when nothing changed."""
-    from atlas.build.compare_page import rounded
+    from atlas.report.compare_page import rounded
 
     if not found.changed:
         click.echo(f"The two reports are the same: {found.extent}.")

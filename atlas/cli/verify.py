@@ -70,7 +70,7 @@ def command(
 def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
     """Show verdicts, more of those asked for by name, and what differs from the record; return the exit status."""
     from atlas.paper import EQUATIONS
-    from atlas.proof.record import differs
+    from atlas.proof.recorded import differs
     from atlas.proof.verdict import slips
 
     different = differs(found)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from pyvista import Plotter
 
 _HOMES = {
-    "context": "atlas.draw.sheet",
+    "context": "atlas.draw.style",
     "save": "atlas.draw.files",
     "to_figure": "atlas.draw.panels",
     "to_plotter": "atlas.draw.shaded",

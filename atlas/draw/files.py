@@ -32,7 +32,7 @@ def save(scene: Scene, files: Mapping[Path, str], renderer: str = "vector", styl
     for a style that cannot be used; OSError where a file cannot be written.
     """
     from atlas.draw.panels import to_figure
-    from atlas.draw.sheet import context
+    from atlas.draw.style import context
 
     used, _ = choose(scene, renderer)
     for path, kind in files.items():

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from atlas.draw.order import cut, distinct_forms, places
 from atlas.draw.outline import facing
-from atlas.draw.sheet import style_of
+from atlas.draw.style import style_of
 from atlas.draw.view import View
 from atlas.scene.layers import Surface
 from atlas.scene.mesh import normals

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from atlas.draw.labels import Tag, along, place
 from atlas.draw.labels import write as write_tags
-from atlas.draw.sheet import style_of
+from atlas.draw.style import style_of
 from atlas.draw.text import extent, points
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
 from atlas.scene.style import readable

@@ -9,8 +9,8 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from atlas.draw import names
 from atlas.draw.plane import draw_plane
-from atlas.draw.sheet import context
 from atlas.draw.space import draw_shaded, draw_space
+from atlas.draw.style import context
 from atlas.draw.text import typeset
 from atlas.scene.layers import Plane, Scene
 

@@ -9,7 +9,7 @@ from matplotlib.axis import Axis
 from matplotlib.ticker import NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
-from atlas.draw.sheet import style_of
+from atlas.draw.style import style_of
 from atlas.draw.text import typeset
 from atlas.errors import AtlasError
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from atlas.draw import gl
 from atlas.draw.glass import AMBIENT, distinct, glass, lattice
-from atlas.draw.sheet import style_of
 from atlas.draw.space import HEAD_WIDTH, head_base
+from atlas.draw.style import style_of
 from atlas.draw.text import typeset
 from atlas.draw.view import View, fit, named
 from atlas.errors import AtlasError

@@ -17,7 +17,7 @@ from atlas.draw.hidden import hidden, split
 from atlas.draw.labels import along, place, write
 from atlas.draw.outline import Edge, areas, facing, shadows
 from atlas.draw.plane import marker
-from atlas.draw.sheet import style_of
+from atlas.draw.style import style_of
 from atlas.draw.view import View, fit
 from atlas.scene import conics
 from atlas.scene.layers import Arrow, Curve, Points, Space, Surface

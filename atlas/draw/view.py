@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from atlas.draw.labels import Tag, stand
 from atlas.draw.scaling import scaled
-from atlas.draw.sheet import style_of
+from atlas.draw.style import style_of
 from atlas.draw.text import extent, points
 from atlas.errors import AtlasError
 from atlas.scene.camera import frame, shown

@@ -3,7 +3,7 @@
     from atlas import proof
     proof.verify(["mf77"])        try entries of the ledger now, all if none is named
     proof.mutants(["mf77"])       change each in one place at a time and see whether the trial notices
-    proof.record.load()           the recorded verdicts, without SymPy
+    proof.recorded.load()           the recorded verdicts, without SymPy
 
 `notation` reads a printed formula, `model` says what stands before it, `decide` decides, `trial` joins the three; one
 file holds the trials of one topic, under the name that it has on the other floors. What needs SymPy is loaded when it
@@ -13,10 +13,10 @@ is used.
 from importlib import import_module
 from typing import Any
 
-from atlas.proof import record
+from atlas.proof import recorded
 from atlas.proof.verdict import Sensitivity, Verdict
 
-__all__ = ["Sensitivity", "Verdict", "mutants", "record", "try_mutants", "try_one", "verify"]
+__all__ = ["Sensitivity", "Verdict", "mutants", "recorded", "try_mutants", "try_one", "verify"]
 
 _LAZY = {"verify", "mutants", "try_one", "try_mutants"}
 

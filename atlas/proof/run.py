@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 from atlas import processes
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, equation, topic
-from atlas.proof import record
+from atlas.proof import recorded
 from atlas.proof.changes import changes
 from atlas.proof.decide import Outcome
 from atlas.proof.model import Model
@@ -94,7 +94,7 @@ def try_one(label: str) -> Verdict:
         counterexample=outcome.counterexample,
         note=case.note,
         seconds=round(time.perf_counter() - start, 2),
-        source=record.source(label),
+        source=recorded.source(label),
     )
 
 
@@ -136,7 +136,7 @@ def try_mutants(label: str, *, every: bool = False) -> Sensitivity:
         noticed=tried - len(survivors),
         survivors=tuple(survivors),
         seconds=round(time.perf_counter() - start, 2),
-        source=record.source(label, changes=True),
+        source=recorded.source(label, changes=True),
     )
 
 
@@ -166,7 +166,7 @@ def mutants(
 ) -> list[Sensitivity]:
     """Try a sample of the mutants of entries of the ledger, or `every` one; other arguments as for `verify`."""
     run = partial(try_mutants, every=every)
-    return _run(run, "all-mutants" if every else "mutants", record.sensitivity, labels, progress, jobs, cache_folder)
+    return _run(run, "all-mutants" if every else "mutants", recorded.sensitivity, labels, progress, jobs, cache_folder)
 
 
 def _run(
@@ -180,7 +180,7 @@ def _run(
 ) -> list[Found]:
     wanted = [equation(label).label for label in labels] if labels else list(EQUATIONS)
     wanted = [label for label in EQUATIONS if label in set(wanted)]
-    prints = {label: record.source(label, changes=kind != "verdict") for label in wanted}
+    prints = {label: recorded.source(label, changes=kind != "verdict") for label in wanted}
     places = {label: folder / f"{kind}-{label}-{prints[label]}.json" for label in wanted} if folder else {}
     found = {label: make(**json.loads(path.read_text("utf-8"))) for label, path in places.items() if path.is_file()}
     missing = [label for label in wanted if label not in found]

@@ -11,13 +11,13 @@ from typing import Any
 from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
 from atlas.plain import plain
+from atlas.report.appendices import Appendices
 from atlas.report.blocks import KINDS, Block, kind_of
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.ledger import pages_of
 from atlas.report.definition import Page, Report
 from atlas.report.pandoc import Target
 from atlas.report.pictures import Picture, keys
-from atlas.report.recorded import Appendices
 from atlas.report.texts import Link, Texts, citations
 from atlas.report.trial import Use
 from atlas.report.versions import parameters

@@ -4,10 +4,10 @@ import msgspec
 
 from atlas.report.blocks import Block
 from atlas.report.parameters import Parameters
-from atlas.report.schema import Id, Record, Slug
+from atlas.report.schema import Id, Slug, StrictStruct
 
 
-class Page(Record, frozen=True):
+class Page(StrictStruct, frozen=True):
     """One page of the HTML, one chapter of the PDF; pages of one part stand together in the contents.
 
     An appendix is lettered and set in small type.
@@ -21,21 +21,21 @@ class Page(Record, frozen=True):
     appendix: bool = False
 
 
-class Symbol(Record, frozen=True):
+class Symbol(StrictStruct, frozen=True):
     """A symbol of the index: its TeX, and the equations, figures, tables or pages where it is explained."""
 
     tex: str
     at: tuple[str, ...]
 
 
-class Index(Record, frozen=True):
+class Index(StrictStruct, frozen=True):
     """The index of the PDF: words, whose pages are found there, and symbols."""
 
     words: tuple[str, ...] = ()
     symbols: tuple[Symbol, ...] = ()
 
 
-class Report(Record, frozen=True):
+class Report(StrictStruct, frozen=True):
     """The whole file.
 
     ``cover`` is the id of the figure on the front page and on the cover; ``related`` names reports to link to.

@@ -4,10 +4,10 @@ from typing import Literal
 
 import msgspec
 
-from atlas.report.schema import Pair, Record, Vector
+from atlas.report.schema import Pair, StrictStruct, Vector
 
 
-class Body(Record, frozen=True):
+class Body(StrictStruct, frozen=True):
     """A body: its ratio I = I3/I2, or both moments, or a shape with its dimensions (metres and kilograms in SI)."""
 
     title: str
@@ -23,7 +23,7 @@ class Body(Record, frozen=True):
     charge: float | None = None
 
 
-class Field(Record, frozen=True):
+class Field(StrictStruct, frozen=True):
     """A field: the components (B2, B3) of B' in 1/s, or B itself with the system of units that it is given in."""
 
     title: str
@@ -35,7 +35,7 @@ class Field(Record, frozen=True):
     system: Literal["SI", "Gaussian"] = "SI"
 
 
-class Parameters(Record, frozen=True):
+class Parameters(StrictStruct, frozen=True):
     """The bodies and fields that the blocks call by name."""
 
     bodies: dict[str, Body] = msgspec.field(default_factory=dict)

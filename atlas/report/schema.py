@@ -25,7 +25,7 @@ LONGEST = 40
 T = TypeVar("T")
 
 
-class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class StrictStruct(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A table of the file; a key that it does not have is an error."""
 
 

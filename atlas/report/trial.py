@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import Equation
-from atlas.report.recorded import Finding
+from atlas.report.appendices import Finding
 
 SECTIONS = tuple(dict.fromkeys(entry.section for entry in EQUATIONS.values()))
 GRADES = ("sign of the charge", "gap in the argument", "missing case", "misprint", "wording")

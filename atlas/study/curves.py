@@ -35,7 +35,7 @@ MOST_POINTS = 1 << 22
 
 
 @dataclass(frozen=True)
-class Drawn:
+class PixelCurve:
     """A curve in final pixels, ``point`` (N,) -> (N, D), from ``start`` to ``stop``, and how a recipe first cuts it.
 
     Equal steps are those that one would take without thought: of the parameter, or of its exponential.
@@ -83,14 +83,14 @@ class Row(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     even_points: int
 
 
-class Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class CurveErrors(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The rows of each curve by its name."""
 
     format: int
     curves: dict[str, list[Row]]
 
 
-def curves() -> Iterator[Drawn]:
+def curves() -> Iterator[PixelCurve]:
     """Yield a branch of the hyperbola mf72, a trace of mf89, a trochoid mf10.1, and an outline of the quadric mf58."""
     (B2, B3), reach = FIELD, 2.6
     hyperbola, rise = Hyperbola(RATIO, FIELD), reach * RATIO
@@ -101,23 +101,23 @@ def curves() -> Iterator[Drawn]:
         omega2 = B2 * (np.exp(s) - 1.0)
         return np.stack([omega2, hyperbola.omega3(omega2)], axis=1) * window
 
-    yield Drawn("branch of the hyperbola", branch, float(np.log(near)), float(np.log(reach)), 16, logarithmic=True)
+    yield PixelCurve("branch of the hyperbola", branch, float(np.log(near)), float(np.log(reach)), 16, logarithmic=True)
 
     motion = ElementaryMotion(RATIO, FIELD, OMEGA2)
     radius = 38.0 * _PIXELS
     period = 2.0 * np.pi / abs(motion.k)
-    yield Drawn("trace of the third axis", lambda t: radius * motion.third_axis(t), 0.0, period, 8)
+    yield PixelCurve("trace of the third axis", lambda t: radius * motion.third_axis(t), 0.0, period, 8)
 
     particle = ParticleMotion.trochoid(1.0, (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), 1.0)
     turns, plane = 3.0, particle.axes[:2].T
     size = 75.0 * _PIXELS / (1.1 * turns * particle.period * float(np.linalg.norm(particle.drift)))
     stop = turns * particle.period
-    yield Drawn("trochoid", lambda t: size * (particle.position(t) @ plane), 0.0, stop, round(8 * turns))
+    yield PixelCurve("trochoid", lambda t: size * (particle.position(t) @ plane), 0.0, stop, round(8 * turns))
 
     yield outline()
 
 
-def outline() -> Drawn:
+def outline() -> PixelCurve:
     """Return the silhouette of the bowl of figure hyp_a: where grad F . d = 0 it is a plane section of the quadric."""
     field = (1.0, 1.0)
     (bowl,) = quadric_panel.sheets(RATIO, Quadric(RATIO, field), field, "origin")
@@ -127,22 +127,22 @@ def outline() -> Drawn:
     Q = bowl.quadric
     ((point, start, stop),) = conics.arcs(Q, Q[:3, :3] @ towards, -float(Q[:3, 3] @ towards), bowl.clip, ball)
     scale = 33.0 * _PIXELS
-    return Drawn("outline of a quadric", lambda s: scale * point(s), start, stop, 8)
+    return PixelCurve("outline of a quadric", lambda s: scale * point(s), start, stop, 8)
 
 
-def measure() -> Record:
+def measure() -> CurveErrors:
     """Measure all curves at all tolerances."""
-    return Record(1, {drawn.name: [row(drawn, tolerance) for tolerance in TOLERANCES] for drawn in curves()})
+    return CurveErrors(1, {drawn.name: [row(drawn, tolerance) for tolerance in TOLERANCES] for drawn in curves()})
 
 
-def row(drawn: Drawn, tolerance: float) -> Row:
+def row(drawn: PixelCurve, tolerance: float) -> Row:
     """Measure one curve at one tolerance."""
     s = drawn.knots(tolerance)
     error = drawn.error(s)
     return Row(tolerance, len(s), _short(error), _short(drawn.error(drawn.even(len(s)))), even_points(drawn, error))
 
 
-def even_points(drawn: Drawn, error: float) -> int:
+def even_points(drawn: PixelCurve, error: float) -> int:
     """Return the least number of points at equal steps that leave no more than this error, by bisection."""
     low, high = 1, 2
     while drawn.error(drawn.even(high)) > error:
@@ -165,18 +165,18 @@ def stored() -> Path:
     return folder("reports") / "data" / "curves.json"
 
 
-def read() -> Record:
+def read() -> CurveErrors:
     """Read the stored record."""
     path = stored()
     try:
-        return msgspec.json.decode(path.read_bytes(), type=Record)
+        return msgspec.json.decode(path.read_bytes(), type=CurveErrors)
     except FileNotFoundError as error:
         raise AtlasError(f"There is no record {path.name}: run python -m atlas.study.curves first.") from error
     except msgspec.MsgspecError as error:
         raise AtlasError(f"{path.name} is not a record of drawn curves: {error}.") from error
 
 
-def write(record: Record, path: Path) -> None:
+def write(record: CurveErrors, path: Path) -> None:
     """Write a record, whole or not at all."""
     files.write(path, msgspec.json.format(msgspec.json.encode(record), indent=1) + b"\n")
 

@@ -157,7 +157,7 @@ def code() -> str:
 
 def store(changes: Sequence[Taken], whole: Cold) -> None:
     """Keep what was measured, with machine and date, whole or not at all."""
-    from atlas.study.bench.record import machine, today
+    from atlas.study.bench.results import machine, today
 
     here = machine()
     record = {

@@ -12,7 +12,7 @@ import pytest
 from atlas.errors import AtlasError
 from atlas.scene import recipes
 from atlas.scene.layers import Curve, Plane, Points, Scene
-from atlas.study.bench import record as records
+from atlas.study.bench import results
 from atlas.study.bench.methods import LINES, MARKS, title
 
 NAMES = ("work_precision", "horizon", "cost")
@@ -47,7 +47,7 @@ def test_everything_lies_in_view(scene: Scene) -> None:
 
 def test_caption_names_machine_and_date(scene: Scene) -> None:
     """Whoever sees the figure learns where and when it was measured."""
-    record = records.read()
+    record = results.read()
     assert record.machine.processor in scene.caption
     assert record.date in scene.caption
     assert "$" not in scene.alt
@@ -55,7 +55,7 @@ def test_caption_names_machine_and_date(scene: Scene) -> None:
 
 def test_every_pair_of_the_record_is_drawn() -> None:
     """The diagram shows each measured run up to its horizon once, at its error and its time a sample."""
-    record = records.read()
+    record = results.read()
     for case in ("elementary", "ball", "particle"):
         drawn = recipes.load("work_precision").scene(cases=(case,), horizon=1000.0)
         found = {tuple(p) for layer in layers(drawn) if isinstance(layer, Points) for p in layer.points.tolist()}
@@ -69,12 +69,12 @@ def test_every_pair_of_the_record_is_drawn() -> None:
 
 def test_figures_follow_the_record(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Another record gives another figure: one with a tenfold error moves a decade."""
-    record = records.read()
+    record = results.read()
     runs = [msgspec.structs.replace(run, error=run.error * 10.0) if run.error else run for run in record.runs]
     path = tmp_path / "record.json"
-    records.write(msgspec.structs.replace(record, runs=runs), path)
+    results.write(msgspec.structs.replace(record, runs=runs), path)
     before = np.concatenate([layer.points for layer in layers(recipes.load("work_precision").scene())])
-    monkeypatch.setattr(records, "stored", lambda: path)
+    monkeypatch.setattr(results, "stored", lambda: path)
     after = np.concatenate([layer.points for layer in layers(recipes.load("work_precision").scene())])
     np.testing.assert_allclose(after[:, 0], 10.0 * before[:, 0], rtol=4e-16)
     np.testing.assert_array_equal(after[:, 1], before[:, 1])
@@ -90,7 +90,7 @@ def test_unknown_case_or_horizon_is_an_error() -> None:
 
 def test_every_method_of_the_record_has_a_name_and_a_look() -> None:
     """No method of the record is drawn by default alone."""
-    for run in records.read().runs:
+    for run in results.read().runs:
         assert run.method in LINES
         assert run.tolerance or (run.method in MARKS and title(run.method) != run.method)
 

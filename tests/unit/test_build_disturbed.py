@@ -84,7 +84,7 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     result = run(command(folder))
     assert result.returncode == 0, result.stderr
     found = content(folder)
-    assert {"small/index.html", "small/record.json", "small.pdf"} <= found.keys()
+    assert {"small/index.html", "small/manifest.json", "small.pdf"} <= found.keys()
     return found
 
 

@@ -17,18 +17,18 @@ import atlas.build.sources as sources_module
 from atlas import AtlasError, places, processes
 from atlas.build import worker
 from atlas.build.cache import Cache, digest
-from atlas.build.figures import Figure, build_figures, draw, find, parts_of
+from atlas.build.figures import FigureBuild, build_figures, draw, find, parts_of
 from atlas.build.report import key_of
 from atlas.build.sources import PACKAGE, Sources
 from atlas.scene import recipes
 
 ROOT = PACKAGE.parent
 WANTED = {
-    "hyperbola": Figure("hyperbola", {"ratio": 1.5}, "vector", ("svg",)),
-    "frequencies": Figure("frequencies", {}, "vector", ("svg",)),
-    "trochoids": Figure("trochoids", {}, "vector", ("svg",)),
-    "quadric": Figure("quadric", {"ratio": 0.5}, "shaded", ("png",)),
-    "horizon": Figure("horizon", {}, "vector", ("svg",)),
+    "hyperbola": FigureBuild("hyperbola", {"ratio": 1.5}, "vector", ("svg",)),
+    "frequencies": FigureBuild("frequencies", {}, "vector", ("svg",)),
+    "trochoids": FigureBuild("trochoids", {}, "vector", ("svg",)),
+    "quadric": FigureBuild("quadric", {"ratio": 0.5}, "shaded", ("png",)),
+    "horizon": FigureBuild("horizon", {}, "vector", ("svg",)),
 }
 
 
@@ -62,12 +62,12 @@ def checkout(pristine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     recipes.load.cache_clear()
 
 
-def figure(recipe: str, *kinds: str, renderer: str = "vector", **parameters: Any) -> Figure:
+def figure(recipe: str, *kinds: str, renderer: str = "vector", **parameters: Any) -> FigureBuild:
     """Return a figure that is wanted, as SVG if nothing else is said."""
-    return Figure(recipe, parameters, renderer, kinds or ("svg",))
+    return FigureBuild(recipe, parameters, renderer, kinds or ("svg",))
 
 
-def made(figures: list[Figure], cache: Cache, jobs: int = 1) -> list[Figure]:
+def made(figures: list[FigureBuild], cache: Cache, jobs: int = 1) -> list[FigureBuild]:
     """Take or draw figures."""
     find(figures, cache, Sources(), None)
     draw(figures, cache, jobs, lambda _done, _total, _what: None)
@@ -81,7 +81,7 @@ Keys = Callable[..., dict[str, str]]
 def keys(pristine: Path) -> Keys:
     """Give a function that makes the keys of the wanted figures and of a report from the sources as they are then."""
 
-    def found(gl: str | None = "egl", **changed: Figure) -> dict[str, str]:
+    def found(gl: str | None = "egl", **changed: FigureBuild) -> dict[str, str]:
         sources = Sources(Cache(pristine / "cache"))
         wanted = {name: digest(parts_of(one, sources, gl)) for name, one in (WANTED | changed).items()}
         return wanted | {"report": key_of(places.folder("reports") / "atlas.toml", sources)}

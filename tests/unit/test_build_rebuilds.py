@@ -9,7 +9,7 @@ import pytest
 from benchmarks import changes, rebuilds
 
 from atlas import AtlasError
-from atlas.build import recorded
+from atlas.build import appendices
 from atlas.build.sources import PACKAGE
 from atlas.report.numbers import Number
 
@@ -61,12 +61,12 @@ def test_the_record_becomes_a_table(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     """Each change is a row with its median; the build from nothing stands in the note; without a record it is told."""
     (tmp_path / "data").mkdir()
     monkeypatch.setattr(rebuilds, "stored", lambda: tmp_path / "data" / "rebuilds.json")
-    monkeypatch.setattr(recorded, "folder", lambda _kind: tmp_path)
+    monkeypatch.setattr(appendices, "folder", lambda _kind: tmp_path)
     with pytest.raises(AtlasError, match=r"There is no record rebuilds\.json"):
-        recorded._rebuilds()
+        appendices._rebuilds()
     taken = rebuilds.Taken("a sentence", "atlas report", 0, 1, True, (1.3, 1.1, 1.2))
     rebuilds.store([taken], rebuilds.Cold(10.0, 5.0, 8.0))
-    table = recorded._rebuilds()["changes"]
+    table = appendices._rebuilds()["changes"]
     assert table.rows == (("A sentence", "`atlas report`", Number("0"), Number("1"), "set", Number("1.20")),)
     assert "5.0 s on two cores and 10.0 s on one, 2.00 times as long" in " ".join(table.notes)
     assert "1.25 times that" in " ".join(table.notes)

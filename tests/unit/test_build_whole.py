@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build.record import RECORD
 from atlas.build.report import build_report
 from atlas.errors import AtlasError
 from atlas.report import pdf
+from atlas.report.manifest import MANIFEST
 
 PLAIN = """
 name = "plain"
@@ -107,7 +107,7 @@ def test_a_report_that_lost_its_record_is_built_again(tmp_path: Path) -> None:
     out = tmp_path / "out"
     build_report(report(tmp_path, "T"), out)
     before = state(out)
-    (out / "plain" / RECORD).unlink()
+    (out / "plain" / MANIFEST).unlink()
     build_report(tmp_path / "plain.toml", out)
     assert state(out) == before
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from unit.test_build_compare import Change, report, rows
+from unit.test_report_compare import Change, report, rows
 
 from atlas.cli import app
 from atlas.cli.diff import command

@@ -37,7 +37,7 @@ def distance(points: FloatArray, line: FloatArray) -> float:
 
 @pytest.mark.parametrize("tolerance", curves.TOLERANCES)
 @pytest.mark.parametrize("drawn", DRAWN, ids=lambda drawn: drawn.name)
-def test_the_drawn_curve_is_as_near_as_asked(drawn: curves.Drawn, tolerance: float) -> None:
+def test_the_drawn_curve_is_as_near_as_asked(drawn: curves.PixelCurve, tolerance: float) -> None:
     """Against a dense sampling that knows nothing of the cuts, the error is below the tolerance, and as measured."""
     line = sample.curve(drawn.point, drawn.start, drawn.stop, tolerance, pieces=drawn.pieces)
     error = distance(drawn.point(np.linspace(drawn.start, drawn.stop, 5003)), line)

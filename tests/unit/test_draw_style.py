@@ -16,7 +16,7 @@ from pypdf import PdfReader
 import atlas
 from atlas import AtlasError
 from atlas.draw import context, gl, save, to_figure, to_plotter
-from atlas.draw.sheet import style_of
+from atlas.draw.style import style_of
 from atlas.scene import Curve, Image, Plane, Scene, recipes
 from atlas.scene.style import LINES, STYLES, readable
 

@@ -6,14 +6,14 @@ import pytest
 
 from atlas.paper import EQUATIONS, LABEL
 from atlas.plain import plain
-from atlas.proof import record
+from atlas.proof import recorded
 from atlas.proof.survivors import REASONS
 from atlas.study.stress import LIMITS, read_ratchet
 from atlas.study.titles import title
 
 TEXTS = [
     *(text for entry in EQUATIONS.values() for text in (entry.says, *entry.assumptions)),
-    *(text for verdict in record.load().values() for text in (verdict.method, verdict.follows, verdict.note)),
+    *(text for verdict in recorded.load().values() for text in (verdict.method, verdict.follows, verdict.note)),
     *(why for reasons in REASONS.values() for _, why in reasons),
     *(title(name) for key in (*LIMITS, *read_ratchet()) for name in key.split(" | ")),
 ]

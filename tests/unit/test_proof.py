@@ -12,7 +12,7 @@ import sympy
 
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, topic
-from atlas.proof import record, run, verify
+from atlas.proof import recorded, run, verify
 from atlas.proof.decide import Outcome, decide
 from atlas.proof.dimensions import unbalanced
 from atlas.proof.identity import positive, vanishes
@@ -20,7 +20,7 @@ from atlas.proof.model import Model, hat, rotation
 from atlas.proof.run import trial, trials, try_one
 from atlas.proof.verdict import GRADES, slips
 
-RECORDED = record.load()
+RECORDED = recorded.load()
 REFUTED = [label for label, verdict in RECORDED.items() if verdict.verdict == "refuted"]
 # every third entry of what is quickly decided; the slips are tried below
 AGAIN = [label for label in RECORDED if RECORDED[label].seconds < 1][::3]
@@ -52,7 +52,7 @@ def test_every_entry_of_the_ledger_has_a_trial_and_a_recorded_verdict() -> None:
 
 def test_the_recorded_verdicts_are_those_of_the_present_proofs() -> None:
     """No proof has changed since its verdict was recorded; `atlas verify` records anew."""
-    assert record.stale(RECORDED) == []
+    assert recorded.stale(RECORDED) == []
 
 
 @pytest.mark.parametrize("stem", sorted({topic(label) for label in EQUATIONS}))
@@ -246,7 +246,7 @@ def test_a_broken_entry_turns_the_run_red(label: str, right: str, wrong: str) ->
     assert right in trial(label).printed
     found = _wrong(label, printed=trial(label).printed.replace(right, wrong, 1))
     assert found.verdict == "refuted"
-    assert [changed[0] for changed in record.differs([found], RECORDED)] == [label]
+    assert [changed[0] for changed in recorded.differs([found], RECORDED)] == [label]
 
 
 def test_a_correction_that_is_wrong_too_turns_the_run_red() -> None:
@@ -393,7 +393,7 @@ def test_every_corrected_formula_can_be_typeset() -> None:
 def test_recorded_verdicts_load_without_sympy() -> None:
     """A page that shows verdicts waits for no proof."""
     script = (
-        "import sys; from atlas import proof; assert len(proof.record.load()) > 100;"
-        "assert proof.record.load_mutants(); proof.record.stale(); print('sympy' in sys.modules)"
+        "import sys; from atlas import proof; assert len(proof.recorded.load()) > 100;"
+        "assert proof.recorded.load_mutants(); proof.recorded.stale(); print('sympy' in sys.modules)"
     )
     assert subprocess.check_output([sys.executable, "-c", script], text=True).strip() == "False"

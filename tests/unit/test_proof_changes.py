@@ -3,13 +3,13 @@
 import pytest
 
 from atlas.paper import EQUATIONS
-from atlas.proof import record
+from atlas.proof import recorded
 from atlas.proof.changes import changes
 from atlas.proof.quick import Numbers
 from atlas.proof.run import trial, try_mutants
 from atlas.proof.survivors import REASONS, reason
 
-RECORDED = record.load_mutants()
+RECORDED = recorded.load_mutants()
 # statements of invariance and symmetry, in which there is little to change
 SHORT = {"text-translation", "text-rotation-apart", "text-multipliers-symmetric", "text-ball-frame"}
 AGAIN = [label for label, found in RECORDED.items() if found.seconds < 0.6][::10]
@@ -19,7 +19,7 @@ def test_all_mutants_of_every_claim_are_recorded() -> None:
     """At least five for each entry of the ledger, all that the grammar yields, by the present proofs."""
     assert list(RECORDED) == list(EQUATIONS)
     assert [label for label, found in RECORDED.items() if found.tried < 5 and label not in SHORT] == []
-    assert record.stale(RECORDED) == []
+    assert recorded.stale(RECORDED) == []
     every = sum(
         len(changes(part.line, frozenset(letters(part)) | set(part.defines)))
         for label in AGAIN

@@ -7,9 +7,9 @@ from pypdf import PdfReader
 
 from atlas.build.report import build_report
 from atlas.errors import AtlasError
+from atlas.report.appendices import Appendices
 from atlas.report.compose import compose
 from atlas.report.load import load
-from atlas.report.recorded import Appendices
 from atlas.report.tables.model import Data
 from atlas.report.texts import beginning
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from atlas.build.costs import keep
-from atlas.build.figures import Figure
+from atlas.build.figures import FigureBuild
 from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.report.find import find
@@ -74,7 +74,7 @@ def test_the_stored_ledger_is_of_the_figures_as_they_are() -> None:
     stored = json.loads((folder("reports") / "data" / "build_costs.json").read_text())
     assert "--keep-costs" in stored["command"]
     shown = pictures(load(find("atlas"))).values()
-    drawn = {Figure(one.recipe, one.parameters, one.renderer, ()).name for one in shown}
+    drawn = {FigureBuild(one.recipe, one.parameters, one.renderer, ()).name for one in shown}
     assert {entry["scene"] for entry in stored["scenes"]} == drawn
 
 

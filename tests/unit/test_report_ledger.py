@@ -12,16 +12,16 @@ import pytest
 from lxml import html as reader
 from pypdf import PdfReader
 
-from atlas.build.recorded import gather
+from atlas.build.appendices import gather
 from atlas.build.report import Built, build_report
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
-from atlas.proof import record
+from atlas.proof import recorded
 from atlas.proof.verdict import GRADES
 from atlas.report import trial
+from atlas.report.appendices import Appendices, Finding
 from atlas.report.compose import compose
 from atlas.report.load import load
-from atlas.report.recorded import Appendices, Finding
 from atlas.report.tables.model import Data
 from atlas.study import stress
 
@@ -130,7 +130,7 @@ def links(element: reader.HtmlElement, page: str) -> list[tuple[str, str]]:
 
 def test_every_entry_stands_once_with_its_verdict(pages: dict[str, reader.HtmlElement]) -> None:
     """All entries of the ledger are there, each with the verdict on record and the number in print."""
-    verdicts = record.load()
+    verdicts = recorded.load()
     found = {label: element for label, _, element in entries(pages)}
     assert Counter(label for label, _, _ in entries(pages)) == Counter(list(EQUATIONS))
     for label, element in found.items():
@@ -166,7 +166,7 @@ def test_modules_that_cite_an_entry_are_named(pages: dict[str, reader.HtmlElemen
 
 def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dict[str, reader.HtmlElement]) -> None:
     """As many errata as entries with a slip, the grave ones first; each with both forms and what breaks the printed."""
-    refuted = {label: verdict for label, verdict in record.load().items() if verdict.grade}
+    refuted = {label: verdict for label, verdict in recorded.load().items() if verdict.grade}
     found = {e.get("id").removeprefix("erratum-"): e for e in pages["slips.html"].xpath("//section[@id]")}
     assert sorted(found) == sorted(refuted)
     grades = [GRADES.index(refuted[label].grade) for label in found]
@@ -206,7 +206,7 @@ def test_the_pdf_holds_every_entry(built: Built) -> None:
     pdf = PdfReader(built.pdf)
     text = re.sub(r"\s+", "", "".join(page.extract_text() for page in pdf.pages)).replace("\xad", "")
     assert [label for label in EQUATIONS if label not in text] == []
-    assert text.count("Counterexample") >= 2 * sum(v.verdict == "refuted" for v in record.load().values())
+    assert text.count("Counterexample") >= 2 * sum(v.verdict == "refuted" for v in recorded.load().values())
 
 
 def test_the_order_of_grades_is_that_of_the_trial() -> None:
@@ -216,8 +216,8 @@ def test_the_order_of_grades_is_that_of_the_trial() -> None:
 
 def test_totals_are_those_of_the_record(pages: dict[str, reader.HtmlElement]) -> None:
     """The last row of the totals counts all verdicts and all changed forms."""
-    verdicts = Counter(verdict.verdict for verdict in record.load().values())
-    mutants = record.load_mutants().values()
+    verdicts = Counter(verdict.verdict for verdict in recorded.load().values())
+    mutants = recorded.load_mutants().values()
     tried, noticed = sum(one.tried for one in mutants), sum(one.noticed for one in mutants)
     (row,) = pages["records.html"].xpath("//figure[@id='tab-2']//tr[td[1]='All']")
     numbers = [int(cell.text_content()) for cell in row.xpath("td")[1:]]

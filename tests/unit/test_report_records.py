@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build.recorded import gather
+from atlas.build.appendices import gather
 from atlas.errors import AtlasError
 from atlas.report.compose import compose
 from atlas.report.find import find, names

@@ -7,13 +7,13 @@ import msgspec
 
 from atlas.errors import AtlasError
 from atlas.paper import equation
-from atlas.report.schema import Id, Record
+from atlas.report.schema import Id, StrictStruct
 
 if TYPE_CHECKING:
     from atlas.report.compose import Composer
 
 
-class Equation(Record, frozen=True, tag_field="kind", tag="equation"):
+class Equation(StrictStruct, frozen=True, tag_field="kind", tag="equation"):
     """A displayed equation: ``label`` of the ledger, or a ``name`` and ``tex`` of the report's own."""
 
     label: str | None = None

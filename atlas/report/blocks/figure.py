@@ -7,13 +7,13 @@ import msgspec
 
 from atlas.paper import LABEL
 from atlas.report.pictures import Picture
-from atlas.report.schema import Id, Record
+from atlas.report.schema import Id, StrictStruct
 
 if TYPE_CHECKING:
     from atlas.report.compose import Composer
 
 
-class Figure(Record, frozen=True, tag_field="kind", tag="figure"):
+class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
     """A recipe with its parameters; ``both`` sets the shaded picture beside the line drawing."""
 
     recipe: str

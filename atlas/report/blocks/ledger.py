@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.trial import SECTIONS, EntryView, by_grade, entries
 
 if TYPE_CHECKING:
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from atlas.report.definition import Report
 
 
-class Ledger(Record, frozen=True, tag_field="kind", tag="ledger"):
+class Ledger(StrictStruct, frozen=True, tag_field="kind", tag="ledger"):
     """The entries of one section of the paper, each with what the trial found: "II", ..., "VII", or "Atlas"."""
 
     section: str
 
 
-class Errata(Record, frozen=True, tag_field="kind", tag="errata"):
+class Errata(StrictStruct, frozen=True, tag_field="kind", tag="errata"):
     """Every entry of the ledger with a slip, the grave ones first: as printed, as corrected, and a counterexample."""
 
 

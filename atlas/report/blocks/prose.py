@@ -3,19 +3,19 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 
 if TYPE_CHECKING:
     from atlas.report.compose import Composer
 
 
-class Prose(Record, frozen=True, tag_field="kind", tag="prose"):
+class Prose(StrictStruct, frozen=True, tag_field="kind", tag="prose"):
     """Paragraphs in Markdown with TeX; ``@mf72`` cites an equation, ``@fig:ID`` a figure, ``@tab:ID`` a table."""
 
     text: str
 
 
-class Note(Record, frozen=True, tag_field="kind", tag="note"):
+class Note(StrictStruct, frozen=True, tag_field="kind", tag="note"):
     """A remark set apart from the text."""
 
     text: str

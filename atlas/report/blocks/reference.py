@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from atlas.errors import unknown
-from atlas.report.recorded import Described
-from atlas.report.schema import Record
+from atlas.report.appendices import Described
+from atlas.report.schema import StrictStruct
 
 if TYPE_CHECKING:
     from atlas.report.compose import Composer
@@ -15,7 +15,7 @@ _CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
 _SIGN = re.compile(r"([!-/:-@\[-_{-~])")
 
 
-class Reference(Record, frozen=True, tag_field="kind", tag="reference"):
+class Reference(StrictStruct, frozen=True, tag_field="kind", tag="reference"):
     """Public names of the package, such as "Quadric", in their order."""
 
     names: tuple[str, ...]

@@ -8,7 +8,7 @@ import msgspec
 from atlas.errors import AtlasError, unknown
 from atlas.report.body_and_field import chosen
 from atlas.report.numbers import Number, room
-from atlas.report.schema import Id, Record
+from atlas.report.schema import Id, StrictStruct
 from atlas.report.tables import compute
 from atlas.report.tables.model import Column, Data, Request
 from atlas.report.texts import beginning
@@ -30,7 +30,7 @@ COMMANDS = {
 """The commands that make the recorded results."""
 
 
-class Table(Record, frozen=True, tag_field="kind", tag="table"):
+class Table(StrictStruct, frozen=True, tag_field="kind", tag="table"):
     """A table of computed numbers."""
 
     table: str
@@ -43,7 +43,7 @@ class Table(Record, frozen=True, tag_field="kind", tag="table"):
     digits: Annotated[int, msgspec.Meta(ge=1, le=MOST)] = 10
 
 
-class Listing(Record, frozen=True, tag_field="kind", tag="listing"):
+class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
     """A table of words and formulas, written out in the file."""
 
     columns: tuple[str, ...]
@@ -52,7 +52,7 @@ class Listing(Record, frozen=True, tag_field="kind", tag="listing"):
     id: Id | None = None
 
 
-class Recorded(Record, frozen=True, tag_field="kind", tag="recorded"):
+class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
     """A table of recorded results, by its name there."""
 
     source: Literal["trial", "bench", "stress", "rebuilds"]

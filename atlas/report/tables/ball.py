@@ -1,11 +1,11 @@
 """The charged ball: the two frequencies of its general motion and the axis of the faster turn, mf36 to mf39."""
 
 from atlas.errors import AtlasError
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
 
 
-class Parameters(Record, frozen=True):
+class Parameters(StrictStruct, frozen=True):
     """Initial angular velocity (0, omega2, omega3) and Larmor's frequency, in 1/s."""
 
     omega2: float

@@ -1,6 +1,6 @@
 """Bodies side by side in one field: what surface each has."""
 
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
 
 
@@ -8,7 +8,7 @@ def bodies(request: Request) -> Data:
     """Ratio I, kind of the quadric, angle beta and semi-axes of several bodies, mf41.1, mf60 to mf63."""
     from atlas.exact.quadric import Quadric
 
-    request.take(Record)
+    request.take(StrictStruct)
     made = [Quadric(one.exact, one.components) for one in request.cases]
     values = certified(lambda: [(q.I, q.beta, *q.semi_axes) for q in made], request.digits)
     columns = [column(values_of, request.digits) for values_of in zip(*values, strict=True)]

@@ -6,7 +6,7 @@ from typing import Any
 from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.numbers import Number
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
 
 _WORDS = {
@@ -22,7 +22,7 @@ _WORDS = {
 
 def body_and_field(request: Request) -> Data:
     """Dimensions, mass and charge, fields, and from them I, the moments, mu and B', mf41 and mf41.1."""
-    request.take(Record)
+    request.take(StrictStruct)
     one = request.case
     body, field = one.body_record, one.field_record
     if body is None or field is None:

@@ -5,13 +5,13 @@ from math import pi
 from atlas.core.units import ELECTRIC_CONSTANT
 from atlas.errors import AtlasError
 from atlas.report.numbers import Number
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import Column, Data, Request
 
 
 def charges(request: Request) -> Data:
     """Mass m0, radius r, charge e = mu m0 and the field e/(4 pi eps0 r^2) of several bodies with mass and radius."""
-    request.take(Record)
+    request.take(StrictStruct)
     rows: list[tuple[str | Number, ...]] = []
     for one in request.cases:
         body = one.body_record

@@ -1,12 +1,12 @@
 """A point of a flying body: the centre of mass, and the point that turns about it."""
 
 from atlas.report.numbers import Number
-from atlas.report.schema import Record, Vector
+from atlas.report.schema import StrictStruct, Vector
 from atlas.report.tables.model import Column, Data, Request, certified, scaled
 from atlas.report.tables.particle import exact_particle
 
 
-class Parameters(Record, frozen=True):
+class Parameters(StrictStruct, frozen=True):
     """The elementary motion by its omega2, times in s, the point at t = 0, the start of the centre of mass."""
 
     omega2: float

@@ -6,11 +6,11 @@ from typing import Any, Literal, TypeAlias, TypeVar
 
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.numbers import Number
-from atlas.report.schema import Record, convert
+from atlas.report.schema import StrictStruct, convert
 
 RATE = r"s$^{-1}$"
 
-T = TypeVar("T", bound=Record)
+T = TypeVar("T", bound=StrictStruct)
 
 
 @dataclass(frozen=True)

@@ -1,18 +1,18 @@
 """One elementary motion: its constants, and the body's state at some times."""
 
 from atlas.report.numbers import Number, plain
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, column, quantity
 
 
-class Motion(Record, frozen=True):
+class Motion(StrictStruct, frozen=True):
     """The motion by its omega2, in 1/s; `omega3` where the hyperbola leaves it free."""
 
     omega2: float
     omega3: float | None = None
 
 
-class Samples(Record, frozen=True):
+class Samples(StrictStruct, frozen=True):
     """The same, and times in s."""
 
     omega2: float

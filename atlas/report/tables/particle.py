@@ -7,7 +7,7 @@ import numpy as np
 from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.numbers import Number
-from atlas.report.schema import Record, Vector
+from atlas.report.schema import StrictStruct, Vector
 from atlas.report.tables.model import Column, Data, Request, certified, column, scaled
 
 
@@ -23,7 +23,7 @@ def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
     return ParticleMotion(p.mu, tuple(p.E), tuple(p.B), position, velocity, p.c)
 
 
-class Parameters(Record, frozen=True):
+class Parameters(StrictStruct, frozen=True):
     """Times in s, position and velocity at t = 0."""
 
     times: tuple[float, ...]

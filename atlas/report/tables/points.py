@@ -5,11 +5,11 @@ from typing import Any
 
 from atlas.errors import AtlasError
 from atlas.report.numbers import Number
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
 
 
-class Parameters(Record, frozen=True):
+class Parameters(StrictStruct, frozen=True):
     """Further values of omega2, in 1/s."""
 
     omega2: tuple[float, ...] = ()

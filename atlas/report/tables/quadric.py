@@ -1,6 +1,6 @@
 """One body's quadric of initial data: its kind and its canonical form, mf58 to mf63."""
 
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
 
 
@@ -10,7 +10,7 @@ def quadric(request: Request) -> Data:
 
     from atlas.exact.quadric import Quadric
 
-    request.take(Record)
+    request.take(StrictStruct)
     q = Quadric(request.case.exact, request.case.components)
     if q.B2 == 0 or q.B3 == 0:
         rows = [("kind", "", q.kind, "")]

@@ -7,7 +7,7 @@ from atlas.core.laboratory import damping_of_flight, greatest_charge, greatest_r
 from atlas.core.units import ELEMENTARY_CHARGE, cyclotron_frequency
 from atlas.errors import AtlasError
 from atlas.report.numbers import Number
-from atlas.report.schema import Record
+from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request
 
 RATIO, TILT = 1.5, 2.0
@@ -15,7 +15,7 @@ RATIO, TILT = 1.5, 2.0
 YEAR = 31_557_600.0
 
 
-class Parameters(Record, frozen=True):
+class Parameters(StrictStruct, frozen=True):
     """Radii in m, density in kg/m^3, the field that the surface bears in V/m, the magnet's field in T."""
 
     radii: tuple[float, ...]

@@ -24,7 +24,7 @@ from atlas.study.bench.case import FloatArray
 from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.elementary import formula
 from atlas.study.bench.methods import MATRIX, SCALARS, SURFACE
-from atlas.study.bench.record import Rows
+from atlas.study.bench.results import Rows
 from atlas.study.ulps import absolute, own
 
 SEED, JUDGED, BITS = 7, 40, 80

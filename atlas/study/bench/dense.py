@@ -23,7 +23,7 @@ from atlas.study.bench.clock import Job, interleave, one_core, ratio
 from atlas.study.bench.cost import Times
 from atlas.study.bench.integrators import integrators
 from atlas.study.bench.methods import ANY, EVEN
-from atlas.study.bench.record import Rows
+from atlas.study.bench.results import Rows
 from atlas.study.ulps import absolute
 
 STEP, SEED, JUDGED, BITS = 2.0**-10, 5, 40, 80

@@ -8,10 +8,10 @@ import numpy as np
 from atlas.errors import AtlasError
 from atlas.scene.layers import Curve, FloatArray, Layer, Points
 from atlas.study.bench.methods import CASES, LINES, title
-from atlas.study.bench.record import Record, Run
+from atlas.study.bench.results import Results, Run
 
 
-def runs_of(record: Record, case: str) -> list[Run]:
+def runs_of(record: Results, case: str) -> list[Run]:
     """Return the runs of a case that have an error and a time."""
     known = list(dict.fromkeys(run.case for run in record.runs))
     if case not in known:
@@ -50,7 +50,7 @@ def case_title(case: str) -> str:
     return CASES.get(case, case)
 
 
-def measured(record: Record) -> str:
+def measured(record: Results) -> str:
     """Return the sentence that says where and when it was measured."""
     here = record.machine
     vector = "with" if here.avx512 else "without"

@@ -11,8 +11,8 @@ from msgspec.structs import replace
 from atlas.study.bench.case import Case, FloatArray, Grid, Solve, grid
 from atlas.study.bench.clock import interleave, once, ratio
 from atlas.study.bench.integrators import Integrator, TimedOutError
-from atlas.study.bench.record import Run, Setup, Status, said
 from atlas.study.bench.reference import Reference, reference
+from atlas.study.bench.results import Run, Setup, Status, said
 
 SHORT = 0.1
 """A solution that takes longer than this many seconds is timed once, a shorter one several times."""

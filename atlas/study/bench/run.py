@@ -13,12 +13,12 @@ from atlas.study.bench.case import Case
 from atlas.study.bench.cost import costs
 from atlas.study.bench.integrators import Integrator, integrators
 from atlas.study.bench.precision import Bench, Plan, closed, stepping
-from atlas.study.bench.record import FORMAT, Check, Cost, Record, Rows, Run, Setup, machine, today, versions
 from atlas.study.bench.reference import check
+from atlas.study.bench.results import FORMAT, Cost, ReferenceCheck, Results, Rows, Run, Setup, machine, today, versions
 
 CASES = {"elementary": elementary.case, "general": general.case, "ball": ball.case, "particle": particle.case}
 
-Row = TypeVar("Row", Check, Run, Setup, Cost, Rows)
+Row = TypeVar("Row", ReferenceCheck, Run, Setup, Cost, Rows)
 
 Progress: TypeAlias = Callable[[int, int, str], None]
 """Called with the number of steps done, of all steps, and what comes next."""
@@ -72,7 +72,7 @@ def run(
     command: str = "atlas bench",
     scope: Scope | None = None,
     peers: Sequence[Integrator] | None = None,
-) -> Record:
+) -> Results:
     """Run the benchmark and return its record.
 
     `cases` are names of `CASES` (all by default) or cases of one's own; the cost against the count is that of the
@@ -93,10 +93,10 @@ def run(
             progress(done, total, what)
         done += 1
 
-    checks, rows, prices = list[Check](), list[Setup | Run](), list[Cost]()
+    checks, rows, prices = list[ReferenceCheck](), list[Setup | Run](), list[Cost]()
     for case in chosen:
         say(f"{case.title}: the reference")
-        checks.append(Check(case.name, scope.check_until, check(case, scope.check_until)))
+        checks.append(ReferenceCheck(case.name, scope.check_until, check(case, scope.check_until)))
         bench = Bench.of(case, scope.plan)
         say(f"{case.title}: closed forms")
         rows.extend(closed(bench))
@@ -115,7 +115,7 @@ def run(
         many.extend(dense.rows(scope.rows, scope.rounds(scope.rows)))
     if progress is not None:
         progress(total, total, "done")
-    return Record(
+    return Results(
         format=FORMAT,
         command=command,
         date=today(),

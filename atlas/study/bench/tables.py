@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from atlas.study.bench.methods import title
-from atlas.study.bench.record import Cost, Record, Run, Setup
+from atlas.study.bench.results import Cost, Results, Run, Setup
 from atlas.study.bench.targets import targets
 
 NONE = "–"
@@ -20,7 +20,7 @@ class Table:
     notes: tuple[str, ...] = ()
 
 
-def tables(record: Record) -> list[Table]:
+def tables(record: Results) -> list[Table]:
     """Return all tables of a record, the most important first; those that would be empty are left out."""
     every = [
         _targets(record),
@@ -34,7 +34,7 @@ def tables(record: Record) -> list[Table]:
     return [table for table in every if table.rows]
 
 
-def machine_line(record: Record) -> str:
+def machine_line(record: Results) -> str:
     """Say in one line where, when and with what it was measured."""
     here = record.machine
     vector = "with" if here.avx512 else "without"
@@ -43,12 +43,12 @@ def machine_line(record: Record) -> str:
     return f"{machine}; {found}; {record.command}, {record.date}"
 
 
-def _targets(record: Record) -> Table:
+def _targets(record: Results) -> Table:
     rows = [(item.says, item.wanted, number(item.found), item.verdict) for item in targets(record)]
     return Table("Limits of speed", ("what", "wanted", "found", "verdict"), tuple(rows))
 
 
-def _horizons(record: Record) -> Iterable[Table]:
+def _horizons(record: Results) -> Iterable[Table]:
     """Error by method and horizon; of an integrator the smallest over its tolerances."""
     for case in _cases(record):
         runs = [run for run in record.runs if run.case == case]
@@ -62,7 +62,7 @@ def _horizons(record: Record) -> Iterable[Table]:
         yield Table(f"Error against horizon: {case}", heading, tuple(rows), (note,))
 
 
-def _precision(record: Record) -> Iterable[Table]:
+def _precision(record: Results) -> Iterable[Table]:
     """Error and time of every method at every tolerance, to the first horizon."""
     for case in _cases(record):
         runs = [run for run in record.runs if run.case == case]
@@ -83,7 +83,7 @@ def _precision(record: Record) -> Iterable[Table]:
         yield Table(f"Error and time to t = {first:.0e}: {case}", heading, tuple(rows))
 
 
-def _setups(record: Record) -> Table:
+def _setups(record: Results) -> Table:
     """Show set-up by method and case; of an integrator at its tightest tolerance."""
     rows = {
         (item.case, item.method): (
@@ -98,7 +98,7 @@ def _setups(record: Record) -> Table:
     return Table("Set-up", ("case", "method", "first (ms)", "again (ms)", "remark"), tuple(rows.values()))
 
 
-def _costs(record: Record) -> Iterable[Table]:
+def _costs(record: Results) -> Iterable[Table]:
     """Nanoseconds a matrix, and its multiples of filling the memory and of the plain formula, by count."""
     counts = sorted({cost.count for cost in record.costs})
     heading = ("method", "threads", *(f"{count:.0e}" for count in counts))
@@ -116,7 +116,7 @@ def _costs(record: Record) -> Iterable[Table]:
         yield Table(f"{what}, against their number", heading, shown)
 
 
-def _rows(record: Record) -> Table:
+def _rows(record: Results) -> Table:
     """Show error and time a row of many motions at once, ours beside the plain formula."""
     rows = [
         (
@@ -131,7 +131,7 @@ def _rows(record: Record) -> Table:
     return Table("Many motions at once, one core", heading, tuple(rows))
 
 
-def _failures(record: Record) -> Table:
+def _failures(record: Results) -> Table:
     """Show what has no number, with the reason; of several tolerances at one place the loosest one's."""
     items: list[Run | Setup | Cost] = [*record.runs, *record.setups, *record.costs]
     rows: dict[tuple[str, str, str, str], list[Run | Setup | Cost]] = {}
@@ -161,7 +161,7 @@ def _tolerances(items: Sequence[Run | Setup | Cost]) -> str:
     return " to ".join(f"{tolerance:.0e}" for tolerance in ends) if found else NONE
 
 
-def _cases(record: Record) -> list[str]:
+def _cases(record: Results) -> list[str]:
     return list(dict.fromkeys(run.case for run in record.runs))
 
 

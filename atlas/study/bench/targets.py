@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from atlas.study.bench.methods import ANY, EVEN, MATRIX, OURS, SCALARS, SURFACE
-from atlas.study.bench.record import Record
+from atlas.study.bench.results import Results
 
 LIMIT = 4 * 2.0**-52
 """Four ulp of 1: the accuracy that the limits of speed are for."""
@@ -32,7 +32,7 @@ class Target:
     verdict: Verdict
 
 
-def targets(record: Record) -> list[Target]:
+def targets(record: Results) -> list[Target]:
     """Return every limit with its verdict; what the record does not hold is not measured.
 
     Speed is worth nothing where a value is wrong: then no limit is met.
@@ -43,7 +43,7 @@ def targets(record: Record) -> list[Target]:
     return [replace(item, verdict="wrong values") if wrong and item.found is not None else item for item in every]
 
 
-def _speed(record: Record) -> Iterator[Target]:
+def _speed(record: Results) -> Iterator[Target]:
     count = 1_000_000
     yield _below("uniform grid of 1e6, over filling the memory", _ratio(record, "grid_out", count, "to_fill"), 2.2)
     wide = record.machine.avx512
@@ -55,7 +55,7 @@ def _speed(record: Record) -> Iterator[Target]:
         yield _above(says, 1 / slower if slower else None, factor)
 
 
-def _never_slower(record: Record) -> Iterator[Target]:
+def _never_slower(record: Results) -> Iterator[Target]:
     """Ours over the plain formula: at most 1 from a thousand times up, at most 1.5 below."""
     for least, most, limit in ((1_000, 10**9, 1.0), (1, 999, 1.5)):
         found = [
@@ -68,14 +68,14 @@ def _never_slower(record: Record) -> Iterator[Target]:
         yield _below(f"ours over the plain formula, {where}, at worst", max(measured, default=None), limit)
 
 
-def _latency(record: Record) -> Iterator[Target]:
+def _latency(record: Results) -> Iterator[Target]:
     single = _ratio(record, "ours", 1, "nanoseconds")
     yield _below("one single time (us)", None if single is None else single / 1e3, 50.0)
     made = [item.again for item in record.setups if item.case == "elementary" and item.method == "ours" and item.again]
     yield _below("a motion made (ms)", made[0] * 1e3 if made else None, 1.0)
 
 
-def _many(record: Record) -> Iterator[Target]:
+def _many(record: Results) -> Iterator[Target]:
     """Judge a row of many motions, and a matrix of the general motion: nanoseconds, and heyoka's time over ours."""
     found = {(row.quantity, row.method): row.nanoseconds for row in record.rows}
     for quantity, method, limit in LIMITS:
@@ -87,7 +87,7 @@ def _many(record: Record) -> Iterator[Target]:
             yield _above(f"{quantity}, heyoka's dense output over ours", theirs and theirs / ours, factor)
 
 
-def _ratio(record: Record, method: str, count: int, field: str) -> float | None:
+def _ratio(record: Results, method: str, count: int, field: str) -> float | None:
     """Return a number of one row on one thread, if it was measured."""
     rows = (cost for cost in record.costs if (cost.method, cost.count, cost.threads) == (method, count, 1))
     return next((getattr(cost, field) for cost in rows), None)

@@ -14,7 +14,7 @@ from typing import Any
 
 import msgspec
 
-from atlas.build.record import Figure, Report, Table, read
+from atlas.report.manifest import BuiltReport, FigureEntry, TableEntry, read
 
 SPACES = dict.fromkeys(map(ord, "\u00a0\u2007\u2009\u200a\u202f"))
 NUMBER = re.compile(
@@ -42,7 +42,7 @@ class Amount:
 
 
 @dataclass(frozen=True)
-class Cell:
+class ChangedCell:
     """A cell of a table that changed; with an amount when both are numbers."""
 
     table: str
@@ -70,8 +70,8 @@ class Drawing:
     """A figure that changed, came or went."""
 
     id: str
-    old: Figure | None
-    new: Figure | None
+    old: FigureEntry | None
+    new: FigureEntry | None
     changes: tuple[Change, ...]
 
 
@@ -79,19 +79,19 @@ class Drawing:
 class Comparison:
     """All that differs between two reports."""
 
-    old: Report
-    new: Report
-    cells: tuple[Cell, ...]
+    old: BuiltReport
+    new: BuiltReport
+    cells: tuple[ChangedCell, ...]
     figures: tuple[Drawing, ...]
     others: tuple[Change, ...]
 
     @property
-    def numbers(self) -> tuple[Cell, ...]:
+    def numbers(self) -> tuple[ChangedCell, ...]:
         """The cells that are numbers in both reports."""
         return tuple(cell for cell in self.cells if cell.amount is not None)
 
     @property
-    def words(self) -> tuple[Cell, ...]:
+    def words(self) -> tuple[ChangedCell, ...]:
         """The cells that are not."""
         return tuple(cell for cell in self.cells if cell.amount is None)
 
@@ -103,8 +103,8 @@ class Comparison:
     @property
     def extent(self) -> str:
         """How much was compared, in words."""
-        record = self.new.record
-        counts = {"table": len(record.tables), "figure": len(record.figures), "page": len(record.pages)}
+        manifest = self.new.manifest
+        counts = {"table": len(manifest.tables), "figure": len(manifest.figures), "page": len(manifest.pages)}
         return ", ".join(f"{count} {name}{'s' * (count != 1)}" for name, count in counts.items())
 
     @property
@@ -116,8 +116,8 @@ class Comparison:
 def compare(old: Path, new: Path) -> Comparison:
     """Compare two built reports; raise AtlasError, in one sentence, where there is none."""
     one, two = read(old), read(new)
-    a, b = one.record, two.record
-    cells: list[Cell] = []
+    a, b = one.manifest, two.manifest
+    cells: list[ChangedCell] = []
     others = [*_changes("report", _facts(a, "title", "name"), _facts(b, "title", "name"))]
     for slug, page, after in _paired(a.pages, b.pages):
         others += _changes(f"page {slug}", _facts(page, "title"), _facts(after, "title"))
@@ -171,7 +171,7 @@ def agreeing(old: Iterable[Any], new: Iterable[Any]) -> int:
     return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(old, new, strict=False)))
 
 
-def _columns(name: str, old: Table, new: Table) -> Iterator[Change]:
+def _columns(name: str, old: TableEntry, new: TableEntry) -> Iterator[Change]:
     """Go through the columns that came, went or changed their unit or place."""
     before, after = _heads(old), _heads(new)
     for key, i, j in _paired(before, after):
@@ -183,7 +183,7 @@ def _columns(name: str, old: Table, new: Table) -> Iterator[Change]:
         yield Change(name, "order of columns")
 
 
-def _rows(name: str, old: Table, new: Table) -> tuple[list[Cell], list[Change]]:
+def _rows(name: str, old: TableEntry, new: TableEntry) -> tuple[list[ChangedCell], list[Change]]:
     """Compare the rows of a table in the columns that both have."""
     before, after = _heads(old), _heads(new)
     shared = [key for key in before if key in after]
@@ -191,7 +191,7 @@ def _rows(name: str, old: Table, new: Table) -> tuple[list[Cell], list[Change]]:
     right = [[row[after[key]] for key in shared] for row in new.rows]
     pairs = _matched(left, right)
     cells = [
-        Cell(name, new.page, label, key[0], new.units[after[key]], x, y, found)
+        ChangedCell(name, new.page, label, key[0], new.units[after[key]], x, y, found)
         for i, (j, depth) in sorted(pairs.items())
         for label in [", ".join(filter(None, left[i][:depth])) or next(filter(None, left[i]), f"row {i + 1}")]
         for key, x, y in zip(shared, left[i], right[j], strict=True)
@@ -242,12 +242,12 @@ def _cell(old: str, new: str) -> tuple[bool, Amount | None]:
     return not same, amount(one[0], two[0])
 
 
-def _heads(table: Table) -> dict[tuple[str, int], int]:
+def _heads(table: TableEntry) -> dict[tuple[str, int], int]:
     """Return the place of each column by its head and by how many columns before it have the same."""
     return {(head, table.columns[:i].count(head)): i for i, head in enumerate(table.columns)}
 
 
-def _figure(name: str, old: Figure | None, new: Figure | None) -> Iterator[Change]:
+def _figure(name: str, old: FigureEntry | None, new: FigureEntry | None) -> Iterator[Change]:
     """Go through what changed about a figure."""
     names = ("caption", "page", "recipe", "renderer")
     yield from _changes(name, _facts(old, *names), _facts(new, *names))

@@ -15,19 +15,19 @@ if TYPE_CHECKING:
     from atlas.report.compose import Document
 
 FORMAT = 1
-RECORD = "record.json"
+MANIFEST = "manifest.json"
 KINDS = {".svg": "image/svg+xml", ".png": "image/png"}
 """The pictures of a report's pages and their media types."""
 
 
-class Page(msgspec.Struct, frozen=True):
+class PageEntry(msgspec.Struct, frozen=True):
     """A page: its title, the digest of its prose, captions and formulas."""
 
     title: str
     text: str
 
 
-class Table(msgspec.Struct, frozen=True):
+class TableEntry(msgspec.Struct, frozen=True):
     """A table as printed: heads, units and cells as texts."""
 
     page: str
@@ -37,7 +37,7 @@ class Table(msgspec.Struct, frozen=True):
     rows: list[list[str]]
 
 
-class Figure(msgspec.Struct, frozen=True):
+class FigureEntry(msgspec.Struct, frozen=True):
     """A figure: what it was drawn from, its picture and the digest of that; neither where drawing failed."""
 
     page: str
@@ -49,26 +49,26 @@ class Figure(msgspec.Struct, frozen=True):
     sha256: str | None
 
 
-class Record(msgspec.Struct, frozen=True):
-    """What a build records of a report."""
+class Manifest(msgspec.Struct, frozen=True):
+    """What a build writes down of a report."""
 
     format: int
     name: str
     title: str
-    pages: dict[str, Page]
-    tables: dict[str, Table]
-    figures: dict[str, Figure]
+    pages: dict[str, PageEntry]
+    tables: dict[str, TableEntry]
+    figures: dict[str, FigureEntry]
     versions: dict[str, str]
 
 
 @dataclass(frozen=True)
-class Report:
-    """A built report: its folder and what is on record of it."""
+class BuiltReport:
+    """A built report: its folder and its manifest."""
 
     folder: Path
-    record: Record
+    manifest: Manifest
 
-    def picture(self, figure: Figure) -> Path | None:
+    def picture(self, figure: FigureEntry) -> Path | None:
         """Return the file of a figure's picture, None when it failed or is not in the folder."""
         path = (self.folder / (figure.file or ".")).resolve()
         return path if path.is_relative_to(self.folder.resolve()) and path.is_file() else None
@@ -77,53 +77,53 @@ class Report:
         """Say which pictures are not those that the build recorded, or nothing."""
         bad = [
             figure.file
-            for figure in self.record.figures.values()
+            for figure in self.manifest.figures.values()
             if figure.file and not ((path := self.picture(figure)) and _digest(path.read_bytes()) == figure.sha256)
         ]
         return f"{self.folder}: lost or altered since the build: {', '.join(bad)}." if bad else ""
 
 
-def read(place: Path) -> Report:
-    """Read the record of a built report, given by its folder or by the index.html or record.json in it."""
-    where = place.parent if place.name in {"index.html", RECORD} else place
+def read(place: Path) -> BuiltReport:
+    """Read the manifest of a built report, given by its folder or by the index.html or manifest.json in it."""
+    where = place.parent if place.name in {"index.html", MANIFEST} else place
     try:
-        content = (where / RECORD).read_bytes()
+        content = (where / MANIFEST).read_bytes()
     except OSError as error:
         raise AtlasError(
-            f"{place} is not a built report, a folder such as build/report/atlas with a {RECORD}: {error.strerror}."
+            f"{place} is not a built report, a folder such as build/report/atlas with a {MANIFEST}: {error.strerror}."
         ) from error
     try:
         found = msgspec.json.decode(content, type=dict[str, Any]).get("format")
         if found != FORMAT:
-            raise AtlasError(f"{where / RECORD} has format {found!r}; this atlas reads format {FORMAT}.")
-        record = msgspec.json.decode(content, type=Record)
+            raise AtlasError(f"{where / MANIFEST} has format {found!r}; this atlas reads format {FORMAT}.")
+        manifest = msgspec.json.decode(content, type=Manifest)
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise AtlasError(f"{where / RECORD} is not the record of a report: {error}.") from error
-    for name, table in record.tables.items():
+        raise AtlasError(f"{where / MANIFEST} is not the manifest of a report: {error}.") from error
+    for name, table in manifest.tables.items():
         if any(len(cells) != len(table.columns) for cells in (table.units, *table.rows)):
-            raise AtlasError(f"{where / RECORD}: in table {name} not every row has {len(table.columns)} cells.")
-    for name, figure in record.figures.items():
+            raise AtlasError(f"{where / MANIFEST}: in table {name} not every row has {len(table.columns)} cells.")
+    for name, figure in manifest.figures.items():
         if (figure.file is None) != (figure.sha256 is None):
-            raise AtlasError(f"{where / RECORD}: figure {name} has only one of file and sha256.")
+            raise AtlasError(f"{where / MANIFEST}: figure {name} has only one of file and sha256.")
         if figure.file is not None and Path(figure.file).suffix not in KINDS:
-            raise AtlasError(f"{where / RECORD}: the file of figure {name} is neither SVG nor PNG.")
-    return Report(where, record)
+            raise AtlasError(f"{where / MANIFEST}: the file of figure {name} is neither SVG nor PNG.")
+    return BuiltReport(where, manifest)
 
 
-def record_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
-    """Return the record of a report as JSON; `pictures` are its figures by file. It depends on the content alone."""
+def manifest_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
+    """Return the manifest of a report as JSON; `pictures` are its figures by file. It depends on the content alone."""
     from atlas.report.blocks.figure import FigureView
     from atlas.report.blocks.table import TableView
     from atlas.report.versions import versions
 
     texts = [text.markdown for text in document.texts.texts]
-    pages, tables, figures = dict[str, Page](), dict[str, Table](), dict[str, Figure]()
+    pages, tables, figures = dict[str, PageEntry](), dict[str, TableEntry](), dict[str, FigureEntry]()
     for page in document.pages:
         words = [page.summary]
         for block in page.blocks:
             words += [texts[number] for number in _texts(block)]
             if isinstance(block, TableView):
-                tables[block.id] = Table(
+                tables[block.id] = TableEntry(
                     page.slug,
                     texts[block.caption],
                     [texts[column.head] for column in block.columns],
@@ -134,7 +134,7 @@ def record_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
                 for picture in block.pictures:
                     suffix = "" if picture is block.pictures[0] else f"-{picture.renderer}"
                     file = picture.file or None
-                    figures[block.id + suffix] = Figure(
+                    figures[block.id + suffix] = FigureEntry(
                         page.slug,
                         texts[block.caption],
                         picture.recipe,
@@ -143,10 +143,10 @@ def record_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
                         file,
                         _digest(pictures[file]) if file else None,
                     )
-        pages[page.slug] = Page(page.title, _digest("\n".join(words).encode()))
+        pages[page.slug] = PageEntry(page.title, _digest("\n".join(words).encode()))
     report = document.report
-    record = Record(FORMAT, report.name, report.title, pages, tables, figures, versions())
-    return msgspec.json.format(msgspec.json.encode(record), indent=1) + b"\n"
+    manifest = Manifest(FORMAT, report.name, report.title, pages, tables, figures, versions())
+    return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
 
 
 def _texts(block: Any) -> list[int]:

@@ -14,7 +14,7 @@ from atlas.study.bench import elementary, integrators
 from atlas.study.bench.case import FloatArray, Grid, Method
 from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.precision import Plan
-from atlas.study.bench.record import FORMAT, Cost, Machine, Record, Run, Setup, read, stored, write
+from atlas.study.bench.results import FORMAT, Cost, Machine, Results, Run, Setup, read, stored, write
 from atlas.study.bench.run import Scope, run
 from atlas.study.bench.tables import tables
 from atlas.study.bench.targets import targets
@@ -55,7 +55,7 @@ PLANTED = {"wrong": turned_backwards, "slow": fifty_times, "nothing": nothing, "
 
 
 @pytest.fixture(scope="module")
-def record() -> Record:
+def record() -> Results:
     """Return a small run of the elementary motion with planted methods and two integrators."""
     case = elementary.case()
     methods = tuple(Method(name, lambda solve=solve: solve) for name, solve in PLANTED.items())
@@ -67,7 +67,7 @@ def record() -> Record:
     return result
 
 
-def test_every_run_has_error_and_time_or_a_reason(record: Record) -> None:
+def test_every_run_has_error_and_time_or_a_reason(record: Results) -> None:
     """No error without a time, no time without an error, no gap without a word."""
     assert len(record.runs) == (5 + len(PLANTED)) * 2 + 2 * 2 * 2
     for row in record.runs:
@@ -79,7 +79,7 @@ def test_every_run_has_error_and_time_or_a_reason(record: Record) -> None:
         assert (cost.error is not None) == (cost.method != "fill")
 
 
-def test_planted_methods_are_reported(record: Record) -> None:
+def test_planted_methods_are_reported(record: Results) -> None:
     """A wrong method shows its error, a slow one its ratio, one that gives no numbers or fails its reason."""
     rows = {row.method: row for row in record.runs if row.horizon == 64.0}
     assert (rows["wrong"].error or 0.0) > 0.5
@@ -92,7 +92,7 @@ def test_planted_methods_are_reported(record: Record) -> None:
     assert {"nothing", "broken"} == {row[1] for row in last.rows}
 
 
-def test_record_reads_back_the_same_and_names_no_place(record: Record, tmp_path: Path) -> None:
+def test_record_reads_back_the_same_and_names_no_place(record: Results, tmp_path: Path) -> None:
     """The file holds the record exactly, and neither this machine's name nor a folder of it."""
     path = tmp_path / "sub" / "record.json"
     write(record, path)
@@ -106,7 +106,7 @@ def test_record_reads_back_the_same_and_names_no_place(record: Record, tmp_path:
 
 
 @pytest.mark.parametrize("change", [{"runs": 1}, {"extra": 1}, {"quick": "yes"}])
-def test_file_that_is_not_a_record_is_refused(record: Record, tmp_path: Path, change: dict[str, object]) -> None:
+def test_file_that_is_not_a_record_is_refused(record: Results, tmp_path: Path, change: dict[str, object]) -> None:
     """A wrong type or an unknown key is an error, and so is a missing file."""
     path = tmp_path / "record.json"
     path.write_bytes(msgspec.json.encode(msgspec.to_builtins(record) | change))
@@ -116,7 +116,7 @@ def test_file_that_is_not_a_record_is_refused(record: Record, tmp_path: Path, ch
         read(tmp_path / "absent.json")
 
 
-def test_tables_are_rectangular(record: Record) -> None:
+def test_tables_are_rectangular(record: Results) -> None:
     """Every row of every table has one cell for each heading."""
     shown = tables(record)
     assert shown[0].title == "Limits of speed"
@@ -175,7 +175,7 @@ def test_one_core_is_given_back() -> None:
     assert os.sched_getaffinity(0) == before
 
 
-def synthetic(to_fill: float, to_plain: float, single: float, made: float, avx512: bool) -> Record:
+def synthetic(to_fill: float, to_plain: float, single: float, made: float, avx512: bool) -> Results:
     """Return a record with made-up costs."""
     costs = [
         Cost("grid_out", 1_000_000, 1, "done", 1e-16, 5.0, to_fill, 0.05),
@@ -188,7 +188,7 @@ def synthetic(to_fill: float, to_plain: float, single: float, made: float, avx51
     setups = [Setup("elementary", "ours", "done", None, 1.0, made)]
     machine = Machine("some processor", 2, avx512, "some system")
     runs = [Run("elementary", "ours", 1e2, 16, "done", None, 1e-16, 1.0, 1.0)]
-    return Record(FORMAT, "atlas bench", "2020-02-02", False, 1.0, machine, {}, {}, [], runs, setups, costs)
+    return Results(FORMAT, "atlas bench", "2020-02-02", False, 1.0, machine, {}, {}, [], runs, setups, costs)
 
 
 def test_limits_are_judged() -> None:

@@ -15,10 +15,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from atlas.build.compare import Comparison, amount, compare, number
-from atlas.build.compare_page import as_page
-from atlas.build.record import read
 from atlas.errors import AtlasError
+from atlas.report.compare import Comparison, amount, compare, number
+from atlas.report.compare_page import as_page
+from atlas.report.manifest import read
 
 THIN = "\N{NARROW NO-BREAK SPACE}"
 MINUS = "\N{MINUS SIGN}"
@@ -83,7 +83,7 @@ def report(where: Path, change: Change = lambda _: None, bowl: str = "one") -> P
             (where / figure["file"]).write_bytes(content)
             figure["sha256"] = hashlib.sha256(content).hexdigest()
     (where / "index.html").write_text("<p>The problem</p>")
-    (where / "record.json").write_text(json.dumps(record), encoding="utf-8")
+    (where / "manifest.json").write_text(json.dumps(record), encoding="utf-8")
     return where
 
 
@@ -485,13 +485,13 @@ def test_a_picture_that_is_not_there_is_noted(tmp_path: Path) -> None:
     assert uris(page, r"image/svg\+xml") == [SVG.format("two").encode()]
 
 
-def test_a_record_reaches_no_file_outside_its_folder(tmp_path: Path) -> None:
+def test_a_manifest_reaches_no_file_outside_its_folder(tmp_path: Path) -> None:
     """A picture is taken from the report's own folder or not at all."""
     (tmp_path / "secret.svg").write_text("secret")
     old = report(tmp_path / "old")
     new = report(tmp_path / "new", bowl="two")
-    text = (new / "record.json").read_text(encoding="utf-8").replace("figures/01-hyp-a.svg", "../secret.svg")
-    (new / "record.json").write_text(text, encoding="utf-8")
+    text = (new / "manifest.json").read_text(encoding="utf-8").replace("figures/01-hyp-a.svg", "../secret.svg")
+    (new / "manifest.json").write_text(text, encoding="utf-8")
     found = compare(old, new)
     assert "lost or altered" in found.notes[0]
     assert uris(as_page(found), r"image/svg\+xml") == [SVG.format("one").encode()]
@@ -536,38 +536,38 @@ def test_the_same_comparison_gives_the_same_page(against: Pair) -> None:
     assert as_page(found) == as_page(found)
 
 
-@pytest.mark.parametrize("name", ["", "index.html", "record.json"])
+@pytest.mark.parametrize("name", ["", "index.html", "manifest.json"])
 def test_a_report_is_named_by_its_folder_or_a_file_in_it(tmp_path: Path, name: str) -> None:
-    """The folder, its index.html and its record.json mean the same report."""
+    """The folder, its index.html and its manifest.json mean the same report."""
     assert read(report(tmp_path / "old") / name).folder == tmp_path / "old"
 
 
 def spoilt(where: Path, text: str) -> Path:
-    """Write a folder with such a record."""
+    """Write a folder with such a manifest."""
     where.mkdir()
-    (where / "record.json").write_bytes(text.encode("utf-8", "surrogateescape"))
+    (where / "manifest.json").write_bytes(text.encode("utf-8", "surrogateescape"))
     return where
 
 
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("", "is not the record of a report"),
-        ("[]", "is not the record of a report"),
-        ("{", "is not the record of a report"),
-        ("\udcff", "is not the record of a report"),
+        ("", "is not the manifest of a report"),
+        ("[]", "is not the manifest of a report"),
+        ("{", "is not the manifest of a report"),
+        ("\udcff", "is not the manifest of a report"),
         ('{"name": "atlas"}', "has format None; this atlas reads format 1"),
         (json.dumps(SAMPLE | {"format": 2}), "has format 2; this atlas reads format 1"),
         (json.dumps(SAMPLE | {"format": "1"}), "has format '1'; this atlas reads format 1"),
         (json.dumps(SAMPLE | {"tables": 3}), r"Expected `object`, got `int` - at `\$\.tables`"),
-        (json.dumps(SAMPLE).replace('"2.4.6"', "NaN"), "is not the record of a report"),
+        (json.dumps(SAMPLE).replace('"2.4.6"', "NaN"), "is not the manifest of a report"),
         (json.dumps(SAMPLE).replace('"at rest", ', ""), "in table tab-points not every row has 4 cells"),
         (json.dumps(SAMPLE).replace('"sha256": ""', '"sha256": null'), "only one of file and sha256"),
         (json.dumps(SAMPLE).replace("a.svg", "a.exe"), "neither SVG nor PNG"),
     ],
 )
-def test_a_spoilt_record_is_one_sentence(tmp_path: Path, text: str, complaint: str) -> None:
-    """A record that can't be read is named, with what is wrong with it."""
+def test_a_spoilt_manifest_is_one_sentence(tmp_path: Path, text: str, complaint: str) -> None:
+    """A manifest that can't be read is named, with what is wrong with it."""
     folder = spoilt(tmp_path / "old", text)
     with pytest.raises(AtlasError, match=complaint) as caught:
         read(folder)
@@ -576,7 +576,7 @@ def test_a_spoilt_record_is_one_sentence(tmp_path: Path, text: str, complaint: s
 
 
 def test_what_is_no_built_report_is_one_sentence(tmp_path: Path) -> None:
-    """A folder that is not there, has no record, or is a file, is named."""
+    """A folder that is not there, has no manifest, or is a file, is named."""
     (tmp_path / "empty").mkdir()
     (tmp_path / "atlas.pdf").write_text("")
     for name, reason in (

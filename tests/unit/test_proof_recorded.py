@@ -6,76 +6,76 @@ from pathlib import Path
 import pytest
 
 from atlas.errors import AtlasError
-from atlas.proof import record
+from atlas.proof import recorded
 
-VERDICT = record.load()["mf77"]
+VERDICT = recorded.load()["mf77"]
 
 
 def test_what_is_saved_is_read_back(tmp_path: Path) -> None:
     """A record survives the way through the file, and others of the file stay."""
     path = tmp_path / "verdicts.json"
-    record.save([VERDICT, record.load()["mf56"]], path)
-    assert record.load(path) == {"mf56": record.load()["mf56"], "mf77": VERDICT}
+    recorded.save([VERDICT, recorded.load()["mf56"]], path)
+    assert recorded.load(path) == {"mf56": recorded.load()["mf56"], "mf77": VERDICT}
     changed = replace(VERDICT, verdict="undecided")
-    record.save([changed], path)
-    assert record.load(path)["mf77"].verdict == "undecided"
-    assert set(record.load(path)) == {"mf56", "mf77"}
+    recorded.save([changed], path)
+    assert recorded.load(path)["mf77"].verdict == "undecided"
+    assert set(recorded.load(path)) == {"mf56", "mf77"}
 
 
 def test_seconds_change_only_with_the_proof(tmp_path: Path) -> None:
     """A second run of the same proofs leaves the file as it is."""
     path = tmp_path / "verdicts.json"
-    record.save([VERDICT], path)
+    recorded.save([VERDICT], path)
     before = path.read_bytes()
-    record.save([replace(VERDICT, seconds=99.0)], path)
+    recorded.save([replace(VERDICT, seconds=99.0)], path)
     assert path.read_bytes() == before
-    record.save([replace(VERDICT, seconds=99.0, source="another")], path)
-    assert record.load(path)["mf77"].seconds == 99.0
+    recorded.save([replace(VERDICT, seconds=99.0, source="another")], path)
+    assert recorded.load(path)["mf77"].seconds == 99.0
 
 
 def test_a_missing_record_is_empty_and_a_spoilt_one_is_an_error(tmp_path: Path) -> None:
     """Nothing is made up in place of a record that can't be read."""
-    assert record.load(tmp_path / "none.json") == {}
+    assert recorded.load(tmp_path / "none.json") == {}
     spoilt = tmp_path / "spoilt.json"
     spoilt.write_text("[{", "utf-8")
     with pytest.raises(AtlasError, match=r"spoilt\.json"):
-        record.load(spoilt)
+        recorded.load(spoilt)
 
 
 def test_a_changed_verdict_differs() -> None:
     """Both the verdict and that on the corrected form count; a new label is not recorded."""
-    recorded = record.load()
-    assert record.differs(recorded.values(), recorded) == []
-    assert record.differs([replace(VERDICT, verdict="refuted")], recorded) == [("mf77", "proved", "refuted")]
-    slip = replace(recorded["mf56"], corrected_verdict="undecided")
-    assert record.differs([slip], recorded)[0][0] == "mf56"
-    assert record.differs([VERDICT], {}) == [("mf77", "not recorded", "proved")]
+    verdicts = recorded.load()
+    assert recorded.differs(verdicts.values(), verdicts) == []
+    assert recorded.differs([replace(VERDICT, verdict="refuted")], verdicts) == [("mf77", "proved", "refuted")]
+    slip = replace(verdicts["mf56"], corrected_verdict="undecided")
+    assert recorded.differs([slip], verdicts)[0][0] == "mf56"
+    assert recorded.differs([VERDICT], {}) == [("mf77", "not recorded", "proved")]
 
 
 def test_the_fingerprint_follows_what_a_proof_builds_on(monkeypatch: pytest.MonkeyPatch) -> None:
     """A change in the machinery touches every proof, a change in a topic those that build on it, a comment none."""
-    before = {label: record.source(label) for label in ("mf77", "mf89", "mf17", "mf58")}
-    normal = record._normal
+    before = {label: recorded.source(label) for label in ("mf77", "mf89", "mf17", "mf58")}
+    normal = recorded._normal
 
     def changed_in(stem: str) -> dict[str, str]:
-        record._fingerprint.cache_clear()
-        monkeypatch.setattr(record, "_normal", lambda name: normal(name) + ("\nx = 1" if name == stem else ""))
-        found = {label: record.source(label) for label in before}
-        record._fingerprint.cache_clear()
+        recorded._fingerprint.cache_clear()
+        monkeypatch.setattr(recorded, "_normal", lambda name: normal(name) + ("\nx = 1" if name == stem else ""))
+        found = {label: recorded.source(label) for label in before}
+        recorded._fingerprint.cache_clear()
         return found
 
     touched = {
         stem: {label for label, source in changed_in(stem).items() if source != before[label]}
         for stem in ("decide", "quadric")
     }
-    monkeypatch.setattr(record, "_normal", normal)
+    monkeypatch.setattr(recorded, "_normal", normal)
     assert touched == {"decide": set(before), "quadric": {"mf77", "mf89", "mf58"}}
-    assert record.source("mf77") == before["mf77"]
-    assert record.source("mf77", changes=True) != before["mf77"]
+    assert recorded.source("mf77") == before["mf77"]
+    assert recorded.source("mf77", changes=True) != before["mf77"]
 
 
 def test_comments_and_blank_lines_do_not_count() -> None:
     """The text that is fingerprinted holds neither."""
-    text = record._normal("decide")
+    text = recorded._normal("decide")
     assert "\n\n" not in text
     assert not any(line.lstrip().startswith("#") for line in text.splitlines())

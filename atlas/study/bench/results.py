@@ -97,7 +97,7 @@ class Rows(Item, frozen=True):
     to_plain: float
 
 
-class Check(Item, frozen=True):
+class ReferenceCheck(Item, frozen=True):
     """The reference on trial: its largest distance from a Taylor integration in ball arithmetic up to ``until``."""
 
     case: str
@@ -105,7 +105,7 @@ class Check(Item, frozen=True):
     distance: float
 
 
-class Record(Item, frozen=True):
+class Results(Item, frozen=True):
     """One run of the benchmark."""
 
     format: int
@@ -116,7 +116,7 @@ class Record(Item, frozen=True):
     machine: Machine
     versions: dict[str, str]
     parameters: dict[str, dict[str, float | list[float]]]
-    checks: list[Check]
+    checks: list[ReferenceCheck]
     runs: list[Run]
     setups: list[Setup]
     costs: list[Cost]
@@ -128,18 +128,18 @@ def stored() -> Path:
     return folder("reports") / "data" / "bench.json"
 
 
-def read(path: Path | None = None) -> Record:
+def read(path: Path | None = None) -> Results:
     """Read a record, the repository's own by default; one that does not have the form is an AtlasError."""
     path = path or stored()
     try:
-        return msgspec.json.decode(path.read_bytes(), type=Record)
+        return msgspec.json.decode(path.read_bytes(), type=Results)
     except FileNotFoundError as error:
         raise AtlasError(f"There is no benchmark record {path.name}: run atlas bench first.") from error
     except msgspec.MsgspecError as error:
         raise AtlasError(f"{path.name} is not a benchmark record: {error}.") from error
 
 
-def write(record: Record, path: Path) -> None:
+def write(record: Results, path: Path) -> None:
     """Write a record, a row a line, whole or not at all."""
     parts = []
     for name, value in msgspec.to_builtins(record).items():

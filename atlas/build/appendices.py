@@ -15,10 +15,10 @@ from atlas.build.sources import PACKAGE
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, LABEL
 from atlas.places import folder
+from atlas.report.appendices import Appendices, Finding
 from atlas.report.blocks import Errata, Ledger, Recorded, Reference
 from atlas.report.definition import Report
 from atlas.report.numbers import Number
-from atlas.report.recorded import Appendices, Finding
 from atlas.report.tables.model import Column, Data
 
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
@@ -44,12 +44,12 @@ def gather(report: Report) -> Appendices:
 
 def _findings() -> dict[str, Finding]:
     """Return what the trial recorded on each entry."""
-    from atlas.proof import record
+    from atlas.proof import recorded
     from atlas.proof.survivors import reason
 
-    mutants, modules = record.load_mutants(), _modules()
+    mutants, modules = recorded.load_mutants(), _modules()
     findings = {}
-    for label, verdict in record.load().items():
+    for label, verdict in recorded.load().items():
         changed = mutants.get(label)
         findings[label] = Finding(
             verdict.verdict,
@@ -82,11 +82,11 @@ def _modules() -> dict[str, tuple[str, ...]]:
 
 def _trial() -> dict[str, Data]:
     """Return the verdicts in numbers, section by section, and what survived the changes."""
-    from atlas.proof import record
+    from atlas.proof import recorded
     from atlas.proof.survivors import reason
     from atlas.proof.verdict import slips
 
-    verdicts, mutants = record.load(), record.load_mutants()
+    verdicts, mutants = recorded.load(), recorded.load_mutants()
     kinds = ("proved", "definition", "refuted", "supported", "undecided")
     totals: defaultdict[str, Counter[str]] = defaultdict(Counter)
     for label, entry in EQUATIONS.items():
@@ -136,9 +136,9 @@ def _trial() -> dict[str, Data]:
 
 def _bench() -> dict[str, Data]:
     """Return the tables of the stored benchmark by their titles."""
-    from atlas.study.bench import record, tables
+    from atlas.study.bench import results, tables
 
-    stored = record.read()
+    stored = results.read()
     line = f"Measured on {tables.machine_line(stored)}."
     found = {}
     for table in tables.tables(stored):

@@ -8,9 +8,9 @@ from functools import partial
 from itertools import groupby
 from typing import Any
 
-from atlas.build.compare import Cell, Comparison, agreeing
-from atlas.build.record import KINDS, Figure, Report
 from atlas.places import folder
+from atlas.report.compare import ChangedCell, Comparison, agreeing
+from atlas.report.manifest import KINDS, BuiltReport, FigureEntry
 
 FORMULA = re.compile(r"(\$[^$]+\$)")
 
@@ -28,7 +28,7 @@ def as_page(comparison: Comparison) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    pages = comparison.old.record.pages | comparison.new.record.pages
+    pages = comparison.old.manifest.pages | comparison.new.manifest.pages
     prose = _Prose({slug: page.title for slug, page in pages.items()})
     environment.filters |= {"prose": prose, "rounded": rounded, "apart": _apart}
     tables = {name: [*cells] for name, cells in groupby(comparison.numbers, lambda cell: cell.table)}
@@ -95,14 +95,14 @@ def rounded(value: Decimal | None) -> str:
     return "" if value is None else f"{value:.3g}".replace("-", "\N{MINUS SIGN}")
 
 
-def _apart(cell: Cell) -> tuple[str, str, str]:
+def _apart(cell: ChangedCell) -> tuple[str, str, str]:
     """Cut the texts of a number at the first character that differs."""
     old, new = (text.replace("-", "\N{MINUS SIGN}") for text in (cell.old, cell.new))
     same = agreeing(old, new)
     return old[:same], old[same:], new[same:]
 
 
-def _picture(report: Report, figure: Figure) -> str:
+def _picture(report: BuiltReport, figure: FigureEntry) -> str:
     """Return a picture as a data URI, empty when there is none."""
     path = report.picture(figure)
     return _inside(path.read_bytes(), KINDS[path.suffix]) if path else ""
