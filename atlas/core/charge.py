@@ -144,7 +144,7 @@ class Charge(Path):
 
     @property
     def drift(self) -> FloatArray:
-        """Velocity c [E, B]/B^2."""
+        """Velocity c [E, B]/B^2, shape (3,)."""
         self.needs_field("drift")
         return rounded(self._drift, "The drift")
 
@@ -156,7 +156,7 @@ class Charge(Path):
 
     @property
     def centre(self) -> FloatArray:
-        """Rows: position, velocity and acceleration of the point O(t) of mf11, at t = 0."""
+        """Rows (3, 3): position, velocity and acceleration of the point O(t) of mf11, at t = 0."""
         self.needs_field("guiding centre")
         start = plus(exact(self.y0), times(1 / self._w2, cross(self._w, self._circling)))
         along = times(dot(self._w, self._v) / self._w2, self._w)
@@ -165,7 +165,7 @@ class Charge(Path):
 
     @property
     def axes(self) -> FloatArray:
-        """Frame of figure Magn, rows e1, e2, e3."""
+        """Frame of figure Magn, rows e1, e2, e3; shape (3, 3)."""
         self.needs_field("frame")
         e1 = cross(self.E, self.B)
         if not any(e1):

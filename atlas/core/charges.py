@@ -53,12 +53,12 @@ class Charges(Path):
 
     @cached_property
     def rate(self) -> FloatArray:
-        """Size of the frequency omega."""
+        """Size of the frequency omega, shape (m,)."""
         return np.where(self.force, self._over(_rate, 1, "rate")[0], 0.0)
 
     @cached_property
     def cyclotron_frequency(self) -> FloatArray:
-        """Frequency omega = mu |B|/c of mf9, with the sign of mu."""
+        """Frequency omega = mu |B|/c of mf9, shape (m,), with the sign of mu."""
         return np.where(self.mu >= 0, self.rate, -self.rate)
 
     @cached_property
@@ -74,7 +74,7 @@ class Charges(Path):
 
     @cached_property
     def radius(self) -> FloatArray:
-        """Radius a of mf9."""
+        """Radius a of mf9, shape (m,)."""
         self.needs_field("radius")
         return np.asarray(self._over(_radius, 1, "radius")[0])
 

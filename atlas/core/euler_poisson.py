@@ -34,43 +34,43 @@ def hat(omega: Any) -> FloatArray:
 
 
 def bracket(a: Any, b: Any) -> FloatArray:
-    """Vector product [a, b]."""
+    """Vector product [a, b], shape (..., 3)."""
     return np.asarray(np.vecmat(np.asarray(a, dtype=np.float64), hat(b)))
 
 
 def field_in_body(R: Any, B: Any) -> FloatArray:
-    """Field K = R^T B' as the body sees it, mf41."""
+    """Field K = R^T B' in the body, mf41; R (..., 3, 3) and B' (3,) give (..., 3)."""
     return np.asarray(np.vecmat(np.asarray(B, dtype=np.float64), R))
 
 
 def rotation_rate(R: Any, Omega: Any) -> FloatArray:
-    """Poisson equations, mf21: dR_ij/dt = -eps_jab Omega_a R_ib; each row obeys mf79."""
+    """Poisson equations, mf21: dR_ij/dt = -eps_jab Omega_a R_ib, shape (..., 3, 3); each row obeys mf79."""
     return np.asarray(np.matmul(R, hat(Omega)))
 
 
 def field_rate(K: Any, Omega: Any) -> FloatArray:
-    """Poisson equation of the field in the body, mf43: dK/dt = -[Omega, K]."""
+    """Poisson equation of the field in the body, mf43: dK/dt = -[Omega, K], shape (..., 3)."""
     return bracket(K, Omega)
 
 
 def angular_acceleration(inertia: Any, K: Any, Omega: Any) -> FloatArray:
-    """Euler equations, mf27 and mf42: dOmega/dt = I^-1 [I Omega - 2 g K, Omega]."""
+    """Euler equations, mf27 and mf42: dOmega/dt = I^-1 [I Omega - 2 g K, Omega], shape (..., 3)."""
     return _solve(inertia, _torque(inertia, K, Omega))
 
 
 def body_momentum_rate(inertia: Any, K: Any, M: Any) -> FloatArray:
-    """Rate of M = I Omega in the body, mf29: dM/dt = [M - 2 g K, I^-1 M]."""
+    """Rate of M = I Omega in the body, mf29: dM/dt = [M - 2 g K, I^-1 M], shape (..., 3)."""
     return _torque(inertia, K, _solve(inertia, M))
 
 
 def momentum_rate(inertia: Any, B: Any, R: Any, m: Any) -> FloatArray:
-    """Rate of m = R I Omega in the laboratory, mf28: dm/dt = -2 [R g R^T B', R I^-1 R^T m]."""
+    """Rate of m = R I Omega in the laboratory, mf28: dm/dt = -2 [R g R^T B', R I^-1 R^T m], (..., 3)."""
     omega = np.matvec(R, _solve(inertia, np.vecmat(m, R)))
     return bracket(-2 * np.matvec(R, np.matvec(mass_matrix(inertia), field_in_body(R, B))), omega)
 
 
 def energy(inertia: Any, Omega: Any) -> FloatArray:
-    """Kinetic energy (Omega, I Omega)/2, the E of mf41.1; a magnetic field does no work on it."""
+    """Kinetic energy (Omega, I Omega)/2, the E of mf41.1, shape (...); a magnetic field does no work on it."""
     return np.asarray(np.vecdot(Omega, np.matvec(inertia, Omega)) / 2)
 
 

@@ -129,7 +129,7 @@ class Hyperbolic:
         return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(found)]
 
     def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
-        """Fill the rows from x + rest."""
+        """Fill the rows (m, N) from x + rest, both (N,)."""
         # m = exp|x| - 1 keeps its digits for small and large x; what x lacks is added to first order
         m = np.expm1(np.minimum(np.abs(x), SATURATED))
         up = m + WHOLE
@@ -176,7 +176,7 @@ class Linear:
         return [sum_.odd[0], sum_.even[0]]
 
     def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
-        """Fill the rows from x + rest."""
+        """Fill the rows (m, N) from x + rest, both (N,)."""
         x = x + rest
         size = np.maximum(np.abs(x), 1.0)
         np.divide(x, size, out=rows[0])

@@ -60,12 +60,12 @@ def root(q: Fraction, sign: Fraction | int = 1) -> float:
 
 
 def scaled(vector: Vector, square: Fraction) -> FloatArray:
-    """Return vector / sqrt(square), each component rounded once; a zero vector stays zero."""
+    """Return vector / sqrt(square), shape (3,), each component rounded once; a zero vector stays zero."""
     return np.array([root(component * component / square, component) for component in vector])
 
 
 def unit(vector: Vector) -> FloatArray:
-    """Return the unit vector along a vector that is not zero, each component rounded once."""
+    """Return the unit vector (3,) along a vector that is not zero, each component rounded once."""
     return scaled(vector, dot(vector, vector))
 
 

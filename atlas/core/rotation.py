@@ -51,7 +51,7 @@ class DoubleRotation:
 
     @cached_property
     def extended(self) -> NDArray[np.longdouble]:
-        """The generators with the digits of long doubles."""
+        """The generators, shape (r, 3, 3), with the digits of long doubles."""
         return extended(self.axis)
 
     @cached_property
@@ -116,7 +116,7 @@ def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...]
 
 
 def target(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
-    """Return the array to fill: a new one, or the caller's if it fits."""
+    """Return the array of this shape to fill: a new one, or the caller's. Raises DomainError if that does not fit."""
     if out is None:
         try:
             return np.empty(shape)

@@ -46,14 +46,14 @@ def glass(view: View, pixel: float) -> Triangles:
 
 
 def lattice(rows: int, columns: int) -> NDArray[np.int64]:
-    """Return the triangles of a mesh of rows x columns corners: anticlockwise from where rows x columns points."""
+    """Return the triangles (T, 3) of a mesh of rows x columns corners, anticlockwise from where that product points."""
     corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
     below, right, across = corner + columns, corner + 1, corner + columns + 1
     return np.stack([corner, below, across, corner, across, right], axis=1).reshape(-1, 3)
 
 
 def distinct(points: FloatArray) -> FloatArray:
-    """Return a polyline without the points that repeat the one before."""
+    """Return a polyline (N, 3) without the points that repeat the one before."""
     return points[np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9])]
 
 

@@ -44,7 +44,7 @@ class Tag:
 
 
 def stand(tag: Tag) -> FloatArray:
-    """Return the centre of the text where it would like to stand."""
+    """Return the centre (2,) of the text where it would like to stand, in points."""
     return _stands(tag, np.array([tag.anchor]), np.zeros(1), np.zeros(1))[0]
 
 

@@ -178,7 +178,7 @@ def _ball(centre: FloatArray, look: Style, view: View) -> pv.PolyData:
 
 
 def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
-    """Return the polyline itself, or the dashes of it, measured in points of the paper along the line."""
+    """Return the polyline (N, 3) itself, or the dashes of it, measured in points of the paper along the line."""
     if not look.dash:
         return [points]
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])

@@ -163,7 +163,7 @@ def head_base(tail: FloatArray, tip: FloatArray, look: Style, scale: float) -> F
 
 
 def silhouette(surface: Surface, view: View) -> list[FloatArray]:
-    """Return the curve where lines of sight graze the surface: a plane section, since grad F . d is linear."""
+    """Return the curves (N, 3) where lines of sight graze the surface: plane sections, since grad F . d is linear."""
     normal = surface.quadric[:3, :3] @ view.towards
     reach = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     centre = 0.5 * (reach.min(axis=0) + reach.max(axis=0))

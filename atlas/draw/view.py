@@ -42,7 +42,7 @@ class View:
 
     @property
     def towards(self) -> FloatArray:
-        """The unit vector to the eye."""
+        """The unit vector (3,) to the eye."""
         return self.frame[2]
 
     @property

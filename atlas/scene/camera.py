@@ -9,7 +9,7 @@ from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Space, Surfac
 
 
 def frame(space: Space) -> NDArray[np.float64]:
-    """Return the rows right, up, towards the eye, in (e1, e2, e3)."""
+    """Return the rows right, up, towards the eye, in (e1, e2, e3); shape (3, 3)."""
     a, e = np.radians(space.azimuth), np.radians(space.elevation)
     towards = (np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e))
     right = (-np.sin(a), np.cos(a), 0.0)

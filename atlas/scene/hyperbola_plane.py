@@ -31,7 +31,7 @@ class Window:
 
     @property
     def box(self) -> tuple[FloatArray, FloatArray]:
-        """Lowest and highest corner."""
+        """Lowest and highest corner, (2,) each."""
         return np.array([self.x[0], self.y[0]]), np.array([self.x[1], self.y[1]])
 
     def upright(self, omega2: float) -> FloatArray:
@@ -113,7 +113,7 @@ def graph(
 
 
 def seen(points: FloatArray, view: Window) -> NDArray[np.bool_]:
-    """Tell which points of a polyline are in the window, or next to one that is."""
+    """Tell which points (N, 2) of a polyline are in the window, or next to one that is."""
     low, high = view.box
     inside = np.asarray(((points >= low) & (points <= high)).all(axis=1))
     chosen = inside.copy()

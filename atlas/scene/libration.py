@@ -75,7 +75,7 @@ class Libration:
         return np.asarray(self.departure(turns) + np.array([0.0, self.start]))
 
     def departure(self, turns: FloatArray) -> FloatArray:
-        """Return points (t, Omega3 - omega3), exact also where the departure is a rounding of omega3."""
+        """Return points (t, Omega3 - omega3), shape (N, 2), exact also where the departure is a rounding of omega3."""
         first = float(np.arcsin(np.clip((self.above + self.below) / (self.below - self.above), -1.0, 1.0)))
         first = first if self.speed >= 0 else np.pi - first
         s = first + 2 * np.pi * np.asarray(turns)

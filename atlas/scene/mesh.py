@@ -21,7 +21,7 @@ def cuts(
     stop: float,
     tolerance: float,
 ) -> FloatArray:
-    """Return the parameters, common to some ``lines`` on a quadric, at which its mesh is cut across them.
+    """Return the parameters (N,), common to some ``lines`` on a quadric, at which its mesh is cut across them.
 
     Between two cuts no chord of these lines leaves the quadric by more than ``tolerance``, and the unit normal is
     linear to `SHADE`: turning by an angle d it departs by d^2/8, so that the light on a face is right to its last bit.

@@ -116,7 +116,7 @@ def centre_value(Q: FloatArray, centre: FloatArray) -> float:
 
 
 def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatArray]:
-    """Return the part of the hyperbola mf72, the section omega_1 = 0, that lies on a drawn surface."""
+    """Return the part of the hyperbola mf72, omega_1 = 0, that lies on a drawn surface, as polylines (N, 3)."""
     points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))

@@ -68,7 +68,7 @@ def flat(
 def knots(
     function: Callable[[FloatArray], FloatArray], start: float, stop: float, tolerance: float, pieces: int = 8
 ) -> FloatArray:
-    """Return the parameters of the points of `curve`."""
+    """Return the parameters (N,) of the points of `curve`."""
     return _cut(function, start, stop, tolerance, pieces, None, 1.0)[0]
 
 

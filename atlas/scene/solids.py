@@ -17,7 +17,7 @@ _FLAT = 1e-6
 
 
 def across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return two unit vectors that make a right-handed frame with the unit vector ``axis``."""
+    """Return two unit vectors (3,) that make a right-handed frame with the unit vector ``axis``."""
     helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
     first = np.cross(axis, helper)
     first /= np.linalg.norm(first)
@@ -25,7 +25,7 @@ def across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float) -> FloatArray:
-    """Return the circle around ``axis`` (unit vector), sampled to a tolerance."""
+    """Return the circle around ``axis`` (unit vector), shape (N, 3), sampled to a tolerance."""
     first, second = across(axis)
     return arc(centre, radius * first, radius * second, 0.0, TURN, tolerance)
 
@@ -33,19 +33,19 @@ def circle(centre: FloatArray, axis: FloatArray, radius: float, tolerance: float
 def arc(
     centre: FloatArray, first: FloatArray, second: FloatArray, start: float, stop: float, tolerance: float
 ) -> FloatArray:
-    """Return centre + first cos s + second sin s for s from start to stop."""
+    """Return centre + first cos s + second sin s for s from start to stop, shape (N, 3), sampled to a tolerance."""
     return sample.curve(ellipse(centre, first, second), start, stop, tolerance)
 
 
 def ellipse(centre: FloatArray, first: FloatArray, second: FloatArray) -> Callable[[FloatArray], FloatArray]:
-    """Return the function centre + first cos s + second sin s of s."""
+    """Return the function centre + first cos s + second sin s of s (N,), with values (N, 3)."""
     return lambda s: centre + np.cos(s)[:, None] * first + np.sin(s)[:, None] * second
 
 
 def around(
     quadric: FloatArray, centre: FloatArray, first: FloatArray, second: FloatArray, tolerance: float
 ) -> FloatArray:
-    """Return the angles at which a round surface is cut along its axis; the ellipse given is its widest."""
+    """Return the angles (N,) at which a round surface is cut along its axis; the ellipse given is its widest."""
     return mesh.cuts(quadric, [ellipse(centre, first, second)], 0.0, TURN, tolerance)
 
 
