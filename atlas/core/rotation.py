@@ -116,7 +116,7 @@ def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...]
 
 
 def target(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
-    """Return the array of this shape to fill: a new one, or the caller's. Raises DomainError if that does not fit."""
+    """Return the array of this shape to fill: a new one, or the caller's. Raises AtlasError if that does not fit."""
     if out is None:
         try:
             return np.empty(shape)
