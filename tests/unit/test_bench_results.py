@@ -3,6 +3,7 @@
 import os
 import socket
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
 
 import msgspec
@@ -11,7 +12,7 @@ import pytest
 
 from atlas.errors import AtlasError
 from atlas.study.bench import elementary, integrators
-from atlas.study.bench.case import FloatArray, Grid, Method
+from atlas.study.bench.case import Case, FloatArray, Grid, Method, Solve
 from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.precision import Plan
 from atlas.study.bench.results import FORMAT, Cost, Machine, Results, Run, Setup, read, stored, write
@@ -133,6 +134,24 @@ def test_integrator_out_of_time_is_kept_and_not_tried_again() -> None:
     for peer in peers:
         found = [(row.horizon, row.tolerance, row.status) for row in rows if row.method == peer.name]
         assert found == [(8.0, 1e-3, "timed out"), (8.0, 1e-6, "skipped")]
+
+
+def test_an_integrator_that_times_out_when_it_is_timed_again_is_noted() -> None:
+    """The first solution came through in time, the next did not: a row with its reason, and the run goes on."""
+
+    def prepare(_case: Case, _tolerance: float, _limit: float) -> Solve:
+        calls = count()
+
+        def solve(grid: Grid) -> FloatArray:
+            if next(calls):
+                raise integrators.TimedOutError
+            return elementary.formula(elementary.frequencies(), grid.times)
+
+        return solve
+
+    scope = replace(SMALL, counts=(), plan=replace(SMALL.plan, horizons=(8.0,), tolerances=(1e-3,)))
+    rows = run([elementary.case()], scope=scope, peers=[integrators.Integrator("late", prepare)]).runs
+    assert [row.status for row in rows if row.method == "late"] == ["timed out"]
 
 
 def test_absent_library_is_noted(monkeypatch: pytest.MonkeyPatch) -> None:

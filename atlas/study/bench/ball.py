@@ -13,7 +13,7 @@ import numpy as np
 
 from atlas.core.ball import BallMotion
 from atlas.exact.ball import BallMotion as Exact
-from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross
+from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
 from atlas.study.bench.peers import Turn, composed, lambdified
 
 PARAMETERS: Parameters = {"inertia": 0.5, "larmor": 1.3, "momentum": (0.45, 0.65)}
@@ -70,35 +70,18 @@ def motion() -> BallMotion:
     return BallMotion(PARAMETERS["inertia"], PARAMETERS["larmor"], momentum=PARAMETERS["momentum"])
 
 
-def ours() -> Solve:
-    """Evaluate `BallMotion.rotation` at any times."""
-    made = motion()
-    return lambda grid: made.rotation(grid.times)
-
-
-def ours_on_grid() -> Solve:
-    """Evaluate `BallMotion.rotation_grid`."""
-    made = motion()
-    return lambda grid: made.rotation_grid(grid.start, grid.step, grid.count)
-
-
 def case() -> Case:
     """Return the case; its true values are those of `atlas.exact`."""
     exact = Exact(PARAMETERS["inertia"], PARAMETERS["larmor"], PARAMETERS["momentum"])
-    return Case(
+    return rotation_case(
+        motion,
+        exact,
+        exact.angular_momentum(0),
+        Method("plain", plain),
+        Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
+        Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
         name="ball",
         title="Charged ball",
         parameters=PARAMETERS,
-        shape=(3, 3),
         rates=rates,
-        initial=lambda: [1, 0, 0, 0, 1, 0, 0, 0, 1, *exact.angular_momentum(0)],
-        exact=lambda t: [x for row in exact.rotation(t) for x in row],
-        scale=lambda values: np.ones((len(values), 1, 1)),
-        closed=(
-            Method("plain", plain),
-            Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
-            Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
-            Method("ours", ours),
-            Method("ours_grid", ours_on_grid),
-        ),
     )

@@ -76,6 +76,30 @@ class Case:
         return states[:, : self.size].reshape(-1, *self.shape)
 
 
+def rotation_case(make: Callable[[], Any], exact: Any, momentum: Sequence[Any], *others: Method, **facts: Any) -> Case:
+    """Return the case of a rotation R(t): the motion that `make` makes, in balls `exact`, and other closed forms.
+
+    The state is R, row by row, and after it ``momentum``, what else the equations of motion advance, at t = 0.
+    """
+
+    def ours() -> Solve:
+        motion = make()
+        return lambda grid: motion.rotation(grid.times)
+
+    def ours_on_grid() -> Solve:
+        motion = make()
+        return lambda grid: motion.rotation_grid(grid.start, grid.step, grid.count)
+
+    return Case(
+        shape=(3, 3),
+        initial=lambda: [1, 0, 0, 0, 1, 0, 0, 0, 1, *momentum],
+        exact=lambda t: [x for row in exact.rotation(t) for x in row],
+        scale=lambda values: np.ones((len(values), 1, 1)),
+        closed=(*others, Method("ours", ours), Method("ours_grid", ours_on_grid)),
+        **facts,
+    )
+
+
 def cross(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
     """Vector product [a, b] of triples of anything."""
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]

@@ -36,13 +36,15 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
     given = np.sort(np.random.default_rng(SEED).uniform(0.0, STEP * count, count))
     given[0] = 0.0
     anywhere = Times(0.0, 0.0, count, given)
+    case = general.case()
+    ours, ours_on_grid = (method.prepare() for method in case.closed)
     solve: dict[tuple[str, str], tuple[Solve, Grid]] = {
-        (ANY, "ours"): (general.ours(), anywhere),
-        (EVEN, "ours_grid"): (general.ours_on_grid(), grid),
+        (ANY, "ours"): (ours, anywhere),
+        (EVEN, "ours_grid"): (ours_on_grid, grid),
     }
     for peer in integrators():
         if peer.name == "heyoka" and peer.present:
-            dense = peer.prepare(general.case(), TOLERANCE, np.inf)
+            dense = peer.prepare(case, TOLERANCE, np.inf)
             solve |= {(ANY, "heyoka"): (dense, anywhere), (EVEN, "heyoka"): (dense, grid)}
     plain, exact = elementary.plain(), Exact(*general.PARAMETERS.values())
     jobs = {f"{what} {method}": _job(*way) for (what, method), way in solve.items()}

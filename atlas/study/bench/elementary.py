@@ -13,7 +13,7 @@ import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
 from atlas.exact.elementary import ElementaryMotion as Exact
-from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross
+from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
 from atlas.study.bench.peers import Turn, composed, lambdified
 
 PARAMETERS: Parameters = {"I": 1.5, "B": (1.0, 2.0), "omega2": 0.7}
@@ -82,35 +82,18 @@ def exact_motion() -> Exact:
     return Exact(PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"])
 
 
-def ours() -> Solve:
-    """Evaluate `ElementaryMotion.rotation` at any times."""
-    made = motion()
-    return lambda grid: made.rotation(grid.times)
-
-
-def ours_on_grid() -> Solve:
-    """Evaluate `ElementaryMotion.rotation_grid`."""
-    made = motion()
-    return lambda grid: made.rotation_grid(grid.start, grid.step, grid.count)
-
-
 def case() -> Case:
     """Return the case; its true values are those of `atlas.exact`."""
     exact = exact_motion()
-    return Case(
+    return rotation_case(
+        motion,
+        exact,
+        exact.angular_velocity(0),
+        Method("plain", plain),
+        Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
+        Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
         name="elementary",
         title="Elementary motion",
         parameters=PARAMETERS,
-        shape=(3, 3),
         rates=rates,
-        initial=lambda: [1, 0, 0, 0, 1, 0, 0, 0, 1, *exact.angular_velocity(0)],
-        exact=lambda t: [x for row in exact.rotation(t) for x in row],
-        scale=lambda values: np.ones((len(values), 1, 1)),
-        closed=(
-            Method("plain", plain),
-            Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
-            Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
-            Method("ours", ours),
-            Method("ours_grid", ours_on_grid),
-        ),
     )

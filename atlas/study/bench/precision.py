@@ -112,12 +112,12 @@ def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
     try:
         seconds, values = once(_job(solve, g))
         error = bench.truths[run.horizon].error(values)
+        jobs = {"base": _job(bench.plain, g)} | ({"peer": _job(solve, g)} if seconds < SHORT else {})
+        times = interleave(jobs, bench.plan.rounds if seconds < SHORT / 10 else 3)
     except TimedOutError:
         return _unmeasured(run, "timed out", f"stopped after {bench.plan.limit:g} s, so at longer horizons")
     except Exception as raised:  # noqa: BLE001  the same
         return _unmeasured(run, "failed", said(raised))
-    jobs = {"base": _job(bench.plain, g)} | ({"peer": _job(solve, g)} if seconds < SHORT else {})
-    times = interleave(jobs, bench.plan.rounds if seconds < SHORT / 10 else 3)
     peer = times.get("peer", [seconds] * len(times["base"]))
     return _measured(run, error, peer, times["base"], note)
 
