@@ -63,7 +63,7 @@ def command(
         found = run(labels or None, lambda label, done, total: tell(done, total, label), **options)
     status = _mutants(found, as_json) if mutants else _verdicts(found, as_json, record, named=bool(labels))
     if record:
-        proof.record.save(found, *([proof.record.MUTANTS] if mutants else []))
+        proof.recorded.save(found, *([proof.recorded.MUTANTS] if mutants else []))
     return status
 
 

@@ -2,11 +2,14 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
+from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
-from atlas.proof import recorded
+from atlas.proof import recorded, run
 
 VERDICT = recorded.load()["mf77"]
 
@@ -20,6 +23,18 @@ def test_what_is_saved_is_read_back(tmp_path: Path) -> None:
     recorded.save([changed], path)
     assert recorded.load(path)["mf77"].verdict == "undecided"
     assert set(recorded.load(path)) == {"mf56", "mf77"}
+
+
+@pytest.mark.parametrize("words", ["--record", "--mutants --all --record"])
+def test_the_command_keeps_what_it_found(words: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """``atlas verify --record`` saves all that the trial gave, verdicts and mutants each in its own file."""
+    kept, mutants = list[Any](), "--mutants" in words
+    found = [*(recorded.load_mutants() if mutants else recorded.load()).values()]
+    monkeypatch.setattr(run, "mutants" if mutants else "verify", lambda *_labels, **_options: found)
+    monkeypatch.setattr(recorded, "save", lambda *saved: kept.extend(saved))
+    result = CliRunner().invoke(command, ["verify", *words.split()], catch_exceptions=False)
+    assert result.exit_code == 0
+    assert kept == [found, recorded.MUTANTS] if mutants else kept == [found]
 
 
 def test_seconds_change_only_with_the_proof(tmp_path: Path) -> None:

@@ -11,10 +11,10 @@ from syrupy.assertion import SnapshotAssertion
 from syrupy.extensions.json import JSONSnapshotExtension
 
 from atlas.places import folder
-from atlas.proof import record
+from atlas.proof import recorded
 from atlas.study.stress import LIMITS, RATCHET, read_ratchet
 
-PATHS = (*(folder("reports") / "data").glob("*.json"), record.VERDICTS, record.MUTANTS, RATCHET)
+PATHS = (*(folder("reports") / "data").glob("*.json"), recorded.VERDICTS, recorded.MUTANTS, RATCHET)
 RECORDS = {path.name: path for path in PATHS}
 
 
