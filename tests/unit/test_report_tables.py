@@ -52,19 +52,6 @@ def test_the_digits_of_the_quadric_are_true() -> None:
             assert len(found[symbol].digits.replace(".", "").lstrip("0")) >= 24
 
 
-def test_the_digits_of_the_points_are_true() -> None:
-    """omega3, k, phi of mf76, mf84, mf77 and the nutation frequency at omega2 = 1/4, in 40 digits."""
-    row = next(row for row in table("points", omega2=[0.25]).rows if row[1] == Number("0.25"))
-    with mpmath.workdps(40):
-        w, I, b = mpmath.mpf(1) / 4, mpmath.mpf(3) / 2, mpmath.sqrt(5)
-        omega3 = 2 * w * (w + 2 - I) / (I * (w + 1))
-        x2 = (w + 1) ** 2
-        nu2 = (5 * x2**2 + (1 - I) * 7 * x2 + 4 * (1 - I) ** 2) / x2
-        for number, true in zip(row[2:6], (omega3, w * b, omega3 - 2 * w, nu2), strict=True):
-            assert isinstance(number, Number)
-            assert agrees(number, true)
-
-
 def test_a_long_time_costs_no_digit() -> None:
     """R_33 at t = 10^6 is that of mf89 in 40 digits."""
     row = table("samples", omega2=0.5, times=[1e6]).rows[0]

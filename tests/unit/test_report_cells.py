@@ -1,0 +1,218 @@
+"""Every number of every table, computed here in another way, where no parameter is 1 and nothing is symmetric."""
+
+import re
+from collections.abc import Iterable, Sequence
+from decimal import Decimal
+from typing import Any
+
+import mpmath
+from mpmath import mp, mpf
+from oracles import closed_form
+
+from atlas.report.body_and_field import body_and_field
+from atlas.report.numbers import Number
+from atlas.report.parameters import Body, Field
+from atlas.report.tables import TABLES, compute
+from atlas.report.tables.model import Data, Request
+
+I, B2, B3, OMEGA2 = 0.7, 1.3, -0.4, 0.6
+TIMES = [0.0, 0.3, 7.25]
+BODY = Body(title="long", ratio=I)
+FIELD = Field(title="oblique", prime=(B2, B3))
+MU, E, B = 1.7, (0.2, -0.3, 0.5), (0.0, 0.9, -0.35)
+MAGNET = Field(title="magnet", B=B, E=E, charge_to_mass=MU)
+POSITION, VELOCITY, POINT = [0.4, -0.1, 0.3], [0.7, 0.2, -0.6], [0.15, -0.25, 0.35]
+
+
+def table(name: str, digits: int = 20, bodies: Sequence[Body] = (BODY,), field: Field = FIELD, **more: Any) -> Data:
+    """Compute a table of bodies in a field."""
+    return compute(name, Request([body_and_field(body, field) for body in bodies], more, digits))
+
+
+def holds(data: Data, *rows: Iterable[Any]) -> None:
+    """Assert that the numbers of each row are the true ones, rounded to as many decimals, none more and none less."""
+    found = [[cell for cell in row if isinstance(cell, Number)] for row in data.rows]
+    found = [row for row in found if row]
+    for cells, values in zip(found, rows, strict=True):
+        for cell, value in zip(cells, values, strict=True):
+            assert cell.proven
+            assert near(cell.digits, closed_form.exact(value)), (cell, value)
+
+
+def near(digits: str, true: mpf) -> bool:
+    """Tell whether digits are those of the true value, rounded."""
+    last = mpf(10) ** Decimal(digits).as_tuple().exponent
+    return bool(abs(mpf(digits) - true) <= last * (0.5 + 1e-12))
+
+
+def root(square: mpf) -> mpf:
+    """Return a semi-axis."""
+    return mp.sqrt(abs(square))
+
+
+def elementary(omega2: float = OMEGA2, field: tuple[float, float] = (B2, B3)) -> closed_form.Elementary:
+    """Return the frequencies of a motion of the body."""
+    found: closed_form.Elementary = closed_form.elementary(1, I, *field, omega2)
+    return found
+
+
+def test_the_cells_of_named_points() -> None:
+    """omega2, omega3, k, phi and the nutation frequency squared at each point, in ascending order."""
+    with mp.workdps(40):
+        i, b2, b3 = mpf(I), mpf(B2), mpf(B3)
+        rows = []
+        for w in sorted([mpf(0), -2 * b2, -(2 - i) * b2, mpf("0.25"), mpf(-1)]):
+            one, x = closed_form.elementary(1, I, B2, B3, w), (w + b2) / b2
+            square = ((b2**2 + b3**2) * x**4 + (1 - i) * (2 * b3**2 - b2**2) * x**2 + b3**2 * (1 - i) ** 2) / x**2
+            rows.append((w, one.omega3, one.k, one.phi, square))
+        data = table("points", omega2=[0.25, -1.0])
+        holds(data, *rows)
+        assert [row[-1] for row in data.rows] == ["stable" if row[-1] > 0 else "unstable" for row in rows]
+        assert {row[0] for row in data.rows} == {"", "at rest", r"$\phi=0$", r"$\omega_3=0$"}
+
+
+def test_the_cells_of_the_quadric() -> None:
+    """Ratio, both angles, a2, a3, the semi-axes, and the centre -B'."""
+    with mp.workdps(40):
+        q = closed_form.quadric(1, I, B2, B3)
+        squares = [(root(square),) for square in q.squares]
+        rows = [(mpf(I),), (q.beta,), (q.angle,), (q.a2,), (q.a3,), *squares, (-mpf(B2),), (-mpf(B3),)]
+        holds(table("quadric"), *rows)
+
+
+def test_the_cells_of_bodies_side_by_side() -> None:
+    """Ratio, angle and semi-axes of each body."""
+    ratios = (1.6, 0.45)
+    with mp.workdps(40):
+        made = [closed_form.quadric(1, ratio, B2, B3) for ratio in ratios]
+        rows = [
+            (mpf(ratio), q.beta, *(root(square) for square in q.squares)) for ratio, q in zip(ratios, made, strict=True)
+        ]
+        data = table("bodies", bodies=[Body(title=f"{ratio}", ratio=ratio) for ratio in ratios])
+        holds(data, *rows)
+        assert [row[0] for row in data.rows] == ["1.6", "0.45"]
+
+
+def test_the_cells_of_a_motion() -> None:
+    """Initial data, frequencies and the five integrals, from their definitions at t = 0."""
+    with mp.workdps(40):
+        one, i, b2, b3 = elementary(), mpf(I), mpf(B2), mpf(B3)
+        w2, w3 = one.omega2, one.omega3
+        c3 = w3 + b3
+        c5 = w2 * b2 - w3**2 + (2 - i) * c3 * w3
+        values = (w2, w3, one.k, one.phi, w2**2 + i * w3**2, b2**2 + b3**2, c3, c5, w2 * b2 + i * w3 * b3)
+        holds(table("motion", omega2=OMEGA2), *((value,) for value in values))
+
+
+def test_the_cells_of_a_motion_at_some_times() -> None:
+    """Time, Omega(t) of mf78 and the third column of mf89."""
+    with mp.workdps(40):
+        rows = []
+        for t in TIMES:
+            R = closed_form.elementary_rotation(1, I, B2, B3, OMEGA2, t)
+            omega = closed_form.elementary_angular_velocity(1, I, B2, B3, OMEGA2, t)
+            rows.append((mpf(t), *omega, *R[:, 2]))
+        holds(table("samples", omega2=OMEGA2, times=TIMES), *rows)
+
+
+def test_the_cells_of_a_path() -> None:
+    """Time and y(t) by the exponential of the linear system; frequency mu |B|/c and drift c [E,B]/B^2 in the note."""
+    with mp.workdps(40):
+        rows = [(mpf(t), *closed_form.particle(MU, E, B, POSITION, VELOCITY, t).y) for t in TIMES]
+        data = table("particle", field=MAGNET, times=TIMES, position=POSITION, velocity=VELOCITY)
+        holds(data, *rows)
+        e, b = mpmath.matrix(E), mpmath.matrix(B)
+        square = sum(x * x for x in b)
+        drift = [(e[(j + 1) % 3] * b[(j + 2) % 3] - e[(j + 2) % 3] * b[(j + 1) % 3]) / square for j in range(3)]
+        (note,) = data.notes
+        for number, true in zip(re.findall(r"-?\d+\.\d+", note), [mpf(MU) * mp.sqrt(square), *drift], strict=True):
+            assert near(number, true)
+
+
+def test_the_cells_of_a_flight() -> None:
+    """Time, the centre of mass, and the point y_0 + R x; the body turns in B' = mu B/2."""
+    with mp.workdps(40):
+        rows = []
+        field = (MU * mpf(B[1]) / 2, MU * mpf(B[2]) / 2)
+        held = (float(field[0]), float(field[1]))  # the table takes the nearest doubles
+        for t in TIMES:
+            y = closed_form.particle(MU, E, B, POSITION, VELOCITY, t).y
+            x = closed_form.elementary_rotation(1, I, *held, OMEGA2, t) * mpmath.matrix(POINT)
+            rows.append((mpf(t), *y, *(mpf(a) + b for a, b in zip(y, x, strict=True))))
+        asked = {"omega2": OMEGA2, "times": TIMES, "point": POINT, "position": POSITION, "velocity": VELOCITY}
+        holds(table("flight", field=MAGNET, **asked), *rows)
+
+
+def test_the_cells_of_the_ball() -> None:
+    """m2, m3, alpha as given; gamma and the axis of mf39."""
+    with mp.workdps(40):
+        one = closed_form.ball(1, 0.45, 0.3, -0.7)
+        values = (0.3, -0.7, 0.45, one.gamma, one.k2, one.k3)
+        data = compute("ball", Request((), {"omega2": 0.3, "omega3": -0.7, "larmor": 0.45}, 20))
+        holds(data, *((value,) for value in values))
+
+
+def test_the_cells_of_body_and_field() -> None:
+    """What was given; the moments of a shell, their ratio, mu, and B' of mf41, where e2 makes B'_2 positive."""
+    shell = Body(title="shell", shape="cylindrical_shell", mass=0.75, radius=0.25, height=0.375, charge=-0.3)
+    magnet = Field(title="magnet", B=(0.0, 3.0, 4.5), E=(0.5, 0.0, -2.5))
+    with mp.workdps(40):
+        I3 = mpf("0.75") * mpf("0.0625")
+        I2 = I3 / 2 + mpf("0.75") * mpf("0.375") ** 2 / 12
+        mu = mpf(-0.3 / 0.75)
+        given = (0.75, 0.25, 0.375, -0.3, 0, 3, mpf("4.5"), mpf("0.5"), 0, mpf("-2.5"))
+        follows = (I2, I3, I3 / I2, mu, mpf(float(-mu * 3 / 2)), mpf(float(mu * mpf("2.25"))))
+        with mp.workdps(17):  # what was given is shown as it was given
+            given = tuple(mpf(repr(float(value))) for value in given)
+        holds(table("body_and_field", bodies=[shell], field=magnet), *((value,) for value in (*given, *follows)))
+
+
+def test_the_cells_of_charges() -> None:
+    """Mass, radius, charge mu m0 and e/(4 pi eps0 r^2), to two digits."""
+    made = [Body(title=name, shape="sphere", mass=m, radius=r) for name, m, r in (("a", 9e-15, 2e-6), ("b", 3.0, 0.4))]
+    rows = []
+    for body in made:
+        m, r = body.mass or 0.0, body.radius or 0.0
+        rows.append((m, r, MU * m, 8.9875517862e9 * MU * m / r**2))
+    holds(table("charges", bodies=made, field=Field(title="m", B=B, charge_to_mass=MU)), *rows)
+
+
+def test_the_cells_of_bodies_that_could_exist() -> None:
+    """Charge, elementary charges, mu, b, its period and the angle between m and B, to two digits."""
+    surface, density, magnet, eps0 = 1e9, 2500.0, 10.0, 8.8541878188e-12
+    more = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
+    rows = []
+    for r in (1e-6, 2e-2):
+        charge, mu = 4 * mp.pi * eps0 * r * r * surface, 3 * eps0 * surface / (density * r)
+        b = mu * magnet / 2
+        one = closed_form.elementary(1, 1.5, 1, 2, 2 * mp.pi / (b / mp.sqrt(5)) / mp.sqrt(5))
+        m, B = (one.omega2, mpf("1.5") * one.omega3), (1, 2)
+        angle = abs(mp.atan2(m[0] * B[1] - m[1] * B[0], m[0] * B[0] + m[1] * B[1]))
+        rows.append((r, charge, charge / 1.602176634e-19, mu, b, 2 * mp.pi / b, angle))
+    holds(compute("sizes", Request((), more, 2)), *rows)
+
+
+def test_the_cells_of_radiation() -> None:
+    """Energy over power in Julian years: Larmor's formula, a magnetic dipole, an electric quadrupole, in SI units."""
+    surface, density, magnet, eps0, c = 1e9, 2500.0, 10.0, 8.8541878188e-12, 299_792_458.0
+    more = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
+    rows = []
+    for r in (1e-6, 2e-2):
+        e, mass = 4 * mp.pi * eps0 * r * r * surface, 4 * mp.pi / 3 * density * r**3
+        mu = e / mass
+        b = mu * magnet / 2
+        inertia = 2 * mass * r * r / 5
+        flight = (mass / 2) / (e**2 * (2 * b) ** 2 / (6 * mp.pi * eps0 * c**3))
+        energy = inertia * b**2 / 2
+        dipole = mu * inertia * b / 2
+        magnetic = energy / ((dipole * b**2) ** 2 / (6 * mp.pi * eps0 * c**5))
+        # D = mu (I2 - I3)(3 n n - 1) of an axis that runs round a circle: |D'''|^2 = 16 * 18 (mu (I2 - I3) b^3)^2
+        electric = energy / (288 * (mu * inertia * 0.5 * b**3) ** 2 / (720 * mp.pi * eps0 * c**5))
+        rows.append((r, *(time / 31_557_600 for time in (flight, magnetic, electric))))
+    holds(compute("radiation", Request((), more, 2)), *rows)
+
+
+def test_no_table_is_left_out() -> None:
+    """Each table has a test of its cells above."""
+    tested = {"points", "quadric", "bodies", "motion", "samples", "particle", "flight", "ball", "body_and_field"}
+    assert set(TABLES) == tested | {"charges", "sizes", "radiation"}
