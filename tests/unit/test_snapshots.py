@@ -5,7 +5,8 @@
 
 import json
 import math
-from dataclasses import asdict
+import re
+from dataclasses import asdict, fields
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,8 @@ from syrupy.assertion import SnapshotAssertion
 from syrupy.extensions.json import JSONSnapshotExtension
 
 import atlas
-from atlas.scene import Arrow, Curve, Label, Layer, Panel, Plane, Space, Surface, recipes, style
+from atlas.scene import Curve, Layer, Panel, Surface, recipes, style
+from atlas.scene.layers import FloatArray
 
 ULPS, EPS = 4, float(np.finfo(float).eps)
 """What another processor's rounding may change."""
@@ -141,47 +143,54 @@ def other(key: str, value: Any) -> Any:
 
 
 def shown(name: str, parameters: dict[str, Any]) -> Any:
-    """Return what a recipe draws with some parameters."""
-    scene = recipes.load(name).scene(**parameters)
+    """Return what a recipe draws with some parameters, and the numbers of its caption where they are not measured."""
+    recipe = recipes.load(name)
+    scene = recipe.scene(**parameters)
     panels = [described(panel, noise=(name, k) in NOISE) for k, panel in enumerate(scene.panels)]
-    return plain({"title": scene.title, "size": scene.size, "panels": panels})
+    record = {"title": scene.title, "size": scene.size, "columns": scene.columns, "panels": panels}
+    if not recipe.records and (name, 0) not in NOISE:
+        record["numbers"] = re.findall(r"\d+(?:\.\d+)?", f"{scene.caption} {scene.alt}")
+    return plain(record)
 
 
 def described(panel: Panel, *, noise: bool) -> dict[str, Any]:
     """Return what a panel shows."""
-    names = ("azimuth", "elevation") if isinstance(panel, Space) else ("x_label", "y_label", "x_scale", "y_scale")
-    record = {name: getattr(panel, name) for name in ("title", *names)}
-    if isinstance(panel, Plane) and not noise:
-        record |= {"x_limits": panel.x_limits, "y_limits": panel.y_limits}
+    record = {one.name: getattr(panel, one.name) for one in fields(panel)}
+    if noise:
+        record = {name: value for name, value in record.items() if not name.endswith("limits")}
     return record | {"layers": [drawn(layer, noise=noise) for layer in panel.layers]}
 
 
 def drawn(layer: Layer, *, noise: bool) -> dict[str, Any]:
     """Return what a layer is; of a curve, seven points at equal lengths along it, whatever its sampling."""
-    record = {name: getattr(layer, name) for name in ("role", "label", "text") if getattr(layer, name, "")}
+    record = {one.name: getattr(layer, one.name) for one in fields(layer)}
+    record = {name: value for name, value in record.items() if not noise or isinstance(value, str)}
     record["is"] = type(layer).__name__
     if noise:
         return record
-    if isinstance(layer, Arrow):
-        return record | {"tail": layer.tail, "tip": layer.tip, "offset": layer.offset}
-    if isinstance(layer, Label):
-        return record | {"at": layer.at, "offset": layer.offset}
     if isinstance(layer, Surface):
         corners = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
-        extent = [corners.min(0), corners.max(0)]
-        places = corners[np.linspace(0, len(corners) - 1, 5).round().astype(int)]
-        counts = [len(corners), len(layer.wires), len(layer.rims)]
-        return record | {
-            "quadric": layer.quadric, "clip": layer.clip, "extent": extent, "places": places, "counts": counts
-        }  # fmt: skip
+        lines = [*layer.wires, *layer.rims]
+        record |= {
+            "grids": [corners.min(0), corners.max(0)],
+            "places": corners[np.linspace(0, len(corners) - 1, 5).round().astype(int)],
+            "counts": [len(corners), len(layer.wires), len(layer.rims)],
+            "course": [along(line, np.array([0.4])) for line in lines],
+        }
+        del record["wires"], record["rims"]
     if isinstance(layer, Curve):
-        size = np.ptp(layer.points, axis=0)
-        steps = np.diff(layer.points, axis=0) / np.where(size > 0.0, size, 1.0)
-        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(steps, axis=1))])
-        along = np.linspace(0.0, length[-1], 7)
-        course = np.stack([np.interp(along, length, part) for part in layer.points.T], axis=1)
-        return record | {"ends": layer.points[[0, -1]], "course": np.round(course / size.max(), 6)}
-    return record | {name: getattr(layer, name) for name in ("points", "x", "y", "values") if hasattr(layer, name)}
+        course = along(layer.points, np.linspace(0.0, 1.0, 7))
+        size = np.ptp(layer.points, axis=0).max()
+        record |= {"points": layer.points[[0, -1]], "course": np.round(course / size, 6)}
+    return record
+
+
+def along(points: FloatArray, parts: FloatArray) -> FloatArray:
+    """Return the points at these parts of the length of a line, each coordinate counted in its extent."""
+    size = np.ptp(points, axis=0)
+    steps = np.diff(points, axis=0) / np.where(size > 0.0, size, 1.0)
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(steps, axis=1))])
+    return np.stack([np.interp(parts * length[-1], length, part) for part in points.T], axis=1)
 
 
 def test_the_styles_are_what_they_were(snapshot: SnapshotAssertion) -> None:
