@@ -1,9 +1,11 @@
-"""Do the tests notice a slip? One token of the code is changed at a time, in a copy, and the tests that concern it run.
+"""Do the tests notice a slip? One token of the code is changed at a time, in a copy, and the tests that reach it run.
 
 `python tests/mutants.py core exact figures --count 60 --seed 0` draws so many changes, evenly over the tokens of these
-packages of `atlas` and of the recipes, and lists those that survive. The tests that concern a file import it, or import
-what imports it, nearest first; what is loaded by name is in LOADED. They stop at the first failure. A test that runs
-for more than LIMIT seconds has noticed.
+packages of `atlas` and of the recipes, and lists those that survive. A test reaches a line if it calls the function in
+which the line stands, which a run of the unchanged tests records first (in build/mutants.json, renewed for the test
+files that have changed). The cheapest run first, up to SECONDS in all, until one fails; one that runs for more than
+LIMIT seconds has noticed. Changes that make no difference stand in equivalent.toml, each with its reason, and are
+not drawn.
 
 Why not mutmut or cosmic-ray: they put calls in the place of functions, which the recipes and the digests of sources,
 read as text here, take for other code; and a sample with a seed is all that is wanted.
@@ -11,35 +13,43 @@ read as text here, take for other code; and a sample with a seed is all that is 
 
 import argparse
 import ast
+import hashlib
 import io
+import json
+import multiprocessing
 import os
 import random
+import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import tokenize
+import tomllib
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cache
 from itertools import islice
 from pathlib import Path
 from queue import SimpleQueue
+from types import CodeType, FrameType
+from typing import Any
+
+import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-LIMIT, FILES, DISTANCE = 600, 5, 3
-"""Seconds, test files and imports between a test and what it concerns, at most."""
+SEEN = ROOT / "build" / "mutants.json"
+EQUIVALENT = ROOT / "tests" / "equivalent.toml"
+LIMIT, SECONDS, SHARE = 600, 40, 10
+"""Seconds of one run, of the tests of one change by the record, and of the first among them."""
 
-FIGURES = ("test_snapshots", "test_figures_general", "test_figures_2d", "test_figures_3d", "test_curves")
-LOADED = {
-    "figures/": FIGURES,
-    "atlas/scene/": FIGURES,
-    "atlas/draw/": ("test_draw_figure", "test_draw_shaded"),
-    "atlas/report/": ("test_report_tables", "test_report_records", "test_report_formulas"),
-    "atlas/study/": ("test_stress", "test_bench_results", "test_bench_figures"),
-}
-"""The tests of what no test imports, since it is loaded by its name."""
+LATE = ("test_build", "test_proof", "test_guide", "test_loading", "test_agreement_register", "test_bench_peers")
+"""Whole builds notice much, late: laws should notice first."""
+
+PRELOADED = "numpy pytest hypothesis lxml.html flint mpmath scipy.integrate matplotlib.figure click".split()
+CONTEXT = multiprocessing.get_context("forkserver")
+"""Each run is forked from a process that has these libraries, and nothing of `atlas`."""
 
 SWAPS = {
     "+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==",
@@ -66,8 +76,13 @@ class Mutant:
         lines[self.line - 1] = row[: self.start] + self.new + row[self.end :]
         return "".join(lines)
 
+    @property
+    def change(self) -> str:
+        """What becomes what."""
+        return f"{self.old} -> {self.new or 'nothing'}"
+
     def __str__(self) -> str:
-        return f"{self.path}:{self.line}:{self.start}: {self.old} -> {self.new or 'nothing'}"
+        return f"{self.path}:{self.line}:{self.start}: {self.change}"
 
 
 def mutants(path: Path, root: Path) -> Iterator[Mutant]:
@@ -123,111 +138,194 @@ def _stars(node: ast.FunctionDef, line: int) -> range:
     return range(0) if held else range(400)
 
 
-@cache
-def imports(path: Path) -> frozenset[str]:
-    """Return the modules of `atlas` that a file imports by itself, public names by their homes."""
-    found: set[str] = set()
-    text = path.read_text(encoding="utf-8")
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("atlas"):
-            found |= {str(node.module)} | {f"{node.module}.{alias.name}" for alias in node.names}
-        elif isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names if alias.name.startswith("atlas")}
-    if "atlas" in found and path.name != "__init__.py":
-        import atlas
+class Calls:
+    """A plugin of pytest: which functions of the code each test calls, and in how many seconds of the processor.
 
-        found |= {home for name, home in atlas._HOMES.items() if f"atlas.{name}" in text}
-    return frozenset(found)
+    Written as {test: [seconds, {file: [[first line, last line], ...]}]}, without the tests that fail.
+    """
 
+    def __init__(self, out: str) -> None:
+        self.out, self.tests, self.failed = Path(out), dict[str, Any](), set[str]()
 
-@cache
-def concerned(path: str, root: Path) -> tuple[str, ...]:
-    """Return the tests that concern a file, nearest first."""
-    module = path.removesuffix(".py").replace("/", ".").removesuffix(".__init__")
-    above = {"report", "build", "draw", "figures", "cli"} - {Path(path).parts[1]}
-    slow = tuple(f"test_{name}" for name in above)  # whole builds notice much, late: laws should notice first
-    tests = [test for folder in ("unit", "fuzz") for test in sorted((root / "tests" / folder).glob("test_*.py"))]
-    tests = [test for test in tests if not test.name.startswith(slow)]
-    sources = list((root / "atlas").rglob("*.py"))
-    reached, found = {module}, list[Path]()
-    for _ in range(DISTANCE):
-        near = [test for test in tests if test not in found and imports(test) & reached]
-        own = f"test_{Path(path).stem}.py"
-        found += sorted(near, key=lambda test: (test.name != own, test.stat().st_size))
-        users = [source for source in sources if imports(source) & reached]
-        reached |= {source.relative_to(root).as_posix().removesuffix(".py").replace("/", ".") for source in users}
-    names = [test.relative_to(root).as_posix() for test in found[:FILES]]
-    loaded = [f"tests/unit/{name}.py" for start, tests in LOADED.items() if path.startswith(start) for name in tests]
-    return tuple(dict.fromkeys([*names, *loaded]))
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
+        """Watch the calls of a test and of the fixtures that it is the first to ask for."""
+        called = set[CodeType]()
 
+        def watch(frame: FrameType, _event: str, _value: object) -> None:
+            called.add(frame.f_code)
 
-def tested(copy: Path, tests: Iterable[str], *words: str) -> tuple[bool, str]:
-    """Run tests in a copy; return whether all pass, and what pytest says. One that takes too long has not passed."""
-    command = [sys.executable, "-m", "pytest", "-n0", "-q", *words, *tests]
-    environment = os.environ | {"PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
-    try:
-        done = subprocess.run(
-            command, cwd=copy, env=environment, capture_output=True, text=True, timeout=LIMIT, check=False
-        )
-    except subprocess.TimeoutExpired:
-        return False, ""
-    return done.returncode == 0, done.stdout
+        start = sum(os.times()[:4])
+        sys.settrace(watch)
+        try:
+            return (yield)
+        finally:
+            sys.settrace(None)
+            lines = dict[str, list[tuple[int, int]]]()
+            for code in called:
+                path = Path(code.co_filename)
+                if code.co_name != "<module>" and path.is_relative_to(item.config.rootpath):
+                    spanned = [line for *_, line in code.co_lines() if line]
+                    name = path.relative_to(item.config.rootpath).as_posix()
+                    lines.setdefault(name, []).append((min(spanned), max(spanned)))
+            self.tests[item.nodeid] = sum(os.times()[:4]) - start, lines
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note a failure."""
+        if report.failed:
+            self.failed.add(report.nodeid)
+
+    def pytest_sessionfinish(self) -> None:
+        """Write what was seen."""
+        for test in self.failed:
+            print(f"{test} fails without any change and is left out", file=sys.__stderr__)
+        passed = {test: found for test, found in self.tests.items() if test not in self.failed}
+        self.out.write_text(json.dumps(passed), encoding="utf-8")
 
 
-def failing(copy: Path, tests: Iterable[str]) -> set[str]:
-    """Return the test files that fail without any change: they can notice nothing."""
-    found = {test for test in tests if not tested(copy, [test], "-x")[0]}
-    for test in sorted(found):
-        print(f"{test} fails without any change and is left out", flush=True)
-    return found
+def _run(copy: str, out: str, tests: list[str]) -> None:
+    """Run tests in a copy, in a process of its own, to the first failure, or whole if there is something to write."""
+    os.setsid()
+    os.chdir(copy)
+    os.environ["PYTHONPATH"] = copy
+    sys.path.insert(0, copy)
+    sys.dont_write_bytecode = not out
+    with Path(os.devnull).open("w", encoding="utf-8") as nothing:
+        os.dup2(nothing.fileno(), 1)
+        if not out:
+            os.dup2(nothing.fileno(), 2)
+    words = ["-p", "no:xdist", "-W", "ignore::pytest.PytestAssertRewriteWarning", *([] if out else ["-x"])]
+    os._exit(pytest.main([*words, *tests], plugins=[Calls(out)] if out else []))
+
+
+def status(copy: Path, tests: list[str], out: str = "") -> int:
+    """Return the exit status of pytest on tests in a copy: 0 if all pass, 1 also if they take too long."""
+    process = CONTEXT.Process(target=_run, args=(str(copy), out, tests))
+    process.start()
+    process.join(LIMIT)
+    if process.is_alive():
+        os.killpg(process.pid or 0, signal.SIGKILL)
+        process.join()
+    return 1 if process.exitcode is None or process.exitcode < 0 else process.exitcode
+
+
+def digest(paths: Iterable[Path]) -> str:
+    """Return the digest of files."""
+    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
+
+
+def reached(clean: Path, pool: ThreadPoolExecutor, *, known: bool) -> dict[str, Any]:
+    """Return what the tests call, from the record where nothing has changed since, or wherever it has them."""
+    tests = [test for folder in ("unit", "fuzz") for test in sorted((clean / "tests" / folder).glob("test_*.py"))]
+    tests = [test for test in tests if not test.name.startswith(LATE)]
+    others = [path for path in clean.rglob("*") if path.is_file() and path.parts[len(clean.parts)] != "tests"]
+    code = digest(sorted([*others, *(clean / "tests").glob("*.py"), *(clean / "tests" / "oracles").glob("*.py")]))
+    before = json.loads(SEEN.read_text(encoding="utf-8")) if SEEN.exists() else {}
+
+    def seen(test: Path) -> tuple[str, Any]:
+        name, now = test.relative_to(clean).as_posix(), code + digest([test])
+        if name in before and (known or before[name]["digest"] == now):
+            return name, before[name]
+        with tempfile.NamedTemporaryFile("r", encoding="utf-8") as out:
+            status(clean, [name], out.name)
+            found = json.loads(out.read() or "{}")
+        print(f"{name}: {len(found)} tests are watched", flush=True)
+        return name, {"digest": now, "tests": found}
+
+    found = dict(pool.map(seen, tests))
+    SEEN.parent.mkdir(exist_ok=True)
+    SEEN.write_text(json.dumps(found), encoding="utf-8")
+    return {test: calls for one in found.values() for test, calls in one["tests"].items()}
+
+
+def picked(mutant: Mutant, calls: dict[str, Any], root: Path) -> Iterator[list[str]]:
+    """Yield the tests that call the changed function, then those that call another of its file or name it.
+
+    The cheapest first. What stands outside all functions is read by tests that need not call any.
+    """
+    word = re.compile(rf"\b{Path(mutant.path).stem}\b")
+    named = {
+        file: bool(word.search((root / file).read_text(encoding="utf-8")))
+        for file in {test.partition("::")[0] for test in calls}
+    }
+    order = []
+    for test, (seconds, lines) in calls.items():
+        spans = lines.get(mutant.path, [])
+        near = any(first <= mutant.line <= last for first, last in spans)
+        if near or spans or named[test.partition("::")[0]]:
+            order.append((not near, seconds, test))
+    order.sort()
+    spent, group, limit = 0.0, list[str](), SHARE
+    for _, seconds, test in order:
+        spent += seconds
+        if spent > SECONDS:
+            break
+        if spent > limit and group:
+            yield group
+            group, limit = [], SECONDS
+        group.append(test)
+    yield group
+
+
+def equivalent(root: Path) -> dict[Mutant, str]:
+    """Return the changes that make no difference, with their reasons; each entry must still be there once."""
+    known = dict[Mutant, str]()
+    for entry in tomllib.loads(EQUIVALENT.read_text(encoding="utf-8"))["equivalent"]:
+        path = root / entry["path"]
+        lines = path.read_text(encoding="utf-8").splitlines()
+        alike = [mutant for mutant in mutants(path, root) if lines[mutant.line - 1].strip() == entry["line"]]
+        for change in entry["changes"]:
+            of, _, nth = change.partition(" #")
+            found = [mutant for mutant in alike if mutant.change == of][int(nth or 1) - 1 :]
+            if not found:
+                raise SystemExit(f"{EQUIVALENT.name}: {entry['path']} has no longer {change} in: {entry['line']}")
+            known[found[0]] = entry["reason"]
+    return known
 
 
 def copied(folder: Path) -> Path:
     """Copy what is under version control into a folder."""
-    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split(
-        "\n"
-    )
-    for name in filter(None, listed):
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for name in filter(None, listed.split("\n")):
         if (ROOT / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / name, folder / name)
     return folder
 
 
-def survivors(packages: list[str], count: int, seed: int, jobs: int) -> tuple[int, list[Mutant]]:
+def survivors(packages: list[str], count: int, seed: int, jobs: int, *, again: bool) -> tuple[int, list[Mutant]]:
     """Return how many mutants were tried, and those that no test noticed."""
-    with tempfile.TemporaryDirectory() as temporary:
+    with tempfile.TemporaryDirectory() as temporary, ThreadPoolExecutor(jobs) as pool:
         clean = copied(Path(temporary) / "clean")
         places = [clean / "figures" if package == "figures" else clean / "atlas" / package for package in packages]
         files = [file for place in places for file in ([place] if place.is_file() else sorted(place.rglob("*.py")))]
-        every = [mutant for path in files for mutant in mutants(path, clean)]
+        known = equivalent(clean)
+        every = [mutant for path in files for mutant in mutants(path, clean) if mutant not in known]
         random.Random(seed).shuffle(every)  # noqa: S311  reproducible, not secret
         sample = list(islice((mutant for mutant in every if is_python(mutant, clean)), count))
         print(f"{len(every)} mutants in {', '.join(packages)}; {len(sample)} are tried, seed {seed}", flush=True)
+        calls = reached(clean, pool, known=again)
         copies: SimpleQueue[Path] = SimpleQueue()
         for i in range(jobs):
             copies.put(copied(Path(temporary) / str(i)))
 
         def survives(mutant: Mutant) -> bool:
-            copy, tests = copies.get(), [test for test in concerned(mutant.path, clean) if test not in broken]
+            copy = copies.get()
             place = copy / mutant.path
             text = place.read_text(encoding="utf-8")
+            groups = [group for group in picked(mutant, calls, clean) if group]
             try:
                 place.write_text(mutant.applied(text), encoding="utf-8")
-                noticed = bool(tests) and not tested(copy, tests, "-x")[0]
+                noticed = any(status(copy, group) for group in groups)
             finally:
                 place.write_text(text, encoding="utf-8")
                 copies.put(copy)
-            print("noticed " if noticed else "SURVIVES", mutant, flush=True)
+            tried = f" ({sum(map(len, groups))} tests reach it)" * (not noticed)
+            print("noticed " if noticed else "SURVIVES", mutant, tried, flush=True)
             return not noticed
 
-        wanted = {test for mutant in sample for test in concerned(mutant.path, clean)}
-        with ThreadPoolExecutor(jobs) as pool:
-            broken = set().union(*pool.map(lambda test: failing(clean, [test]), sorted(wanted)))
-        with ThreadPoolExecutor(jobs) as pool:
-            return len(sample), [
-                mutant for mutant, alive in zip(sample, pool.map(survives, sample), strict=True) if alive
-            ]
+        alive = [mutant for mutant, found in zip(sample, pool.map(survives, sample), strict=True) if found]
+        return len(sample), alive
 
 
 def main() -> None:
@@ -239,8 +337,10 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--again", action="store_true", help="take the record of what the tests call as it is")
     given = parser.parse_args()
-    tried, alive = survivors(given.packages, given.count, given.seed, given.jobs)
+    CONTEXT.set_forkserver_preload(["__main__", *PRELOADED])
+    tried, alive = survivors(given.packages, given.count, given.seed, given.jobs, again=given.again)
     print(f"{tried} tried, {len(alive)} survive ({100 * len(alive) / tried:.0f} %)")
     for mutant in alive:
         print(mutant)
