@@ -103,6 +103,15 @@ class Document:
         chosen = next((block for block in blocks if block.id and block.id == self.report.cover), None)
         return self.pictures[keys(chosen, self.report)[0]] if chosen else None
 
+    def listed(self, template: str) -> list[Any]:
+        """Return the figures or the tables, by the name of their template, in their order."""
+        return [
+            block
+            for page in self.pages
+            for name, block in zip(page.templates, page.blocks, strict=True)
+            if name == template
+        ]
+
     @property
     def citable(self) -> list[str]:
         """All names that can be cited."""
@@ -186,6 +195,11 @@ class Composer:
             if name in self.document.ledger:
                 self.use(name, anchor, words)
         return self.text(markdown, inline=True)
+
+    def short(self, words: str, body: str | None) -> int:
+        """Take in what a list of figures or tables shows of one: some words, and its body where they do not name it."""
+        title = self.report.parameters.bodies[body].title if body else ""
+        return self.text(f"{words}: {title}" if title not in words else words, inline=True)
 
     def once(self, sentence: str) -> str:
         """Return a sentence that has not been said on this page, else nothing."""

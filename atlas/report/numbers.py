@@ -31,13 +31,13 @@ class Number:
         whole, point, fraction = mantissa.replace("-", MINUS).partition(".")
         step = 3 if len(fraction) > 4 else 4
         grouped = THIN.join(fraction[i : i + step] for i in range(0, len(fraction), step))
-        return whole, point + grouped, str(int(power)).replace("-", MINUS) if power else ""
+        return whole, point + grouped, str(int(power)).replace("-", MINUS) if int(power or 0) else ""
 
     def tex(self) -> str:
         """Return the number as a formula."""
         mantissa, _, power = self.digits.lower().partition("e")
         mantissa = mantissa or "?"
-        return f"${mantissa}$" if not power else rf"${mantissa}\times 10^{{{int(power)}}}$"
+        return f"${mantissa}$" if not int(power or 0) else rf"${mantissa}\times 10^{{{int(power)}}}$"
 
 
 def room(text: str) -> float:

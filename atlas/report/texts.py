@@ -112,8 +112,8 @@ def citations(markdown: str) -> list[str]:
 
 
 def beginning(markdown: str) -> str:
-    """Return a caption up to its first comma or stop outside formulas: what a list of tables shows of it."""
-    found = re.match(r"(?:\$[^$]*\$|[^$])+?(?=[,.]\s|\.?$)", " ".join(markdown.split()))
+    """Return a caption up to its first mark of punctuation outside formulas: what a list of tables shows of it."""
+    found = re.match(r"(?:\$[^$]*\$|[^$])+?(?=[,;:.]\s|\.?$)", " ".join(markdown.split()))
     return found[0] if found else markdown
 
 

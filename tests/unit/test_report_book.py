@@ -108,11 +108,12 @@ def test_a_symbol_of_the_index_leads_somewhere(tmp_path: Path) -> None:
     [
         ("The quadric of the ball, @mf58, in canonical form.", "The quadric of the ball"),
         ("The trial in numbers.", "The trial in numbers"),
+        ("The letters: one letter, one thing.", "The letters"),
         ("Drift $c[E, B]$ of a particle. More.", "Drift $c[E, B]$ of a particle"),
     ],
 )
 def test_a_list_of_tables_shows_the_beginning_of_a_caption(caption: str, short: str) -> None:
-    """Up to the first comma or stop that stands outside formulas."""
+    """Up to the first mark of punctuation that stands outside formulas."""
     assert beginning(caption) == short
 
 

@@ -126,7 +126,7 @@ def test_every_number_has_a_unit() -> None:
 
 def test_a_column_of_mixed_sizes_has_powers_of_ten() -> None:
     """Entries far apart each have their own power; near ones share their decimals."""
-    assert [one.parts()[2] for one in column([1.0, 1e-9], 5)] == ["0", "\N{MINUS SIGN}9"]
+    assert [one.parts()[2] for one in column([1.0, 1e-9], 5)] == ["", "\N{MINUS SIGN}9"]
     assert {one.parts()[2] for one in column([1.5, 0.25], 5)} == {""}
 
 

@@ -62,7 +62,6 @@ def view(block: Figure, composer: "Composer") -> FigureView:
     first = pictures[0]
     caption = LABEL.sub(r"@\g<0>", block.caption or first.caption or f"The recipe {block.recipe} failed.")
     width, height = first.size
-    bodies = composer.report.parameters.bodies
     shown = block.width or width
     anchor = composer.anchor("fig", block.id, "Figure", composer.figures)
     given = ", ".join(f"{name} = {value}" for name, value in first.given.items() if value != "None")
@@ -71,7 +70,7 @@ def view(block: Figure, composer: "Composer") -> FigureView:
         anchor,
         pictures,
         composer.caption(caption, anchor, f"Figure {composer.figures}"),
-        composer.text(f"{first.title}: {bodies[block.body].title}" if block.body else first.title, inline=True),
+        composer.short(first.title, block.body),
         first.alt or first.failure,
         shown,
         height * shown / width,

@@ -157,15 +157,13 @@ def _view(
     sentences = [*data.notes, *([] if proven else ["What is not proven is starred."])]
     note = " ".join(filter(None, map(composer.once, sentences)))
     caption = block.caption or data.caption
-    short, bodies = beginning(caption), composer.report.parameters.bodies
-    titles = [bodies[block.body].title] if isinstance(block, Table) and block.body else []
     return TableView(
         composer.tables,
         anchor,
         tuple(columns),
         rows,
         composer.caption(caption, anchor, words),
-        composer.text(f"{short}: {titles[0]}" if titles and titles[0] not in short else short, inline=True),
+        composer.short(beginning(caption), block.body if isinstance(block, Table) else None),
         composer.caption(note, anchor, words) if note else None,
         name,
         composer.once(command),
