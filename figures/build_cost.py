@@ -16,6 +16,8 @@ from atlas.scene.words import title
 
 RECORDS = ("build_costs.json",)
 ROW, THICK, THIN = 4.2, 0.38, 0.17
+MOST = 20
+"""As many scenes are shown, those that cost most."""
 
 
 def scene() -> Scene:
@@ -23,7 +25,8 @@ def scene() -> Scene:
     record = read()
     drawn = [entry for entry in record["scenes"] if entry["from"] != "failed"]
     names = named([entry["scene"] for entry in drawn])
-    rows = sorted(zip(names, drawn, strict=True), key=lambda row: row[1]["compute_s"] + row[1]["draw_s"])
+    rows = sorted(zip(names, drawn, strict=True), key=lambda row: row[1]["compute_s"] + row[1]["draw_s"])[-MOST:]
+    shown = f" Shown are the {len(rows)} that cost most." if len(rows) < len(drawn) else ""
     computed, drawing = (sum(entry[key] for entry in drawn) for key in ("compute_s", "draw_s"))
     taken = sum(entry["from"] != "drawn" for entry in drawn)
     store = f" Circles mark the {taken} scenes that were taken from the store: their cost is that of making them."
@@ -32,12 +35,12 @@ def scene() -> Scene:
         caption=(
             f"Cost of a build of {len(drawn)} scenes, which took {record['seconds']:.1f} s on {record['jobs']} "
             f"{'cores' if record['jobs'] > 1 else 'core'}: the time to compute what a scene shows, {computed:.1f} s in "
-            f"all, and the time to draw and write it, {drawing:.1f} s.{store if taken else ''} Measured on "
+            f"all, and the time to draw and write it, {drawing:.1f} s.{shown}{store if taken else ''} Measured on "
             f"{record['machine']}, on {record['date']}."
         ),
         alt=(
-            f"Two horizontal bars for each of {len(drawn)} scenes on a logarithmic scale of milliseconds, the time to "
-            f"compute and the time to draw. The most expensive scene is {rows[-1][0]}, the cheapest {rows[0][0]}."
+            f"Two horizontal bars for each of {len(rows)} scenes on a logarithmic scale of milliseconds, the time to "
+            f"compute and the time to draw. The dearest scene is {rows[-1][0]}, the cheapest of them {rows[0][0]}."
         ),
         panels=(panel([name for name, _ in rows], [entry for _, entry in rows]),),
         size=(150.0, 22.0 + ROW * len(rows)),

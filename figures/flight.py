@@ -23,7 +23,8 @@ from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_
 WIDTH, HEIGHT = 178.0, 76.0
 VIEW = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")
 MANY = 200
-CLEAR = 0.15
+ASKEW = 25.0
+CLEAR = 0.6
 """The arrows of the fields keep off the paths by this part of their length."""
 Paths: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 
@@ -56,8 +57,8 @@ def scene(
     spun = (abs(motion.k) + abs(motion.phi)) * stop / (2 * np.pi) + stop / particle.period
     if not spun < MANY:
         raise DomainError(f"In this flight the body makes {spun:.3g} turns, and more than {MANY} cannot be drawn.")
-    axes = across(flight, B)
-    drawn = paths(flight, axes, stop)
+    axes, view = across(flight, B), beside(flight, stop)
+    drawn = paths(flight, axes, view, stop)
     return Scene(
         title=title(__doc__),
         caption=(
@@ -78,7 +79,7 @@ def scene(
             f"projected on "
             "the plane across the magnetic field."
         ),
-        panels=(space(flight, B, drawn), projection(flight, axes, drawn, unit)),
+        panels=(space(flight, B, view, drawn), projection(flight, axes, drawn, unit)),
         columns=2,
         size=(WIDTH, HEIGHT),
     )
@@ -91,13 +92,19 @@ def across(flight: Flight, B: FloatArray) -> FloatArray:
     return np.stack([first, np.cross(B / np.linalg.norm(B), first)], axis=1)
 
 
-def paths(flight: Flight, axes: FloatArray, stop: float) -> Paths:
+def beside(flight: Flight, stop: float) -> Space:
+    """Return the view of panel (a): nearly across the way that the centre of mass goes, so that it fills the panel."""
+    way = np.diff(flight.particle.position(np.array([0.0, stop])), axis=0)[0]
+    return replace(VIEW, azimuth=float(np.degrees(np.arctan2(-way[0], way[1]))) + ASKEW) if way[:2].any() else VIEW
+
+
+def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
     """Return the path of the centre of mass, that of the point, and the arms between them, (M, 2, 3), for both panels.
 
     They are as fine as the panel asks for in which they are larger.
     """
     rough = flight.position(np.linspace(0.0, stop, 257))
-    extents = (np.ptp(rough @ seen, axis=0) / [WIDTH / 2, HEIGHT] for seen in (frame(VIEW)[:2].T, axes))
+    extents = (np.ptp(rough @ seen, axis=0) / [WIDTH / 2, HEIGHT] for seen in (frame(view)[:2].T, axes))
     fine = quarter_pixel(min(float(extent.max()) for extent in extents), 1.0)
     centre = curve(flight.particle.position, 0.0, stop, fine, pieces=64)
     point = curve(flight.position, 0.0, stop, fine, pieces=64)
@@ -105,18 +112,19 @@ def paths(flight: Flight, axes: FloatArray, stop: float) -> Paths:
     return centre, point, np.stack([flight.particle.position(times), flight.position(times)], axis=1)
 
 
-def space(flight: Flight, B: FloatArray, drawn: Paths) -> Space:
-    """Panel (a): the paths in space, with the directions of the fields in the lower left corner."""
+def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths) -> Space:
+    """Panel (a): the paths in space, with the directions of the fields to the left of them."""
     layers, seen = bundle(*drawn)
-    eye = frame(VIEW)
+    eye = frame(view)
     flat = seen @ eye.T
-    length = 0.3 * float(np.ptp(flat, axis=0).max())
+    length = 0.25 * float(np.ptp(flat, axis=0).max())
     named = ((B, "field", r"$\mathbf{B}$"), (flight.particle.E, "electric", r"$\mathbf{E}$"))
     arrows = [(length * field / np.linalg.norm(field), role, name) for field, role, name in named if np.any(field)]
-    high = max(0.0, *(float(eye[1] @ arrow) for arrow, _, _ in arrows))
-    corner = np.array([flat[:, 0].min(), flat[:, 1].min() - high - CLEAR * length, 0.0]) @ eye
+    ends = np.array([eye @ arrow for arrow, _, _ in arrows])
+    left, low = flat.min(axis=0)[:2]
+    corner = np.array([left - max(0.0, *ends[:, 0]) - CLEAR * length, low - min(0.0, *ends[:, 1]), 0.0]) @ eye
     layers += [Arrow(corner, corner + arrow, role, name) for arrow, role, name in arrows]
-    return replace(VIEW, layers=tuple(layers))
+    return replace(view, layers=tuple(layers))
 
 
 def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Plane:

@@ -37,7 +37,7 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
         ),
         panels=panels(record, cases),
         columns=columns,
-        size=(columns * 140.0, -(-len(cases) // columns) * 74.0),
+        size=(columns * 140.0, -(-len(cases) // columns) * 66.0),
     )
 
 

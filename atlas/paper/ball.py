@@ -241,8 +241,8 @@ EQUATIONS = (
         kind="claim",
         says=r"A ball launched along $\mathbf{B}$ turns about $\mathbf{B}$ steadily",
         tex=(
-            r"R=\begin{pmatrix} \cos \frac{m_3}{I_0} t & -\sin \frac{m_3}{I_0} t & 0 \\ \sin \frac{m_3}"
-            r"{I_0} t & \cos \frac{m_3}{I_0} t & 0 \\ 0 & 0 & 1 \end{pmatrix}"
+            r"R=\begin{pmatrix} \cos(m_3t/I_0) & -\sin(m_3t/I_0) & 0 \\ \sin(m_3t/I_0) "
+            r"& \cos(m_3t/I_0) & 0 \\ 0 & 0 & 1 \end{pmatrix}"
         ),
         assumptions=("$I_1 = I_2 = I_3$", r"$\mathbf{m}(0)$ along $\mathbf{B}$"),
     ),

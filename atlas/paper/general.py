@@ -46,7 +46,7 @@ EQUATIONS = (
         says="Up to a steady turn the Cayley–Klein parameters obey real equations of Lamé's kind, the same for any $p$",
         tex=r"\ddot a=\left(\tfrac34A\nu^2-\tfrac12A\nu-C\right)a,\qquad\ddot\eta=\left(\tfrac34A\nu^2+\tfrac12A\nu-C"
         r"\right)\eta,\qquad A=(I-1)b^2,\quad 4C=h-\frac{M_3^2}{I}-b^2+M_3^2",
-        assumptions=(_BODY, _LETTERS, _CURVE, r"$a=\xi\,e^{i(M_3-c_3)t/2}$, with $\eta$ the opposite sign"),
+        assumptions=(_BODY, _LETTERS, _CURVE, r"$a=\xi\exp(i(M_3-c_3)t/2)$, with $\eta$ the opposite sign"),
     ),
     Equation(
         label="theorem-residues",
@@ -68,7 +68,7 @@ EQUATIONS = (
         says="The Cayley–Klein parameters in sigma functions, their exponents in closed form",
         tex=r"\begin{aligned} \frac{\dot\xi}{\xi}&=i\lambda_-+\zeta(z_-)+\zeta(t-z_-)-\tfrac12\zeta(t-z_0)-"
         r"\tfrac12"
-        r"\zeta(t+z_0),\qquad\xi=\xi_0e^{(i\lambda_-+\zeta(z_-))t}\frac{\sigma(t-z_-)}{\sqrt{\sigma(t-z_0)\sigma("
+        r"\zeta(t+z_0),\qquad\xi=\xi_0\exp[(i\lambda_-+\zeta(z_-))t]\frac{\sigma(t-z_-)}{\sqrt{\sigma(t-z_0)\sigma("
         r"t+z_0)}},\\ 2\lambda_-&=c_3-M_3-b+\frac{p+M_3}{1+e},\qquad2\lambda_+=M_3-c_3-b+\frac{p-M_3}{1-e} "
         r"\end{aligned}",
         assumptions=(

@@ -64,10 +64,10 @@ EQUATIONS = (
         section="Atlas",
         kind="theorem",
         says="The second elementary family: the Cayley–Klein parameters are turned vectors, linear in $C$ and $S$",
-        tex=r"\begin{aligned} \begin{pmatrix}\xi\\\eta\end{pmatrix}&\propto\begin{pmatrix}e^{i\lambda_-t}\left["
+        tex=r"\begin{aligned} \begin{pmatrix}\xi\\\eta\end{pmatrix}&\propto\begin{pmatrix}\exp(i\lambda_-t)\left["
         r"\cos\delta"
-        r"\,C-i\Lambda\cos(\delta-\gamma)\,S\right]\\ e^{i\lambda_+t}\left[\sin\delta\,C+i\Lambda\sin(\delta-\gamma)\,S"
-        r"\right]"
+        r"\,C-i\Lambda\cos(\delta-\gamma)\,S\right]\\ \exp(i\lambda_+t)\left[\sin\delta\,C+i\Lambda\sin(\delta-"
+        r"\gamma)\,S\right]"
         r"\end{pmatrix},\qquad\Lambda=\frac{w(e-r)}{\cos\gamma},\\ C&=\cosh\frac{\sqrt ct}{2},\qquad S=\frac{1}{"
         r"\sqrt c}"
         r"\sinh\frac{\sqrt ct}{2},\\ 2\lambda_\mp&=\pm(c_3-M_3)-b+\frac{p\pm M_3}{1\pm r} \end{aligned}",
@@ -119,8 +119,8 @@ EQUATIONS = (
         says=r"For $D < 0$ it is not: one motion leaves it as $\exp (\sqrt{-D} t/2)$, turns where $\nu = e$, and "
         "comes back to it",
         tex=r"e=\frac{\lvert M_3\rvert}{b\sqrt{I-1}}-1,\qquad\begin{pmatrix}\xi\\\eta\end{pmatrix}\propto"
-        r"\begin{pmatrix}e"
-        r"^{i\lambda_-t}\left[C\cos\delta-\frac{iM_3(e-1)}{1+e}\cos\delta\,S\right]\\ e^{i\lambda_+t}\sin\delta"
+        r"\begin{pmatrix}\exp(i\lambda_-t)\left[C\cos\delta-\frac{iM_3(e-1)}{1+e}\cos\delta\,S\right]\\ "
+        r"\exp(i\lambda_+t)\sin\delta"
         r"\end{pmatrix},\qquad"
         r" c=-D",
         assumptions=(

@@ -168,7 +168,7 @@ EQUATIONS = (
         section="Atlas",
         kind="theorem",
         says=r"$B'_3 = 0$: every point of the line $\omega_1 = 0$, $\omega_2 = -B'_2$ is a motion, for every $I$",
-        tex=r"R=R_{\mathbf{e}_2}(-B'_2t)\,R_{OZ}(\omega_3t)",
+        tex=r"R=R_{OY}(-B'_2t)\,R_{OZ}(\omega_3t)",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, 0)$",),
     ),
     Equation(

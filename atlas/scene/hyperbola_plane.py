@@ -170,5 +170,5 @@ def places(ratio: Any, field: Any) -> tuple[Place, ...]:
     ]
     zero = special["omega2 = -(2-I) B2"]
     if B2 and B3 and zero[0] not in {0.0, -B2}:
-        found.append(Place(r"$\omega_2=-(2-I)B'_2$", "the second point with omega 3 = 0", zero, "point"))
+        found.append(Place(r"$\omega_3=0$", "the second point with omega 3 = 0", zero, "point"))
     return tuple(found)
