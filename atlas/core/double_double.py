@@ -111,12 +111,15 @@ class DoubleDouble:
             rest += self.lo
         return DoubleDouble(*_normal(s, rest / (s + s + (s == 0))), self.rel + ROOT)
 
+    def scaled(self, exponent: int) -> "DoubleDouble":
+        """Return this number times 2^exponent."""
+        unit = 2.0**exponent
+        return DoubleDouble(self.hi * unit, None if self.lo is None else self.lo * unit, self.rel)
+
     def select(self, positive: "DoubleDouble", other: "DoubleDouble") -> "DoubleDouble":
         """Return `positive` where this number is, `other` elsewhere."""
-        where = self.hi > 0
-        hi, lo = (np.where(where, x, y) for x, y in ((positive.hi, other.hi), (positive.low, other.low)))
-        rel = np.where(where, positive.rel, other.rel)
-        return DoubleDouble(hi, lo, np.where(np.less(self.rel, 0.5), rel, np.inf))
+        found = chosen(self.hi > 0, positive, other)
+        return DoubleDouble(found.hi, found.lo, np.where(np.less(self.rel, 0.5), found.rel, np.inf))
 
     @property
     def low(self) -> Any:
@@ -135,6 +138,11 @@ class DoubleDouble:
         lost = self.rel * abs(self.hi) + other.rel * abs(other.hi)
         # a sum that is zero by cancellation of inexact terms may be anything: inf, which no product with zero hides
         return np.where(lost == 0, 0.0, lost / abs(total)) + rounding
+
+
+def chosen(where: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
+    """Return x where a condition holds, y elsewhere."""
+    return DoubleDouble(*(np.where(where, *pair) for pair in ((x.hi, y.hi), (x.low, y.low), (x.rel, y.rel))))
 
 
 def over(
@@ -179,7 +187,7 @@ def wide(formula: Formula, *inputs: float) -> Any:
 
 def blocks(
     formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice
-) -> Iterator[tuple[slice, Callable[[int], Sequence[float]], tuple[Any, Any] | None, Sequence[DoubleDouble]]]:
+) -> Iterator[tuple[slice, Callable[[int], Sequence[float]], tuple[Any, Any] | None, Sequence[Any]]]:
     """Yield results of a formula by blocks of rows of `shape`, flattened: those of the rows, and how to get a row.
 
     Where an input is far from 1, those in `unit` are scaled by a power of two: its exponents come third, with the rows

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from functools import cached_property
-from math import prod
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -10,6 +9,7 @@ from flint import arb, ctx, fmpq
 
 from atlas.core.body import SymmetricBody, moments
 from atlas.core.cayley_klein import FIRST, CayleyKlein, Evaluation, combined, entries, evaluate
+from atlas.core.general_rows import KINDS, GeneralRows, Scalars
 from atlas.core.inputs import FloatArray, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import Motion, components
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 BITS = 60
 """Relative accuracy of a scalar before it is rounded, once."""
+
+NAME = "U28"
+"""Names of kinds, none of which is longer."""
 
 ORTHOGONAL = 1e-9
 """An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
@@ -95,15 +98,15 @@ class General:
 
         return evaluate(t, shape, out, prepare)
 
-    def scalar(self, name: str) -> float:
-        """Return a number of the exact motion, rounded once; inf where it is infinite."""
-        return float(arb(enclosed(lambda: getattr(self.exact, name), BITS)).mid())
-
 
 def standing(I2: float, I3: float, B2: float, B3: float, *omega: float) -> General:
     """Return the motion with R(0) = 1 in the field (0, B2, B3)."""
+    return General(_balls(I2, I3, B2, B3, *omega), np.eye(3))
+
+
+def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:
     with ctx.workprec(FIRST):
-        return General(Balls(ratio_of(SymmetricBody(I2, I3)), (B2, B3), omega), np.eye(3))
+        return Balls(ratio_of(SymmetricBody(I2, I3)), (B2, B3), omega)
 
 
 class GeneralMotion(Motion[General]):
@@ -157,7 +160,7 @@ class GeneralMotion(Motion[General]):
     @cached_property
     def kind(self) -> Any:
         """Name of the kind of motion, a string, or an array of them."""
-        return self._each(lambda one: one.exact.kind)
+        return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(KINDS, dtype=NAME)[codes])
 
     @cached_property
     def roots(self) -> Any:
@@ -165,18 +168,18 @@ class GeneralMotion(Motion[General]):
 
         Those that have gone to infinity (two for I = 1, all for B = 0) are inf.
         """
-        return self._each(lambda one: _padded(enclosed(lambda: one.exact.roots, BITS)))
+        return self._each("roots", lambda exact: _padded(enclosed(lambda: exact.roots, BITS)))
 
     @cached_property
     def turning_points(self) -> tuple[Any, Any]:
         """Least and largest Omega3; one of them is approached and never reached on a separatrix."""
-        ends = self._each(lambda one: [float(arb(x).mid()) for x in enclosed(lambda: one.exact.turning_points, BITS)])
+        ends = self._each("turning_points", _ends)
         return ends[..., 0] if self.shape else ends[0], ends[..., 1] if self.shape else ends[1]
 
     @cached_property
     def period(self) -> Any:
         """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation."""
-        return self._each(lambda one: one.scalar("period"))
+        return self._scalar("period")
 
     @cached_property
     def precession_per_period(self) -> Any:
@@ -185,40 +188,50 @@ class GeneralMotion(Motion[General]):
         It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b.
         DomainError where the period is infinite.
         """
-        return self._each(lambda one: one.scalar("precession_per_period"))
+        return self._scalar("precession_per_period")
 
     @cached_property
     def spin_per_period(self) -> Any:
         """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt."""
-        return self._each(lambda one: one.scalar("spin_per_period"))
+        return self._scalar("spin_per_period")
 
     @cached_property
     def modulus(self) -> Any:
         """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
-        return self._each(lambda one: one.scalar("modulus"))
+        return self._scalar("modulus")
 
     @cached_property
     def complementary_modulus(self) -> Any:
         """Complementary modulus sqrt(1 - k^2), which keeps its digits next to a separatrix."""
-        return self._each(lambda one: one.scalar("complementary_modulus"))
+        return self._scalar("complementary_modulus")
 
     @cached_property
     def nome(self) -> Any:
         """Nome q = exp(-pi K'/K) of the elliptic functions."""
-        return self._each(lambda one: one.scalar("nome"))
+        return self._scalar("nome")
 
-    def _each(self, value: Callable[[General], Any]) -> Any:
-        """Return one value for each motion: plain for one motion, else an array."""
+    def _scalar(self, name: str) -> Any:
+        return self._each(name, lambda exact: float(arb(enclosed(lambda: getattr(exact, name), BITS)).mid()))
+
+    def _each(self, name: str, value: Callable[[Balls], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
+        """Return one value for each motion: plain for one motion, else an array; what is not sure is made of balls."""
         if self._turning:
-            return value(self._turning)
-        found = np.array([value(one) for one in self._turnings])
+            return value(self._turning.exact)
+        values, sure = self._scalars[name]
+        found = np.moveaxis(shown(values), -1, 0)
+        for i in np.flatnonzero(~sure).tolist():
+            found[i] = value(_balls(*self._row(i)))
         return found.reshape(self.shape + found.shape[1:])
 
-    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
-        """Write what each motion, made alone, has at the times that meet it."""
-        indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape).reshape(-1)
-        for i, one in enumerate(self._turnings):
-            out[indices == i] = evaluate(one, times.reshape(-1)[indices == i], None)
+    @cached_property
+    def _scalars(self) -> Scalars:
+        """Scalars of all motions in arrays."""
+        return Scalars(self._inputs, self.shape)
+
+    @cached_property
+    def _rows(self) -> GeneralRows:
+        """All motions in arrays, for a few times each."""
+        return GeneralRows(self._inputs, self.shape)
 
     def _fill_grid(self, one: General, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
@@ -282,6 +295,11 @@ def _transposed(R: list[list[fmpq]], v: FloatArray) -> list[fmpq]:
     """Return R^T v, exactly."""
     exact = [fmpq(*x.as_integer_ratio()) for x in v.tolist()]
     return [sum((R[i][j] * exact[i] for i in range(3)), fmpq(0)) for j in range(3)]
+
+
+def _ends(exact: Balls) -> list[float]:
+    """Return the turning points as floats."""
+    return [float(arb(x).mid()) for x in enclosed(lambda: exact.turning_points, BITS)]
 
 
 def _padded(roots: list[Any]) -> Any:

@@ -60,8 +60,12 @@ class Motion(Generic[Turning]):
 
     def _alone(self, i: int) -> Turning:
         """Make the i-th motion by itself."""
+        return self._make(*self._row(i))
+
+    def _row(self, i: int) -> list[Any]:
+        """Return the inputs of the i-th motion."""
         row = (np.broadcast_to(x, self.shape).flat[i] for x in self._inputs)
-        return self._make(*(x if x is None else float(x) for x in row))
+        return [x if x is None else float(x) for x in row]
 
     @cached_property
     def _turnings(self) -> list[Turning]:
@@ -69,7 +73,7 @@ class Motion(Generic[Turning]):
         return [self._turning] if self._turning else [self._alone(i) for i in range(prod(self.shape))]
 
     @cached_property
-    def _rows(self) -> Turnings:
+    def _rows(self) -> Any:
         """All motions in arrays, for a few times each."""
         return Turnings(self._groups(), prod(self.shape), self._unit, lambda: self._flat_vectors, inverse=self._inverse)
 
@@ -155,5 +159,6 @@ class Motion(Generic[Turning]):
             rows = self._rows.at(part if times.shape == own else indices.flat[part], t)
             with np.errstate(over="ignore", invalid="ignore"):  # in extreme rows, which are made alone
                 evaluate(rows, t, out[part])
-            for i in rows.extreme.tolist():
-                out[start + i] = evaluate(self._alone(rows.indices[i]), t[i], None)
+            for motion in np.unique(rows.indices[rows.extreme]).tolist():
+                places = rows.extreme[rows.indices[rows.extreme] == motion]
+                out[start + places] = evaluate(self._alone(motion), t[places], None)

@@ -244,13 +244,16 @@ class GeneralMotion:
         T, pi = found.period, arb.pi()
         if infinite(T):
             raise DomainError(f"A motion of the kind {self.kind!r} has no period: no angle belongs to one.")
-        a, b, q = found.alpha, found.beta, self.quartic
+        q = self.quartic
+        # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
+        first, second = (
+            T * x.own + pi * x.turn if self.is_steady or q.sign_beside(pole) else arb(0)
+            for x, pole in ((found.alpha, -1), (found.beta, 1))
+        )
         if q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1:
             # nu swings evenly about zero, and chi' = -p nu/(1 - nu^2) with it
-            return T * (a.own + b.own + found.precession) + pi * (a.turn + b.turn), arb(0)
-        return T * (a.own + b.own + found.precession) + pi * (a.turn + b.turn), T * (
-            a.own - b.own + found.spin
-        ) + pi * (a.turn - b.turn)
+            return T * found.precession + first + second, arb(0)
+        return T * found.precession + first + second, T * found.spin + first - second
 
     def parameters(self, t: Any) -> tuple[acb, acb, acb, acb]:
         """Return alpha and beta up to a common factor, and their derivatives by time."""

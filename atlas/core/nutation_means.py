@@ -1,0 +1,229 @@
+"""Constants of many general motions in two words, by Gauss's means alone: roots of numbers, and no other function.
+
+With the turning points and the other factor f of Q, let N = sqrt(f(low) f(high))/4 and S = -[f0 + f1 (low + high)/2
++ f2 low high]/2. The means of sqrt(S + 2N)/2 and sqrt(N) tend to M = pi/T, whether two or four roots of Q are real. The
+same steps make, of the distances p^2 = |f(far)| near/(4 far), complete integrals of the third kind (Gauss), and, of
+p = M coth y, the depth y of the zeros of alpha and beta: p' = (p^2 + a g)/(2 p) = M coth 2y.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.core.double_double import DoubleDouble, chosen
+from atlas.core.inputs import FloatArray
+from atlas.core.nutation_roots import Roots, constant, part, stacked, taken
+
+MEANS, STEPS = 8, 14
+"""Steps of the means, and of what is made along with them, in two words."""
+
+ENOUGH = 2.0**-107
+"""Difference of the means, in parts of them, below which they are one."""
+
+Circle = tuple[DoubleDouble, DoubleDouble]
+"""Cosine and sine."""
+
+
+@dataclass(frozen=True)
+class Level:
+    """Two means a >= g, their difference, product and sum."""
+
+    a: DoubleDouble
+    g: DoubleDouble
+    difference: DoubleDouble
+    product: DoubleDouble
+    sum: DoubleDouble
+
+
+class Zeros(NamedTuple):
+    """Zeros of alpha and beta, at M s = i y or pi/2 + i y, s the time since Omega3 was `low`; (2, m).
+
+    `beside` is where it is the former, `sense` the sign of y, `growth` is exp y.
+    """
+
+    beside: Any
+    sense: FloatArray
+    growth: DoubleDouble
+
+
+class Means:
+    """Gauss's means of motions with these roots: rate M = pi/T, moduli and nome; angles a period; depths of zeros."""
+
+    def __init__(self, roots: Roots) -> None:
+        self.roots = roots
+        r, (f0, f1, f2) = roots, roots.f
+        low, high = part(r.ends, 0), part(r.ends, 1)
+        self.N = (low * high).sqrt().scaled(-2)
+        S = -(f0 + f1.scaled(-1) * (r.low + r.high) + f2 * r.low * r.high).scaled(-1)
+        D = r.width * r.width * r.discriminant.scaled(-2)
+        twice = self.N.scaled(1)
+        tall = S.hi > 0
+        larger = chosen(tall, S + twice, S - twice)
+        smaller = D / larger
+        self.S, self.D, self.plus, self.minus = S, D, chosen(tall, larger, smaller), chosen(tall, smaller, larger)
+        self.four = D.hi > 0
+        self.levels = self._levels()
+
+    def _levels(self) -> list[Level]:
+        """Return the means from the first."""
+        a, g = self.plus.sqrt().scaled(-1), self.N.sqrt()
+        both = a + g
+        larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)
+        levels = [Level(larger, smaller, abs(self.minus).scaled(-2) / both, larger * smaller, both)]
+        while len(levels) < MEANS and (levels[-1].difference.hi > ENOUGH * levels[-1].a.hi).any():
+            last = levels[-1]
+            a, g = last.sum.scaled(-1), last.product.sqrt()
+            both, square = a + g, last.difference * last.difference
+            levels.append(Level(a, g, (square / both).scaled(-2), a * g, both))
+        return levels
+
+    def level(self, n: int) -> Level:
+        """Return the means after n steps; the last ones are the same."""
+        return self.levels[min(n, len(self.levels) - 1)]
+
+    @cached_property
+    def rate(self) -> DoubleDouble:
+        """M = pi/T."""
+        last = self.levels[-1]
+        M = last.sum.scaled(-1)
+        return DoubleDouble(M.hi, M.lo, M.rel + last.difference.hi / M.hi)
+
+    @cached_property
+    def moduli(self) -> tuple[DoubleDouble, DoubleDouble]:
+        """Modulus and complementary modulus."""
+        first = self.levels[0]
+        root = abs(self.D).sqrt()
+        square = (self.S + root).scaled(-1)
+        c = abs(self.minus).sqrt().scaled(-1)
+        return (
+            chosen(self.four, (root / square).sqrt(), c / first.a),
+            chosen(self.four, self.N / square, first.g / first.a),
+        )
+
+    @cached_property
+    def nome(self) -> DoubleDouble:
+        """Nome of the theta functions, in size: that of the moduli for four real roots, else the root of it."""
+        product = constant(1.0, self.N)
+        for n in range(len(self.levels) - 1, 0, -1):
+            product = (product * self.level(n).a / self.level(n + 1).a).sqrt()
+        return abs(self.minus).sqrt().scaled(-3) / self.levels[0].sum.scaled(-1) * product
+
+    @cached_property
+    def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
+        """p^2, and after the first step p and p - a, (2, m)."""
+        r, first = self.roots, self.levels[0]
+        square = stacked(part(r.ends, 0), part(r.ends, 1)).scaled(-2) * abs(r.near) / r.far
+        p = square.sqrt()
+        after = (square + self.N) / p.scaled(1)
+        both = (after + chosen(self.four, first.a, first.g)) * abs(r.near) * r.far
+        by_torque = r.torques * r.width / both.scaled(2)
+        root = (square - self.N) / (p + self.N.sqrt())
+        beyond = chosen(self.four, by_torque * by_torque * (after + first.a), root * root / p.scaled(1))
+        return square, after, beyond
+
+    @cached_property
+    def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
+        """The sum of Gauss's complete integrals of the third kind, and exp of the depths of zeros, (2, m)."""
+        square, p, d = self._starts
+        Q = ((square - self.N) / (square + self.N)).scaled(-1)
+        first = self.levels[0]
+        x = chosen(first.difference.hi == 0, constant(0.0, d), first.difference / d)
+        levels = [self.level(n) for n in range(STEPS + 1)]
+        total, product = _steps(levels, p, d, x, Q)
+        return Q + total + ONE, ((p + first.a) / d * product).sqrt().sqrt()
+
+    @cached_property
+    def zeros(self) -> Zeros:
+        """Zeros of alpha and beta."""
+        inside = self._starts[0].hi > self.N.hi
+        beside = np.array([inside[0], ~inside[1]])
+        sense = np.where(beside, -1.0, 1.0) * np.sign(self.roots.torques.hi) * np.array([[1.0], [-1.0]])
+        depth = self._third[1]
+        return Zeros(beside, sense, chosen(sense > 0, depth, ONE / depth))
+
+    @cached_property
+    def angles(self) -> DoubleDouble:
+        """What alpha and beta turn by, on the average, twice, seen from their frame: (2, m), in 1/time."""
+        r = self.roots
+        found = r.torques / r.far * (r.width / abs(r.near).scaled(1) * self._third[0] + ONE)
+        return chosen(r.torques.hi == 0, r.torques, found)
+
+    @cached_property
+    def start(self) -> Circle:
+        """Cosine and sine of M t, t the time since Omega3 was `low`, at the start: cot of twice it is (c - a g/c)/2."""
+        r = self.roots
+        square, below = part(r.ends, 0).scaled(-2) * r.high, -r.low
+        scaled = self.N * below
+        C, D = square - scaled, (square * below).sqrt().scaled(1)
+        whole = _unit(C, self.levels[0].a * D)
+        turns = []
+        for m in self.levels:
+            squares, weighted = C * C, m.product * D * D
+            size, product = squares + weighted, C * D
+            turns.append(_unit(size, -(product * m.difference)))
+            C, D = (squares - weighted) / size, product.scaled(1) / size
+        rest = _half(turns[-1])
+        for turn in turns[-2::-1]:
+            rest = _half(_turned(turn, rest))
+        cos, sin = _half(_turned(whole, rest))
+        return cos, chosen(r.rate.hi < 0, -sin, sin)
+
+
+ONE = DoubleDouble(np.float64(1.0))
+
+
+def _unit(x: DoubleDouble, y: DoubleDouble) -> Circle:
+    """Return cosine and sine of the angle of a point."""
+    size = (x * x + y * y).sqrt()
+    return x / size, y / size
+
+
+def _turned(one: Circle, other: Circle) -> Circle:
+    """Return cosine and sine of the sum of two angles."""
+    (a, b), (c, d) = one, other
+    return a * c - b * d, a * d + b * c
+
+
+def _half(angle: Circle) -> Circle:
+    """Return cosine and sine of half an angle below pi, the sine with its sign."""
+    cos, sin = angle
+    larger = ((abs(cos) + ONE).scaled(-1)).sqrt()
+    smaller = sin / larger.scaled(1)
+    sharp = cos.hi >= 0
+    return chosen(sharp, larger, abs(smaller)), chosen(sharp, smaller, larger)
+
+
+def _steps(
+    levels: Sequence[Level], p: DoubleDouble, d: DoubleDouble, x: DoubleDouble, Q: DoubleDouble
+) -> tuple[DoubleDouble, DoubleDouble]:
+    """Return what the steps from p = a + d on add to the sum after Q, and make of the depth, x = (a - g)/d."""
+    m, after = levels[0], levels[1]
+    whole, above, more = p * p + m.product, p + m.a, x + ONE
+    Q = (Q * (d * above + m.a * m.difference) / whole).scaled(-1)
+    term = (p + m.g) / (above * more)
+    x = x * x / more * p / after.sum.scaled(1)
+    d = d * (d + m.difference) / p.scaled(1)
+    left = np.maximum(abs(Q.hi), x.hi)
+    going = (left > ENOUGH).any(axis=0)
+    if not going.any() or len(levels) == 2:
+        return DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * left).sqrt()
+    rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
+    rest = [Level(*(taken(y, rows) for y in vars(level).values())) for level in levels[1:]]
+    d, x, last = (taken(y, rows) for y in (d, x, Q))
+    total, product = _steps(rest, rest[0].a + d, d, x, last)
+    if not isinstance(rows, slice):
+        total, product = (
+            _spread(y, rows, like) for y, like in ((total, constant(0.0, Q)), (product, constant(1.0, Q)))
+        )
+    return Q + total, (term * product).sqrt()
+
+
+def _spread(x: DoubleDouble, rows: Any, like: DoubleDouble) -> DoubleDouble:
+    """Return an array that has x in some columns."""
+    words = [np.array(np.broadcast_to(y, like.hi.shape)) for y in (like.hi, like.low, like.rel)]
+    for word, y in zip(words, (x.hi, x.low, x.rel), strict=True):
+        word[:, rows] = y
+    return DoubleDouble(*words)

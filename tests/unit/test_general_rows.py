@@ -1,0 +1,144 @@
+"""Many general motions in arrays: scalars with the bits of one by one, matrices within the promise, kinds exact."""
+
+from functools import partial
+from itertools import chain
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb, ctx
+
+from atlas.core import general
+from atlas.core.general import GeneralMotion
+from atlas.core.general_rows import GeneralRows
+from atlas.exact.general import GeneralMotion as Balls
+from atlas.study.judges_general import narrow
+from atlas.study.regimes_general import GENERAL
+from atlas.study.ulps import ONE, absolute, error
+
+SCALARS = ("period", "modulus", "complementary_modulus", "nome", "precession_per_period", "spin_per_period")
+PER_REGIME = 12
+
+
+def ordinary(count: int, seed: int = 0) -> Any:
+    """Return inputs of ordinary motions."""
+    r = np.random.default_rng(seed)
+    return r.uniform(0.1, 2, count), r.normal(size=(2, count)), r.normal(size=(3, count))
+
+
+def hostile(seed: int = 0) -> Any:
+    """Return inputs of motions of every regime, side by side in one array, those without a period left out."""
+    random = Random(seed)  # noqa: S311  draws of test inputs
+    draws = [draw(random) for draw in GENERAL.values() for _ in range(PER_REGIME)]
+    I, B, omega = zip(*(d for d in draws if Balls(*d).kind.startswith(("nutation", "ball", "precession"))), strict=True)
+    return np.array(I), np.array(B).T, np.array(omega).T
+
+
+def one(inputs: Any, i: int) -> Any:
+    """Return the inputs of one motion of an array."""
+    I, B, omega = inputs
+    return float(I[i]), tuple(B[:, i].tolist()), tuple(omega[:, i].tolist())
+
+
+def times(inputs: Any, seed: int) -> Any:
+    """Return a time for each motion, from a thousandth to a million of its own unit."""
+    _, B, omega = inputs
+    r = np.random.default_rng(seed)
+    size = abs(np.concatenate([B, omega])).max(axis=0)
+    return r.choice([-1.0, 1.0], size.size) * 10.0 ** r.uniform(-3, 6, size.size) / size
+
+
+@pytest.mark.parametrize("inputs", [ordinary(60), hostile()], ids=["ordinary", "hostile"])
+def test_scalars_of_many_motions_have_the_bits_of_one_by_one(inputs: Any) -> None:
+    """Kind, turning points, roots, period, moduli, nome and angles are those of each motion made alone, to the bit."""
+    found = GeneralMotion(*inputs)
+    for i in range(found.shape[0]):
+        alone = GeneralMotion(*one(inputs, i))
+        assert found.kind[i] == alone.kind
+        for name in SCALARS:
+            assert getattr(found, name)[i] == getattr(alone, name), (name, one(inputs, i))
+        assert [ends[i] for ends in found.turning_points] == list(alone.turning_points)
+        # a root that is zero is known to 1e-40 alone; a complex pair has no order
+        ours, roots = np.sort_complex(found.roots[i]), np.sort_complex(alone.roots)
+        finite = np.isfinite(roots)
+        assert np.array_equal(np.isfinite(ours), finite)
+        assert (abs(ours[finite] - roots[finite]) <= 1e-35 * abs(roots[finite]).max()).all()
+
+
+@pytest.mark.parametrize("inputs", [ordinary(200, 1), hostile(1)], ids=["ordinary", "hostile"])
+def test_matrices_of_many_motions_are_true_to_the_promise(inputs: Any) -> None:
+    """R, K and Omega at one time each are within 6 ulp of 1, and 12 ulp of the largest rate, of the balls."""
+    motion, t = GeneralMotion(*inputs), times(inputs, 2)
+    R, K, Omega = motion.rotation(t), motion.field_in_body(t), motion.angular_velocity(t)
+    for i, time in enumerate(t.tolist()):
+        exact, (_, B, omega) = Balls(*one(inputs, i)), one(inputs, i)
+        size = max(map(abs, (*B, *omega)))
+        true = narrow(
+            partial(lambda m, t: (m.rotation(t), m.field_in_body(t), m.angular_velocity(t)), exact, time), size
+        )
+        assert max(absolute(R[i].flat, chain(*true[0]))) <= 6
+        for values, balls in ((K[i], true[1]), (Omega[i], true[2])):
+            assert max(error(x, y, size * ONE) for x, y in zip(values, balls, strict=True)) <= 12
+
+
+@pytest.mark.parametrize("inputs", [ordinary(60, 2), hostile(2)], ids=["ordinary", "hostile"])
+def test_each_frequency_keeps_its_bound(inputs: Any) -> None:
+    """The frequencies of alpha, beta and nutation in two words are within their own bounds of the balls."""
+    found = GeneralMotion(*inputs)
+    constants = GeneralRows(found._inputs, found.shape).constants
+    assert constants.sure.mean() > 0.3
+    for i in np.flatnonzero(constants.sure).tolist():
+        with ctx.workprec(400):
+            solution = Balls(*one(inputs, i)).trigonometric()
+            true = [solution.alpha.rate / arb.pi(), solution.beta.rate / arb.pi(), 1 / solution.period]
+            for j, frequency in enumerate(true):
+                high, low = constants.words[:, j, i].tolist()
+                assert abs(arb(high) + arb(low) - frequency) <= constants.lack[j, i] * (1 + 1e-6)
+
+
+def test_a_kind_next_to_a_border_is_decided_exactly() -> None:
+    """An ulp off a separatrix, a ball and a steady motion the kinds are those of the exact inputs."""
+    steps = np.arange(-2, 3)
+    beside = np.array([-7 + n * np.spacing(7.0) for n in steps])
+    for ratio, B, omega in (
+        (0.75, (20.0, 15.0), (6.0, -24.5, beside)),
+        (1 + steps * 2.0**-52, (1.0, 2.0), (0.3, 0.7, 0.2)),
+        (0.5, (3.0, 1.0), (0.0, -1.5, -2 + steps * 2.0**-52)),
+        (1.5, (0.0, 1.0), (0.0, steps * 1e-200, 0.4)),
+        (1.5, (steps * 1.0, 0.0), (0.0, 0.0, 0.0)),
+    ):
+        motions = GeneralMotion(ratio, B, omega)
+        for i, kind in enumerate(motions.kind):
+            row = [float(np.broadcast_to(x, (5,))[i]) for x in (ratio, *B, *omega)]
+            assert kind == Balls(row[0], row[1:3], row[3:]).kind
+
+
+def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of 3000 ordinary motions none is made alone for its kind and period, and one in fifty at most for its matrix."""
+    made = []
+    balls = general._balls
+    monkeypatch.setattr(general, "_balls", lambda *row: made.append(row) or balls(*row))
+    inputs = ordinary(3000, 3)
+    motions = GeneralMotion(*inputs)
+    assert motions.kind.shape == motions.period.shape == motions.nome.shape == (3000,)
+    assert not made
+    motions.rotation(times(inputs, 4))
+    assert len(made) <= 60
+
+
+def test_a_dropped_second_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Were products rounded to one word, the periods would not have the bits of one by one."""
+    inputs = ordinary(50, 5)
+    periods = [GeneralMotion(*one(inputs, i)).period for i in range(50)]
+    assert np.array_equal(GeneralMotion(*inputs).period, periods)
+    monkeypatch.setattr("atlas.core.double_double._product", lambda a, b: (a.hi * b.hi, 0 * (a.hi * b.hi)))
+    assert not np.array_equal(GeneralMotion(*inputs).period, periods)
+
+
+def test_no_motions_have_no_scalars() -> None:
+    """Arrays without rows give arrays without rows."""
+    none = GeneralMotion(np.ones(0), (1.0, 2.0), (0.3, 0.7, 0.2))
+    assert none.kind.shape == none.period.shape == none.spin_per_period.shape == (0,)
+    assert none.roots.shape == (0, 4)
+    assert none.rotation(1.0).shape == (0, 3, 3)
