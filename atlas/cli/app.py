@@ -79,7 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if not sys.warnoptions:  # a float that overflows is told by the command that shows it, not by NumPy
         warnings.simplefilter("ignore", RuntimeWarning)
     try:
-        status = atlas.main(args=None if arguments is None else list(arguments), standalone_mode=False)
+        status = atlas.main(None if arguments is None else list(arguments), "atlas", standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
         click.echo(error.format_message(), err=True)
         status = 2
