@@ -67,7 +67,7 @@ verify: setup
 	@$(SEAL)
 
 bench: setup $(VENV)/.bench
-	@env -u OPENBLAS_CORETYPE $(ATLAS) bench   # so that OpenBLAS chooses the kernels of this processor
+	@env -u OPENBLAS_CORETYPE $(ATLAS) bench --store   # so that OpenBLAS chooses the kernels of this processor
 	@$(SEAL)
 
 stress: setup
