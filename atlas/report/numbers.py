@@ -1,10 +1,12 @@
 """Numbers in print: a string of proven digits cut at its decimal point, so that a column can be aligned on it."""
 
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Any
 
 MINUS = "\N{MINUS SIGN}"
 THIN = "\N{NARROW NO-BREAK SPACE}"
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,15 @@ class Number:
         step = 3 if len(fraction) > 4 else 4
         grouped = THIN.join(fraction[i : i + step] for i in range(0, len(fraction), step))
         return whole, point + grouped, str(int(power)).replace("-", MINUS) if int(power or 0) else ""
+
+    def words(self) -> str:
+        """Return the number as it stands in a sentence: a power of ten only where it is far from 1."""
+        mantissa, _, power = self.digits.lower().partition("e")
+        if not self.digits:
+            return "?"
+        if -4 < int(power or 0) < 4:
+            return format(Decimal(self.digits), "f").replace("-", MINUS)
+        return f"{mantissa}\N{MULTIPLICATION SIGN}10{str(int(power)).translate(_RAISED)}".replace("-", MINUS)
 
     def tex(self) -> str:
         """Return the number as a formula."""

@@ -10,6 +10,7 @@ from atlas.errors import AtlasError
 from atlas.report.appendices import Appendices
 from atlas.report.compose import compose
 from atlas.report.load import load
+from atlas.report.numbers import Number
 from atlas.report.tables.model import Data
 from atlas.report.texts import beginning
 
@@ -60,7 +61,7 @@ appendix = true
 
 [[pages.blocks]]
 kind = "prose"
-text = "In the appendix @theorem-points stands."
+text = "In the appendix @theorem-points stands, and beta is @cell:1-3-3."
 """
 
 
@@ -80,6 +81,13 @@ def test_contents_and_headings_are_numbered_alike(book: list[str]) -> None:
         assert words in contents
         assert words in body
     assert "Tables Table 1 The quadric of initial data of the charged ball" in contents
+
+
+def test_a_sentence_has_the_number_of_a_cell(book: list[str]) -> None:
+    """What the prose says of a computed number is what the table says, with a power of ten only far from 1."""
+    assert "and beta is 1.107148718." in " ".join(book[2:])
+    assert Number("-1.2e-5").words() == "−1.2×10⁻⁵"
+    assert [Number(digits).words() for digits in ("1.2e2", "-3.5e-2", "7", "")] == ["120", "−0.035", "7", "?"]
 
 
 def test_equations_are_cited_by_the_printed_number(book: list[str]) -> None:

@@ -152,6 +152,25 @@ def test_the_cells_of_the_ball() -> None:
         holds(data, *((value,) for value in values))
 
 
+def test_the_cells_of_companions() -> None:
+    """The quartic of theorem-top over (nu - r)^2 is A nu^2 + 2 A r nu + C, whose value at r is c; here C is exact."""
+    motions = [[B2, B3, -0.7], [3.0, 1.0, -1.5]]
+    with mp.workdps(40):
+        rows = []
+        for motion in motions:
+            b2, b3, omega2 = map(closed_form.exact, motion)
+            b = mp.hypot(b2, b3)
+            r, w, A = b3 / b, omega2 * b / b2 + b, -(b**2) / 2
+            M3 = r * (w**2 + A) / w
+            p, energy = w * (1 - r**2) + M3 * r, w**2 * (1 - r**2) + A * r**2
+            C = (energy - p**2) / r**2
+            rate = mp.sqrt(mp.chop(3 * A * r**2 + C, 1e-30))
+            high = -r + mp.sqrt(r**2 - C / A)
+            angles = [mp.degrees(mp.acos(nu)) for nu in (r, high, -2 * r - high)]
+            rows.append((omega2, angles[0], rate, *angles[1:]))
+        holds(table("companions", digits=9, ratio=0.5, motions=motions), *rows)
+
+
 def test_the_cells_of_body_and_field() -> None:
     """What was given; the moments of a shell, their ratio, mu, and B' of mf41, where e2 makes B'_2 positive."""
     shell = Body(title="shell", shape="cylindrical_shell", mass=0.75, radius=0.25, height=0.375, charge=-0.3)
@@ -215,4 +234,4 @@ def test_the_cells_of_radiation() -> None:
 def test_no_table_is_left_out() -> None:
     """Each table has a test of its cells above."""
     tested = {"points", "quadric", "bodies", "motion", "samples", "particle", "flight", "ball", "body_and_field"}
-    assert set(TABLES) == tested | {"charges", "sizes", "radiation"}
+    assert set(TABLES) == tested | {"charges", "companions", "sizes", "radiation"}

@@ -1,6 +1,7 @@
 """A numbered table: of computed numbers, of recorded results, or written out in the report."""
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
@@ -18,9 +19,8 @@ if TYPE_CHECKING:
 
 MOST = 1000
 """As many digits of a number as a table may ask for."""
-PAGE = 40
-WORDS = 12
-"""As many rows as a table may have to stand on one page of the PDF, one with numbers and one of words alone."""
+MANY = 12
+"""As many rows as a table may have that is not broken over pages of the PDF."""
 COMMANDS = {
     "trial": "atlas verify --record",
     "bench": "atlas bench",
@@ -103,12 +103,12 @@ class TableView:
     @property
     def tight(self) -> bool:
         """Whether its rows are single lines, of numbers or in a long table."""
-        return bool(self.name) or len(self.rows) > 2 * WORDS
+        return bool(self.name) or len(self.rows) > 2 * MANY
 
     @property
     def tall(self) -> bool:
-        """Whether it may be broken over two pages: it is too long for one, or is a long table of nothing but words."""
-        return len(self.rows) > (PAGE if any(column.numeric for column in self.columns) else WORDS)
+        """Whether it may be broken over pages: it would leave a hole where it does not fit."""
+        return len(self.rows) > MANY
 
 
 def view_computed(block: Table, composer: "Composer") -> TableView:
@@ -153,6 +153,9 @@ def _view(
             )
         )
     rows = tuple(tuple(_cell(value, composer) for value in row) for row in data.rows)
+    for row, column in product(range(len(rows)), range(len(columns))):
+        if isinstance(value := data.rows[row][column], Number):
+            composer.target(f"cell:{anchor.removeprefix('tab-')}-{row + 1}-{column + 1}", anchor, value.words())
     proven = all(cell.proven for row in data.rows for cell in row if isinstance(cell, Number))
     sentences = [*data.notes, *([] if proven else ["What is not proven is starred."])]
     note = " ".join(filter(None, map(composer.once, sentences)))

@@ -4,7 +4,19 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from atlas.errors import unknown
-from atlas.report.tables import ball, bodies, body_and_field, charges, flight, motion, particle, points, quadric, sizes
+from atlas.report.tables import (
+    ball,
+    bodies,
+    body_and_field,
+    charges,
+    companions,
+    flight,
+    motion,
+    particle,
+    points,
+    quadric,
+    sizes,
+)
 from atlas.report.tables.model import Data, Maker, Request
 
 TABLES: Mapping[str, Maker] = MappingProxyType(
@@ -17,6 +29,7 @@ TABLES: Mapping[str, Maker] = MappingProxyType(
         "motion": motion.motion,
         "samples": motion.samples,
         "ball": ball.ball,
+        "companions": companions.companions,
         "particle": particle.particle,
         "flight": flight.flight,
         "sizes": sizes.sizes,
