@@ -153,9 +153,9 @@ def _view(
             )
         )
     rows = tuple(tuple(_cell(value, composer) for value in row) for row in data.rows)
-    for row, column in product(range(len(rows)), range(len(columns))):
-        if isinstance(value := data.rows[row][column], Number):
-            composer.target(f"cell:{anchor.removeprefix('tab-')}-{row + 1}-{column + 1}", anchor, value.words())
+    for (number, line), (place, _) in product(enumerate(data.rows, 1), enumerate(data.columns, 1)):
+        if isinstance(value := line[place - 1], Number):
+            composer.target(f"cell:{anchor.removeprefix('tab-')}-{number}-{place}", anchor, value.words())
     proven = all(cell.proven for row in data.rows for cell in row if isinstance(cell, Number))
     sentences = [*data.notes, *([] if proven else ["What is not proven is starred."])]
     note = " ".join(filter(None, map(composer.once, sentences)))
