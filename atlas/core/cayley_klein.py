@@ -14,7 +14,7 @@ from flint import acb, arb, ctx
 
 from atlas.core.inputs import FloatArray, real
 from atlas.core.nutation import Functions, Hyperbolic, Linear, Steady, Trigonometric, wide
-from atlas.core.phase import EVEN, ROUNDER, WHOLE, Phases, tangents
+from atlas.core.phase import EVEN, ROUNDER, WHOLE, Phases
 from atlas.core.rotation import target
 from atlas.core.threads import shared
 from atlas.core.wide import Wide
@@ -41,9 +41,6 @@ QUATERNION = (0, 1, 3, 2)
 """Places of w, x, y, z among them."""
 
 
-SIGNS = np.subtract, np.add, np.add, np.subtract
-"""How cos and sin of a sum of two angles, and of their difference, come out of products: both cos, then both sin."""
-
 KINDS: Mapping[str, Callable[..., Functions]] = {
     "trigonometric": Trigonometric,
     "hyperbolic": Hyperbolic,
@@ -66,8 +63,11 @@ class CayleyKlein:
             lattice, pair = found.lattice, (found.alpha, found.beta)
             periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
             rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
-            turns = [x / (2 * arb.pi()) for x in rates] + ([1 / (4 * lattice.half)] if periodic else [])
-            origin = found.origin / (4 * lattice.half) if periodic else arb(0)
+            # the phase is 2v where only sin v / cos v is wanted, else v
+            odd = lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
+            whole = (2 if odd else 4) * lattice.half
+            turns = [x / (2 * arb.pi()) for x in rates] + ([1 / whole] if periodic else [])
+            origin = found.origin / whole if periodic else arb(0)
             if not all(x.is_finite() for x in (*turns, found.origin)):
                 return False
             scale = max(abs(x) for x in turns)
@@ -123,26 +123,34 @@ class Evaluation:
         self.work = np.empty((8, count, size))
         self.rows = np.empty((parameters.functions.count, size))
         self.sums = np.empty((2, len(self.table), size))
-        self.circles, self.products = np.empty((8, size)), Products(size)
+        self.circles, self.products = np.empty((2, 2, size)), Products(size)
 
     def parts(self, t: FloatArray) -> FloatArray:
         """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m)."""
         m, functions = t.size, self.of.functions
-        rows, angles = self.rows[:, :m], self.of.phases.reduced(t, self.work[..., :m])
+        rows, phases = self.rows[:, :m], self.of.phases
         if isinstance(functions, Hyperbolic) and functions.periodic:
-            u, e = angles[:2]
+            u, e, *_ = phases.reduced(t, self.work[..., :m])
             functions.fill(rows, *functions.line.at(u[2], e[2]))
-            u[:2] += functions.twist * u[2]
-            angles = tuple(x[:2] for x in angles)
-        cos, sin = tangents(angles)
+            u, v = u[:2], u[2]
+            u += functions.twist * v
+        else:
+            u = phases.halves_of(t, self.work)
+        np.tan(u, out=u)
         if isinstance(functions, Trigonometric):
-            functions.fill(rows, sin[2], cos[2])
+            functions.fill(rows, u[2])
         elif isinstance(functions, Steady):
             functions.fill(rows, t)
         elif not functions.periodic:
             near = np.clip(t, -functions.line.longest, functions.line.longest)
             functions.fill(rows, *functions.line.at(near))
-        cos, sin = self._phases(cos, sin)
+        # phases of alpha and beta, half the sum and half the difference of the two; all have a common factor
+        cos, sin = self.circles[..., :m]
+        np.multiply(u[0], u[1], out=sin[0])
+        np.subtract(WHOLE, sin[0], out=cos[0])
+        np.add(WHOLE, sin[0], out=cos[1])
+        np.add(u[0], u[1], out=sin[0])
+        np.subtract(u[0], u[1], out=sin[1])
         sums, result = self.sums[..., :m]
         np.matmul(self.table, rows, out=sums)
         pairs, turned = sums.reshape(-1, 2, 2, m), result.reshape(-1, 2, 2, m)
@@ -153,20 +161,6 @@ class Evaluation:
         if self.of.faint:
             result /= np.abs(result[:4]).max(axis=0)
         return np.asarray(result)
-
-    def _phases(self, cos: FloatArray, sin: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return cos and sin of the phases of alpha and beta, half the sum and half the difference of those given.
-
-        All have a common factor, since only their ratios are given.
-        """
-        cc, ss, sc, cs, *circles = found = self.circles[:, : cos.shape[1]]
-        np.multiply(cos[0], cos[1], out=cc)
-        np.multiply(sin[0], sin[1], out=ss)
-        np.multiply(sin[0], cos[1], out=sc)
-        np.multiply(cos[0], sin[1], out=cs)
-        for combine, x, y, out in zip(SIGNS, (cc, cc, sc, sc), (ss, ss, cs, cs), circles, strict=True):
-            combine(x, y, out=out)
-        return found[4:6], found[6:]
 
     def at(self, t: FloatArray) -> FloatArray:
         """Return the ten products at times t, (10, m)."""

@@ -63,21 +63,22 @@ class Trigonometric:
         pairs = zip(sum_.odd[: self.terms], sum_.even[: self.terms], strict=True)
         return _powers(pairs, ONE_ODD) + [acb(0)] * (2 * max(0, self.terms - len(sum_.odd)) + self.constant)
 
-    def fill(self, rows: FloatArray, s: FloatArray, c: FloatArray) -> None:
-        """Fill the rows, times 2 (s^2 + c^2), from numbers in the ratio of sin(v/2) to cos(v/2)."""
+    def fill(self, rows: FloatArray, u: FloatArray) -> None:
+        """Fill the rows, over cos v, from u = tan v; where one is constant, times 1 + u^2, from u = tan(v/2)."""
         sin, cos = rows[:2]
-        square = s * s
-        np.multiply(c, c, out=cos)
-        whole = np.add(square, cos, out=rows[-1] if self.constant else None)
-        cos -= square
-        np.multiply(s, c, out=sin)
-        sin += sin
-        if self.terms == 1:
-            return
-        factor = np.divide(sin, whole, out=square)
-        factor *= factor
-        factor *= -4.0
-        factor += 2.0
+        square = u * u
+        if self.constant:
+            whole = np.add(square, WHOLE, out=rows[-1])
+            np.subtract(WHOLE, square, out=cos)
+            np.add(u, u, out=sin)
+            factor = np.divide(cos, whole, out=square)
+            factor *= factor
+            factor *= 4.0
+        else:
+            sin[:], cos[:] = u, 1.0
+            square += WHOLE
+            factor = np.divide(4.0, square, out=square)
+        factor -= 2.0
         pairs = rows[: 2 * self.terms].reshape(self.terms, 2, -1)
         for n in range(1, self.terms):
             np.multiply(pairs[n - 1], factor, out=pairs[n])

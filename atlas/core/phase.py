@@ -36,6 +36,9 @@ EVEN = 2 * ROUNDER
 NEAR = 2.0**21
 """Half a phase, in radians, up to which three products of words hold it."""
 
+LESS = 4.0
+"""How much further they do where the phase is rounded."""
+
 QUARTER = TURN.scaled(-2)
 HEAD = round(float(QUARTER.scaled(26))) / 2.0**26
 MINUS_HEAD, MINUS_TAIL = np.array(-HEAD), np.array(float(Wide.exactly(HEAD) - QUARTER))
@@ -70,6 +73,9 @@ class Phases:
         if self.origins is not None:
             first, rest = self.origins
             self.starts = -first * MINUS_HEAD, rest * QUARTER_TURN - first * MINUS_TAIL
+        start = [] if self.origins is None else [self.origins[1]]
+        self.head, *rest = _columns([_head(p.scaled(-x)) for p, x in zip(halves, exponents, strict=True)])
+        self.table = QUARTER_TURN * np.hstack([*start, *rest, np.eye(len(halves))])
 
     @classmethod
     def of_words(cls, words: FloatArray) -> Self:
@@ -184,6 +190,31 @@ class Phases:
         coarse += y
         return product, coarse, whole, rest
 
+    def halves_of(self, t: FloatArray, work: FloatArray) -> FloatArray:
+        """Return x/2, rounded once, as `reduced` does; it lies in `work`, whose last axis may be longer than t's.
+
+        For half phases up to LESS NEAR the head of the frequency times that of t is exact, and so is what is left of it
+        without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
+        """
+        if self.exponents is not None or not max(t.max(initial=0.0), -t.min(initial=0.0)) <= LESS * self.near:
+            return self.reduced(t, work[..., : t.size])[0]
+        n, k = self.table.shape
+        stack, whole, x, _ = np.split(work.reshape(-1, work.shape[-1])[:, : t.size], (k, k + n, k + 2 * n))
+        *first, upper, lower = stack[: k - n]
+        p = stack[k - n :]
+        np.multiply(t, SPLITTER, out=upper)
+        np.subtract(upper, t, out=lower)
+        upper -= lower
+        np.subtract(t, upper, out=lower)
+        np.multiply(self.head, upper, out=p)
+        if self.origins is not None:
+            first[0][:] = 1.0
+            p += self.origins[0]
+        np.add(p, self.rounder, out=whole)
+        whole -= self.rounder
+        p -= whole
+        return np.matmul(self.table, stack, out=x)
+
     def _reduced_near(
         self, t: FloatArray, halves: FloatArray, work: FloatArray, low: FloatArray | None
     ) -> tuple[FloatArray, ...]:
@@ -243,16 +274,6 @@ def circle_of(angles: Sequence[FloatArray], cos: FloatArray, sin: FloatArray, ve
     sin *= sign
     np.multiply(half[0], sign[0], out=versine)
     versine += sign[0] < NOTHING
-
-
-def tangents(angles: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Return numbers in the ratio of cos(x/2) to sin(x/2), from what `Phases.reduced` returns and in its place."""
-    u, e, _, free = angles
-    np.tan(u, out=u)
-    np.multiply(u, e, out=free)
-    e += u
-    np.subtract(WHOLE, free, out=free)
-    return free, e
 
 
 def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:

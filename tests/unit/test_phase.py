@@ -91,6 +91,23 @@ def test_the_rest_of_half_a_frequency_is_needed() -> None:
     assert worst(phases, f, t) > 100
 
 
+@pytest.mark.parametrize("origins", [None, [Wide.exactly(-0.3), Wide.exactly(0.49)]])
+@pytest.mark.parametrize("digits", [-30, 0, 10, 20, 21, 22, 23, 30, 49])
+def test_half_a_phase_is_rounded_once(digits: int, origins: list[Wide] | None) -> None:
+    """Half of f t + f0, less whole half turns, is within 4 units of 2^-53, short of and beyond exact heads."""
+    f = [Wide.exactly(1.2345) / TURN, Wide.exactly(0.7) / TURN]
+    t = np.random.default_rng(digits % 64).uniform(-1, 1, 40) * 2.0**digits
+    work = np.empty((8, 2, 50))
+    found = Phases(f, origins).halves_of(t, work)
+    with mp.workprec(300):
+        for i, rate in enumerate((1.2345, 0.7)):
+            start = 2 * mp.pi * mpf(float(origins[i])) if origins else mpf(0)
+            for x, time in zip(found[i].tolist(), t.tolist(), strict=True):
+                off = (mpf(x) - (mpf(rate) * mpf(time) + start) / 2) / (mp.pi / 2)
+                assert abs(off - mp.nint(off)) * mp.pi / 2 <= 4 * UNIT
+                assert abs(x) <= 0.9
+
+
 def test_one_less_the_cosine_keeps_its_digits() -> None:
     """1 - cos x is within 6 ulp of its own size down to x = 1e-150."""
     t = 10.0 ** np.linspace(-150, -0.5, 200)
