@@ -5,7 +5,6 @@ is linear in the ten products of their four real parts, once the squares of thes
 """
 
 from collections.abc import Callable, Mapping
-from copy import copy
 from math import prod
 from typing import Any
 
@@ -99,19 +98,6 @@ class CayleyKlein:
             rounders[2] = ROUNDER
         return Phases(self.frequencies, self.origins, rounders)
 
-    def on_grid(self, start: Wide, step: Wide) -> "CayleyKlein":
-        """Return the same with whole numbers i for times, which stand for start + i step."""
-        other = copy(self)
-        other.frequencies = [(f * step).turn() for f in self.frequencies]
-        origins = self.origins or [Wide(0)] * len(self.frequencies)
-        other.origins = [(o + f * start).turn() for f, o in zip(self.frequencies, origins, strict=True)]
-        other.phases = other._phases()  # noqa: SLF001  of this class
-        if isinstance(self.functions, Hyperbolic | Linear) and not self.periodic:
-            functions = copy(self.functions)
-            functions.line = functions.line.on_grid(start, step)
-            other.functions = functions
-        return other
-
 
 class Evaluation:
     """alpha and beta at up to `size` times at once, with the memory that this takes; with their slopes if asked for."""
@@ -125,17 +111,20 @@ class Evaluation:
         self.sums = np.empty((2, len(self.table), size))
         self.circles, self.products = np.empty((2, 2, size)), Products(size)
 
-    def parts(self, t: FloatArray) -> FloatArray:
-        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m)."""
+    def parts(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
+        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m).
+
+        `low` (m,) is what the times t lack, None for nothing.
+        """
         m, functions = t.size, self.of.functions
         rows, phases = self.rows[:, :m], self.of.phases
         if isinstance(functions, Hyperbolic) and functions.periodic:
-            u, e, *_ = phases.reduced(t, self.work[..., :m])
+            u, e, *_ = phases.reduced(t, self.work[..., :m], low)
             functions.fill(rows, *functions.line.at(u[2], e[2]))
             u, v = u[:2], u[2]
             u += functions.twist * v
         else:
-            u = phases.halves_of(t, self.work)
+            u = phases.halves_of(t, self.work, low)
         np.tan(u, out=u)
         if isinstance(functions, Trigonometric):
             functions.fill(rows, u[2])
@@ -143,7 +132,7 @@ class Evaluation:
             functions.fill(rows, t)
         elif not functions.periodic:
             near = np.clip(t, -functions.line.longest, functions.line.longest)
-            functions.fill(rows, *functions.line.at(near))
+            functions.fill(rows, *functions.line.at(near, 0.0 if low is None else low))
         # phases of alpha and beta, half the sum and half the difference of the two; all have a common factor
         cos, sin = self.circles[..., :m]
         np.multiply(u[0], u[1], out=sin[0])
@@ -162,9 +151,9 @@ class Evaluation:
             result /= np.abs(result[:4]).max(axis=0)
         return np.asarray(result)
 
-    def at(self, t: FloatArray) -> FloatArray:
-        """Return the ten products at times t, (10, m)."""
-        return self.products.of(self.parts(t))
+    def at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
+        """Return the ten products at times t + low, (10, m)."""
+        return self.products.of(self.parts(t, low))
 
 
 def combined(products: FloatArray, weights: FloatArray, rows: FloatArray) -> None:

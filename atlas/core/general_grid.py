@@ -1,22 +1,28 @@
 """Rotation matrices of the general motion on a uniform grid.
 
-In trigonometric form alpha and beta are sums of exponentials exp(i f_m t), so that their values at s + tau are a
-product of a coarse table of exp(i f_m s) and a fine one of z_m exp(i f_m tau): one matrix product instead of phases
-and tangents at every time. Where the sums would cancel, next to a separatrix, and on it, the grid is evaluated time by
-time.
+Where the grid is fine, the entries of R over a window of some hundred times are polynomials to the last digit: they are
+evaluated at a few of these times and interpolated, by one matrix product. Their last coefficients tell if they are.
+
+Elsewhere, in trigonometric form, alpha and beta are sums of exponentials exp(i f_m t), so that their values at s + tau
+are a product of a coarse table of exp(i f_m s) and a fine one of z_m exp(i f_m tau): one matrix product instead of
+phases and tangents at every time. Where the sums would cancel, next to a separatrix, and on it, a grid that is not fine
+is evaluated time by time.
 """
 
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from math import ceil, inf
 
 import numpy as np
 from flint import acb, arb, ctx
 
-from atlas.core.cayley_klein import BLOCK, CayleyKlein, Evaluation, Products, combined
+from atlas.core.cayley_klein import BLOCK, Evaluation, Products, combined
 from atlas.core.general import General
+from atlas.core.grid import HUGE, moments
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation import wide
-from atlas.core.phase import LIMIT, Phases
+from atlas.core.phase import Phases
 from atlas.core.threads import shared
 from atlas.core.wide import Wide
 from atlas.errors import AtlasError
@@ -30,8 +36,8 @@ FINE, COARSE = 128, 34
 GROUP = 16 * COARSE
 """Coarse times whose exponentials are made at once."""
 
-FEW = 30_000
-"""Shorter grids are evaluated time by time: their tables would cost more."""
+FEW = 100_000
+"""Shorter grids do without: their tables would cost more."""
 
 CANCELLING = 8.0
 """The sums are used where the weights exceed what they leave at any time by no more than this factor."""
@@ -43,6 +49,18 @@ TERMS = 24
 """Exponentials beyond which the product would cost more than it saves."""
 
 NEGLIGIBLE = 2.0**-60
+
+NODES, LENGTHS = 16, (512, 384, 256, 192, 128, 96, 64)
+"""Times at which polynomials are made, and numbers of times that they may serve."""
+
+SMOOTH = 2.0**-50
+"""Largest of their last two coefficients: those left out are far smaller then."""
+
+TURNED, TRIED, MANY = 3.0, 60, 375
+"""Angle by which all phases together turn in a window that is tried at most, windows tried, and windows at once."""
+
+SHORT = 8000
+"""Shorter grids are evaluated time by time."""
 
 
 class Exponentials:
@@ -105,37 +123,119 @@ def cancelling(alpha: Exponentials, beta: Exponentials) -> float:
 
 def fill_grid(one: General, start: float, step: float, out: FloatArray) -> None:
     """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
-    count = len(out)
+    count, reach = len(out), one.parts.phases.reach
     if not count:
         return
-    first, stride = Wide.exactly(start), Wide.exactly(step)
-    last = first + stride * Wide(count - 1)
-    if max(abs(float(f * t)) for f in one.parts.frequencies for t in (first, last)) * 2 * np.pi > LIMIT:
-        raise AtlasError(f"The grid from {start} by {step} to {float(last)} leaves the phases up to 2^50.")
+    last = start + step * (count - 1)
+    if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
+        raise AtlasError(f"The grid from {start} by {step} to {last} leaves the phases up to 2^50, |t| <= {reach:.6g}.")
+    grid = Grid(one, start, step)
+    length = window(grid, count) if count >= SHORT else 0
+    if length:
+        fill_windows(grid, length, out)
+        return
     sums = one.exponentials if count >= FEW else None
     if sums is None:
-        fill_each(one, one.parts.on_grid(first, stride), out)
+        fill_each(grid, out)
         return
     blocks, rest = divmod(count, FINE)
-    fill_products(one, sums, first, stride, out[: blocks * FINE])
+    fill_products(one, sums, Wide.exactly(start), Wide.exactly(step), out[: blocks * FINE])
     if rest:
-        fill_each(one, one.parts.on_grid(first + stride * Wide(blocks * FINE), stride), out[count - rest :])
+        fill_each(grid, out[count - rest :], blocks * FINE)
     if step and 0 <= Fraction(-start) / Fraction(step) < count:
         i = ceil(Fraction(-start) / Fraction(step))
-        fill_each(one, one.parts.on_grid(first + stride * Wide(i), stride), out[i : i + 1])
+        fill_each(grid, out[i : i + 1], i)
 
 
-def fill_each(one: General, parts: CayleyKlein, out: FloatArray) -> None:
-    """Fill the matrices time by time, i = 0, 1, ..."""
+@dataclass(frozen=True)
+class Grid:
+    """A motion at the times start + i step."""
+
+    one: General
+    start: float
+    step: float
+
+    def fill(self, evaluation: Evaluation, index: FloatArray, rows: FloatArray) -> None:
+        """Fill rows (m, 9) with the matrices of the numbers i, the first and last of which are the extreme ones."""
+        times = moments(self.one.parts.phases, self.start, self.step, index)
+        combined(evaluation.at(*times), self.one.entries, rows)
+
+
+def fill_each(grid: Grid, out: FloatArray, first: int = 0) -> None:
+    """Fill the matrices time by time, i = first, first + 1, ..."""
     rows = out.reshape(len(out), 9)
 
     def fill(low: int, high: int) -> None:
-        evaluation = Evaluation(parts, min(high - low, BLOCK))
+        evaluation = Evaluation(grid.one.parts, min(high - low, BLOCK))
         for i in range(low, high, BLOCK):
             j = min(i + BLOCK, high)
-            combined(evaluation.at(np.arange(float(i), float(j))), one.entries, rows[i:j])
+            grid.fill(evaluation, first + np.arange(float(i), float(j)), rows[i:j])
 
     shared(fill, len(out), BLOCK)
+
+
+@cache
+def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return NODES of the times 0 ... length - 1, and what takes values there to all times and to two coefficients.
+
+    The nodes are Chebyshev's, with the ends, rounded to whole numbers; the coefficients are the last by his polynomials.
+    """
+    half = (length - 1) / 2
+    nodes = np.round(half - half * np.cos(np.pi * np.arange(NODES) / (NODES - 1)))
+    long = nodes.astype(np.longdouble)
+    above = np.tile(np.arange(length)[:, None, None] - long, (1, NODES, 1))
+    below = long[:, None] - long
+    own = np.arange(NODES)
+    above[:, own, own] = below[own, own] = 1
+    table = (above / below).prod(axis=-1).astype(np.float64)
+    last = np.linalg.inv(np.polynomial.chebyshev.chebvander(nodes / half - 1, NODES - 1))[-2:]
+    return nodes, table, np.asarray(last)
+
+
+class Windows:
+    """Matrices at the nodes of up to `size` windows of `length` times, and polynomials through them."""
+
+    def __init__(self, grid: Grid, length: int, size: int) -> None:
+        self.grid, self.length = grid, length
+        self.nodes, self.table, self.last = interpolation(length)
+        self.evaluation = Evaluation(grid.one.parts, NODES * size)
+        self.values = np.empty((NODES * size, 9))
+
+    def at(self, i: int, j: int) -> tuple[FloatArray, bool]:
+        """Return values (j - i, NODES, 9) in the windows i ... j - 1, and whether polynomials hold there."""
+        index = self.nodes[:, None] + self.length * np.arange(float(i), float(j))
+        values = self.values[: index.size]
+        self.grid.fill(self.evaluation, index.reshape(-1), values)
+        smooth = np.abs(self.last @ values.reshape(NODES, -1)).max() <= SMOOTH
+        return values.reshape(NODES, j - i, 9).swapaxes(0, 1), bool(smooth)
+
+
+def window(grid: Grid, count: int) -> int:
+    """Return how many times a polynomial may serve, judged by the first windows; zero if too few to be worth it."""
+    angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.one.parts.frequencies)
+    for length in LENGTHS:
+        size = min(count // length, TRIED)
+        if length * angle <= TURNED and Windows(grid, length, size).at(0, size)[1]:
+            return length
+    return 0
+
+
+def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
+    """Fill the matrices by polynomials, and time by time where these do not hold."""
+    rows, count = out.reshape(-1, 9), len(out) // length
+
+    def fill(low: int, high: int) -> None:
+        windows = Windows(grid, length, min(high - low, MANY))
+        for i in range(low, high, MANY):
+            j = min(i + MANY, high)
+            values, smooth = windows.at(i, j)
+            if smooth:
+                np.matmul(windows.table, values, out=rows[i * length : j * length].reshape(j - i, length, 9))
+            else:
+                fill_each(grid, out[i * length : j * length], i * length)
+
+    shared(fill, count, MANY, length)
+    fill_each(grid, out[count * length :], count * length)
 
 
 def fill_products(

@@ -67,14 +67,14 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
     """Return the times start + i step as doubles and what these lack, None for nothing, for rising or falling i.
 
     What they lack is at most half an ulp, and known to 2^-104 of the time. Where phases are short and times do not come
-    near zero, both numbers are cut instead where the last digit of a double twice as large as any time is: then the
-    first words are exact.
+    near zero, and the start is no farther, both numbers are cut instead where the last digit of a double twice as large
+    as any time is: then the first words are exact.
     """
     first, last = (start + step * float(index[i]) for i in (0, -1))
     far = max(abs(first), abs(last))
     digit = 2.0 ** (frexp(far)[1] - 52)
     away = start == 0 or first / far > CLOSE < last / far or -first / far > CLOSE < -last / far
-    if not (far <= phases.near and digit > TINY and away):
+    if not (abs(start) <= far <= phases.near and digit > TINY and away):
         t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
         return t.hi, t.low
     origin, stride = (round(x / digit) * digit for x in (start, step))

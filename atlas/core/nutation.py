@@ -194,18 +194,11 @@ class Line:
     """
 
     def __init__(self, slope: Wide, start: Wide, *, saturates: bool = True) -> None:
-        self.saturates = saturates
-        self.exact = slope, start
         self.slope, self.slope_rest = slope.words(2)
         self.start, self.start_rest = start.words(2)
         head = self.slope * SPLITTER - (self.slope * SPLITTER - self.slope)
         self.halves = float(head), float(self.slope - head)
         self.longest = (2 * SATURATED + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
-
-    def on_grid(self, start: Wide, step: Wide) -> "Line":
-        """Return the line as a function of the number i of the time start + i step."""
-        slope, at_zero = self.exact
-        return Line(slope * step, at_zero + slope * start, saturates=self.saturates)
 
     def at(self, t: FloatArray, rest: FloatArray | float = 0.0) -> tuple[FloatArray, FloatArray]:
         """Return x at t + rest, and what rounding left out of it."""

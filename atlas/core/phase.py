@@ -190,14 +190,14 @@ class Phases:
         coarse += y
         return product, coarse, whole, rest
 
-    def halves_of(self, t: FloatArray, work: FloatArray) -> FloatArray:
+    def halves_of(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> FloatArray:
         """Return x/2, rounded once, as `reduced` does; it lies in `work`, whose last axis may be longer than t's.
 
         For half phases up to LESS NEAR the head of the frequency times that of t is exact, and so is what is left of it
         without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
         """
         if self.exponents is not None or not max(t.max(initial=0.0), -t.min(initial=0.0)) <= LESS * self.near:
-            return self.reduced(t, work[..., : t.size])[0]
+            return self.reduced(t, work[..., : t.size], low)[0]
         n, k = self.table.shape
         stack, whole, x, _ = np.split(work.reshape(-1, work.shape[-1])[:, : t.size], (k, k + n, k + 2 * n))
         *first, upper, lower = stack[: k - n]
@@ -206,6 +206,8 @@ class Phases:
         np.subtract(upper, t, out=lower)
         upper -= lower
         np.subtract(t, upper, out=lower)
+        if low is not None:
+            lower += low
         np.multiply(self.head, upper, out=p)
         if self.origins is not None:
             first[0][:] = 1.0

@@ -81,11 +81,41 @@ def test_the_grid_is_the_same_motion(inputs: Any, monkeypatch: pytest.MonkeyPatc
     start = -step * 4321.25
     places = [0, 1, 127, 128, 4321, 4322, 6999, 7000]
     times = [Fraction(start) + i * Fraction(step) for i in places]
+    monkeypatch.setattr(general_grid, "SHORT", 10**6)
     for few in (0, 10**6):
         monkeypatch.setattr(general_grid, "FEW", few)
         R = motion.rotation_grid(start, step, count)
         assert worst(R[places], Balls(*inputs), times) <= 12
     assert np.array_equal(motion.rotation_grid(start, step, 0), np.empty((0, 3, 3)))
+
+
+@pytest.mark.parametrize("a_period", [700.3, 5000.1])
+@pytest.mark.parametrize("inputs", ORDINARY + HOSTILE)
+def test_a_fine_grid_is_interpolated_to_the_last_digits(
+    inputs: Any, a_period: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a fine grid across t = 0, windows judged by themselves, the matrices at their ends are within 8 ulp of 1."""
+    monkeypatch.setattr(general_grid, "TRIED", 1)
+    motion = GeneralMotion(*inputs)
+    period = motion.period if np.isfinite(motion.period) else 10 / max(map(abs, (*motion.omega, *motion.field)))
+    count, step = 8191, float(period) / a_period
+    start = -step * 4321.25
+    places = sorted({0, 4321, 4322, 8190, *range(0, 8191, 511), *range(510, 8191, 640), *range(37, 8191, 766)})
+    R = motion.rotation_grid(start, step, count)[places]
+    assert worst(R, Balls(*inputs), [Fraction(start) + i * Fraction(step) for i in places]) <= 8
+
+
+def test_windows_that_are_too_long_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where polynomials do not hold, the grid is that evaluated time by time; without the judgement it is lost."""
+    motion, step = GeneralMotion(*ORDINARY[0]), 0.05
+    grid = general_grid.Grid(motion._turnings[0], 0.0, step)
+    found, lost = np.empty((2, 4096, 3, 3))
+    general_grid.fill_windows(grid, 512, found)
+    assert general_grid.window(grid, 4096) == 0
+    assert np.array_equal(found[:1000], motion.rotation_grid(0.0, step, 1000))
+    monkeypatch.setattr(general_grid, "SMOOTH", np.inf)
+    general_grid.fill_windows(grid, 512, lost)
+    assert np.abs(lost - found).max() > 0.1
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + HOSTILE)
