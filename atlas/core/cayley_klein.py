@@ -92,11 +92,15 @@ class CayleyKlein:
         return True
 
     def _phases(self) -> Phases:
-        """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter."""
-        rounders = np.full((len(self.frequencies), 1), EVEN)
-        if self.periodic and isinstance(self.functions, Hyperbolic):
-            rounders[2] = ROUNDER
-        return Phases(self.frequencies, self.origins, rounders)
+        """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter.
+
+        It multiplies the phase in the period by a large slope: so this is reduced as if it were long, without any loss.
+        """
+        if not (self.periodic and isinstance(self.functions, Hyperbolic)):
+            return Phases(self.frequencies, self.origins, EVEN)
+        phases = Phases(self.frequencies, self.origins, np.array([EVEN, EVEN, ROUNDER])[:, None])
+        phases.near = -1.0
+        return phases
 
 
 class Evaluation:

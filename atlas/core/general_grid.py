@@ -178,7 +178,7 @@ def fill_each(grid: Grid, out: FloatArray, first: int = 0) -> None:
 def interpolation(length: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return NODES of the times 0 ... length - 1, and what takes values there to all times and to two coefficients.
 
-    The nodes are Chebyshev's, with the ends, rounded to whole numbers; the coefficients are the last by his polynomials.
+    The nodes are Chebyshev's, with the ends, rounded to whole numbers; the coefficients are the last in his series.
     """
     half = (length - 1) / 2
     nodes = np.round(half - half * np.cos(np.pi * np.arange(NODES) / (NODES - 1)))

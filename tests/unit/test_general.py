@@ -48,6 +48,7 @@ HOSTILE: list[Any] = [
     (1.5, (1e120, 2e120), (3e120, -1e120, 2e120)),
     (0.5, (1, 1), (1e-150, 0.3, 0.2)),
     (1.5, (1, 1e-9), (0.1, 1e-7, 1e-3)),
+    (0.75, (2, 4), (2, -2 + 2.0**-51, -4)),
 ]
 
 
@@ -69,6 +70,15 @@ def test_every_entry_is_true_up_to_a_million_periods(inputs: Any) -> None:
     """Entries of R are within 6 ulp of 1 of the balls, on ordinary and on hostile inputs."""
     motion = GeneralMotion(*inputs)
     times = long_times(motion, 1)
+    assert worst(motion.rotation(times), Balls(*inputs), times.tolist()) <= 6
+
+
+@pytest.mark.parametrize("inputs", ORDINARY + HOSTILE)
+def test_every_entry_is_true_at_short_times(inputs: Any) -> None:
+    """Entries of R are within 6 ulp of 1 also where a phase is short beside that at t = 0."""
+    motion = GeneralMotion(*inputs)
+    period = motion.period if np.isfinite(motion.period) else 10 / max(map(abs, (*motion.omega, *motion.field)))
+    times = period * np.r_[np.geomspace(1e-9, 0.3, 40), -np.geomspace(1e-6, 0.3, 20)]
     assert worst(motion.rotation(times), Balls(*inputs), times.tolist()) <= 6
 
 
