@@ -36,7 +36,7 @@ SPREAD = 2.0**-60
 
 HALF_TURN = DoubleDouble(np.float64(np.pi), np.float64(1.2246467991473532e-16), 2.0**-106)
 
-TERMS = 7
+TERMS = 9
 """Most terms of a sum."""
 
 NEGLIGIBLE, KNOWN = 2.0**-58, 2.0**-57
@@ -156,10 +156,12 @@ def _angles(block: Block) -> dict[str, Found]:
         means = Means(r)
         first, second = part(means.angles, 0), part(means.angles, 1)
         half = (HALF_TURN / means.rate).scaled(-1)
-        spin = (r.less * r.c3).scaled(1)
+        spin = half * (first - second + (r.less * r.c3).scaled(1))
+        # the two angles of a ball are half a turn each, or none, and must not cancel
+        whole = HALF_TURN * DoubleDouble(np.sign(r.torques.hi[0]) - np.sign(r.torques.hi[1]))
         angles = {
             "precession_per_period": half * (first + second - r.b.scaled(1)),
-            "spin_per_period": half * (first - second + spin),
+            "spin_per_period": chosen(r.ball & (r.torques.rel < 0.5).all(axis=0), whole, spin),
         }
         known = r.exact & ~r.free & ~(r.steady & r.along)
         found = {name: _rounded(x, block) for name, x in angles.items()}

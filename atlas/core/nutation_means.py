@@ -17,7 +17,7 @@ from atlas.core.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation_roots import Roots, constant, part, stacked, taken
 
-MEANS, STEPS = 8, 14
+MEANS, STEPS = 8, 28
 """Steps of the means, and of what is made along with them, in two words."""
 
 ENOUGH = 2.0**-107
@@ -206,10 +206,9 @@ def _steps(
     term = (p + m.g) / (above * more)
     x = x * x / more * p / after.sum.scaled(1)
     d = d * (d + m.difference) / p.scaled(1)
-    left = np.maximum(abs(Q.hi), x.hi)
-    going = (left > ENOUGH).any(axis=0)
+    going = (np.maximum(abs(Q.hi), x.hi) > ENOUGH).any(axis=0)
     if not going.any() or len(levels) == 2:
-        return DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * left).sqrt()
+        return DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
     rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
     rest = [Level(*(taken(y, rows) for y in vars(level).values())) for level in levels[1:]]
     d, x, last = (taken(y, rows) for y in (d, x, Q))

@@ -112,8 +112,15 @@ class Roots:
 
     @cached_property
     def near(self) -> DoubleDouble:
-        """Distances of the poles from the turning point that is nearer, (2, m)."""
-        return stacked(part(self.poles, 0) - self.high, self.low - part(self.poles, 1))
+        """Distances of the poles from the turning point that is nearer, (2, m), with their sign.
+
+        Where that cancels, since the axis all but meets the field, they are the square of the torque over -f far.
+        """
+        f0, f1, f2 = self.f
+        plain = stacked(part(self.poles, 0) - self.high, self.low - part(self.poles, 1))
+        beyond = -((f2 * self.poles + f1) * self.poles + f0)
+        by_torque = self.torques * self.torques / (beyond * self.far)
+        return chosen(by_torque.rel < plain.rel, by_torque, plain)
 
     @cached_property
     def others(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:

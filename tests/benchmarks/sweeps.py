@@ -1,6 +1,6 @@
 """Rows a second of a sweep against its workers, its memory, and the same table through Dask.
 
-The question: what does a table of ten million elementary motions cost, on one process, on two, on Dask's workers?
+The question: what does a table of ten million motions cost, on one process, on two, on Dask's workers?
 
 Each sweep is a process of its own, `python -m benchmarks.sweeps`, which prints seconds, the largest memory of the
 sweeping process and of its largest worker, and the digest of the table: the same bytes wherever it was computed.
@@ -22,18 +22,22 @@ from typing import Any
 
 import atlas
 
-QUANTITIES = ("omega3", "k", "phi", "R13")
+FAMILIES = {
+    "elementary": ({"B2": 1.0, "t": 7.0}, ("omega3", "k", "phi", "R13")),
+    "general": ({"B2": 1.0, "t": 7.0, "omega1": 0.3, "omega3": 0.2}, ("kind", "period", "spin_per_period", "R13")),
+}
+"""What is the same in all rows of a family, and what is computed."""
 RATIOS, FIELDS = 20, 50
 
 
-def swept(rows: int, jobs: int, dask: bool) -> dict[str, Any]:
+def swept(family: str, rows: int, jobs: int, dask: bool) -> dict[str, Any]:
     """Sweep at least so many rows in this process and say what it took."""
     count = -(-rows // (RATIOS * FIELDS))
-    parameters = {"ratio": _even(0.1, 2.0, RATIOS), "B2": 1.0, "B3": _even(0.1, 3.0, FIELDS), "t": 7.0}
-    parameters["omega2"] = _even(-0.9, 3.0, count)
+    same, quantities = FAMILIES[family]
+    parameters = {"ratio": _even(0.1, 2.0, RATIOS), "B3": _even(0.1, 3.0, FIELDS), "omega2": _even(-0.9, 3.0, count)}
     with tempfile.TemporaryDirectory() as folder, _executor(jobs, dask) as executor:
         out, start = Path(folder) / "table.npz", perf_counter()
-        atlas.sweep("elementary", parameters, QUANTITIES, out, jobs=jobs, executor=executor)
+        atlas.sweep(family, same | parameters, quantities, out, jobs=jobs, executor=executor)
         seconds, digest = perf_counter() - start, hashlib.sha256()
         with out.open("rb") as file:
             while block := file.read(1 << 20):
@@ -73,15 +77,17 @@ def main() -> None:
     """Measure each way in a process of its own, and print."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.sweeps", description=__doc__)
     parser.add_argument("--rows", type=int, default=10_000_000)
+    parser.add_argument("--family", choices=FAMILIES, default="elementary")
     parser.add_argument("--way", nargs=2, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.way:
-        print(json.dumps(swept(options.rows, int(options.way[0]), options.way[1] == "dask")))  # noqa: T201
+        print(json.dumps(swept(options.family, options.rows, int(options.way[0]), options.way[1] == "dask")))  # noqa: T201
         return
     ways = [("1", "alone"), ("2", "processes"), *([("2", "dask")] if find_spec("distributed") else [])]
     digests = set()
     for way in ways:
-        command = [sys.executable, "-m", "benchmarks.sweeps", "--rows", str(options.rows), "--way", *way]
+        command = [sys.executable, "-m", "benchmarks.sweeps", "--family", options.family]
+        command += ["--rows", str(options.rows), "--way", *way]
         ended = subprocess.run(command, capture_output=True, text=True, check=True)
         found = json.loads(ended.stdout.splitlines()[-1])
         digests.add(found["digest"])

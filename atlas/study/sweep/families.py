@@ -202,7 +202,7 @@ FAMILIES: Mapping[str, Family] = {
         | _vector("m", "angular_momentum"),
         _exact_general,
         (*PERIODIC, "least", "largest"),
-        at_once=200,
+        at_once=20_000,
     ),
     "free": Family(
         ("ratio", "omega1", "omega2", "omega3"),
