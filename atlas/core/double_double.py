@@ -25,7 +25,7 @@ SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))
 ORDINARY = 2.0**100
 """Rows whose inputs, other than zeros, lie between its inverse and itself: no product of six over- or underflows."""
 
-BLOCK = 8192
+BLOCK = 16384
 """Rows evaluated at once, so that what is between stays in the cache, and so many that a call costs little."""
 
 Formula = Callable[..., Any]
@@ -74,7 +74,14 @@ class DoubleDouble:
     def __sub__(self, other: "DoubleDouble") -> "DoubleDouble":
         return self + -other
 
+    @property
+    def is_one(self) -> bool:
+        """Whether this is the number one for all rows, as the first moment of inertia often is."""
+        return self.lo is None and np.ndim(self.hi) == 0 and bool(self.hi == 1.0)
+
     def __mul__(self, other: "DoubleDouble") -> "DoubleDouble":
+        if self.is_one or other.is_one:
+            return other if self.is_one else self
         p, e = _product(self, other)
         rel = self.rel + other.rel
         if self.lo is None and other.lo is None:
@@ -86,6 +93,8 @@ class DoubleDouble:
         return DoubleDouble(*_normal(p, e), rel + self.rel * other.rel + PRODUCT)
 
     def __truediv__(self, other: "DoubleDouble") -> "DoubleDouble":
+        if other.is_one:
+            return self
         q = self.hi / other.hi
         p, e = _product(DoubleDouble(q), other)
         rest = (self.hi - p) - e
@@ -119,7 +128,9 @@ class DoubleDouble:
     def select(self, positive: "DoubleDouble", other: "DoubleDouble") -> "DoubleDouble":
         """Return `positive` where this number is, `other` elsewhere."""
         found = chosen(self.hi > 0, positive, other)
-        return DoubleDouble(found.hi, found.lo, np.where(np.less(self.rel, 0.5), found.rel, np.inf))
+        if np.ndim(self.rel):
+            found.rel = np.where(self.rel < 0.5, found.rel, np.inf)
+        return found
 
     @property
     def low(self) -> Any:
@@ -141,8 +152,10 @@ class DoubleDouble:
 
 
 def chosen(where: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
-    """Return x where a condition holds, y elsewhere."""
-    return DoubleDouble(*(np.where(where, *pair) for pair in ((x.hi, y.hi), (x.low, y.low), (x.rel, y.rel))))
+    """Return x where a condition holds, y elsewhere; the larger bound where both are one for all rows."""
+    one = not (np.ndim(x.rel) or np.ndim(y.rel))
+    hi, low = np.where(where, x.hi, y.hi), np.where(where, x.low, y.low)
+    return DoubleDouble(hi, low, max(x.rel, y.rel) if one else np.where(where, x.rel, y.rel))
 
 
 def over(
@@ -244,4 +257,9 @@ def _product(x: DoubleDouble, y: DoubleDouble) -> tuple[Any, Any]:
     """Return the product of the first words, and what its rounding left out, by Dekker."""
     (a, b), (c, d) = x.halves, y.halves
     p = x.hi * y.hi
-    return p, ((a * c - p) + a * d + b * c) + b * d
+    e = a * c
+    e -= p
+    e += a * d
+    e += b * c
+    e += b * d
+    return p, e

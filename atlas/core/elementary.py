@@ -59,12 +59,12 @@ def ordinate(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> 
 
 def proper(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
     """Return phi = B3 w2 (1-I) (w2 + 2 B2) / (I B2 (w2 + B2)), mf77, for B2 != 0 and omega2 != -B2."""
-    return _common(I3, B2, B3, omega2) * ((I2 - I3) * (omega2 + B2 + B2))
+    return _common(I3, B2, B3 * (I2 - I3), omega2) * (omega2 + (B2 + B2))
 
 
 def _common(I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return the factor that mf76 and mf77 share."""
-    return B3 * omega2 / (I3 * B2 * (omega2 + B2))
+    """Return the factor that mf76 and mf77 share; what is often one number for many omega2 stands by itself."""
+    return omega2 / (omega2 + B2) * (B3 / (I3 * B2))
 
 
 def precession(B2: Number, B3: Number, omega2: Number) -> Number:

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 
 from atlas.core.body import moments
-from atlas.core.double_double import over
+from atlas.core.double_double import BLOCK, over
 from atlas.core.inputs import FloatArray, common_shape, plain, vectors
 from atlas.core.motion import components
-from atlas.core.wide import Number, length
+from atlas.core.wide import Number
 from atlas.errors import DomainError
 
 KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "one-sheet hyperboloid")
@@ -94,8 +94,11 @@ class Quadric:
         cos, sin = over(half_angle, I2, I3, B2, B3, unit=slice(2, 4), degree=(0, 0))
         cos, sin = np.where((B2 < 0) & (B3 >= 0), -cos, cos), np.where((B2 < 0) & (B3 < 0), -sin, sin)
         axes = np.zeros((*cos.shape, 3, 3))
-        axes[..., 0, 0] = 1.0
-        axes[..., 1, 1], axes[..., 1, 2], axes[..., 2, 1], axes[..., 2, 2] = cos, sin, 0.0 - sin, cos
+        rows, flat = axes.reshape(-1, 9), np.stack([cos, sin]).reshape(2, -1)
+        for i in range(0, len(rows), BLOCK):  # a part at a time stays in the cache
+            row, (c, s) = rows[i : i + BLOCK], flat[:, i : i + BLOCK]
+            row[:, 0] = 1.0
+            row[:, 4], row[:, 5], row[:, 7], row[:, 8] = c, s, 0.0 - s, c
         return axes
 
     def canonical(self, omega: Any) -> FloatArray:
@@ -163,7 +166,8 @@ def residual(I2: Number, I3: Number, B2: Number, B3: Number, w1: Number, w2: Num
 def _direction(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number, Number]:
     """Return y, h, h - y and h + y of a vector (x, y) along I^-1 B' in the plane (e2, e3), h its length."""
     x, y = I3 * B2, I2 * B3
-    h = length(x, y)
+    square = x * x
+    h = (square + y * y).sqrt()
     larger = h + abs(y)
-    smaller = x * x / larger  # the difference would cancel
+    smaller = square / larger  # the difference would cancel
     return y, h, y.select(smaller, larger), y.select(larger, smaller)
