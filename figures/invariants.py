@@ -34,7 +34,7 @@ def scene(
     top = 1.0
     for (name, value), role, text in zip(first.items(), ROLES, NAMES, strict=True):
         change = np.maximum.accumulate(np.abs(later[name] - value)) / (sizes[name] or 1.0) / 1e-16
-        corner = np.flatnonzero(np.diff(change, prepend=-1.0, append=-1.0)[:-1])
+        corner = np.flatnonzero(np.diff(change, prepend=np.nan))
         steps = np.repeat(corner, 2)
         line = np.stack([np.append(times[steps], times[-1])[1:], change[steps]], axis=1)
         layers.append(Curve(line, role, text))

@@ -44,6 +44,9 @@ EQUIVALENT = ROOT / "tests" / "equivalent.toml"
 LIMIT, SECONDS, SHARE = 600, 40, 10
 """Seconds of one run, of the tests of one change by the record, and of the first among them."""
 
+RAN = 10
+"""What is added to the exit status of pytest, so that it is known to have run."""
+
 LATE = ("test_build", "test_proof", "test_guide", "test_loading", "test_agreement_register", "test_bench_peers")
 """Whole builds notice much, late: laws should notice first."""
 
@@ -111,7 +114,7 @@ def is_python(mutant: Mutant, root: Path) -> bool:
 
 
 def _skipped(tree: ast.Module) -> Iterator[tuple[int, int]]:
-    """Yield the places of what does nothing at run time: annotations, imports, signatures' stars and slashes."""
+    """Yield the places of what a result cannot show: annotations, imports, stars and slashes, how a record is made."""
     nodes: list[ast.AST] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.arg | ast.AnnAssign) and node.annotation is not None:
@@ -122,6 +125,8 @@ def _skipped(tree: ast.Module) -> Iterator[tuple[int, int]]:
                 (line, column) for line in range(node.lineno, node.body[0].lineno) for column in _stars(node, line)
             )
         if isinstance(node, (ast.Import | ast.ImportFrom, ast.Raise)):
+            nodes.append(node)
+        if isinstance(node, ast.keyword) and node.arg in {"frozen", "slots", "eq"}:
             nodes.append(node)
     for node in nodes:
         for line in range(node.lineno, node.end_lineno + 1):
@@ -141,7 +146,7 @@ def _stars(node: ast.FunctionDef, line: int) -> range:
 class Calls:
     """A plugin of pytest: which functions of the code each test calls, and in how many seconds of the processor.
 
-    Written as {test: [seconds, {file: [[first line, last line], ...]}]}, without the tests that fail.
+    Written as {test: [seconds, {file: [function, ...]}]}, without the tests that fail.
     """
 
     def __init__(self, out: str) -> None:
@@ -161,14 +166,13 @@ class Calls:
             return (yield)
         finally:
             sys.settrace(None)
-            lines = dict[str, list[tuple[int, int]]]()
+            functions = dict[str, list[str]]()
             for code in called:
                 path = Path(code.co_filename)
-                if code.co_name != "<module>" and path.is_relative_to(item.config.rootpath):
-                    spanned = [line for *_, line in code.co_lines() if line]
+                if path.is_relative_to(item.config.rootpath):
                     name = path.relative_to(item.config.rootpath).as_posix()
-                    lines.setdefault(name, []).append((min(spanned), max(spanned)))
-            self.tests[item.nodeid] = sum(os.times()[:4]) - start, lines
+                    functions.setdefault(name, []).append(code.co_qualname)
+            self.tests[item.nodeid] = sum(os.times()[:4]) - start, functions
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Note a failure."""
@@ -195,18 +199,24 @@ def _run(copy: str, out: str, tests: list[str]) -> None:
         if not out:
             os.dup2(nothing.fileno(), 2)
     words = ["-p", "no:xdist", "-W", "ignore::pytest.PytestAssertRewriteWarning", *([] if out else ["-x"])]
-    os._exit(pytest.main([*words, *tests], plugins=[Calls(out)] if out else []))
+    os._exit(RAN + pytest.main([*words, *tests], plugins=[Calls(out)] if out else []))
 
 
-def status(copy: Path, tests: list[str], out: str = "") -> int:
-    """Return the exit status of pytest on tests in a copy: 0 if all pass, 1 also if they take too long."""
+def passed(copy: Path, tests: list[str], out: str = "") -> bool:
+    """Tell whether tests pass in a copy; those that take too long or bring the process down do not."""
     process = CONTEXT.Process(target=_run, args=(str(copy), out, tests))
     process.start()
     process.join(LIMIT)
     if process.is_alive():
         os.killpg(process.pid or 0, signal.SIGKILL)
         process.join()
-    return 1 if process.exitcode is None or process.exitcode < 0 else process.exitcode
+    code = (process.exitcode or 0) - RAN
+    if process.exitcode in {0, 1}:
+        raise SystemExit("the tests could not be started")
+    files = list(dict.fromkeys(test.partition("::")[0] for test in tests))
+    if code == pytest.ExitCode.USAGE_ERROR and files != tests:  # the change has given a test another name
+        return passed(copy, files)
+    return code == pytest.ExitCode.OK
 
 
 def digest(paths: Iterable[Path]) -> str:
@@ -227,7 +237,7 @@ def reached(clean: Path, pool: ThreadPoolExecutor, *, known: bool) -> dict[str, 
         if name in before and (known or before[name]["digest"] == now):
             return name, before[name]
         with tempfile.NamedTemporaryFile("r", encoding="utf-8") as out:
-            status(clean, [name], out.name)
+            passed(clean, [name], out.name)
             found = json.loads(out.read() or "{}")
         print(f"{name}: {len(found)} tests are watched", flush=True)
         return name, {"digest": now, "tests": found}
@@ -236,6 +246,23 @@ def reached(clean: Path, pool: ThreadPoolExecutor, *, known: bool) -> dict[str, 
     SEEN.parent.mkdir(exist_ok=True)
     SEEN.write_text(json.dumps(found), encoding="utf-8")
     return {test: calls for one in found.values() for test, calls in one["tests"].items()}
+
+
+def around(mutant: Mutant, root: Path) -> str:
+    """Return the qualified name of the innermost function around a change; empty outside of all."""
+    found = ""
+    nodes: list[tuple[str, ast.AST]] = [("", ast.parse((root / mutant.path).read_text(encoding="utf-8")))]
+    while nodes:
+        prefix, node = nodes.pop()
+        for child in ast.iter_child_nodes(node):
+            inner = prefix
+            if isinstance(child, ast.FunctionDef | ast.ClassDef) and child.lineno <= mutant.line <= child.end_lineno:
+                inner = f"{prefix}{child.name}."
+                if isinstance(child, ast.FunctionDef):
+                    found = f"{prefix}{child.name}"
+                    inner += "<locals>."
+            nodes.append((inner, child))
+    return found
 
 
 def picked(mutant: Mutant, calls: dict[str, Any], root: Path) -> Iterator[list[str]]:
@@ -248,11 +275,12 @@ def picked(mutant: Mutant, calls: dict[str, Any], root: Path) -> Iterator[list[s
         file: bool(word.search((root / file).read_text(encoding="utf-8")))
         for file in {test.partition("::")[0] for test in calls}
     }
+    function = around(mutant, root)
     order = []
-    for test, (seconds, lines) in calls.items():
-        spans = lines.get(mutant.path, [])
-        near = any(first <= mutant.line <= last for first, last in spans)
-        if near or spans or named[test.partition("::")[0]]:
+    for test, (seconds, functions) in calls.items():
+        called = functions.get(mutant.path, [])
+        near = function in called
+        if called or named[test.partition("::")[0]]:
             order.append((not near, seconds, test))
     order.sort()
     spent, group, limit = 0.0, list[str](), SHARE
@@ -316,7 +344,7 @@ def survivors(packages: list[str], count: int, seed: int, jobs: int, *, again: b
             groups = [group for group in picked(mutant, calls, clean) if group]
             try:
                 place.write_text(mutant.applied(text), encoding="utf-8")
-                noticed = any(status(copy, group) for group in groups)
+                noticed = not all(passed(copy, group) for group in groups)
             finally:
                 place.write_text(text, encoding="utf-8")
                 copies.put(copy)

@@ -10,7 +10,7 @@ from flint import arb, ctx, fmpq
 from atlas.core.body import SymmetricBody, moments
 from atlas.core.cayley_klein import FIRST, CayleyKlein, Evaluation, combined, entries, evaluate
 from atlas.core.general_rows import KINDS, GeneralRows, Scalars
-from atlas.core.inputs import FloatArray, plain, real, vector
+from atlas.core.inputs import FloatArray, finite, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import Motion, components
 from atlas.errors import DomainError
@@ -241,22 +241,22 @@ class GeneralMotion(Motion[General]):
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body; shape (..., 3)."""
-        return self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,))
+        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body, mf41; shape (..., 3)."""
-        return self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,))
+        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory; shape (..., 3)."""
-        return np.asarray(np.matvec(self.rotation(t), self._momentum(self.angular_velocity(t))))
+        return np.asarray(finite(np.matvec(self.rotation(t), self._momentum(self.angular_velocity(t))), "m/I2"))
 
     def invariants(self, t: Any = 0.0) -> dict[str, Any]:
         """Constants E', K^2, c3, c5 of mf44 to mf49, and (M, B') with M/I2 = (Omega + K) in the body's axes."""
         Omega, K = self.angular_velocity(t), self.field_in_body(t)
         four = integrals(self.ratio, Omega, K)
         along = np.vecdot(self._momentum(Omega + K), K)
-        return {"E'": four.E, "K^2": four.K2, "c3": four.c3, "c5": four.c5, "(M,B')": plain(along)}
+        return {"E'": four.E, "K^2": four.K2, "c3": four.c3, "c5": four.c5, "(M,B')": finite(plain(along), "(M, B')")}
 
     def _momentum(self, Omega: FloatArray) -> FloatArray:
         """Return (Omega1, Omega2, I Omega3)."""

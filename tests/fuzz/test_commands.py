@@ -2,10 +2,7 @@
 
 import json
 import re
-import signal
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -15,7 +12,7 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given
 from hypothesis import strategies as st
-from values import share
+from values import share, watched
 
 from atlas.cli.app import atlas, main
 
@@ -25,9 +22,6 @@ BUILDERS = {"report", "stress", "sweep"}
 COMMANDS: dict[str, click.Command] = {
     name: import_module(f"atlas.cli.{name}").command for name in atlas.commands if name not in BUILDERS
 }
-SECONDS = 60
-"""After which a command hangs."""
-
 good = st.sampled_from(["1", "1.5", "0.5", "2", "-1", "-2", "0", "0.7", "3/2", "1e-3", "0x1.8p0", "-0", "12", "1e3"])
 far = st.sampled_from(
     ["1e308", "-1e308", "1e-308", "5e-324", "1e160", "1e-160", "1e200", "-1e-200", "1e15", "1e30", "4e9"]
@@ -87,22 +81,6 @@ def lines(draw: Any) -> list[str]:
     if draw(st.integers(0, 2)) == 0:
         words.append("--json")
     return words
-
-
-@contextmanager
-def watched() -> Iterator[None]:
-    """Fail where something runs for longer than SECONDS."""
-
-    def alarm(_signal: int, _frame: Any) -> None:
-        raise TimeoutError(f"ran for more than {SECONDS} s")
-
-    before = signal.signal(signal.SIGALRM, alarm)
-    signal.alarm(SECONDS)
-    try:
-        yield
-    finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
 
 
 def ran(words: list[str]) -> tuple[int, str, str]:

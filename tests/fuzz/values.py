@@ -2,7 +2,9 @@
 
 import math
 import os
-from collections.abc import Callable
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -13,6 +15,9 @@ from atlas.errors import AtlasError
 
 EXAMPLES = int(os.environ.get("FUZZ_EXAMPLES", "0"))
 """Cases in all, shared out among the tests; without it the few of `make test`."""
+
+SECONDS = int(os.environ.get("FUZZ_SECONDS", "60"))
+"""After which a call hangs."""
 
 SPECIAL = [0.0, -0.0, 1.0, -1.0, 2.0, 0.5, 1.5, -2.0, math.nextafter(1.0, 2.0), math.nextafter(-1.0, 0.0), math.pi]
 FAR = [
@@ -59,10 +64,27 @@ def arrays(elements: Any) -> Any:
     return st.one_of(elements, elements, elements, filled, masked)
 
 
+@contextmanager
+def watched() -> Iterator[None]:
+    """Fail where something runs for longer than SECONDS."""
+
+    def alarm(_signal: int, _frame: Any) -> None:
+        raise TimeoutError(f"ran for more than {SECONDS} s")
+
+    before = signal.signal(signal.SIGALRM, alarm)
+    signal.alarm(SECONDS)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
 def answered(call: Callable[[], Any], where: str = "") -> Any:
     """Return what a call answers, or None where it says in one line why it has no answer; never NaN."""
     try:
-        found = call()
+        with watched():
+            found = call()
     except AtlasError as reason:
         sentence = str(reason)
         assert sentence.strip(), where

@@ -93,6 +93,13 @@ def test_the_drift_is_the_same_for_both_charges() -> None:
         assert p.cyclotron_frequency == pytest.approx(mu * 2 / c, rel=EPS)
 
 
+def test_without_a_charge_there_is_no_frequency() -> None:
+    """For mu = 0 and for B = 0 it is 0.0, not -0.0."""
+    for mu, B in ((0.0, [0, 0, 2.0]), (0.7, ORIGIN), (0.0, ORIGIN)):
+        frequency = ParticleMotion(mu, ORIGIN, B, ORIGIN, ORIGIN).cyclotron_frequency
+        assert (frequency, np.signbit(frequency)) == (0.0, False)
+
+
 def test_the_two_charges_turn_opposite_ways() -> None:
     """The helix about B is left-handed in time for mu > 0: mf9, sin and cos on e1 and e2, and mirrored for mu < 0."""
     t = np.linspace(0, 3, 7)

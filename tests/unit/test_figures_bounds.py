@@ -1,0 +1,89 @@
+"""How much a figure draws at most: the last that it draws, the first that it refuses, and what it says of it."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from atlas import AtlasError, ElementaryMotion
+from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.scene import Curve, recipes
+from atlas.scene.libration import Libration
+
+
+def scene(name: str, **parameters: Any) -> Any:
+    """Return a figure as data."""
+    return recipes.load(name).scene(**parameters)
+
+
+def roles(made: Any) -> set[str]:
+    """Return the roles of all curves."""
+    return {layer.role for panel in made.panels for layer in panel.layers if isinstance(layer, Curve)}
+
+
+def test_a_flight_has_at_most_two_hundred_turns() -> None:
+    """All three angles together, k t, phi t and that of the cyclotron motion, make 200 turns at the last time drawn."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), -1.5)
+    longest = 200 * 2 * np.pi / (abs(motion.k) + abs(motion.phi) + 2 * 5**0.5)
+    assert scene("flight", stop=longest * (1 - 1e-9))
+    with pytest.raises(AtlasError, match="makes 200 turns, and more than 200 cannot"):
+        scene("flight", stop=longest * (1 + 1e-9))
+    with pytest.raises(AtlasError, match="makes 300 turns"):
+        scene("flight", stop=1.5 * longest)
+
+
+@pytest.mark.parametrize(
+    ("name", "last", "first"),
+    [
+        ("ball_torus", {"ratios": (2.5,), "turns": (2.0,)}, {"ratios": (2.5,), "turns": (160.01,)}),
+        ("frequencies", {"order": 8}, {"order": 9}),
+        ("kinds_of_quadric", {"cells": 2}, {"cells": 1}),
+        ("kinds_of_quadric", {"cells": 3}, {"cells": 2001}),
+    ],
+)
+def test_the_last_is_drawn_and_the_next_refused(name: str, last: dict[str, Any], first: dict[str, Any]) -> None:
+    """The bounds are those that the refusal names."""
+    assert scene(name, **last).panels
+    with pytest.raises(AtlasError, match=f"figure {name}|number of cells"):
+        scene(name, **first)
+
+
+def test_a_trace_of_too_many_turns_is_left_out() -> None:
+    """The second trace is drawn while the faster of both angles stays below 400."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    most = 400.0 / max(abs(motion.k), abs(motion.phi)) * abs(motion.k) / (2 * np.pi)
+    assert "second_trace" in roles(scene("motion_sphere", turns=most * (1 - 1e-9)))
+    assert "second_trace" not in roles(scene("motion_sphere", turns=most * (1 + 1e-9)))
+
+
+@pytest.mark.parametrize("field", [(3.0, 1.0), (1.0, 0.0)])
+def test_an_unstable_equilibrium_stays_where_it_is(field: tuple[float, float]) -> None:
+    """At a double or triple root of Q, with Q > 0 beside it, Omega3 does not move and has no period."""
+    I = 0.5
+    omega2 = -1.5 if field[1] else -0.5
+    omega3 = -2.0 if field[1] else 0.0
+    libration = Libration(PseudoOscillator(I, field, (0.0, omega2, omega3)))
+    assert libration.powers[:2].tolist() == [0.0, 0.0]
+    assert np.polynomial.Polynomial(libration.powers)(1e-3) > 0 or np.polynomial.Polynomial(libration.powers)(-1e-3) > 0
+    assert libration.range == (omega3, omega3)
+    assert libration.period == np.inf
+
+
+def test_lines_of_the_invariants_are_running_maxima() -> None:
+    """Each line is the largest change so far, over the sizes of the terms, in steps up to the last time."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    (panel,) = scene("invariants").panels
+    start, later = motion.invariants(), motion.invariants
+    first, last = panel.x_limits
+    assert last / first == pytest.approx(1e11)
+    assert first * max(abs(motion.k), abs(motion.phi)) == pytest.approx(2 * np.pi / 100)
+    for name, line in zip(start, panel.layers, strict=True):
+        t, change = line.points.T
+        assert t[-1] == last
+        assert (np.diff(t) >= 0).all()
+        assert (np.diff(change) >= 0).all()
+        assert ((np.diff(t) == 0) | (np.diff(change) == 0)).all()  # steps: either along or up
+        rises = t[1::2][np.diff(change)[1::2] > 0] if len(t) > 2 else t[:0]
+        found = np.abs(later(rises)[name] - start[name])
+        quotient = found / change[2::2][: len(rises)] if len(rises) else np.ones(1)
+        assert np.ptp(quotient) <= 1e-9 * quotient.max()  # one size divides them all
