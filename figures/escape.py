@@ -80,7 +80,7 @@ def course(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: floa
         line = flat(point, 0.0, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=96)
         layers += [
             Curve(line, role),
-            Label(line[np.argmax(np.abs(line[:, 1] - omega3))], rf"$\omega_1={tex(push)}$", role, (0.0, 5.0)),
+            Label(peaks(line, omega3), rf"$\omega_1={tex(push)}$", role, (0.0, 5.0)),
         ]
     return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title="(a) leaving and returning")
 
@@ -112,3 +112,10 @@ def periods(
         x_scale="log",
         title="(b) period of the nutation",
     )
+
+
+def peaks(line: FloatArray, level: float) -> FloatArray:
+    """Return where a line is farthest from a level: once a period, equally far but for rounding."""
+    away = np.abs(line[:, 1] - level)
+    top = (away[1:-1] >= away[:-2]) & (away[1:-1] > away[2:]) & (away[1:-1] > 0.99 * away.max())
+    return line[1:-1][top]

@@ -172,6 +172,7 @@ def drawn(layer: Layer, *, noise: bool) -> dict[str, Any]:
         corners = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
         lines = [*layer.wires, *layer.rims]
         record |= {
+            "quadric": layer.quadric.ravel(),  # entries are compared with the largest of all
             "grids": [corners.min(0), corners.max(0)],
             "places": corners[np.linspace(0, len(corners) - 1, 5).round().astype(int)],
             "counts": [len(corners), len(layer.wires), len(layer.rims)],
