@@ -2,8 +2,11 @@
 
 The question: what does a row of parameters cost, and how true is it?
 
-Ordinary rows, seeded: I in (0.1, 2), B2, B3, omega2 normal; times below 1e4. Errors are in ulps of each number, of 1 in
+Ordinary rows, seeded: I in (0.1, 2), B2, B3, omega normal; times below 1e4. Errors are in ulps of each number, of 1 in
 a matrix, against balls at a few of the rows. All on one core, by turns, in processor time.
+
+No plain formula gives the general motion: beside a tenth as many of these stand a few made one by one, and the plain
+time is that of as many elementary matrices.
 """
 
 from collections.abc import Callable, Iterator
@@ -16,49 +19,58 @@ import numpy as np
 from flint import ctx
 
 from atlas.core.elementary import ElementaryMotion
+from atlas.core.general import GeneralMotion
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.quadric import Quadric
-from atlas.exact import elementary, hyperbola, quadric
+from atlas.exact import elementary, general, hyperbola, quadric
 from atlas.exact.digits import enclosed
 from atlas.study.bench.case import FloatArray
 from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.elementary import formula
-from atlas.study.bench.methods import MATRIX, SCALARS, SURFACE
+from atlas.study.bench.methods import MATRIX, NUTATION, SCALARS, SURFACE, TURNED
 from atlas.study.bench.results import Rows
 from atlas.study.ulps import absolute, own
 
 SEED, JUDGED, BITS = 7, 40, 80
+GENERAL, ALONE = 10, 20
+"""One general motion to so many elementary ones, and how many are made one by one."""
 CURVE = (1.5, (1.0, 2.0))
 
 
 @dataclass(frozen=True)
 class Task:
-    """A quantity of all rows: `ours` and `plain` return values (m, ...), `true` balls of a row, in a list."""
+    """A quantity of `count` rows: `ours` and `plain` return values (m, ...), `true` balls of a row, in a list.
+
+    `alone`, if there is one, makes the first rows one by one; then no value of `plain` is one of the quantity.
+    """
 
     name: str
+    count: int
     ours: Callable[[], FloatArray]
     plain: Callable[[], FloatArray]
     true: Callable[[int], Any]
     errors: Callable[[Any, Any], list[float]] = own
+    alone: Callable[[], FloatArray] | None = None
 
 
 def rows(count: int, rounds: int) -> Iterator[Rows]:
-    """Yield error and time a row, ours and plain, of every quantity."""
+    """Yield error and time a row, ours and plain or one by one, of every quantity."""
     for task in _tasks(count):
+        jobs = {"ours": task.ours, "plain": task.plain} | ({"alone": task.alone} if task.alone else {})
         with one_core():
-            times = interleave({"ours": task.ours, "plain": task.plain}, rounds)
-        for method, job in (("ours", task.ours), ("plain", task.plain)):
-            values = job()
-            chosen = np.unique(np.linspace(0, count - 1, JUDGED).astype(int)).tolist()
+            times = interleave(jobs, rounds)
+        for method in ("ours", "alone" if task.alone else "plain"):
+            values = jobs[method]()
+            chosen = np.unique(np.linspace(0, len(values) - 1, JUDGED).astype(int)).tolist()
             with ctx.workprec(BITS + 16):
                 worst = max(max(task.errors(values[i].flat, task.true(i))) for i in chosen)
             yield Rows(
                 task.name,
                 method,
-                count,
+                len(values),
                 worst,
-                median(times[method]) / count * 1e9,
-                ratio(times[method], times["plain"]),
+                median(times[method]) / len(values) * 1e9,
+                ratio(times[method], times["plain"]) * task.count / len(values),
             )
 
 
@@ -80,16 +92,66 @@ def _tasks(count: int) -> list[Task]:
         return list(chain(*enclosed(lambda: motion.rotation(t[i]), BITS)))
 
     return [
-        Task(SCALARS, lambda: _curve(w2), lambda: _plain_curve(w2), exact_curve),
-        Task(SURFACE, lambda: _quadric(I, B2, B3), lambda: _plain_quadric(I, B2, B3), exact_quadric),
+        Task(SCALARS, count, lambda: _curve(w2), lambda: _plain_curve(w2), exact_curve),
+        Task(SURFACE, count, lambda: _quadric(I, B2, B3), lambda: _plain_quadric(I, B2, B3), exact_quadric),
         Task(
             MATRIX,
+            count,
             lambda: ElementaryMotion(I, (B2, B3), w2).rotation(t),
             lambda: _plain_matrix(I, B2, B3, w2, t),
             exact_matrix,
             absolute,
         ),
+        *_general_tasks(max(count // GENERAL, 1)),
     ]
+
+
+def _general_tasks(count: int) -> list[Task]:
+    r = np.random.default_rng(SEED)
+    I, B, omega = r.uniform(0.1, 2, count), r.normal(size=(2, count)), r.normal(size=(3, count))
+    t = r.uniform(-1e4, 1e4, count)
+
+    def motions(rows: Any = slice(None)) -> GeneralMotion:
+        return GeneralMotion(I[rows], B[:, rows], omega[:, rows])
+
+    def one_by_one(value: Callable[[Any, int], Any]) -> FloatArray:
+        return np.array([value(motions(i), i) for i in range(min(count, ALONE))])
+
+    def plain() -> FloatArray:
+        return _plain_matrix(I, B[0], B[1], omega[1], t)
+
+    def exact_motion(i: int) -> Any:
+        return general.GeneralMotion(I[i], B[:, i], omega[:, i])
+
+    def exact_matrix(i: int) -> list[Any]:
+        return list(chain(*enclosed(lambda: exact_motion(i).rotation(t[i]), BITS)))
+
+    return [
+        Task(
+            NUTATION,
+            count,
+            lambda: _nutation(motions()),
+            plain,
+            lambda i: enclosed(lambda: [getattr(exact_motion(i), name) for name in NAMES], BITS),
+            alone=lambda: one_by_one(lambda motion, _: _nutation(motion)),
+        ),
+        Task(
+            TURNED,
+            count,
+            lambda: motions().rotation(t),
+            plain,
+            exact_matrix,
+            absolute,
+            lambda: one_by_one(lambda motion, i: motion.rotation(t[i])),
+        ),
+    ]
+
+
+NAMES = ("period", "precession_per_period", "spin_per_period", "modulus", "complementary_modulus", "nome")
+
+
+def _nutation(motion: GeneralMotion) -> FloatArray:
+    return np.stack([getattr(motion, name) for name in NAMES], -1)
 
 
 def _curve(w2: FloatArray) -> FloatArray:

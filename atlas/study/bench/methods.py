@@ -3,6 +3,7 @@
 TITLES = {
     "ours": "atlas",
     "ours_grid": "atlas, grid",
+    "alone": "atlas, one by one",
     "plain": "plain NumPy",
     "lambdify": "sympy lambdify",
     "rotation": "SciPy Rotation",
@@ -25,6 +26,7 @@ CASES = {
 }
 
 SCALARS, SURFACE, MATRIX = "omega3, k, phi of a curve", "quadric with its axes", "R at one time of each motion"
+NUTATION, TURNED = "period, angles, moduli of each general motion", "R at one time of each general motion"
 ANY, EVEN = "R of the general motion at any times", "R of the general motion on a grid"
 """Quantities of many rows, and of many matrices of one motion."""
 
