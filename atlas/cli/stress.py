@@ -20,7 +20,7 @@ from atlas.cli.progress import bar
 @click.option("--seed", type=int, default=0, show_default=True, help="Of the generator; the run is reproducible.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=None, help="Processes; else one a core.")
 @click.option("--record", "renew", is_flag=True, help="Put the worst errors of the seeded runs on record, and end.")
-@click.option("--arrays", is_flag=True, help="Elementary motions in arrays, against rationals, laws and balls.")
+@click.option("--arrays", is_flag=True, help="Motions in arrays, against rationals, laws and balls.")
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
 def command(samples: int, seed: int, jobs: int | None, renew: bool, arrays: bool, as_json: bool) -> int:
     """Judge every public quantity on hostile inputs: special values from both sides down to one ulp, extreme scales.
@@ -38,7 +38,7 @@ def command(samples: int, seed: int, jobs: int | None, renew: bool, arrays: bool
     with bar("stress") as tell:
         run = many.stress_arrays if arrays else stress.stress
         result = run(samples, seed, processes, progress=lambda done, total: tell(min(done, total), total, ""))
-    bad = [(worst, f"more than the promised {stress.LIMITS[worst.quantity]:g}") for worst in result.broken()]
+    bad = [(worst, f"more than the promised {stress.PROMISES[worst.quantity]:g}") for worst in result.broken()]
     if not arrays and (samples, seed) in {stress.LONG, stress.SHORT}:
         bad += [(worst, "more than on record") for worst in result.grown(stress.read_ratchet())]
     if as_json:

@@ -32,7 +32,7 @@ def judge_general(draw: Draw, regime: str, random: Random, tally: Tally) -> None
         times = _times(found.period, size, random)
         R, Omega, K = found.rotation(times), found.angular_velocity(times), found.field_in_body(times)
         for i, t in enumerate(times.tolist()):
-            true = narrow(partial(_state, exact, t), size)
+            true = narrow(partial(state, exact, t), size)
             described = inputs | {"t": t.hex()}
             tally.add("general R", regime, absolute(R[i].flat, chain(*true[0])), with_more(described))
             for name, values, balls in (("general Omega", Omega[i], true[1]), ("general K", K[i], true[2])):
@@ -71,7 +71,8 @@ def narrow(function: Any, size: float) -> Any:
         precision *= 2
 
 
-def _state(exact: Balls, t: float) -> tuple[list[list[Real]], list[Real], list[Real]]:
+def state(exact: Balls, t: float) -> tuple[list[list[Real]], list[Real], list[Real]]:
+    """Return R, Omega and K."""
     return exact.rotation(t), exact.angular_velocity(t), exact.field_in_body(t)
 
 

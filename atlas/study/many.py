@@ -1,7 +1,8 @@
 """Stress of arrays of motions: hostile rows by the million, scalars against exact rationals, matrices against laws.
 
 Every row's omega3 and phi are held against the rational numbers mf76 and mf77 give, and its k^2 against that of mf84;
-R^T R = 1 and det R = 1 are evaluated in extended precision, and one matrix in `BALLS` is held against balls.
+R^T R = 1 and det R = 1 are evaluated in extended precision, and one matrix in `BALLS` is held against balls. Beside
+each array of these goes one of general motions, see `many_general`.
 """
 
 from concurrent.futures import ProcessPoolExecutor
@@ -16,6 +17,7 @@ from flint import ctx, fmpq
 from atlas.core.elementary import ElementaryMotion
 from atlas.exact import elementary as exact_elementary
 from atlas.study.bench.case import FloatArray
+from atlas.study.many_general import judge_general_rows
 from atlas.study.stress import Progress, Result, finished
 from atlas.study.ulps import ONE, Tally, absolute
 
@@ -35,11 +37,18 @@ INPUTS = ("I", "B2", "B3", "omega2", "t")
 def stress_arrays(samples: int, seed: int = 0, jobs: int = 1, progress: Progress | None = None) -> Result:
     """Judge at least `samples` values of arrays of motions drawn from `seed`, on `jobs` processes."""
     batches = -(-samples // (ROWS * VALUES))
-    judged = partial(judge_rows, seed)
+    judged = partial(judge_arrays, seed)
     if jobs == 1:
         return finished(seed, map(judged, range(batches)), samples, progress)
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         return finished(seed, pool.map(judged, range(batches)), samples, progress)
+
+
+def judge_arrays(seed: int, index: int) -> Tally:
+    """Judge one array of elementary motions and one of general ones."""
+    tally = judge_rows(seed, index)
+    tally.merge(judge_general_rows(seed, index))
+    return tally
 
 
 def draw(seed: int, index: int, rows: int = ROWS) -> tuple[FloatArray, ...]:

@@ -1,0 +1,99 @@
+"""Stress of arrays of general motions: one array of ordinary rows and hostile ones, against laws and against balls.
+
+In every row R^T R = 1 and det R = 1 are evaluated in extended precision, and Omega3 + K3, the energy and (M, B') with
+M = II (Omega + K) are held against those at t = 0. All hostile rows, and a few ordinary ones, are held against balls:
+kind, period, angles and nome, R, Omega and K.
+"""
+
+from functools import partial
+from itertools import chain
+from random import Random
+from typing import Any
+
+import numpy as np
+from flint import arb, ctx
+
+from atlas.core.general import GeneralMotion
+from atlas.exact.digits import enclosed
+from atlas.exact.general import GeneralMotion as Balls
+from atlas.study.bench.case import FloatArray
+from atlas.study.judges_general import narrow, state
+from atlas.study.regimes_general import GENERAL
+from atlas.study.ulps import ONE, Tally, absolute, error, own
+
+ROWS, JUDGED = 1000, 8
+"""Ordinary rows in an array, and how many of them are held against balls."""
+
+REGIME, BITS = "arrays of general motions", 80
+SCALARS = ("period", "precession_per_period", "spin_per_period", "nome")
+
+
+def draw(seed: int, index: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Draw I (m,), B (2, m), omega (3, m) and t (m,): a row of every regime of `GENERAL`, then ordinary ones."""
+    random, r = Random(f"{seed} {index}"), np.random.default_rng((seed, index, 1))  # noqa: S311  not secret
+    hostile = [regime(random) for regime in GENERAL.values()]
+    I = np.append([row[0] for row in hostile], 2 - r.uniform(0, 2, ROWS))
+    scale = np.where(r.random(ROWS) < 0.5, 1.0, 10.0 ** r.uniform(-100, 100, ROWS))
+    B = np.hstack([np.transpose([row[1] for row in hostile]), r.normal(size=(2, ROWS)) * scale])
+    omega = np.hstack([np.transpose([row[2] for row in hostile]), r.normal(size=(3, ROWS)) * scale])
+    size = np.maximum(abs(B).max(axis=0), abs(omega).max(axis=0))
+    turns = r.choice([-1.0, 1.0], I.size) * 10.0 ** r.uniform(-3, 8, I.size)
+    return I, B, omega, turns / np.where(size == 0, 1.0, size)
+
+
+def judge_general_rows(seed: int, index: int) -> Tally:
+    """Judge one array of general motions, each at one time."""
+    I, B, omega, t = draw(seed, index)
+    motion, tally = GeneralMotion(I, B, omega), Tally()
+    R, Omega, K, kinds = motion.rotation(t), motion.angular_velocity(t), motion.field_in_body(t), motion.kind
+    rows = [I.tolist(), B.T.tolist(), omega.T.tolist(), t.tolist()]
+
+    def describe(i: int) -> dict[str, Any]:
+        ratio, field, rate, time = (x[i] for x in rows)
+        return {"I": ratio.hex(), "field": [x.hex() for x in field], "omega": [x.hex() for x in rate], "t": time.hex()}
+
+    long = R.astype(np.longdouble)
+    defect = abs(np.swapaxes(long, 1, 2) @ long - np.eye(3, dtype=np.longdouble)).max(axis=(1, 2))
+    determinant = abs(np.einsum("ni,ni->n", long[:, 0], np.cross(long[:, 1], long[:, 2])) - 1)
+    for name, values in (("general orthogonality", defect), ("general determinant", determinant)):
+        tally.add(name, REGIME, (values / ONE).astype(float).tolist(), describe)
+    tally.add("general integrals", REGIME, _drift(I, B, omega, Omega, K).tolist(), describe)
+    for i in range(len(GENERAL) + JUDGED):
+        ratio, field, rate, time = (x[i] for x in rows)
+        exact, size = Balls(ratio, field, rate), max(map(abs, (*field, *rate))) or 1.0
+        same = partial(_same, describe(i))
+        tally.add("general kind", REGIME, [0.0 if kinds[i] == exact.kind else np.inf], same)
+        if exact.kind.startswith("nutation"):
+            true = enclosed(partial(_scalars, exact), BITS)
+            with ctx.workprec(BITS + 16):
+                found = [float(getattr(motion, name)[i]) for name in SCALARS]
+                tally.add("general scalars", REGIME, own(found, true), same)
+        truth = narrow(partial(state, exact, time), size)
+        tally.add("general R", REGIME, absolute(R[i].flat, chain(*truth[0])), same)
+        for name, values, balls in (("general Omega", Omega[i], truth[1]), ("general K", K[i], truth[2])):
+            errors = [error(x, y, size * ONE) for x, y in zip(values, balls, strict=True)]
+            tally.add(name, REGIME, errors, same)
+    return tally
+
+
+def _scalars(exact: Balls) -> list[arb]:
+    return [arb(getattr(exact, name)) for name in SCALARS]
+
+
+def _drift(I: FloatArray, B: FloatArray, omega: FloatArray, Omega: FloatArray, K: FloatArray) -> FloatArray:
+    """Return by how much the integrals differ from those at the start, in ulps of the largest rate or its square."""
+    size = np.maximum(abs(B).max(axis=0), abs(omega).max(axis=0))
+    unit = np.where(size == 0, 1.0, size)
+    start = _integrals(I, (omega / unit).T, np.vstack([0 * B[:1], B / unit]).T)
+    found = _integrals(I, Omega / unit[:, None], K / unit[:, None])
+    return np.asarray(abs(found - start).max(axis=0) / ONE)
+
+
+def _integrals(I: FloatArray, Omega: FloatArray, K: FloatArray) -> FloatArray:
+    """Return Omega3 + K3, E' and (M, K) in units of I2, (3, m)."""
+    weight = np.stack([np.ones_like(I), np.ones_like(I), I], -1)
+    return np.array([Omega[:, 2] + K[:, 2], (weight * Omega**2).sum(-1), (weight * (Omega + K) * K).sum(-1)])
+
+
+def _same(described: Any, _: int) -> Any:
+    return described
