@@ -2,8 +2,8 @@
 
 With y = M t + y0 the Cayley-Klein parameters are exp(i l t) F times the sum over odd k of even_k cos k y + i odd_k
 sin k y, the trigonometric sums of `atlas.exact.theta`. What two words do not hold for certain is not `sure`, and is
-left to the motion made alone: next to a separatrix or a triple root, where the sums are long or cancel; where the axis
-starts along the field; where Omega3 is constant, for the matrix; where the inputs are of very different sizes.
+left to the motion made alone: next to a separatrix or a triple root, where the sums are long or cancel; where Omega3 is
+constant, for the matrix; where the inputs are of very different sizes.
 """
 
 from collections.abc import Iterator, Sequence
@@ -204,8 +204,10 @@ def _constants(block: Block) -> Constants:
         turns = rates * PER_RADIAN
         even, odd, terms, (x, y) = _sums(means)
         size = x * x + y * y
-        factor = (r.amplitudes * x / size).hi - 1j * (r.amplitudes * y / size).hi
         lost = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)
+        factor = (r.amplitudes * x / size).hi - 1j * (r.amplitudes * y / size).hi
+        if r.meets.any():
+            lost, factor = np.where(r.meets, 0.0, lost), np.where(r.meets, _by_slopes(means, even, odd), factor)
         known = ((lost < KNOWN) & (zeros.growth.rel < KNOWN)).all(axis=0) & (means.nome.rel < KNOWN)
         known &= (
             np.isfinite(turns.rel).all(axis=0)
@@ -257,6 +259,15 @@ def _sums(means: Means) -> tuple[FloatArray, FloatArray, Any, Circle]:
         if not matters.any():
             break
     return even, odd, terms, sums
+
+
+def _by_slopes(means: Means, even: FloatArray, odd: FloatArray) -> Any:
+    """Return F, (2, m), where alpha or beta is zero at the start: by its derivative (-+ omega1 + i omega2)/2."""
+    cos, sin = (x.hi for x in means.start)
+    terms = zip(range(1, 2 * TERMS, 2), even, odd, _multiples(cos, sin, TERMS), strict=True)
+    slopes = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
+    w1, w2 = (w.hi for w in means.roots.omega[:2])
+    return np.array([1j * w2 - w1, 1j * w2 + w1]) / (2 * means.rate.hi * slopes)
 
 
 class GeneralRows:

@@ -138,10 +138,11 @@ class Means:
     @cached_property
     def zeros(self) -> Zeros:
         """Zeros of alpha and beta."""
-        inside = self._starts[0].hi > self.N.hi
-        beside = np.array([inside[0], ~inside[1]])
+        inside, meets = self._starts[0].hi > self.N.hi, self.roots.meets
+        # where the axis starts at a pole, nu = 1 belongs to `low` and nu = -1 to `high`
+        beside = np.where(meets, [[False], [True]], [inside[0], ~inside[1]])
         sense = np.where(beside, -1.0, 1.0) * np.sign(self.roots.torques.hi) * np.array([[1.0], [-1.0]])
-        depth = self._third[1]
+        depth = chosen(meets, constant(1.0, self.roots.torques), self._third[1])
         return Zeros(beside, sense, chosen(sense > 0, depth, ONE / depth))
 
     @cached_property

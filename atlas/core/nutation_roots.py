@@ -64,6 +64,12 @@ class Roots:
         return self.B2.hi == 0
 
     @cached_property
+    def meets(self) -> Any:
+        """Where the axis starts at a pole, so that alpha or beta is zero at the start, (2, m)."""
+        there = self.along & (self.torques.hi == 0) & (self.torques.rel < 0.5)
+        return there & np.array([self.B3.hi < 0, self.B3.hi > 0])
+
+    @cached_property
     def still(self) -> Any:
         """Where the body starts at rest."""
         return np.logical_and.reduce([w.hi == 0 for w in self.omega])

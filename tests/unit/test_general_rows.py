@@ -29,6 +29,12 @@ def ordinary(count: int, seed: int = 0) -> Any:
     return r.uniform(0.1, 2, count), r.normal(size=(2, count)), r.normal(size=(3, count))
 
 
+def along(count: int) -> Any:
+    """Return inputs of motions whose axis starts along the field."""
+    I, B, omega = ordinary(count, 9)
+    return I, B * [[0.0], [1.0]], omega
+
+
 def hostile(seed: int = 0) -> Any:
     """Return inputs of motions of every regime, side by side in one array, those without a period left out."""
     random = Random(seed)  # noqa: S311  draws of test inputs
@@ -68,7 +74,9 @@ def test_scalars_of_many_motions_have_the_bits_of_one_by_one(inputs: Any) -> Non
         assert (abs(ours[finite] - roots[finite]) <= 1e-35 * abs(roots[finite]).max()).all()
 
 
-@pytest.mark.parametrize("inputs", [ordinary(200, 1), hostile(1)], ids=["ordinary", "hostile"])
+@pytest.mark.parametrize(
+    "inputs", [ordinary(200, 1), along(40), hostile(1)], ids=["ordinary", "along the field", "hostile"]
+)
 def test_matrices_of_many_motions_are_true_to_the_promise(inputs: Any) -> None:
     """R, K and Omega at one time each are within 6 ulp of 1, and 12 ulp of the largest rate, of the balls."""
     motion, t = GeneralMotion(*inputs), times(inputs, 2)
@@ -125,6 +133,9 @@ def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) ->
     assert not made
     motions.rotation(times(inputs, 4))
     assert len(made) <= 60
+    tipped = along(500)
+    GeneralMotion(*tipped).rotation(times(tipped, 4))
+    assert len(made) <= 70
 
 
 def test_a_dropped_second_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
