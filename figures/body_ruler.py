@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Points, Scene, Space, quadric_panel, quadrics, solids
 from atlas.scene.bodies import proportions, row, solenoid
-from atlas.scene.words import tex_vector, title
+from atlas.scene.words import body_role, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 92.0
 BODIES = (
@@ -45,7 +45,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     layers: list[Layer] = []
     for place, (name, I) in zip(places, BODIES, strict=True):
         layers += body(name, I, place, fine)
-        layers.append(Label(place + NAMES * quadric_panel.E3, name, "label", (0.0, 0.0)))
+        layers.append(Label(place + NAMES * quadric_panel.E3, name, body_role(I), (0.0, 0.0)))
         foot = place + (NAMES - 0.3) * quadric_panel.E3
         layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
         layers.append(Points(on_scale(I)[None], "point"))

@@ -8,7 +8,7 @@ import numpy as np
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.words import title
 
-COLUMN, ROW, LENGTH = 6.6, 1.0, 1.5
+COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
 VECTORS = (
     ("field", r"$\mathbf{B}$ and $\mathbf{B}'$"),
     ("field_inverse", r"$\mathrm{I\!I}^{-1}\mathbf{B}'$"),
@@ -26,16 +26,22 @@ CURVES = (
     ("pole", r"pole, $\omega_2=-B'_2$"),
 )
 COMPONENTS = (("main", "first component"), ("second", "second component"), ("third", "third component"))
+BODIES = (
+    ("loop_body", "a loop"),
+    ("short_body", "a short solenoid"),
+    ("ball_body", "a ball"),
+    ("long_body", "a long solenoid"),
+)
 MARKS = (("rest", "rest"), ("centre", r"$-\mathbf{B}'$"), ("special", r"$-2\mathbf{B}'$"))
 
 
 def scene() -> Scene:
-    """Draw each role that has a colour of its own beside its meaning, in three columns."""
+    """Draw each role that has a colour of its own beside its meaning, in four columns."""
     layers: list[Layer] = []
     for row, (role, name) in enumerate(VECTORS):
         tail, tip = place(0, row)
         layers += [Arrow(tail, tip, role), beside(tip, name)]
-    for column, roles in ((1, CURVES), (2, COMPONENTS)):
+    for column, roles in ((1, CURVES), (2, COMPONENTS), (3, BODIES)):
         for row, (role, name) in enumerate(roles):
             ends = place(column, row)
             layers += [Curve(ends, role), beside(ends[1], name)]
@@ -51,12 +57,13 @@ def scene() -> Scene:
         title(__doc__),
         "The colours of the figures: in each of them a colour means one thing. They differ in lightness too, so that "
         "they stay apart in grey print, and to those who do not see all of them. A name has the colour of its thing, "
-        "darker where it could not be read on white.",
-        "Three columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image under "
+        "darker where it could not be read on white. The colours of bodies are for figures in which they are compared.",
+        "Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image under "
         "the inverse inertia tensor pink, E blue, m green, angular velocities plum, the body's axis and the elementary "
-        "motions navy, the unstable ones vermilion.",
+        "motions navy, the unstable ones vermilion, a loop magenta, a short solenoid petrol, a ball olive, a long "
+        "solenoid dark brown.",
         (Space(tuple(layers), azimuth=0.0, elevation=0.0),),
-        size=(160.0, 50.0),
+        size=(178.0, 46.0),
     )
 
 

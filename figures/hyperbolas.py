@@ -9,7 +9,7 @@ import numpy as np
 from atlas.errors import AtlasError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.hyperbola_plane import asymptote, branches, components, places, window
-from atlas.scene.words import body_name, listed, plain, plain_vector, quotient, tex, tex_vector, title
+from atlas.scene.words import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 10.0
 ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
@@ -32,7 +32,10 @@ def scene(
     if B2 and B3:
         layers.append(Curve(view.upright(-B2), "pole"))
         layers += [Curve(asymptote(ratio, field, view), "asymptote") for ratio in ratios]
-    for ratio, role in zip(ratios if B2 and B3 else ratios[:1], ROLES, strict=False):
+    roles = tuple(map(body_role, ratios))
+    if len(set(roles)) < len(roles):
+        roles = ROLES
+    for ratio, role in zip(ratios if B2 and B3 else ratios[:1], roles, strict=False):
         name = f"$I={tex(quotient(ratio))}$" if B2 and B3 else "every $I$"
         pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))
         layers += [Curve(piece, role, "" if order else name) for order, piece in enumerate(pieces)]

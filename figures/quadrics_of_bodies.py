@@ -9,7 +9,7 @@ import numpy as np
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Scene, Space, quadric_panel, quadrics, solids
 from atlas.scene.bodies import row
-from atlas.scene.words import body_name, listed, tex, tex_vector, title
+from atlas.scene.words import body_name, body_role, listed, tex, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 62.0
 REACH = 1.7
@@ -41,7 +41,7 @@ def scene(
             curve = quadrics.hyperbola(quadrics.quadric_matrix(I, field), surface, quadric_panel.tolerance(3 * b))
             layers += [Curve(points + shift, "hyperbola") for points in curve]
         centre = quadric_panel.in_plane(-field[0], -field[1]) + shift
-        layers.append(Label(centre - 2.35 * b * quadric_panel.E3, f"$I={tex(I)}$", "label", (0.0, 0.0)))
+        layers.append(Label(centre - 2.35 * b * quadric_panel.E3, f"$I={tex(I)}$", body_role(I), (0.0, 0.0)))
     named = listed([f"{body_name(I)} ($I={tex(I)}$)" for I in ratios])
     return Scene(
         title=title(__doc__),

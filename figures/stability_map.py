@@ -13,7 +13,7 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.sample import flat
-from atlas.scene.words import title
+from atlas.scene.words import body_role, title
 
 WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
@@ -38,7 +38,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
             if len(line):
                 layers += [Curve(line, "second"), Label(line[len(line) // 2], f"${rate:g}$", "second", (5.0, 0.0))]
     layers += [Points(np.array([[I, 0.0]]), "point") for I, _ in BODIES]
-    layers += [Label(np.array([I, TOP]), name, "note", (0.0, -8.0)) for I, name in BODIES]
+    layers += [Label(np.array([I, TOP]), name, body_role(I) if I else "note", (0.0, -8.0)) for I, name in BODIES]
     layers.append(Label(np.array([0.0, EDGE]), r"$\tau=1/(2\sqrt{2})$", "unstable", (4.0, 6.0)))
     return Scene(
         title=title(__doc__),

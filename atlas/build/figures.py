@@ -27,7 +27,9 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(eq=False)
 class FigureBuild:
-    """A figure that is wanted in some kinds of files (svg, pdf, png, pgf, csv), and what became of it.
+    """A figure that is wanted in some kinds of files, and what became of it.
+
+    The kinds are svg, pdf, png, pgf, csv, csv.gz, and narrow: an SVG for a narrow screen, empty where svg will do.
 
     `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
     """

@@ -188,11 +188,12 @@ def _figures(
 ) -> "dict[FigureBuild, Picture]":
     """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
 
-    The pages offer each figure as PDF and PNG too, and its data as CSV.
+    The pages offer each figure as PDF and PNG too, and its data as CSV, and stack its panels on a narrow screen.
     """
     from atlas.build.figures import FigureBuild
 
-    lines, shaded = (("svg", "pdf", "png", "csv"), ("png", "csv")) if "html" in formats else (("pdf",), ("png",))
+    pages = ("svg", "pdf", "png", "csv.gz", "narrow"), ("png", "csv.gz")
+    lines, shaded = pages if "html" in formats else (("pdf",), ("png",))
     return {
         FigureBuild(one.recipe, one.parameters, one.renderer, kinds, style): one
         for one in found.values()
@@ -211,7 +212,8 @@ def _describe(figure: "FigureBuild", picture: "Picture") -> None:
         picture.caption, picture.alt, picture.size = facts["caption"], facts["alt"], tuple(facts["size"])
         picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
         picture.file = f"figures/{picture.stem}.{'svg' if 'pdf' in figure.kinds else 'png'}"
-        picture.files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds}
+        picture.files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds if kind != "narrow"}
+        picture.narrow = f"figures/{picture.stem}-narrow.svg" if "narrow" in figure.kinds and facts["narrow"] else ""
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
 
 
@@ -243,7 +245,11 @@ def _pages(
 
     code = sources.closure([PACKAGE / "report" / "fonts.py"])
     pages = html.pages(document)
-    drawn = {name: figure.contents[kind] for figure, picture in figures.items() for kind, name in picture.files.items()}
+    drawn = {
+        name: figure.contents[kind]
+        for figure, picture in figures.items()
+        for kind, name in (*picture.files.items(), *([("narrow", picture.narrow)] if picture.narrow else ()))
+    }
     files = {name: page.encode() for name, page in pages.items()} | drawn
     files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))
     files[MANIFEST] = manifest_of(document, drawn)

@@ -1,5 +1,6 @@
 """What a worker process does: it computes the scene of a figure, draws it, and puts the files into the cache."""
 
+import gzip
 import json
 import multiprocessing
 import os
@@ -19,6 +20,7 @@ from atlas.build.cache import Cache
 from atlas.errors import AtlasError
 from atlas.places import settle_matplotlib
 from atlas.scene import Curve, Image, Points, Region, Scene, Surface, data, recipes
+from atlas.scene.narrow import narrowed
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ def draw(task: Task) -> str:
 
 def _draw(task: Task) -> None:
     settle_matplotlib()
-    from atlas.draw.files import choose, save
+    from atlas.draw.files import FORMATS, choose, save
 
     start = time.perf_counter()
     scene = recipes.load(task.recipe).scene(**task.parameters)
@@ -62,17 +64,26 @@ def _draw(task: Task) -> None:
     cache = Cache(task.cache)
     renderer, note = choose(scene, task.renderer)
     with cache.temporary() as folder:
-        paths = {kind: folder / f"figure.{kind}" for kind in task.keys if kind != "csv"}
+        paths = {kind: folder / f"figure.{kind}" for kind in task.keys if kind in FORMATS}
         if paths:
             save(scene, {path: kind for kind, path in paths.items()}, task.renderer, task.style)
+        small = narrowed(scene)
+        if "narrow" in task.keys:
+            paths["narrow"] = folder / "narrow.svg"
+            paths["narrow"].touch()
+            if small:
+                save(small, {paths["narrow"]: "svg"}, style=task.style)
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
     if "csv" in task.keys:
         contents["csv"] = data.table(scene).encode()
+    if "csv.gz" in task.keys:
+        contents["csv.gz"] = gzip.compress(data.table(scene).encode(), mtime=0)
     facts = {
         "title": scene.title,
         "caption": scene.caption,
         "alt": scene.alt,
         "size": scene.size,
+        "narrow": bool(small),
         "parameters": scene.parameters,
         "renderer": renderer,
         "note": note,

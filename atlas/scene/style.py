@@ -2,7 +2,8 @@
 
 A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, plum an angular velocity, navy
 what moves (the body's axis R_3, a path, the hyperbola of the motions), pale blue R_1, vermilion instability, brown the
-body. Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one
+body; where bodies are compared, the loop is magenta, the short solenoid petrol, the ball olive, the long one dark brown.
+Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one
 panel, their dashes or widths differ too. Widths, marker sizes and tubes are in printer's points.
 """
 
@@ -94,6 +95,11 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "rim": Style(INK, 0.7, tube=1.1),
         "silhouette": Style(INK, 0.9, tube=0.0),
         "wire": Style("#828e9b", 0.3, hidden=False, tube=0.35),
+        # the bodies, where they are compared
+        "loop_body": Style("#c0309a", 1.2),
+        "short_body": Style("#0b6470", 1.2, (5.0, 1.6)),
+        "ball_body": Style("#4c5400", 1.3),
+        "long_body": Style("#5e2f00", 1.2, (5.0, 1.5, 1.2, 1.5)),
         # plotted lines, in order of importance: the style sheet of atlas.draw has their colours, widths and dashes
         **dict.fromkeys(LINES, Style(INK)),
         "reference": Style(GREY, 0.7, (3.0, 2.0)),

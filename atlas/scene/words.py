@@ -64,6 +64,11 @@ def body_name(ratio: Any) -> str:
     return "short solenoid" if I3 > I2 else "long solenoid"
 
 
+def body_role(ratio: Any) -> str:
+    """Return the role of what belongs to a body where several are compared: each kind has a colour of its own."""
+    return f"{body_name(ratio).partition(' ')[0]}_body"
+
+
 def tex_setting(ratio: Any, field: Sequence[float], *, first: str = "a") -> str:
     """Return 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption; field = (B2, B3).
 

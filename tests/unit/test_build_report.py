@@ -206,7 +206,7 @@ def test_a_figure_that_fails_leaves_a_note_and_stops_nothing(built: Built) -> No
 def test_a_figure_shown_twice_is_drawn_once(built: Built) -> None:
     """The same recipe with the same parameters is one file."""
     assert sorted(path.suffix for path in (built.index.parent / "figures").iterdir()) == [
-        ".csv",
+        ".gz",
         ".pdf",
         ".png",
         ".svg",

@@ -1,0 +1,35 @@
+"""A scene for a narrow screen: the same panels below one another, none smaller or of another shape."""
+
+from dataclasses import replace
+
+import pytest
+
+from atlas.scene import recipes
+from atlas.scene.layers import Scene
+from atlas.scene.narrow import WIDTH, narrowed
+
+SCENE = recipes.load("motion").scene()
+
+
+@pytest.mark.parametrize(("count", "columns", "width"), [(3, 3, 178.0), (4, 2, 178.0), (4, 4, 176.0), (5, 3, 150.0)])
+def test_panels_keep_their_shape_and_do_not_shrink(count: int, columns: int, width: float) -> None:
+    """The cells of the grid are as large as before or larger, and of the same ratio of width to height."""
+    before = replace(SCENE, panels=SCENE.panels[:1] * count, columns=columns, size=(width, 80.0))
+    after = narrowed(before)
+    assert after is not None
+    assert after.panels == before.panels
+    assert after.size[0] == WIDTH
+    (w, h), (wide, high) = cell(before), cell(after)
+    assert wide >= w
+    assert wide / high == pytest.approx(w / h)
+
+
+def test_a_narrow_scene_stays_as_it_is() -> None:
+    """One column is not made narrower, and a narrow pair is not taken apart."""
+    assert narrowed(replace(SCENE, columns=1)) is None
+    assert narrowed(replace(SCENE, panels=SCENE.panels[:2], columns=2, size=(80.0, 40.0))) is None
+
+
+def cell(scene: Scene) -> tuple[float, float]:
+    """Return the room of one panel, in millimetres."""
+    return scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
