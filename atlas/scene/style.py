@@ -2,7 +2,7 @@
 
 A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, plum an angular velocity, navy
 what moves (the body's axis R_3, a path, the hyperbola of the motions), pale blue R_1, vermilion instability, brown the
-body; where bodies are compared, the loop is magenta, the short solenoid petrol, the ball olive, the long one dark brown.
+body; where bodies are compared, the loop is magenta, the short solenoid petrol, the ball olive, the long one umber.
 Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one
 panel, their dashes or widths differ too. Widths, marker sizes and tubes are in printer's points.
 """
