@@ -17,7 +17,7 @@ from atlas.core.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation_roots import Roots, constant, part, stacked, taken
 
-MEANS, STEPS = 8, 28
+MEANS, STEPS = 8, 60
 """Steps of the means, and of what is made along with them, in two words."""
 
 ENOUGH = 2.0**-107
@@ -206,19 +206,26 @@ def _steps(
     Q = (Q * (d * above + m.a * m.difference) / whole).scaled(-1)
     term = (p + m.g) / (above * more)
     x = x * x / more * p / after.sum.scaled(1)
-    d = d * (d + m.difference) / p.scaled(1)
+    # of p and of d = p - a each the form that loses less: the bounds of one grow where p is large, of the other near a
+    by_product = d * (d + m.difference) / p.scaled(1)
+    half = (p + m.product / p).scaled(-1)
+    p, d = _better(half, after.a + by_product), _better(by_product, half - after.a)
     going = (np.maximum(abs(Q.hi), x.hi) > ENOUGH).any(axis=0)
     if not going.any() or len(levels) == 2:
         return DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
     rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
     rest = [Level(*(taken(y, rows) for y in vars(level).values())) for level in levels[1:]]
-    d, x, last = (taken(y, rows) for y in (d, x, Q))
-    total, product = _steps(rest, rest[0].a + d, d, x, last)
+    total, product = _steps(rest, *(taken(y, rows) for y in (p, d, x, Q)))
     if not isinstance(rows, slice):
         total, product = (
             _spread(y, rows, like) for y, like in ((total, constant(0.0, Q)), (product, constant(1.0, Q)))
         )
     return Q + total, (term * product).sqrt()
+
+
+def _better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
+    """Return of two forms of a number the one with the smaller bound."""
+    return chosen(x.rel <= y.rel, x, y)
 
 
 def _spread(x: DoubleDouble, rows: Any, like: DoubleDouble) -> DoubleDouble:

@@ -195,8 +195,10 @@ def _first(q: FloatArray, reach: FloatArray, still: Any) -> FloatArray:
         slope = ((4 * q[4] * v + 3 * q[3]) * v + 2 * q[2]) * v + q[1]
         places = v, reach, np.clip(-q[3] / (4 * q[4]), v, reach)
         least = np.fmin.reduce([(12 * q[4] * x + 6 * q[3]) * x + 2 * q[2] for x in places])
-        bend = np.maximum(-least, 0.0) * value
-        step = 2 * value / (np.sqrt(slope * slope + 2 * bend) - slope)
+        bend = np.maximum(-least, 0.0)
+        root = np.sqrt(slope * slope + 2 * bend * value)
+        # of the two forms of the parabola's root the one that does not cancel
+        step = np.where(slope > 0, (root + slope) / bend, 2 * value / (root - slope))
         new = np.minimum(v + np.where(value == 0, 0.0, step), reach)
         going, v = new - v > 2.0**-52 * new, new
         if n % 6 == 5:
