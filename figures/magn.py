@@ -12,6 +12,9 @@ from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadri
 from atlas.scene.sample import curve
 from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
 
+LEAN = 0.55
+"""Radians from the axis y at which a field nearer to it is drawn."""
+
 
 def scene(
     *,
@@ -49,9 +52,9 @@ def scene(
         ),
     ]
     if strength > 0.0:
-        angle = np.arctan2(E[1], E[0])
-        lean = float(angle if abs(E[0]) < 2.0 * abs(E[1]) else np.copysign(0.55, angle if E[1] else 1.0))
-        tip = 1.1 * reach * quadric_panel.in_plane(float(np.cos(lean)), float(np.sin(lean)))
+        steep = abs(E[0]) < 2.0 * abs(E[1])
+        drawn = E if steep else np.copysign((np.cos(LEAN), np.sin(LEAN)), (E[0], E[1] or 1.0))
+        tip = 1.1 * reach * quadric_panel.in_plane(*(float(part) for part in drawn / np.linalg.norm(drawn)))
         flat, tall = tip[1] * quadric_panel.E2, tip[2] * quadric_panel.E3
         layers += [
             Arrow(quadric_panel.O, tip, "electric", r"$\mathbf{E}$"),

@@ -126,7 +126,7 @@ def _skipped(tree: ast.Module) -> Iterator[tuple[int, int]]:
             )
         if isinstance(node, (ast.Import | ast.ImportFrom, ast.Raise)):
             nodes.append(node)
-        if isinstance(node, ast.keyword) and node.arg in {"frozen", "slots", "eq"}:
+        if isinstance(node, ast.keyword) and node.arg in {"frozen", "slots", "eq", "strict"}:
             nodes.append(node)
     for node in nodes:
         for line in range(node.lineno, node.end_lineno + 1):

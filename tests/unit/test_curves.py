@@ -105,6 +105,10 @@ def test_the_figure_draws_every_row_in_view() -> None:
                 assert limits is not None
                 assert ((points[:, column] >= limits[0]) & (points[:, column] <= limits[1])).all()
     assert "$" not in scene.alt
+    every = curves.read().curves.values()
+    saved = max(1.0 - rows[-1].points / rows[-1].even_points for rows in every)
+    assert f"tolerance of {min(row.tolerance for rows in every for row in rows):g} pixels" in scene.alt
+    assert f"takes {100.0 * saved:.0f} per cent fewer points" in scene.alt
 
 
 @pytest.mark.parametrize("name", ["motion", "motion_sphere"])

@@ -134,6 +134,19 @@ def test_the_shell_of_the_laboratory_system_has_the_ratio() -> None:
     assert SymmetricBody.cylindrical_shell(1.0, 1.0, height).ratio == pytest.approx(1.2, rel=1e-14)
 
 
+@pytest.mark.parametrize("E", [(0.3, 0.5), (-0.3, 0.5), (0.1, -0.4), (0.0, 0.2), (0.5, 0.1), (-0.5, -0.1), (0.4, 0.0)])
+def test_the_electric_field_of_a_plate_leans_as_it_does(E: tuple[float, float]) -> None:
+    """Where it is steep the arrow has its direction; else it is drawn steeper, in the same quadrant."""
+    (arrow,) = layers("magn", Arrow, "electric", E=E)
+    drawn = np.asarray(arrow.tip)[1:] / np.linalg.norm(arrow.tip)
+    true = np.array(E) / np.hypot(*E)
+    if abs(E[0]) < 2 * abs(E[1]):
+        assert np.abs(drawn - true).max() <= 4 * EPS
+    else:
+        sides = np.sign(E[0]), np.sign(E[1]) or 1.0
+        assert drawn == pytest.approx([sides[0] * np.cos(0.55), sides[1] * np.sin(0.55)], abs=4 * EPS)
+
+
 @pytest.mark.parametrize(
     ("field", "kind"), [((1.0, 0.0), "plane pair"), ((0.0, 1.0), "line"), ((0.0, 0.0), "all space")]
 )

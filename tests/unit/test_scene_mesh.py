@@ -93,3 +93,15 @@ def test_a_cone_is_straight_whatever_the_rounding(field: Any) -> None:
     (cone,) = quadric_panel.sheets(1.0, Quadric(1.0, field), field)
     assert cone.grids[0].shape[0] == 5
     assert np.ptp(cone.grids[0][2], axis=0).max() == 0.0
+
+
+@pytest.mark.parametrize("angle", [0.7, 2.2])
+def test_a_solid_ends_at_its_rims(angle: float) -> None:
+    """The planes that cut out a cone or a cylinder hold its apex and its rims; no size is 1."""
+    place, length = np.array([0.3, -0.2, 0.5]), 1.7
+    for solid in (solids.cone(place, AXIS, angle, length, 1e-3), solids.cylinder(place, AXIS, 0.6, length, 1e-3)):
+        ends = solid.clip[:, :3] @ np.concatenate(solid.rims).T - solid.clip[:, 3:]
+        corners = solid.clip[:, :3] @ np.reshape(solid.grids[0], (-1, 3)).T - solid.clip[:, 3:]
+        assert np.abs(ends).min(axis=0).max() <= 1e-14
+        assert corners.max() <= 1e-14
+        assert np.abs(corners).min(axis=1).max() <= 1e-14
