@@ -14,15 +14,15 @@ from atlas.core.basis import LEFT, SCALE, Basis
 from atlas.core.double_double import DoubleDouble
 from atlas.core.inputs import FloatArray
 from atlas.core.phase import Phases
-from atlas.core.rotation import DoubleRotation
+from atlas.core.rotation import BLOCK, PART, DoubleRotation
 from atlas.core.threads import shared
 from atlas.errors import AtlasError
 
 FINE, SHORT = 128, 32
 """Times in the fine table, and in that of a grid of fewer than LONG matrices."""
 
-FEW, LONG = 5000, 65536
-"""Shorter grids than FEW are evaluated time by time: any table would cost more."""
+FEW, LONG = 10_000, 65536
+"""Grids shorter than FEW for each table are evaluated time by time: the table would cost more."""
 
 HUGE = 2.0**900
 """Longest step, so that its halves are floats."""
@@ -52,29 +52,36 @@ def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArra
     last = start + step * (count - 1)
     if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
         raise AtlasError(f"The grid from {start} by {step} to {last} leaves the phases up to 2^50, |t| <= {reach:.6g}.")
-    if count < FEW:
-        functions = Basis(turning.phases, count, len(turning.weights)).at(
-            *moments(turning.phases, start, step, np.arange(float(count)))
-        )
-        np.matmul(functions.T, turning.entries, out=out.reshape(-1, 9))
+    cut = 0
+    if count >= FEW and step:
+        cut = min(max(ceil(Fraction(-start) / Fraction(step)), 0), count)
+    if count < (2.5 * FEW if 0 < cut < count else FEW):
+        basis = Basis(turning.phases, min(count, BLOCK), len(turning.weights))
+        for i in range(0, count, BLOCK):
+            j = min(i + BLOCK, count)
+            functions = basis.at(*moments(turning.phases, start, step, np.arange(float(i), float(j)))).T
+            for k in range(i, j, PART):
+                np.matmul(
+                    functions[k - i : k - i + PART], turning.entries, out=out[k : min(k + PART, j)].reshape(-1, 9)
+                )
         return
-    cut = min(max(ceil(Fraction(-start) / Fraction(step)), 0), count) if step else 0
     run(turning, start, step, range(cut, count), out[cut:])
     run(turning, start, step, range(cut - 1, -1, -1), out[:cut])
 
 
 def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
-    """Return the times start + i step as doubles and what these lack, None for nothing, for rising or falling i.
+    """Return the times start + i step as doubles and what these lack, None for nothing; first and last i are extreme.
 
-    What they lack is at most half an ulp, and known to 2^-104 of the time. Where phases are short and times do not come
-    near zero, and the start is no farther, both numbers are cut instead where the last digit of a double twice as large
-    as any time is: then the first words are exact.
+    What they lack is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times not too many
+    and the start not far beyond them, start and step are cut instead where the last digit of a double twice as large as
+    any time is: then the first words are exact, and the rest is known to 2^-85 of the time; that next to zero is made
+    by itself.
     """
     first, last = (start + step * float(index[i]) for i in (0, -1))
     far = max(abs(first), abs(last))
     digit = 2.0 ** (frexp(far)[1] - 52)
     away = start == 0 or first / far > CLOSE < last / far or -first / far > CLOSE < -last / far
-    if not (abs(start) <= far <= phases.near and digit > TINY and away):
+    if not (abs(start) <= far <= phases.near and digit > TINY and (away or abs(step) > 2 * CLOSE * far)):
         t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
         return t.hi, t.low
     origin, stride = (round(x / digit) * digit for x in (start, step))
@@ -83,6 +90,10 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
     if start != origin or step != stride:
         low = index * (step - stride)
         low += start - origin
+        i = 0 if away else np.abs(times).argmin()
+        if start and abs(times[i]) <= CLOSE * far:
+            one = DoubleDouble(start) + DoubleDouble(float(index[i])) * DoubleDouble(step)
+            times[i], low[i] = one.hi, one.low
     return times, low
 
 

@@ -9,6 +9,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
+from atlas.core.grid import fill_grid
 from atlas.core.inputs import FloatArray, common_shape, number, real, whole
 from atlas.core.rotation import target
 from atlas.core.turnings import Group, Turnings
@@ -122,14 +123,15 @@ class Motion(Generic[Turning]):
         start, step = number(start, "The start of the grid"), number(step, "The step of the grid")
         count = whole(count, "The count of the grid")
         out = target(out, (*self.shape, count, 3, 3))
+        if self._turning:
+            self._fill_grid(self._turning, start, step, out)
+            return out
         for turning, part in zip(self._turnings, out.reshape(prod(self.shape), count, 3, 3), strict=True):
             self._fill_grid(turning, start, step, part)
         return out
 
     def _fill_grid(self, turning: Turning, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
-        from atlas.core.grid import fill_grid
-
         fill_grid(turning, start, step, out)  # type: ignore[arg-type]  # of motions in elementary functions
 
     def _spread(

@@ -53,8 +53,9 @@ class Phases:
 
     `turns` are the frequencies, exact, in turns per unit of time. `origins`, if given, are phases at t = 0, in turns.
     `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself; `halves`
-    (2, 1, n, 1) are those of P0. `radians` (3, n, 1) are half the frequency in radians: a head of 26 digits, the rest,
-    and both. `rounder` (n, 1) rounds to the half turns that are left out: EVEN ones for whole turns.
+    (2, 1, n, 1) are those of P0. `radians` (2, n, 1) are half the frequency in radians: a head of 26 digits and the
+    rest; `head` is that of P0 + P1, and `table` sums `halves_of`. `rounder` (n, 1) rounds to the half turns that are
+    left out: EVEN ones for whole turns.
     """
 
     def __init__(
@@ -68,7 +69,7 @@ class Phases:
         self._within(min((_reach(p) for p in turns if p), default=float("inf")))
         self.rounder = rounder
         self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
-        self.radians = _columns([_head(p.scaled(-x) * QUARTER) for p, x in zip(halves, exponents, strict=True)])
+        self.radians = _columns([_head(p.scaled(-x) * QUARTER)[:2] for p, x in zip(halves, exponents, strict=True)])
         self.near = min((float(Wide.exactly(NEAR) / abs(p * QUARTER)) for p in halves if p), default=float("inf"))
         if self.origins is not None:
             first, rest = self.origins
@@ -141,7 +142,7 @@ class Phases:
 
     def reduced(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
         """Return what `angles` does with the number of half turns, plus `rounder`, in the place of their sign."""
-        far = max(t.max(initial=0.0), -t.min(initial=0.0))
+        far = farthest(t)
         if not far <= self.longest:
             self._check(t)
         if self.exponents is not None:
@@ -154,7 +155,9 @@ class Phases:
         upper -= lower
         np.subtract(t, upper, out=lower)
         if far <= self.near:
-            return self._reduced_near(t, halves, work, low)
+            if low is not None:
+                lower += low
+            return self._reduced_near(t, halves, work)
         # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
         parts, rest, coarse = work[:6], work[6], work[7]
         np.multiply(self.words, t, out=parts[::5])
@@ -196,7 +199,7 @@ class Phases:
         For half phases up to LESS NEAR the head of the frequency times that of t is exact, and so is what is left of it
         without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
         """
-        if self.exponents is not None or not max(t.max(initial=0.0), -t.min(initial=0.0)) <= LESS * self.near:
+        if self.exponents is not None or not farthest(t) <= LESS * self.near:
             return self.reduced(t, work[..., : t.size], low)[0]
         n, k = self.table.shape
         stack, whole, x, _ = np.split(work.reshape(-1, work.shape[-1])[:, : t.size], (k, k + n, k + 2 * n))
@@ -217,14 +220,13 @@ class Phases:
         p -= whole
         return np.matmul(self.table, stack, out=x)
 
-    def _reduced_near(
-        self, t: FloatArray, halves: FloatArray, work: FloatArray, low: FloatArray | None
-    ) -> tuple[FloatArray, ...]:
+    def _reduced_near(self, t: FloatArray, halves: FloatArray, work: FloatArray) -> tuple[FloatArray, ...]:
         """Return the same for half phases up to NEAR, by Cody and Waite: half f t less w pi/2, both cut.
 
         With F0 + F1 half the frequency and t0 + t1 the time, F0 t0 and w times the head of pi/2 have 53 digits, and
         their difference, below 2, is exact. The rest, F0 t1 + F1 t less w times the tail, is below 1/8: two sums of it
         are within 2^-57, two products within 2^-59, and F1 and the tail lack 2^-59: in all 2^-55.7 of x/2, 0.3 w of x.
+        What a time lacks is in t1, whose sum and product are then within 2^-59 each: 0.1 w more.
         """
         both, product, whole, w = work[:2], work[2], work[3], work[7]
         np.multiply(self.radians[0], halves, out=both)
@@ -238,9 +240,6 @@ class Phases:
         head, rest = both
         np.multiply(self.radians[1], t, out=product)
         rest += product
-        if low is not None:
-            np.multiply(self.radians[2], low, out=product)
-            rest += product
         if self.origins is not None:
             head += self.starts[0]
             rest += self.starts[1]
@@ -256,6 +255,11 @@ class Phases:
             raise AtlasError(
                 f"A time is {far[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is lost."
             )
+
+
+def farthest(t: FloatArray) -> float:
+    """Return the largest |t|; not a number where a time is none."""
+    return max(t.item(t.argmax()), -t.item(t.argmin())) if t.size else 0.0
 
 
 def circle_of(angles: Sequence[FloatArray], cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
