@@ -22,7 +22,7 @@ FINE, SHORT = 128, 32
 """Times in the fine table, and in that of a grid of fewer than LONG matrices."""
 
 FEW, LONG = 10_000, 65536
-"""Grids shorter than FEW for each table are evaluated time by time: the table would cost more."""
+"""Grids shorter than FEW, or than 2.5 FEW where both sides of zero ask for tables, are evaluated time by time."""
 
 HUGE = 2.0**900
 """Longest step, so that its halves are floats."""

@@ -157,6 +157,7 @@ class Phases:
         if far <= self.near:
             if low is not None:
                 lower += low
+                t = t + low
             return self._reduced_near(t, halves, work)
         # the sum of -P0 t, its four products of halves and P1 t, in this order, is what -P0 t lacks, by Dekker
         parts, rest, coarse = work[:6], work[6], work[7]

@@ -18,8 +18,8 @@ from atlas.study.ulps import ONE, Tally, absolute, approximate, of_length, own
 SHIFTS = (1, -7, 60)
 """Powers of two by which all frequencies are scaled, and times the other way: no bit of R may change."""
 
-GRID = 300
-"""Matrices on a uniform grid; a few of them are judged."""
+GRID = 12_000
+"""Matrices on a uniform grid, long enough for its tables; a few of them are judged."""
 
 
 def judge_motion(motion: hostile.Motion, regime: str, tally: Tally) -> None:
@@ -117,7 +117,7 @@ def _grid(motion: hostile.Motion, found: Any, exact: Any, regime: str, tally: Ta
     if step == 0 or start + GRID * step == start:
         return
     R = found.rotation_grid(start, step, GRID)
-    for i in (0, 1, 2, 15, 16, 31, 100, 127, 128, 255, 256, GRID - 1):
+    for i in (0, 1, 31, 32, 127, 128, 4567, 5999, 6000, GRID - 33, GRID - 32, GRID - 1):
         t = Fraction(start) + i * Fraction(step)
         true = enclosed(partial(exact.rotation, t), BITS)
         where = {"start": start.hex(), "step": step.hex(), "count": GRID, "index": i}

@@ -17,7 +17,7 @@ from atlas.study.judging import judging, with_more
 from atlas.study.regimes_general import Draw
 from atlas.study.ulps import ONE, Tally, absolute, error
 
-TIMES, GRID = 5, 7000
+TIMES, GRID = 5, 8200
 NARROW = 2.0**-80
 """Radius of the truth, beside 1 or beside the largest rate."""
 
@@ -48,10 +48,10 @@ def judge_general(draw: Draw, regime: str, random: Random, tally: Tally) -> None
 def _grid(
     found: GeneralMotion, exact: Balls, times: Any, size: float, regime: str, tally: Tally, inputs: dict[str, Any]
 ) -> None:
-    """Judge a uniform grid that is long enough for the tables, at a few of its times."""
+    """Judge a uniform grid that is long enough for polynomials, at a few of its times, at ends of windows too."""
     step = float(times[-1]) / GRID
     R = found.rotation_grid(0.0, step, GRID)
-    for i in (0, 1, 255, GRID - 1):
+    for i in (0, 255, 511, 4099, GRID - 1):
         true = narrow(partial(exact.rotation, fmpq(*step.as_integer_ratio()) * i), size)
         where = inputs | {"step": step.hex(), "count": GRID, "index": i}
         tally.add("general R grid", regime, absolute(R[i].flat, chain(*true)), with_more(where))

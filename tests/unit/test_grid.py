@@ -46,6 +46,17 @@ def test_the_grid_is_that_of_exact_real_times(
 
 
 @pytest.mark.parametrize("tables", [False, True])
+def test_a_long_grid_is_no_worse_at_its_end(tables: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After 30 000 steps, each of which is cut where the last digit of the longest time is, 4 ulp(1) still hold."""
+    monkeypatch.setattr(grid, "FEW", 0 if tables else 10**6)
+    for start in (1.2, -1.2, -40000.3):
+        R = ElementaryMotion(I, (B2, B3), OMEGA2).rotation_grid(start, 2.83, 30_000)
+        for i in (0, 1, 15_000, 29_000, 29_984, 29_999):
+            with mp.workdps(40):
+                assert max(abs(x) for x in mp.matrix(R[i].tolist()) - true(start, 2.83, i)) <= 4 * ULP1
+
+
+@pytest.mark.parametrize("tables", [False, True])
 @pytest.mark.parametrize(("start", "step"), [(0.0, 1e-9), (-3e-4, 1e-6), (1e-5, -1e-7), (-1.0, 0.002)])
 def test_the_small_third_column_keeps_its_digits_also_through_zero(
     start: float, step: float, tables: bool, monkeypatch: pytest.MonkeyPatch
