@@ -16,7 +16,7 @@ from atlas.scene.words import title
 
 RECORDS = ("build_costs.json",)
 ROW, THICK, THIN = 4.2, 0.38, 0.17
-MOST = 20
+MOST = 15
 """As many scenes are shown, those that cost most."""
 
 

@@ -31,7 +31,7 @@ def scene(*, columns: int = 1) -> Scene:
         ),
         panels=(each(record), multiples(record)),
         columns=columns,
-        size=(columns * 140.0, 2 // columns * 84.0),
+        size=(columns * 140.0, 2 // columns * 74.0),
     )
 
 

@@ -46,7 +46,7 @@ def scene() -> Scene:
             for order, (name, group) in enumerate(found.items())
         ),
         columns=2,
-        size=(178.0, 136.0),
+        size=(178.0, 112.0),
     )
 
 

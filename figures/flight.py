@@ -20,7 +20,7 @@ from atlas.scene.hyperbola_plane import components
 from atlas.scene.sample import curve, quarter_pixel
 from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
-WIDTH, HEIGHT = 178.0, 76.0
+WIDTH, HEIGHT = 178.0, 60.0
 VIEW = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")
 MANY = 200
 ASKEW = 25.0

@@ -6,7 +6,6 @@ from typing import Any
 
 MINUS = "\N{MINUS SIGN}"
 THIN = "\N{NARROW NO-BREAK SPACE}"
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
@@ -36,13 +35,13 @@ class Number:
         return whole, point + grouped, str(int(power)).replace("-", MINUS) if int(power or 0) else ""
 
     def words(self) -> str:
-        """Return the number as it stands in a sentence: a power of ten only where it is far from 1."""
+        """Return the number as it stands in a sentence, a power of ten, as ``10^5^``, only where it is far from 1."""
         mantissa, _, power = self.digits.lower().partition("e")
         if not self.digits:
             return "?"
         if -4 < int(power or 0) < 4:
             return format(Decimal(self.digits), "f").replace("-", MINUS)
-        return f"{mantissa}\N{MULTIPLICATION SIGN}10{str(int(power)).translate(_RAISED)}".replace("-", MINUS)
+        return f"{mantissa}\N{MULTIPLICATION SIGN}10^{int(power)}^".replace("-", MINUS)
 
     def tex(self) -> str:
         """Return the number as a formula."""

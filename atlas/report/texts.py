@@ -189,8 +189,12 @@ class _Checked:
 
 
 def _words(text: str) -> Tree:
-    """Return plain words as nodes."""
-    return [{"t": "Str", "c": text}]
+    """Return plain words as nodes; what stands between two carets is raised."""
+    low, *raised = re.split(r"\^([^^]+)\^", text)
+    found: Tree = [{"t": "Str", "c": low}]
+    for up, after in zip(raised[::2], raised[1::2], strict=True):
+        found += [{"t": "Superscript", "c": [{"t": "Str", "c": up}]}, {"t": "Str", "c": after}]
+    return found
 
 
 def _link(words: Tree, url: str, title: str = "") -> dict[str, Any]:

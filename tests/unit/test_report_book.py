@@ -86,7 +86,7 @@ def test_contents_and_headings_are_numbered_alike(book: list[str]) -> None:
 def test_a_sentence_has_the_number_of_a_cell(book: list[str]) -> None:
     """What the prose says of a computed number is what the table says, with a power of ten only far from 1."""
     assert "and beta is 1.107148718." in " ".join(book[2:])
-    assert Number("-1.2e-5").words() == "−1.2×10⁻⁵"
+    assert Number("-1.2e-5").words() == "−1.2×10^−5^"
     assert [Number(digits).words() for digits in ("1.2e2", "-3.5e-2", "7", "")] == ["120", "−0.035", "7", "?"]
 
 
