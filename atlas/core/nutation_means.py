@@ -15,9 +15,9 @@ import numpy as np
 
 from atlas.core.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation_roots import Roots, constant, part, stacked, taken
+from atlas.core.nutation_roots import Roots, better, constant, part, stacked, taken
 
-MEANS, STEPS = 8, 60
+MEANS, STEPS = 12, 60
 """Steps of the means, and of what is made along with them, in two words."""
 
 ENOUGH = 2.0**-107
@@ -164,7 +164,10 @@ class Means:
         for m in self.levels:
             squares, weighted = C * C, m.product * D * D
             size, product = squares + weighted, C * D
-            turns.append(_unit(size, -(product * m.difference)))
+            # once the means are one nothing is added, and what C and D have lost by then does not count
+            one = m.difference.hi <= ENOUGH * m.a.hi
+            x, y = _unit(size, -(product * m.difference))
+            turns.append((chosen(one, constant(1.0, x), x), chosen(one, constant(0.0, y), y)))
             C, D = (squares - weighted) / size, product.scaled(1) / size
         rest = _half(turns[-1])
         for turn in turns[-2::-1]:
@@ -209,7 +212,7 @@ def _steps(
     # of p and of d = p - a each the form that loses less: the bounds of one grow where p is large, of the other near a
     by_product = d * (d + m.difference) / p.scaled(1)
     half = (p + m.product / p).scaled(-1)
-    p, d = _better(half, after.a + by_product), _better(by_product, half - after.a)
+    p, d = better(after.a + by_product, half), better(half - after.a, by_product)
     going = (np.maximum(abs(Q.hi), x.hi) > ENOUGH).any(axis=0)
     if not going.any() or len(levels) == 2:
         return DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
@@ -221,11 +224,6 @@ def _steps(
             _spread(y, rows, like) for y, like in ((total, constant(0.0, Q)), (product, constant(1.0, Q)))
         )
     return Q + total, (term * product).sqrt()
-
-
-def _better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
-    """Return of two forms of a number the one with the smaller bound."""
-    return chosen(x.rel <= y.rel, x, y)
 
 
 def _spread(x: DoubleDouble, rows: Any, like: DoubleDouble) -> DoubleDouble:

@@ -126,7 +126,7 @@ class Roots:
         plain = stacked(part(self.poles, 0) - self.high, self.low - part(self.poles, 1))
         beyond = -((f2 * self.poles + f1) * self.poles + f0)
         by_torque = self.torques * self.torques / (beyond * self.far)
-        return chosen(by_torque.rel < plain.rel, by_torque, plain)
+        return better(plain, by_torque)
 
     @cached_property
     def others(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
@@ -173,7 +173,11 @@ def roots_of(
     high = _refined(_first(words, poles.hi[0], still), q)
     s, t, f2 = low + high, low * high, q[4]
     f1 = q[3] + s * f2
-    f = q[2] + s * f1 - t * f2, f1, f2
+    f0 = q[2] + s * f1 - t * f2
+    # next to a separatrix f is small at 0, where its value and slope are those of Q over t
+    f0 = better(f0, q[0] / t)
+    f1 = better(f1, (q[1] + s * f0) / t)
+    f = f0, f1, f2
     steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
     return Roots(I, less, B2, B3, (w1, w2, w3), c3, b, rate, low, high, f, poles, torques, steady, moving)
 
@@ -231,6 +235,11 @@ def _refined(v: FloatArray, q: tuple[DoubleDouble, ...]) -> DoubleDouble:
     lo = (v - hi) - step
     rel = np.where((v == 0) & (q0 == 0), 0.0, np.where(steep < NEWTON, error / abs(hi), np.inf))
     return DoubleDouble(np.where(v == 0, 0.0, hi), np.where(v == 0, 0.0, lo), rel)
+
+
+def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
+    """Return of two forms of a number the one with the smaller bound."""
+    return chosen(y.rel < x.rel, y, x)
 
 
 def stacked(first: DoubleDouble, second: DoubleDouble) -> DoubleDouble:

@@ -1,7 +1,7 @@
-"""Stress of arrays of general motions: one array of ordinary rows and hostile ones, against laws and against balls.
+"""Stress of arrays of general motions: an array of ordinary and hostile rows, against laws and against balls.
 
 In every row R^T R = 1 and det R = 1 are evaluated in extended precision, and Omega3 + K3, the energy and (M, B') with
-M = II (Omega + K) are held against those at t = 0. All hostile rows, and a few ordinary ones, are held against balls:
+M = II (Omega + K) are held against those at t = 0. A row of each regime, and a few others, are held against balls:
 kind, period, angles and nome, R, Omega and K.
 """
 
@@ -21,21 +21,30 @@ from atlas.study.judges_general import narrow, state
 from atlas.study.regimes_general import GENERAL
 from atlas.study.ulps import ONE, Tally, absolute, error, own
 
-ROWS, JUDGED = 1000, 8
-"""Ordinary rows in an array, and how many of them are held against balls."""
+ROWS, JUDGED = 1000, 24
+"""Rows in an array beside those of the regimes, and how many of them are held against balls."""
 
 REGIME, BITS = "arrays of general motions", 80
 SCALARS = ("period", "precession_per_period", "spin_per_period", "nome")
 
 
 def draw(seed: int, index: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Draw I (m,), B (2, m), omega (3, m) and t (m,): a row of every regime of `GENERAL`, then ordinary ones."""
+    """Draw I (m,), B (2, m), omega (3, m) and t (m,): a row of every regime of `GENERAL`, then others."""
     random, r = Random(f"{seed} {index}"), np.random.default_rng((seed, index, 1))  # noqa: S311  not secret
     hostile = [regime(random) for regime in GENERAL.values()]
-    I = np.append([row[0] for row in hostile], 2 - r.uniform(0, 2, ROWS))
+    ratio, (B2, B3), (w1, w2, w3) = 2 - r.uniform(0, 2, ROWS), r.normal(size=(2, ROWS)), r.normal(size=(3, ROWS))
+    # half of the rows are drawn towards a border: I to 1, an input to 0, (omega2, omega3) to -B' or to the hyperbola
+    border, near = r.integers(0, 16, ROWS), r.choice([-1.0, 1.0], ROWS) * 10.0 ** r.uniform(-10, 0, ROWS)
+    ratio = np.where(border == 0, np.clip(1 + near, 2.0**-20, 2.0), ratio)
+    for place, x in enumerate((B2, B3, w1, w2, w3), 1):
+        x[border == place] *= near[border == place]
+    w2 = np.where(border == 6, near - B2, w2)
+    curve = B3 * w2 * (w2 + (2 - ratio) * B2) / (ratio * B2 * (w2 + B2))
+    w3 = np.select([border == 6, border == 7], [near - B3, curve * (1 + near)], w3)
     scale = np.where(r.random(ROWS) < 0.5, 1.0, 10.0 ** r.uniform(-100, 100, ROWS))
-    B = np.hstack([np.transpose([row[1] for row in hostile]), r.normal(size=(2, ROWS)) * scale])
-    omega = np.hstack([np.transpose([row[2] for row in hostile]), r.normal(size=(3, ROWS)) * scale])
+    I = np.append([row[0] for row in hostile], ratio)
+    B = np.hstack([np.transpose([row[1] for row in hostile]), np.array([B2, B3]) * scale])
+    omega = np.hstack([np.transpose([row[2] for row in hostile]), np.array([w1, w2, w3]) * scale])
     size = np.maximum(abs(B).max(axis=0), abs(omega).max(axis=0))
     turns = r.choice([-1.0, 1.0], I.size) * 10.0 ** r.uniform(-3, 8, I.size)
     return I, B, omega, turns / np.where(size == 0, 1.0, size)
