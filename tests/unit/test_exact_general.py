@@ -204,3 +204,11 @@ def test_two_turns_are_the_matrix_of_the_parameters(inputs: Any) -> None:
     motion = GeneralMotion(*inputs)
     two, one = motion.rotation(2.7), matrix(motion.from_frame(*motion.parameters(2.7)[:2]))
     assert largest(arb(x) - arb(y) for a, b in zip(two, one, strict=True) for x, y in zip(a, b, strict=True)) < 1e-90
+
+
+@pytest.mark.parametrize("omega1", [1, 1.999, 2.01, 2.5, 3, 10])
+def test_a_passage_through_both_poles_counts_alike_in_both_forms_of_the_sums(omega1: float) -> None:
+    """With p = M3 = 0 the axis meets the poles and precesses with Larmor's frame alone, whatever the nome."""
+    motion = GeneralMotion(0.75, (2, 4), (omega1, -2, -4))
+    assert (motion.precession_per_period + motion.b * motion.period).contains(0)
+    assert motion.spin_per_period == 0
