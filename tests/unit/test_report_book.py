@@ -88,6 +88,12 @@ def test_a_sentence_has_the_number_of_a_cell(book: list[str]) -> None:
     assert "and beta is 1.107148718." in " ".join(book[2:])
     assert Number("-1.2e-5").words() == "−1.2×10^−5^"
     assert [Number(digits).words() for digits in ("1.2e2", "-3.5e-2", "7", "")] == ["120", "−0.035", "7", "?"]
+    assert [Number(digits).words() for digits in ("1e3", "1e4", "1e-3", "1e-4")] == [
+        "1000",
+        "1×10^4^",
+        "0.001",
+        "1×10^−4^",
+    ]
 
 
 def test_equations_are_cited_by_the_printed_number(book: list[str]) -> None:

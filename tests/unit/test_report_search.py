@@ -119,6 +119,13 @@ def test_what_a_table_shows_can_be_heard(made: dict[str, str]) -> None:
     assert page.get_element_by_id(box.get("aria-labelledby")).text_content().startswith("Table 1.")
 
 
+def test_the_head_of_a_column_is_one_line(made: dict[str, str]) -> None:
+    """Names and units of columns hold no paragraph."""
+    heads = reader.fromstring(made["second.html"]).xpath("//thead//th")
+    assert len(heads) > 5
+    assert not [head for head in heads if head.xpath(".//p")]
+
+
 def test_related_reports_stand_beside(made: dict[str, str], tmp_path: Path) -> None:
     """Each page leads to the reports that are named; a name that there is not is an error."""
     for name in ("index.html", "second.html"):
