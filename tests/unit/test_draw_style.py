@@ -153,6 +153,7 @@ def test_a_plotter_needs_a_panel_in_space() -> None:
 def test_a_plotter_that_may_be_turned_peels() -> None:
     """Depth peeling is used in the picture, without antialiasing, in the coordinates of the scene; names are labels."""
     plotter = atlas.plotter("loop")
+    assert plotter.shape == (1, len(recipes.load("loop").scene().panels))  # side by side
     try:
         first = plotter.screenshot(return_img=True)
         assert plotter.renderer.GetLastRenderingUsedDepthPeeling()
