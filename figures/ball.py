@@ -42,15 +42,13 @@ def scene(
     m2, m3 = momentum
     return Scene(
         title(__doc__),
-        rf"Laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and "
-        rf"$\mathbf{{m}}(0)=(0, {tex(m2)}, {tex(m3)})$: $\mathbf{{e}}_3$ points along $\mathbf{{B}}$, and "
-        rf"$\mathbf{{m}}(0)$ "
-        r"lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. The tip of $\mathbf{m}(t)$ goes round $\mathbf{B}$ "
-        "on the "
+        rf"Laboratory system for a ball with $I_0={tex(inertia)}$, $\alpha={tex(larmor)}$ and $\mathbf{{m}}(0)=(0, "
+        rf"{tex(m2)}, {tex(m3)})$: $\mathbf{{e}}_3$ points along $\mathbf{{B}}$, and $\mathbf{{m}}(0)$ lies in the "
+        r"plane of $\mathbf{e}_2$ and $\mathbf{e}_3$. The tip of $\mathbf{m}(t)$ goes round $\mathbf{B}$ on the "
         r"circle, and the ball turns about $\hat{\mathbf{k}}$. Lengths are not to scale.",
-        f"A ball at the origin with inertia {plain(inertia)} and Larmor frequency {plain(larmor)}; B and e3 point "
-        "up, the "
-        f"angular momentum (0, {plain(m2)}, {plain(m3)}) in the plane e2, e3 precesses round B on a horizontal circle.",
+        f"A ball at the origin with inertia {plain(inertia)} and Larmor frequency {plain(larmor)}; B and e3 point up, "
+        f"the angular momentum (0, {plain(m2)}, {plain(m3)}) in the plane e2, e3 precesses round B on a horizontal "
+        "circle.",
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 95.0),
     )

@@ -22,9 +22,8 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, ele
         f"Cone of initial angular velocities with constant $\\Omega_3$ for {tex_setting(1.0, field)}; "
         rf"for a ball $\mathbb{{I}}^{{-1}}\mathbf{{B}}'$ is $\mathbf{{B}}'$ itself. The plane of $\mathbf{{e}}_2$ and "
         r"$\mathbf{e}_3$ cuts it in two straight lines (heavy), of which one goes through the origin.",
-        f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two "
-        "straight lines, "
-        "one of which passes through the origin.",
+        f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two straight "
+        "lines, one of which passes through the origin.",
         (panel,),
         size=quadric_panel.figure_size(panel),
     )

@@ -34,8 +34,7 @@ def scene(
     if squared >= 0:
         raise DomainError(
             f"figure escape needs an unstable elementary motion; omega2 = {omega2} is stable, as its nutation "
-            "frequency "
-            f"squared is {squared:g}. Unstable bands exist for I < 1 and |B3/B2| <= 1/(2 sqrt 2)."
+            f"frequency squared is {squared:g}. Unstable bands exist for I < 1 and |B3/B2| <= 1/(2 sqrt 2)."
         )
     omega3 = float(hyperbola.omega3(omega2))
     growth = float(np.sqrt(-squared))
@@ -43,12 +42,11 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field, first='A')}, started next to the unstable elementary motion "
+            f"{tex_setting(ratio, field, first='A')}, started next to the unstable elementary motion "
             rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. (a) $\Omega_3$ stays for a while, leaves with the rate "
             rf"$\gamma={tex(growth)}$, goes round the two stable motions in turn, and comes back again and again. (b) "
-            "The period "
-            r"over the push: $T$ grows by $(4/\gamma)\ln 10$ for each decade (dashed), so it tells the push and the "
-            r"reach does not. An escape is a nutation of long period, not a flight."
+            r"The period over the push: $T$ grows by $(4/\gamma)\ln 10$ for each decade (dashed), so it tells the push "
+            "and the reach does not. An escape is a nutation of long period, not a flight."
         ),
         alt=(
             f"Two panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: Omega 3 over time in pulses "

@@ -51,17 +51,16 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, at {count} moments of one turn of "
-            rf"its precession; below each, the part of the period $2\pi/k$ that has gone by. The axis $\mathbf{{R}}_3$ "
-            r"keeps its angle with $\mathbf{B}$: there is no nutation. The dark seam shows the proper rotation; in one "
-            rf"turn of the precession the body turns by $\phi/k={tex(motion.phi / motion.k)}$ turns about its own "
-            "axis, "
-            r"so at the end the axis is back and the body is not."
+            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, at {count} moments of one turn of its "
+            r"precession; below each, the part of the period $2\pi/k$ that has gone by. The axis $\mathbf{R}_3$ keeps "
+            r"its angle with $\mathbf{B}$: there is no nutation. The dark seam shows the proper rotation; in one turn "
+            rf"of the precession the body turns by $\phi/k={tex(motion.phi / motion.k)}$ turns about its own axis, so "
+            "at the end the axis is back and the body is not."
         ),
         alt=(
             f"{count} drawings side by side of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: a "
-            "cylinder "
-            "whose axis goes once round the field on a cone, and whose painted seam turns about the axis meanwhile."
+            "cylinder whose axis goes once round the field on a cone, and whose painted seam turns about the axis "
+            "meanwhile."
         ),
         panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(WIDTH, HEIGHT),

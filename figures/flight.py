@@ -64,20 +64,17 @@ def scene(
         caption=(
             rf"The flight of a point of {tex_setting(ratio, field)}, $\mu={tex(mu)}$ and $c={tex(c)}$, with "
             rf"$\mathbf{{E}}={tex_vector(E)}$. The centre of mass starts at the origin with the velocity "
-            rf"${tex_vector(velocity)}$ and circles with the frequency $2\lvert\mathbf{{B}}'\rvert"
-            rf"{tex_equals(abs(particle.cyclotron_frequency))}$; the point starts at "
-            rf"$\mathbf{{x}}_N={tex_vector(point)}$ and is "
-            rf"carried round it by the elementary motion with $\omega_2={tex(motion.omega2)}$, "
-            rf"$k{tex_equals(motion.k)}$ and "
-            rf"$\phi{tex_equals(motion.phi)}$. (a) In space. (b) Seen along $\mathbf{{B}}$. Thin lines join the "
-            rf"centre of mass "
-            rf"to the point at equal steps of time."
+            rf"${tex_vector(velocity)}$ and circles with the frequency $2\lvert\mathbf{{B}}'"
+            rf"\rvert{tex_equals(abs(particle.cyclotron_frequency))}$; the point starts at "
+            rf"$\mathbf{{x}}_N={tex_vector(point)}$ and is carried round it by the elementary motion with "
+            rf"$\omega_2={tex(motion.omega2)}$, $k{tex_equals(motion.k)}$ and $\phi{tex_equals(motion.phi)}$. (a) In "
+            r"space. (b) Seen along $\mathbf{B}$. Thin lines join the centre of mass to the point at equal steps of "
+            "time."
         ),
         alt=(
             f"Two panels with the path of a point of {plain_setting(ratio, field)} in the electric field "
-            f"{plain_vector(E)}: a curve that winds round the path of the centre of mass, drawn in space and "
-            f"projected on "
-            "the plane across the magnetic field."
+            f"{plain_vector(E)}: a curve that winds round the path of the centre of mass, drawn in space and projected "
+            "on the plane across the magnetic field."
         ),
         panels=(space(flight, B, view, drawn), projection(flight, axes, drawn, unit)),
         columns=2,

@@ -50,9 +50,8 @@ def scene(
     proper = (
         r"the proper rotation $\phi$, mf77, which is zero at rest and at $\omega_2=-2B'_2$ and has its pole, dotted, "
         r"at $\omega_2=-B'_2$. (b) Their quotient, mf91: the motion repeats itself where it is rational. Dashed: the "
-        r"free body "
-        rf"that precesses as fast about the same axis, mf92, with $\phi/k{tex_equals(free)}$. Dots: the motions that "
-        rf"repeat themselves after {counted(order)} of the precession, with their $\phi/k=p/q$."
+        rf"free body that precesses as fast about the same axis, mf92, with $\phi/k{tex_equals(free)}$. Dots: the "
+        rf"motions that repeat themselves after {counted(order)} of the precession, with their $\phi/k=p/q$."
         if free
         else r"the proper rotation $\phi$, mf77, which is zero on the whole curve. (b) Their quotient, mf91."
     )
@@ -64,12 +63,10 @@ def scene(
         ),
         alt=(
             f"Two panels over omega 2 for {plain_setting(ratio, field)}: the frequency of precession k, a straight "
-            f"line "
-            "through zero, with the frequency of proper rotation phi, "
+            "line through zero, with the frequency of proper rotation phi, "
             + (
                 f"two branches with a pole at omega 2 = {plain(-B2)} and zeros at 0 and {plain(-2 * B2)}; and the "
-                f"quotient "
-                f"phi over k, two branches that level out at {plain(free)}, the value of the free body."
+                f"quotient phi over k, two branches that level out at {plain(free)}, the value of the free body."
                 if free
                 else "which is zero throughout; and the quotient phi over k, zero too."
             )

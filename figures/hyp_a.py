@@ -26,9 +26,8 @@ def scene(
         title(__doc__),
         f"Upper sheet of the hyperboloid of initial angular velocities with constant $\\Omega_3$ for "
         f"{tex_setting(ratio, field)}. {quadric_panel.LEGEND}",
-        f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the origin "
-        "O, from "
-        "which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it at −B'.",
+        f"A bowl, the upper sheet of a hyperboloid, for {plain_setting(ratio, field)}; it passes through the origin O, "
+        "from which B' and its image under the inverse inertia tensor rise; the canonical axes meet below it at −B'.",
         (panel,),
         size=quadric_panel.figure_size(panel),
     )

@@ -28,8 +28,7 @@ def scene(
         r"one tube about its inclined canonical axis, on which both branches of the hyperbola $\omega_1=0$ (heavy "
         r"lines) run along opposite sides.",
         f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
-        "−B'; both "
-        "branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",
+        "−B'; both branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",
         (panel,),
         size=quadric_panel.figure_size(panel),
     )

@@ -109,8 +109,7 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
     else:
         sentences.append(
             r"Dashed: the asymptote through the centre $-\mathbf{B}'$ along $\mathbb{I}^{-1}\mathbf{B}'$; dotted: the "
-            r"pole "
-            rf"$\omega_2=-B'_2={tex(-B2)}$."
+            rf"pole $\omega_2=-B'_2={tex(-B2)}$."
         )
         zeros = rf"$\omega_3$ is zero at rest and at $\omega_2=-(2-I)B'_2={tex((I - 2) * B2)}$."
         sentences.append(zeros if I != 2 else r"Both zeros of $\omega_3$ have met in the state of rest.")

@@ -55,15 +55,12 @@ def scene(
         title=title(__doc__),
         caption=(
             r"The curves mf72 of initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions in the "
-            r"field "
-            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
+            rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
                 r"All have the centre $-\mathbf{B}'$ and the dotted asymptote $\omega_2=-B'_2$, and all pass through "
-                r"the "
-                r"state of rest and through $-2\mathbf{B}'$; the dashed asymptotes run along "
-                r"$\mathbb{I}^{-1}\mathbf{B}'$. "
-                r"Black dots: the points $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ again. "
-                "The scales of the two axes differ."
+                r"the state of rest and through $-2\mathbf{B}'$; the dashed asymptotes run along "
+                r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: the points $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ "
+                "again. The scales of the two axes differ."
                 if B2 and B3
                 else "In such a field the curve is the same for every body, and falls apart into straight lines."
                 if B2
@@ -72,10 +69,8 @@ def scene(
         ),
         alt=(
             f"Plot of hyperbolas in the plane of omega 2 and omega 3 in the field B' = {plain_vector((0.0, *field))} "
-            f"for "
-            f"{spoken}. They share the centre {plain_vector((-field[0], -field[1]))}, one vertical asymptote, the "
-            f"state of "
-            f"rest at 0 and the point {plain_vector((-2 * field[0], -2 * field[1]))}."
+            f"for {spoken}. They share the centre {plain_vector((-field[0], -field[1]))}, one vertical asymptote, the "
+            f"state of rest at 0 and the point {plain_vector((-2 * field[0], -2 * field[1]))}."
         ),
         panels=(
             Plane(

@@ -30,8 +30,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, ele
         f"Both sheets of the hyperboloid for {tex_setting(2.0, field)}, and the planes $\\omega_3=0$ and "
         rf"$\omega_3=-2B'_3$ that they touch at $O$ and at $-2\mathbf{{B}}'$.",
         f"Two bowls, the sheets of a hyperboloid, for {plain_setting(2.0, field)}; the upper rests on a horizontal "
-        "plane at "
-        "the origin, the lower hangs from another one at −2B'.",
+        "plane at the origin, the lower hangs from another one at −2B'.",
         (panel,),
         size=quadric_panel.figure_size(panel),
     )

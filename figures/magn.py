@@ -66,15 +66,12 @@ def scene(
     vector = tex_vector((0.0, *E))
     return Scene(
         title(__doc__),
-        rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and "
-        rf"$\mathbf{{B}}=(0, 0, {tex(B)})$: $z$ points along the axis of $\mathbf{{B}}$, and $\mathbf{{E}}$ lies in "
-        "the "
-        r"plane of $y$ and $z$. The path begins at the origin and drifts along $[\mathbf{E}, \mathbf{B}]$, the axis "
-        "$x$. "
-        r"The arrows of the fields are not to scale.",
-        f"Axes x towards the reader, y to the right and z up; B = {plain(B)} along z, E = {plain_vector((0.0, *E))} "
-        "in the "
-        "plane of y and z with its two components, and the spiral path of a particle that drifts along x.",
+        rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and $\mathbf{{B}}=(0, 0, "
+        rf"{tex(B)})$: $z$ points along the axis of $\mathbf{{B}}$, and $\mathbf{{E}}$ lies in the plane of $y$ and "
+        r"$z$. The path begins at the origin and drifts along $[\mathbf{E}, \mathbf{B}]$, the axis $x$. The arrows of "
+        "the fields are not to scale.",
+        f"Axes x towards the reader, y to the right and z up; B = {plain(B)} along z, E = {plain_vector((0.0, *E))} in "
+        "the plane of y and z with its two components, and the spiral path of a particle that drifts along x.",
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 88.0),
     )

@@ -38,14 +38,12 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The amplitude of the nutation, the difference between the largest and the least angle of "
-            r"$\mathbf{R}_3$ and $\mathbf{B}$, over the initial angular velocity $(0,\omega_2,\omega_3)$ in the field "
+            r"The amplitude of the nutation, the difference between the largest and the least angle of $\mathbf{R}_3$ "
+            r"and $\mathbf{B}$, over the initial angular velocity $(0,\omega_2,\omega_3)$ in the field "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$. It vanishes on the hyperbola (white) alone, which is all "
             r"that the paper solves; open dot: rest, diamond: $-2\mathbf{B}'$. Between the dotted lines the trace of "
-            "the "
-            r"axis makes loops, outside it waves; one of them is $\omega_2=0$, where it has cusps. For the long "
-            "solenoid "
-            r"the map jumps: there are the separatrices, and they meet the hyperbola where it is unstable."
+            r"the axis makes loops, outside it waves; one of them is $\omega_2=0$, where it has cusps. For the long "
+            "solenoid the map jumps: there are the separatrices, and they meet the hyperbola where it is unstable."
         ),
         alt=(
             f"Maps of the amplitude of nutation for I = {listed([f'{I:g}' for I in ratios])} over omega 2 and omega 3, "

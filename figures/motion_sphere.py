@@ -74,8 +74,7 @@ def scene(
             r"the precession would fill a band of the sphere, and is not drawn."
         ),
         f"A unit sphere for {plain_setting(ratio, field)} with omega2 = {plain(omega2)}; the third axis of the body "
-        "precesses "
-        f"on a circular cone around {'B' if any(field) else 'm'}, starting from e3"
+        f"precesses on a circular cone around {'B' if any(field) else 'm'}, starting from e3"
         + ("; the first axis traces a rosette." if drawn else "."),
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 100.0),

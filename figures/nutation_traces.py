@@ -41,15 +41,13 @@ def scene(
             rf"The third axis of {tex_setting(ratio, field)} with $\omega_3={tex(omega3)}$ over {plain(nutations)} "
             r"periods of the nutation, seen with $\mathbf{B}$ upright. At the start (dot) the axis stands at a turning "
             r"point of the nutation and moves along the parallel with $\omega_2$: at rest there, it draws cusps, as a "
-            r"spinning top does that is let go; moved one way it waves, the other way it loops. The trace stays "
-            "between "
-            r"the two parallels, which are roots of the quartic $Q$."
+            "spinning top does that is let go; moved one way it waves, the other way it loops. The trace stays between "
+            "the two parallels, which are roots of the quartic $Q$."
         ),
         alt=(
             f"Unit spheres with the trace of the body's axis for {plain_setting(ratio, field)}, omega 3 = "
             f"{plain(omega3)} and omega 2 = {listed([plain(start) for start in omega2])}: a wave, a line with cusps "
-            "and "
-            "a line with loops between two parallels around the field."
+            "and a line with loops between two parallels around the field."
         ),
         panels=panels,
         columns=len(panels),

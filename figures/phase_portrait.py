@@ -68,8 +68,7 @@ def scene(
         ),
         alt=(
             f"Closed curves in the plane of Omega 3 and its rate, for {plain_setting(ratio, field)} with the momenta "
-            "of "
-            f"omega 2 = {plain(omega2)}: {len(stable)} stable and {len(saddles)} unstable equilibria"
+            f"of omega 2 = {plain(omega2)}: {len(stable)} stable and {len(saddles)} unstable equilibria"
             + (", with a figure of eight through the latter." if saddles else ".")
         ),
         panels=(

@@ -24,8 +24,7 @@ def scene(
         f"{tex_setting(ratio, field)}. "
         f"{quadric_panel.LEGEND}",
         f"A {kind} in the space of angular velocities, for {plain_setting(ratio, field)}, with the laboratory axes, "
-        "B', "
-        "its image under the inverse inertia tensor, the canonical axes through −B' and the hyperbola in the plane "
+        "B', its image under the inverse inertia tensor, the canonical axes through −B' and the hyperbola in the plane "
         "e2, e3.",
         (panel,),
         size=quadric_panel.figure_size(panel),

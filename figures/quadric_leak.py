@@ -51,15 +51,12 @@ def scene(
             rf"Points of the quadric mf58 of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$, off the "
             r"hyperbola. From each, a constant $\Omega_3$ would solve mf55, but the body leaves at the rate "
             r"$\dot\Omega_3(0)=\omega_1B'_2$; only with $\omega_1=0$ it stays. (a) The motion of $\Omega_3$ for "
-            r"$\omega_1$ "
-            rf"equal to {listed([f'${tex(value)}$' for value in omega1])}; dashed: the rate at the start. (b) The "
-            rf"largest "
-            rf"departure from the start, with dots for the motions of (a); {law}"
+            rf"$\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; dashed: the rate at the start. "
+            f"(b) The largest departure from the start, with dots for the motions of (a); {law}"
         ),
         alt=(
             f"Two panels for {plain_setting(ratio, field)}: the change of Omega 3 over time from starts with omega 1 "
-            f"equal to "
-            f"{listed([plain(value) for value in omega1])}, each an oscillation that begins with the slope "
+            f"equal to {listed([plain(value) for value in omega1])}, each an oscillation that begins with the slope "
             "omega 1 times B 2; and the largest change over omega 1 on logarithmic axes, "
             + ("which falls in proportion to omega 1." if nu2 > 0 else "which does not fall to zero with omega 1.")
         ),

@@ -51,8 +51,7 @@ def scene(
         alt=(
             f"Two pairs of cones that touch along a line, for {plain_setting(ratio, field)} with omega 2 = "
             f"{plain(omega2)}: the cone fixed in the body about its axis rolls on the cone fixed in space, which "
-            "stands "
-            "about the field on the left and about the angular momentum of a free body on the right."
+            "stands about the field on the left and about the angular momentum of a free body on the right."
         ),
         panels=panels,
         columns=2,

@@ -44,17 +44,14 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The trace of a point of the body, 50 degrees from its axis, on the unit sphere, seen along "
-            rf"$\mathbf{{B}}$, for "
-            rf"{tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back in its first attitude "
-            "after "
-            rf"{listed([str(q) for _, q in fractions])} turns of the precession. The last motion, from "
+            r"The trace of a point of the body, 50 degrees from its axis, on the unit sphere, seen along $\mathbf{B}$, "
+            rf"for {tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back in its first attitude "
+            f"after {listed([str(q) for _, q in fractions])} turns of the precession. The last motion, from "
             rf"$\omega_2={tex(omega2)}$, has been followed over {plain(turns)} turns."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "
-            "rosettes for "
-            f"phi over k equal to {spoken}; a further motion fills a band of the sphere."
+            f"rosettes for phi over k equal to {spoken}; a further motion fills a band of the sphere."
         ),
         panels=panels,
         columns=len(panels),

@@ -47,9 +47,8 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
-            rf"squared, "
-            rf"$\nu_n^2=-p'(\omega_3)$ with the cubic $p$ of mf55, along the hyperbola mf72. "
+            f"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
+            r"squared, $\nu_n^2=-p'(\omega_3)$ with the cubic $p$ of mf55, along the hyperbola mf72. "
             + (
                 f"The motion is unstable on the shaded bands {where}, inside which it is negative. "
                 if bands

@@ -51,12 +51,11 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"A disk, $I={tex(quotient(ratio))}$, spins along the field $B'_3={tex(B3)}$ with "
+            f"A disk, $I={tex(quotient(ratio))}$, spins along the field $B'_3={tex(B3)}$ with "
             rf"$\omega_3={tex(omega3)}$, nearly as Larmor's frame does; there $D={tex(D)}<0$, and a push "
-            rf"$\omega_1={tex(push)}$ grows with the rate $\gamma=\sqrt{{-D}}/2={tex(growth)}$. Above: "
-            rf"{count} moments of its tipping, by equal steps of the angle between its axis and the field; light is "
-            "its "
-            r"first upper side. Below: that angle, with the moments above as dots. "
+            rf"$\omega_1={tex(push)}$ grows with the rate $\gamma=\sqrt{{-D}}/2={tex(growth)}$. Above: {count} moments "
+            "of its tipping, by equal steps of the angle between its axis and the field; light is its first upper "
+            "side. Below: that angle, with the moments above as dots. "
             + (
                 "It turns over completely, stays for a while, and turns back."
                 if far > 179.0
@@ -65,8 +64,7 @@ def scene(
         ),
         alt=(
             f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "
-            "time, "
-            f"three times from zero to {plain(round(far))} degrees and back."
+            f"time, three times from zero to {plain(round(far))} degrees and back."
         ),
         panels=(
             strip(motion, I, times, (azimuth, elevation)),

@@ -71,13 +71,11 @@ def scene(
         caption=(
             rf"The path of a charged particle, mf10.1, with $\mu={tex(mu)}$ and $c={tex(c)}$ in the fields "
             rf"$\mathbf{{E}}={tex_vector(E)}$ and $\mathbf{{B}}={tex_vector(B)}$, projected on the plane orthogonal to "
-            rf"$\mathbf{{B}}$; $x$ runs along $[\mathbf{{E}},\mathbf{{B}}]$ and $y$ along $\mathbf{{E}}_\perp$. "
-            rf"The guiding centre drifts along the dashed line with the speed "
-            rf"$v=c\lvert\mathbf{{E}}_\perp\rvert/\lvert\mathbf{{B}}\rvert{tex_equals(v)}$, and the particle turns "
-            rf"round it "
-            rf"with the frequency $\omega=\lvert\mu\mathbf{{B}}\rvert/c{tex_equals(omega)}$ on a circle of radius $a$. "
-            r"It starts at the large dot; small dots mark whole turns. "
-            r"All panels have one scale."
+            r"$\mathbf{B}$; $x$ runs along $[\mathbf{E},\mathbf{B}]$ and $y$ along $\mathbf{E}_\perp$. The guiding "
+            r"centre drifts along the dashed line with the speed $v=c\lvert\mathbf{E}_\perp\rvert/\lvert\mathbf{B}"
+            rf"\rvert{tex_equals(v)}$, and the particle turns round it with the frequency $\omega=\lvert\mu\mathbf{{B}}"
+            rf"\rvert/c{tex_equals(omega)}$ on a circle of radius $a$. It starts at the large dot; small dots mark "
+            "whole turns. All panels have one scale."
         ),
         alt=(
             f"The path of a charged particle across the fields E = {plain_vector(E)} and B = {plain_vector(B)}: "
