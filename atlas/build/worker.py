@@ -12,6 +12,7 @@ import warnings
 from collections.abc import Mapping
 from contextlib import redirect_stdout
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -77,7 +78,7 @@ def _draw(task: Task) -> None:
     if "csv" in task.keys:
         contents["csv"] = data.table(scene).encode()
     if "csv.gz" in task.keys:
-        contents["csv.gz"] = gzip.compress(data.table(scene).encode(), mtime=0)
+        contents["csv.gz"] = _compressed(data.table(scene).encode())
     facts = {
         "title": scene.title,
         "caption": scene.caption,
@@ -98,6 +99,14 @@ def _draw(task: Task) -> None:
     }
     for kind, key in task.keys.items():
         cache.put(key, json.dumps(facts).encode() + b"\n" + contents[kind])
+
+
+def _compressed(content: bytes) -> bytes:
+    """Return a file of gzip, the same bytes with every Python: `gzip.compress` writes another header from 3.13 on."""
+    buffer = BytesIO()
+    with gzip.GzipFile(fileobj=buffer, mode="wb", mtime=0) as file:
+        file.write(content)
+    return buffer.getvalue()
 
 
 def points(scene: Scene) -> int:
