@@ -82,7 +82,7 @@ CHANGES = (
     Change("a number of a table", BUILD, REPORT, swap("omega2 = [-3.0,", "omega2 = [-3.{:03d},")),
     Change("a parameter of a 2-D figure", BUILD, REPORT, parameter("short-hyperbola", "reach", 2.5)),
     Change("the same, pages only", PAGES, REPORT, parameter("short-hyperbola", "reach", 2.3)),
-    Change("a parameter of a line drawing in space", BUILD, REPORT, parameter("loop-motion", "omega2", 0.8)),
+    Change("a parameter of a line drawing in space", BUILD, REPORT, parameter("ball", "azimuth", 45.0)),
     Change("a parameter of a shaded figure", BUILD, REPORT, parameter("ribbon", "azimuth", 45.0)),
     Change("the same, pages only", PAGES, REPORT, parameter("ribbon", "azimuth", 40.0)),
     Change("the code of a recipe", BUILD, "figures/stability.py", line("import numpy", "NEW = {}")),

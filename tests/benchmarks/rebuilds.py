@@ -12,7 +12,7 @@ import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -98,12 +98,18 @@ class Checkout:
             elapsed = self.run(change.command, number)
             if number:  # the first one loads what was not used for long
                 seconds.append(elapsed)
-                made = [Path(name).suffix for name, key in self.state().items() if before.get(name) != key]
-                figures = self.drawn(began) if change.command[0] == "report" else made.count(".svg")
+                made = [name for name, key in self.state().items() if before.get(name) != key]
+                figures = self.drawn(began) if change.command[0] == "report" else len(made)
         path.write_text(original, encoding="utf-8")
         said = " ".join(("atlas", *change.command)).replace(" --out {out}/plots", "").replace(" --out {out}", "")
         said = said.format(number=0)
-        return Taken(change.name, said, figures, made.count(".html"), ".pdf" in made, tuple(seconds))
+        return Taken(change.name, said, figures, *kinds(made), tuple(seconds))
+
+
+def kinds(made: Iterable[str]) -> tuple[int, bool]:
+    """Return how many pages are among files, and whether the report's PDF is, which stands beside their folder."""
+    paths = [Path(name) for name in made]
+    return sum(path.suffix == ".html" for path in paths), Path("atlas.pdf") in paths
 
 
 def measure(runs: int = 5) -> Iterator[Taken]:

@@ -30,6 +30,23 @@ def test_each_edit_can_be_made_and_leaves_a_whole_file(change: changes.Change) -
             json.loads(one)
 
 
+@pytest.mark.parametrize("change", [one for one in changes.CHANGES if "parameter" in one.edit.__qualname__])
+def test_a_changed_parameter_is_that_of_a_figure(change: changes.Change) -> None:
+    """What is said to be a parameter of a figure changes one block, and that is a figure."""
+    text = (PACKAGE.parent / change.file).read_text(encoding="utf-8")
+    before, after = (
+        [block for page in tomllib.loads(one)["pages"] for block in page["blocks"]]
+        for one in (text, change.edit(text, 1))
+    )
+    assert [one["kind"] for one, other in zip(before, after, strict=True) if one != other] == ["figure"]
+
+
+def test_the_pdf_of_a_figure_is_not_that_of_the_report() -> None:
+    """Pages are counted, and of the PDFs only the one beside their folder."""
+    assert rebuilds.kinds(["atlas/index.html", "atlas/ball.html", "atlas/figures/01-ball.pdf"]) == (2, False)
+    assert rebuilds.kinds(["atlas.pdf"]) == (0, True)
+
+
 def test_an_edit_that_does_not_fit_is_told() -> None:
     """A block or a line that is not there is an error that names it."""
     with pytest.raises(AtlasError, match="no block with the id 'nowhere'"):
