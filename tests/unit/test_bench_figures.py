@@ -4,6 +4,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -65,6 +66,34 @@ def test_every_pair_of_the_record_is_drawn() -> None:
             if run.case == case and run.horizon == 1000.0 and run.status == "done"
         }
         assert found == wanted
+
+
+def places(panel: Any) -> set[tuple[float, ...]]:
+    """Return all points of the curves and marks of a panel, but for those of a limit."""
+    return {tuple(p) for layer in panel.layers if layer.role != "limit" for p in layer.points.tolist()}
+
+
+def test_costs_are_those_of_the_record() -> None:
+    """Left stand the nanoseconds of one thread, right the multiples of filling the memory, from 10^4 matrices on."""
+    costs = [cost for cost in results.read().costs if cost.nanoseconds is not None]
+    each, multiples = recipes.load("cost").scene().panels
+    methods = {"fill", "plain_out", "lambdify", "rotation", "ours_out", "grid_out"}
+    assert places(each) == {(c.count, c.nanoseconds) for c in costs if c.threads == 1 and c.method in methods}
+    two = {(c.count, c.to_fill) for c in costs if c.method in {"ours_out", "grid_out"} and c.threads == 2}
+    one = {(c.count, c.to_fill) for c in costs if c.method in {"plain_out", "ours_out", "grid_out"} and c.threads == 1}
+    assert places(multiples) == {place for place in one | two if place[0] >= 10_000}
+
+
+def test_the_best_run_at_each_horizon_is_drawn() -> None:
+    """Each method has at each horizon the least of its errors there."""
+    best: dict[tuple[str, str, float], float] = {}
+    for run in results.read().runs:
+        if run.status == "done":
+            key = run.case, run.method, run.horizon
+            best[key] = min(best.get(key, np.inf), run.error or 0.0)
+    for case in ("elementary", "ball"):
+        (panel,) = recipes.load("horizon").scene(cases=(case,)).panels
+        assert places(panel) == {(horizon, error) for (of, _, horizon), error in best.items() if of == case}
 
 
 def test_figures_follow_the_record(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

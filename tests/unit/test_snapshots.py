@@ -116,8 +116,8 @@ NOISE = {("invariants", 0), *((name, panel) for name in ("error_maps", "motion_m
 """Panels of rounding errors or of roots by iteration, which differ between processors: only their structure is kept."""
 
 
-MEASURED = {"build_cost"}
-"""Figures of times on record, which a new record changes; `test_report_costs` draws them from a fixed one."""
+MEASURED = {"build_cost", "cost", "horizon", "work_precision"}
+"""Figures of times on record, which a new record changes: `test_report_costs` and `test_bench_figures` are for them."""
 
 
 @pytest.mark.parametrize("name", sorted(set(recipes.names()) - MEASURED))
