@@ -49,8 +49,9 @@ def command(
     """Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
 
     FAMILY is elementary, general, free, quadric, ball or particle; a wrong name of a parameter or quantity is answered
-    with the right ones. A row takes microseconds, of the family general some tens of them. What is done is kept in
-    the folder OUT.parts: a sweep that was stopped goes on when it is called again.
+    with the right ones. A row takes microseconds, of the family general some tens of them. Where a quantity has no
+    value its cell is empty, and the column missing says why. What is done is kept in the folder OUT.parts: a sweep that
+    was stopped goes on when it is called again.
     """
     from atlas.study.sweep.run import sweep
 

@@ -186,18 +186,24 @@ class GeneralMotion(Motion[General]):
         """Angle by which the body precesses about B in one period; a passage through a pole counts as half a turn less.
 
         It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b.
-        DomainError where the period is infinite.
+        Where the period is infinite there is none: DomainError for one motion, NaN for one of an array.
         """
         return self._scalar("precession_per_period")
 
     @cached_property
     def spin_per_period(self) -> Any:
-        """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt."""
+        """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt.
+
+        Where the period is infinite there is none, as for `precession_per_period`.
+        """
         return self._scalar("spin_per_period")
 
     @cached_property
     def modulus(self) -> Any:
-        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
+        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix.
+
+        At a triple root it has no limit, nor has the nome: DomainError for one motion, NaN for one of an array.
+        """
         return self._scalar("modulus")
 
     @cached_property
@@ -211,7 +217,17 @@ class GeneralMotion(Motion[General]):
         return self._scalar("nome")
 
     def _scalar(self, name: str) -> Any:
-        return self._each(name, lambda exact: float(arb(enclosed(lambda: getattr(exact, name), BITS)).mid()))
+        """Return a number for each motion, in an array NaN for a motion that has none."""
+
+        def value(exact: Balls) -> float:
+            try:
+                return float(arb(enclosed(lambda: getattr(exact, name), BITS)).mid())
+            except DomainError:
+                if self._turning:
+                    raise
+                return np.nan
+
+        return self._each(name, value)
 
     def _each(self, name: str, value: Callable[[Balls], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
         """Return one value for each motion: plain for one motion, else an array; what is not sure is made of balls."""

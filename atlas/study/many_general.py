@@ -77,7 +77,7 @@ def judge_general_rows(seed: int, index: int) -> Tally:
         for name, values, balls in (("general Omega", Omega[i], truth[1]), ("general K", K[i], truth[2])):
             errors = [error(x, y, size * ONE) for x, y in zip(values, balls, strict=True)]
             tally.add(name, REGIME, errors, same)
-    # on a separatrix there are no angles, and an array that holds one is refused
+    # on a separatrix there are no angles to judge
     chosen = [i for i in range(len(GENERAL) + JUDGED) if kinds[i].startswith("nutation")]
     some = GeneralMotion(I[chosen], B[:, chosen], omega[:, chosen])
     found = np.stack([getattr(some, name) for name in SCALARS], -1)

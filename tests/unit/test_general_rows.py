@@ -12,6 +12,7 @@ from flint import arb, ctx
 from atlas.core import general, general_rows
 from atlas.core.general import GeneralMotion
 from atlas.core.general_rows import GeneralRows
+from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.judges_general import narrow, state
 from atlas.study.many_general import REGIME, judge_general_rows
@@ -122,6 +123,29 @@ def test_a_kind_next_to_a_border_is_decided_exactly() -> None:
         for i, kind in enumerate(motions.kind):
             row = [float(np.broadcast_to(x, (5,))[i]) for x in (ratio, *B, *omega)]
             assert kind == Balls(row[0], row[1:3], row[3:]).kind
+
+
+def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
+    """An array has NaN where a motion made alone says that it has no number, there only, and else the same bits."""
+    rows = [
+        (1.5, (1.0, 2.0), (0.3, 0.7, 0.2)),
+        (0.75, (20.0, 15.0), (6.0, -24.5, -7.0)),  # a separatrix
+        (0.5, (1.0, -3.0), (0.0, 1.5, 2.0)),  # that of a triple root
+        (0.5, (3.0, 1.0), (0.0, -1.5, -2.0)),  # an unstable precession
+        (2.0, (1.0, 0.5), (1.0, -1.0, -0.5)),  # from B to -B
+    ]
+    I, B, omega = zip(*rows, strict=True)
+    motions, lacking = GeneralMotion(np.array(I), np.array(B).T, np.array(omega).T), 0
+    for i, row in enumerate(rows):
+        alone = GeneralMotion(*row)
+        assert motions.kind[i] == alone.kind
+        for name in SCALARS:
+            try:
+                assert getattr(motions, name)[i] == getattr(alone, name)
+            except DomainError:
+                lacking += 1
+                assert np.isnan(getattr(motions, name)[i])
+    assert lacking == 2 * 4 + 3
 
 
 def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:

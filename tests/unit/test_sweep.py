@@ -152,6 +152,78 @@ def test_a_name_with_a_comma_is_one_cell(tmp_path: Path) -> None:
     assert [float(row["period"]) for row in rows] == table["period"].tolist()
 
 
+def separatrices() -> dict[str, Any]:
+    """Return a list of rows, of which some are on a separatrix and one on that of a triple root."""
+    I, B2, B3, w1, w2, w3 = zip(
+        (1.5, 1.0, 2.0, 0.3, 0.7, 0.2),
+        (0.75, 20.0, 15.0, 6.0, -24.5, -7.0),
+        (0.5, 1.0, -3.0, 0.0, 1.5, 2.0),
+        (0.5, 1.0, 0.25, 0.1, -0.4, 0.3),
+        (2.0, 1.0, 0.5, 1.0, -1.0, -0.5),
+        strict=True,
+    )
+    return {"ratio": I, "B2": B2, "B3": B3, "omega1": w1, "omega2": w2, "omega3": w3}
+
+
+ANGLES = ("kind", "period", "nome", "spin_per_period")
+REASONS = ["", "no period", "no period, triple root", "", "no period"]
+
+
+@pytest.mark.parametrize("digits", [None, 20])
+def test_a_row_without_a_number_says_why_and_the_table_goes_on(tmp_path: Path, digits: int | None) -> None:
+    """On a separatrix the angle a period is an empty cell of CSV, NaN in NPZ, null in Parquet, with a reason."""
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    names, rows = ANGLES[digits is not None :], separatrices()
+    table = atlas.sweep("general", rows, names, listed=True, digits=digits)
+    assert isinstance(table, dict)
+    assert list(table) == [*rows, *names, "missing"]
+    assert table["missing"].tolist() == REASONS
+    assert [float(x) for x in table["period"]][1:3] == [np.inf, np.inf]
+    lack = dict.fromkeys(names, [False] * len(REASONS))
+    lack |= {"spin_per_period": [bool(reason) for reason in REASONS], "nome": ["root" in x for x in REASONS]}
+    for suffix in (".csv", ".npz", ".parquet"):
+        atlas.sweep("general", rows, names, tmp_path / f"t{suffix}", listed=True, digits=digits, rows=2, jobs=1)
+    with (tmp_path / "t.csv").open(newline="") as file:
+        text = list(csv.DictReader(file))
+    found = parquet.read_table(tmp_path / "t.parquet")
+    with np.load(tmp_path / "t.npz") as arrays:
+        for name in names:
+            none = arrays[name] == "" if digits or name == "kind" else np.isnan(arrays[name])
+            assert none.tolist() == lack[name]
+            assert np.array_equal(arrays[name], table[name], equal_nan=not (digits or name == "kind"))
+            written = [str(x) for x in table[name].tolist()]
+            cells = ["" if gone else x for gone, x in zip(lack[name], written, strict=True)]
+            assert [row[name] for row in text] == cells
+            values = [None if gone else x for gone, x in zip(lack[name], table[name].tolist(), strict=True)]
+            assert found[name].to_pylist() == values
+        assert arrays["missing"].tolist() == [row["missing"] for row in text] == REASONS
+    assert found["missing"].to_pylist() == [reason or None for reason in REASONS]
+
+
+def test_a_sweep_stopped_after_a_separatrix_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Parts with rows without a number are kept and taken up as others are, and give the table of one go."""
+    rows, part = separatrices(), run.part
+
+    def until_four(plan: Plan, start: int, suffix: str) -> bytes:
+        if start == 4:
+            raise KeyboardInterrupt
+        return part(plan, start, suffix)
+
+    for suffix in (".csv", ".npz"):
+        whole = atlas.sweep("general", rows, ANGLES, tmp_path / f"a{suffix}", listed=True, rows=2, jobs=1)
+        again = tmp_path / f"b{suffix}"
+        monkeypatch.setattr(run, "part", until_four)
+        with pytest.raises(KeyboardInterrupt):
+            atlas.sweep("general", rows, ANGLES, again, listed=True, rows=2, jobs=1)
+        monkeypatch.setattr(run, "part", part)
+        assert len(list((tmp_path / f"b{suffix}.parts").glob("*.part"))) == 2
+        atlas.sweep("general", rows, ANGLES, again, listed=True, rows=2, jobs=2)
+        assert isinstance(whole, Path)
+        assert again.read_bytes() == whole.read_bytes()
+
+
 def test_parts_of_another_sweep_are_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Other parameters, other parts; and a folder of the user's own is left alone."""
     monkeypatch.setattr(run, "shutil", type("Kept", (), {"rmtree": staticmethod(lambda _: None)}))

@@ -1,14 +1,14 @@
 """What can be swept: the parameters and quantities of each family of motions, by kernels and by balls."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.errors import AtlasError
+from atlas.errors import AtlasError, DomainError
 
 Row = Mapping[str, Any]
 NAME = "U28"
@@ -18,6 +18,9 @@ NAME = "U28"
 PERIODIC = ("period", "precession_per_period", "spin_per_period", "modulus", "nome")
 """Numbers of a general motion that belong to its nutation."""
 
+MISSING = "missing"
+"""Column that says why a quantity of a row has no value."""
+
 
 @dataclass(frozen=True)
 class Family:
@@ -25,7 +28,8 @@ class Family:
 
     `make` takes the parameters, arrays or numbers, and returns the kernels' objects; each quantity is got from these
     and the parameters. `exact` does the same with `atlas.exact` for certified digits, of the quantities in `certified`.
-    So many motions as `at_once` are there at a time.
+    So many motions as `at_once` are there at a time. `missing` says why a quantity may have no value in a row; its cell
+    is empty there: NaN, or no text.
     """
 
     needed: tuple[str, ...]
@@ -35,6 +39,7 @@ class Family:
     exact: Callable[[Row], Any] | None = None
     certified: tuple[str, ...] = ()
     at_once: int = 50_000
+    missing: Mapping[str, str] = field(default_factory=dict)
 
     def columns(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str]) -> dict[str, NDArray[Any]]:
         """Return the quantities of rows of parameters, arrays of floats or of text."""
@@ -46,7 +51,7 @@ class Family:
             for name, column in found.items():
                 values = np.broadcast_to(self.quantities[name](made, rows), count)
                 column.append(values.astype(NAME if values.dtype.kind == "U" else np.float64))
-        return {name: np.concatenate(column) for name, column in found.items()}
+        return self._explained({name: np.concatenate(column) for name, column in found.items()})
 
     def digits(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str], digits: int) -> dict[str, Any]:
         """Return the quantities as text with certified digits, row by row."""
@@ -57,11 +62,36 @@ class Family:
             row = dict(zip(parameters, values, strict=True))
             for name, text in certified(partial(self._balls, row, names), digits).items():
                 texts[name].append(text)
-        return {name: np.array(column, dtype=f"U{digits + 12}") for name, column in texts.items()}
+        return self._explained({name: np.array(column, dtype=f"U{digits + 12}") for name, column in texts.items()})
 
     def _balls(self, row: Row, names: Sequence[str]) -> dict[str, Any]:
         made = self.exact(row) if self.exact else None
-        return {name: self.quantities[name](made, row) for name in names}
+        return {name: self._ball(name, made, row) for name in names}
+
+    def _ball(self, name: str, made: Any, row: Row) -> Any:
+        """Return a quantity as a ball, or as text where it is infinite or has no value."""
+        from flint import arb
+
+        try:
+            value = self.quantities[name](made, row)
+        except DomainError:
+            if name not in self.missing:
+                raise
+            return ""
+        return "inf" if isinstance(value, arb) and value == arb("inf") else value
+
+    def _explained(self, found: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        """Return the quantities, and beside those that may have no value a column that says why they have none."""
+        lacking = [name for name in found if name in self.missing]
+        if lacking:
+            reasons = np.zeros(found[lacking[0]].shape, dtype=NAME)
+            for reason in dict.fromkeys(self.missing.values()):
+                gone = np.zeros(reasons.shape, dtype=bool)
+                for name in lacking:
+                    gone |= (self.missing[name] == reason) & empty(found[name])
+                reasons[gone] = [f"{text}, {reason}" if text else reason for text in reasons[gone].tolist()]
+            found[MISSING] = reasons
+        return found
 
     def check(self, given: Sequence[str], names: Sequence[str], digits: int | None) -> None:
         """Raise AtlasError for parameters or quantities that the family does not have, or that are missing."""
@@ -83,6 +113,11 @@ class Family:
             raise AtlasError(f"The parameter {missing[0]} is missing; needed are {', '.join(self.needed)}.")
         if not names:
             raise AtlasError(f"Name at least one quantity: {', '.join(self.quantities)}.")
+
+
+def empty(column: NDArray[Any]) -> NDArray[np.bool]:
+    """Return where a column of a table has no value."""
+    return np.asarray(column == "" if column.dtype.kind == "U" else np.isnan(column))
 
 
 def _elementary(p: Row) -> Any:
@@ -203,6 +238,8 @@ FAMILIES: Mapping[str, Family] = {
         _exact_general,
         (*PERIODIC, "least", "largest"),
         at_once=20_000,
+        missing=dict.fromkeys(("precession_per_period", "spin_per_period"), "no period")
+        | dict.fromkeys(("modulus", "nome"), "triple root"),
     ),
     "free": Family(
         ("ratio", "omega1", "omega2", "omega3"),

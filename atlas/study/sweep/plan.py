@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from atlas.core.inputs import real
 from atlas.errors import AtlasError
-from atlas.study.sweep.families import FAMILIES
+from atlas.study.sweep.families import FAMILIES, MISSING
 
 Columns = dict[str, NDArray[Any]]
 
@@ -84,6 +84,13 @@ class Plan:
             digest.update(b"|")
         return digest.hexdigest()
 
+    @property
+    def names(self) -> list[str]:
+        """Names of the columns: parameters, quantities, and why one of these has no value, if one may have none."""
+        # an input that is also asked for, as omega3, stands once
+        names = [*(name for name in self.parameters if name not in self.quantities), *self.quantities]
+        return names + [MISSING] * any(name in FAMILIES[self.family].missing for name in self.quantities)
+
     def part(self, index: int) -> "Plan":
         """Return the plan of one part: a list of its rows."""
         rows = np.arange(index * self.rows, min((index + 1) * self.rows, self.count))
@@ -94,7 +101,7 @@ class Plan:
         return Plan(self.family, given, self.quantities, True, self.digits, self.rows)
 
     def columns(self) -> Columns:
-        """Return the table: parameters, then quantities."""
+        """Return the table."""
         family = FAMILIES[self.family]
         defaults = {name: value for name, value in family.optional.items() if value is not None}
         rows: Columns = {name: np.full(self.count, value) for name, value in defaults.items()} | dict(self.parameters)
@@ -103,5 +110,4 @@ class Plan:
             if self.digits is None
             else family.digits(rows, self.quantities, self.digits)
         )
-        # an input that is also asked for, as omega3, stands once
-        return {name: array for name, array in self.parameters.items() if name not in found} | found
+        return {name: found[name] if name in found else self.parameters[name] for name in self.names}

@@ -45,6 +45,9 @@ def sweep(
     was stopped goes on from there. The bytes do not depend on where the parts were computed. With `digits` the
     quantities are text with so many certified digits. `progress(rows done, rows)` is called after each part.
 
+    Where a quantity has no value, as an angle a period on a separatrix, its cell is empty (NaN in the columns and .npz,
+    null in .parquet, no text), and the column `missing` says why.
+
     Raises AtlasError for what is unknown, missing or outside the domain of the family, with the rows that it is in.
     """
     plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits, rows=rows)
@@ -61,10 +64,8 @@ def sweep(
         if not any(parts.glob("*.part")):
             shutil.rmtree(parts)
         raise
-    first = plan.part(0)
-    names = [name for name in first.parameters if name not in plan.quantities] + list(plan.quantities)
     whole = parts / f"whole{target.suffix}"
-    FORMATS[target.suffix][1](whole, names, plan.parts, lambda i: _kept(parts, i).read_bytes())
+    FORMATS[target.suffix][1](whole, plan.names, plan.parts, lambda i: _kept(parts, i).read_bytes())
     whole.replace(target)
     shutil.rmtree(parts)
     return target

@@ -3,6 +3,7 @@
 import io
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
+from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -10,20 +11,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.errors import AtlasError
+from atlas.study.sweep.families import empty
 
 Columns = Mapping[str, NDArray[Any]]
 Load = Callable[[int], bytes]
 
 
 def csv_part(columns: Columns) -> bytes:
-    """Return rows as text; floats with the shortest digits that read back the same."""
-    cells = [map(_quoted if x.dtype.kind == "U" else repr, x.tolist()) for x in columns.values()]
+    """Return rows as text; floats with the shortest digits that read back the same, and nothing for NaN."""
+    cells = [map(_quoted if x.dtype.kind == "U" else _shortest(x), x.tolist()) for x in columns.values()]
     return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
 
 
 def _quoted(text: str) -> str:
     """Return a name as it stands in a CSV file, between quotes if it holds a comma."""
     return f'"{text}"' if "," in text else text
+
+
+def _shortest(column: NDArray[Any]) -> Callable[[float], str]:
+    """Return what writes the numbers of a column."""
+    return (lambda x: "" if isnan(x) else repr(x)) if empty(column).any() else repr
 
 
 def array_part(columns: Columns) -> bytes:
@@ -61,7 +68,9 @@ def write_parquet(out: Path, _: list[str], parts: int, load: Load) -> None:
     try:
         for i in range(parts):
             with np.load(io.BytesIO(load(i))) as columns:
-                table = arrow.table({name: columns[name] for name in columns.files})
+                table = arrow.table(
+                    {name: arrow.array(columns[name], mask=empty(columns[name])) for name in columns.files}
+                )
             writer = writer or parquet.ParquetWriter(out, table.schema)
             writer.write_table(table)
     finally:
