@@ -114,7 +114,10 @@ def is_python(mutant: Mutant, root: Path) -> bool:
 
 
 def _skipped(tree: ast.Module) -> Iterator[tuple[int, int]]:
-    """Yield the places of what a result cannot show: annotations, imports, stars and slashes, how a record is made."""
+    """Yield the places of what a result cannot show: annotations, imports, stars and slashes, how a record is made.
+
+    Neither can the size of the number for the free dimension of `reshape`: NumPy takes any negative one.
+    """
     nodes: list[ast.AST] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.arg | ast.AnnAssign) and node.annotation is not None:
@@ -128,6 +131,8 @@ def _skipped(tree: ast.Module) -> Iterator[tuple[int, int]]:
             nodes.append(node)
         if isinstance(node, ast.keyword) and node.arg in {"frozen", "slots", "eq", "strict"}:
             nodes.append(node)
+        if isinstance(node, ast.Call) and ast.unparse(node.func).endswith(".reshape"):
+            nodes += [size.operand for size in node.args if isinstance(size, ast.UnaryOp)]
     for node in nodes:
         for line in range(node.lineno, node.end_lineno + 1):
             first = node.col_offset if line == node.lineno else 0

@@ -323,6 +323,24 @@ def test_a_row_that_has_no_match_is_paired_by_its_place(against: Pair) -> None:
     assert not found.others
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "name"),
+    [
+        (["", "", "", ""], ["", "", "0.5", ""], "row 3"),
+        (["", "", "0.5", ""], ["", "", "0.6", ""], "0.5"),
+        (["", "0.7", "0.5", ""], ["", "0.7", "0.6", ""], "0.7"),
+        (["p", "0.7", "0.5", ""], ["p", "0.8", "0.5", ""], "p"),
+    ],
+)
+def test_a_changed_row_is_named_by_its_words(tmp_path: Path, old: list[str], new: list[str], name: str) -> None:
+    """A row is named by the first cells that tell it apart, by its first words, or else by its number from one."""
+    one, two = (
+        report(tmp_path / where, lambda record, row=row: rows(record).__setitem__(2, row))  # type: ignore[misc]
+        for where, row in (("old", old), ("new", new))
+    )
+    assert [cell.row for cell in compare(one, two).cells] == [name]
+
+
 def test_rows_that_came_or_went_are_listed(against: Pair) -> None:
     """A row inserted in the middle and one removed are told whole, and the rest is matched across them."""
 

@@ -143,6 +143,31 @@ def test_every_entry_stands_once_with_its_verdict(pages: dict[str, reader.HtmlEl
         assert element.xpath(".//*[local-name()='math']")
 
 
+def test_every_entry_says_what_the_paper_and_the_record_say(pages: dict[str, reader.HtmlElement]) -> None:
+    """Claim, quotation, assumptions, method and note of each entry stand in it, each at its place, to the first markup.
+
+    So does the verdict of a corrected form, where there is one.
+    """
+    verdicts = recorded.load()
+    for label, _, element in entries(pages):
+        entry, found = EQUATIONS[label], verdicts[label]
+        how = found.method + (f", from {found.follows}" if found.follows else "")
+        slip = f"Slip: {found.grade}. " if found.grade else ""
+        places = {
+            "string(./p[@class='says'])": entry.says,
+            "string(./p[@class='quote'])": f"“{entry.quote}" if entry.quote else "",
+            "string(./dl/dd[1])": "; ".join(entry.assumptions) or "no assumptions of its own.",
+            "string(./dl/dd[2])": how,
+            "substring-after(./dl/dd[2], '. ')": slip + found.note,
+        }
+        for place, text in places.items():
+            first = re.split(r"[$*`@\[_^<'\"]", text)[0].strip()
+            assert element.xpath(place).startswith(first), (label, place)
+        corrected = element.xpath("./dl/dt[.='Corrected']/following-sibling::dd[1]")
+        assert len(corrected) == bool(found.corrected_tex), label
+        assert all(one.text.startswith(found.corrected_verdict) for one in corrected), label
+
+
 def test_every_use_and_its_entry_link_to_each_other(pages: dict[str, reader.HtmlElement]) -> None:
     """From the entry to the place that uses it, and from there back to the entry; no use is forgotten."""
     uses = set()
