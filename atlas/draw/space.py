@@ -28,6 +28,8 @@ FloatArray = NDArray[np.float64]
 _INSIDE, _TINT, _WIRE, _HIDDEN, _VISIBLE, _HEAD, _MARK = 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 6.0
 _DASH = (2.6, 1.9)
 _TOLERANCE = 0.06
+_SPECK = 0.01
+"""Points of paper: where surfaces touch, rounding leaves pieces of lines that are shorter, and would be dots."""
 _LIGHT = np.array([-0.45, 0.62, 0.64])
 _LEVELS = np.linspace(0.02, 0.92, 14)
 _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
@@ -109,7 +111,8 @@ class _Drawing:
     def line(self, points: FloatArray, look: Style, height: float = _VISIBLE, weight: float = 1.5) -> None:
         """Draw a polyline: what is seen in its own style, what is hidden thin and dashed, or not at all."""
         for piece, seen in split(points, self.view.surfaces, self.view.towards):
-            if not seen and not look.hidden:
+            length = self.view.scale * np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()
+            if length < _SPECK or not (seen or look.hidden):
                 continue
             flat = self.view.on_paper(piece)
             hidden_width = max(0.4, 0.6 * look.width)

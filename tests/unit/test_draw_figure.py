@@ -224,6 +224,17 @@ def test_the_silhouette_lies_on_the_surface_where_the_line_of_sight_grazes_it(na
     assert found > 10
 
 
+def test_a_piece_of_a_line_too_short_to_see_is_no_dot() -> None:
+    """Rounding may leave a piece of a line where it touches a surface: that is not drawn, on no machine."""
+    (ball, arrow) = ball_scene().panels[0].layers
+    bit = Curve(np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0 + 1e-9]]), "loop")
+    found = []
+    for layers in ((ball, arrow), (ball, arrow, bit)):
+        axes = to_figure(replace(ball_scene(), panels=(Space(layers),))).axes[0]
+        found.append([len(lines.get_segments()) for lines in axes.collections])
+    assert found[0] == found[1]
+
+
 def test_a_name_moves_away_from_ink() -> None:
     """Placed on a dense patch of ink it finds a place beside it; one that must stay stays."""
     patch = np.stack(np.meshgrid(np.linspace(50.0, 70.0, 30), np.linspace(50.0, 70.0, 30)), axis=-1).reshape(-1, 2)
