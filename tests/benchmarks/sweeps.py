@@ -2,8 +2,10 @@
 
 The question: what does a table of ten million motions cost, on one process, on two, on Dask's workers?
 
-Each sweep is a process of its own, `python -m benchmarks.sweeps`, which prints seconds, the largest memory of the
-sweeping process and of its largest worker, and the digest of the table: the same bytes wherever it was computed.
+Each sweep is a process of its own, `python -m benchmarks.sweeps`, which prints seconds, those of the processors, the
+largest memory of the sweeping process and of its largest worker, and the digest of the table: the same bytes wherever
+it was computed. On a machine with other work two processes may get no more of it than one does: compare the processors'
+seconds then.
 """
 
 import argparse
@@ -42,12 +44,12 @@ def swept(family: str, rows: int, jobs: int, dask: bool) -> dict[str, Any]:
         with out.open("rb") as file:
             while block := file.read(1 << 20):
                 digest.update(block)
-    own, largest = (
-        resource.getrusage(who).ru_maxrss / 1024 for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-    )
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    own, largest = (who.ru_maxrss / 1024 for who in used)
     return {
         "rows": RATIOS * FIELDS * count,
         "seconds": seconds,
+        "cpu": sum(who.ru_utime + who.ru_stime for who in used),
         "own": own,
         "worker": largest,
         "digest": digest.hexdigest()[:12],
@@ -92,7 +94,7 @@ def main() -> None:
         found = json.loads(ended.stdout.splitlines()[-1])
         digests.add(found["digest"])
         print(  # noqa: T201  what was asked for
-            f"{way[0]} {way[1]:10} {found['rows']} rows in {found['seconds']:6.1f} s, "
+            f"{way[0]} {way[1]:10} {found['rows']} rows in {found['seconds']:6.1f} s, cpu {found['cpu']:6.1f} s, "
             f"{found['rows'] / found['seconds']:9.0f} rows/s, {found['own']:5.0f} MB, largest worker "
             f"{found['worker']:5.0f} MB, {found['digest']}",
             flush=True,

@@ -20,6 +20,7 @@ from atlas.errors import AtlasError
 from atlas.study.sweep import run
 from atlas.study.sweep.families import FAMILIES, NAME
 from atlas.study.sweep.plan import Plan
+from atlas.study.sweep.tables import csv_part
 
 GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
 NAMES = ("omega3", "k", "phi", "case", "R12")
@@ -136,6 +137,13 @@ def test_memory_does_not_grow_with_the_parts(tmp_path: Path) -> None:
     finally:
         gc.enable()
     assert left < 500_000
+
+
+def test_a_value_that_comes_again_is_written_alike() -> None:
+    """A number is written with its shortest digits and the sign of its zero, however often it comes; NaN is empty."""
+    few, many = [0.0, -0.0, 0.1 + 0.2, np.nan, -np.inf] * 3, np.linspace(1, 2, 15).tolist()
+    lines = csv_part({"few": np.array(few), "many": np.array(many)}).decode().splitlines()
+    assert lines == [f"{'' if np.isnan(x) else repr(x)},{y!r}" for x, y in zip(few, many, strict=True)]
 
 
 def test_a_name_with_a_comma_is_one_cell(tmp_path: Path) -> None:

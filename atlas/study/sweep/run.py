@@ -65,7 +65,7 @@ def sweep(
             shutil.rmtree(parts)
         raise
     whole = parts / f"whole{target.suffix}"
-    FORMATS[target.suffix][1](whole, plan.names, plan.parts, lambda i: _kept(parts, i).read_bytes())
+    FORMATS[target.suffix][1](whole, plan.names, plan.count, [_kept(parts, i) for i in range(plan.parts)])
     whole.replace(target)
     shutil.rmtree(parts)
     return target

@@ -2,7 +2,7 @@
 
 import io
 import zipfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import isnan
 from pathlib import Path
 from typing import Any
@@ -14,12 +14,12 @@ from atlas.errors import AtlasError
 from atlas.study.sweep.families import empty
 
 Columns = Mapping[str, NDArray[Any]]
-Load = Callable[[int], bytes]
+Parts = Sequence[Path]
 
 
 def csv_part(columns: Columns) -> bytes:
     """Return rows as text; floats with the shortest digits that read back the same, and nothing for NaN."""
-    cells = [map(_quoted if x.dtype.kind == "U" else _shortest(x), x.tolist()) for x in columns.values()]
+    cells = [map(_quoted, x.tolist()) if x.dtype.kind == "U" else _shortest(x) for x in columns.values()]
     return ("\n".join(map(",".join, zip(*cells, strict=True))) + "\n").encode()
 
 
@@ -28,9 +28,15 @@ def _quoted(text: str) -> str:
     return f'"{text}"' if "," in text else text
 
 
-def _shortest(column: NDArray[Any]) -> Callable[[float], str]:
-    """Return what writes the numbers of a column."""
-    return (lambda x: "" if isnan(x) else repr(x)) if empty(column).any() else repr
+def _shortest(column: NDArray[Any]) -> Iterable[str]:
+    """Return the numbers of a column as text."""
+    written = (lambda x: "" if isnan(x) else repr(x)) if empty(column).any() else repr
+    # of a parameter there are few values, each in many rows; by their bits, which tell 0.0 from -0.0
+    bits, places = np.unique(np.ascontiguousarray(column).view(np.int64), return_inverse=True)
+    if 2 * bits.size > column.size:
+        return map(written, column.tolist())
+    texts = [*map(written, bits.view(np.float64).tolist())]
+    return [texts[i] for i in places.tolist()]
 
 
 def array_part(columns: Columns) -> bytes:
@@ -40,34 +46,37 @@ def array_part(columns: Columns) -> bytes:
     return buffer.getvalue()
 
 
-def write_csv(out: Path, names: list[str], parts: int, load: Load) -> None:
+def write_csv(out: Path, names: list[str], _: int, parts: Parts) -> None:
     """Write the heading and the rows."""
     with out.open("wb") as file:
         file.write((",".join(names) + "\n").encode())
-        for i in range(parts):
-            file.write(load(i))
+        for part in parts:
+            file.write(part.read_bytes())
 
 
-def write_npz(out: Path, names: list[str], parts: int, load: Load) -> None:
-    """Write one array a column, each from one part after the other."""
+def write_npz(out: Path, names: list[str], count: int, parts: Parts) -> None:
+    """Write one array of `count` rows a column, each from one part after the other."""
     with zipfile.ZipFile(out, "w") as archive:
         for name in names:
-            count = sum(column.size for column in _column(name, parts, load))
-            first = next(_column(name, parts, load))
             with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
-                header = {"descr": np.lib.format.dtype_to_descr(first.dtype), "fortran_order": False, "shape": (count,)}
-                np.lib.format.write_array_header_1_0(file, header)
-                for column in _column(name, parts, load):
-                    file.write(column.tobytes())
+                for part in parts:
+                    # of a part no more is read than the column
+                    with np.load(part) as columns:
+                        column = columns[name]
+                    if part is parts[0]:
+                        descr = np.lib.format.dtype_to_descr(column.dtype)
+                        header = {"descr": descr, "fortran_order": False, "shape": (count,)}
+                        np.lib.format.write_array_header_1_0(file, header)
+                    file.write(column.data)
 
 
-def write_parquet(out: Path, _: list[str], parts: int, load: Load) -> None:
+def write_parquet(out: Path, _: list[str], _count: int, parts: Parts) -> None:
     """Write one row group a part."""
     arrow, parquet = _pyarrow()
     writer = None
     try:
-        for i in range(parts):
-            with np.load(io.BytesIO(load(i))) as columns:
+        for part in parts:
+            with np.load(part) as columns:
                 table = arrow.table(
                     {name: arrow.array(columns[name], mask=empty(columns[name])) for name in columns.files}
                 )
@@ -76,13 +85,6 @@ def write_parquet(out: Path, _: list[str], parts: int, load: Load) -> None:
     finally:
         if writer:
             writer.close()
-
-
-def _column(name: str, parts: int, load: Load) -> Iterator[NDArray[Any]]:
-    """Yield the parts of one column."""
-    for i in range(parts):
-        with np.load(io.BytesIO(load(i))) as columns:
-            yield columns[name]
 
 
 def _pyarrow() -> tuple[Any, Any]:
@@ -94,7 +96,7 @@ def _pyarrow() -> tuple[Any, Any]:
     return pa, parquet
 
 
-FORMATS: Mapping[str, tuple[Callable[[Columns], bytes], Callable[[Path, list[str], int, Load], None]]] = {
+FORMATS: Mapping[str, tuple[Callable[[Columns], bytes], Callable[[Path, list[str], int, Parts], None]]] = {
     ".csv": (csv_part, write_csv),
     ".npz": (array_part, write_npz),
     ".parquet": (array_part, write_parquet),
