@@ -174,9 +174,10 @@ def roots_of(
     s, t, f2 = low + high, low * high, q[4]
     f1 = q[3] + s * f2
     f0 = q[2] + s * f1 - t * f2
-    # next to a separatrix f is small at 0, where its value and slope are those of Q over t
-    f0 = better(f0, q[0] / t)
-    f1 = better(f1, (q[1] + s * f0) / t)
+    # next to a separatrix f is small at 0, where its value and slope are those of Q over t; where 0 is a turning point,
+    # t = 0 and s the other one, those of Q/v over -s
+    f0 = better(f0, chosen(still, -(q[1] / s), q[0] / t))
+    f1 = better(f1, chosen(still, (f0 - q[2]) / s, (q[1] + s * f0) / t))
     f = f0, f1, f2
     steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
     return Roots(I, less, B2, B3, (w1, w2, w3), c3, b, rate, low, high, f, poles, torques, steady, moving)

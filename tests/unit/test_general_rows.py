@@ -50,6 +50,13 @@ def one(inputs: Any, i: int) -> Any:
     return float(I[i]), tuple(B[:, i].tolist()), tuple(omega[:, i].tolist())
 
 
+def planar(count: int, seed: int = 6) -> Any:
+    """Return inputs of motions that start in the plane of axis and field, where Omega3 turns, and with two wells."""
+    r = np.random.default_rng(seed)
+    omega = r.uniform(-3, 3, (3, count)) * [[0.0], [1.0], [1.0]]
+    return r.uniform(0.1, 1, count), np.array([[1.0], [0.3]]) * np.ones(count), omega
+
+
 def times(inputs: Any, seed: int) -> Any:
     """Return a time for each motion, from a thousandth to a million of its own unit."""
     _, B, omega = inputs
@@ -58,7 +65,7 @@ def times(inputs: Any, seed: int) -> Any:
     return r.choice([-1.0, 1.0], size.size) * 10.0 ** r.uniform(-3, 6, size.size) / size
 
 
-@pytest.mark.parametrize("inputs", [ordinary(60), hostile()], ids=["ordinary", "hostile"])
+@pytest.mark.parametrize("inputs", [ordinary(60), planar(60), hostile()], ids=["ordinary", "planar", "hostile"])
 def test_scalars_of_many_motions_have_the_bits_of_one_by_one(inputs: Any) -> None:
     """Kind, turning points, roots, period, moduli, nome and angles are those of each motion made alone, to the bit."""
     found = GeneralMotion(*inputs)
@@ -93,7 +100,7 @@ def test_matrices_of_many_motions_are_true_to_the_promise(inputs: Any) -> None:
             assert max(error(x, y, size * ONE) for x, y in zip(values, balls, strict=True)) <= 12
 
 
-@pytest.mark.parametrize("inputs", [ordinary(60, 2), hostile(2)], ids=["ordinary", "hostile"])
+@pytest.mark.parametrize("inputs", [ordinary(60, 2), planar(60, 7), hostile(2)], ids=["ordinary", "planar", "hostile"])
 def test_each_frequency_keeps_its_bound(inputs: Any) -> None:
     """The frequencies of alpha, beta and nutation in two words are within their own bounds of the balls."""
     found = GeneralMotion(*inputs)
@@ -149,13 +156,15 @@ def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
 
 
 def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of 3000 ordinary motions none is made alone for its kind and period, and one in fifty at most for its matrix."""
+    """Of 3000 ordinary motions, and as many that start at a turning point, none is made alone for kind and period."""
     made = []
     balls = general._balls
     monkeypatch.setattr(general, "_balls", lambda *row: made.append(row) or balls(*row))
     inputs = ordinary(3000, 3)
     motions = GeneralMotion(*inputs)
     assert motions.kind.shape == motions.period.shape == motions.nome.shape == (3000,)
+    flat = GeneralMotion(*planar(3000))
+    assert flat.kind.shape == flat.period.shape == flat.spin_per_period.shape == (3000,)
     assert not made
     motions.rotation(times(inputs, 4))
     assert len(made) <= 60
