@@ -6,7 +6,7 @@ is kept what the drawing makes of them.
 
 import json
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +17,14 @@ from matplotlib.artist import Artist
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.image import imread
+from numpy.typing import NDArray
 from syrupy.assertion import SnapshotAssertion
 from syrupy.extensions.json import JSONSnapshotExtension
 
-from atlas.draw import gl, to_figure, to_plotter
+from atlas.draw import gl, labels, names, space, to_figure, to_plotter
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, recipes, solids
 
+FloatArray = NDArray[np.float64]
 POINTS = 0.05
 """What another processor's rounding may move, in printer's points: a fifth of a hair."""
 
@@ -122,6 +124,58 @@ def test_every_layer_is_drawn_as_it_was(snapshot: SnapshotAssertion, make: Any) 
     figure = to_figure(make())
     figure.draw_without_rendering()
     assert [shown(artist, figure) for artist in artists(figure)] == snapshot.use_extension(OnPaper)
+
+
+@pytest.mark.parametrize(
+    ("make", "renderer"), [(in_plane, "vector"), (in_space, "vector"), pytest.param(in_space, "shaded", marks=needs_gl)]
+)
+def test_names_are_told_where_the_ink_is_as_they_were(
+    snapshot: SnapshotAssertion, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, make: Any, renderer: str
+) -> None:
+    """What names keep clear of, kind by kind of its weight, and where each of them would like to stand."""
+    asked: list[dict[str, Any]] = []
+
+    def watched(
+        tags: Any, ink: FloatArray, weights: FloatArray, window: Any, owners: NDArray[np.int64] | None = None
+    ) -> Any:
+        record: dict[str, Any] = {"window": plain(window), "tags": [plain(astuple(tag)) for tag in tags]}
+        for weight in np.unique(weights):
+            points = ink[(weights == weight) & np.isfinite(ink).all(axis=1)]
+            places = np.stack([points.min(axis=0), points.max(axis=0), points.mean(axis=0), points.std(axis=0)])
+            record[f"{weight:.6g}"] = {"count": len(points), "places": plain(places)}
+        record["owners"] = None if owners is None else plain(np.bincount(owners + 1))
+        asked.append(record)
+        return labels.place(tags, ink, weights, window, owners)
+
+    for module in (space, names):
+        monkeypatch.setattr(module, "place", watched)
+    draw(make(), tmp_path / "a.png", renderer, dpi=72.0)
+    assert asked == snapshot.use_extension(OnPaper)
+
+
+def test_names_in_a_crowd_stand_where_they_stood(snapshot: SnapshotAssertion) -> None:
+    """Among ink and other names at random, each with an owner, or with another place for it, or neither."""
+    rng = np.random.default_rng(5)
+    found = []
+    for _ in range(30):
+        lines = [labels.along(rng.uniform(0.0, 120.0, (4, 2))) for _ in range(5)]
+        ink, owners = np.concatenate(lines), np.repeat(np.arange(5), [len(line) for line in lines])
+        tags = [
+            labels.Tag(
+                "name",
+                anchor=tuple(lines[k][len(lines[k]) // 3]),
+                offset=tuple(rng.uniform(-6.0, 6.0, 2)) if k != 2 else (0.0, 0.0),
+                extent=tuple(rng.uniform(7.0, 30.0, 2)),
+                colour="#000000",
+                size=9.0,
+                elsewhere=tuple(map(tuple, rng.uniform(10.0, 110.0, (k % 3, 2)))),
+                owner=k if k < 4 else -1,
+            )
+            for k in range(5)
+        ]
+        centres = labels.place(tags, ink, rng.uniform(0.5, 4.0, len(ink)), (1.0, 1.0, 119.0, 119.0), owners)
+        found.append([[round(float(x), 2) for x in centre] for centre in centres])
+    assert found == snapshot.use_extension(OnPaper)
 
 
 @needs_gl

@@ -138,8 +138,9 @@ def test_pgf_compiles(tmp_path: Path) -> None:
 def test_a_map_is_refused_as_pgf(tmp_path: Path) -> None:
     """PGF holds no pixels: the error says what to ask for instead."""
     image = Image(np.arange(3.0), np.arange(3.0), np.ones((2, 2)), "error")
+    line = Curve(np.eye(2), "main")
     with pytest.raises(AtlasError, match="ask for a PDF"):
-        draw(Scene("t", "c", "a", (Plane((image,), "x", "y"),)), tmp_path / "a.pgf")
+        draw(Scene("t", "c", "a", (Plane((line,), "x", "y"), Plane((image, line), "x", "y"))), tmp_path / "a.pgf")
     assert not list(tmp_path.iterdir())
 
 

@@ -145,6 +145,27 @@ def test_the_line_on_the_torus_is_straight_and_closes_with_the_trace() -> None:
     assert np.abs(np.linalg.norm(dense.points, axis=1) - 1).max() <= 8 * EPS
 
 
+def test_of_a_line_on_the_torus_is_drawn_what_no_part_of_it_hides() -> None:
+    """By steps along the rays to the eye: drawn points are seen, and their share is that of the points seen, 1 %."""
+    azimuth, elevation = np.radians([25.0, 52.0])
+    eye = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+
+    def depth(points: FloatArray) -> FloatArray:
+        """Return how far, squared, the ray of each point goes into the tube of radius 0.42 round the unit circle."""
+        ray = points[:, None] + np.linspace(0.01, 3.0, 1500)[:, None] * eye
+        return np.asarray((0.42**2 - (np.hypot(ray[..., 0], ray[..., 1]) - 1.0) ** 2 - ray[..., 2] ** 2).max(axis=1))
+
+    panel = panels("ball_torus")[0]
+    first = np.linspace(0.0, 4.0 * np.pi, 3000)
+    whole = np.stack([np.cos(first), np.sin(first), 0.0 * first], axis=1) * (1.0 + 0.42 * np.cos(2.5 * first))[:, None]
+    whole[:, 2] = 0.42 * np.sin(2.5 * first)
+    drawn = [layer.points for layer in layers(panel, Curve, "trajectory")]
+    assert all(depth(line[1:-1]).max() <= 2e-3 for line in drawn)
+    length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in drawn)
+    steps = np.linalg.norm(np.diff(whole, axis=0), axis=1)
+    assert abs(length / steps[depth(whole[1:]) <= 0.0].sum() - 1.0) <= 0.01
+
+
 def test_the_solenoid_flies_as_a_charge_does_and_its_axis_keeps_its_angle() -> None:
     """After two turns the centre has moved by drift, v_par t and a_par t^2/2, 64 eps; the axis has one angle to B."""
     E, v, B = np.array([0.6, 0.0, 0.1]), np.array([0.0, 6.2, -0.6]), np.array([0.0, 0.9, 2.0])

@@ -1,17 +1,21 @@
 """Tables: every digit printed is that of the true value, computed here in another way."""
 
 from decimal import Decimal
+from fractions import Fraction
 
 import flint
 import mpmath
 import pytest
+from fontTools.ttLib import TTFont
 
 from atlas.errors import AtlasError
+from atlas.report.blocks.table import POWER
 from atlas.report.body_and_field import body_and_field
-from atlas.report.numbers import Number
+from atlas.report.fonts import FACES, source
+from atlas.report.numbers import MINUS, THIN, Number, room
 from atlas.report.parameters import Body, Field
 from atlas.report.tables import TABLES, compute
-from atlas.report.tables.model import Data, Request, column
+from atlas.report.tables.model import Data, Request, column, scaled
 
 BODY = Body(title="short solenoid", ratio=1.5)
 OBLIQUE = Field(title="oblique field", prime=(1.0, 2.0))
@@ -130,6 +134,36 @@ def test_a_column_of_mixed_sizes_has_powers_of_ten() -> None:
     assert {one.parts()[2] for one in column([1.5, 0.25], 5)} == {""}
 
 
+@pytest.mark.parametrize(
+    ("values", "plain", "prefix"),
+    [
+        ("1e-4", True, -6),
+        ("9e-5", False, -6),
+        ("9e-4", True, -6),
+        ("1e-3", True, None),
+        ("9e5", True, None),
+        ("1e6", True, 6),
+        ("9e6", True, 6),
+        ("1e7", False, 6),
+        ("1e-7", False, -9),
+        ("1e9", False, 9),
+        ("3 4e-6", True, None),
+        ("3 4e-7", False, None),
+        ("4e5 0.2", True, None),
+        ("4e5 0.02", False, None),
+        ("0", True, None),
+    ],
+)
+def test_where_powers_of_ten_begin(values: str, plain: bool, prefix: int | None) -> None:
+    """A column has them below 1e-4, from 1e7 on and beyond six decades; its unit takes them in thousands."""
+    exact = [Fraction(value) for value in values.split()]
+    rationals = [flint.fmpq(value.numerator, value.denominator) for value in exact]
+    assert any("e" in cell.digits for cell in column(rationals, 4)) is not plain
+    unit, ((first, *_),) = scaled([rationals], "m", 4)
+    assert unit == ("m" if prefix is None else f"$10^{{{prefix}}}$ m")
+    assert Fraction(first.digits) * Fraction(10) ** (prefix or 0) == exact[0]
+
+
 def test_small_lengths_carry_a_power_of_ten_in_their_unit() -> None:
     """A drift of 3 um in one second is 3.000 in units of 1e-6 m; the digits are those of c [E, B]/B^2 times t."""
     magnet = Field(title="magnet", B=(0.0, 0.0, 1.0), E=(0.0, 3e-6, 0.0), charge_to_mass=2.0)
@@ -207,3 +241,17 @@ def test_a_line_without_named_points_is_told() -> None:
     """With B2 = 0 omega3 is free on the line omega2 = 0: there is no table of points, and one sentence says so."""
     with pytest.raises(AtlasError, match="B2 = 0"):
         table("points", field=Field(title="axial", prime=(0.0, 2.0)))
+
+
+def test_the_room_of_a_number_is_its_width_in_the_font() -> None:
+    """In widths of a digit, within a twentieth for each sign; a power of ten with a minus and three digits has room."""
+    font = TTFont(source(FACES["roman"]))
+    names, widths = font.getBestCmap(), font["hmtx"]
+    digit = widths[names[ord("0")]][0]
+    wide = {sign: widths[names[ord(sign)]][0] / digit for sign in f"0123456789.{MINUS}×"}
+    wide[THIN] = 0.25 * font["head"].unitsPerEm / digit  # the font has no such space, and a browser takes a quarter
+    for sign in f"0123456789.{MINUS}{THIN}":
+        assert abs(room(sign) - wide[sign]) <= 0.05, sign
+    assert room(f"{MINUS}12.345{THIN}6") == pytest.approx(sum(map(room, f"{MINUS}12.345{THIN}6")))
+    least, most = (wide["×"] + 2.0 + 0.72 * (wide[MINUS] + digits) for digits in (2, 4))
+    assert least <= POWER <= most

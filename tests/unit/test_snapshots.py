@@ -5,8 +5,8 @@
 
 import json
 import math
-import re
 from dataclasses import asdict, fields
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,10 @@ from syrupy.assertion import SnapshotAssertion
 from syrupy.extensions.json import JSONSnapshotExtension
 
 import atlas
+from atlas import places
 from atlas.scene import Curve, Layer, Panel, Surface, recipes, style
 from atlas.scene.layers import FloatArray
+from atlas.study.bench import results
 
 ULPS, EPS = 4, float(np.finfo(float).eps)
 """What another processor's rounding may change."""
@@ -117,7 +119,7 @@ NOISE = {("invariants", 0), *((name, panel) for name in ("error_maps", "motion_m
 
 
 MEASURED = {"build_cost", "cost", "horizon", "work_precision"}
-"""Figures of times on record, which a new record changes: `test_report_costs` and `test_bench_figures` are for them."""
+"""Figures of times on record, which a new record changes."""
 
 
 @pytest.mark.parametrize("name", sorted(set(recipes.names()) - MEASURED))
@@ -133,6 +135,135 @@ def test_a_scene_of_other_parameters_is_what_it_was(snapshot: SnapshotAssertion,
     assert shown(name, parameters) == snapshot.use_extension(Drawn)
 
 
+SPECIAL: list[tuple[str, dict[str, Any]]] = [
+    ("ball", {"momentum": (0.0, 0.0)}),
+    ("ball", {"momentum": (-0.7, 0.4), "larmor": -0.6}),
+    ("ball_torus", {"ratios": (1.9,), "turns": (2.5,)}),
+    ("escape", {"pushes": (3e-3,)}),
+    ("film_strip", {"field": (1.2, 0.0), "count": 5}),
+    ("flight", {"mu": -1.3, "E": (0.0, 0.0, 0.0), "stop": 2.7}),
+    ("frequencies", {"ratio": 0.6, "field": (-1.2, 0.1), "order": 2}),
+    ("frequencies", {"ratio": 1.0}),
+    ("frequencies", {"field": (1.3, 0.0)}),
+    ("hyp_a", {"ratio": 1.3, "field": (1.1, -0.8)}),
+    ("hyp_b", {"ratio": 0.6, "field": (-1.1, -0.4)}),
+    ("hyperbola", {"field": (0.0, 1.3)}),
+    ("hyperbola", {"ratio": 0.6, "field": (-1.3, 0.0)}),
+    ("hyperbola", {"ratio": 1.0, "field": (1.2, -0.7)}),
+    ("hyperbola", {"ratio": 0.6, "field": (1.2, 0.1)}),
+    ("hyperbolas", {"ratios": (1.2, 1.3), "field": (-0.9, 0.4)}),
+    ("hyperbolas", {"field": (1.2, 0.0)}),
+    ("lssc", {"ratio": 2.0, "field": (0.0, 1.3)}),
+    ("lssc", {"field": (0.0, 0.0)}),
+    ("magn", {"E": (0.3, 0.0), "B": -1.2}),
+    ("magn", {"E": (0.0, 0.0)}),
+    ("motion", {"field": (0.0, 0.0), "omega2": 0.6, "omega3": 0.8}),
+    ("motion", {"omega2": 0.0}),
+    ("motion_sphere", {"field": (0.0, 0.0), "omega2": 0.6, "omega3": 0.8, "turns": 1.5}),
+    ("motion_sphere", {"omega2": 0.0}),
+    ("phase_portrait", {"ratio": 1.4, "field": (1.1, -0.6), "omega2": 0.4, "levels": 2}),
+    ("pseudo_oscillator", {"omega": (0.0, 0.0, 0.0)}),
+    ("pseudo_oscillator", {"omega": (1e-3, 0.7, 0.2)}),
+    ("quadric", {"ratio": 0.6, "field": (1.0, 0.8)}),
+    ("quadric", {"ratio": 1.0, "field": (-0.9, 1.2)}),
+    ("quadric", {"field": (1.3, 0.0)}),
+    ("quadric", {"field": (0.0, -1.3)}),
+    ("quadric", {"field": (0.0, 0.0)}),
+    ("quadric_leak", {"ratio": 0.6, "field": (1.2, 0.1), "omega2": -0.5, "omega1": (0.3,)}),
+    ("quadrics_of_bodies", {"ratios": (1.3,)}),
+    ("stability", {"ratio": 1.4, "levels": (0.3, 1.7)}),
+    ("stability", {"ratio": 1.0, "field": (-1.2, 0.0)}),
+    ("stability_map", {"rates": (0.999, 0.3)}),
+    ("trochoids", {"speeds": (0.0,), "mu": -1.3}),
+]
+
+
+@pytest.mark.parametrize(("name", "parameters"), SPECIAL, ids=[f"{name}-{k}" for k, (name, _) in enumerate(SPECIAL)])
+def test_a_scene_of_a_special_case_is_what_it_was(
+    snapshot: SnapshotAssertion, name: str, parameters: dict[str, Any]
+) -> None:
+    """The same where a recipe goes another way: at rest, without a component of the field, for a ball, in a band."""
+    assert shown(name, parameters) == snapshot.use_extension(Drawn)
+
+
+def benchmark() -> results.Results:
+    """Return a record of the benchmark that nobody measured."""
+    runs = [
+        results.Run(
+            case, method, T, 50, "done", tolerance, 3e-16 * n * T * (tolerance or 1e-9) ** 0.5 * k, 2e-6 * n * k
+        )
+        for k, case in enumerate(("elementary", "ball", "particle"), 1)
+        for n, (method, tolerance) in enumerate(
+            [("ours", None), ("plain", None), ("DOP853", 1e-6), ("DOP853", 1e-9), ("LSODA", 1e-7), ("mine", 1e-8)]
+        )
+        for T in (100.0, 1000.0)
+    ]
+    failed = results.Run("ball", "RK45", 1000.0, 50, "failed", 1e-3, note="too long")
+    costs = [
+        results.Cost(
+            method, count, threads, "done", 2e-16, 70.0 / n + 300.0 / count**0.5, 20.0 / (n * threads), 1.0 / n
+        )
+        for n, method in enumerate(("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill"), 1)
+        for threads in (1, 2)
+        for count in (100, 10_000, 1_000_000)
+    ]
+    machine = results.Machine("a processor", 3, avx512=False, system="Linux")
+    more = results.Cost("ours_out", 10**8, 1, "skipped", note="too large")
+    return results.Results(
+        1, "atlas bench", "2026-02-03", quick=False, elapsed=3.5, machine=machine, versions={"numpy": "2.4"},
+        parameters={}, checks=[], runs=[*runs, failed], setups=[], costs=[*costs, more],
+    )  # fmt: skip
+
+
+def ledger(scenes: int) -> dict[str, Any]:
+    """Return a ledger of a build that never was."""
+    whence = ("drawn", "cache", "store", "failed")
+    entries = [
+        {
+            "scene": f"{('loop', 'cone', 'ball')[n % 3]}(ratio={n})" + " shaded" * (n % 5 == 4),
+            "from": whence[n % 4],
+            "compute_s": 0.003 * 1.7**n,
+            "draw_s": 0.02 * 1.5 ** (scenes - n),
+        }
+        for n in range(scenes)
+    ]
+    return {"scenes": entries, "seconds": 31.4, "jobs": 1 + scenes % 2, "machine": "a machine", "date": "2026-02-03"}
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "scenes"),
+    [
+        ("build_cost", {}, 9),
+        ("build_cost", {}, 24),
+        ("cost", {}, 0),
+        ("cost", {"columns": 2}, 0),
+        ("horizon", {}, 0),
+        ("horizon", {"cases": ("ball", "elementary", "particle"), "columns": 2}, 0),
+        ("work_precision", {}, 0),
+        ("work_precision", {"cases": ("ball",), "columns": 2, "horizon": 1000.0}, 0),
+    ],
+)
+def test_a_figure_of_measurements_is_what_it_was(
+    snapshot: SnapshotAssertion,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    name: str,
+    parameters: dict[str, Any],
+    scenes: int,
+) -> None:
+    """The same of figures drawn from a record: here from one that is made up, and stays."""
+    (tmp_path / "data").mkdir()
+    results.write(benchmark(), tmp_path / "data" / "bench.json")
+    (tmp_path / "data" / "build_costs.json").write_text(json.dumps(ledger(scenes)), encoding="utf-8")
+    real = places.folder
+    for module in (places, results):
+        monkeypatch.setattr(module, "folder", lambda kind: tmp_path if kind == "reports" else real(kind))
+    scene = recipes.load(name).scene(**parameters)
+    panels = [described(panel, noise=False) for panel in scene.panels]
+    record = {"size": scene.size, "columns": scene.columns, "panels": panels, "words": [scene.caption, scene.alt]}
+    assert plain(record) == snapshot.use_extension(Drawn)
+
+
 def other(key: str, value: Any) -> Any:
     """Return a parameter near its default: all numbers with a fraction are changed."""
     if isinstance(value, tuple):
@@ -143,13 +274,13 @@ def other(key: str, value: Any) -> Any:
 
 
 def shown(name: str, parameters: dict[str, Any]) -> Any:
-    """Return what a recipe draws with some parameters, and the numbers of its caption where they are not measured."""
+    """Return what a recipe draws with some parameters, and what it says of it where that is not measured."""
     recipe = recipes.load(name)
     scene = recipe.scene(**parameters)
     panels = [described(panel, noise=(name, k) in NOISE) for k, panel in enumerate(scene.panels)]
     record = {"title": scene.title, "size": scene.size, "columns": scene.columns, "panels": panels}
     if not recipe.records and (name, 0) not in NOISE:
-        record["numbers"] = re.findall(r"\d+(?:\.\d+)?", f"{scene.caption} {scene.alt}")
+        record["words"] = [scene.caption, scene.alt]
     return plain(record)
 
 
@@ -181,7 +312,7 @@ def drawn(layer: Layer, *, noise: bool) -> dict[str, Any]:
         del record["wires"], record["rims"]
     if isinstance(layer, Curve):
         course = along(layer.points, np.linspace(0.0, 1.0, 7))
-        size = np.ptp(layer.points, axis=0).max()
+        size = np.ptp(layer.points, axis=0).max() or 1.0
         record |= {"points": layer.points[[0, -1]], "course": np.round(course / size, 6)}
     return record
 

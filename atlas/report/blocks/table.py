@@ -180,5 +180,5 @@ def _cell(value: str | Number, composer: "Composer") -> Cell:
     return Cell(composer.text(value, inline=True)) if value else Cell()
 
 
-POWER = 5.5
+POWER = 5.75
 """Widths of a digit that a power of ten takes."""

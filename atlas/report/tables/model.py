@@ -71,9 +71,8 @@ def column(values: Sequence[Any], digits: int) -> list[Number]:
     than a factor of 10^6, or are very large or small, each has its own power of ten. A Number stays as it is.
     """
     sizes = [power for value in values if (power := _power(value)) is not None]
-    largest, smallest = max(sizes, default=0), min(sizes, default=0)
-    fixed = -4 <= largest <= 6 and largest - smallest <= 6
-    if fixed:
+    largest = max(sizes, default=0)
+    if -4 <= largest <= 6 and largest - min(sizes, default=largest) <= 6:
         return [_number(value, max(digits - 1 - largest, 0), "fixed") for value in values]
     return [_number(value, digits, "scientific") for value in values]
 
