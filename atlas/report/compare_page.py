@@ -8,7 +8,6 @@ from functools import partial
 from itertools import groupby
 from typing import Any
 
-from atlas.places import folder
 from atlas.report.compare import ChangedCell, Comparison, agreeing
 from atlas.report.manifest import KINDS, BuiltReport, FigureEntry
 
@@ -17,22 +16,13 @@ FORMULA = re.compile(r"(\$[^$]+\$)")
 
 def as_page(comparison: Comparison) -> str:
     """Set a comparison as one page that needs no other file: style, fonts and pictures are inside."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
     from atlas.report.fonts import FACES, all_subsets
+    from atlas.report.html import templates
 
-    environment = Environment(
-        loader=FileSystemLoader(folder("templates") / "html"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     pages = comparison.old.manifest.pages | comparison.new.manifest.pages
     prose = _Prose({slug: page.title for slug, page in pages.items()})
-    environment.filters |= {"prose": prose, "rounded": rounded, "apart": _apart}
     tables = {name: [*cells] for name, cells in groupby(comparison.numbers, lambda cell: cell.table)}
-    template = environment.get_template("diff.html")
+    template = templates(prose=prose, rounded=rounded, apart=_apart).get_template("diff.html")
     render = partial(template.render, found=comparison, tables=tables, picture=_picture, faces={})
     render(fonts=())
     prose.set()

@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from html import unescape
 from typing import Any, NamedTuple
 
@@ -26,8 +26,8 @@ class Card(NamedTuple):
     figure: FigureView
 
 
-def pages(document: Document) -> dict[str, str]:
-    """Set a document, whose texts are set, as pages; the keys are file names, stylesheet and scripts among them."""
+def templates(**filters: Callable[..., Any]) -> Environment:
+    """Return the templates of pages, with filters of their own."""
     environment = Environment(
         loader=FileSystemLoader(folder("templates") / "html"),
         autoescape=True,
@@ -35,7 +35,13 @@ def pages(document: Document) -> dict[str, str]:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["plain"] = plain
+    environment.filters |= filters
+    return environment
+
+
+def pages(document: Document) -> dict[str, str]:
+    """Set a document, whose texts are set, as pages; the keys are file names, stylesheet and scripts among them."""
+    environment = templates(plain=plain)
     texts = [Markup(text) for text in document.written["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
     figures = [
