@@ -46,6 +46,12 @@ def attributes(*names: str) -> dict[str, Any]:
     return {name: lambda made, name=name: getattr(made, name) for name in names}
 
 
+def at_times(t: Any) -> dict[str, Any]:
+    """Return what elementary and general motions answer at some times."""
+    names = ("rotation", "third_axis", "angular_velocity", "field_in_body", "angular_momentum")
+    return {name: lambda m, name=name: getattr(m, name)(t) for name in names} | {"invariants": lambda m: m.invariants()}
+
+
 @share(0.1, 60)
 @given(bodies, pairs, arrays(numbers), st.none() | arrays(numbers), times, st.floats(-10, 10), st.integers(0, 9))
 def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any, step: float, count: int) -> None:
@@ -53,13 +59,8 @@ def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any,
     asked(
         lambda: atlas.ElementaryMotion(I, field, omega2, omega3),
         attributes("omega2", "omega3", "k", "phi")
+        | at_times(t)
         | {
-            "rotation": lambda m: m.rotation(t),
-            "third_axis": lambda m: m.third_axis(t),
-            "angular_velocity": lambda m: m.angular_velocity(t),
-            "field_in_body": lambda m: m.field_in_body(t),
-            "angular_momentum": lambda m: m.angular_momentum(t),
-            "invariants": lambda m: m.invariants(),
             "invariants at t": lambda m: m.invariants(t),
             "rotation_grid": lambda m: m.rotation_grid(step, step, count),
             "beside": lambda m: m.beside.k,
@@ -74,13 +75,8 @@ def test_general_motion(I: Any, field: Any, omega: Any, t: Any, step: float) -> 
     asked(
         lambda: atlas.GeneralMotion(I, field, omega),
         attributes("turning_points", "period", "precession_per_period", "spin_per_period", "modulus", "nome")
+        | at_times(t)
         | {
-            "rotation": lambda m: m.rotation(t),
-            "third_axis": lambda m: m.third_axis(t),
-            "angular_velocity": lambda m: m.angular_velocity(t),
-            "field_in_body": lambda m: m.field_in_body(t),
-            "angular_momentum": lambda m: m.angular_momentum(t),
-            "invariants": lambda m: m.invariants(),
             "rotation_grid": lambda m: m.rotation_grid(step, step, 9),
         },
     )
