@@ -54,9 +54,14 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
             return sign * C * np.cosh(s)
         return C * np.sinh(s) if rest > 0.0 else s
 
+    def is_vertex(h: float) -> bool:
+        return rest < 0.0 and abs(h) <= C * (1.0 + 1e-9)
+
     def parameter(h: float) -> float:
+        if is_vertex(h):
+            return 0.0
         if rest < 0.0:
-            return sign * float(np.arccosh(max(1.0, abs(h) / C)))
+            return sign * float(np.arccosh(abs(h) / C))
         return float(np.arcsinh(h / C)) if rest > 0.0 else h
 
     def point(s: FloatArray, v: FloatArray) -> FloatArray:
@@ -88,7 +93,7 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     angles = solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
     meridians = [sample.curve(meridian(float(t)), a, b, tolerance) for t in angles]
     parallels = [_round(ring(float(s)), tolerance) for s in np.linspace(a, b, _PARALLELS + 2)[1:-1]]
-    edges = [h for h in (low, high) if not (rest < 0.0 and abs(h) <= C * (1.0 + 1e-9)) and h != 0.0]
+    edges = [h for h in (low, high) if not is_vertex(h) and h != 0.0]
     rims = [_round(ring(parameter(h)), tolerance) for h in edges]
     n, middle = axes[w], float(axes[w] @ centre)
     # a plane that touched the sheet in its vertex would cut, or not, as it is rounded: one through the centre keeps off

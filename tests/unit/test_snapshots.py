@@ -318,9 +318,9 @@ def drawn(layer: Layer, *, noise: bool) -> dict[str, Any]:
 
 
 def along(points: FloatArray, parts: FloatArray) -> FloatArray:
-    """Return the points at these parts of the length of a line, each coordinate counted in its extent."""
+    """Return the points at these parts of the length of a line, each coordinate counted in its extent if it has one."""
     size = np.ptp(points, axis=0)
-    steps = np.diff(points, axis=0) / np.where(size > 0.0, size, 1.0)
+    steps = np.diff(points, axis=0) / np.where(size > 1e-12 * np.abs(points).max(), size, np.inf)
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(steps, axis=1))])
     return np.stack([np.interp(parts * length[-1], length, part) for part in points.T], axis=1)
 
