@@ -46,32 +46,12 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     i, j = (k for k in range(3) if k != w)
     centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
     rest = 0.0 if quadric.kind == "cone" else -float(centre_value(Q, centre))
-    C = float(np.sqrt(abs(rest / D[w])))
-    sign = 1.0 if high > -low else -1.0
-
-    def height(s: FloatArray) -> FloatArray:
-        if rest < 0.0:
-            return sign * C * np.cosh(s)
-        return C * np.sinh(s) if rest > 0.0 else s
-
-    def is_vertex(h: float) -> bool:
-        return rest < 0.0 and abs(h) <= C * (1.0 + 1e-9)
-
-    def parameter(h: float) -> float:
-        if is_vertex(h):
-            return 0.0
-        if rest < 0.0:
-            return sign * float(np.arccosh(abs(h) / C))
-        return float(np.arcsinh(h / C)) if rest > 0.0 else h
+    radius, height, parameter = profile(rest, float(D[w]), 1.0 if high > -low else -1.0)
 
     def point(s: FloatArray, v: FloatArray) -> FloatArray:
-        if rest < 0.0:
-            radius = np.sqrt(-rest) * np.sinh(sign * s)
-        else:
-            radius = np.sqrt(rest) * np.cosh(s) if rest > 0.0 else np.sqrt(-D[w]) * s
         canonical = np.zeros((*np.broadcast_shapes(s.shape, v.shape), 3))
-        canonical[..., i] = radius * np.cos(v) / np.sqrt(D[i])
-        canonical[..., j] = radius * np.sin(v) / np.sqrt(D[j])
+        canonical[..., i] = radius(s) * np.cos(v) / np.sqrt(D[i])
+        canonical[..., j] = radius(s) * np.sin(v) / np.sqrt(D[j])
         canonical[..., w] = height(s)
         return centre + canonical @ axes
 
@@ -93,13 +73,30 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     angles = solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
     meridians = [sample.curve(meridian(float(t)), a, b, tolerance) for t in angles]
     parallels = [_round(ring(float(s)), tolerance) for s in np.linspace(a, b, _PARALLELS + 2)[1:-1]]
-    edges = [h for h in (low, high) if not is_vertex(h) and h != 0.0]
+    edges = [h for h, at in ((low, a), (high, b)) if at != 0.0]
     rims = [_round(ring(parameter(h)), tolerance) for h in edges]
     n, middle = axes[w], float(axes[w] @ centre)
     # a plane that touched the sheet in its vertex would cut, or not, as it is rounded: one through the centre keeps off
     top, bottom = (h if h in edges else 0.0 for h in (high, low))
     clip = np.array([[*n, middle + top], [*(-n), -middle - bottom]])
     return Surface(Q, clip, (grid,), (*meridians, *parallels), tuple(rims), role=role)
+
+
+def profile(rest: float, slope: float, sign: float) -> tuple[_Line, _Line, Callable[[float], float]]:
+    """Return radius and height along a sheet by its parameter s, and s at a height; radius^2 = rest - slope height^2.
+
+    Of two sheets it is the one on the side of ``sign``; where it is within rounding of its vertex, s is 0.
+    """
+    r, h = float(np.sqrt(abs(rest))), float(np.sqrt(abs(rest / slope)))
+    if rest < 0.0:
+
+        def parameter(height: float) -> float:
+            return 0.0 if abs(height) <= h * (1.0 + 1e-9) else sign * float(np.arccosh(abs(height) / h))
+
+        return lambda s: r * np.sinh(sign * s), lambda s: sign * h * np.cosh(s), parameter
+    if rest > 0.0:
+        return lambda s: r * np.cosh(s), lambda s: h * np.sinh(s), lambda height: float(np.arcsinh(height / h))
+    return lambda s: np.sqrt(-slope) * s, lambda s: s, lambda height: height
 
 
 def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:
