@@ -88,14 +88,13 @@ class Turnings:
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
         """Write R(t), mf89, at one time each, (m,), into (m, 3, 3)."""
-        for i, row in enumerate(self._matrix(t)):
-            for j, entry in enumerate(row):
-                out[(slice(None), j, i) if self.inverse else (slice(None), i, j)] = entry
+        for j, column in enumerate(self._columns(t)):
+            for i, entry in enumerate(column):
+                out[:, i, j] = entry
 
     def column(self, j: int, t: FloatArray, out: FloatArray) -> None:
         """Write the columns R_j(t), j = 1, 2, 3, into (m, 3)."""
-        matrix = list(zip(*self._matrix(t), strict=True)) if not self.inverse else list(self._matrix(t))
-        for i, entry in enumerate(matrix[j - 1]):
+        for i, entry in enumerate(self._columns(t)[j - 1]):
             out[:, i] = entry
 
     def turned(self, vector: FloatArray, t: FloatArray, out: FloatArray) -> None:
@@ -111,11 +110,15 @@ class Turnings:
         (x, y, z), (cos, sin, _) = vector, self._circle(1, t)
         out[:, 0], out[:, 1], out[:, 2] = x * cos + y * sin, y * cos - x * sin, z
 
-    def _matrix(self, t: FloatArray) -> list[tuple[Any, Any, Any]]:
-        """Return the rows of R_n(k t) R_z(phi t), each entry (m,)."""
+    def _columns(self, t: FloatArray) -> list[tuple[Any, Any, Any]]:
+        """Return the columns of R_n(k t) R_z(phi t), or of its inverse, each entry (m,).
+
+        What rounding did to the length of a column is taken back by a step of Newton's.
+        """
         cos, sin, _ = self._circle(1, t)
-        rows = self._precession(*self._circle(0, t)[1:])
-        return [(x * cos + y * sin, y * cos - x * sin, z) for x, y, z in rows]
+        rows = [(x * cos + y * sin, y * cos - x * sin, z) for x, y, z in self._precession(*self._circle(0, t)[1:])]
+        columns = rows if self.inverse else zip(*rows, strict=True)
+        return [_unit(*column) for column in columns]
 
     def _precession(self, sin: FloatArray, versine: FloatArray) -> list[tuple[Any, Any, Any]]:
         """Return the rows of R_n, by Rodrigues."""
@@ -132,6 +135,12 @@ class Turnings:
         )
         halves *= 2
         return halves[:, 0]
+
+
+def _unit(x: FloatArray, y: FloatArray, z: FloatArray) -> tuple[Any, Any, Any]:
+    """Return a vector of length 1 but for rounding with a length nearer to 1, each component to its own size."""
+    factor = 1.5 - 0.5 * (x * x + y * y + z * z)
+    return x * factor, y * factor, z * factor
 
 
 def _axis(constants: Constants, *inputs: Any) -> Sequence[Any]:
