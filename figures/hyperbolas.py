@@ -9,10 +9,10 @@ import numpy as np
 from atlas.errors import AtlasError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.hyperbola_plane import asymptote, branches, components, places, window
+from atlas.scene.style import LINES
 from atlas.scene.words import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 10.0
-ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 
 
 def scene(
@@ -23,8 +23,8 @@ def scene(
     unit: str = "time",
 ) -> Scene:
     """Draw the hyperbolas of the bodies with these ``ratios``; ``reach`` sets how far, in units of the field."""
-    if not 0 < len(ratios) <= len(ROLES):
-        raise AtlasError(f"ratios must hold one to {len(ROLES)} values of I, not {len(ratios)}.")
+    if not 0 < len(ratios) <= len(LINES):
+        raise AtlasError(f"ratios must hold one to {len(LINES)} values of I, not {len(ratios)}.")
     view, (B2, B3) = window(field, reach), components(field)
     centre = np.array([-B2, -B3])
     s2, s3 = np.copysign(1.0, field)
@@ -34,7 +34,7 @@ def scene(
         layers += [Curve(asymptote(ratio, field, view), "asymptote") for ratio in ratios]
     roles = tuple(map(body_role, ratios))
     if len(set(roles)) < len(roles):
-        roles = ROLES
+        roles = LINES
     for ratio, role in zip(ratios if B2 and B3 else ratios[:1], roles, strict=False):
         name = f"$I={tex(quotient(ratio))}$" if B2 and B3 else "every $I$"
         pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))

@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.kind_map import trace_map, turning_points
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Layer, Plane, Points, Scene
-from atlas.scene.hyperbola_plane import branches, places, window
+from atlas.scene.hyperbola_plane import Window, branches, places
 from atlas.scene.words import body_name, listed, tex, tex_vector, title
 
 WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0
@@ -66,8 +66,7 @@ def panel(name: str, I: float, field: tuple[float, float], reach: float, cells: 
     low, high, _ = turning_points(I, field, omega)
     swing = np.degrees(np.arccos(low) - np.arccos(high))
     looping = (trace_map(I, field, omega) == 2).astype(float)
-    view = window(field, reach)
-    view = type(view)((float(x[0]), float(x[-1])), (float(y[0]), float(y[-1])))
+    view = Window((float(x[0]), float(x[-1])), (float(y[0]), float(y[-1])))
     layers: list[Layer] = [Image(x, y, swing, "amplitude (degrees)", limits=(0.0, 150.0))]
     layers += [Curve(line, "map_border") for line in edges(*middle, looping)]
     layers += [Curve(line, "map_curve") for line in branches(I, field, view, (PANEL, PANEL))]

@@ -16,12 +16,12 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.scene.libration import Libration
 from atlas.scene.sample import curve, flat, quarter_pixel
+from atlas.scene.style import LINES
 from atlas.scene.words import listed, plain, plain_setting, tex, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 10.0
 DEEP = 0.02
 """How far down panel (b) goes at least, as a part of the largest departure."""
-ROLES = ("main", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 
 
 def scene(
@@ -34,8 +34,8 @@ def scene(
     unit: str = "time",
 ) -> Scene:
     """Draw Omega3(t) from the points of the quadric with this omega2 and each of ``omega1``."""
-    if not 0 < len(omega1) <= len(ROLES) or not all(omega1):
-        raise DomainError(f"omega1 must hold one to {len(ROLES)} numbers, none of them zero, not {omega1}.")
+    if not 0 < len(omega1) <= len(LINES) or not all(omega1):
+        raise DomainError(f"omega1 must hold one to {len(LINES)} numbers, none of them zero, not {omega1}.")
     still = start(ratio, field, 0.0, omega2)
     nu2 = -still.stiffness(still.omega3)
     librations = [Libration(start(ratio, field, number(value, "omega1"), omega2)) for value in omega1]
@@ -91,7 +91,7 @@ def courses(librations: Sequence[Libration], omega1: Sequence[float], turns: flo
     limits = (lowest - pad, highest + pad)
     size = (WIDTH / 2 - MARGIN, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
-    for libration, value, role in zip(librations, omega1, ROLES, strict=False):
+    for libration, value, role in zip(librations, omega1, LINES, strict=False):
         whole, window = stop / libration.period, ((0.0, stop), limits)
         line = flat(libration.departure, 0.0, 1.05 * whole, window, size, pieces=max(8, round(10 * whole)))
         tangent = np.array([[0.0, 0.0], [1.0, libration.speed]]) * min(stop, reach / abs(libration.speed)) * 0.5

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Scene, Space, quadric_panel, quadrics, solids
-from atlas.scene.bodies import row
+from atlas.scene.camera import frame
 from atlas.scene.words import body_name, body_role, listed, tex, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 62.0
@@ -28,7 +28,7 @@ def scene(
             f"figure quadrics_of_bodies needs B2, B3 not zero and 1 to 12 ratios, not field = {field}, {ratios}."
         )
     b = float(np.hypot(*field))
-    (right,) = row(2, 1.0, azimuth)[1:] * 2
+    right = frame(Space((), azimuth=azimuth))[0]
     each = [quadrics.pieces(I, field, REACH * b, quadric_panel.tolerance(2 * REACH * b)) for I in ratios]
     extents = [solids.extent(surfaces, right) for surfaces in each]
     layers: list[Layer] = []

@@ -11,10 +11,9 @@ from atlas.draw.order import cut, distinct_forms, places
 from atlas.draw.outline import facing
 from atlas.draw.style import style_of
 from atlas.draw.view import View
-from atlas.scene.layers import Surface
+from atlas.scene.layers import FloatArray, Surface
 from atlas.scene.mesh import normals
 
-FloatArray = NDArray[np.float64]
 Triangles: TypeAlias = tuple[FloatArray, FloatArray, NDArray[np.uint8]]
 """Corners (3 T, 3), unit normals (3 T, 3), and red, green, blue and opacity (3 T, 4) from 0 to 255."""
 

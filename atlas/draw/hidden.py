@@ -12,9 +12,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.scene.layers import Surface
+from atlas.scene.layers import FloatArray, Surface
 
-FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
 _ON = 1e-9

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.draw.text import line, typeset
+from atlas.scene.layers import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-FloatArray = NDArray[np.float64]
 
 _TURNS = np.radians([0, 20, -20, 40, -40, 65, -65, 90, -90, 120, -120, 150, -150, 180])
 _STEPS = (0.0, 3.0, 7.0, 12.0)

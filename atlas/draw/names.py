@@ -10,13 +10,12 @@ from atlas.draw.labels import Tag, along, place
 from atlas.draw.labels import write as write_tags
 from atlas.draw.style import style_of
 from atlas.draw.text import extent, points
-from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
+from atlas.scene.layers import Arrow, Curve, FloatArray, Image, Label, Layer, Plane, Points, Region
 from atlas.scene.style import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-FloatArray = NDArray[np.float64]
 Places = Callable[[FloatArray], FloatArray]
 
 _OVER = 10.0

@@ -15,13 +15,11 @@ and where two of them meet.
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.draw.hidden import values
 from atlas.draw.outline import facing
-from atlas.scene.layers import Surface
+from atlas.scene.layers import FloatArray, Surface
 
-FloatArray = NDArray[np.float64]
 Field = Callable[[FloatArray], FloatArray]
 
 _ON = 1e-9

@@ -10,9 +10,9 @@ import numpy as np
 from contourpy import contour_generator
 from numpy.typing import NDArray
 
-from atlas.scene.layers import Surface
+from atlas.scene.layers import FloatArray, Surface
+from atlas.scene.mesh import normals
 
-FloatArray = NDArray[np.float64]
 Edge: TypeAlias = tuple[FloatArray, NDArray[np.uint8]]
 """Points (N, 3) in space and the codes (N,) that a `matplotlib.path.Path` has for closed polygons."""
 
@@ -42,9 +42,7 @@ def shadows(surface: Surface, towards: FloatArray, light: FloatArray, levels: Fl
     bend = float(towards @ surface.quadric[:3, :3] @ towards)
     bands: list[list[Edge]] = [[] for _ in levels]
     for grid in surface.grids:
-        gradient = 2.0 * (grid @ surface.quadric[:3, :3] + surface.quadric[:3, 3])
-        length = np.linalg.norm(gradient, axis=-1)
-        normal = gradient / np.where(length > 0.0, length, 1.0)[..., None]
+        normal = normals(surface.quadric, grid)
         slant = normal @ towards * (1.0 if bend >= 0.0 else -1.0)
         lit = normal @ light * np.where(normal @ towards >= 0.0, 1.0, -1.0)
         for band, level in zip(bands, levels, strict=True):

@@ -7,15 +7,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import NullLocator, ScalarFormatter
-from numpy.typing import NDArray
 
 from atlas.draw.style import style_of
 from atlas.draw.text import typeset
 from atlas.errors import AtlasError
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
 from atlas.scene.style import INK, WHITE
-
-FloatArray = NDArray[np.float64]
 
 _AREAS, _LINES, _MARKS = 1.0, 2.0, 3.0
 _DECADES = 6

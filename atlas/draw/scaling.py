@@ -3,11 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Space, Surface
-
-FloatArray = NDArray[np.float64]
+from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface
 
 
 def scaled(panel: Space, centre: FloatArray, size: float) -> Space:

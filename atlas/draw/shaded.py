@@ -21,10 +21,8 @@ from atlas.draw.style import style_of
 from atlas.draw.text import typeset
 from atlas.draw.view import View, fit, named
 from atlas.errors import AtlasError
-from atlas.scene.layers import Arrow, Curve, Points, Scene, Space, Surface
+from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface
 from atlas.scene.style import Style
-
-FloatArray = NDArray[np.float64]
 
 _LIGHTS = (
     ((-0.55, 0.75, 0.90), 0.90),  # the key light from the upper left

@@ -11,7 +11,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
-from numpy.typing import NDArray
 
 from atlas.draw.hidden import hidden, split
 from atlas.draw.labels import along, place, write
@@ -20,10 +19,8 @@ from atlas.draw.plane import marker
 from atlas.draw.style import style_of
 from atlas.draw.view import View, fit
 from atlas.scene import conics
-from atlas.scene.layers import Arrow, Curve, Points, Space, Surface
+from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Space, Surface
 from atlas.scene.style import Style
-
-FloatArray = NDArray[np.float64]
 
 _INSIDE, _TINT, _WIRE, _HIDDEN, _VISIBLE, _HEAD, _MARK = 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 6.0
 _DASH = (2.6, 1.9)

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.draw.labels import Tag, stand
 from atlas.draw.scaling import scaled
@@ -12,10 +11,8 @@ from atlas.draw.style import style_of
 from atlas.draw.text import extent, points
 from atlas.errors import AtlasError
 from atlas.scene.camera import frame, shown
-from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Points, Region, Space, Surface
+from atlas.scene.layers import Arrow, Curve, FloatArray, Image, Label, Layer, Points, Region, Space, Surface
 from atlas.scene.style import readable
-
-FloatArray = NDArray[np.float64]
 
 _MARGIN = 4.0
 _BEYOND = 4.5

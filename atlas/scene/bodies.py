@@ -3,12 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.scene import solids
-from atlas.scene.layers import Curve, Layer, Surface
-
-FloatArray = NDArray[np.float64]
+from atlas.scene.camera import frame
+from atlas.scene.layers import Curve, FloatArray, Layer, Space, Surface
 
 _SEAM = 0.16
 _FLAT = 1e-3
@@ -29,10 +27,8 @@ def proportions(I: float, *, solid: bool = False) -> tuple[float, float]:
 
 def row(count: int, step: float, azimuth: float) -> FloatArray:
     """Return centres (count, 3) at equal steps on a line that runs to the right for an eye at ``azimuth`` (degrees)."""
-    a = np.radians(azimuth)
-    right = np.array([-np.sin(a), np.cos(a), 0.0])
-    places: FloatArray = step * (np.arange(count) - (count - 1) / 2)[:, None] * right
-    return places
+    right = frame(Space((), azimuth=azimuth))[0]
+    return np.asarray(step * (np.arange(count) - (count - 1) / 2)[:, None] * right)
 
 
 def drawn_body(I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float) -> list[Layer]:

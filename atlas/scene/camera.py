@@ -3,12 +3,11 @@
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
-from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Space, Surface
+from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface
 
 
-def frame(space: Space) -> NDArray[np.float64]:
+def frame(space: Space) -> FloatArray:
     """Return the rows right, up, towards the eye, in (e1, e2, e3); shape (3, 3)."""
     a, e = np.radians(space.azimuth), np.radians(space.elevation)
     towards = (np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e))
@@ -17,7 +16,7 @@ def frame(space: Space) -> NDArray[np.float64]:
     return np.array([right, up, towards])
 
 
-def shown(layer: Layer) -> Iterator[NDArray[np.float64]]:
+def shown(layer: Layer) -> Iterator[FloatArray]:
     """Yield all the points (..., 3) of a layer that must be seen."""
     if isinstance(layer, Curve | Points):
         yield layer.points

@@ -5,11 +5,9 @@ from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.scene import sample
-
-FloatArray: TypeAlias = NDArray[np.float64]
+from atlas.scene.layers import FloatArray
 
 _Flat: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 _Arc: TypeAlias = tuple[_Flat, float, float]

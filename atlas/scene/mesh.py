@@ -1,14 +1,11 @@
 """Surfaces cut into faces: as many as their curvature and their size on paper need."""
 
 from collections.abc import Callable, Iterable
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.scene import sample
-
-FloatArray: TypeAlias = NDArray[np.float64]
+from atlas.scene.layers import FloatArray
 
 SHADE = 1.0 / 512.0
 """Half of one of 256 shades: what the light may be wrong by between two corners of a face."""

@@ -5,19 +5,16 @@ e1, e2, e3.
 """
 
 from collections.abc import Sequence
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.core.quadric import Quadric
 from atlas.scene import quadrics, solids
 from atlas.scene.camera import frame, shown
-from atlas.scene.layers import Arrow, Curve, Label, Layer, Points, Space, Surface
+from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface
 from atlas.scene.sample import quarter_pixel
 from atlas.scene.words import quotient
-
-FloatArray: TypeAlias = NDArray[np.float64]
 
 E1, E2, E3 = np.eye(3)
 O = np.zeros(3)
@@ -128,12 +125,13 @@ def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
     Arguments are those of `surface_layers`. Raises AtlasError where the ratio or the field is not valid.
     """
     b = float(np.hypot(*field)) or 1.0
-    frame = basis((0.9 * b, 1.15 * b, 1.4 * b))
-    surface = surface_layers(ratio, field, which)
+    axes, surface = basis((0.9 * b, 1.15 * b, 1.4 * b)), surface_layers(ratio, field, which)
     if not any(field):
         note = Label(0.55 * (E2 + E3), "every $\\omega$ keeps $\\Omega_3$ constant", "note")
-        return [*frame, Points(O[None], "origin", r"$O$"), note]
-    return [*surface, *frame, *vectors(quotient(ratio), float(np.arctan2(field[1], quotient(ratio) * field[0])), field)]
+        return [*axes, Points(O[None], "origin", r"$O$"), note]
+    I = quotient(ratio)
+    beta = float(np.arctan2(field[1], I * field[0]))
+    return [*surface, *axes, *vectors(I, beta, field)]
 
 
 def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:

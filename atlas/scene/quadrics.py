@@ -4,13 +4,10 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.core.quadric import Quadric
 from atlas.scene import conics, mesh, sample, solids
-from atlas.scene.layers import Surface
-
-FloatArray: TypeAlias = NDArray[np.float64]
+from atlas.scene.layers import FloatArray, Surface
 
 _Line: TypeAlias = Callable[[FloatArray], FloatArray]
 

@@ -1,14 +1,11 @@
 """Curves sampled to a tolerance: as many points as the bends need, none for what is not seen."""
 
 from collections.abc import Callable
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.errors import DomainError
-
-FloatArray: TypeAlias = NDArray[np.float64]
+from atlas.scene.layers import FloatArray
 
 _ROUNDS = 40
 MOST = 1_000_000

@@ -2,15 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.scene import mesh, sample
-from atlas.scene.layers import Surface
-
-FloatArray: TypeAlias = NDArray[np.float64]
+from atlas.scene.layers import FloatArray, Surface
 
 TURN = 2.0 * np.pi
 _FLAT = 1e-6

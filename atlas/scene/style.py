@@ -74,7 +74,6 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "turn": Style(PLUM, 1.1, tube=2.4),
         # curves of the paper
         "hyperbola": Style(NAVY, 1.5, tube=2.6),
-        "branch": Style(NAVY, 1.1, tube=2.2),
         "asymptote": Style(GREY, 0.6, (5.0, 2.5), tube=1.0),
         "pole": Style(GREY, 0.6, (1.2, 1.8), tube=1.0),
         "trajectory": Style(NAVY, 1.1, tube=2.6),
@@ -114,7 +113,6 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "sample": Style(SLATE, marker=".", size=2.6, tube=2.6),
         # areas and surfaces
         "surface": Style("#4f8fd0", fill=0.30, back="#f0b25c", glass=0.40),
-        "surface_second": Style("#6aa58c", fill=0.30, back="#c9b3dd"),
         # scales, from little to much: of a rate on a surface, of a frequency along a curve
         **{
             f"rate_{k}": Style(colour, fill=0.88, back=colour, glass=0.80)
