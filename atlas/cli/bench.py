@@ -1,7 +1,6 @@
 """``atlas bench``: error against time, by the closed forms, by their peers and by integrators."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -40,6 +39,8 @@ def command(
 
     The record holds machine, versions and command. Figures and report pages are drawn from the stored record.
     """
+    from msgspec import to_builtins
+
     from atlas.study.bench import results
     from atlas.study.bench.run import run
     from atlas.study.bench.tables import machine_line, tables
@@ -55,16 +56,10 @@ def command(
         with bar("bench") as tell:
             found = run(cases or None, quick, tell, command=" ".join(words))
     if as_json:
-        dump(_plain(found))
+        dump(to_builtins(found))
     else:
         for table in tables(found):
             show(Printout(table.title, heading=table.heading, rows=table.rows, notes=table.notes, justify="left"))
         click.echo(machine_line(found))
     if read is None:
         results.write(found, place)
-
-
-def _plain(record: Any) -> Any:
-    import msgspec
-
-    return msgspec.to_builtins(record)

@@ -1,7 +1,5 @@
 """``atlas stress``: the worst errors found on hostile inputs, in ulps, against balls."""
 
-import os
-
 import click
 
 from atlas.cli.options import Command, examples
@@ -28,9 +26,10 @@ def command(samples: int, seed: int, jobs: int | None, renew: bool, arrays: bool
     The exit status is 1 if an error exceeds the promise made for its quantity. The run without options is also held
     against the record of worst errors, which may not grow.
     """
+    from atlas.core.threads import processors
     from atlas.study import many, stress
 
-    processes = jobs or os.cpu_count() or 1
+    processes = jobs or processors()
     if renew:
         stress.renew(processes)
         click.echo("the worst errors are on record; look at what changed before you keep it")

@@ -12,7 +12,7 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.exact import elementary as exact_elementary
 from atlas.exact.digits import enclosed
 from atlas.study import hostile
-from atlas.study.judging import BITS, described, exact_ratio, judging, ratio_of, with_more
+from atlas.study.judging import BITS, described, exact_ratio, judging, ratio_of, rigidity, with_more
 from atlas.study.ulps import ONE, Tally, absolute, approximate, of_length, own
 
 SHIFTS = (1, -7, 60)
@@ -38,7 +38,9 @@ def judge_motion(motion: hostile.Motion, regime: str, tally: Tally) -> None:
         _vectors(motion.times, found, exact, regimes, tally, inputs)
         _matrices(motion.times, found, exact, regimes, tally, inputs, slow)
         _structure(motion, found, regime, tally, inputs)
-        _orthogonality(found.rotation(np.array(motion.times)), motion.times, regime, tally, inputs)
+        rigid = rigidity(found.rotation(np.array(motion.times)))
+        for name, errors in zip(("R orthogonality", "R determinant"), rigid, strict=True):
+            tally.add(name, regime, errors, lambda i: inputs | {"t": motion.times[i].hex()})
         _grid(motion, found, exact, regime, tally, inputs)
 
 
@@ -98,16 +100,6 @@ def _structure(motion: hostile.Motion, found: Any, regime: str, tally: Tally, in
         normal = np.abs(before) >= np.finfo(float).tiny  # smaller entries have lost bits to underflow
         changed = np.abs(after - before).max(initial=0.0, where=normal) / ONE
         tally.add("R under scaling by 2^n", regime, [float(changed)], with_more(inputs, n=shift))
-
-
-def _orthogonality(R: Any, times: Sequence[float], regime: str, tally: Tally, inputs: Any) -> None:
-    """Judge R^T R = 1 and det R = 1, evaluated in extended precision."""
-    long = R.astype(np.longdouble)
-    defect = np.abs(np.swapaxes(long, -1, -2) @ long - np.eye(3, dtype=np.longdouble)).max(axis=(-1, -2))
-    determinant = np.einsum("ni,ni->n", long[:, 0], np.cross(long[:, 1], long[:, 2])) - 1
-    for name, values in (("R orthogonality", defect), ("R determinant", np.abs(determinant))):
-        errors = [float(x / np.longdouble(ONE)) for x in values]
-        tally.add(name, regime, errors, lambda i: inputs | {"t": times[i].hex()})
 
 
 def _grid(motion: hostile.Motion, found: Any, exact: Any, regime: str, tally: Tally, inputs: Any) -> None:

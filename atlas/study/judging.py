@@ -4,12 +4,14 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import numpy as np
 from flint import ctx, fmpq
 
 from atlas.core.body import SymmetricBody
+from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.study import hostile
-from atlas.study.ulps import Refusal, Tally
+from atlas.study.ulps import ONE, Refusal, Tally
 
 BITS = 80
 """Relative accuracy of the truth: a 2^-27th of a double's."""
@@ -37,6 +39,14 @@ def described(record: Any) -> dict[str, Any]:
 def with_more(inputs: dict[str, Any], **more: Any) -> Callable[[int], dict[str, Any]]:
     """Return the description of an input with more of it, whichever of the values was the worst."""
     return lambda _: inputs | more
+
+
+def rigidity(R: FloatArray) -> tuple[list[float], list[float]]:
+    """Return by how much R^T R and det R of matrices (m, 3, 3) differ from 1, in ulps of 1, in extended precision."""
+    long = R.astype(np.longdouble)
+    defect = np.abs(np.swapaxes(long, 1, 2) @ long - np.eye(3, dtype=np.longdouble)).max(axis=(1, 2))
+    determinant = np.abs(np.einsum("ni,ni->n", long[:, 0], np.cross(long[:, 1], long[:, 2])) - 1)
+    return (defect / ONE).astype(float).tolist(), (determinant / ONE).astype(float).tolist()
 
 
 def both(first: Callable[[Any], Any], second: Callable[[Any], Any], t: Any) -> tuple[Any, Any]:

@@ -5,21 +5,21 @@ R^T R = 1 and det R = 1 are evaluated in extended precision, and one matrix in `
 each fourth array of these goes one of general motions, see `many_general`.
 """
 
-from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from itertools import chain
-from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
 from flint import ctx, fmpq
 
+from atlas import processes
 from atlas.core.elementary import ElementaryMotion
 from atlas.exact import elementary as exact_elementary
 from atlas.study.bench.case import FloatArray
+from atlas.study.judging import rigidity, with_more
 from atlas.study.many_general import judge_general_rows
 from atlas.study.stress import Progress, Result, finished
-from atlas.study.ulps import ONE, Tally, absolute
+from atlas.study.ulps import Tally, absolute
 
 ROWS = 20_000
 """Rows judged at once."""
@@ -38,9 +38,10 @@ def stress_arrays(samples: int, seed: int = 0, jobs: int = 1, progress: Progress
     """Judge at least `samples` values of arrays of motions drawn from `seed`, on `jobs` processes."""
     batches = -(-samples // (ROWS * VALUES))
     judged = partial(judge_arrays, seed)
-    if jobs == 1:
+    executor = processes.pool(jobs) if jobs > 1 else None
+    if executor is None:
         return finished(seed, map(judged, range(batches)), samples, progress)
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+    with executor as pool:
         return finished(seed, pool.map(judged, range(batches)), samples, progress)
 
 
@@ -93,17 +94,14 @@ def judge_rows(seed: int, index: int) -> Tally:
 
     found = zip(rows, motion.omega3.tolist(), motion.k.tolist(), motion.phi.tolist(), strict=True)
     scalars = list(zip(*(_scalars(*row) for row in found), strict=True))
-    for name, errors in zip(("omega3", "k", "phi"), scalars, strict=True):
+    for name, values in zip(("omega3", "k", "phi"), scalars, strict=True):
+        tally.add(name, REGIME, values, describe)
+    for name, errors in zip(("R orthogonality", "R determinant"), rigidity(R), strict=True):
         tally.add(name, REGIME, errors, describe)
-    long = R.astype(np.longdouble)
-    defect = abs(np.swapaxes(long, 1, 2) @ long - np.eye(3, dtype=np.longdouble)).max(axis=(1, 2))
-    determinant = abs(np.einsum("ni,ni->n", long[:, 0], np.cross(long[:, 1], long[:, 2])) - 1)
-    for name, values in (("R orthogonality", defect), ("R determinant", determinant)):
-        tally.add(name, REGIME, (values / ONE).astype(float).tolist(), describe)
     with ctx.workprec(200):
         for i in range(0, len(rows), BALLS):
             true = exact_elementary.ElementaryMotion(rows[i][0], tuple(rows[i][1:3]), rows[i][3]).rotation(rows[i][4])
-            tally.add("R", REGIME, [max(absolute(R[i].flat, chain(*true)))], partial(_same, describe(i)))
+            tally.add("R", REGIME, [max(absolute(R[i].flat, chain(*true)))], with_more(describe(i)))
     return tally
 
 
@@ -117,10 +115,6 @@ def _scalars(row: list[float], omega3: float, k: float, phi: float) -> tuple[flo
         _of_root(abs(k), square),
         _error(phi, common * (1 - I) * (w2 + 2 * b2)),
     )
-
-
-def _same(described: Any, _: int) -> Any:
-    return described
 
 
 def _error(found: float, true: fmpq) -> float:

@@ -18,6 +18,7 @@ from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.bench.case import FloatArray
 from atlas.study.judges_general import narrow, state
+from atlas.study.judging import rigidity, with_more
 from atlas.study.regimes_general import GENERAL
 from atlas.study.ulps import ONE, Tally, absolute, error, own
 
@@ -61,16 +62,13 @@ def judge_general_rows(seed: int, index: int) -> Tally:
         ratio, field, rate, time = (x[i] for x in rows)
         return {"I": ratio.hex(), "field": [x.hex() for x in field], "omega": [x.hex() for x in rate], "t": time.hex()}
 
-    long = R.astype(np.longdouble)
-    defect = abs(np.swapaxes(long, 1, 2) @ long - np.eye(3, dtype=np.longdouble)).max(axis=(1, 2))
-    determinant = abs(np.einsum("ni,ni->n", long[:, 0], np.cross(long[:, 1], long[:, 2])) - 1)
-    for name, values in (("general orthogonality", defect), ("general determinant", determinant)):
-        tally.add(name, REGIME, (values / ONE).astype(float).tolist(), describe)
+    for name, errors in zip(("general orthogonality", "general determinant"), rigidity(R), strict=True):
+        tally.add(name, REGIME, errors, describe)
     tally.add("general integrals", REGIME, _drift(I, B, omega, Omega, K).tolist(), describe)
     for i in range(len(GENERAL) + JUDGED):
         ratio, field, rate, time = (x[i] for x in rows)
         exact, size = Balls(ratio, field, rate), max(map(abs, (*field, *rate))) or 1.0
-        same = partial(_same, describe(i))
+        same = with_more(describe(i))
         tally.add("general kind", REGIME, [0.0 if kinds[i] == exact.kind else np.inf], same)
         truth = narrow(partial(state, exact, time), size)
         tally.add("general R", REGIME, absolute(R[i].flat, chain(*truth[0])), same)
@@ -84,7 +82,7 @@ def judge_general_rows(seed: int, index: int) -> Tally:
     for i, values in zip(chosen, found.tolist(), strict=True):
         true = enclosed(partial(_scalars, Balls(*(x[i] for x in rows[:3]))), BITS)
         with ctx.workprec(BITS + 16):
-            tally.add("general scalars", REGIME, own(values, true), partial(_same, describe(i)))
+            tally.add("general scalars", REGIME, own(values, true), with_more(describe(i)))
     return tally
 
 
@@ -105,7 +103,3 @@ def _integrals(I: FloatArray, Omega: FloatArray, K: FloatArray) -> FloatArray:
     """Return Omega3 + K3, E' and (M, K) in units of I2, (3, m)."""
     weight = np.stack([np.ones_like(I), np.ones_like(I), I], -1)
     return np.array([Omega[:, 2] + K[:, 2], (weight * Omega**2).sum(-1), (weight * (Omega + K) * K).sum(-1)])
-
-
-def _same(described: Any, _: int) -> Any:
-    return described

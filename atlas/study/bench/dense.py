@@ -19,7 +19,7 @@ from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Exact
 from atlas.study.bench import elementary, general
 from atlas.study.bench.case import Grid, Solve
-from atlas.study.bench.clock import Job, interleave, one_core, ratio
+from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.cost import Times
 from atlas.study.bench.integrators import integrators
 from atlas.study.bench.methods import ANY, EVEN
@@ -47,9 +47,9 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
             dense = peer.prepare(case, TOLERANCE, np.inf)
             solve |= {(ANY, "heyoka"): (dense, anywhere), (EVEN, "heyoka"): (dense, grid)}
     plain, exact = elementary.plain(), Exact(*general.PARAMETERS.values())
-    jobs = {f"{what} {method}": _job(*way) for (what, method), way in solve.items()}
+    jobs = {f"{what} {method}": partial(evaluate, at) for (what, method), (evaluate, at) in solve.items()}
     with one_core():
-        times = interleave({"plain": _job(plain, anywhere)} | jobs, rounds)
+        times = interleave({"plain": partial(plain, anywhere)} | jobs, rounds)
     for (what, method), (evaluate, at) in solve.items():
         values = evaluate(at)
         chosen = np.unique(np.linspace(0, count - 1, JUDGED).astype(int)).tolist()
@@ -58,7 +58,3 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
             worst = max(max(absolute(values[i].flat, balls)) for i, balls in zip(chosen, true, strict=True))
         seconds = times[f"{what} {method}"]
         yield Rows(what, method, count, worst, median(seconds) / count * 1e9, ratio(seconds, times["plain"]))
-
-
-def _job(solve: Solve, grid: Grid) -> Job:
-    return lambda: solve(grid)

@@ -1,6 +1,6 @@
 """Error against time: every method on every case, up to every horizon, at every tolerance; failures are kept."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
@@ -8,7 +8,7 @@ from statistics import median
 
 from msgspec.structs import replace
 
-from atlas.study.bench.case import Case, FloatArray, Grid, Solve, grid
+from atlas.study.bench.case import Case, Grid, Solve, grid
 from atlas.study.bench.clock import interleave, once, ratio
 from atlas.study.bench.integrators import Integrator, TimedOutError
 from atlas.study.bench.reference import Reference, reference
@@ -67,8 +67,8 @@ def closed(bench: Bench) -> Iterator[Setup | Run]:
                 errors[name] = bench.truths[horizon].error(solve(g))
             except Exception as raised:  # noqa: BLE001  the same
                 yield Run(case.name, name, horizon, g.count, "failed", note=said(raised))
-        jobs = {name: _job(ready[name], g) for name in errors}
-        times = interleave({"base": _job(bench.plain, g)} | jobs, bench.plan.rounds)
+        jobs = {name: partial(ready[name], g) for name in errors}
+        times = interleave({"base": partial(bench.plain, g)} | jobs, bench.plan.rounds)
         for name, error in errors.items():
             yield _measured(Run(case.name, name, horizon, g.count, "done"), error, times[name], times["base"])
 
@@ -110,9 +110,9 @@ def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
     """Solve, grade and time one run beside the plain formula."""
     g = bench.grids[run.horizon]
     try:
-        seconds, values = once(_job(solve, g))
+        seconds, values = once(partial(solve, g))
         error = bench.truths[run.horizon].error(values)
-        jobs = {"base": _job(bench.plain, g)} | ({"peer": _job(solve, g)} if seconds < SHORT else {})
+        jobs = {"base": partial(bench.plain, g)} | ({"peer": partial(solve, g)} if seconds < SHORT else {})
         times = interleave(jobs, bench.plan.rounds if seconds < SHORT / 10 else 3)
     except TimedOutError:
         return _unmeasured(run, "timed out", f"stopped after {bench.plan.limit:g} s, so at longer horizons")
@@ -120,10 +120,6 @@ def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
         return _unmeasured(run, "failed", said(raised))
     peer = times.get("peer", [seconds] * len(times["base"]))
     return _measured(run, error, peer, times["base"], note)
-
-
-def _job(solve: Solve, g: Grid) -> Callable[[], FloatArray]:
-    return lambda: solve(g)
 
 
 def _measured(run: Run, error: float, times: Sequence[float], base: Sequence[float], note: str = "") -> Run:

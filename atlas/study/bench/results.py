@@ -3,7 +3,6 @@
 Figures and pages are drawn from the stored file, never from a fresh run, so they rebuild the same.
 """
 
-import os
 import platform
 import re
 from datetime import UTC, datetime
@@ -13,6 +12,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from atlas import __version__, files
+from atlas.core.threads import processors
 from atlas.errors import AtlasError
 from atlas.libraries import release
 from atlas.places import folder
@@ -157,7 +157,7 @@ def machine() -> Machine:
     extensions = [*found.get("baseline", ()), *found.get("found", ())]
     return Machine(
         processor=_processor(),
-        cores=len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1,
+        cores=processors(),
         avx512=any(name == "X86_V4" or name.startswith("AVX512") for name in extensions),
         system=f"{platform.system()} {platform.machine()}",
     )
