@@ -8,7 +8,7 @@ import json
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from atlas.errors import AtlasError
 from atlas.report import pandoc
@@ -23,14 +23,6 @@ _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 """How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
 _ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
 """Where in a node of a tree its attributes are."""
-
-
-class Memory(Protocol):
-    """What was made of a source before, by that source."""
-
-    def __contains__(self, source: str, /) -> bool: ...
-    def __getitem__(self, source: str, /) -> str: ...
-    def __setitem__(self, source: str, text: str, /) -> None: ...
 
 
 class Link(NamedTuple):
@@ -57,10 +49,10 @@ class Text:
 
 @dataclass
 class Texts:
-    """The texts of one report, set together; `memory` holds what was set before."""
+    """The texts of one report, set together; `memory` holds what was made of a source before, by that source."""
 
     texts: list[Text] = field(default_factory=list)
-    memory: Memory = field(default_factory=dict[str, str])
+    memory: dict[str, str] = field(default_factory=dict)
     _trees: list[Tree] = field(default_factory=list)
 
     def add(self, markdown: str, where: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:

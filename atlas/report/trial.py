@@ -43,7 +43,6 @@ class EntryView:
 
     label: str
     number: str
-    section: str
     kind: str
     verdict: str
     says: int
@@ -96,7 +95,6 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
     return EntryView(
         label=entry.label,
         number=f"({entry.number})" if entry.number is not None else "",
-        section=entry.section,
         kind=entry.kind,
         verdict=found.verdict,
         says=keep(entry.says, inline=True),

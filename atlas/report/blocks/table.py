@@ -1,7 +1,6 @@
 """A numbered table: of computed numbers, of recorded results, or written out in the report."""
 
 from dataclasses import dataclass
-from itertools import product
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
@@ -21,6 +20,8 @@ MOST = 1000
 """As many digits of a number as a table may ask for."""
 MANY = 12
 """As many rows as a table may have that is not broken over pages of the PDF."""
+POWER = 5.75
+"""Widths of a digit that a power of ten takes."""
 COMMANDS = {
     "trial": "atlas verify --record",
     "bench": "atlas bench",
@@ -153,9 +154,10 @@ def _view(
             )
         )
     rows = tuple(tuple(_cell(value, composer) for value in row) for row in data.rows)
-    for (number, line), (place, _) in product(enumerate(data.rows, 1), enumerate(data.columns, 1)):
-        if isinstance(value := line[place - 1], Number):
-            composer.target(f"cell:{anchor.removeprefix('tab-')}-{number}-{place}", anchor, value.words())
+    for number, row in enumerate(data.rows, 1):
+        for place, value in enumerate(row, 1):
+            if isinstance(value, Number):
+                composer.target(f"cell:{anchor.removeprefix('tab-')}-{number}-{place}", anchor, value.words())
     proven = all(cell.proven for row in data.rows for cell in row if isinstance(cell, Number))
     sentences = [*data.notes, *([] if proven else ["What is not proven is starred."])]
     note = " ".join(filter(None, map(composer.once, sentences)))
@@ -178,7 +180,3 @@ def _cell(value: str | Number, composer: "Composer") -> Cell:
     if isinstance(value, Number):
         return Cell(None, *value.parts(), value.proven)
     return Cell(composer.text(value, inline=True)) if value else Cell()
-
-
-POWER = 5.75
-"""Widths of a digit that a power of ten takes."""
