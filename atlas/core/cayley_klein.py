@@ -17,6 +17,7 @@ from atlas.core.phase import EVEN, ROUNDER, WHOLE, Phases
 from atlas.core.rotation import target
 from atlas.core.threads import shared
 from atlas.core.wide import Wide
+from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion
 from atlas.exact.theta import infinite
 
@@ -87,9 +88,19 @@ class CayleyKlein:
             self.origins = [Wide(0), Wide(0), wide(origin)] if periodic else None
             self.phases = self._phases()
             self.values, self.slopes = (_real_parts(x, largest) for x in (values, slopes))
+            self._check(values)
             least = np.abs(self.values).min(where=self.values != 0, initial=1.0)
             self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
         return True
+
+    def _check(self, values: list[list[acb]]) -> None:
+        """Refuse a motion of which alpha or beta is lost beside the other."""
+        for exact, found in zip(values, self.values.reshape(2, 2, -1).swapaxes(0, 1), strict=True):
+            if not found.any() and not all(x.is_zero() for x in exact):
+                raise DomainError(
+                    "The body's axis passes the line of the field at an angle too small for a float: give a larger "
+                    "angular velocity across the axis, or none."
+                )
 
     def _phases(self) -> Phases:
         """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter.

@@ -126,6 +126,7 @@ class GeneralMotion(Motion[General]):
       "separatrix between B and -B": the axis turns over from one pole of the sphere to the other, once.
 
     Which it is, is decided exactly; the entries of R join without a gap. The cost does not depend on t.
+    Raises DomainError if the body's axis comes to within some 1e-600 rad of the field, but not into it.
     """
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:

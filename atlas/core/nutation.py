@@ -22,6 +22,9 @@ NEGLIGIBLE = 2.0**-58
 SATURATED = 700.0
 """From there on exp(-x) is nothing beside one, and exp x nearly infinite."""
 
+RAISED = 2.0**500
+"""What sech x is multiplied by where x leaves that range: one of alpha and beta may be as small as it is there."""
+
 
 def wide(x: arb) -> Wide:
     """Return the middle of a ball as a number of 256 digits."""
@@ -104,6 +107,7 @@ class Hyperbolic:
             first, second = (x.twist * 2 * lattice.half / arb.pi() for x in (found.alpha, found.beta))
             self.twist = np.array([[float(x.mid())] for x in (first + second, first - second)])
         self.line = Line(wide(slope), wide(start))
+        self.distant = wide(self.reach).words(2) if self.periodic and self.reach > SATURATED else None
         self.sech = any(sum_.doubled for sum_ in sums)
         polynomials = [self._polynomials(sum_) for sum_ in sums]
         self.powers = max(self._needed(weights) for weights in polynomials)
@@ -115,6 +119,8 @@ class Hyperbolic:
         found = (self._polynomials(sum_) + none)[: 2 * self.powers]
         if not self.sech:
             return found
+        if sum_.doubled and self.distant:
+            found = [x / RAISED for x in found]
         return none + found if sum_.doubled else found + none
 
     def _needed(self, weights: list[acb]) -> int:
@@ -135,9 +141,9 @@ class Hyperbolic:
         m = np.expm1(np.minimum(np.abs(x), SATURATED))
         up = m + WHOLE
         rest = np.copysign(1.0, x) * rest
-        rest *= up
-        m += rest
-        up += rest
+        lacking = rest * up
+        m += lacking
+        up += lacking
         down = WHOLE / up
         E = down * down
         over = WHOLE / (E + WHOLE)
@@ -147,17 +153,22 @@ class Hyperbolic:
         np.copysign(m, x, out=rows[0])
         rows[1] = 1.0
         if self.powers > 1:
-            W = up
-            W *= self.peak
-            W *= W
-            E *= self.part
-            W += E
+            if self.distant:  # all that is left of W
+                W = np.exp(2 * (np.abs(x) - self.distant[0] + (rest - self.distant[1])))
+            else:
+                W = up
+                W *= self.peak
+                W *= W
+                E *= self.part
+                W += E
             pairs = rows[: 2 * self.powers].reshape(self.powers, 2, -1)
             for j in range(1, self.powers):
                 np.multiply(pairs[j - 1], W, out=pairs[j])
         if self.sech:
             down *= over
             down *= 2.0
+            if self.distant:
+                down *= RAISED * np.exp(np.minimum(SATURATED - np.abs(x), 0.0))
             n = 2 * self.powers
             np.multiply(rows[:n], down, out=rows[n : 2 * n])
 

@@ -280,6 +280,22 @@ def test_a_stable_motion_nutates_with_the_frequency_of_the_linear_theory() -> No
     assert curve.escape(0.7, 1e-6).period == pytest.approx(period, rel=1e-10)
 
 
+@pytest.mark.parametrize("push", [1e-160, 2.0**-950, 2.0**-957, 2.0**-1020])
+def test_a_push_may_be_as_small_as_a_float(push: float) -> None:
+    """Next to a pole, at the start and again after a period, and halfway, where the axis turns over."""
+    inputs = 1.5, (0.0, 3.5), (push, 0.0, -3.5)
+    motion, exact = GeneralMotion(*inputs), Balls(*inputs)
+    times = np.array([0.0, 1e-5, 0.1, 0.45, 0.4999, 0.5, 0.505, 1.0, 3.5]) * motion.period
+    for t, R in zip(times.tolist(), motion.rotation(times), strict=True):
+        assert max(absolute(R.flat, chain(*narrow(partial(exact.rotation, t), 3.5)))) <= 8
+
+
+def test_an_angle_too_small_for_a_float_is_refused() -> None:
+    """Where one of alpha and beta has no floats beside the other, there is a reason and no NaN."""
+    with pytest.raises(DomainError, match="angle too small for a float"):
+        GeneralMotion(1.5, (0.0, 1e300), (5e-324, 0.0, -1e300)).rotation(1e-297)
+
+
 @pytest.mark.parametrize("push", [1e-2, 1e-3])
 def test_an_escape_takes_as_long_and_goes_as_far_as_an_integration_says(push: float) -> None:
     """Period and reach of an escape agree with DOP853 at 1e-13 to a millionth."""
