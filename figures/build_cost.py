@@ -53,7 +53,7 @@ def read() -> dict[str, Any]:
     try:
         found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError as error:
-        raise AtlasError(f"There is no ledger of a build, {path.name}: keep one of a build first.") from error
+        raise AtlasError(f"There is no ledger of a build, {path.name}: run atlas report --keep-costs.") from error
     return found
 
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.numbers import along, answer, certificate
+from atlas.cli.numbers import along, answer, certificate, in_threes, samples
 from atlas.cli.options import REAL, Command, chosen_times, exactly, examples, output_options, times_options
 from atlas.cli.present import Line, Printout, show
 
@@ -47,8 +47,7 @@ def command(**options: Any) -> None:
 
 def described(motion: Any, times: list[float], R: Any, m: Any) -> dict[str, Any]:
     """Return the quantities of a ball's motion and its samples."""
-    samples = [{"t": t, "R": r, "m": v} for t, r, v in zip(times, R, m, strict=True)]
-    return {"gamma": motion.gamma, "k_hat": motion.k_hat, "samples": samples}
+    return {"gamma": motion.gamma, "k_hat": motion.k_hat, "samples": samples(times, R=R, m=m)}
 
 
 def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
@@ -57,10 +56,6 @@ def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
         Line("gamma", "frequency of the turn about k_hat", texts["gamma"], "1/time", "mf39"),
         Line("k_hat", "its axis", f"(0, {', '.join(texts['k_hat'])})", "", "mf39"),
     ]
-    rows = [
-        [f"{float(sample['t'])!r}" if i == 0 else "", *sample["R"][i], sample["m"][i]]
-        for sample in texts["samples"]
-        for i in range(3)
-    ]
+    rows = in_threes(texts["samples"])
     heading = ("t", "R_i1", "R_i2", "R_i3", "m_i") if rows else ()
     return Printout("charged ball, B along e3", lines, heading, rows, [certificate(options)])

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.numbers import along, answer, body_parameters, certificate
+from atlas.cli.numbers import along, answer, body_parameters, certificate, in_threes, samples
 from atlas.cli.options import (
     REAL,
     Command,
@@ -83,8 +83,6 @@ def command(**options: Any) -> None:
 
 def described(motion: Any, times: list[float], R: Any, Omega: Any, m: Any) -> dict[str, Any]:
     """Return the quantities of a motion and its samples; roots as their real and imaginary parts."""
-    keys = ("t", "R", "Omega", "m")
-    samples = [dict(zip(keys, sample, strict=True)) for sample in zip(times, R, Omega, m, strict=True)]
     found = {"kind": motion.kind, "turning_points": motion.turning_points}
     found["roots"] = [[root.real, root.imag] for root in motion.roots if isfinite(root.real)]
     for name in SCALARS:
@@ -93,7 +91,7 @@ def described(motion: Any, times: list[float], R: Any, Omega: Any, m: Any) -> di
         except DomainError:  # there is no such number: on a separatrix none for a period, at a triple root no nome
             continue
         found[name] = value if isfinite(value) else "infinite"
-    return found | {"samples": samples}
+    return found | {"samples": samples(times, R=R, Omega=Omega, m=m)}
 
 
 def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
@@ -105,11 +103,7 @@ def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
         Line("roots", "of Q(Omega3)", roots or "none", "1/time"),
     ]
     lines += [Line(name, *_says(name, texts[name])) for name in SCALARS if name in texts]
-    rows = [
-        [f"{float(sample['t'])!r}" if i == 0 else "", *sample["R"][i], sample["Omega"][i], sample["m"][i]]
-        for sample in texts["samples"]
-        for i in range(3)
-    ]
+    rows = in_threes(texts["samples"])
     heading = ("t", "R_i1", "R_i2", "R_i3", "Omega_i [1/time]", "m_i/I2 [1/time]") if rows else ()
     from atlas.exact.digits import NOT_CERTIFIED
 

@@ -17,13 +17,14 @@ def command(as_json: bool) -> int:
 
     A recipe or a report that cannot be read does not hide the others; then the exit status is 1.
     """
+    from atlas.report import find
     from atlas.scene import recipes
 
     figures, broken = titles(recipes.names(), recipes.title)
-    documents, also = titles(*reports())
+    reports, also = titles(find.names(), report_title)
     record: dict[str, Any] = {
         "figures": figures,
-        "reports": documents,
+        "reports": reports,
         "shapes": shapes(),
     }
     if as_json:
@@ -57,19 +58,13 @@ def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str
     return found, broken
 
 
-def reports() -> tuple[list[str], Callable[[str], str]]:
-    """Return the names of the reports, and what finds the title of one."""
+def report_title(name: str) -> str:
+    """Return the title of a report in reports/."""
     import tomllib
 
-    from atlas.places import folder
+    from atlas.report.find import find
 
-    place = folder("reports")
-
-    def title(name: str) -> str:
-        """Return the title of a report."""
-        try:
-            return str(tomllib.loads((place / f"{name}.toml").read_text(encoding="utf-8")).get("title", ""))
-        except ValueError as error:  # not TOML, or not UTF-8
-            raise AtlasError(f"reports/{name}.toml is not TOML: {error}") from error
-
-    return sorted(path.stem for path in place.glob("*.toml")), title
+    try:
+        return str(tomllib.loads(find(name).read_text(encoding="utf-8")).get("title", ""))
+    except ValueError as error:  # not TOML, or not UTF-8
+        raise AtlasError(f"reports/{name}.toml is not TOML: {error}") from error

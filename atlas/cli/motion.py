@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.numbers import along, answer, body_parameters, certificate
+from atlas.cli.numbers import along, answer, body_parameters, certificate, in_threes, samples
 from atlas.cli.options import (
     REAL,
     Command,
@@ -73,10 +73,8 @@ def command(**options: Any) -> None:
 
 def described(motion: Any, times: list[float], R: Any, Omega: Any, m: Any) -> dict[str, Any]:
     """Return the quantities of a motion and its samples."""
-    keys = ("t", "R", "Omega", "m")
-    samples = [dict(zip(keys, sample, strict=True)) for sample in zip(times, R, Omega, m, strict=True)]
     names = ("case", "omega3", "k", "phi")
-    return {name: getattr(motion, name) for name in names} | {"samples": samples}
+    return {name: getattr(motion, name) for name in names} | {"samples": samples(times, R=R, Omega=Omega, m=m)}
 
 
 def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
@@ -88,10 +86,6 @@ def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
         Line("k", f"frequency of precession about {axis}", texts["k"], "1/time", k),
         Line("phi", "frequency of proper rotation", texts["phi"], "1/time", phi),
     ]
-    rows = [
-        [f"{float(sample['t'])!r}" if i == 0 else "", *sample["R"][i], sample["Omega"][i], sample["m"][i]]
-        for sample in texts["samples"]
-        for i in range(3)
-    ]
+    rows = in_threes(texts["samples"])
     heading = ("t", "R_i1", "R_i2", "R_i3", "Omega_i [1/time]", "m_i/I2 [1/time]") if rows else ()
     return Printout(f"elementary motion: {texts['case']}", lines, heading, rows, [certificate(options)])

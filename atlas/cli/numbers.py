@@ -1,6 +1,7 @@
 """What the number commands share: one description of the quantities, answered by floats or by certified digits."""
 
 from collections.abc import Callable, Sequence
+from itertools import chain
 from typing import Any
 
 import click
@@ -49,6 +50,21 @@ def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
     import numpy as np
 
     return method(np.array([float(t) for t in times]))
+
+
+def samples(times: Sequence[float], **columns: Any) -> list[dict[str, Any]]:
+    """Return a record for each time, of ``t`` and of each quantity under its name."""
+    return [dict(zip(("t", *columns), row, strict=True)) for row in zip(times, *columns.values(), strict=True)]
+
+
+def in_threes(records: Sequence[dict[str, Any]]) -> list[list[str]]:
+    """Return three rows of a table for each record of texts: the rows of its matrix, the components of its vectors."""
+    rows = []
+    for t, *values in (record.values() for record in records):
+        for i in range(3):
+            parts = (value[i] if isinstance(value[i], list) else [value[i]] for value in values)
+            rows.append([f"{float(t)!r}" if i == 0 else "", *chain(*parts)])
+    return rows
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:

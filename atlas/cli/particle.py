@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.numbers import along, answer, certificate
+from atlas.cli.numbers import along, answer, certificate, in_threes, samples
 from atlas.cli.options import REAL, Command, F, chosen_times, exactly, examples, output_options, times_options
 from atlas.cli.present import Line, Printout, show
 
@@ -76,8 +76,8 @@ def speed_of_light(units: str) -> float:
 def described(motion: Any, times: list[float], y: Any, v: Any) -> dict[str, Any]:
     """Return the quantities of a particle's motion and its samples; without B there is no drift."""
     drift = motion.drift if motion.cyclotron_frequency != 0 else None
-    samples = [{"t": t, "position": a, "velocity": b} for t, a, b in zip(times, y, v, strict=True)]
-    return {"cyclotron_frequency": motion.cyclotron_frequency, "drift": drift, "samples": samples}
+    found = {"cyclotron_frequency": motion.cyclotron_frequency, "drift": drift}
+    return found | {"samples": samples(times, position=y, velocity=v)}
 
 
 def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
@@ -92,10 +92,6 @@ def printout(texts: dict[str, Any], options: dict[str, Any]) -> Printout:
         Line("omega", "cyclotron frequency mu |B|/c, with the sign of mu", texts["cyclotron_frequency"], time, "mf9"),
         Line("drift", "c [E, B]/B^2", drift, speed if texts["drift"] else "", "mf6"),
     ]
-    rows = [
-        [f"{float(sample['t'])!r}" if i == 0 else "", sample["position"][i], sample["velocity"][i]]
-        for sample in texts["samples"]
-        for i in range(3)
-    ]
+    rows = in_threes(texts["samples"])
     heading = ("t", f"y_i [{length}]", f"v_i [{speed}]") if rows else ()
     return Printout("point charge in constant fields", lines, heading, rows, [certificate(options)])
