@@ -1,4 +1,4 @@
-"""A scene for a narrow screen: the same panels below one another, none smaller or of another shape."""
+"""A scene for a narrow screen: the same panels below one another, none smaller; only wide curves change their shape."""
 
 from dataclasses import replace
 
@@ -22,6 +22,17 @@ def test_panels_keep_their_shape_and_do_not_shrink(count: int, columns: int, wid
     (w, h), (wide, high) = cell(before), cell(after)
     assert wide >= w
     assert wide / high == pytest.approx(w / h)
+
+
+def test_wide_curves_below_one_another_become_narrow() -> None:
+    """Their height stays, and no other panel is squeezed: a drawing in space or of equal scales keeps its shape."""
+    curves = replace(SCENE, panels=SCENE.panels[-1:] * 2, columns=1, size=(140.0, 120.0))
+    after = narrowed(curves)
+    assert after is not None
+    assert (after.size, after.columns, after.panels) == ((WIDTH, 120.0), 1, curves.panels)
+    equal = tuple(replace(panel, equal=True) for panel in curves.panels)
+    assert narrowed(replace(curves, panels=equal)) is None
+    assert narrowed(replace(curves, panels=SCENE.panels)) is None
 
 
 def test_a_narrow_scene_stays_as_it_is() -> None:
