@@ -17,7 +17,7 @@ FORMULA = re.compile(r"(\$[^$]+\$)")
 def as_page(comparison: Comparison) -> str:
     """Set a comparison as one page that needs no other file: style, fonts and pictures are inside."""
     from atlas.report.fonts import FACES, all_subsets
-    from atlas.report.html import templates
+    from atlas.report.templates import templates
 
     pages = comparison.old.manifest.pages | comparison.new.manifest.pages
     prose = _Prose({slug: page.title for slug, page in pages.items()})

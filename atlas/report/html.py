@@ -2,11 +2,10 @@
 
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from html import unescape
 from typing import Any, NamedTuple
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from atlas.errors import AtlasError, unknown
@@ -16,6 +15,7 @@ from atlas.report.blocks.figure import FigureView
 from atlas.report.compose import Document, PageView
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
 from atlas.report.search import index
+from atlas.report.templates import templates
 from atlas.report.versions import versions
 
 
@@ -24,19 +24,6 @@ class Card(NamedTuple):
 
     page: PageView
     figure: FigureView
-
-
-def templates(**filters: Callable[..., Any]) -> Environment:
-    """Return the templates of pages, with filters of their own."""
-    environment = Environment(
-        loader=FileSystemLoader(folder("templates") / "html"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters |= filters
-    return environment
 
 
 def pages(document: Document) -> dict[str, str]:
