@@ -32,6 +32,7 @@ EQUATIONS = (
             _FIELD,
             r"$\omega_2$ differs from $-B'_2$",
             r"$\phi$ of @mf92 for the same $k$, $I$ differs from 1",
+            "$k$ differs from 0, the motion at rest",
         ),
     ),
 )

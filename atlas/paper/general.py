@@ -3,7 +3,7 @@
 from atlas.paper.equation import Equation
 
 _BODY = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
-_LETTERS = r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $h = 2 H$, $\nu = K_3/b$"
+_LETTERS = r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $h = 2 H$, $\nu = K_3/b$, $b > 0$"
 _CURVE = r"$q(\nu)$ is the square of the rate of $\nu$, as in @theorem-top"
 
 EQUATIONS = (

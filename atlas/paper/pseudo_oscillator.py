@@ -273,7 +273,7 @@ EQUATIONS = (
         kind="claim",
         says="The polynomial on the right side of @mf55 has the degree three",
         tex=r"""a_3=-2(1-I)\ne0""",
-        assumptions=("$I$ differs from 1",),
+        assumptions=("$I$ differs from 1 (the paper does not except it)",),
         quote="a root of the third degree polynomial",
     ),
     Equation(

@@ -36,7 +36,10 @@ EQUATIONS = (
             r"\ddot\Omega_3(0)&=B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2"
             r"-I{B'_2}^2\omega_3 \end{aligned}"
         ),
-        assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
+        assumptions=(
+            r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
+            "$B'_2$ differs from 0, for the points of the quadric",
+        ),
     ),
     Equation(
         label="theorem-stability",
