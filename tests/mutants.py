@@ -3,9 +3,9 @@
 `python tests/mutants.py core exact figures --count 60 --seed 0` draws so many changes, evenly over the tokens of these
 packages of `atlas` and of the recipes, and lists those that survive. A test reaches a line if it calls the function in
 which the line stands, which a run of the unchanged tests records first (in build/mutants.json, renewed for the test
-files that have changed). The cheapest run first, up to SECONDS in all, until one fails; one that runs for more than
-LIMIT seconds has noticed. Changes that make no difference stand in equivalent.toml, each with its reason, and are
-not drawn.
+files that have changed). The cheapest run first, up to SECONDS in all, until one fails; one that takes more than LIMIT
+seconds of the processor has noticed, however busy the machine is. Changes that make no difference stand in
+equivalent.toml, each with its reason, and are not drawn.
 
 Why not mutmut or cosmic-ray: they put calls in the place of functions, which the recipes and the digests of sources,
 read as text here, take for other code; and a sample with a seed is all that is wanted.
@@ -20,6 +20,7 @@ import multiprocessing
 import os
 import random
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -41,8 +42,11 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 SEEN = ROOT / "build" / "mutants.json"
 EQUIVALENT = ROOT / "tests" / "equivalent.toml"
-LIMIT, SECONDS, SHARE = 600, 40, 10
-"""Seconds of one run, of the tests of one change by the record, and of the first among them."""
+LIMIT, SECONDS, SHARE = 300, 40, 10
+"""Seconds of the processor: of one run, of the tests of one change by the record, and of the first among them."""
+
+PATIENCE = 1800
+"""Seconds that a run may wait, for the processor or for ever."""
 
 RAN = 10
 """What is added to the exit status of pytest, so that it is known to have run."""
@@ -195,6 +199,7 @@ class Calls:
 def _run(copy: str, out: str, tests: list[str]) -> None:
     """Run tests in a copy, in a process of its own, to the first failure, or whole if there is something to write."""
     os.setsid()
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
     os.chdir(copy)
     os.environ["PYTHONPATH"] = copy
     sys.path.insert(0, copy)
@@ -211,7 +216,7 @@ def passed(copy: Path, tests: list[str], out: str = "") -> bool:
     """Tell whether tests pass in a copy; those that take too long or bring the process down do not."""
     process = CONTEXT.Process(target=_run, args=(str(copy), out, tests))
     process.start()
-    process.join(LIMIT)
+    process.join(PATIENCE)
     if process.is_alive():
         os.killpg(process.pid or 0, signal.SIGKILL)
         process.join()

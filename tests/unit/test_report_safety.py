@@ -3,7 +3,9 @@
 import re
 from pathlib import Path
 from random import Random
+from typing import Annotated, Any, Literal
 
+import msgspec
 import pytest
 from lxml import html as reader
 from pypdf import PdfReader
@@ -13,7 +15,7 @@ from atlas.report import html, pdf
 from atlas.report.compose import Document, compose
 from atlas.report.definition import Report
 from atlas.report.load import load
-from atlas.report.schema import convert
+from atlas.report.schema import Id, Slug, convert
 from atlas.report.texts import Link, Texts, citations
 
 MARKUP = (
@@ -196,6 +198,61 @@ def test_every_page_has_a_policy_under_which_nothing_runs() -> None:
             assert "base-uri 'none'" in policy
             assert re.findall(r"script-src ([^;]*)", policy) == ["'self'"]
             assert not re.search(r"\bhttps?:|\*", policy)
+
+
+KINDS = [
+    float,
+    int,
+    bool,
+    str,
+    Annotated[float, msgspec.Meta(gt=0.0)],
+    Annotated[int, msgspec.Meta(ge=1, le=7)],
+    Literal["one", "two"],
+    tuple[float, ...],
+    tuple[float, float],
+    dict[str, int],
+    float | None,
+]
+VALUES = [0, 1, 7, 8, -1, 2.5, -0.5, 0.0, 1e308, True, False, "", "1", "one", "three", [], [1.0], [1, 2.5], [True, 1.0],
+          ["x", 1.0], [1.0, 2.0, 3.0], {}, {"a": 1}, {"a": "b"}, {"a": True}]  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=str)
+def test_what_fits_a_key_is_what_the_library_takes(kind: Any) -> None:
+    """Values of all types against a type: one that is told off is no value for msgspec, and the other way round."""
+    for value in VALUES:
+        try:
+            msgspec.convert(value, kind)
+            right = True
+        except msgspec.ValidationError:
+            right = False
+        if right:
+            convert(value, kind)
+            continue
+        with pytest.raises(AtlasError):
+            convert(value, kind)
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
+def test_a_number_is_finite(value: float) -> None:
+    """What TOML can write, but no key can be."""
+    with pytest.raises(AtlasError, match=r"finite|number"):
+        convert(value, float)
+
+
+@pytest.mark.parametrize("kind", [Id, Slug])
+def test_a_name_has_letters_digits_and_hyphens_between_them(kind: Any) -> None:
+    """And nothing before or after; that of a page no capitals."""
+    for value in ("a", "a-b", "a1-2b", "tab-points"):
+        assert convert(value, kind) == value
+    for value in ("", "-a", "a-", "a--b", "a b", "a/b", "a\n", "../a", "ä", "a_b"):
+        with pytest.raises(AtlasError):
+            convert(value, kind)
+    if kind is Slug:
+        with pytest.raises(AtlasError):
+            convert("Points", kind)
+    else:
+        assert convert("Points", kind) == "Points"
 
 
 def test_a_recipe_is_a_name_and_no_path() -> None:

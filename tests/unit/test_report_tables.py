@@ -243,6 +243,32 @@ def test_a_line_without_named_points_is_told() -> None:
         table("points", field=Field(title="axial", prime=(0.0, 2.0)))
 
 
+DIGITS = "0 -7 12 1.5 -0.25 1.2345 1.23456 -12.345678 0.123456789 3e2 1.25e-3 -4.5e4 6.5e-4 1e12 -1.234567e-15".split()
+
+
+@pytest.mark.parametrize("digits", DIGITS)
+def test_a_number_reads_back_from_each_way_to_print_it(digits: str) -> None:
+    """In a cell, a sentence and a formula: the same decimals; after the point in threes where there are more than four.
+
+    In a sentence and a formula powers of ten below 10^4 and above 10^-4, or of 10^0, are not written.
+    """
+    number, value = Number(digits), Decimal(digits)
+    whole, fraction, power = number.parts()
+    groups = fraction.removeprefix(".").split(THIN)
+    assert fraction == "" or fraction.startswith(".")
+    assert [len(group) for group in groups[:-1]] == [3] * (len(groups) - 1)
+    assert len(groups) == 1 + (len("".join(groups)) > 4) * (len("".join(groups)) - 1) // 3
+    plain = (whole + fraction.replace(THIN, "") + (f"e{power}" if power else "")).replace(MINUS, "-")
+    assert Decimal(plain).as_tuple() == value.as_tuple()
+    words, _, raised = number.words().replace(MINUS, "-").removesuffix("^").partition("×10^")
+    assert Decimal(words) * Decimal(10) ** int(raised or 0) == value
+    exponent = int(digits.partition("e")[2] or 0)
+    assert bool(raised) == (abs(exponent) > 3)
+    tex, _, high = number.tex().strip("$").removesuffix("}").partition(r"\times 10^{")
+    assert Decimal(tex) * Decimal(10) ** int(high or 0) == value
+    assert bool(high) == bool(exponent)
+
+
 def test_the_room_of_a_number_is_its_width_in_the_font() -> None:
     """In widths of a digit, within a twentieth for each sign; a power of ten with a minus and three digits has room."""
     font = TTFont(source(FACES["roman"]))
