@@ -44,7 +44,7 @@ class Check:
 
     def record(self) -> dict[str, Any]:
         """Return the grades as plain data for JSON."""
-        return asdict(self) | {"columns": [asdict(c) for c in self.columns], "drifts": [asdict(d) for d in self.drifts]}
+        return asdict(self)
 
     def column_table(self) -> tuple[list[str], list[list[str]]]:
         """Return heading and rows of the grades by column."""

@@ -8,23 +8,20 @@ leaves its chords, in final pixels at 300 dots an inch; the figure curve_points 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas import files
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.hyperbola import Hyperbola
+from atlas.core.inputs import FloatArray
 from atlas.core.particle import ParticleMotion
 from atlas.core.quadric import Quadric
 from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.scene import Space, conics, quadric_panel, sample
 from atlas.scene.camera import frame
-
-FloatArray: TypeAlias = NDArray[np.float64]
 
 TOLERANCES = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)
 RATIO, FIELD, OMEGA2 = 1.5, (1.0, 2.0), 0.7

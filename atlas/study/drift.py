@@ -7,10 +7,11 @@ from typing import Any, TypeAlias
 import numpy as np
 from flint import fmpq
 
+from atlas.core.inputs import FloatArray
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.general import GeneralMotion
 from atlas.study.conserved import conserved
-from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION, FloatArray
+from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 from atlas.study.truth import long
 
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 from flint import arb, ctx
-from numpy.typing import NDArray
 
+from atlas.core.inputs import FloatArray
 from atlas.exact.digits import numbers
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.general import GeneralMotion
@@ -18,7 +18,6 @@ from atlas.exact.inputs import Real
 from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 from atlas.study.truth import UNCERTAINTY, GeneralTruth, Long, Truth, long
 
-FloatArray = NDArray[np.float64]
 Block = Mapping[str, FloatArray]
 
 MOST = 17.0

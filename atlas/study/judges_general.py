@@ -1,6 +1,5 @@
 """The judge of the general motion: matrices, vectors, structure and grid against balls, up to a million periods."""
 
-from collections.abc import Sequence
 from functools import partial
 from itertools import chain
 from math import isfinite
@@ -11,6 +10,7 @@ import numpy as np
 from flint import arb, ctx, fmpq
 
 from atlas.core.general import GeneralMotion
+from atlas.exact.digits import numbers
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.exact.inputs import Real
 from atlas.study.judging import judging, with_more
@@ -66,7 +66,7 @@ def narrow(function: Any, size: float) -> Any:
     while True:
         with ctx.workprec(precision):
             value = function()
-        if all(_radius(x) <= NARROW * min(1.0, size) for x in _flat(value)):
+        if all(_radius(x) <= NARROW * min(1.0, size) for x in numbers(value)):
             return value
         precision *= 2
 
@@ -81,12 +81,6 @@ def _times(period: float, size: float, random: Random) -> Any:
     unit = period if isfinite(period) else 10.0 / size
     drawn = [random.choice((1, -1)) * unit * 10 ** random.uniform(-3, 6) for _ in range(TIMES)]
     return np.clip(drawn, -(2.0**46) / size, 2.0**46 / size)
-
-
-def _flat(value: Any) -> Sequence[Real]:
-    if isinstance(value, list | tuple):
-        return [x for item in value for x in _flat(item)]
-    return [value]
 
 
 def _radius(x: Real) -> float:

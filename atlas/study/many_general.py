@@ -18,14 +18,14 @@ from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.bench.case import FloatArray
 from atlas.study.judges_general import narrow, state
-from atlas.study.judging import rigidity, with_more
+from atlas.study.judging import BITS, rigidity, with_more
 from atlas.study.regimes_general import GENERAL
 from atlas.study.ulps import ONE, Tally, absolute, error, own
 
 ROWS, JUDGED = 1000, 24
 """Rows in an array beside those of the regimes, and how many of them are held against balls."""
 
-REGIME, BITS = "arrays of general motions", 80
+REGIME = "arrays of general motions"
 SCALARS = ("period", "precession_per_period", "spin_per_period", "nome")
 
 

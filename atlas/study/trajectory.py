@@ -18,11 +18,9 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
-
-FloatArray = NDArray[np.float64]
 
 BLOCK = 8192
 """Lines read at once."""
