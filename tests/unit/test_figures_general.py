@@ -1,5 +1,6 @@
 """The figures of bodies and of the general motion as arrays: what is drawn is what the theory says."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,9 @@ from numpy.typing import NDArray
 from atlas import DomainError, ElementaryMotion, GeneralMotion, Hyperbola, simulate
 from atlas.core.momentum_map import momentum_map, potential
 from atlas.core.separatrix import companions
+from atlas.exact.general import GeneralMotion as Balls
 from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes
+from atlas.study.judges_general import narrow
 
 FloatArray = NDArray[np.float64]
 
@@ -49,6 +52,26 @@ def test_levels_of_the_stability_map_are_least_frequencies() -> None:
             x = np.sqrt(tau * abs(1 - I) / np.sqrt(1 + tau * tau)) * np.linspace(0.5, 2.0, 2001)
             found = Hyperbola(I, (1.0, tau)).stability(np.concatenate([x, -x]) - 1.0)
             assert abs(found.min() - level) <= 1e-4
+
+
+def test_the_pair_is_one_line_in_larmors_frame_and_two_in_the_laboratory() -> None:
+    """There the light line is the heavy motion before its start, by balls, to 8 eps; here both begin as launched."""
+    I, field, omega = 1.5, (0.75, 1.25), np.array([0.625, 0.25, 1.0])  # so that the second launch is exact
+    laboratory, larmor = panels("larmor_pair", ratio=I, field=field, omega=tuple(omega.tolist()))
+    exact, b = Balls(I, field, omega.tolist()), float(np.hypot(*field))
+    time = 3.0 * GeneralMotion(I, field, omega).period
+    B2, B3 = np.array(field) / b
+    upright = np.array([[1, 0, 0], [0, B3, -B2], [0, B2, B3]])
+    for role, end in (("trace", time), ("second_trace", -time)):
+        axis = upright @ [float(row[2]) for row in narrow(partial(exact.rotation, end), 1.0)]
+        (line,) = layers(larmor, Curve, role)
+        turn = np.array([[np.cos(b * end), -np.sin(b * end), 0], [np.sin(b * end), np.cos(b * end), 0], [0, 0, 1]])
+        assert np.abs(line.points[-1] - turn @ axis).max() <= 8 * EPS
+    for role, launch in (("trace", omega), ("second_trace", -2 * np.array([0, *field]) - omega)):
+        (line,) = layers(laboratory, Curve, role)
+        rate = upright @ np.cross(launch, [0.0, 0.0, 1.0])  # the axis starts as e3
+        step = line.points[1] - line.points[0]
+        assert step @ rate > 0.99 * np.linalg.norm(step) * np.linalg.norm(rate)
 
 
 @pytest.mark.parametrize("omega2", [-1.4, 0.7, 2.0])
@@ -231,6 +254,8 @@ def layers_of_kind(panel: Any, kind: Any) -> list[Any]:
         ("quadrics_of_bodies", {"field": (0.0, 1.0)}),
         ("phase_portrait", {"field": (0.0, 1.0)}),
         ("nutation_traces", {"field": (1.0, 0.0)}),
+        ("larmor_pair", {"field": (1.0, 0.0)}),
+        ("larmor_pair", {"omega": (0.0, 0.0, 0.0)}),
         ("tipping_disk", {"ratio": 0.5}),
         ("separatrix", {"omega2": 1.0}),
         ("energy_momentum", {"b": -1.0}),

@@ -1,0 +1,91 @@
+"""Two launches, one motion in Larmor's frame.
+
+The launches omega and -2 B' - omega are opposite angular velocities for who turns with Larmor's: there one motion is
+the other in the opposite sense of time, theorem-pair. In the laboratory nothing shows it.
+"""
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from atlas.core.general import GeneralMotion
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.sample import curve
+from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
+
+SIZE = 76.0
+Path: TypeAlias = Callable[[FloatArray], FloatArray]
+
+
+def scene(
+    *,
+    ratio: Any = 1.5,
+    field: tuple[float, float] = (0.8, 1.2),
+    omega: tuple[float, float, float] = (0.6, 0.3, 1.0),
+    nutations: float = 3.0,
+    elevation: float = 50.0,
+) -> Scene:
+    """Draw R_3(t) of both launches over ``nutations`` periods, in both frames; B is upright."""
+    if not all(field):
+        raise DomainError(f"figure larmor_pair needs both components of the field, not field = {field}.")
+    B = np.array([0.0, *field])
+    motions = [GeneralMotion(ratio, field, tuple(map(float, start))) for start in (omega, -2 * B - omega)]
+    if not str(motions[0].kind).startswith("nutation"):
+        raise DomainError(f"figure larmor_pair needs a motion that nutates, not one of the kind {motions[0].kind}.")
+    time = nutations * motions[0].period
+    b, upright = float(np.hypot(*field)), turned_upright(*field)
+
+    def in_laboratory(motion: GeneralMotion) -> Path:
+        return lambda t: np.asarray(motion.third_axis(t) @ upright.T)
+
+    def in_larmor_frame(motion: GeneralMotion) -> Path:
+        def path(t: FloatArray) -> FloatArray:
+            (x, y, z), cos, sin = in_laboratory(motion)(t).T, np.cos(b * t), np.sin(b * t)
+            return np.stack([cos * x - sin * y, sin * x + cos * y, z], axis=-1)
+
+        return path
+
+    frames = (("(a) laboratory", in_laboratory), (r"(b) Larmor's frame", in_larmor_frame))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The third axis of {tex_setting(ratio, field)} after two launches, "
+            rf"$\boldsymbol{{\omega}}=({', '.join(map(tex, omega))})$ (heavy) and "
+            rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {plain(nutations)} periods of the nutation from "
+            r"the same attitude (dot), seen with $\mathbf{B}$ upright. (a) In the laboratory the two have little in "
+            r"common. (b) In the frame that turns with Larmor's angular velocity $-\mathbf{B}'$ the light line goes on "
+            "where the heavy one came from: it is "
+            "the same motion, run backwards."
+        ),
+        alt=(
+            f"Two unit spheres with traces of the body's axis for {plain_setting(ratio, field)}. In the laboratory the "
+            "two launches draw different lines; in Larmor's frame both are halves of one line through the start."
+        ),
+        panels=tuple(panel(name, [frame(one) for one in motions], time, elevation) for name, frame in frames),
+        columns=2,
+        size=(2 * SIZE, SIZE + 6.0),
+    )
+
+
+def turned_upright(B2: float, B3: float) -> FloatArray:
+    """Return the turn about e1 that makes the field stand upright."""
+    c, s = np.array([B3, B2]) / np.hypot(B2, B3)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
+    """Return one sphere with the traces of both motions."""
+    fine = quadric_panel.tolerance(1.4)
+    layers: list[Layer] = [
+        solids.sphere(quadric_panel.O, 1.0, fine),
+        Arrow(quadric_panel.O, 1.4 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
+    ]
+    for path, role in zip(paths, ("trace", "second_trace"), strict=True):
+        layers.append(Curve(curve(path, 0.0, time, fine, pieces=48), role))
+        tail, tip = path(time * np.array([0.035, 0.055]))
+        layers.append(Arrow(tail, tip, role))
+    layers.append(Points(paths[0](np.zeros(1)), "start"))
+    return Space(tuple(layers), azimuth=-60.0, elevation=elevation, title=name)
