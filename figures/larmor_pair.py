@@ -17,6 +17,8 @@ from atlas.scene.sample import curve
 from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 SIZE = 76.0
+HEAD = 0.36, 0.48
+"""Where along a trace its arrowhead lies, in radii of the sphere."""
 Path: TypeAlias = Callable[[FloatArray], FloatArray]
 
 
@@ -84,8 +86,12 @@ def panel(name: str, paths: list[Path], time: float, elevation: float) -> Space:
         Arrow(quadric_panel.O, 1.4 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
     ]
     for path, role in zip(paths, ("trace", "second_trace"), strict=True):
-        layers.append(Curve(curve(path, 0.0, time, fine, pieces=48), role))
-        tail, tip = path(time * np.array([0.035, 0.055]))
-        layers.append(Arrow(tail, tip, role))
+        points = curve(path, 0.0, time, fine, pieces=48)
+        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+        ends = np.stack([np.interp(HEAD, length, part) for part in points.T], axis=1)
+        tail, tip = ends / np.linalg.norm(ends, axis=1, keepdims=True)
+        layers.append(Curve(points, role))
+        if length[-1] > HEAD[1]:
+            layers.append(Arrow(tail, tip, role))
     layers.append(Points(paths[0](np.zeros(1)), "start"))
     return Space(tuple(layers), azimuth=-60.0, elevation=elevation, title=name)
