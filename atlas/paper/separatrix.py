@@ -119,7 +119,7 @@ EQUATIONS = (
         says=r"For $D < 0$ it is not: one motion leaves it as $\exp (\sqrt{-D} t/2)$, turns where $\nu = e$, and "
         "comes back to it",
         tex=r"e=\frac{\lvert M_3\rvert}{b\sqrt{I-1}}-1,\qquad\begin{pmatrix}\xi\\\eta\end{pmatrix}\propto"
-        r"\begin{pmatrix}\exp(i\lambda_-t)\left[C\cos\delta-\frac{iM_3(e-1)}{1+e}\cos\delta\,S\right]\\ "
+        r"\begin{pmatrix}\exp(i\lambda_-t)\left[C\cos\delta-iM_3\frac{e-1}{1+e}\cos\delta\,S\right]\\ "
         r"\exp(i\lambda_+t)\sin\delta"
         r"\end{pmatrix},\qquad"
         r" c=-D",
