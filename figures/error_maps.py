@@ -1,6 +1,7 @@
 """Error of R over the initial data and time.
 
-Each cell is one motion at one time: the largest error in any entry of R, against a ball with a proven radius.
+Each cell is one motion at one time, a row of a table: the largest error in any entry of R, against a ball with a proven
+radius.
 """
 
 from typing import Literal
@@ -28,7 +29,8 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
             rf"(c, d) over $I$ at $\omega_2={tex(omega2)}$ in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$. "
             r"(a, c) The formula in double precision as anyone would write it: the error grows with the phase, and "
             r"faster near the pole $\omega_2=-B'_2$ and for small $I$, until no digit is left. (b, d) The atlas: at "
-            rf"most ${tex(float(f'{worst:.1e}'))}$ anywhere in these maps.{empty}"
+            rf"most ${tex(float(f'{worst:.1e}'))}$ anywhere in these maps.{empty} The same numbers as tables: (a, b) "
+            f"`{first.table.command('omega2.csv')}`, (c, d) `{second.table.command('ratio.csv')}`."
         ),
         alt=(
             "Four maps of error, from 1e-17 to 1, with time upwards on a logarithmic scale. For the plain formula the "

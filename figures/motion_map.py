@@ -1,18 +1,22 @@
 """Map of all motions that start in the plane of axis and field.
 
 How far the axis of the body nods, the difference between the largest and the least angle to the field, over the initial
-angular velocity (0, omega2, omega3). The map is zero on the hyperbola mf72 alone; its jumps are separatrices.
+angular velocity (0, omega2, omega3). The map is zero on the hyperbola mf72 alone; its jumps are separatrices. Each
+pixel is a row of a table of turning points.
 """
+
+from collections.abc import Mapping
 
 import numpy as np
 from contourpy import contour_generator
 
 from atlas.core.inputs import FloatArray
-from atlas.core.kind_map import trace_map, turning_points
+from atlas.core.kind_map import trace_map
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Layer, Plane, Points, Scene
 from atlas.scene.hyperbola_plane import Window, branches, places
 from atlas.scene.words import body_name, listed, tex, tex_vector, title
+from atlas.study.sweep.ranges import Range, Table
 
 WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0
 
@@ -31,9 +35,15 @@ def scene(
             f"figure motion_map needs B2, B3 not zero, 1 to 4 ratios and 2 to 2000 cells, not field = {field}, "
             f"{ratios}, cells = {cells}."
         )
+    half = reach * float(np.hypot(*field))
+    edges = [np.linspace(-B - half, -B + half, cells + 1) for B in field]
+    omega = {f"omega{i}": Range.middles(x) for i, x in enumerate(edges, 2)}
+    settings = {"ratio": tuple(ratios), "B2": field[0], "B3": field[1], "omega1": 0.0} | omega
+    table = Table("general", settings, ("kind", "least", "largest"))
+    swings = amplitudes(table.columns(), field).reshape(-1, cells, cells)
     panels = tuple(
-        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, reach, cells, unit)
-        for letter, I in zip("abcd", ratios, strict=False)
+        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, unit)
+        for letter, I, swing in zip("abcd", ratios, swings, strict=False)
     )
     return Scene(
         title=title(__doc__),
@@ -43,7 +53,8 @@ def scene(
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$. It vanishes on the hyperbola (white) alone, which is all "
             r"that the paper solves; open dot: rest, diamond: $-2\mathbf{B}'$. Between the dotted lines the trace of "
             r"the axis makes loops, outside it waves; one of them is $\omega_2=0$, where it has cusps. For the long "
-            "solenoid the map jumps: there are the separatrices, and they meet the hyperbola where it is unstable."
+            "solenoid the map jumps: there are the separatrices, and they meet the hyperbola where it is unstable. "
+            f"The turning points of each pixel, and the kind of its motion: `{table.command('motions.csv')}`."
         ),
         alt=(
             f"Maps of the amplitude of nutation for I = {listed([f'{I:g}' for I in ratios])} over omega 2 and omega 3, "
@@ -55,20 +66,30 @@ def scene(
     )
 
 
-def panel(name: str, I: float, field: tuple[float, float], reach: float, cells: int, unit: str) -> Plane:
+def amplitudes(columns: Mapping[str, FloatArray], field: tuple[float, float]) -> FloatArray:
+    """Return the amplitude of nutation in degrees: cos theta = (c3 - Omega3)/b at the turning points."""
+    nu = (columns["omega3"] + field[1] - np.array([columns["least"], columns["largest"]])) / np.hypot(*field)
+    near, far = np.degrees(np.arccos(np.clip(nu, -1.0, 1.0)))
+    return far - near
+
+
+def panel(
+    name: str,
+    I: float,
+    field: tuple[float, float],
+    edges: list[FloatArray],
+    swing: FloatArray,
+    unit: str,
+) -> Plane:
     """Return the map of one body."""
-    half = reach * float(np.hypot(*field))
-    x = np.linspace(-field[0] - half, -field[0] + half, cells + 1)
-    y = np.linspace(-field[1] - half, -field[1] + half, cells + 1)
+    x, y = edges
     middle = (x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2
     second, third = np.meshgrid(*middle)
     omega = np.stack([np.zeros_like(second), second, third], axis=-1)
-    low, high, _ = turning_points(I, field, omega)
-    swing = np.degrees(np.arccos(low) - np.arccos(high))
     looping = (trace_map(I, field, omega) == 2).astype(float)
     view = Window((float(x[0]), float(x[-1])), (float(y[0]), float(y[-1])))
     layers: list[Layer] = [Image(x, y, swing, "amplitude (degrees)", limits=(0.0, 150.0))]
-    layers += [Curve(line, "map_border") for line in edges(*middle, looping)]
+    layers += [Curve(line, "map_border") for line in borders(*middle, looping)]
     layers += [Curve(line, "map_curve") for line in branches(I, field, view, (PANEL, PANEL))]
     layers += [Points(np.array([place.at]), place.role) for place in places(I, field) if place.role != "point"]
     return Plane(
@@ -82,7 +103,7 @@ def panel(name: str, I: float, field: tuple[float, float], reach: float, cells: 
     )
 
 
-def edges(x: FloatArray, y: FloatArray, inside: FloatArray) -> list[FloatArray]:
+def borders(x: FloatArray, y: FloatArray, inside: FloatArray) -> list[FloatArray]:
     """Return the borders, each (N, 2), between the cells where ``inside`` is 1 and those where it is 0."""
     lines = contour_generator(x, y, inside).lines(0.5)
     return [np.asarray(line) for line in lines if len(line) > 8]

@@ -4,20 +4,23 @@ With tau = |B3/B2| the least nutation frequency squared along the hyperbola mf72
 
     least = 2 tau sqrt(1 + tau^2) |1-I| - (1-I)(1 - 2 tau^2),        at x^2 = tau |1-I|/sqrt(1 + tau^2),
 
-negative for I < 1 and tau < 1/(2 sqrt 2) only: there its root is the greatest rate of growth. Not in the paper.
+negative for I < 1 and tau < 1/(2 sqrt 2) only: there its root is the greatest rate of growth. Not in the paper. Each
+pixel is a row of a table.
 """
 
 import numpy as np
 
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene import Curve, Image, Label, Layer, Plane, Points, Scene
 from atlas.scene.sample import flat
 from atlas.scene.words import body_role, title
+from atlas.study.sweep.ranges import Range, Table
 
 WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
 TOP = 0.6
+CELLS = (240, 144)
 BODIES = ((0.0, "needle"), (0.5, "long solenoid"), (1.0, "sphere"), (1.5, "short solenoid"), (2.0, "loop, disk"))
 
 
@@ -25,8 +28,11 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     """Draw where the greatest growth rate, or the least frequency, is one of ``rates`` times |B2|."""
     if not all(0.0 < rate < 1.0 for rate in rates):
         raise DomainError(f"rates of figure stability_map lie between 0 and 1, in units of |B2|, not {rates}.")
+    x, y = np.linspace(0.0, 2.0, CELLS[0] + 1), np.linspace(0.0, TOP, CELLS[1] + 1)
+    table = Table("hyperbola", {"ratio": Range.middles(x), "B2": 1.0, "B3": Range.middles(y)}, ("least_stability",))
+    least = table.columns()["least_stability"].T
     layers: list[Layer] = [
-        Region(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, EDGE], [0.0, EDGE]]), "unstable_region"),
+        Image(x, y, -np.sign(least) * np.sqrt(abs(least)), r"$\gamma/|B'_2|$; below 0 the frequency"),
         Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
     ]
     layers += [Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2]
@@ -43,12 +49,14 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     return Scene(
         title=title(__doc__),
         caption=(
-            r"What the worst elementary motion of a body does, over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. Shaded: "
-            r"some are unstable; solid lines are levels of the greatest rate $\gamma$ at which a small nutation grows, "
-            r"in units of $\lvert B'_2\rvert$, $\gamma^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere "
-            r"all are stable; dashed lines are levels of the least nutation frequency. Only bodies longer than they "
-            r"are wide, in a field nearly across their axis, have unstable elementary motions; the edge "
-            r"$\tau=1/(2\sqrt{2})$ belongs to them."
+            r"What the worst elementary motion of a body does, over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. Within "
+            r"the rectangle some are unstable; solid lines are levels of the greatest rate $\gamma$ at which a small "
+            r"nutation grows, in units of $\lvert B'_2\rvert$, "
+            r"$\gamma^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all are stable; dashed lines are "
+            r"levels of the least nutation frequency. Only bodies longer than they are wide, in a field nearly "
+            r"across their axis, have unstable elementary motions; the edge $\tau=1/(2\sqrt{2})$ belongs to them. "
+            r"The squares of these frequencies, negative where unstable, of all "
+            f"pixels: `{table.command('stability.csv')}`."
         ),
         alt=(
             "Map over I from 0 to 2 and tau from 0 to 0.6. The unstable rectangle reaches to I = 1 and tau = 0.354; "

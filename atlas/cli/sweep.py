@@ -48,10 +48,10 @@ def command(
 ) -> None:
     """Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
 
-    FAMILY is elementary, general, free, quadric, ball or particle; a wrong name of a parameter or quantity is answered
-    with the right ones. A row takes microseconds, of the family general some tens of them. Where a quantity has no
-    value its cell is empty, and the column missing says why. What is done is kept in the folder OUT.parts: a sweep that
-    was stopped goes on when it is called again.
+    FAMILY is elementary, general, free, hyperbola, quadric, ball or particle; a wrong name of a parameter or quantity
+    is answered with the right ones. A row takes microseconds, of the family general some tens of them. Where a quantity
+    has no value its cell is empty, and the column missing says why. What is done is kept in the folder OUT.parts: a
+    sweep that was stopped goes on when it is called again.
     """
     from atlas.study.sweep.run import sweep
 
@@ -67,7 +67,9 @@ def command(
     else:
         settings_read = dict(_setting(text) for text in settings)
     if family is None:
-        raise click.UsageError("name the family to sweep: elementary, general, free, quadric, ball or particle.")
+        raise click.UsageError(
+            "name the family to sweep: elementary, general, free, hyperbola, quadric, ball or particle."
+        )
     if out is None:
         raise click.UsageError("--out says which file the table goes to.")
     columns = _rows(listing) if listing else {}
@@ -123,7 +125,7 @@ def _setting(text: str) -> tuple[str, Any]:
 
 def _values(name: str, given: Any) -> Any:
     """Read one number, several with commas, or START:STOP:COUNT[:log]; a number or a list is taken as it is."""
-    import numpy as np
+    from atlas.study.sweep.ranges import Range
 
     if not isinstance(given, str):
         return given
@@ -133,12 +135,9 @@ def _values(name: str, given: Any) -> Any:
     if not rest or rest[1:] not in ([], ["log"]) or not rest[0].strip().isdigit():
         raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {given!r}.")
     first, last = (float(REAL.convert(x.strip(), None, None)) for x in (start, stop))
-    count = int(rest[0])
-    if len(rest) == 1:
-        return np.linspace(first, last, count)
-    if first * last <= 0:
+    if len(rest) == 2 and first * last <= 0:
         raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {given!r}.")
-    return np.geomspace(first, last, count)
+    return Range(first, last, int(rest[0]), log=len(rest) == 2).values
 
 
 def _rows(path: Path) -> dict[str, list[float]]:

@@ -29,8 +29,8 @@ class Hyperbola:
     """The curve mf72 in the plane omega1 = 0: B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
-    broadcast with omega2 in `omega3`, `frequencies` and `stability`, and the rest is asked of one curve. About
-    the centre -B', with X = omega2 + B2 and Y = omega3 + B3, it is
+    broadcast with omega2 in `omega3`, `frequencies` and `stability` and with each other in `least_stability`; the rest
+    is asked of one curve. About the centre -B', with X = omega2 + B2 and Y = omega3 + B3, it is
 
         Y = (B3/(I B2)) (X - (1-I) B2^2/X),
 
@@ -127,6 +127,18 @@ class Hyperbola:
         from atlas.core.general import GeneralMotion
 
         return GeneralMotion(self._ratio, (self.B2, self.B3), (omega1, omega2, self.omega3(omega2)))
+
+    @property
+    def least_stability(self) -> Any:
+        """Greatest lower bound of `stability` on the curve, in 1/time^2, rounded once; shape of the parameters.
+
+        It is 2 |1-I| |B3| b - (1-I)(B2^2 - 2 B3^2), b = |B'|, taken where ((omega2 + B2)/B2)^2 = |1-I| |B3|/b, or, for
+        I = 1 or B3 = 0, approached at the pole; not in the paper. Where it is negative its root is the greatest rate of
+        growth. DomainError for B2 = 0.
+        """
+        if np.any(np.equal(self.B2, 0)):
+            raise DomainError("With B2 = 0 the curve mf72 is the line omega2 = 0, and omega3 is free on it.")
+        return over(_least_stability, self.I2, self.I3, self.B2, self.B3, unit=slice(2, 4), degree=2) + 0.0
 
     @property
     def unstable_band(self) -> tuple[float, float] | None:
@@ -235,6 +247,14 @@ def _stability(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -
     X2, less = X * X, (I2 - I3) * B2 * B2 / I2
     slope = B3 * (X2 + less) / (B2 * X)
     return slope * slope + (X2 - less)
+
+
+def _least_stability(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
+    """Return its least value: its factors, of which only those of exact terms cancel."""
+    h, b, across, less = abs(B3), length(B2, B3), B2 * B2, (I2 - I3) / I2
+    once, thrice = b + h, b + h + h + h
+    long = once * ((B3 * B3).scaled(3) - across) / thrice
+    return less * less.select(long, -(across * thrice / once))
 
 
 def _exact_stability(*inputs: float) -> float:

@@ -14,6 +14,8 @@ from atlas.proof.run import trial
 
 POINTS = bodies(72, 8)
 BAND = [*bodies(8, 3, body=0.3, B3=lambda p: p.B2 / 4), *bodies(9, 3, body=0.85, B3=lambda p: -p.B2 / 9)]
+FOLDED = [p for p in [*POINTS, *BAND] if p.I != 1 and p.B3]
+"""Points whose curve has a least stability, and not at the pole."""
 
 
 def ordinate(say: Ledger, p: Any, omega2: Any) -> Any:
@@ -61,6 +63,15 @@ def stability(say: Ledger, p: Any) -> Any:
     return say("theorem-stability", "minus_slope", I=p.I, B2=B2, tau=B3 / B2, x=(omega2 + B2) / B2)
 
 
+def least(say: Ledger, p: Any) -> Any:
+    """Return the least of minus the slope, at a zero of its derivative by x."""
+    B2, B3, I = (sympy.Rational(value) for value in (p.B2, p.B3, p.I))
+    x = sympy.Symbol("x", positive=True)
+    curve = say("theorem-stability", "minus_slope", I=I, B2=B2, tau=B3 / B2, x=x)
+    (place,) = (root for root in sympy.real_roots(sympy.numer(sympy.together(sympy.diff(curve, x)))) if root > 0)
+    return curve.subs(x, place)
+
+
 def band(say: Ledger, p: Any) -> list[Any]:
     """Return y-, y+, with the root that 8 tau^2 = 1 - root^2 says."""
     root = sympy.Symbol("root", positive=True)
@@ -98,6 +109,14 @@ TIES = (
         lambda f, p: curve(f, p).stability(p.omega2),
         stability,
         [*POINTS, *BAND],
+    ),
+    Tie(
+        "Hyperbola.least_stability",
+        "theorem-stability",
+        lambda f, p: curve(f, p).least_stability,
+        least,
+        FOLDED,
+        floors=("core",),
     ),
     Tie("Hyperbola.unstable_band", "theorem-band", lambda f, p: curve(f, p).unstable_band, band, BAND),
     Tie(

@@ -93,6 +93,34 @@ def test_stability_is_minus_the_slope_of_the_cubic(ratio: float, field: tuple[fl
         assert curve.stability(omega2) == pytest.approx(-slope, rel=1e-11, abs=1e-12)
 
 
+def test_the_least_stability_is_that_of_the_curve() -> None:
+    """It is the least of `stability` at 4001 points, each above it, to 1e-5 of the field squared; zero for a ball."""
+    x = np.geomspace(1e-3, 1e3, 4001)
+    for ratio in (0.2, 0.9, 1.0, 1.3, 2.0):
+        for B2, B3 in ((1.0, 0.1), (-2.0, 1.5), (0.3, -2.0)):
+            curve = Hyperbola(ratio, (B2, B3))
+            found = curve.stability(np.concatenate([x, -x]) * B2 - B2)
+            assert 0 <= found.min() - curve.least_stability <= 1e-5 * (B2**2 + B3**2)
+    assert Hyperbola(1.0, (1.0, 0.2)).least_stability == 0
+    with pytest.raises(DomainError, match="B2 = 0"):
+        _ = Hyperbola(0.5, (0.0, 1.0)).least_stability
+
+
+def test_the_least_stability_is_rounded_once() -> None:
+    """Next to I = 1 and to tau^2 = 1/8, from 1e-130 to 1e130, it is the nearest double, in arrays and alone."""
+    r = np.random.default_rng(0)
+    near = 1 + r.choice([-1.0, 1.0], (2, 400)) * 10 ** r.uniform(-16, -1, (2, 400))
+    I = np.where(r.random(400) < 0.5, near[0], r.uniform(0.01, 2, 400))
+    B2 = r.choice([-1.0, 1.0], 400) * 10 ** r.choice([-130.0, 0.0, 130.0], 400) * r.uniform(1, 2, 400)
+    B3 = B2 * np.where(r.random(400) < 0.5, near[1] / np.sqrt(8), r.uniform(-2, 2, 400))
+    found = Hyperbola(I, (B2, B3)).least_stability
+    with mp.workdps(150):
+        for one, ratio, *field in zip(found.tolist(), I.tolist(), B2.tolist(), B3.tolist(), strict=True):
+            less, x, y = 1 - mpf(ratio), mpf(field[0]), mpf(field[1])
+            assert one == float(2 * abs(less * y) * mp.sqrt(x * x + y * y) - less * (x * x - 2 * y * y))
+            assert one == Hyperbola(ratio, field).least_stability
+
+
 @pytest.mark.parametrize("tau", [1e-12, 0.1, 0.35])
 def test_the_stability_changes_sign_at_the_ends_of_the_band(tau: float) -> None:
     """Inside the band the square is negative, outside positive, to 1e-9 of its ends."""

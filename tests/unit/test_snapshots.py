@@ -16,7 +16,7 @@ from syrupy.extensions.json import JSONSnapshotExtension
 
 import atlas
 from atlas import places
-from atlas.scene import Curve, Layer, Panel, Surface, recipes, style
+from atlas.scene import Curve, Image, Layer, Panel, Surface, recipes, style
 from atlas.scene.layers import FloatArray
 from atlas.study.bench import results
 
@@ -293,7 +293,7 @@ def described(panel: Panel, *, noise: bool) -> dict[str, Any]:
 
 
 def drawn(layer: Layer, *, noise: bool) -> dict[str, Any]:
-    """Return what a layer is; of a curve, seven points at equal lengths along it, whatever its sampling."""
+    """Return what a layer is; of a curve, seven points at equal lengths along it, of a map a grid of its pixels."""
     record = {one.name: getattr(layer, one.name) for one in fields(layer)}
     record = {name: value for name, value in record.items() if not noise or isinstance(value, str)}
     record["is"] = type(layer).__name__
@@ -310,6 +310,10 @@ def drawn(layer: Layer, *, noise: bool) -> dict[str, Any]:
             "course": [along(line, np.array([0.4])) for line in lines],
         }
         del record["wires"], record["rims"]
+    if isinstance(layer, Image):
+        few = [np.linspace(0, size - 1, 12).round().astype(int) for size in layer.values.shape]
+        record |= {"x": layer.x[[0, -1]], "y": layer.y[[0, -1]], "values": layer.values[np.ix_(*few)]}
+        record["counts"] = layer.values.shape
     if isinstance(layer, Curve):
         course = along(layer.points, np.linspace(0.0, 1.0, 7))
         size = np.ptp(layer.points, axis=0).max() or 1.0

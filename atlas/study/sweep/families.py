@@ -149,9 +149,25 @@ def _turning_point(i: int, made: Any, _: Row) -> Any:
 
 
 def _stability(_: Any, p: Row) -> Any:
+    return _hyperbola(p).stability(p["omega2"])
+
+
+def _error(made: Any, p: Row) -> Any:
+    from atlas.study.sweep.errors import error
+
+    return error(made, p)
+
+
+def _plain_error(made: Any, p: Row) -> Any:
+    from atlas.study.sweep.errors import plain_error
+
+    return plain_error(made, p)
+
+
+def _hyperbola(p: Row) -> Any:
     from atlas.core.hyperbola import Hyperbola
 
-    return Hyperbola(p["ratio"], (p["B2"], p["B3"])).stability(p["omega2"])
+    return Hyperbola(p["ratio"], (p["B2"], p["B3"]))
 
 
 def _free(p: Row) -> Any:
@@ -217,13 +233,14 @@ FAMILIES: Mapping[str, Family] = {
         {"omega3": None, "t": 0.0},
         _elementary,
         {name: _of(name) for name in ("case", "omega3", "k", "phi")}
-        | {"stability": _stability}
+        | {"stability": _stability, "error": _error, "plain_error": _plain_error}
         | _matrix()
         | _vector("Omega", "angular_velocity")
         | _vector("K", "field_in_body")
         | _vector("m", "angular_momentum"),
         _exact_elementary,
         ("omega3", "k", "phi"),
+        missing=dict.fromkeys(("error", "plain_error"), "phase beyond 2^50"),
     ),
     "general": Family(
         ("ratio", "B2", "B3", "omega1", "omega2", "omega3"),
@@ -247,6 +264,7 @@ FAMILIES: Mapping[str, Family] = {
         _free,
         {name: _of(name) for name in ("k", "phi")} | _matrix() | _vector("Omega", "angular_velocity"),
     ),
+    "hyperbola": Family(("ratio", "B2", "B3"), {}, _hyperbola, {"least_stability": _of("least_stability")}),
     "quadric": Family(
         ("ratio", "B2", "B3"),
         {},

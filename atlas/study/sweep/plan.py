@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 from typing import Any
 
@@ -99,6 +99,10 @@ class Plan:
             places = list(np.unravel_index(rows, [array.size for array in self.parameters.values()]))
         given = {name: array[i] for (name, array), i in zip(self.parameters.items(), places, strict=True)}
         return Plan(self.family, given, self.quantities, True, self.digits, self.rows)
+
+    def whole(self) -> "Plan":
+        """Return the plan of the table in one part."""
+        return replace(self, rows=self.count).part(0)
 
     def columns(self) -> Columns:
         """Return the table."""

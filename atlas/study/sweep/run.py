@@ -54,7 +54,7 @@ def sweep(
     if not plan.count:
         raise AtlasError("A sweep needs at least one row.")
     if out is None:
-        return plan.columns() if plan.listed else Plan(**{**vars(plan), "rows": plan.count}).part(0).columns()
+        return plan.whole().columns()
     target = Path(out)
     check_format(target)
     parts = _folder(target, plan)
