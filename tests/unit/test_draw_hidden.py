@@ -1,6 +1,7 @@
 """Visibility behind quadrics, against brute force along the ray."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -66,6 +67,28 @@ def test_pieces_of_a_line_are_visible_throughout_or_hidden_throughout(seed: int)
     for (a, first), (b, second) in itertools.pairwise(pieces):
         assert np.abs(a[-1] - b[0]).max() < 1e-12
         assert first != second
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_surface_hides_the_same_with_its_mesh_and_without(seed: int) -> None:
+    """The rectangle round the image of a mesh leaves nothing out: points behind the rim of the image, one by one."""
+    rng = np.random.default_rng(300 + seed)
+    d, centre, axis = direction(rng), rng.normal(size=3), direction(rng)
+    pieces = [
+        solids.sphere(centre, 1.0, 1e-2),
+        solids.cylinder(centre, axis, 0.7, 1.5, 1e-2),
+        solids.cone(centre, axis, 0.6, 1.2, 1e-2),
+        solids.disk(centre, axis, 0.9, 1e-2),
+    ]
+    across = np.linalg.svd(d[None])[2][1:]
+    for surface in pieces:
+        mesh = np.concatenate([grid.reshape(-1, 3) for grid in surface.grids])
+        flat = mesh @ across.T
+        rim = mesh[np.ravel([np.argsort(sign * flat[:, k])[:20] for k in range(2) for sign in (1.0, -1.0)])]
+        points = centre + rng.uniform(0.98, 1.0, (len(rim), 1)) * (rim - centre) - 3.0 * d
+        bare = hidden(points, [replace(surface, grids=())], d, SIZE)
+        assert bare.any()
+        assert [bool(hidden(x[None], [surface], d, SIZE)[0]) for x in points] == bare.tolist()
 
 
 def test_a_line_behind_a_ball_is_cut_where_the_ball_ends() -> None:
