@@ -42,6 +42,21 @@ def test_shapes_are_kept() -> None:
     assert inputs.plain(np.ones(2)).shape == (2,)
 
 
+@pytest.mark.parametrize("place", range(4))
+@pytest.mark.parametrize("bad", [np.inf, -np.inf, np.nan])
+def test_what_was_computed_is_finite_in_every_place(place: int, bad: float) -> None:
+    """One value that is not, of a number, of an array, and in any member of several, is told; none passes as it is."""
+    array = np.arange(4.0)
+    good = (1.0, array, np.ones((2, 2)), 3.0)
+    assert inputs.finite(good, "It") is good
+    assert inputs.finite(array, "It") is array
+    wrong = np.where(np.arange(4) == place, bad, array)
+    several = (*good[:place], np.array([0.0, bad]), *good[place + 1 :])
+    for values in (wrong, several, bad):
+        with pytest.raises(DomainError, match=r"^It is too large for a float"):
+            inputs.finite(values, "It")
+
+
 def test_shapes_that_do_not_broadcast_are_one_sentence() -> None:
     """The sentence holds the shapes."""
     assert inputs.common_shape((3, 1), (2,), ()) == (3, 2)
