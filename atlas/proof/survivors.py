@@ -61,7 +61,7 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
     ),
     "theorem-stable-short": (
         ("S = ", "Only the square of $S$ occurs."),
-        ("", "What is positive or not negative stays so with this factor or power."),
+        ("", "What is positive or not negative stays so with this change."),
     ),
     "theorem-band": (("", "What is positive stays so with this change."),),
     "theorem-band-ends": (("", "All three factors stay positive with this change, and so does their product."),),
