@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from atlas.core.inputs import FloatArray
 from atlas.core.phase import Phases
+from atlas.core.progression import Progression
 from atlas.core.wide import ONE, Wide
 
 Axis = tuple[Wide, Wide, Wide]
@@ -24,10 +25,6 @@ SCALE = np.array([2.0, 2, 2, 2, 2, 4, 4, 4, 4, 4, 4])
 """What the functions of a basis have to be multiplied by: they come as halves, and as products of halves."""
 
 
-LEFT = (0, 1, 2, 1, 3, 4, 2, 4, 2, 5, 5)
-"""Which of the matrices L_r of `resolution` are the same."""
-
-
 class Basis:
     """The functions F_r of up to `size` times, for both phases; or cos, sin and 1 - cos of one.
 
@@ -35,25 +32,33 @@ class Basis:
     the same times sin phi t; and, if there are 11, 1 - cos kt times cos phi t and sin phi t.
     """
 
-    def __init__(self, phases: Phases, size: int, count: int = 3) -> None:
+    def __init__(self, phases: Phases | Progression, size: int, count: int = 3) -> None:
         self.phases = phases
-        self.work = np.empty((8, phases.words.shape[1], size))
+        self.work = np.empty((8, 1 if count == 3 else 2, size))
         self.rows = np.empty((count, size))
 
-    def at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
-        """Return the functions over SCALE, shape (count, m), at times t + low; valid until the next call."""
+    def at(self, t: FloatArray) -> FloatArray:
+        """Return the functions over SCALE, shape (count, m), at times t (m,), or what a `Progression` takes for them.
+
+        Valid until the next call.
+        """
         rows, work = self.rows, self.work
-        if t.size < rows.shape[1]:
-            rows, work = rows[:, : t.size], work[:, :, : t.size]
+        if t.shape[-1] < rows.shape[1]:
+            rows, work = rows[:, : t.shape[-1]], work[:, :, : t.shape[-1]]
         if len(rows) == 3:
-            self.phases.circle(t, work, rows[0:1], rows[1:2], rows[2], low)
+            self.phases.circle(t, work, rows[0:1], rows[1:2], rows[2])
             return rows
-        self.phases.circle(t, work, rows[0:2], rows[2:4], rows[4], low)
-        np.multiply(rows[0:3:2], rows[1], out=rows[5:7])
-        np.multiply(rows[0:3:2], rows[3], out=rows[7:9])
-        if len(rows) == 11:
-            np.multiply(rows[4], rows[1:4:2], out=rows[9:11])
+        self.phases.circle(t, work, rows[0:2], rows[2:4], rows[4])
+        multiply(rows)
         return rows
+
+
+def multiply(rows: NDArray[Any]) -> None:
+    """Fill the functions from the sixth on, products of those before."""
+    first, second = rows[0:4:2], rows[1:4:2]
+    np.multiply(first, second[:, None], out=rows[5:9].reshape(2, 2, -1))
+    if len(rows) == 11:
+        np.multiply(rows[4], second, out=rows[9:11])
 
 
 def rodrigues(axis: Axis) -> FloatArray:

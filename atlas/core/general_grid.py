@@ -12,14 +12,15 @@ is evaluated time by time.
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from math import ceil, inf
+from math import ceil, frexp, inf
 
 import numpy as np
 from flint import acb, arb, ctx
 
 from atlas.core.cayley_klein import BLOCK, Evaluation, Products, combined
+from atlas.core.double_double import DoubleDouble
 from atlas.core.general import General
-from atlas.core.grid import HUGE, moments
+from atlas.core.grid import HUGE
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation import wide
 from atlas.core.phase import Phases
@@ -61,6 +62,13 @@ TURNED, TRIED, MANY = 3.0, 60, 375
 
 SHORT = 8000
 """Shorter grids are evaluated time by time."""
+
+
+CLOSE = 2.0**-20
+"""Part of the longest time below which a time is near zero."""
+
+TINY = 2.0**-900
+"""Last digit of the times from which on none of their products is lost."""
 
 
 class Exponentials:
@@ -159,6 +167,34 @@ class Grid:
         """Fill rows (m, 9) with the matrices of the numbers i, the first and last of which are the extreme ones."""
         times = moments(self.one.parts.phases, self.start, self.step, index)
         combined(evaluation.at(*times), self.one.entries, rows)
+
+
+def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tuple[FloatArray, FloatArray | None]:
+    """Return the times start + i step as doubles and what these lack, None for nothing; first and last i are extreme.
+
+    What they lack is at most half an ulp, and known to 2^-104 of the time. Where phases are short, times not too many
+    and the start not far beyond them, start and step are cut instead where the last digit of a double twice as large as
+    any time is: then the first words are exact, and the rest is known to 2^-85 of the time; that next to zero is made
+    by itself.
+    """
+    first, last = (start + step * float(index[i]) for i in (0, -1))
+    far = max(abs(first), abs(last))
+    digit = 2.0 ** (frexp(far)[1] - 52)
+    away = start == 0 or first / far > CLOSE < last / far or -first / far > CLOSE < -last / far
+    if not (abs(start) <= far <= phases.near and digit > TINY and (away or abs(step) > 2 * CLOSE * far)):
+        t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
+        return t.hi, t.low
+    origin, stride = (round(x / digit) * digit for x in (start, step))
+    times, low = index * stride, None
+    times += origin
+    if start != origin or step != stride:
+        low = index * (step - stride)
+        low += start - origin
+        i = 0 if away else np.abs(times).argmin()
+        if start and abs(times[i]) <= CLOSE * far:
+            one = DoubleDouble(start) + DoubleDouble(float(index[i])) * DoubleDouble(step)
+            times[i], low[i] = one.hi, one.low
+    return times, low
 
 
 def fill_each(grid: Grid, out: FloatArray, first: int = 0) -> None:

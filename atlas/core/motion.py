@@ -118,7 +118,8 @@ class Motion(Generic[Turning]):
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrices on the uniform grid start + i step, i = 0 .. count - 1, shape (..., count, 3, 3).
 
-        Each is that of the exact real number start + i step, which need not be a double. Far faster than `rotation`.
+        Each is that of the exact real number start + i step, which need not be a double. For a motion in elementary
+        functions never slower than `rotation`, from 10 000 times on faster, from 100 000 on three times as fast.
         """
         start, step = number(start, "The start of the grid"), number(step, "The step of the grid")
         count = whole(count, "The count of the grid")

@@ -100,20 +100,11 @@ class Phases:
         """Keep the longest time."""
         self.reach, self.longest = reach, min(reach, float(np.finfo(float).max))
 
-    def circle(
-        self,
-        t: FloatArray,
-        work: FloatArray,
-        cos: FloatArray,
-        sin: FloatArray,
-        versine: FloatArray,
-        low: FloatArray | None = None,
-    ) -> None:
+    def circle(self, t: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
         """Fill cos(x)/2 and sin(x)/2 (n, m), and (1 - cos x)/2 of the first phase (m,), for x = f t.
 
-        `t` (m,) finite, `low` (m,) what it lacks; `work` (8, n, m) is overwritten. Halves, since they come free of a
-        rounding. The versine keeps its digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time
-        is not finite.
+        `t` (m,) finite; `work` (8, n, m) is overwritten. Halves, since they come free of a rounding. The versine keeps
+        its digits where x is small. Raises AtlasError if a phase is beyond LIMIT or a time is not finite.
 
         Without origins cos and sin are within 8 units of w = 2^-53, four ulp of 1, if NumPy's tangent is within an ulp.
         Proof, to first order in w, |x| <= 1.8 as `angles` leaves it. The phase: P1 t, the last sum of `rest` (< 1/8)
@@ -126,19 +117,16 @@ class Phases:
 
         and less below; that of sin is below 2 |1 - u^2|/(1 + u^2)^2 du + (2 + q) w + 0.6 w < 5 w.
         """
-        circle_of(self.angles(t, work, low), cos, sin, versine)
+        circle_of(*self.angles(t, work), cos, sin, versine)
 
-    def angles(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
+    def angles(self, t: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return x/2 for x = f t less whole half turns, what rounding left out of it, and the turns' sign.
 
         The three are (n, m), in radians, and lie in `work`; the fourth array returned is free. At phases near LIMIT the
         whole half turns are those nearest to P0 t, whose rounding and P1 t are up to 0.08 half turns: |x| <= 1.8 there.
         """
-        half, rest, sign, free = self.reduced(t, work, low)
-        parity = sign.view(np.int64)
-        np.left_shift(parity, SIGN_BIT, out=parity)
-        np.bitwise_or(parity, ONE_BITS, out=parity)
-        return half, rest, sign, free
+        half, rest, whole, free = self.reduced(t, work)
+        return half, rest, signs(whole), free
 
     def reduced(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
         """Return what `angles` does with the number of half turns, plus `rounder`, in the place of their sign."""
@@ -258,20 +246,39 @@ class Phases:
             )
 
 
+def signs(whole: FloatArray) -> FloatArray:
+    """Turn sums of whole numbers and ROUNDER, in place, into the signs 1 of even and -1 of odd ones."""
+    parity = whole.view(np.int64)
+    np.left_shift(parity, SIGN_BIT, out=parity)
+    np.bitwise_or(parity, ONE_BITS, out=parity)
+    return whole
+
+
 def farthest(t: FloatArray) -> float:
     """Return the largest |t|; not a number where a time is none."""
     return max(t.item(t.argmax()), -t.item(t.argmin())) if t.size else 0.0
 
 
-def circle_of(angles: Sequence[FloatArray], cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
-    """Fill what `Phases.circle` does from what `Phases.angles` returns; x may leave its range where it was added to."""
-    u, e, sign, square = angles
+def circle_of(
+    u: FloatArray,
+    e: FloatArray | None,
+    sign: FloatArray,
+    square: FloatArray,
+    cos: FloatArray,
+    sin: FloatArray,
+    versine: FloatArray,
+) -> None:
+    """Fill what `Phases.circle` does from what `Phases.angles` returns; x may leave its range where it was added to.
+
+    Without `e`, nothing was left out of x/2.
+    """
     # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; u then gets what x lacks
     np.tan(u, out=u)
-    np.multiply(u, u, out=square)
-    square += WHOLE
-    e *= square
-    u += e
+    if e is not None:
+        np.multiply(u, u, out=square)
+        square += WHOLE
+        e *= square
+        u += e
     np.multiply(u, u, out=square)
     square += WHOLE
     np.divide(u, square, out=sin)

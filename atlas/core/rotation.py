@@ -7,11 +7,10 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from atlas.core.basis import SCALE, Axis, Basis, extended, generators, resolution, rodrigues
 from atlas.core.inputs import FloatArray, real
-from atlas.core.phase import Phases
+from atlas.core.phase import QUANTUM, Phases
 from atlas.core.threads import shared
 from atlas.core.wide import TURN, Wide
 from atlas.errors import AtlasError
@@ -50,14 +49,18 @@ class DoubleRotation:
         self.rodrigues = 2 * rodrigues(axis)
 
     @cached_property
-    def extended(self) -> NDArray[np.longdouble]:
-        """The generators, shape (r, 3, 3), with the digits of long doubles."""
-        return extended(self.axis)
+    def composition(self) -> tuple[FloatArray, FloatArray]:
+        """Matrices L_r L_q Q_q Q_r of `basis`, times SCALE of r, as multiples of 2^-25 and what is left.
 
-    @cached_property
-    def resolution(self) -> tuple[NDArray[Any], FloatArray]:
-        """The matrices L_r and Q_r of `basis` with those digits."""
-        return resolution(self.extended, third_row=self.inverse)
+        By r, q and entry: the multiples (r, q, 9); the same above the rests, (r, 2 q, 9), for factors that are small.
+        """
+        left, right = resolution(extended(self.axis), third_row=self.inverse)
+        exact = np.matmul(np.matmul(left[:, None], np.matmul(left, right)), right[:, None])
+        exact = (exact.swapaxes(2, 3) if self.inverse else exact).reshape(len(left), len(left), 9)
+        large = exact.astype(np.float64) + QUANTUM - QUANTUM
+        small = np.concatenate([large, (exact - large).astype(np.float64)], axis=1)
+        scale = SCALE[: len(left), None, None]
+        return large * scale, small * scale
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), mf89, shape (..., 3, 3)."""

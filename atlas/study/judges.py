@@ -18,8 +18,8 @@ from atlas.study.ulps import ONE, Tally, absolute, approximate, of_length, own
 SHIFTS = (1, -7, 60)
 """Powers of two by which all frequencies are scaled, and times the other way: no bit of R may change."""
 
-GRID = 12_000
-"""Matrices on a uniform grid, long enough for its tables; a few of them are judged."""
+GRIDS = 1500, 12_000
+"""Matrices on uniform grids, too few and enough for tables; a few of them are judged."""
 
 
 def judge_motion(motion: hostile.Motion, regime: str, tally: Tally) -> None:
@@ -103,14 +103,15 @@ def _structure(motion: hostile.Motion, found: Any, regime: str, tally: Tally, in
 
 
 def _grid(motion: hostile.Motion, found: Any, exact: Any, regime: str, tally: Tally, inputs: Any) -> None:
-    """Judge a uniform grid at its ends, at its seams and in between, at the exact times start + i step."""
+    """Judge uniform grids at their ends, at seams and in between, at the exact times start + i step."""
     start, end = motion.times[4], motion.times[5]
-    step = (end - start) / GRID
-    if step == 0 or start + GRID * step == start:
-        return
-    R = found.rotation_grid(start, step, GRID)
-    for i in (0, 1, 31, 32, 127, 128, 4567, 5999, 6000, GRID - 33, GRID - 32, GRID - 1):
-        t = Fraction(start) + i * Fraction(step)
-        true = enclosed(partial(exact.rotation, t), BITS)
-        where = {"start": start.hex(), "step": step.hex(), "count": GRID, "index": i}
-        tally.add("R grid", regime, absolute(R[i].flat, chain(*true)), with_more(inputs, **where))
+    for count in GRIDS:
+        step = (end - start) / count
+        if step == 0 or start + count * step == start:
+            continue
+        R = found.rotation_grid(start, step, count)
+        for i in (0, 1, 63, 64, count // 3, count - 33, count - 32, count - 1):
+            t = Fraction(start) + i * Fraction(step)
+            true = enclosed(partial(exact.rotation, t), BITS)
+            where = {"start": start.hex(), "step": step.hex(), "count": count, "index": i}
+            tally.add("R grid", regime, absolute(R[i].flat, chain(*true)), with_more(inputs, **where))

@@ -24,8 +24,9 @@ FORMULAS = {
 
 MACHINERY = {
     "core": set(
-        "basis cayley_klein charge charges double_double frequencies general_grid general_rows grid gyration inputs "
-        "motion nutation nutation_means nutation_roots phase rational rotation threads turnings wide".split()
+        "basis cayley_klein charge charges double_double frequencies general_grid general_rows grid gyration "
+        "inputs motion nutation nutation_means nutation_roots phase progression rational rotation threads turnings "
+        "wide".split()
     ),
     "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "taylor", "theta", "two_turns"},
 }

@@ -4,7 +4,8 @@ The question: what does one of N = 1 to 1e7 matrices cost, and how far is that f
 
 The elementary motion only: R(t) by the plain formula, by its peers and by the atlas, into fresh memory and into
 memory given with `out=`, on one thread and on two, beside filling the same memory with a constant. All are timed by
-turns in one run; times are seeded random numbers, |t| < 1e8 and, as `far`, |t| < 5e14.
+turns in one run; times are seeded random numbers, |t| < 1e8 and, as `far`, |t| < 5e14. A uniform grid is also timed
+beside `rotation` at its times.
 """
 
 from collections.abc import Callable, Sequence
@@ -31,6 +32,9 @@ PARALLEL = 100_000
 LARGE = 1000  # from here on the time grows with the count
 NEAR, FAR = 1e8, 5e14
 STEP = 1.0 / 64
+
+GRID, EVEN = "grid_out/1", "even_out/1"
+"""The grid, and the same times one by one, with which it is compared."""
 
 
 @dataclass(frozen=True)
@@ -111,9 +115,18 @@ def _timed(
     times = interleave(jobs, rounds, clock=perf_counter if bases else process_time)
     for work, error in errors:
         seconds, base = times[work.key], times.get(f"{work.against}/1")
-        each, to_fill = median(seconds) / count * 1e9, ratio(seconds, times["fill/1"])
         rows.append(
-            Cost(work.method, count, work.threads, "done", error, each, to_fill, ratio(seconds, base) if base else None)
+            Cost(
+                work.method,
+                count,
+                work.threads,
+                "done",
+                error,
+                nanoseconds=median(seconds) / count * 1e9,
+                to_fill=ratio(seconds, times["fill/1"]),
+                to_plain=ratio(seconds, base) if base else None,
+                to_times=ratio(seconds, times[EVEN]) if work.key == GRID and EVEN in times else None,
+            )
         )
     return rows
 
@@ -147,6 +160,7 @@ def _works(count: int, pool: ThreadPoolExecutor) -> list[Work]:
         Work("ours_out_far", lambda: made.rotation(far, out=out), far, against="plain_out_far"),
         Work("grid", lambda: made.rotation_grid(0.0, STEP, count), grid.times),
         Work("grid_out", lambda: made.rotation_grid(0.0, STEP, count, out=out), grid.times),
+        Work("even_out", lambda: made.rotation(grid.times, out=out), grid.times),
         Work("third_axis", lambda: made.third_axis(near), near, truth=lambda exact, t: exact.third_axis(t)),
         Work("omega", lambda: made.angular_velocity(near), near, truth=lambda exact, t: exact.angular_velocity(t)),
     ]

@@ -11,6 +11,7 @@ TITLES = {
     "ours_out_far": "atlas, out=, far",
     "grid": "atlas, grid",
     "grid_out": "atlas, grid, out=",
+    "even_out": "atlas, times of the grid, out=",
     "third_axis": "atlas, third axis alone",
     "omega": "atlas, Omega alone",
     "plain_out": "plain NumPy, out=",
@@ -49,7 +50,7 @@ LINES = {
     "grid_out/2": "fifth",
 }
 
-OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "third_axis")
+OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "even_out", "third_axis")
 
 MARKS = {"ours": "start", "ours_grid": "point", "plain": "special", "lambdify": "rest", "rotation": "centre"}
 

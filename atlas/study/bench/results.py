@@ -72,7 +72,8 @@ class Setup(Item, frozen=True):
 class Cost(Item, frozen=True):
     """Time for ``count`` rotation matrices: nanoseconds each, over filling the same memory, over the plain formula.
 
-    ``error`` is the largest found among a few of them. Both ratios are to one thread.
+    ``error`` is the largest found among a few of them. All ratios are to one thread. ``to_times``, of a grid, is to
+    `rotation` at the same times.
     """
 
     method: str
@@ -83,6 +84,7 @@ class Cost(Item, frozen=True):
     nanoseconds: float | None = None
     to_fill: float | None = None
     to_plain: float | None = None
+    to_times: float | None = None
     note: str = ""
 
 

@@ -99,7 +99,7 @@ def _setups(record: Results) -> Table:
 
 
 def _costs(record: Results) -> Iterable[Table]:
-    """Nanoseconds a matrix, and its multiples of filling the memory and of the plain formula, by count."""
+    """Nanoseconds a matrix, and its multiples of what it is compared with, by count; rows without a number left out."""
     counts = sorted({cost.count for cost in record.costs})
     heading = ("method", "threads", *(f"{count:.0e}" for count in counts))
     for what, field in (
@@ -107,12 +107,13 @@ def _costs(record: Results) -> Iterable[Table]:
         ("Largest error among a few of them", "error"),
         ("Time over filling the same memory, one thread", "to_fill"),
         ("Time over the plain formula with out=, one thread", "to_plain"),
+        ("Time of a grid over that of the same times one by one, one thread", "to_times"),
     ):
         rows: dict[tuple[str, int], list[str]] = {}
         for cost in record.costs:
             row = rows.setdefault((cost.method, cost.threads), [NONE] * len(counts))
             row[counts.index(cost.count)] = number(getattr(cost, field))
-        shown = tuple((title(name), str(threads), *row) for (name, threads), row in rows.items())
+        shown = tuple((title(name), str(threads), *row) for (name, threads), row in rows.items() if set(row) != {NONE})
         yield Table(f"{what}, against their number", heading, shown)
 
 

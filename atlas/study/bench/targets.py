@@ -46,6 +46,7 @@ def targets(record: Results) -> list[Target]:
 def _speed(record: Results) -> Iterator[Target]:
     count = 1_000_000
     yield _below("uniform grid of 1e6, over filling the memory", _ratio(record, "grid_out", count, "to_fill"), 2.2)
+    yield _below("uniform grid of 1e4, a matrix (ns)", _ratio(record, "grid_out", 10_000, "nanoseconds"), 20.0)
     wide = record.machine.avx512
     for says, method, factor in (
         ("1e6 arbitrary times, plain formula over ours", "ours_out_far", 3.0 if wide else 2.0),
@@ -56,7 +57,7 @@ def _speed(record: Results) -> Iterator[Target]:
 
 
 def _never_slower(record: Results) -> Iterator[Target]:
-    """Ours over the plain formula: at most 1 from a thousand times up, at most 1.5 below."""
+    """Ours over the plain formula: at most 1 from a thousand times up, at most 1.5 below; a grid over its times."""
     for least, most, limit in ((1_000, 10**9, 1.0), (1, 999, 1.5)):
         found = [
             cost.to_plain
@@ -66,6 +67,8 @@ def _never_slower(record: Results) -> Iterator[Target]:
         measured = [ratio for ratio in found if ratio is not None]
         where = f"from N = {least} up" if limit == 1.0 else "below N = 1000"
         yield _below(f"ours over the plain formula, {where}, at worst", max(measured, default=None), limit)
+    grids = [cost.to_times for cost in record.costs if cost.to_times is not None]
+    yield _below("uniform grid over the same times one by one, at worst", max(grids, default=None), 1.0)
 
 
 def _latency(record: Results) -> Iterator[Target]:
