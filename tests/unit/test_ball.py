@@ -96,13 +96,13 @@ def test_the_small_third_column_keeps_its_digits() -> None:
 
 
 def test_columns_and_arrays_of_balls() -> None:
-    """Columns agree with the matrix; parameters broadcast with time."""
+    """Columns agree with the matrix, arrays with single balls, each being rounded in its own way; all broadcast."""
     ball, t = BallMotion(2.0, 0.5, (0.3, -0.4)), np.linspace(0, 9, 10)
     for j in (1, 2, 3):
         assert np.abs(ball.column(j, t) - ball.rotation(t)[:, :, j - 1]).max() <= 4 * ULP1
     balls = BallMotion([1.0, 2.0], 0.5, (0.3, -0.4))
     assert balls.rotation(t[:, None]).shape == (10, 2, 3, 3)
-    assert np.abs(balls.rotation(t[:, None])[:, 1] - ball.rotation(t)).max() <= ULP1
+    assert np.abs(balls.rotation(t[:, None])[:, 1] - ball.rotation(t)).max() <= 4 * ULP1
     assert balls.gamma[1] == ball.gamma
 
 
