@@ -200,7 +200,8 @@ def _constants(block: Block) -> Constants:
         M, zeros, (cos, sin) = means.rate, means.zeros, means.start
         spin = r.less * r.c3
         frame = stacked(spin - r.b, -(spin + r.b)).scaled(-1)
-        rates = joined(means.angles.scaled(-1) - signed(M, zeros.sense) + frame, M)
+        # of a ball that starts at a turning point angle and M cancel, and a sum that is zero has no relative error
+        rates = joined(frame + means.angles.scaled(-1) - signed(M, zeros.sense), M)
         turns = rates * PER_RADIAN
         even, odd, terms, (x, y) = _sums(means)
         size = x * x + y * y

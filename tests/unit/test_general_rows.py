@@ -171,6 +171,11 @@ def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) ->
     for tilt in (0.0, 1e-6):
         GeneralMotion(*along(500, tilt)).rotation(1.0)
     assert len(made) <= 80
+    # balls on a grid of round numbers: only those whose Omega3 is constant
+    made.clear()
+    x = np.linspace(-3, 3, 21)
+    GeneralMotion(1.0, (1.0, 0.5), (0.0, x[:, None], x)).rotation(1.0)
+    assert len(made) <= 40
 
 
 def test_a_dropped_second_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
