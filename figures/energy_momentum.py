@@ -35,7 +35,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Critical values of the energy $h$ over the momentum $p$ about the field, at $M_3={tex(M3)}$ and "
+            rf"Critical values of the energy $2H$ over the momentum $p$ about the field, at $M_3={tex(M3)}$ and "
             rf"$b={tex(b)}$, for {listed([f'$I={tex(I)}$' for I in ratios])}: each point of a curve is a steady "
             r"precession of the paper's family, stable (solid) or unstable (dashed); dots are spins about the field. "
             r"Every motion lies on or above the lowest curve. For a long body the curve folds: inside the swallowtail "
@@ -73,7 +73,7 @@ def panel(name: str, I: float, b: float, M3: float, reach: float, unit: str) -> 
     return Plane(
         tuple(layers),
         rf"$p$ (1/{unit})",
-        rf"$h$ (1/{unit}$^2$)",
+        rf"$2H$ (1/{unit}$^2$)",
         (-reach * b, reach * b),
         (low - pad, high + pad),
         title=name,

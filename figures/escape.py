@@ -44,9 +44,9 @@ def scene(
         caption=(
             f"{tex_setting(ratio, field, first='A')}, started next to the unstable elementary motion "
             rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. (a) $\Omega_3$ stays for a while, leaves with the rate "
-            rf"$\gamma={tex(growth)}$, goes round the two stable motions in turn, and comes back again and again. (b) "
-            r"The period over the push: $T$ grows by $(4/\gamma)\ln 10$ for each decade (dashed), so it tells the push "
-            "and the reach does not. An escape is a nutation of long period, not a flight."
+            rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$, goes round the two stable motions in turn, and comes back again and "
+            r"again. (b) The period over the push: $T$ grows by $(4/\sqrt{-\nu_n^2})\ln 10$ for each decade (dashed), "
+            "so it tells the push and the reach does not. An escape is a nutation of long period, not a flight."
         ),
         alt=(
             f"Two panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: Omega 3 over time in pulses "
@@ -98,7 +98,7 @@ def periods(
     view = ((10.0 ** decades[0], 10.0 ** decades[-1]), (0.0, 1.1 * float(found.max())))
     marked = np.array([[push, GeneralMotion(ratio, field, (push, *start)).period] for push in pushes])
     layers: list[Layer] = [
-        Curve(np.stack([10.0**decades, law], axis=1), "reference", r"$(4/\gamma)\ln(1/\omega_1)+$const"),
+        Curve(np.stack([10.0**decades, law], axis=1), "reference", r"$(4/\sqrt{-\nu_n^2})\ln(1/\omega_1)+$const"),
         Curve(np.stack([10.0**decades, found], axis=1), "main", "$T$"),
         Points(marked, "special"),
     ]

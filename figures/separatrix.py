@@ -29,7 +29,7 @@ def scene(
     elevation: float = 18.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw both excursions of the unstable motion ``omega2`` over ``decay`` times 1/gamma before and after."""
+    """Draw both excursions of the unstable motion ``omega2`` over ``decay`` times 1/growth before and after."""
     motions = [motion for motion in companions(ratio, field, omega2) if motion.kind == "separatrix"]
     if not motions:
         raise DomainError(
@@ -44,8 +44,8 @@ def scene(
             rf"{tex_setting(ratio, field, first='A')}: both motions that leave the unstable precession "
             rf"$\omega_2={tex(omega2)}$ and return to it. (a) One of them, the trace of the axis with $\mathbf{{B}}$ "
             r"upright; dashed: the circle of the precession. (b) $\Omega_3$ over time, a rational function of "
-            rf"$\cosh\gamma t$ with $\gamma={tex(growth)}$. A motion next to it repeats such excursions for ever, the "
-            r"more rarely the closer it is."
+            rf"$\cosh(\sqrt{{-\nu_n^2}}\,t)$ with $\sqrt{{-\nu_n^2}}={tex(growth)}$. A motion next to it repeats such "
+            "excursions for ever, the more rarely the closer it is."
         ),
         alt=(
             f"A unit sphere for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}, on which the axis winds "

@@ -48,7 +48,7 @@ def scene(
         title=title(__doc__),
         caption=(
             f"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
-            r"squared, $\nu_n^2=-p'(\omega_3)$ with the cubic $p$ of mf55, along the hyperbola mf72. "
+            r"squared, $\nu_n^2=-Q''(\omega_3)/2$ with the quartic $Q$ of theorem-quartic, along the hyperbola mf72. "
             + (
                 f"The motion is unstable on the shaded bands {where}, inside which it is negative. "
                 if bands

@@ -53,7 +53,7 @@ def scene(
         caption=(
             f"A disk, $I={tex(quotient(ratio))}$, spins along the field $B'_3={tex(B3)}$ with "
             rf"$\omega_3={tex(omega3)}$, nearly as Larmor's frame does; there $D={tex(D)}<0$, and a push "
-            rf"$\omega_1={tex(push)}$ grows with the rate $\gamma=\sqrt{{-D}}/2={tex(growth)}$. Above: {count} moments "
+            rf"$\omega_1={tex(push)}$ grows with the rate $\sqrt{{-D}}/2={tex(growth)}$. Above: {count} moments "
             "of its tipping, by equal steps of the angle between its axis and the field; light is its first upper "
             "side. Below: that angle, with the moments above as dots. "
             + (

@@ -93,6 +93,21 @@ EQUATIONS = (
         ),
     ),
     Equation(
+        label="text-ball-equivalent",
+        number=None,
+        section="III",
+        kind="claim",
+        says=r"With $\mathbf{m}$ in the place of $\boldsymbol{\Omega}$ the Euler equations @mf31 are @mf32, and the "
+        "other way round",
+        tex=(
+            r"\boldsymbol{\Omega}=\frac{1}{I_0}R^T\mathbf{m}:\qquad\dot{\boldsymbol{\Omega}}+\frac{\mu}{2c}[R^T"
+            r"\mathbf{B},\boldsymbol{\Omega}]=\frac{1}{I_0}R^T\Bigl\{\dot{\mathbf{m}}+\frac{\mu}{2c}[\mathbf{B},"
+            r"\mathbf{m}]\Bigr\}"
+        ),
+        assumptions=("$I_1 = I_2 = I_3$", "@mf30, $R(t)$ is a rotation"),
+        quote="So the system (20), (21) is equivalent to",
+    ),
+    Equation(
         label="text-linear-poisson",
         number=None,
         section="III",

@@ -10,8 +10,9 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says=r"One elementary motion, and no other, has $\phi/k = r$, for every $r$ but two",
-        tex=r"\frac{\phi}{k}=r\iff k=-b\,\frac{2(1-I)\hat B_3-Ir}{(1-I)\hat B_3-Ir},\qquad r\ne\frac{(1-I)\hat "
+        says=r"One elementary motion, and no other, has $\phi/k = \varrho$, for every $\varrho$ but two",
+        tex=r"\frac{\phi}{k}=\varrho\iff k=-b\,\frac{2(1-I)\hat B_3-I\varrho}{(1-I)\hat B_3-I\varrho},"
+        r"\qquad\varrho\ne\frac{(1-I)\hat "
         r"B_3}{I},\ "
         r"\frac{2(1-I)\hat B_3}{I}",
         assumptions=(

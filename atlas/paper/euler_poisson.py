@@ -79,6 +79,19 @@ EQUATIONS = (
         tex=r"2g_1=I_2+I_3-I_1,\qquad 2g_2=I_3+I_1-I_2,\qquad 2g_3=I_1+I_2-I_3",
     ),
     Equation(
+        label="text-inertia-axes",
+        number=None,
+        section="II",
+        kind="claim",
+        says="The columns of $R$ are the axes of inertia, and at $t = 0$ the axes of the laboratory",
+        tex=r"(R\,I\,R^T)\,\mathbf{R}_i=I_i\mathbf{R}_i,\qquad\mathbf{R}_i(0)=\mathbf{e}_i",
+        assumptions=("$R$ is a rotation", "$I$ and $g$ are diagonal"),
+        quote=(
+            r"at initial instant $t=0$ the Laboratory basis vectors $\mathbf{e}_i$ were taken in the directions of "
+            r"axes of inertia $\mathbf{R}_i(t)$"
+        ),
+    ),
+    Equation(
         label="text-orthogonal",
         number=None,
         section="II",

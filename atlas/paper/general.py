@@ -3,7 +3,7 @@
 from atlas.paper.equation import Equation
 
 _BODY = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
-_LETTERS = r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $h = 2 H$, $\nu = K_3/b$, $b > 0$"
+_LETTERS = r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $\nu = K_3/b$, $b > 0$"
 _CURVE = r"$q(\nu)$ is the square of the rate of $\nu$, as in @theorem-top"
 
 EQUATIONS = (
@@ -14,8 +14,8 @@ EQUATIONS = (
         kind="theorem",
         says=r"In Larmor's frame: an uncharged symmetric top in the potential $(I_3 - I_2) b^2 \nu^2/2$, $\nu = \cos "
         r"(\theta)$",
-        tex=r"\begin{aligned} \dot\nu^2=q(\nu)&=(1-\nu^2)\left(h-\frac{M_3^2}{I}-b^2-(I-1)b^2\nu^2\right)-(p-M_3\nu)^2,"
-        r"\\ \dot\psi+b&=\frac{p-M_3\nu}{1-\nu^2},\qquad\dot\chi=c_3-\nu(\dot\psi+b) \end{aligned}",
+        tex=r"\begin{aligned} \dot\nu^2=q(\nu)&=(1-\nu^2)\left(2H-\frac{M_3^2}{I}-b^2-(I-1)b^2\nu^2\right)"
+        r"-(p-M_3\nu)^2,\\ \dot\psi+b&=\frac{p-M_3\nu}{1-\nu^2},\qquad\dot\chi=c_3-\nu(\dot\psi+b) \end{aligned}",
         assumptions=(_BODY, _LETTERS, r"$z$ along $\mathbf{B}$, $|\nu| < 1$ for the angles"),
     ),
     Equation(
@@ -24,7 +24,7 @@ EQUATIONS = (
         section="Atlas",
         kind="theorem",
         says="The quartic $q$ of the top is the quartic $Q$ of the pseudo-oscillator in other letters",
-        tex=r"Q(u)=b^2q\left(\frac{c_3-u}{b}\right),\qquad E'=h-2bp,\qquad c_5=bp-b^2+(1-I)c_3^2",
+        tex=r"Q(u)=b^2q\left(\frac{c_3-u}{b}\right),\qquad E'=2(H-bp),\qquad c_5=bp-b^2+(1-I)c_3^2",
         assumptions=(_BODY, _LETTERS),
     ),
     Equation(
@@ -45,7 +45,7 @@ EQUATIONS = (
         kind="theorem",
         says="Up to a steady turn the Cayley–Klein parameters obey real equations of Lamé's kind, the same for any $p$",
         tex=r"\ddot a=\left(\tfrac34A\nu^2-\tfrac12A\nu-C\right)a,\qquad\ddot\eta=\left(\tfrac34A\nu^2+\tfrac12A\nu-C"
-        r"\right)\eta,\qquad A=(I-1)b^2,\quad 4C=h-\frac{M_3^2}{I}-b^2+M_3^2",
+        r"\right)\eta,\qquad A=(I-1)b^2,\quad 4C=2H-\frac{M_3^2}{I}-b^2+M_3^2",
         assumptions=(_BODY, _LETTERS, _CURVE, r"$a=\xi\exp(i(M_3-c_3)t/2)$, with $\eta$ the opposite sign"),
     ),
     Equation(

@@ -267,7 +267,7 @@ EQUATIONS = (
         kind="claim",
         says="The curve is a trochoid: the path of a point that a rolling circle carries along",
         tex=(
-            r"x=r\theta+a\sin\theta,\qquad y=r+a\cos\theta,\qquad\theta=\omega t,\quad "
+            r"x=r\omega t+a\sin\omega t,\qquad y=r+a\cos\omega t,\qquad "
             r"r=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega^2}"
         ),
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),

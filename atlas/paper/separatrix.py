@@ -3,12 +3,15 @@
 from atlas.paper.equation import Equation
 
 _BODY = r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$"
-_LETTERS = r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $A = (I - 1) b^2$, $q$ as in @theorem-top"
+_LETTERS = (
+    r"units of $I_2$: $M_3 = I c_3$, $p = (\mathbf{M}, \mathbf{K})/b$, $A = (I - 1) b^2$, $b > 0$, $q$ as in "
+    "@theorem-top"
+)
 _FAMILY = (
     _BODY,
     _LETTERS,
     "$0 < I < 1$, $w^2 < (1-I) b^2$",
-    r"$r$ is a double root of $q$, $e$ a simple one, $t = 0$ where $\nu = e$",
+    r"$\nu_0$ is a double root of $q$, $e$ a simple one, $t = 0$ where $\nu = e$",
 )
 
 EQUATIONS = (
@@ -17,10 +20,12 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="The double roots $r$ of $q$ with $|r| < 1$: steady precessions with the rate $w$ in Larmor's frame",
-        tex=r"\begin{aligned} q(r)=q'(r)=0&\iff M_3w=r(w^2+A),\quad h-\frac{M_3^2}{I}-b^2-Ar^2=w^2(1-r^2),\\ w&="
+        says=r"The double roots $\nu_0$ of $q$ with $|\nu_0| < 1$: steady precessions with the rate $w$ in Larmor's "
+        "frame",
+        tex=r"\begin{aligned} q(\nu_0)=q'(\nu_0)=0&\iff M_3w=\nu_0(w^2+A),\quad 2H-\frac{M_3^2}{I}-b^2-A\nu_0^2"
+        r"=w^2(1-\nu_0^2),\\ w&="
         r"\frac{p-"
-        r"M_3r}{1-r^2}=k+b,\qquad r=\hat B_3 \end{aligned}",
+        r"M_3\nu_0}{1-\nu_0^2}=k+b,\qquad \nu_0=\hat B_3 \end{aligned}",
         assumptions=(
             _BODY,
             _LETTERS,
@@ -32,19 +37,21 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="Nutation frequency of a steady precession: a square and a bound, for every $I$ and both signs of $r$",
-        tex=r"-\tfrac12q''(r)=w^2-A(3r^2-1)+\frac{A^2r^2}{w^2}=\left(w\mp\frac{Ar}{w}\right)^2+A(1\mp r)(1\pm3r)",
-        assumptions=(_BODY, _LETTERS, "$r$, $w$ as in @theorem-steady, $w$ differs from 0"),
+        says=r"Nutation frequency of a steady precession: a square and a bound, for every $I$ and both signs of "
+        r"$\nu_0$",
+        tex=r"\nu_n^2=-\tfrac12q''(\nu_0)=w^2-A(3\nu_0^2-1)+\frac{A^2\nu_0^2}{w^2}=\left(w\mp\frac{A\nu_0}{w}\right)^2"
+        r"+A(1\mp\nu_0)(1\pm3\nu_0)",
+        assumptions=(_BODY, _LETTERS, r"$\nu_0$, $w$ as in @theorem-steady, $w$ differs from 0"),
     ),
     Equation(
         label="theorem-companion-range",
         number=None,
         section="Atlas",
         kind="theorem",
-        says=r"The other two roots of $q$ beside a double root $r$: real exactly if $r^2 \le z \le 1$",
-        tex=r"q=A(\nu-r)^2(\nu-e_+)(\nu-e_-),\qquad e_\pm=-r\pm\sqrt{\frac{(1-z)(z-r^2)}{z}},\qquad z="
+        says=r"The other two roots of $q$ beside a double root $\nu_0$: real exactly if $\nu_0^2 \le z \le 1$",
+        tex=r"q=A(\nu-\nu_0)^2(\nu-e_+)(\nu-e_-),\qquad e_\pm=-\nu_0\pm\sqrt{\frac{(1-z)(z-\nu_0^2)}{z}},\qquad z="
         r"\frac{w^2}{(1-I)b^2}",
-        assumptions=(_BODY, _LETTERS, "$r$, $w$ as in @theorem-steady, $w$ differs from 0", "$0 < I < 1$"),
+        assumptions=(_BODY, _LETTERS, r"$\nu_0$, $w$ as in @theorem-steady, $w$ differs from 0", "$0 < I < 1$"),
     ),
     Equation(
         label="theorem-companion-roots",
@@ -52,10 +59,10 @@ EQUATIONS = (
         section="Atlas",
         kind="theorem",
         says=r"All these motions by two angles: $e = \cos (2 \delta)$ where the axis turns back, and $z = \cos "
-        r"(\gamma)^2$",
-        tex=r"r=-\cos\gamma\cos(2\delta-\gamma),\qquad M_3=w\sin\gamma\tan\gamma\cos(2\delta-\gamma),\qquad A=-"
+        r"(\kappa)^2$",
+        tex=r"\nu_0=-\cos\kappa\cos(2\delta-\kappa),\qquad M_3=w\sin\kappa\tan\kappa\cos(2\delta-\kappa),\qquad A=-"
         r"\frac{w^2}{"
-        r"\cos^2\gamma},\qquad c=A(r-e)(3r+e)",
+        r"\cos^2\kappa},\qquad c=A(\nu_0-e)(3\nu_0+e)",
         assumptions=_FAMILY,
     ),
     Equation(
@@ -66,11 +73,11 @@ EQUATIONS = (
         says="The second elementary family: the Cayley–Klein parameters are turned vectors, linear in $C$ and $S$",
         tex=r"\begin{aligned} \begin{pmatrix}\xi\\\eta\end{pmatrix}&\propto\begin{pmatrix}\exp(i\lambda_-t)\left["
         r"\cos\delta"
-        r"\,C-i\Lambda\cos(\delta-\gamma)\,S\right]\\ \exp(i\lambda_+t)\left[\sin\delta\,C+i\Lambda\sin(\delta-"
-        r"\gamma)\,S\right]"
-        r"\end{pmatrix},\qquad\Lambda=\frac{w(e-r)}{\cos\gamma},\\ C&=\cosh\frac{\sqrt ct}{2},\qquad S=\frac{1}{"
+        r"\,C-i\Lambda\cos(\delta-\kappa)\,S\right]\\ \exp(i\lambda_+t)\left[\sin\delta\,C+i\Lambda\sin(\delta-"
+        r"\kappa)\,S\right]"
+        r"\end{pmatrix},\qquad\Lambda=\frac{w(e-\nu_0)}{\cos\kappa},\\ C&=\cosh\frac{\sqrt ct}{2},\qquad S=\frac{1}{"
         r"\sqrt c}"
-        r"\sinh\frac{\sqrt ct}{2},\\ 2\lambda_\mp&=\pm(c_3-M_3)-b+\frac{p\pm M_3}{1\pm r} \end{aligned}",
+        r"\sinh\frac{\sqrt ct}{2},\\ 2\lambda_\mp&=\pm(c_3-M_3)-b+\frac{p\pm M_3}{1\pm \nu_0} \end{aligned}",
         assumptions=(*_FAMILY, "cosine and sine stand for cosh and sinh if $c < 0$, and $C = 1$, $S = t/2$ if $c = 0$"),
     ),
     Equation(
@@ -78,11 +85,11 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="The nutation of the second elementary family, for any quartic with a double root $r$ and a simple root "
-        "$e$",
-        tex=r"\nu=r+\frac{e-r}{1+\left(c-A(e-r)^2\right)S^2},\qquad C^2=1+cS^2",
+        says=r"The nutation of the second elementary family, for any quartic with a double root $\nu_0$ and a simple "
+        "root $e$",
+        tex=r"\nu=\nu_0+\frac{e-\nu_0}{1+\left(c-A(e-\nu_0)^2\right)S^2},\qquad C^2=1+cS^2",
         assumptions=(
-            r"$q = (\nu-r)^2 (c + d(\nu-r) + A(\nu-r)^2)$, zero at $\nu = e$",
+            r"$q = (\nu-\nu_0)^2 (c + d(\nu-\nu_0) + A(\nu-\nu_0)^2)$, zero at $\nu = e$",
             r"$t = 0$ where $\nu = e$, $S$ as in @theorem-companion",
         ),
     ),
@@ -92,8 +99,13 @@ EQUATIONS = (
         section="Atlas",
         kind="theorem",
         says="A triple root: the separatrix closes in rational functions of time",
-        tex=r"\nu=r-\frac{4r}{1+4(1-I)b^2r^2t^2},\qquad e=-3r,\qquad q=-(1-I)b^2(\nu-r)^3(\nu+3r)",
-        assumptions=(_BODY, _LETTERS, "$0 < I < 1$, $z$ at an end of the unstable band, $z^2 + (3r^2-1) z + r^2 = 0$"),
+        tex=r"\nu=\nu_0-\frac{4\nu_0}{1+4(1-I)b^2\nu_0^2t^2},\qquad e=-3\nu_0,\qquad q=-(1-I)b^2(\nu-\nu_0)^3"
+        r"(\nu+3\nu_0)",
+        assumptions=(
+            _BODY,
+            _LETTERS,
+            r"$0 < I < 1$, $z$ at an end of the unstable band, $z^2 + (3\nu_0^2-1) z + \nu_0^2 = 0$",
+        ),
     ),
     Equation(
         label="theorem-axis-stable",
@@ -127,7 +139,8 @@ EQUATIONS = (
             _BODY,
             _LETTERS,
             "$I > 1$, $D < 0$, $M_3$ differs from 0, $p = M_3$",
-            r"$e = \cos 2\delta$; $C$, $S$, $\lambda$ of @theorem-companion, $r = 1$, $\lambda_+ = (M_3 - c_3 - b)/2$",
+            r"$e = \cos 2\delta$; $C$, $S$, $\lambda$ of @theorem-companion, $\nu_0 = 1$",
+            r"$\lambda_+ = (M_3 - c_3 - b)/2$",
         ),
     ),
     Equation(
@@ -147,7 +160,7 @@ EQUATIONS = (
         kind="theorem",
         says="A disk at rest in Larmor's frame, $M_3 = 0$: a plane pendulum that tips over from the field's axis to "
         "the other",
-        tex=r"M_3=p=0,\quad h-b^2=A:\qquad\nu=-\tanh\sqrt At",
+        tex=r"M_3=p=0,\quad 2H-b^2=A:\qquad\nu=-\tanh\sqrt At",
         assumptions=(_BODY, _LETTERS, "$I > 1$"),
     ),
 )

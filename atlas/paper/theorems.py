@@ -46,16 +46,16 @@ EQUATIONS = (
         number=None,
         section="Atlas",
         kind="theorem",
-        says="Square of the nutation frequency along the hyperbola, $p$ being the cubic of @mf55",
+        says="Square of the nutation frequency along the hyperbola, $Q$ being the quartic of @theorem-quartic",
         tex=(
-            r"\begin{aligned} \nu_n^2=-p'(\omega_3)&={B'_2}^2\,\frac{(1+\tau^2)x^4+(1-I)(2\tau^2-1)x^2+\tau^2(1-I)^2}"
-            r"{x^2}\\ &=\kappa^2+(1-I)b^2(3\hat{B}_3^2-1)+(1-I)^2\frac{b^4\hat{B}_3^2}{\kappa^2} \end{aligned}"
+            r"\begin{aligned} \nu_n^2=-\tfrac12Q''(\omega_3)&={B'_2}^2\,\frac{(1+\tau^2)x^4+(1-I)(2\tau^2-1)x^2"
+            r"+\tau^2(1-I)^2}{x^2}\\ &=w^2+(1-I)b^2(3\hat{B}_3^2-1)+(1-I)^2\frac{b^4\hat{B}_3^2}{w^2} \end{aligned}"
         ),
         assumptions=(
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             "$\\omega_2$ differs from $-B'_2$",
-            "$\\tau=B'_3/B'_2$, $x=(\\omega_2+B'_2)/B'_2$, $b=|\\mathbf{B}'|$, $\\kappa=k+b$",
+            "$\\tau=B'_3/B'_2$, $x=(\\omega_2+B'_2)/B'_2$, $b=|\\mathbf{B}'|$, $w=k+b$",
         ),
     ),
     Equation(
@@ -65,12 +65,12 @@ EQUATIONS = (
         kind="theorem",
         says=(
             "The quartic about an elementary motion: $\\omega_3$ is a double root of it, and a triple one where "
-            "$p'$ vanishes"
+            "$\\nu_n$ vanishes"
         ),
-        tex=r"Q(\omega_3+v)=v^2\left[p'(\omega_3)+(1-I)\,v\,(4B'_3-v)\right]",
+        tex=r"Q(\omega_3+v)=v^2\left[-\nu_n^2+(1-I)\,v\,(4B'_3-v)\right],\qquad\nu_n^2=-\tfrac12Q''(\omega_3)",
         assumptions=(
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            "an elementary motion: $\\omega_1=0$ and $p(\\omega_3)=0$",
+            "an elementary motion: $\\omega_1=0$ and @mf58.1",
         ),
     ),
     Equation(
@@ -120,7 +120,7 @@ EQUATIONS = (
             " constants leaves the elementary one by $4B'_3$"
         ),
         tex=(
-            r"p'(\omega_3)=0:\qquad Q(\omega_3+v)=(1-I)\,v^3\,(4B'_3-v),\qquad "
+            r"\nu_n=0:\qquad Q(\omega_3+v)=(1-I)\,v^3\,(4B'_3-v),\qquad "
             r"\Omega_3(t)=\omega_3+\frac{4B'_3}{1+4(1-I){B'_3}^2t^2}"
         ),
         assumptions=(

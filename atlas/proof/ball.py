@@ -172,6 +172,7 @@ _RIGHT = (
     " [-k3*sin(gamma*t), k2^2 + k3^2*cos(gamma*t), k2*k3*(1 - cos(gamma*t))],"
     " [k2*sin(gamma*t), k2*k3*(1 - cos(gamma*t)), k3^2 + k2^2*cos(gamma*t)]]"
 )
+_STEADY = "[[cos(m3/I0*t), -sin(m3/I0*t), 0], [sin(m3/I0*t), cos(m3/I0*t), 0], [0, 0, 1]]"
 _LINEAR = "d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one"
 
 
@@ -191,6 +192,22 @@ def body_flow_model() -> Model:
     K = vector("K")
     flow = dict(zip([*Omega, *K], [*(-cross(K, Omega)), *(-cross(Omega, K))], strict=True))
     return Model({"Omega": Omega, "K": K}, flow=flow)
+
+
+@cache
+def any_momentum_model() -> Model:
+    """Any vector m with any rate; Omega = R^T m/I0 with R of mf30."""
+    m, rate = vector("m"), vector("w")
+    spin = R.T * m / I0
+    letters = {"Omega": spin, "dOmega": ((R * hat(spin)).T * m + R.T * rate) / I0, "m": m, "dm": rate}
+    return Model({**letters, "R": R, "Bf": Bf, "mu": mu, "c": c, "I0": I0}, ROTATION, units=units.BALL)
+
+
+@cache
+def along_model() -> Model:
+    """Model gamma of text-ball-parallel, solved for m3."""
+    letters = {"alpha": alpha, "gamma": gamma, "t": t, "m3": I0 * (gamma - alpha), "I0": I0, "rod": rodrigues}
+    return Model(letters, ANGLES, phases={alpha * t: (ca, sa), gamma * t: (cg, sg)}, units=units.BALL)
 
 
 @cache
@@ -258,6 +275,13 @@ TRIALS = (
         note=r"It is so at each instant, but $R^T \mathbf{B}$ moves as well. What stands still in the body is "
         r"$\boldsymbol{\Omega} + \mathbf{K}$, and the components turn about that with the frequency $\gamma$ of "
         "@mf39, not with Larmor's.",
+    ),
+    Trial(
+        label="text-ball-equivalent",
+        printed="dOmega + mu/(2*c)*cross(T(R)*Bf,Omega) = 1/I0*T(R)*(dm + mu/(2*c)*cross(Bf,m))",
+        model=any_momentum_model,
+        follows=r"$\boldsymbol{\Omega} = R^T \mathbf{m}/I_0$ differentiated by @mf30, for any rate of $\mathbf{m}$",
+        note="The left side vanishes if and only if the right one does.",
     ),
     Trial(
         label="text-linear-poisson",
@@ -356,10 +380,18 @@ TRIALS = (
     ),
     Trial(
         label="mf40",
-        printed="R = [[cos(m3/I0*t), -sin(m3/I0*t), 0], [sin(m3/I0*t), cos(m3/I0*t), 0], [0, 0, 1]]",
+        printed=f"R = {_STEADY}",
         model=parallel_motion_model,
-        follows=r"@mf34 by substitution with $\mathbf{m} = (0, 0, m_3)$",
+        follows=r"@mf34 by substitution with $\mathbf{m} = (0, 0, m_3)$, and @text-ball-two-rotations with the "
+        "constants of @text-ball-parallel",
         defines=("R",),
         solves=_LINEAR,
+        also=(
+            Part(
+                line="rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, 0, -1],cos(gamma*t),-sin(gamma*t))"
+                f" = {_STEADY}",
+                model=along_model,
+            ),
+        ),
     ),
 )

@@ -32,7 +32,7 @@ TRIALS = (
         follows="@mf77 and @mf84",
         defines=("kr",),
         note="The first relation is linear in $k$: one root, none where the coefficient of $k$ is 0. By the last one "
-        "$b + k_r$ is not 0 if $I$ differs from 1; $k_r$ is 0 for the second $r$ that is left out.",
+        r"$b + k_\varrho$ is not 0 if $I$ differs from 1; $k_\varrho$ is 0 for the second $\varrho$ that is left out.",
     ),
     Trial(
         label="theorem-closed-free",

@@ -120,6 +120,8 @@ def _understand(
                 where = pairs + [entry for entry in where if entry[0] not in dict(pairs)]
             letters[name] = value
             if len(tree.comparators) > 1:
+                if any(getattr(side, "id", None) == name for side in tree.comparators):
+                    raise NoMeaningError(f"{name} is compared with itself")
                 tree.left, tree.ops, tree.comparators = tree.comparators[0], tree.ops[1:], tree.comparators[1:]
                 kept.append(tree)
         else:
@@ -136,19 +138,15 @@ def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], lin
     """
     if not relations:
         return "nothing in it is checked"
-    trees = parse(line)
     named = {name for relation in relations for name in relation.letters}
-    for tree in reversed(trees):  # a letter may be used in the definition of another one
-        if getattr(tree.left, "id", None) in named & set(defines):
-            named |= {name for side in tree.comparators for name in letters_of(side)}
-    values = [side for relation in relations for side in (*relation.left, *relation.right)]
-    reached = _reached(values, model)
-    for tree in trees:
+    reached = _reached([side for relation in relations for side in (*relation.left, *relation.right)], model)
+    named |= {str(symbol) for symbol, _ in model.where if symbol in reached}
+    for tree in reversed(parse(line)):  # a letter may be used in the definition of another one
         name = getattr(tree.left, "id", None)
         if name in defines and name not in named:
-            own = [symbol for symbol, _ in model.where if str(symbol) == name]
-            if not any(symbol in reached for symbol in own):
-                return f"nothing that is checked depends on {name}"
+            return f"nothing that is checked depends on {name}"
+        if name in defines:
+            named |= {name for side in tree.comparators for name in letters_of(side)}
     return ""
 
 

@@ -5,7 +5,7 @@ from functools import cache
 import sympy
 
 from atlas.proof import units
-from atlas.proof.model import Model, Value, cross, hat, matrix, rotation, rotation_symbols, symmetric, vector
+from atlas.proof.model import Model, Value, cross, dot, hat, matrix, rotation, rotation_symbols, symmetric, vector
 from atlas.proof.trial import Part, Trial
 
 (R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
@@ -103,6 +103,19 @@ def diagonal_model() -> Model:
     letters |= {f"I{n + 1}": tensor[n, n] for n in range(3)}
     letters |= {f"K{n + 1}": K[n] for n in range(3)} | {f"Omega{n + 1}": Omega[n] for n in range(3)}
     return Model(letters)
+
+
+@cache
+def axes_model() -> Model:
+    """Three masses on the principal axes, turned by R: their inertia tensor in the laboratory."""
+    masses, places = sympy.symbols("m1:4", positive=True), sympy.symbols("x1:4", positive=True)
+    turned = [R.col(n) * x for n, x in enumerate(places)]
+    tensor = sum((m * (dot(x, x) * sympy.eye(3) - x * x.T) for m, x in zip(masses, turned, strict=True)), R * 0)
+    moments = [m * x**2 for m, x in zip(masses, places, strict=True)]
+    letters = {"R": R, "turned": tensor, "I": sympy.diag(*(sum(moments) - moment for moment in moments))}
+    letters |= {f"R{n + 1}": R.col(n) for n in range(3)} | {f"e{n + 1}": sympy.eye(3).col(n) for n in range(3)}
+    letters |= {f"I{n + 1}": letters["I"][n, n] for n in range(3)}
+    return Model(letters, ROTATION, start=dict(zip(R, sympy.eye(3), strict=True)))
 
 
 @cache
@@ -244,6 +257,13 @@ TRIALS = (
         printed="2*g1 = I2 + I3 - I1; 2*g2 = I3 + I1 - I2; 2*g3 = I1 + I2 - I3",
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$",
+    ),
+    Trial(
+        label="text-inertia-axes",
+        printed="turned = R*I*T(R); turned*R1 = I1*R1; turned*R2 = I2*R2; turned*R3 = I3*R3;"
+        " at0(R1) = e1; at0(R2) = e2; at0(R3) = e3",
+        model=axes_model,
+        follows="the inertia tensor of three masses on the principal axes that are turned by $R$, and $R(0) = 1$",
     ),
     Trial(
         label="text-orthogonal",

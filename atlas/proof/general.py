@@ -122,7 +122,7 @@ TRIALS = (
         printed="q = (1 - nu^2)*(g - A*nu^2) - (p - M3*nu)^2 = w^2; at(q,-1) = -(p + M3)^2; at(q,1) = -(p - M3)^2;"
         " 1/2*(s*(p + M3) + p + M3)/(s*(p + M3)) = 1/2*(1 + s); 1/2*(-s*(p - M3) + p - M3)/(-s*(p - M3)) = 1/2*(1 - s)",
         model=lambda: tuple(curve_model(s) for s in (1, -1)),
-        follows="@theorem-top, with $A = (I - 1) b^2$ and $g = h - M_3^2/I - b^2$",
+        follows="@theorem-top, with $A = (I - 1) b^2$ and $g = 2 H - M_3^2/I - b^2$",
         defines=("q",),
         note=r"At $\nu = -1$, with $w_0 = i s (p + M_3)$ the rate of $\nu$ and $s = \pm 1$, the logarithmic rate of "
         r"$\xi$ is $[w_0 + i(p + M_3)]/(2 w_0 (t - z))$: residue 1 or 0.",

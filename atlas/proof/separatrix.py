@@ -139,11 +139,11 @@ TRIALS = (
         label="theorem-steady",
         printed=f"q = {_q}; at(q,r) = 0; slope(q,r) = 2*(1 - r^2)*(M3*w - r*(w^2 + A)); G - A*r^2 = w^2*(1 - r^2)",
         model=steady_model,
-        follows="@theorem-top: $q(r) = 0$ is the last equation with $w = (p - M_3 r)/(1 - r^2)$, and $q'$ then has the "
-        "factor",
+        follows=r"@theorem-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, and "
+        "$q'$ then has the factor",
         defines=("q",),
-        note="With $|r| < 1$ the slope vanishes exactly if $M_3 w = r (w^2 + A)$. See @theorem-nutation for $k$ and "
-        r"$\hat{B}_3$.",
+        note=r"With $|\nu_0| < 1$ the slope vanishes exactly if $M_3 w = \nu_0 (w^2 + A)$. See @theorem-nutation for "
+        r"$k$ and $\hat{B}_3$.",
     ),
     Trial(
         label="theorem-nutation",
@@ -152,10 +152,11 @@ TRIALS = (
         " = (w + A*r/w)^2 + A*(1 + r)*(1 - 3*r); momentum*(k + b) = hB3*((k + b)^2 + (I - 1)*b^2)",
         model=precession_model,
         follows="@theorem-steady; the last relation is @mf76 in these letters, so that $w = k + b$ "
-        r"and $r = \hat{B}_3$",
+        r"and $\nu_0 = \hat{B}_3$",
         defines=("q",),
-        note="For $I > 1$ take the upper sign with $|r|$: the bound $A (1 - r)(1 + 3r)$ is met at $w^2 = A |r|$. For "
-        "$I < 1$ take the sign that makes the last term $-|A|(1 + |r|)(1 - 3 |r|)$: stable if $|r| > 1/3$.",
+        note=r"For $I > 1$ take the upper sign with $|\nu_0|$: the bound $A (1 - \nu_0)(1 + 3\nu_0)$ is met at "
+        r"$w^2 = A |\nu_0|$. For $I < 1$ take the sign that makes the last term $-|A|(1 + |\nu_0|)(1 - 3 |\nu_0|)$: "
+        r"stable if $|\nu_0| > 1/3$.",
     ),
     Trial(
         label="theorem-companion-range",
@@ -168,10 +169,10 @@ TRIALS = (
         printed="(1 + g^2)*r = -x; M3 = w*g^2/(1 + g^2)*x; -A = w^2*(1 + g^2); c = A*(r - e)*(3*r + e);"
         f" {_q} = A*(nu - r)^2*(nu - e)*(nu + 2*r + e)",
         model=family_model,
-        follows=r"@theorem-companion-range with $z = 1/(1 + g^2)$, $g = \tan\gamma$, $x = \cos (2 \delta - "
-        r"\gamma)/\cos\gamma$",
-        note="In @theorem-companion-range $(e + r)^2 = (1-z)(z-r^2)/z$ is $(e + r/z)^2 z = (1-z)(1-e^2)$, met by any "
-        "two angles.",
+        follows=r"@theorem-companion-range with $z = 1/(1 + g^2)$, $g = \tan\kappa$, $x = \cos (2 \delta - "
+        r"\kappa)/\cos\kappa$",
+        note=r"In @theorem-companion-range $(e + \nu_0)^2 = (1-z)(z-\nu_0^2)/z$ is $(e + \nu_0/z)^2 z = (1-z)(1-e^2)$, "
+        "met by any two angles.",
     ),
     Trial(
         label="theorem-companion",
@@ -196,7 +197,7 @@ TRIALS = (
         label="theorem-companion-triple",
         printed="x = r - 4*r/(1 + 4*a*r^2*t^2)",
         model=triple_model,
-        follows="@theorem-companion-nutation with $c = 0$, $e = -3r$",
+        follows=r"@theorem-companion-nutation with $c = 0$, $e = -3\nu_0$",
         defines=("x",),
         solves="d(x)^2 = -a*(x - r)^3*(x + 3*r)",
     ),
@@ -227,7 +228,7 @@ TRIALS = (
         printed="d(nu)^2 = 4*dx^2/(1 + x)^4;"
         " (1 - nu^2)*(G - A*nu^2) - (p - M3*nu)^2 = 4*x*(s1^2*(1 + x)^2 + x*(4*A - M3^2*(1 + x)^2))/(1 + x)^4",
         model=pushed_model,
-        follows="@theorem-top with $p = M_3$ and $h - M_3^2/I - b^2 = s_1^2 + A$ at $t = 0$",
+        follows="@theorem-top with $p = M_3$ and $2 H - M_3^2/I - b^2 = s_1^2 + A$ at $t = 0$",
     ),
     Trial(
         label="theorem-axis-pendulum",

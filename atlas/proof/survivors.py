@@ -63,7 +63,10 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
         ("S = ", "Only the square of $S$ occurs."),
         ("", "What is positive or not negative stays so with this change."),
     ),
-    "theorem-band": (("", "What is positive stays so with this change."),),
+    "theorem-band": (
+        ("<= 1", "What is not positive is below 1 as well."),
+        ("", "What is positive stays so with this change."),
+    ),
     "theorem-band-ends": (("", "All three factors stay positive with this change, and so does their product."),),
     "theorem-equatorial-field": (("", r"With $B'_3 = 0$ the component $\hat{B}_2$ is 1."),),
     "theorem-bracket": (

@@ -13,6 +13,7 @@ from atlas.proof.trial import Part, Trial
 
 tau, x = sympy.symbols("tau x", real=True)
 r, z, excess, T2 = sympy.symbols("r z e T2", positive=True)
+ROOTS = 1 / (1 + r), sympy.Integer(0)  # of 1 - 8 tau^2: any between 0 and 1, and 0
 
 
 @cache
@@ -82,9 +83,21 @@ def _band(t2: Value, **letters: Value) -> Model:
 @cache
 def band_model() -> tuple[Model, Model]:
     """8 tau^2 = 1 - root^2 with 0 < root < 1, and with root = 0."""
-    roots = 1 / (1 + r), sympy.Integer(0)
-    first, second = (_band((1 - root**2) / 8, root=root) for root in roots)
+    first, second = (_band((1 - root**2) / 8, root=root) for root in ROOTS)
     return first, second
+
+
+@cache
+def places_model(where: str) -> tuple[Model, ...]:
+    """Model x^2 within the band, or outside, below and above it."""
+    share, cases = sympy.Symbol("share", positive=True), []
+    for root in ROOTS:
+        t2, long = (1 - root**2) / 8, 1 - 1 / (1 + excess)
+        low, high = (long * (1 - 2 * t2 + side * root) / (2 * (1 + t2)) for side in (-1, 1))
+        places = [(low + share * high) / (1 + share)] if where == "within" else [low / (1 + share), high + share]
+        slopes = [_slope_in_squares().subs({T2: t2, I: 1 - long, z: place}) for place in places]
+        cases += [Model({f"minus_slope_{where}": slope}) for slope in slopes]
+    return tuple(cases)
 
 
 @cache
@@ -250,11 +263,14 @@ TRIALS = (
         printed=f"at0(d(Omega3)) = omega1*B2; at0(d2(Omega3)) = {_CONDITION}",
         model=state_model,
         follows=r"@mf46 and @mf47 at $t = 0$, and the cubic at $\omega_3$",
-        also=(Part(line=f"p = {_CONDITION}", model=cubic_model),),
-        note=r"A constant $\Omega_3$ has both rates zero. Conversely, if $\omega_1 B'_2 = 0$ and @mf58.1 holds, the "
-        r"constant $\omega_3$ solves @mf55 with the right rate at the start, and @mf55 has only one such "
-        "solution. With $B'_2 > 0$ these points are the hyperbola @mf72 and, for $I = 1$, the line of "
-        "@theorem-ball-line.",
+        also=(
+            Part(line=f"p = {_CONDITION}", model=cubic_model),
+            Part(line="d(d2(Omega3)) = (a1 + 2*a2*Omega3 + 3*a3*Omega3^2)*d(Omega3)", model=state_model),
+        ),
+        note=r"A constant $\Omega_3$ has both rates zero. Conversely, the two rates obey linear equations along every "
+        r"motion: that of the first is the second, that of the second the first times the slope of the cubic @mf55. "
+        "So if both are zero at the start, they stay zero. With $B'_2 > 0$ these points are the hyperbola @mf72 and, "
+        "for $I = 1$, the line of @theorem-ball-line.",
     ),
     Trial(
         label="theorem-stability",
@@ -262,8 +278,8 @@ TRIALS = (
         " = kappa2 + (1 - I)*b2*(3*hB3s - 1) + (1 - I)^2*b2^2*hB3s/kappa2",
         model=stability_model,
         follows="@mf56 as corrected, on the hyperbola @mf76",
-        note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\varepsilon'' = p'(\omega_3) \varepsilon$ to first order. "
-        r"Here $\kappa = k + b$.",
+        note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\varepsilon'' = -\nu_n^2 \varepsilon$ to first order. By "
+        "@theorem-quartic the second derivative of $Q$ is twice the slope of the cubic @mf55.",
     ),
     Trial(
         label="theorem-root",
@@ -271,12 +287,12 @@ TRIALS = (
         " - ((omega3 + v)^2 - (2 - I)*c3*(omega3 + v) + c5)^2 = v^2*(slope + (1 - I)*v*(4*B3 - v))",
         model=root_model,
         follows=r"@theorem-quartic at $\omega_3 + v$, for every elementary motion",
-        note=r"Where $p'(\omega_3) < 0$ there is no other real $v$ near 0 with $Q \ge 0$: the motion is stable. Where "
-        r"$p'(\omega_3) > 0$ it is not. Where $p'(\omega_3) = 0$ the sign of the next term decides.",
+        note=r"Where $\nu_n^2 > 0$ there is no other real $v$ near 0 with $Q \ge 0$: the motion is stable. Where "
+        r"$\nu_n^2 < 0$ it is not. Where $\nu_n = 0$ the sign of the next term decides.",
     ),
     Trial(
         label="theorem-stable-short",
-        printed="minus_slope = X^2 + (I - 1)*B2^2 + S^2; S = tau*(X^2 - (I - 1)*B2^2)/X",
+        printed="minus_slope - (I - 1)*B2^2 = X^2 + S^2; S = tau*(X^2 - (I - 1)*B2^2)/X",
         model=stability_model,
         follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
         defines=("S",),
@@ -290,6 +306,8 @@ TRIALS = (
         defines=("ym", "yp"),
         solves="ym > 0; yp >= ym",
         also=(
+            Part(line="minus_slope_within <= 0", model=lambda: places_model("within")),
+            Part(line="minus_slope_outside > 0", model=lambda: places_model("outside")),
             Part(
                 line="minus_slope = B2^2*(S^2 + (1 - I)^2*gain)/(4*(1 + t2)*z); S = 2*(1 + t2)*z + (1 - I)*(2*t2 - 1);"
                 " 8*t2 = 1 + gain",
@@ -298,14 +316,15 @@ TRIALS = (
             ),
             Part(line="1 - I > 0; gain > 0", model=signs_model),
         ),
-        note=r"Not positive exactly between the two roots and at them; for $8 \tau^2 > 1$ positive everywhere. Inside "
-        "the band the motion is unstable by @theorem-root, at its ends by @theorem-band-ends.",
+        note=r"Positive below and above the two roots, not positive between them and at them; for $8 \tau^2 > 1$ "
+        "positive everywhere. Inside the band the motion is unstable by @theorem-root, at its ends by "
+        "@theorem-band-ends.",
     ),
     Trial(
         label="theorem-band-ends",
         printed="v = 4*B3/(1 + 4*(1 - I)*B3^2*t^2)",
         model=leaving_model,
-        follows=r"@theorem-root with $p'(\omega_3) = 0$: $\omega_3$ is a triple root of $Q$",
+        follows=r"@theorem-root with $\nu_n = 0$: $\omega_3$ is a triple root of $Q$",
         defines=("v",),
         solves="d(v)^2 = (1 - I)*v^3*(4*B3 - v); d2(v) = (1 - I)*v^2*(6*B3 - 2*v); at0(v) = 4*B3",
         also=(Part(line="(1 - I)*v^3*(4*B3 - v) > 0", model=between_model),),
@@ -319,7 +338,7 @@ TRIALS = (
         model=lambda: equatorial_model("upright"),
         follows=r"@mf56 as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
         also=(Part(line="minus_slope = X^2 - (1 - I)*B2^2", model=lambda: equatorial_model("level")),),
-        note=r"With $B'_3 = 0$ the root of $Q$ that @theorem-root has where $p'(\omega_3) = 0$ is fourfold, and for "
+        note=r"With $B'_3 = 0$ the root of $Q$ that @theorem-root has where $\nu_n = 0$ is fourfold, and for "
         "$I < 1$ the quartic $Q$ is negative beside it: there the ends belong to the stable motions.",
     ),
     Trial(
@@ -392,7 +411,7 @@ TRIALS = (
         printed="d(ca)/ca = 1/2*d(nu)/(1 + nu); 1/2*(psi1 + chi1) = 1/2*(P/b/(1 + nu) + u);"
         " d(sb)/sb = -1/2*d(nu)/(1 - nu); 1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) - u)",
         model=angles_model,
-        follows=r"$\alpha = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\beta = \sin (\theta/2) \exp (i (\psi - "
+        follows=r"$\xi = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\eta = \sin (\theta/2) \exp (i (\psi - "
         r"\chi)/2)$: moduli and arguments",
     ),
 )

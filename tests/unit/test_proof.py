@@ -239,6 +239,8 @@ def _wrong(label: str, **changes: str) -> run.Verdict:
         ("mf91", "2*b + kB", "b + kB"),
         ("mf38", "-k2*sin(gamma*t)*cos(alpha*t)", "k2*sin(gamma*t)*cos(alpha*t)"),
         ("theorem-stability", "2*tau^2 - 1", "tau^2 - 1"),
+        ("text-ball-equivalent", "1/I0*T(R)", "1/I0*R"),
+        ("text-inertia-axes", "turned*R2 = I2*R2", "turned*R2 = I3*R2"),
     ],
 )
 def test_a_broken_entry_turns_the_run_red(label: str, right: str, wrong: str) -> None:
@@ -306,6 +308,42 @@ def test_a_letter_that_is_defined_twice_is_refused() -> None:
     found = decide("a2 = 17*I; a2 = 2*I; a2 = 2*I", Model(letters), defines=("a2",))
     assert found.decision == "refuted"
     assert "defined twice" in found.counterexample["reason"]
+
+
+def test_a_letter_that_is_compared_with_itself_is_refused() -> None:
+    """A definition is not checked by the letter that it defines; it may be by a function of that."""
+    x = sympy.Symbol("x", real=True)
+    found = decide("a2 = 17 = a2", Model({"x": x}), defines=("a2",))
+    assert found.decision == "refuted"
+    assert "with itself" in found.counterexample["reason"]
+    assert decide("a2 = x - 1 = abs(a2)", Model({"x": 1 + x**2}), defines=("a2",)).decision != "refuted"
+
+
+def test_a_definition_may_be_used_through_another_letter() -> None:
+    """What is checked depends on z, z on a, and nothing on b."""
+    z, s = sympy.Symbol("z", positive=True), sympy.Symbol("s", positive=True)
+    model = Model({"z": z, "s": s, "square": z**2})
+    assert decide("a = 2*s; z = a; square = 4*s^2", model, defines=("a", "z")).decision == "proved"
+    found = decide("a = 2*s; b = s; z = a; square = 4*s^2", model, defines=("a", "b", "z"))
+    assert found.decision == "undecided"
+    assert found.method.endswith(" b")
+
+
+@pytest.mark.parametrize(
+    ("label", "right", "wrong"),
+    [
+        ("theorem-band", "within <= 0", "within > 0"),
+        ("theorem-band", "outside > 0", "outside < 0"),
+        ("theorem-points", "3*a3*Omega3^2", "2*a3*Omega3^2"),
+        ("mf40", "[0, 0, -1]", "[0, 0, 1]"),
+    ],
+)
+def test_the_other_half_of_a_theorem_is_tried_too(label: str, right: str, wrong: str) -> None:
+    """The sign on both sides of the band's ends, the converse about a constant Omega3, what mf38 reduces to."""
+    case = trial(label)
+    assert [part.line.count(right) for part in case.also].count(1) == 1
+    parts = tuple(replace(part, line=part.line.replace(right, wrong)) for part in case.also)
+    assert replace(case, also=parts).of_printed().decision == "refuted"
 
 
 def test_a_further_line_must_hold_too() -> None:
