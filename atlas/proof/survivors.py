@@ -17,7 +17,6 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
     "text-multipliers-symmetric": (("", "A matrix is equal to itself."),),
     "The.1": (("", _SYMMETRIC),),
     "Aff100": (("", _SYMMETRIC),),
-    "text-multipliers-algebraic": (("", r"Without the transpose it says only what $\lambda$ stands for."),),
     "text-nondegenerate": (("", "All three moments are positive, and so is the product of any three of them."),),
     "mf22": (("", _SYMMETRIC),),
     "text-inertia-tensor": (("", _SYMMETRIC),),

@@ -278,7 +278,7 @@ TRIALS = (
         " = kappa2 + (1 - I)*b2*(3*hB3s - 1) + (1 - I)^2*b2^2*hB3s/kappa2",
         model=stability_model,
         follows="@mf56 as corrected, on the hyperbola @mf76",
-        note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\varepsilon'' = -\nu_n^2 \varepsilon$ to first order. By "
+        note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\ddot\varepsilon = -\nu_n^2 \varepsilon$ to first order. By "
         "@theorem-quartic the second derivative of $Q$ is twice the slope of the cubic @mf55.",
     ),
     Trial(
