@@ -124,7 +124,7 @@ $(VENV)/.ready: pyproject.toml requirements.lock
 	@ln -sfn ../../../../atlas "$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/atlas"
 	@printf '#!/bin/sh\n# The program of the checkout in whose .venv this stands.\nexec "$$(dirname -- "$$(readlink -f -- "$$0")")/python" -P -m atlas "$$@"\n' >$(ATLAS) && chmod +x $(ATLAS)
 	@echo '  GL libraries for shaded figures' && $(BIN)/python -m atlas.draw.gl --install
-	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -c 'import fontTools.subset, fontTools.ttLib.tables.otTables, matplotlib.figure, matplotlib._constrained_layout, matplotlib.backends.backend_pdf, matplotlib.backends.backend_svg, pyvista'   # writes their bytecode, without which each worker compiles them for 1.5 s
+	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -c 'from atlas.places import settle_matplotlib; settle_matplotlib(); import fontTools.subset, fontTools.ttLib.tables.otTables, matplotlib.figure, matplotlib._constrained_layout, matplotlib.backends.backend_pdf, matplotlib.backends.backend_svg, pyvista'   # writes their bytecode, without which each worker compiles them for 1.5 s
 	@echo '$(CURDIR)' >$@
 
 $(VENV)/.bench: requirements-bench.lock | setup

@@ -135,7 +135,7 @@ def _answer_file() -> Path | None:
     for place in map(Path, ("/etc/ld.so.cache", "/dev/dri", *DRIVERS)):
         state = place.stat() if place.exists() else None
         seen.append(f"{place} {(state.st_mtime_ns, state.st_size) if state else None}")
-    key = hashlib.sha256("\n".join(seen).encode()).hexdigest()[:20]
+    key = hashlib.sha256(os.fsencode("\n".join(seen))).hexdigest()[:20]
     folder = own_folder()
     return folder / f"gl-{key}.json" if folder else None
 

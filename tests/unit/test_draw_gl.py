@@ -53,6 +53,14 @@ def test_a_no_is_remembered_until_libraries_are_installed(fresh: Path, monkeypat
     assert os.environ[gl.VARIABLE] == gl.WINDOWS["egl"]
 
 
+def test_a_folder_whose_name_is_no_text_is_remembered_like_any(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A name in Latin-1 where all else is UTF-8, or any letter with accents in a plain locale."""
+    monkeypatch.setattr(sys, "prefix", os.fsdecode(b"/tmp/\xe9"))
+    monkeypatch.setattr(gl, "_draws", lambda name: name == "egl")
+    assert gl.library() == "egl"
+    assert len(list((fresh / "atlas").iterdir())) == 1
+
+
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"library": "glide"}', '{"library": null}'])
 def test_a_damaged_note_is_asked_again(fresh: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> None:
     """Half a note, or one that makes no sense, is as good as none."""
