@@ -96,6 +96,19 @@ def ran(words: list[str]) -> tuple[int, str, str]:
         return status, out.getvalue().decode(), err.getvalue().decode()
 
 
+def test_a_command_that_never_ends_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The program turns errors into lines, but not this one."""
+
+    def never(**_: Any) -> None:
+        while True:
+            pass
+
+    monkeypatch.setattr("values.SECONDS", 0.05)
+    monkeypatch.setattr(COMMANDS["list"], "callback", never)
+    with pytest.raises(AssertionError, match="ran for more than"):
+        ran(["list"])
+
+
 def judged(words: list[str]) -> None:
     """Hold an answer against what every answer is."""
     status, out, err = ran(words)
