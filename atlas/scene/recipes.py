@@ -138,7 +138,7 @@ def _source(name: str) -> Path:
     """Where a recipe is written."""
     known = names()
     if name not in known:
-        raise _unknown("figure", name, known, "figures/")
+        raise _unknown("figure", name, known, str(folder("figures")))
     return folder("figures") / f"{name}.py"
 
 
