@@ -7,7 +7,6 @@ import json
 import math
 import re
 from collections import Counter, defaultdict
-from collections.abc import Sequence
 from statistics import median
 
 from atlas.build.reference import described
@@ -140,16 +139,15 @@ def _bench() -> dict[str, Data]:
 
     stored = results.read()
     line = f"Measured on {tables.machine_line(stored)}."
-    found = {}
-    for table in tables.tables(stored):
-        columns = [_column(values) for values in zip(*table.rows, strict=True)]
-        found[table.title] = Data(
+    return {
+        table.title: Data(
             tuple(map(_head, table.heading)),
-            tuple(zip(*columns, strict=True)),
+            tuple(tuple(map(_cell, row)) for row in table.rows),
             f"{table.title}.",
             (*table.notes, line),
         )
-    return found
+        for table in tables.tables(stored)
+    }
 
 
 def _stress() -> dict[str, Data]:
@@ -224,14 +222,11 @@ def _ulps(worst: float) -> Number:
     return Number(f"{worst:.3f}" if worst < HUGE else f"{worst:.1e}")
 
 
-def _column(texts: Sequence[str]) -> list[str | Number]:
-    """Return the cells of a column, numbers where they are such."""
-    return [_value(float(text), text) if _NUMBER.fullmatch(text) else _words(text) for text in texts]
-
-
-def _value(value: float, text: str) -> Number:
-    """Return a number as it stands, a small one in two digits with its power of ten."""
-    return Number(f"{value:.1e}" if 0 < abs(value) < SMALL else text)
+def _cell(text: str) -> str | Number:
+    """Return a number as it stands, a small one in two digits with its power of ten; words as words."""
+    if not _NUMBER.fullmatch(text):
+        return _words(text)
+    return Number(f"{float(text):.1e}" if 0 < abs(float(text)) < SMALL else text)
 
 
 def _head(text: str) -> Column:

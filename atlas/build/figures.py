@@ -1,6 +1,5 @@
 """Figures: what each depends on, taken from the cache or drawn by worker processes side by side."""
 
-import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, as_completed
@@ -14,6 +13,7 @@ from atlas.build import cache as caches
 from atlas.build import worker
 from atlas.build.cache import Cache, digest
 from atlas.build.sources import PACKAGE, Sources
+from atlas.core.threads import processors
 from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import folder, settle_matplotlib
@@ -165,7 +165,7 @@ def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[
 
 def cores() -> int:
     """Return how many workers there are when the user does not say: one a core, within reason."""
-    return min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, MOST)
+    return min(processors(), MOST)
 
 
 @dataclass(frozen=True)
