@@ -125,7 +125,9 @@ class GeneralMotion(Motion[General]):
     - "separatrix": Omega3 tends to a double root of Q, hyperbolic functions; "separatrix, triple root": rational ones;
       "separatrix between B and -B": the axis turns over from one pole of the sphere to the other, once.
 
-    Which it is, is decided exactly; the entries of R join without a gap. The cost does not depend on t.
+    Which it is, is decided exactly; the entries of R join without a gap. The cost does not depend on t. Entries of R
+    are within 1.8e-15, twice what elementary motions promise, on fine grids within 3.6e-15: so far `atlas stress` has
+    found 1.1e-15 at most.
     Raises DomainError if the body's axis comes to within some 1e-600 rad of the field, but not into it.
     """
 
