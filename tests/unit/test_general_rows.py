@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-from atlas.core import general, general_rows
+from atlas.core import general, general_rows, nutation_roots
+from atlas.core.double_double import DoubleDouble
 from atlas.core.general import GeneralMotion
 from atlas.core.general_rows import GeneralRows
 from atlas.errors import DomainError
@@ -205,3 +206,18 @@ def test_stress_of_arrays_keeps_the_promises_and_finds_a_slip(monkeypatch: pytes
     assert not broken()
     monkeypatch.setattr(general_rows, "NEGLIGIBLE", 1.0)
     assert {"general R", "general integrals"} <= broken()
+
+
+@pytest.mark.parametrize("power", [-40, 3, 40])
+def test_the_bound_on_a_root_does_not_depend_on_the_unit(power: int) -> None:
+    """With roots 2^n times as large the refined root has the same digits and the same relative bound, to the bit."""
+    v = np.array([0.37, -1.4, 2.9])
+    q = [np.array([c, 0.7 * c, -c]) for c in (-0.25, 1.5, -0.75, 0.3, 1.1)]
+    q[0] -= (((q[4] * v + q[3]) * v + q[2]) * v + q[1]) * v + q[0]
+    plain = nutation_roots._refined(v, tuple(DoubleDouble(c) for c in q))
+    scaled = nutation_roots._refined(
+        np.ldexp(v, power), tuple(DoubleDouble(np.ldexp(c, -power * n)) for n, c in enumerate(q))
+    )
+    assert np.isfinite(plain.rel).all()
+    assert (np.ldexp(plain.hi, power) == scaled.hi).all()
+    assert (plain.rel == scaled.rel).all()
