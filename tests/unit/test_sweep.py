@@ -322,3 +322,11 @@ def test_a_toml_file_a_list_and_flags_say_the_same(tmp_path: Path, monkeypatch: 
     assert Path("flags.csv").read_bytes() == Path("list.csv").read_bytes() == Path("toml.csv").read_bytes()
     (tmp_path / "s.toml").write_text('family = "ball"\nquantities = ["gamma"]\nfoo = 1\n')
     assert CliRunner().invoke(program, ["sweep", "--file", "s.toml"]).exit_code == 2
+
+
+def test_errors_at_rest_are_zero() -> None:
+    """At t = 0, which stands where no time is given, R is 1: without an error, by the plain formula within 4 eps."""
+    rows = {"ratio": [1.5, 0.5], "B2": 1.0, "B3": 0.3, "omega2": 0.7, "t": 0.0}
+    found = atlas.sweep("elementary", rows, ["error", "plain_error"])
+    assert found["error"].tolist() == [0.0, 0.0]
+    assert (found["plain_error"] <= 4 * np.finfo(float).eps).all()

@@ -5,7 +5,7 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
-from flint import ctx
+from flint import arb, ctx
 
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray
@@ -64,5 +64,5 @@ def _true(*parameters: bytes) -> FloatArray:
         with ctx.workprec(BITS + 16):
             balls = [*chain(*enclosed(partial(motion.rotation, t), BITS))]
             high = [float(x) for x in balls]
-            words.append((high, [float(x - y) for x, y in zip(balls, high, strict=True)]))
+            words.append((high, [float(arb(x) - y) for x, y in zip(balls, high, strict=True)]))
     return np.array(words, dtype=float).reshape(-1, 2, 9).swapaxes(0, 1)
