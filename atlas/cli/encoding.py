@@ -20,12 +20,15 @@ NEAR: Mapping[str, str] = {
 
 
 def write_plainly() -> None:
-    """Let standard output and standard error never fail over a letter."""
+    """Let standard output and standard error never fail over a letter, and write each line when it ends.
+
+    Where the encoding is ASCII, click writes through a stream of its own, which would overtake lines that wait.
+    """
     codecs.register_error(NAME, _replaced)
     for stream in (sys.stdout, sys.stderr):
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
-            reconfigure(errors=NAME)
+            reconfigure(errors=NAME, line_buffering=True)
 
 
 def _replaced(error: UnicodeError) -> tuple[str, int]:

@@ -52,14 +52,14 @@ def test_matplotlib_has_a_folder_where_home_cannot_be_written(tmp_path: Path) ->
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
 def test_no_letter_fails(encoding: str) -> None:
-    """What the encoding of the terminal does not have is written in ASCII, as near as it gets; JSON stays JSON."""
+    """What the terminal's encoding does not have is written in ASCII, as near as it gets; JSON keeps its turn."""
     program = (
         "import json, sys; from atlas.cli.encoding import write_plainly; from atlas.cli.present import dump\n"
         "write_plainly(); print('\u2212\u00d7\u2192\u03c9 \u00e9\u2075'); dump({'a': '\u03c9'})"
     )
     done = subprocess.run(
         [sys.executable, "-c", program],
-        env=os.environ | {"PYTHONIOENCODING": encoding, "PYTHONPATH": str(ROOT)},
+        env=os.environ | {"PYTHONIOENCODING": encoding, "PYTHONUNBUFFERED": "", "PYTHONPATH": str(ROOT)},
         capture_output=True,
         check=True,
     )
