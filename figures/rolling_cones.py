@@ -46,7 +46,8 @@ def scene(
             r"instantaneous axis $\boldsymbol{\omega}=k\hat{\mathbf{B}}+\phi\mathbf{R}_3$, whose tip draws the polhode "
             rf"in the body and the herpolhode in space. Here $k={tex(motion.k)}$ and $\phi={tex(motion.phi)}$. (b) The "
             r"free body with the same axis of precession and the same $k$, mf92: its space cone is about the angular "
-            rf"momentum, and $\phi={tex(free.phi)}$. The field changes the spin alone."
+            rf"momentum, and $\phi={tex(free.phi)}$. The body cone {contact(motion, axis)} in (a) and "
+            f"{contact(free, axis)} in (b)."
         ),
         alt=(
             f"Two pairs of cones that touch along a line, for {plain_setting(ratio, field)} with omega 2 = "
@@ -57,6 +58,16 @@ def scene(
         columns=2,
         size=(160.0, 88.0),
     )
+
+
+def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
+    """Say how the body cone lies to the space cone: both stand on the side of their axes that is nearer to omega."""
+    omega = np.asarray(motion.angular_velocity(0.0))
+    body, space = (np.copysign(1.0, n @ omega) * n for n in (quadric_panel.E3, axis))
+    if np.cross(omega, body) @ np.cross(omega, space) < 0:
+        return "rolls on the outside of the space cone"
+    wider = np.linalg.norm(np.cross(omega, body)) > np.linalg.norm(np.cross(omega, space))
+    return "encloses the space cone and rolls on it" if wider else "rolls inside the space cone"
 
 
 def cones(

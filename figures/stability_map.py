@@ -53,8 +53,8 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
             r"the rectangle some are unstable; solid lines are levels of the greatest rate at which a small nutation "
             r"grows, $\sqrt{-\nu_n^2}$ in units of $\lvert B'_2\rvert$, where "
             r"$-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all are stable; dashed lines are "
-            r"levels of the least nutation frequency. Only bodies longer than they are wide, in a field nearly "
-            r"across their axis, have unstable elementary motions; the edge $\tau=1/(2\sqrt{2})$ belongs to them. "
+            r"levels of the least nutation frequency. Only bodies with $I<1$, in a field nearly across their axis, "
+            r"have unstable elementary motions; the edge $\tau=1/(2\sqrt{2})$ belongs to them. "
             r"The squares of these frequencies, negative where unstable, of all "
             f"pixels: `{table.command('stability.csv')}`."
         ),

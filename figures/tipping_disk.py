@@ -4,7 +4,8 @@ Spinning along the field, B2 = 0 and omega = (0, 0, omega3), a body with I > 1 i
 
     D = I^2 (omega3 + B3)^2 + 4 (1 - I) B3^2 < 0.
 
-Pushed a little, its axis leaves the field, reaches a greatest angle and comes back, again and again.
+Pushed a little, its axis leaves the field, reaches a greatest angle and comes back, again and again. With omega3 =
+-B3 it rests in Larmor's frame and never turns back: the axis goes round, through both ends of the field's.
 """
 
 from typing import Any
@@ -54,11 +55,12 @@ def scene(
             f"A disk, $I={tex(quotient(ratio))}$, spins along the field $B'_3={tex(B3)}$ with "
             rf"$\omega_3={tex(omega3)}$, nearly as Larmor's frame does; there $D={tex(D)}<0$, and a push "
             rf"$\omega_1={tex(push)}$ grows with the rate $\sqrt{{-D}}/2={tex(growth)}$. Above: {count} moments "
-            "of its tipping, by equal steps of the angle between its axis and the field; light is its first upper "
+            "of half a period, by equal steps of the angle between its axis and the field; light is its first upper "
             "side. Below: that angle, with the moments above as dots. "
             + (
-                "It turns over completely, stays for a while, and turns back."
-                if far > 179.0
+                "The axis goes round in one sense, through both ends of the field's, where it stays for a while; the "
+                "angle is counted from 0 to 180 degrees."
+                if omega3 == -B3
                 else rf"It reaches {far:.0f} degrees and comes back."
             )
         ),

@@ -89,6 +89,31 @@ def test_rolling_cones_touch_along_the_angular_velocity(omega2: float) -> None:
             assert abs(x @ cone.quadric @ x) <= 16 * EPS
 
 
+@pytest.mark.parametrize(
+    ("ratio", "omega2", "words"),
+    [
+        (1.5, -1.4, ("rolls on the outside", "encloses the space cone")),
+        (0.5, -1.4, ("rolls inside", "rolls on the outside")),
+        (1.5, 0.7, ("encloses the space cone", "encloses the space cone")),
+    ],
+)
+def test_the_caption_says_how_the_cones_lie(ratio: float, omega2: float, words: tuple[str, str]) -> None:
+    """Where a cone encloses another, its half-angle is the sum of the other's and that between the axes."""
+    motion, axis = ElementaryMotion(ratio, (1.0, 2.0), omega2), np.array([0.0, 1.0, 2.0]) / np.sqrt(5.0)
+    caption = recipes.load("rolling_cones").scene(ratio=ratio, omega2=omega2).caption
+    for one, word, name in zip((motion, motion.beside), words, "ab", strict=True):
+        omega = np.asarray(one.angular_velocity(0.0))
+        spin, turn = (np.arccos(abs(n @ omega) / np.linalg.norm(omega)) for n in (np.array([0.0, 0.0, 1.0]), axis))
+        between = np.arccos(axis[2])
+        sums = {
+            "rolls on": spin + turn - between,
+            "encloses": spin - turn - between,
+            "rolls inside": turn - spin - between,
+        }
+        assert abs(next(gap for start, gap in sums.items() if word.startswith(start))) <= 64 * EPS
+        assert word in caption.partition("The body cone")[2].split(" and in ")[0].split(" in (a) ")[name == "b"]
+
+
 def test_the_film_strip_shows_the_axis_at_equal_steps() -> None:
     """The arrows along the axis point as R_3 at i/7 of the period, within 8 eps; all fields point the same way."""
     (panel,) = panels("film_strip")
@@ -189,6 +214,15 @@ def test_a_stable_motion_does_not_escape() -> None:
     """The figure refuses a stable elementary motion and says so."""
     with pytest.raises(DomainError, match="is stable"):
         panels("escape", omega2=1.0)
+
+
+def test_a_disk_without_momentum_along_its_axis_never_turns_back() -> None:
+    """The rate of theta squared is s^2 + A sin(theta)^2, never zero: a whole round takes 8/sqrt(-D) ln(4/s), M3 = 0."""
+    for push in (1e-3, 1e-5):
+        whole = GeneralMotion(2.0, (0.0, 1.0), (push, 0.0, -1.0)).period
+        assert abs(whole - 4.0 * np.log(4.0 / push)) <= push
+    assert "goes round in one sense" in recipes.load("tipping_disk").scene().caption
+    assert "comes back" in recipes.load("tipping_disk").scene(omega3=-0.75).caption
 
 
 def test_the_tipping_disk_follows_the_equations_of_motion() -> None:
