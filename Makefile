@@ -11,9 +11,6 @@ PACKAGES ?= core exact study
 COUNT  ?= 60
 SEED   ?= 0
 
-# What notes the digests of recorded results, so that a test sees when one is changed by hand.
-SEAL   := $(BIN)/python -m pytest -q tests/unit/test_records.py --snapshot-update
-
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
 .PHONY: help report test figures picture accessibility verify bench stress mutants rebuilds curves lint clean setup lock FORCE
@@ -64,11 +61,9 @@ build/figures/%: FORCE | setup
 verify: setup
 	@$(ATLAS) verify --record
 	@$(ATLAS) verify --mutants --all --record
-	@$(SEAL)
 
 bench: setup $(VENV)/.bench
 	@env -u OPENBLAS_CORETYPE $(ATLAS) bench --store   # so that OpenBLAS chooses the kernels of this processor
-	@$(SEAL)
 
 stress: setup
 	@$(ATLAS) stress
@@ -85,11 +80,9 @@ mutants: setup
 
 rebuilds: setup
 	@PYTHONPATH=tests $(BIN)/python -m benchmarks.rebuilds --store
-	@$(SEAL)
 
 curves: setup
 	@$(BIN)/python -m atlas.study.curves
-	@$(SEAL)
 
 lint: setup
 	@$(BIN)/ruff check .

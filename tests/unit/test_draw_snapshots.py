@@ -1,15 +1,14 @@
-"""What lies on paper: every artist of a figure with its place in points and its look, as it was when looked at.
+"""What the drawing makes of each kind of layer: every artist with its place in points and its look, as when looked at.
 
-`pytest tests/unit/test_draw_snapshots.py --snapshot-update` renews them. The scenes are those of `test_snapshots`; here
-is kept what the drawing makes of them.
+`pytest tests/unit/test_draw_snapshots.py --snapshot-update` renews them.
 """
 
-import json
 from collections.abc import Iterator
-from dataclasses import astuple, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import lines
 import numpy as np
 import pytest
 from drawing import draw
@@ -19,49 +18,14 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from numpy.typing import NDArray
 from syrupy.assertion import SnapshotAssertion
-from syrupy.extensions.json import JSONSnapshotExtension
 
 from atlas.draw import gl, labels, names, space, to_figure, to_plotter
-from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, recipes, solids
+from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, solids
 
 FloatArray = NDArray[np.float64]
-POINTS = 0.05
-"""What another processor's rounding may move, in printer's points: a fifth of a hair."""
-
-NAMES = "colours cone hyperbola hyperbolas loop lssc magn motion_sphere quadric separatrix stability_map".split()
-"""Hidden lines, glass and seams, arrows, names; curves, regions, legends, images, logarithms."""
-
 MATERIAL = ("opacity", "ambient", "diffuse", "specular")
-needs_gl = pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
-
 LOOKS = ("color", "facecolor", "edgecolor", "linewidth", "linestyle", "joinstyle", "alpha", "marker", "markersize")
-
-
-class OnPaper(JSONSnapshotExtension):
-    """Snapshots of numbers, to `POINTS`."""
-
-    def matches(self, *, serialized_data: Any, snapshot_data: Any) -> bool:
-        """Return whether two snapshots look the same."""
-        return alike(json.loads(serialized_data), json.loads(snapshot_data))
-
-
-def alike(a: Any, b: Any) -> bool:
-    """Compare nested records, numbers to `POINTS`."""
-    if isinstance(a, dict) and isinstance(b, dict):
-        return a.keys() == b.keys() and all(alike(a[key], b[key]) for key in a)
-    if isinstance(a, list) and isinstance(b, list):
-        return len(a) == len(b) and all(alike(x, y) for x, y in zip(a, b, strict=True))
-    if isinstance(a, int | float) and isinstance(b, int | float):
-        return abs(a - b) <= POINTS
-    return bool(a == b)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_a_drawing_is_what_it_was(snapshot: SnapshotAssertion, name: str) -> None:
-    """Every artist has the extent, the order and the look that it had."""
-    figure = to_figure(recipes.load(name).scene())
-    figure.draw_without_rendering()
-    assert [shown(artist, figure) for artist in artists(figure)] == snapshot.use_extension(OnPaper)
+needs_gl = pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
 
 
 def in_plane() -> Scene:
@@ -118,52 +82,61 @@ def in_space() -> Scene:
     return Scene("Space", "A caption.", "An alternative.", panels, columns=2, size=(150.0, 80.0))
 
 
+@pytest.fixture
+def kept(snapshot: SnapshotAssertion) -> SnapshotAssertion:
+    """Give snapshots in lines."""
+    return snapshot.use_extension(lines.Lines)
+
+
 @pytest.mark.parametrize("make", [in_plane, in_space])
-def test_every_layer_is_drawn_as_it_was(snapshot: SnapshotAssertion, make: Any) -> None:
-    """The same of scenes that hold all that can be drawn, with no number in it that hides another."""
+def test_every_layer_is_drawn_as_it_was(kept: SnapshotAssertion, make: Any) -> None:
+    """Scenes that hold all that can be drawn, with no number in them that hides another."""
     figure = to_figure(make())
     figure.draw_without_rendering()
-    assert [shown(artist, figure) for artist in artists(figure)] == snapshot.use_extension(OnPaper)
+    assert list(lines.written(shown(artist, figure) for artist in artists(figure))) == kept
 
 
 @pytest.mark.parametrize(
     ("make", "renderer"), [(in_plane, "vector"), (in_space, "vector"), pytest.param(in_space, "shaded", marks=needs_gl)]
 )
 def test_names_are_told_where_the_ink_is_as_they_were(
-    snapshot: SnapshotAssertion, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, make: Any, renderer: str
+    kept: SnapshotAssertion, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, make: Any, renderer: str
 ) -> None:
     """What names keep clear of, kind by kind of its weight, and where each of them would like to stand."""
-    asked: list[dict[str, Any]] = []
+    asked: list[tuple[str, str, lines.Numbers]] = []
 
     def watched(
         tags: Any, ink: FloatArray, weights: FloatArray, window: Any, owners: NDArray[np.int64] | None = None
     ) -> Any:
-        record: dict[str, Any] = {"window": plain(window), "tags": [plain(astuple(tag)) for tag in tags]}
+        asked.append(("window", "", {"": on_paper(window)}))
+        for tag in tags:
+            numbers = {"at": on_paper([*tag.anchor, *tag.offset, *tag.extent, tag.size, *np.ravel(tag.elsewhere)])}
+            asked.append(("name", f" {tag.text!r} {tag.colour} of {tag.owner}", numbers))
         for weight in np.unique(weights):
             points = ink[(weights == weight) & np.isfinite(ink).all(axis=1)]
-            places = np.stack([points.min(axis=0), points.max(axis=0), points.mean(axis=0), points.std(axis=0)])
-            record[f"{weight:.6g}"] = {"count": len(points), "places": plain(places)}
-        record["owners"] = None if owners is None else plain(np.bincount(owners + 1))
-        asked.append(record)
+            places = points.min(axis=0), points.max(axis=0), points.mean(axis=0), points.std(axis=0)
+            asked.append((f"ink of weight {weight:.6g}", "", {"points": on_paper([len(points), *np.ravel(places)])}))
+        if owners is not None:
+            asked.append(("owners", "", {"": on_paper(np.bincount(owners + 1))}))
         return labels.place(tags, ink, weights, window, owners)
 
     for module in (space, names):
         monkeypatch.setattr(module, "place", watched)
     draw(make(), tmp_path / "a.png", renderer, dpi=72.0)
-    assert asked == snapshot.use_extension(OnPaper)
+    assert list(lines.written(asked)) == kept
 
 
-def test_names_in_a_crowd_stand_where_they_stood(snapshot: SnapshotAssertion) -> None:
+def test_names_in_a_crowd_stand_where_they_stood(kept: SnapshotAssertion) -> None:
     """Among ink and other names at random, each with an owner, or with another place for it, or neither."""
     rng = np.random.default_rng(5)
     found = []
     for _ in range(30):
-        lines = [labels.along(rng.uniform(0.0, 120.0, (4, 2))) for _ in range(5)]
-        ink, owners = np.concatenate(lines), np.repeat(np.arange(5), [len(line) for line in lines])
+        drawn = [labels.along(rng.uniform(0.0, 120.0, (4, 2))) for _ in range(5)]
+        ink, owners = np.concatenate(drawn), np.repeat(np.arange(5), [len(line) for line in drawn])
         tags = [
             labels.Tag(
                 "name",
-                anchor=tuple(lines[k][len(lines[k]) // 3]),
+                anchor=tuple(drawn[k][len(drawn[k]) // 3]),
                 offset=tuple(rng.uniform(-6.0, 6.0, 2)) if k != 2 else (0.0, 0.0),
                 extent=tuple(rng.uniform(7.0, 30.0, 2)),
                 colour="#000000",
@@ -174,55 +147,49 @@ def test_names_in_a_crowd_stand_where_they_stood(snapshot: SnapshotAssertion) ->
             for k in range(5)
         ]
         centres = labels.place(tags, ink, rng.uniform(0.5, 4.0, len(ink)), (1.0, 1.0, 119.0, 119.0), owners)
-        found.append([[round(float(x), 2) for x in centre] for centre in centres])
-    assert found == snapshot.use_extension(OnPaper)
+        found += list(lines.written([("names", "", {"at": on_paper(centres)})]))
+    assert found == kept
 
 
 @needs_gl
-def test_a_plotter_is_what_it_was(snapshot: SnapshotAssertion) -> None:
+def test_a_plotter_is_what_it_was(kept: SnapshotAssertion) -> None:
     """Every mesh with its extent and material, the lamps and the camera, in the coordinates of the scene."""
     plotter = to_plotter(in_space())
     try:
-        panels = [lit(renderer) for renderer in plotter.renderers]
-        assert {"size": plotter.window_size, "panels": panels} == snapshot.use_extension(OnPaper)
+        found = [f"{plotter.window_size}"]
+        found += [line for renderer in plotter.renderers for line in lines.written(lit(renderer))]
+        assert found == kept
     finally:
         plotter.close()
 
 
-def lit(renderer: Any) -> dict[str, Any]:
-    """Return what a renderer shows; lengths in hundredths, so that `POINTS` is small beside them."""
-    meshes = []
+def lit(renderer: Any) -> Iterator[tuple[str, str, lines.Numbers]]:
+    """Yield what a renderer shows; lengths in hundredths, so that a twentieth is small beside them."""
     for name, actor in renderer.actors.items():
         if name.endswith("labels"):
-            meshes.append({"labels": True, "shown": actor.GetVisibility()})
+            yield "labels", f" {actor.GetVisibility()}", {}
             continue
-        looks = [
-            {
-                "colour": prop.color.hex_rgb,
-                "numbers": [100.0 * getattr(prop, look) for look in MATERIAL] + [prop.specular_power],
-                "shading": str(prop.interpolation),
-            }
-            for prop in (actor.prop, actor.backface_prop)
-            if prop is not None
-        ]
         mesh = actor.mapper.dataset
-        counts = [mesh.n_points, mesh.n_cells]
-        meshes.append({"extent": [round(100.0 * x, 2) for x in actor.bounds], "counts": counts, "looks": looks})
+        props = [prop for prop in (actor.prop, actor.backface_prop) if prop is not None]
+        looks = [100.0 * getattr(prop, look) for prop in props for look in MATERIAL]
+        words = "".join(f" {prop.color.hex_rgb} {prop.interpolation} {prop.specular_power:g}" for prop in props)
+        counts = f" {mesh.n_points} points {mesh.n_cells} cells"
+        numbers = {"extent": on_paper(100.0 * np.array(actor.bounds)), "looks": on_paper(looks)}
+        yield f"mesh{words}", counts, numbers
     camera = renderer.camera
-    places = [camera.position, camera.focal_point, camera.up, camera.clipping_range, [camera.parallel_scale]]
-    lamps = [[*light.position, light.intensity] for light in renderer.lights]
-    lengths = [[round(100.0 * float(x), 2) for x in place] for place in (*places, *lamps)]
-    return {"meshes": meshes, "lengths": lengths, "parallel": camera.parallel_projection}
+    places = [*camera.position, *camera.focal_point, *camera.up, *camera.clipping_range, camera.parallel_scale]
+    yield "camera", f" {camera.parallel_projection}", {"places": on_paper(100.0 * np.array(places))}
+    for light in renderer.lights:
+        yield "lamp", "", {"at": on_paper([100.0 * x for x in (*light.position, light.intensity)])}
 
 
 @needs_gl
-def test_a_shaded_picture_is_what_it_was(snapshot: SnapshotAssertion, tmp_path: Path) -> None:
-    """In squares of twelve pixels, each within three grey levels: light, material, thickness and place."""
+def test_a_shaded_picture_is_what_it_was(kept: SnapshotAssertion, tmp_path: Path) -> None:
+    """In squares of twenty-four pixels, each within three grey levels: light, material, thickness and place."""
     picture = 255.0 * imread(draw(in_space(), tmp_path / "a.png", "shaded", dpi=72.0))[..., :3].astype(float)
-    rows, columns = (12 * (length // 12) for length in picture.shape[:2])
-    squares = picture[:rows, :columns].reshape(rows // 12, 12, columns // 12, 12, 3).mean(axis=(1, 3))
-    kept = snapshot.use_extension(OnPaper)
-    assert [[round(POINTS / 3.0 * level, 4) for level in row.ravel()] for row in squares] == kept
+    rows, columns = (24 * (length // 24) for length in picture.shape[:2])
+    squares = picture[:rows, :columns].reshape(rows // 24, 24, columns // 24, 24, 3).mean(axis=(1, 3))
+    assert [f"«{' '.join(f'{level / 60.0:.3f}' for level in row.ravel())}»" for row in squares] == kept
 
 
 def artists(figure: Figure) -> Iterator[Artist]:
@@ -232,28 +199,35 @@ def artists(figure: Figure) -> Iterator[Artist]:
             yield artist
 
 
-def shown(artist: Artist, figure: Figure) -> dict[str, Any]:
-    """Return where an artist lies, in points, and how it looks."""
+def shown(artist: Artist, figure: Figure) -> tuple[str, str, lines.Numbers]:
+    """Return how an artist looks, its text, and where it lies, in points."""
     extent = artist.get_window_extent().extents * 72.0 / figure.dpi
-    lines = artist.get_segments() if isinstance(artist, LineCollection) else []
-    if lines:  # it has no extent of its own
-        lines = [artist.get_transform().transform(line) * 72.0 / figure.dpi for line in lines]
-        extent = np.concatenate([np.min(np.concatenate(lines), axis=0), np.max(np.concatenate(lines), axis=0)])
-    record = {"is": type(artist).__name__, "order": round(artist.get_zorder(), 6), "clipped": artist.get_clip_on()}
-    record |= {"extent": [round(float(x), 2) for x in extent] if np.isfinite(extent).all() else None}
-    if lines:  # as a logarithm, to a thousandth of itself: other samples of a curve make another length
-        length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in lines)
-        record["length"] = round(100.0 * float(np.log10(length)), 2)
-    for look in LOOKS:
-        if (read := getattr(artist, f"get_{look}", None)) is not None:
-            record[look] = plain(read())
+    drawn = artist.get_segments() if isinstance(artist, LineCollection) else []
+    numbers = {}
+    if drawn:  # it has no extent of its own
+        drawn = [artist.get_transform().transform(line) * 72.0 / figure.dpi for line in drawn]
+        extent = np.concatenate([np.min(np.concatenate(drawn), axis=0), np.max(np.concatenate(drawn), axis=0)])
+        # as a logarithm, to a thousandth of itself: other samples of a curve make another length
+        length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in drawn)
+        numbers["length"] = on_paper(100.0 * np.log10(length))
+    if np.isfinite(extent).all():
+        numbers["extent"] = on_paper(extent)
+    words = [type(artist).__name__, f"order {artist.get_zorder():g}", "clipped" * artist.get_clip_on()]
+    words += [f"{look}={plain(getattr(artist, f'get_{look}')())}" for look in LOOKS if hasattr(artist, f"get_{look}")]
+    text = ""
     if hasattr(artist, "get_text"):
-        record |= {"text": artist.get_text(), "size": artist.get_fontsize(), "rotation": artist.get_rotation()}
-    return record
+        text = f" {artist.get_text()!r}"
+        words.append(f"size {artist.get_fontsize():g} rotation {artist.get_rotation():g}")
+    return " ".join(filter(None, words)), text, numbers
+
+
+def on_paper(numbers: Any) -> tuple[str, FloatArray]:
+    """Return numbers that are compared to a part of a printer's point."""
+    return "«»", np.asarray(numbers, dtype=float)
 
 
 def plain(value: Any) -> Any:
-    """Return a look as JSON can hold it."""
+    """Return a look as it can be written, colours to a thousandth."""
     if isinstance(value, np.ndarray | list | tuple):
         return [plain(part) for part in value]
-    return round(float(value), 3) if isinstance(value, int | float | np.number) else value and str(value)
+    return float(f"{float(value):.3f}") if isinstance(value, int | float | np.number) else value and str(value)

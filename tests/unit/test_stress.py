@@ -42,6 +42,12 @@ def test_the_worst_errors_do_not_grow(short_run: Result) -> None:
     assert [(record_name(w), w.ulps) for w in short_run.grown(read_ratchet())] == []
 
 
+def test_no_recorded_error_exceeds_its_limit() -> None:
+    """Each error on record is finite and within the promise for its quantity."""
+    for name, ulps in read_ratchet().items():
+        assert 0.0 <= ulps <= LIMITS.get(name.partition(" | ")[0], math.inf), name
+
+
 def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
     """Each quantity with a limit is judged, in every regime that concerns it, and so is each regime."""
     assert set(LIMITS) <= {w.quantity for w in short_run.worst}

@@ -1,0 +1,166 @@
+"""A scene in lines of text, one a layer or a run of equal ones: compact snapshots that notice a line that has moved.
+
+Numbers in [square] brackets are compared to a billionth of the largest in the bracket, less than any pixel; those in
+<angles>, which depend on where a curve is sampled, to a thousandth; those in «quotes» are places on paper, compared to
+a twentieth of a printer's point. All else is compared as text.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import fields
+from itertools import groupby
+from operator import itemgetter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from syrupy.extensions.single_file import SingleFileSnapshotExtension, WriteMode
+
+from atlas.scene import Curve, Image, Layer, Panel, Region, Scene, Surface
+
+FloatArray = NDArray[np.float64]
+NUMBERS = re.compile(r"(\[[-+.\de ]+\]|<[-+.\de ]+>|«[-+.\de ]+»)")
+MANY = 6
+"""More equal layers than these in a row make one line."""
+
+Numbers = dict[str, tuple[str, FloatArray]]
+"""What of a layer is numbers: by name the brackets and the values."""
+
+
+class Lines(SingleFileSnapshotExtension):
+    """Snapshots of lines of text, whose numbers are compared within their brackets."""
+
+    _write_mode = WriteMode.TEXT
+    file_extension = "txt"
+
+    def serialize(self, data: Any, **_: Any) -> str:
+        """Return the lines as one text."""
+        return "".join(f"{line}\n" for line in data)
+
+    def matches(self, *, serialized_data: Any, snapshot_data: Any) -> bool:
+        """Return whether two texts say the same."""
+        return alike(serialized_data, snapshot_data)
+
+
+def alike(a: str, b: str) -> bool:
+    """Compare texts: numbers within their brackets, the rest to the letter."""
+    one, other = (NUMBERS.split(text) for text in (a, b))
+    return len(one) == len(other) and all(map(_same, one, other))
+
+
+def _same(a: str, b: str) -> bool:
+    if a == b or not (NUMBERS.fullmatch(a) and NUMBERS.fullmatch(b) and a[0] == b[0]):
+        return a == b
+    x, y = (np.array(text[1:-1].split(), dtype=float) for text in (a, b))
+    most = {"[": 1e-9 * np.abs(x).max(), "<": 1e-3 * np.abs(x).max(), "«": 0.05}[a[0]]
+    return x.shape == y.shape and bool((np.abs(x - y) <= most).all())
+
+
+def scene(made: Scene, noisy: tuple[int, ...] = (), *, words: bool = True) -> Iterator[str]:
+    """Yield what a scene shows; of noisy panels only what there is, with words only if what they say is certain."""
+    yield f"{made.title}: {made.size[0]:g} x {made.size[1]:g} mm, columns {made.columns}"
+    if words:
+        yield from (made.caption, made.alt)
+    for k, panel in enumerate(made.panels):
+        yield from shown(panel, noise=k in noisy)
+
+
+def shown(panel: Panel, *, noise: bool = False) -> Iterator[str]:
+    """Yield what a panel shows, and its layers."""
+    settings = {one.name: getattr(panel, one.name) for one in fields(panel) if one.name != "layers"}
+    yield from written([(type(panel).__name__, *_parted(settings, noise=noise))])
+    yield from written(
+        (
+            f"{type(layer).__name__} {getattr(layer, 'role', '')}".strip(),
+            "".join(f" {text!r}" for name, text in vars(layer).items() if isinstance(text, str) and name != "role"),
+            {} if noise else measured(layer),
+        )
+        for layer in panel.layers
+    )
+
+
+def _parted(settings: dict[str, Any], *, noise: bool) -> tuple[str, Numbers]:
+    """Return settings as words, and those that are numbers; the limits of noise are noise."""
+    numbers = {name: value for name, value in settings.items() if isinstance(value, float) or "limits" in name}
+    words = "".join(f" {name}={value!r}" for name, value in settings.items() if name not in numbers and value)
+    known = {name: ("[]", np.array(value)) for name, value in numbers.items() if value is not None and not noise}
+    return words, known
+
+
+def written(parts: Iterable[tuple[str, str, Numbers]]) -> Iterator[str]:
+    """Yield a line for each part, or for many of one name in a row, from its name, its words and its numbers."""
+    for name, group in groupby(parts, key=itemgetter(0)):
+        _, words, numbers = zip(*group, strict=True)
+        shapes = {tuple((key, values.size) for key, (_, values) in one.items()) for one in numbers}
+        if len(words) > MANY and len(shapes) == 1:
+            yield f"{name} x {len(words)}{''.join(dict.fromkeys(words))}{_line(_together(numbers))}"
+        else:
+            yield from (f"{name}{word}{_line(one)}" for word, one in zip(words, numbers, strict=True))
+
+
+def _together(numbers: Sequence[Numbers]) -> Numbers:
+    """Return the means of many parts' numbers, and those weighted by their place, so that none moves unseen."""
+    weights = np.arange(1.0, len(numbers) + 1.0)
+    found = {}
+    for name, (brackets, _) in numbers[0].items():
+        values = np.stack([one[name][1].ravel() for one in numbers])
+        found[name] = brackets, np.concatenate([values.mean(axis=0), weights @ values / weights.sum()])
+    return found
+
+
+def _line(numbers: Numbers) -> str:
+    return "".join(f" {name} {_text(brackets, values)}" for name, (brackets, values) in numbers.items())
+
+
+def _text(brackets: str, values: FloatArray) -> str:
+    """Return numbers in brackets; those that are zero beside the others but for rounding are zero."""
+    flat = np.ravel(np.asarray(values, dtype=float))
+    size = 1e-10 * np.abs(flat).max(initial=0.0)
+    form = {"[]": ".11g", "<>": ".4g", "«»": ".2f"}[brackets]
+    return brackets[0] + " ".join(format(0.0 if abs(x) < size else x, form) for x in flat) + brackets[1]
+
+
+def measured(layer: Layer) -> Numbers:
+    """Return the numbers of a layer: its places, box, and some points on the way."""
+    if isinstance(layer, Surface):
+        return _of_surface(layer)
+    if isinstance(layer, Image):
+        few = [np.linspace(0, size - 1, 8).round().astype(int) for size in layer.values.shape]
+        found = {"cells": layer.values.shape, "x": layer.x[[0, -1]], "y": layer.y[[0, -1]], "limits": layer.limits}
+        found["values"] = layer.values[np.ix_(*few)]
+    elif isinstance(layer, Curve | Region):
+        low, extent = layer.points.min(axis=0), np.ptp(layer.points, axis=0)
+        way = (_along(layer.points, np.array([0.2, 0.5, 0.7])) - low) / np.where(extent > 0.0, extent, 1.0)
+        box = {"box": ("<>", np.concatenate([low, low + extent])), "way": ("<>", way)}
+        return {"ends": ("[]", layer.points[[0, -1]])} | (box if len(layer.points) > 2 else {})
+    else:
+        found = {name: value for name, value in vars(layer).items() if not isinstance(value, str)}
+        if len(points := np.atleast_2d(found.get("points", 0.0))) > MANY:
+            found["points"] = [len(points), *points[0], *points[-1], *points.mean(axis=0), *points.std(axis=0)]
+    return {name: ("[]", np.asarray(value, dtype=float)) for name, value in found.items() if value is not None}
+
+
+def _of_surface(layer: Surface) -> Numbers:
+    corners = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
+    few = corners[np.linspace(0, len(corners) - 1, 3).round().astype(int)]
+    found: Numbers = {
+        "quadric": ("[]", layer.quadric[np.triu_indices(4)]),
+        "grids": ("[]", np.array([corners.min(axis=0), corners.max(axis=0), corners.mean(axis=0), *few])),
+        "counts": ("[]", np.array([len(corners), len(layer.wires), len(layer.rims)])),
+    }
+    for name, rows in {"clip": layer.clip, "within": [one[np.triu_indices(4)] for one in layer.within]}.items():
+        if len(rows):
+            found[name] = "[]", np.arange(1.0, len(rows) + 1.0) @ np.asarray(rows)
+    for name, lines in {"wires": layer.wires, "rims": layer.rims}.items():
+        if lines:
+            way = [_along(line, np.array([0.4]))[0] for line in lines]
+            found[name] = "<>", np.array([np.mean(way, axis=0), np.arange(1.0, len(way) + 1.0) @ way])
+    return found
+
+
+def _along(points: FloatArray, parts: FloatArray) -> FloatArray:
+    """Return the points at these parts of the length of a line, each coordinate counted in its extent if it has one."""
+    size = np.ptp(points, axis=0)
+    steps = np.diff(points, axis=0) / np.where(size > 1e-12 * np.abs(points).max(), size, np.inf)
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(steps, axis=1))])
+    return np.stack([np.interp(parts * length[-1], length, part) for part in points.T], axis=1)
