@@ -64,9 +64,10 @@ def _homes(floor: str) -> dict[str, str]:
 
 
 def modules(floor: str) -> dict[str, Path]:
-    """Return the files of a floor by the names of their modules."""
+    """Return the files of a floor by the names of their modules, without its folders."""
     folder = Path(import_module(f"atlas.{floor}").__path__[0])
-    return {module.name: folder / f"{module.name}.py" for module in pkgutil.iter_modules([str(folder)])}
+    found = pkgutil.iter_modules([str(folder)])
+    return {module.name: folder / f"{module.name}.py" for module in found if not module.ispkg}
 
 
 class Ledger:

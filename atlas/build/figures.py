@@ -13,7 +13,7 @@ from atlas.build import cache as caches
 from atlas.build import worker
 from atlas.build.cache import Cache, digest
 from atlas.build.sources import PACKAGE, Sources
-from atlas.core.threads import processors
+from atlas.core.arithmetic.threads import processors
 from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import folder, settle_matplotlib

@@ -26,7 +26,7 @@ def command(samples: int, seed: int, jobs: int | None, renew: bool, arrays: bool
     The exit status is 1 if an error exceeds the promise made for its quantity. The run without options is also held
     against the record of worst errors, which may not grow.
     """
-    from atlas.core.threads import processors
+    from atlas.core.arithmetic.threads import processors
     from atlas.study import many, stress
 
     processes = jobs or processors()

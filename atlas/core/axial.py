@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.arithmetic.wide import ONE, exact
 from atlas.core.body import moments
 from atlas.core.inputs import number
 from atlas.core.separatrix import Companion
-from atlas.core.wide import ONE, exact
 from atlas.errors import DomainError
 
 

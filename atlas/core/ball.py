@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.double_double import over, wide
+from atlas.core.arithmetic.double_double import over, wide
+from atlas.core.arithmetic.rotation import DoubleRotation
+from atlas.core.arithmetic.turnings import Group
+from atlas.core.arithmetic.wide import ONE, ZERO, Number, direction, exact, length
 from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.motion import Motion, components
-from atlas.core.rotation import DoubleRotation
-from atlas.core.turnings import Group
-from atlas.core.wide import ONE, ZERO, Number, direction, exact, length
 from atlas.errors import DomainError
 
 

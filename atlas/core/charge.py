@@ -18,11 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.gyration import Gyration, gyration
+from atlas.core.arithmetic.gyration import Gyration, gyration
+from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.rational import Vector, cross, dot, exact, minus, plus, root, rounded, scaled, times, unit
+from atlas.core.arithmetic.wide import TURN, Wide
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import Phases
-from atlas.core.rational import Vector, cross, dot, exact, minus, plus, root, rounded, scaled, times, unit
-from atlas.core.wide import TURN, Wide
 from atlas.errors import DomainError
 
 BLOCK = 4096

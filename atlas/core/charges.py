@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.arithmetic.double_double import over
+from atlas.core.arithmetic.frequencies import Frequencies, words_of
+from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.rational import cross, dot
+from atlas.core.arithmetic.wide import direction, length
 from atlas.core.charge import CASES, KINDS, Charge, Path
-from atlas.core.double_double import over
-from atlas.core.frequencies import Frequencies, words_of
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import Phases
-from atlas.core.rational import cross, dot
-from atlas.core.wide import direction, length
 from atlas.errors import DomainError
 
 

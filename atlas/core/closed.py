@@ -3,12 +3,12 @@
 from fractions import Fraction
 from typing import Any
 
+from atlas.core.arithmetic.rotation import DoubleRotation
+from atlas.core.arithmetic.wide import TURN, ZERO, Wide, exact, length
 from atlas.core.body import moments
 from atlas.core.elementary import ElementaryMotion, ordinate
 from atlas.core.inputs import number
 from atlas.core.motion import components
-from atlas.core.rotation import DoubleRotation
-from atlas.core.wide import TURN, ZERO, Wide, exact, length
 from atlas.errors import AtlasError, DomainError
 
 

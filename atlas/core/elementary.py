@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.core.arithmetic.double_double import over
+from atlas.core.arithmetic.rotation import DoubleRotation
+from atlas.core.arithmetic.turnings import Group
+from atlas.core.arithmetic.wide import ZERO, Number, direction, exact, length
 from atlas.core.body import moments
-from atlas.core.double_double import over
 from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.invariants import NAMES, invariants
 from atlas.core.motion import Motion, components
-from atlas.core.rotation import DoubleRotation
-from atlas.core.turnings import Group
-from atlas.core.wide import ZERO, Number, direction, exact, length
 from atlas.errors import DomainError
 
 CASES = (

@@ -7,8 +7,8 @@ from typing import Any, Self
 import numpy as np
 
 from atlas.core import units
+from atlas.core.arithmetic.rational import cross, dot, exact, minus, root, times, unit
 from atlas.core.inputs import FloatArray, number, positive, real, vector, vectors
-from atlas.core.rational import cross, dot, exact, minus, root, times, unit
 from atlas.errors import AtlasError, DomainError
 
 

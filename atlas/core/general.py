@@ -8,18 +8,18 @@ import numpy as np
 from flint import arb, ctx, fmpq
 
 from atlas.core.body import SymmetricBody, moments
-from atlas.core.cayley_klein import FIRST, CayleyKlein, Evaluation, combined, entries, evaluate
-from atlas.core.general_rows import KINDS, GeneralRows, Scalars
 from atlas.core.inputs import FloatArray, finite, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import Motion, components
+from atlas.core.nutation.cayley_klein import FIRST, CayleyKlein, Evaluation, combined, entries, evaluate
+from atlas.core.nutation.rows import KINDS, GeneralRows, Scalars
 from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
 
 if TYPE_CHECKING:
-    from atlas.core.general_grid import Exponentials
+    from atlas.core.nutation.grid import Exponentials
 
 BITS = 60
 """Relative accuracy of a scalar before it is rounded, once."""
@@ -84,7 +84,7 @@ class General:
     @cached_property
     def exponentials(self) -> "tuple[Exponentials, Exponentials] | None":
         """Alpha and beta as sums of exponentials for use on a grid, None where these would cancel or be too many."""
-        from atlas.core.general_grid import exponentials
+        from atlas.core.nutation.grid import exponentials
 
         return exponentials(self.exact, self.parts.precision)
 
@@ -254,7 +254,7 @@ class GeneralMotion(Motion[General]):
 
     def _fill_grid(self, one: General, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
-        from atlas.core.general_grid import fill_grid
+        from atlas.core.nutation.grid import fill_grid
 
         fill_grid(one, start, step, out)
 

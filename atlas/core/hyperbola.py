@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from atlas.core.arithmetic.double_double import over
+from atlas.core.arithmetic.wide import ONE, Number, Wide, exact, length
 from atlas.core.body import moments
 from atlas.core.closed import ClosedMotion
-from atlas.core.double_double import over
 from atlas.core.elementary import ordinate, precession, proper
 from atlas.core.inputs import FloatArray, plain, positive, real, whole
 from atlas.core.motion import components
-from atlas.core.wide import ONE, Number, Wide, exact, length
 from atlas.errors import AtlasError, DomainError
 
 if TYPE_CHECKING:

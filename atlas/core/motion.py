@@ -9,10 +9,10 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from atlas.core.grid import fill_grid
+from atlas.core.arithmetic.grid import fill_grid
+from atlas.core.arithmetic.rotation import target
+from atlas.core.arithmetic.turnings import Group, Turnings
 from atlas.core.inputs import FloatArray, common_shape, number, real, whole
-from atlas.core.rotation import target
-from atlas.core.turnings import Group, Turnings
 from atlas.errors import AtlasError
 
 

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.arithmetic.double_double import BLOCK, over
+from atlas.core.arithmetic.wide import Number
 from atlas.core.body import moments
-from atlas.core.double_double import BLOCK, over
 from atlas.core.inputs import FloatArray, common_shape, plain, vectors
 from atlas.core.motion import components
-from atlas.core.wide import Number
 from atlas.errors import DomainError
 
 KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "one-sheet hyperboloid")

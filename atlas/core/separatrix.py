@@ -20,11 +20,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.core.arithmetic.wide import ONE, Wide, exact, length
 from atlas.core.body import moments
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray, number, real
 from atlas.core.motion import components
-from atlas.core.wide import ONE, Wide, exact, length
 from atlas.errors import DomainError
 
 ComplexArray = NDArray[np.complex128]

@@ -23,8 +23,8 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.arithmetic.rational import rounded
 from atlas.core.inputs import FloatArray, number, plain, positive, real
-from atlas.core.rational import rounded
 from atlas.errors import AtlasError, DomainError
 
 SPEED_OF_LIGHT = 299_792_458.0

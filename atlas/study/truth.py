@@ -1,8 +1,8 @@
 """The true elementary motion at arrays of times, some three digits beyond a double, by the phases of the kernels.
 
-Axis and frequencies come from the exact floor, and the phases are reduced in two words, see `atlas.core.phase`; sines,
-cosines and what is made of them are long doubles. It is what a million rows can be graded against in a second; where a
-digit hangs on it, and for phases out of `within`, balls decide.
+Axis and frequencies come from the exact floor, and the phases are reduced in two words, see
+`atlas.core.arithmetic.phase`; sines, cosines and what is made of them are long doubles. It is what a million rows can
+be graded against in a second; where a digit hangs on it, and for phases out of `within`, balls decide.
 """
 
 from typing import Any
@@ -11,10 +11,10 @@ import numpy as np
 from flint import arb, fmpq
 from numpy.typing import NDArray
 
+from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.wide import BITS, TURN, Wide
 from atlas.core.general import General
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import Phases
-from atlas.core.wide import BITS, TURN, Wide
 from atlas.exact.digits import enclosed
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.general import GeneralMotion

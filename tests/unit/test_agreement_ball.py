@@ -9,7 +9,7 @@ import sympy
 from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters, signed, unit
 
 from atlas.core import ball
-from atlas.core.rotation import DoubleRotation
+from atlas.core.arithmetic.rotation import DoubleRotation
 
 GRID = (0.7, 0.31, 3)
 TIMES = [sympy.Rational(0.7) + i * sympy.Rational(0.31) for i in range(3)]

@@ -21,7 +21,7 @@ from agreement import (
 )
 
 from atlas.core import elementary as kernel
-from atlas.core.wide import Wide
+from atlas.core.arithmetic.wide import Wide
 from atlas.proof.ball import rodrigues
 
 POINTS = bodies(76, 8)

@@ -8,7 +8,7 @@ import sympy
 from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, elementary, letters
 
 from atlas.core import hyperbola
-from atlas.core.wide import Wide
+from atlas.core.arithmetic.wide import Wide
 from atlas.proof import formula
 from atlas.proof.run import trial
 

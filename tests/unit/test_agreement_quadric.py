@@ -7,7 +7,7 @@ import sympy
 from agreement import Ledger, Tie, agree, bodies, disagree, each, length, letters
 
 from atlas.core import quadric
-from atlas.core.wide import Wide
+from atlas.core.arithmetic.wide import Wide
 
 POINTS = bodies(58, 8)
 TWO_SHEETS = bodies(61, 3, body=1.7)

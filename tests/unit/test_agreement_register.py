@@ -23,14 +23,10 @@ FORMULAS = {
 """Modules whose functions are public quantities; of the others the classes are."""
 
 MACHINERY = {
-    "core": set(
-        "basis cayley_klein charge charges double_double frequencies general_grid general_rows grid gyration "
-        "inputs motion nutation nutation_means nutation_roots phase progression rational rotation threads turnings "
-        "wide".split()
-    ),
+    "core": {"charge", "charges", "inputs", "motion"},
     "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "taylor", "theta", "two_turns"},
 }
-"""Modules that compute for the others, and hold no formula of their own."""
+"""Modules that compute for the others, and hold no formula of their own; so do core's folders."""
 
 ELSEWHERE = {
     "core": {

@@ -18,7 +18,7 @@ from atlas.core.hyperbola import Hyperbola
 
 
 def scene():
-    from atlas.core import rotation
+    from atlas.core.arithmetic import rotation
 
     return Hyperbola, np, rotation
 '''
@@ -37,7 +37,13 @@ def test_a_recipe_reaches_what_it_imports_and_nothing_else(tmp_path: Path) -> No
     """Imports are followed at any depth, also inside functions; modules that are not imported stay out."""
     recipe = write(tmp_path / "recipe.py", RECIPE)
     reached = {path.relative_to(PACKAGE).as_posix() for path in Sources().reached([recipe]) if path != recipe}
-    assert {"__init__.py", "core/__init__.py", "core/hyperbola.py", "core/rotation.py", "core/body.py"} <= reached
+    assert {
+        "__init__.py",
+        "core/__init__.py",
+        "core/hyperbola.py",
+        "core/arithmetic/rotation.py",
+        "core/body.py",
+    } <= reached
     assert not {name for name in reached if name.startswith(("cli", "draw", "report", "proof", "study"))}
     assert "core/particle.py" not in reached
 
@@ -110,7 +116,7 @@ def test_a_file_that_is_no_python_has_a_digest(tmp_path: Path, text: str) -> Non
         ("from atlas import Hyperbola", "core/hyperbola.py"),
         ("from atlas import *", "core/quadric.py"),
         ("import atlas", "core/flight.py"),
-        ("import atlas.core.phase", "core/flight.py"),
+        ("import atlas.core.arithmetic.phase", "core/flight.py"),
         ("import atlas as a", "core/particle.py"),
         ("from atlas import simulate", "study/simulate.py"),
     ],

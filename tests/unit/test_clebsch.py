@@ -5,9 +5,9 @@ import pytest
 from oracles.taylor import taylor
 
 import atlas
+from atlas.core.arithmetic.rotation import DoubleRotation
+from atlas.core.arithmetic.wide import exact
 from atlas.core.integrals import integrals
-from atlas.core.rotation import DoubleRotation
-from atlas.core.wide import exact
 
 EPS = float(np.finfo(float).eps)
 TENSOR = np.array([[2.0, 0.3, -0.1], [0.3, 1.5, 0.2], [-0.1, 0.2, 1.7]])

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from atlas.core.double_double import DoubleDouble, over
-from atlas.core.wide import Wide, length
+from atlas.core.arithmetic.double_double import DoubleDouble, over
+from atlas.core.arithmetic.wide import Wide, length
 
 floats = st.floats(-1e30, 1e30, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-30)
 OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
@@ -106,7 +106,7 @@ def test_a_dropped_second_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None
     x, y = np.random.default_rng(1).normal(size=(2, 200))
     true = [over(cancelling, *row) for row in zip(x.tolist(), y.tolist(), (-x * y).tolist(), strict=True)]
     assert np.array_equal(over(cancelling, x, y, -x * y), true)
-    monkeypatch.setattr("atlas.core.double_double._product", lambda a, b: (a.hi * b.hi, 0 * a.hi))
+    monkeypatch.setattr("atlas.core.arithmetic.double_double._product", lambda a, b: (a.hi * b.hi, 0 * a.hi))
     assert not np.array_equal(over(cancelling, x, y, -x * y), true)
 
 

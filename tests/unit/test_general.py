@@ -10,11 +10,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import atlas
-from atlas.core import general_grid
 from atlas.core.ball import BallMotion
 from atlas.core.elementary import ElementaryMotion, FreeMotion
 from atlas.core.general import GeneralMotion
 from atlas.core.hyperbola import Hyperbola
+from atlas.core.nutation import grid as general_grid
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.borders import BORDERS

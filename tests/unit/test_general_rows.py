@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-from atlas.core import general, general_rows, nutation_roots
-from atlas.core.double_double import DoubleDouble
+from atlas.core import general
+from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.general import GeneralMotion
-from atlas.core.general_rows import GeneralRows
+from atlas.core.nutation import roots as nutation_roots
+from atlas.core.nutation import rows as general_rows
+from atlas.core.nutation.rows import GeneralRows
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.judges_general import narrow, state
@@ -184,7 +186,7 @@ def test_a_dropped_second_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None
     inputs = ordinary(50, 5)
     periods = [GeneralMotion(*one(inputs, i)).period for i in range(50)]
     assert np.array_equal(GeneralMotion(*inputs).period, periods)
-    monkeypatch.setattr("atlas.core.double_double._product", lambda a, b: (a.hi * b.hi, 0 * (a.hi * b.hi)))
+    monkeypatch.setattr("atlas.core.arithmetic.double_double._product", lambda a, b: (a.hi * b.hi, 0 * (a.hi * b.hi)))
     assert not np.array_equal(GeneralMotion(*inputs).period, periods)
 
 

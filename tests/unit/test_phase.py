@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from atlas.core.phase import Phases
-from atlas.core.wide import TURN, Wide
+from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.wide import TURN, Wide
 from atlas.errors import AtlasError
 
 UNIT = 2.0**-53

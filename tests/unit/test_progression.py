@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from atlas.core.phase import Phases
-from atlas.core.progression import Progression
-from atlas.core.wide import Wide
+from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.progression import Progression
+from atlas.core.arithmetic.wide import Wide
 
 W = 2.0**-53
 TURNS = (0.7316497182736455, -3.1e-3, 2.0**-30 / 3, 0.0)

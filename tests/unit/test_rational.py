@@ -7,7 +7,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from mpmath import mp
 
-from atlas.core.rational import cross, dot, exact, minus, plus, root, rounded, times, unit
+from atlas.core.arithmetic.rational import cross, dot, exact, minus, plus, root, rounded, times, unit
 from atlas.errors import DomainError
 
 floats = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e140, max_value=1e140)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 from oracles import closed_form
 
-import atlas.core.rotation
+import atlas.core.arithmetic.rotation
 from atlas.core.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import AtlasError
 
@@ -165,9 +165,9 @@ def test_a_time_without_an_answer_is_an_error(t: Any) -> None:
 def test_two_threads_give_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether a second thread helps changes no bit."""
     motion, t = ElementaryMotion(*MOTION), np.linspace(0, 1e4, 123_457)
-    monkeypatch.setattr("atlas.core.threads.processors", lambda: 2)
+    monkeypatch.setattr("atlas.core.arithmetic.threads.processors", lambda: 2)
     two = motion.rotation(t)
-    monkeypatch.setattr("atlas.core.threads.processors", lambda: 1)
+    monkeypatch.setattr("atlas.core.arithmetic.threads.processors", lambda: 1)
     assert np.array_equal(two, motion.rotation(t))
 
 
@@ -186,9 +186,9 @@ def test_working_memory_does_not_grow_with_the_times() -> None:
 def test_one_axis_costs_one_phase(monkeypatch: pytest.MonkeyPatch) -> None:
     """The third axis, Omega and m are evaluated from one phase, not two."""
     evaluated = []
-    original = atlas.core.rotation.evaluate
+    original = atlas.core.arithmetic.rotation.evaluate
     monkeypatch.setattr(
-        "atlas.core.rotation.evaluate",
+        "atlas.core.arithmetic.rotation.evaluate",
         lambda phases, *rest: evaluated.append(phases.words.shape[1]) or original(phases, *rest),
     )
     motion = ElementaryMotion(*MOTION)

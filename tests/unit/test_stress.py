@@ -13,7 +13,7 @@ from flint import arb, ctx, fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas.core import phase
+from atlas.core.arithmetic import phase
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.study import hostile

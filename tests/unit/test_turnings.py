@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
+from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.ball import BallMotion
 from atlas.core.elementary import ElementaryMotion, FreeMotion
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.particle import ParticleMotion
 from atlas.core.quadric import Quadric
-from atlas.core.rotation import DoubleRotation
 from atlas.errors import AtlasError, DomainError
 from atlas.exact import elementary as exact_elementary
 from atlas.study import hostile

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas.core.wide import TURN, Wide, exact, length
+from atlas.core.arithmetic.wide import TURN, Wide, exact, length
 
 doubles = st.floats(allow_nan=False, allow_infinity=False)
 

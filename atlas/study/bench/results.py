@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from atlas import __version__, files
-from atlas.core.threads import processors
+from atlas.core.arithmetic.threads import processors
 from atlas.errors import AtlasError
 from atlas.libraries import release
 from atlas.places import folder

@@ -9,7 +9,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from atlas.core.threads import processors
+from atlas.core.arithmetic.threads import processors
 from atlas.errors import AtlasError
 from atlas.study.sweep.plan import Columns, Plan
 from atlas.study.sweep.tables import FORMATS, check_format

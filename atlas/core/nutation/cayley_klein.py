@@ -1,7 +1,7 @@
 """The Cayley-Klein parameters of the general motion at many times, and the matrices that they make.
 
-alpha and beta, up to a common real factor, are sums of the functions of `nutation` times phases exp(i f t). The matrix
-is linear in the ten products of their four real parts, once the squares of these sum to one.
+alpha and beta, up to a common real factor, are sums of the functions of time of `functions` times phases exp(i f t).
+The matrix is linear in the ten products of their four real parts, once the squares of these sum to one.
 """
 
 from collections.abc import Callable, Mapping
@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from flint import acb, arb, ctx
 
+from atlas.core.arithmetic.phase import EVEN, ROUNDER, WHOLE, Phases
+from atlas.core.arithmetic.rotation import target
+from atlas.core.arithmetic.threads import shared
+from atlas.core.arithmetic.wide import Wide
 from atlas.core.inputs import FloatArray, real
-from atlas.core.nutation import Functions, Hyperbolic, Linear, Steady, Trigonometric, wide
-from atlas.core.phase import EVEN, ROUNDER, WHOLE, Phases
-from atlas.core.rotation import target
-from atlas.core.threads import shared
-from atlas.core.wide import Wide
+from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric, wide
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion
 from atlas.exact.theta import infinite

@@ -10,12 +10,12 @@ from math import ceil
 
 import numpy as np
 
-from atlas.core.basis import Basis, multiply
+from atlas.core.arithmetic.basis import Basis, multiply
+from atlas.core.arithmetic.phase import QUANTUM
+from atlas.core.arithmetic.progression import Progression
+from atlas.core.arithmetic.rotation import DoubleRotation
+from atlas.core.arithmetic.threads import shared
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import QUANTUM
-from atlas.core.progression import Progression
-from atlas.core.rotation import DoubleRotation
-from atlas.core.threads import shared
 from atlas.errors import AtlasError
 
 FEW, FINE = 8000, 64

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.progression import Progression
+from atlas.core.arithmetic.wide import ONE, Wide
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import Phases
-from atlas.core.progression import Progression
-from atlas.core.wide import ONE, Wide
 
 Axis = tuple[Wide, Wide, Wide]
 

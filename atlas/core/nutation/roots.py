@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.double_double import DoubleDouble, chosen
+from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
 
 STEPS = 60

@@ -10,9 +10,9 @@ from typing import TypeAlias
 import numpy as np
 from flint import acb, arb, fmpq, fmpq_poly
 
+from atlas.core.arithmetic.phase import SPLITTER, WHOLE
+from atlas.core.arithmetic.wide import Wide
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import SPLITTER, WHOLE
-from atlas.core.wide import Wide
 from atlas.exact.cayley_klein import Solution
 from atlas.exact.theta import Sum, infinite
 

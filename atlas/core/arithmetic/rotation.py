@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.basis import SCALE, Axis, Basis, extended, generators, resolution, rodrigues
+from atlas.core.arithmetic.basis import SCALE, Axis, Basis, extended, generators, resolution, rodrigues
+from atlas.core.arithmetic.phase import QUANTUM, Phases
+from atlas.core.arithmetic.threads import shared
+from atlas.core.arithmetic.wide import TURN, Wide
 from atlas.core.inputs import FloatArray, real
-from atlas.core.phase import QUANTUM, Phases
-from atlas.core.threads import shared
-from atlas.core.wide import TURN, Wide
 from atlas.errors import AtlasError
 
 BLOCK, PART = 6000, 3000

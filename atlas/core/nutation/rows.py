@@ -12,13 +12,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.double_double import DoubleDouble, blocks, chosen
-from atlas.core.frequencies import LOST, PER_RADIAN
+from atlas.core.arithmetic.double_double import DoubleDouble, blocks, chosen
+from atlas.core.arithmetic.frequencies import LOST, PER_RADIAN
+from atlas.core.arithmetic.phase import LIMIT, Phases
+from atlas.core.arithmetic.turnings import REACH
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation_means import ONE, Circle, Means
-from atlas.core.nutation_roots import Roots, constant, joined, part, roots_of, signed, stacked
-from atlas.core.phase import LIMIT, Phases
-from atlas.core.turnings import REACH
+from atlas.core.nutation.means import ONE, Circle, Means
+from atlas.core.nutation.roots import Roots, constant, joined, part, roots_of, signed, stacked
 
 KINDS = (
     "nutation, two real roots",

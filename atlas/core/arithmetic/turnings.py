@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.double_double import DoubleDouble, over
-from atlas.core.frequencies import Frequencies, words_of
+from atlas.core.arithmetic.double_double import DoubleDouble, over
+from atlas.core.arithmetic.frequencies import Frequencies, words_of
+from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.wide import Wide, direction, exact
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import Phases
-from atlas.core.wide import Wide, direction, exact
 from atlas.errors import AtlasError
 
 REACH = 2.0**900

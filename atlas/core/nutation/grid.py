@@ -17,15 +17,15 @@ from math import ceil, frexp, inf
 import numpy as np
 from flint import acb, arb, ctx
 
-from atlas.core.cayley_klein import BLOCK, Evaluation, Products, combined
-from atlas.core.double_double import DoubleDouble
+from atlas.core.arithmetic.double_double import DoubleDouble
+from atlas.core.arithmetic.grid import HUGE
+from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.threads import shared
+from atlas.core.arithmetic.wide import Wide
 from atlas.core.general import General
-from atlas.core.grid import HUGE
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation import wide
-from atlas.core.phase import Phases
-from atlas.core.threads import shared
-from atlas.core.wide import Wide
+from atlas.core.nutation.cayley_klein import BLOCK, Evaluation, Products, combined
+from atlas.core.nutation.functions import wide
 from atlas.errors import AtlasError
 from atlas.exact.cayley_klein import Parameter
 from atlas.exact.general import GeneralMotion

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from atlas.core.arithmetic.phase import HEAD, QUARTER, ROUNDER, circle_of, signs
+from atlas.core.arithmetic.wide import Wide
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import HEAD, QUARTER, ROUNDER, circle_of, signs
-from atlas.core.wide import Wide
 
 QUARTER_TURN, TAIL = float(QUARTER), np.array(float(QUARTER - Wide.exactly(HEAD)))
 """pi/2, and what its head of 27 digits lacks."""

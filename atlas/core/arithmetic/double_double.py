@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.arithmetic.wide import exact
 from atlas.core.inputs import FloatArray, common_shape
-from atlas.core.wide import exact
 
 SPLITTER = 2.0**27 + 1
 SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.double_double import DoubleDouble, blocks
+from atlas.core.arithmetic.double_double import DoubleDouble, blocks
+from atlas.core.arithmetic.phase import LIMIT
+from atlas.core.arithmetic.wide import ONE, TURN, Wide
 from atlas.core.inputs import FloatArray
-from atlas.core.phase import LIMIT
-from atlas.core.wide import ONE, TURN, Wide
 from atlas.errors import AtlasError, DomainError
 
 HEAD, TAIL = (np.float64(x) for x in (ONE / TURN).scaled(1).words(2))

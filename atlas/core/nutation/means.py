@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.double_double import DoubleDouble, chosen
+from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation_roots import Roots, better, constant, part, stacked, taken
+from atlas.core.nutation.roots import Roots, better, constant, part, stacked, taken
 
 MEANS, STEPS = 12, 60
 """Steps of the means, and of what is made along with them, in two words."""

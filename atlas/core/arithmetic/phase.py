@@ -10,8 +10,8 @@ from typing import Self
 
 import numpy as np
 
+from atlas.core.arithmetic.wide import TURN, Wide
 from atlas.core.inputs import FloatArray
-from atlas.core.wide import TURN, Wide
 from atlas.errors import AtlasError
 
 LIMIT = 2.0**50

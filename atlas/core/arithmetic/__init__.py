@@ -1,0 +1,1 @@
+"""The arithmetic under the kernels: numbers and arrays in two words, exact phases, matrices of turnings, grids."""
