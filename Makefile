@@ -13,7 +13,7 @@ SEED   ?= 0
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures picture accessibility verify bench stress mutants rebuilds curves lint clean setup lock FORCE
+.PHONY: help report test figures picture accessibility verify bench stress mutants lint clean setup lock FORCE
 
 help:
 	@echo 'make report    build/report/atlas/index.html and build/report/atlas.pdf, and the guide beside them'
@@ -24,7 +24,6 @@ help:
 	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 hostile calls'
 	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
 	@echo 'make accessibility   the linter axe-core on every page, in Chromium: needs node and npm'
-	@echo 'make rebuilds  how long each kind of change takes;   make curves   points drawn against error'
 	@echo 'make lint      ruff, mypy, import-linter;   make clean   removes build/'
 
 # What the report is made from; with nothing changed, make ends without starting Python.
@@ -77,12 +76,6 @@ accessibility: report
 
 mutants: setup
 	@$(BIN)/python tests/mutants.py $(PACKAGES) --count $(COUNT) --seed $(SEED) --jobs $(JOBS)
-
-rebuilds: setup
-	@PYTHONPATH=tests $(BIN)/python -m benchmarks.rebuilds --store
-
-curves: setup
-	@$(BIN)/python -m atlas.study.curves
 
 lint: setup
 	@$(BIN)/ruff check .

@@ -3,17 +3,13 @@
 They are read, never made anew: `atlas verify --record`, `atlas bench` and `atlas stress` make them.
 """
 
-import json
 import math
 import re
 from collections import Counter, defaultdict
-from statistics import median
 
 from atlas.build.reference import described
 from atlas.build.sources import PACKAGE
-from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, LABEL
-from atlas.places import folder
 from atlas.report.appendices import Appendices, Finding
 from atlas.report.blocks import Errata, Ledger, Recorded, Reference
 from atlas.report.definition import Report
@@ -34,7 +30,7 @@ def gather(report: Report) -> Appendices:
     trial = any(isinstance(block, Ledger | Errata) for block in blocks)
     wanted = {block.source for block in blocks if isinstance(block, Recorded)}
     tables: dict[str, Data] = {}
-    for source, read in {"trial": _trial, "bench": _bench, "stress": _stress, "rebuilds": _rebuilds}.items():
+    for source, read in {"trial": _trial, "bench": _bench, "stress": _stress}.items():
         if source in wanted:
             tables |= {f"{source}: {name}": data for name, data in read().items()}
     names = described() if any(isinstance(block, Reference) for block in blocks) else {}
@@ -175,35 +171,6 @@ def _stress() -> dict[str, Data]:
     )
     columns = (Column("Quantity"), Column("Worst error", "ulp"), Column("Limit", "ulp"), Column("Met where"))
     return {"worst errors": Data(columns, rows, "Worst errors on record.", (note,))}
-
-
-def _rebuilds() -> dict[str, Data]:
-    """Return how long changes of many kinds took, and what each made anew."""
-    path = folder("reports") / "data" / "rebuilds.json"
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError as error:
-        raise AtlasError(f"There is no record {path.name}: run make rebuilds.") from error
-    rows: tuple[tuple[str | Number, ...], ...] = tuple(
-        (
-            one["name"][:1].upper() + one["name"][1:],
-            f"`{one['command']}`",
-            Number(str(one["figures"])),
-            Number(str(one["pages"])),
-            "set" if one["pdf"] else "",
-            Number(f"{median(one['seconds']):.2f}"),
-        )
-        for one in record["changes"]
-    )
-    heads = ("What changed", "Command", "Figures", "Pages", "PDF")
-    columns = (*map(Column, heads), Column("Median time", "s"))
-    one, two, drawings = (record["cold"][name] for name in ("one", "two", "drawings"))
-    note = (
-        f"The whole atlas from nothing takes {two:.1f} s on two cores and {one:.1f} s on one, {one / two:.2f} times as "
-        f"long. Its figures alone take {drawings:.1f} s of one core; the whole takes {one / drawings:.2f} times that. "
-        f"Measured on {record['machine']}, on {record['date']}."
-    )
-    return {"changes": Data(columns, rows, "What a change makes anew, and how long that takes.", (note,))}
 
 
 def _met(quantity: str, ulps: float, regime: str) -> str:

@@ -6,8 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from atlas import files
-from atlas.errors import AtlasError
-from atlas.places import folder
 
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild
@@ -29,25 +27,6 @@ def write(path: Path, name: str, figures: Sequence["FigureBuild"], times: Mappin
     }
     files.write(path, json.dumps(record, ensure_ascii=False, indent=1) + "\n")
     return path
-
-
-def keep(path: Path, data: Path | None = None) -> Path:
-    """Keep the costs of a build as the record of which the figure `build_cost` is drawn, with machine and date."""
-    from atlas.study.bench.results import machine, today, versions
-
-    found = json.loads(path.read_text(encoding="utf-8"))
-    if any(scene["from"] == "failed" for scene in found["scenes"]):
-        raise AtlasError("a build in which a figure failed is not kept as a record.")
-    here = machine()
-    found |= {
-        "command": f"rm -r build/report && atlas report -j {found['jobs']} --keep-costs",
-        "machine": f"{here.processor}, {here.cores} cores, {here.system}",
-        "versions": {name: number for name, number in versions().items() if name in {"python", "numpy"}},
-        "date": today(),
-    }
-    kept = data or folder("reports") / "data" / "build_costs.json"
-    files.write(kept, json.dumps(found, ensure_ascii=False, indent=1) + "\n")
-    return kept
 
 
 def rows(path: Path) -> list[list[str]]:

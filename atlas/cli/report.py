@@ -35,10 +35,7 @@ if TYPE_CHECKING:
 @style_option
 @jobs_option
 @click.option("--explain", is_flag=True, help="Say for each figure why it was drawn or taken, and what it cost.")
-@click.option("--keep-costs", is_flag=True, help="Store what this build cost where the report's own chart reads it.")
-def command(
-    name: str, out: Path, formats: tuple[str, ...], style: str | None, jobs: int | None, explain: bool, keep_costs: bool
-) -> int:
+def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, jobs: int | None, explain: bool) -> int:
     """Build a report: HTML pages that open from disk, and a PDF with the same content.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. Only what depends on
@@ -54,10 +51,6 @@ def command(
             click.echo(file)
     if explain:
         _explain(built)
-    if keep_costs and built.costs is not None:
-        from atlas.build.costs import keep
-
-        click.echo(keep(built.costs))
     for note in built.notes:
         click.echo(f"atlas: {note}", err=True)
     for recipe, reason in built.failures:

@@ -37,9 +37,6 @@ def draw_plane(axes: Axes, panel: Plane) -> None:
     axes.set(**{key: at for key, at in (("xlim", panel.x_limits), ("ylim", panel.y_limits)) if at is not None})
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x_limits and panel.y_limits else "datalim")
-    if panel.y_names:
-        axes.set_yticks(np.arange(1, len(panel.y_names) + 1), [typeset(name) for name in panel.y_names])
-        axes.tick_params(axis="y", length=0)
     for axis in (axes.xaxis, axes.yaxis):
         if axis.get_scale() != "linear" and len(axis.get_major_locator()()) > _DECADES:
             axis.set_minor_locator(NullLocator())

@@ -111,7 +111,7 @@ class Plane:
     """A panel with two axes.
 
     With ``legend`` the layers' labels stand in a key (where there is most room, or beside the panel); without it they
-    stand at the layers themselves. With ``y_names`` the y axis has these names at 1, 2, ... instead of numbers.
+    stand at the layers themselves.
     """
 
     layers: tuple[Layer, ...]
@@ -124,7 +124,6 @@ class Plane:
     equal: bool = False
     legend: bool | Literal["beside"] = False
     title: str = ""
-    y_names: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

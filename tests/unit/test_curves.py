@@ -15,14 +15,11 @@ from atlas.core.flight import Flight
 from atlas.draw import to_figure
 from atlas.draw.space import window
 from atlas.draw.view import fit
-from atlas.errors import AtlasError
-from atlas.scene import Curve, Plane, Points, Region, Scene, Surface, recipes, sample
-from atlas.study import curves
+from atlas.scene import Curve, Plane, Region, Scene, Surface, recipes
 
 FloatArray = NDArray[np.float64]
 
 DPI = 300.0
-DRAWN = list(curves.curves())
 
 
 def distance(points: FloatArray, line: FloatArray) -> float:
@@ -33,82 +30,6 @@ def distance(points: FloatArray, line: FloatArray) -> float:
         along = np.clip((points - a) @ chord / (float(chord @ chord) or 1.0), 0.0, 1.0)
         nearest = np.minimum(nearest, np.linalg.norm(points - a - along[:, None] * chord, axis=1))
     return float(nearest.max())
-
-
-@pytest.mark.parametrize("tolerance", curves.TOLERANCES)
-@pytest.mark.parametrize("drawn", DRAWN, ids=lambda drawn: drawn.name)
-def test_the_drawn_curve_is_as_near_as_asked(drawn: curves.PixelCurve, tolerance: float) -> None:
-    """Against a dense sampling that knows nothing of the cuts, the error is below the tolerance, and as measured."""
-    line = sample.curve(drawn.point, drawn.start, drawn.stop, tolerance, pieces=drawn.pieces)
-    error = distance(drawn.point(np.linspace(drawn.start, drawn.stop, 5003)), line)
-    assert error < tolerance
-    s = drawn.knots(tolerance)
-    assert len(s) == len(line)
-    assert error == pytest.approx(drawn.error(s), rel=0.05)
-
-
-def test_the_record_is_what_is_measured() -> None:
-    """The stored record holds what the code of today measures."""
-    stored, fresh = curves.read(), curves.measure()
-    assert list(stored.curves) == list(fresh.curves) == [drawn.name for drawn in DRAWN]
-    for name, rows in fresh.curves.items():
-        for row, kept in zip(rows, stored.curves[name], strict=True):
-            assert (row.tolerance, row.points, row.even_points) == (kept.tolerance, kept.points, kept.even_points)
-            assert row.error == pytest.approx(kept.error, rel=1e-3)
-            assert row.even_error == pytest.approx(kept.even_error, rel=1e-3)
-
-
-def test_fewer_points_than_equal_steps_for_the_same_error() -> None:
-    """From a quarter of a pixel down; where the curve bends evenly, on a circle, there is nothing to win."""
-    for name, rows in curves.read().curves.items():
-        for row in rows:
-            if row.tolerance > 0.25:
-                continue
-            if name == "trace of the third axis":
-                assert row.points == row.even_points
-            else:
-                assert row.points < row.even_points
-                assert row.error < row.even_error
-            if name == "branch of the hyperbola":
-                assert row.points < row.even_points / 2
-
-
-def test_a_missing_or_foreign_record_is_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Any) -> None:
-    """One sentence says what to do."""
-    monkeypatch.setattr(curves, "stored", lambda: tmp_path / "curves.json")
-    with pytest.raises(AtlasError, match=r"python -m atlas\.study\.curves"):
-        curves.read()
-    (tmp_path / "curves.json").write_text('{"format": 1}', encoding="utf-8")
-    with pytest.raises(AtlasError, match="not a record"):
-        curves.read()
-
-
-def test_the_record_survives_the_file(monkeypatch: pytest.MonkeyPatch, tmp_path: Any) -> None:
-    """What is written is what is read."""
-    record = curves.read()
-    curves.write(record, tmp_path / "curves.json")
-    monkeypatch.setattr(curves, "stored", lambda: tmp_path / "curves.json")
-    assert curves.read() == record
-
-
-def test_the_figure_draws_every_row_in_view() -> None:
-    """One panel a curve: its errors, its tolerances and equal steps, all inside the limits."""
-    scene = recipes.load("curve_points").scene()
-    for panel, rows in zip(scene.panels, curves.read().curves.values(), strict=True):
-        assert isinstance(panel, Plane)
-        found = {layer.role: layer.points for layer in panel.layers if isinstance(layer, Curve | Points)}
-        assert found["main"].tolist() == [[row.points, row.error] for row in rows]
-        assert found["rest"].tolist() == [[row.points, row.tolerance] for row in rows]
-        assert found["second"].tolist() == [[row.points, row.even_error] for row in rows]
-        for points in found.values():
-            for column, limits in enumerate((panel.x_limits, panel.y_limits)):
-                assert limits is not None
-                assert ((points[:, column] >= limits[0]) & (points[:, column] <= limits[1])).all()
-    assert "$" not in scene.alt
-    every = curves.read().curves.values()
-    saved = max(1.0 - rows[-1].points / rows[-1].even_points for rows in every)
-    assert f"tolerance of {min(row.tolerance for rows in every for row in rows):g} pixels" in scene.alt
-    assert f"takes {100.0 * saved:.0f} per cent fewer points" in scene.alt
 
 
 @pytest.mark.parametrize("name", ["motion", "motion_sphere"])

@@ -52,7 +52,7 @@ def in_plane() -> Scene:
         Plane((curve, steep), "$x$", "$y$", y_scale="symlog", legend="beside"),
         Plane((steep,), "$x$", "$y$", x_scale="log", y_scale="log"),
         Plane((image,), "$x$", "$y$", x_scale="log"),
-        Plane((Curve(x[:, None] * [1e6, 1.0] + [0.0, 2.0], "second", "line"),), "$x$", "", y_names=("one", "two")),
+        Plane((Curve(x[:, None] * [1e6, 1.0] + [0.0, 2.0], "second", "line"),), "$x$", ""),
         Plane((replace(image, limits=(0.01, 20.0), scale="linear"),), "$x$", "$y$"),
     )
     return Scene("Flat", "A caption.", "An alternative.", panels, columns=2, size=(170.0, 260.0))

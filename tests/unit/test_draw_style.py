@@ -121,7 +121,7 @@ def test_pgf_needs_no_latex_to_be_written(tmp_path: Path, monkeypatch: pytest.Mo
 @pytest.mark.skipif(not shutil.which("pdflatex"), reason="no pdflatex here")
 def test_pgf_compiles(tmp_path: Path) -> None:
     """A document that inputs figures, one with underscores in its names, is set without an error."""
-    names = ("cone", "build_cost", "motion")
+    names = ("cone", "stability", "motion")
     for name in names:
         draw(recipes.load(name).scene(), tmp_path / f"{name}.pgf")
     inputs = "".join(rf"\input{{{name}.pgf}}\newpage" for name in names)

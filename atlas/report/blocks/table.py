@@ -26,7 +26,6 @@ COMMANDS = {
     "trial": "atlas verify --record",
     "bench": "atlas bench",
     "stress": "atlas stress",
-    "rebuilds": "make rebuilds",
 }
 """The commands that make the recorded results."""
 
@@ -56,7 +55,7 @@ class Listing(StrictStruct, frozen=True, tag_field="kind", tag="listing"):
 class Recorded(StrictStruct, frozen=True, tag_field="kind", tag="recorded"):
     """A table of recorded results, by its name there."""
 
-    source: Literal["trial", "bench", "stress", "rebuilds"]
+    source: Literal["trial", "bench", "stress"]
     table: str
     id: Id | None = None
     caption: str | None = None
