@@ -91,7 +91,7 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     code = [PACKAGE / "build" / "report.py", *folder("figures").glob("*.py")]
     places = folder("templates"), folder("reports") / "data", PACKAGE
     extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})
-    found = sources.closure([file, *code, *filter(Path.is_file, extra)])
+    found = sources.closure([file, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
     sources.save()
     return digest(found, sources.named(style), sys.version_info[:2], versions(), gl.library())
 
@@ -121,6 +121,7 @@ def _build(
     from atlas.build import costs, figures
     from atlas.build.appendices import gather
     from atlas.draw import gl
+    from atlas.report import bibliography
     from atlas.report.compose import compose
     from atlas.report.load import load
     from atlas.report.pictures import pictures
@@ -139,7 +140,8 @@ def _build(
     for figure, picture in wanted.items():
         _describe(figure, picture)
     progress(steps - 2, steps, "texts")
-    document = compose(report, found, gather(report))
+    works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
+    document = compose(report, found, gather(report), works)
     times["tables"] = time.perf_counter()
     _set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
@@ -260,13 +262,14 @@ def _pdf(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, _sources: Sources
 ) -> dict[str, bytes]:
     """Return the PDF of a report."""
-    from atlas.report import pdf
+    from atlas.report import bibliography, pdf
 
     with cache.temporary() as work:
         (work / "figures").mkdir()
         for figure, picture in figures.items():
             if not picture.failure:
                 (work / picture.printed).write_bytes(figure.contents[picture.printed.rpartition(".")[2]])
+        (work / bibliography.NAME).write_text(document.bibliography.source, encoding="utf-8")
         source = pdf.source(document)
         return {f"{document.report.name}.pdf": pdf.Compiler(work).compile(source)}
 

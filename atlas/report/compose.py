@@ -12,6 +12,7 @@ from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
 from atlas.plain import plain
 from atlas.report.appendices import Appendices
+from atlas.report.bibliography import Bibliography
 from atlas.report.blocks import KINDS, Block, kind_of
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.ledger import pages_of
@@ -51,7 +52,7 @@ class Document:
 
     `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations;
     `ledger` the page of each entry of the ledger; `errata` the page of the errata; `abstract`, `given` and `symbols`
-    are numbers of texts.
+    are numbers of texts; `bibliography` holds the works that can be cited, `listed_on` is the page of their list.
     """
 
     report: Report
@@ -65,6 +66,8 @@ class Document:
     equations: dict[str, str] = field(default_factory=dict)
     ledger: dict[str, str] = field(default_factory=dict)
     errata: str = ""
+    bibliography: Bibliography = field(default_factory=Bibliography)
+    listed_on: str = ""
     written: dict[Target, list[str]] = field(default_factory=dict)
 
     def set(self, *targets: Target) -> None:
@@ -87,7 +90,12 @@ class Document:
                 return Link(words, file if target == "html" else "", anchor, says)
             if name in EQUATIONS:
                 return Link(self.number(name))
-            raise AtlasError(f"{where}: {unknown('equation, figure, table or page', f'@{name}', self.citable)}")
+            if name in self.bibliography.named:
+                if not self.listed_on:
+                    raise AtlasError(f"{where}: @{name} is cited, but no block of the kind 'bibliography' lists it.")
+                page = f"{self.listed_on}.html" if target == "html" else ""
+                return Link(self.bibliography.named[name], page, f"work-{name}", "", self.bibliography.bracketed[name])
+            raise AtlasError(f"{where}: {unknown('equation, figure, table, page or work', f'@{name}', self.citable)}")
 
         return link
 
@@ -115,17 +123,29 @@ class Document:
     @property
     def citable(self) -> list[str]:
         """All names that can be cited."""
-        return [f"@{name}" for name in (*self.targets, *EQUATIONS)]
+        return [f"@{name}" for name in (*self.targets, *EQUATIONS, *self.bibliography.named)]
+
+    @property
+    def works(self) -> dict[str, str]:
+        """The entries of the works that are cited, by key, in the order of the list."""
+        names = {name for text in self.texts.texts for name in citations(text.markdown)}
+        return {key: entry for key, entry in self.bibliography.entries.items() if key in names}
 
 
-def compose(report: Report, pictures: Mapping[str, Picture], recorded: Appendices | None = None) -> Document:
+def compose(
+    report: Report,
+    pictures: Mapping[str, Picture],
+    recorded: Appendices | None = None,
+    bibliography: Bibliography | None = None,
+) -> Document:
     """Give the blocks of a report their numbers, compute its tables, and collect its texts.
 
     `pictures` are those of `atlas.report.pictures.pictures`, `recorded` holds the recorded results that its blocks
-    show. A citation leads to the entry of the ledger where the report has that, else to the first display of the
-    equation. A picture that failed keeps its place with the reason; anything else that is wrong raises AtlasError.
+    show, `bibliography` the works that can be cited. A citation leads to the entry of the ledger where the report has
+    that, else to the first display of the equation. A picture that failed keeps its place with the reason; anything
+    else that is wrong raises AtlasError.
     """
-    document = Document(report, pictures, ledger=pages_of(report))
+    document = Document(report, pictures, ledger=pages_of(report), bibliography=bibliography or Bibliography())
     document.abstract = document.texts.add(report.abstract, "the abstract")
     document.given = [document.texts.add(line, "the parameters", inline=True) for line in parameters(report.parameters)]
     composer = Composer(document, recorded or Appendices())

@@ -38,7 +38,8 @@ class Index(StrictStruct, frozen=True):
 class Report(StrictStruct, frozen=True):
     """The whole file.
 
-    ``cover`` is the id of the figure on the front page and on the cover; ``related`` names reports to link to.
+    ``cover`` is the id of the figure on the front page and on the cover; ``related`` names reports to link to;
+    ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites.
     """
 
     name: str
@@ -49,5 +50,6 @@ class Report(StrictStruct, frozen=True):
     abstract: str = ""
     cover: Id | None = None
     related: dict[str, str] = msgspec.field(default_factory=dict)
+    bibliography: str = ""
     parameters: Parameters = Parameters()
     index: Index = Index()

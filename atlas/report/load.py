@@ -22,11 +22,14 @@ def load(path: Path) -> Report:
     except tomllib.TOMLDecodeError as error:
         raise AtlasError(f"{path} is not TOML: {error}.") from error
     try:
-        return _consistent(convert(raw, Report))
+        report = _consistent(convert(raw, Report))
     except SchemaError as error:
         raise AtlasError(f"{path}{_line(text, error.key)}: {error}.") from error
     except AtlasError as error:
         raise AtlasError(f"{path}: {error}") from error
+    if report.bibliography and not (path.parent / report.bibliography).is_file():
+        raise AtlasError(f"{path}{_line(text, 'bibliography')}: there is no file {path.parent / report.bibliography}.")
+    return report
 
 
 def _consistent(report: Report) -> Report:

@@ -1,7 +1,7 @@
 """What a report says, for machines: each number in its table, each figure with its digest, for `atlas diff`."""
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -112,6 +112,7 @@ def read(place: Path) -> BuiltReport:
 
 def manifest_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
     """Return the manifest of a report as JSON; `pictures` are its figures by file. It depends on the content alone."""
+    from atlas.report.blocks.bibliography import BibliographyView
     from atlas.report.blocks.figure import FigureView
     from atlas.report.blocks.table import TableView
     from atlas.report.versions import versions
@@ -130,6 +131,8 @@ def manifest_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
                     ["" if column.unit is None else texts[column.unit] for column in block.columns],
                     [[_cell(cell, texts) for cell in row] for row in block.rows],
                 )
+            elif isinstance(block, BibliographyView):
+                words += document.works.values()
             elif isinstance(block, FigureView):
                 for picture in block.pictures:
                     suffix = "" if picture is block.pictures[0] else f"-{picture.renderer}"
@@ -149,8 +152,9 @@ def manifest_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
     return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
 
 
-def _texts(block: Any) -> list[int]:
+def _texts(block: Any) -> Sequence[int]:
     """Return the numbers of the texts of a block's prose."""
+    from atlas.report.blocks.bibliography import BibliographyView
     from atlas.report.blocks.equation import EquationView
     from atlas.report.blocks.figure import FigureView
     from atlas.report.blocks.ledger import ErrataView, LedgerView
@@ -166,7 +170,7 @@ def _texts(block: Any) -> list[int]:
             return [block.caption]
         case LedgerView() | ErrataView():
             return [number for entry in block.entries for number in entry.texts]
-        case ReferenceView():
+        case ReferenceView() | BibliographyView():
             return block.texts
         case _:
             return [block.caption, *([] if block.note is None else [block.note])]

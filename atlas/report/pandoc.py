@@ -56,7 +56,7 @@ def read(texts: Sequence[tuple[str, bool]]) -> list[Tree]:
     """
     sources = [" ".join(markdown.split()) if inline else f"{markdown.strip()}\n" for markdown, inline in texts]
     header = f"---\n{json.dumps({'texts': sources}, ensure_ascii=True)}\n---\n"
-    tree = json.loads(_run(["-f", f"{MARKDOWN}+yaml_metadata_block", "-t", "json"], header))
+    tree = json.loads(run(["-f", f"{MARKDOWN}+yaml_metadata_block", "-t", "json"], header))
     return [value["c"] for value in tree["meta"]["texts"]["c"]]
 
 
@@ -66,19 +66,19 @@ def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
     blocks: list[Any] = []
     for tree, inline in trees:
         blocks += [{"t": "RawBlock", "c": [target, mark]}, *([{"t": "Plain", "c": tree}] if inline else tree)]
-    document = {"pandoc-api-version": _api(), "meta": {}, "blocks": blocks}
-    output = _run(["-f", "json", *_WRITE[target], "--wrap=none"], json.dumps(document))
+    document = {"pandoc-api-version": api(), "meta": {}, "blocks": blocks}
+    output = run(["-f", "json", *_WRITE[target], "--wrap=none"], json.dumps(document))
     return [piece.strip() for piece in output.split(mark)[1:]]
 
 
 @cache
-def _api() -> list[int]:
+def api() -> list[int]:
     """Return the version of pandoc's trees."""
-    found: list[int] = json.loads(_run(["-f", "markdown", "-t", "json"], ""))["pandoc-api-version"]
+    found: list[int] = json.loads(run(["-f", "markdown", "-t", "json"], ""))["pandoc-api-version"]
     return found
 
 
-def _run(arguments: Sequence[str], source: str) -> str:
+def run(arguments: Sequence[str], source: str) -> str:
     """Run pandoc once; turn its first warning into an error."""
     with TemporaryDirectory() as folder:
         log = Path(folder) / "log.json"

@@ -26,12 +26,16 @@ _ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
 
 
 class Link(NamedTuple):
-    """What a citation says, the page (none in the PDF) and anchor that it leads to, if any, and what stands there."""
+    """What a citation says, the page (none in the PDF) and anchor that it leads to, if any, and what stands there.
+
+    `bracketed` is what it says in brackets if it cites a work, else empty.
+    """
 
     words: str
     page: str = ""
     anchor: str = ""
     says: str = ""
+    bracketed: str = ""
 
 
 @dataclass(frozen=True)
@@ -154,19 +158,31 @@ class _Checked:
     def citation(self, parts: Any) -> Tree:
         """Return the links of a citation, in brackets with the words around them if it was written so."""
         found: Tree = []
-        for part in parts:
+        links = [self.cite(part["citationId"], self.text.where) for part in parts]
+        works = [bool(link.bracketed) for link in links]
+        if any(works) and not all(works):
+            raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
+        if all(works) and any(part["citationPrefix"] for part in parts):
+            raise AtlasError(f"{self.text.where}: words before a work in brackets are lost in print; put them outside.")
+        if all(works) and self.target == "typst":  # which sets its own bibliography
+            return [{"t": "Cite", "c": [[part | self.around(part) for part in parts], []]}]
+        bracketed = parts[0]["citationMode"]["t"] == "NormalCitation"
+        for part, link in zip(parts, links, strict=True):
             name = part["citationId"]
-            link = self.cite(name, self.text.where)
-            words = _words(link.words)
+            words = _words(link.bracketed if bracketed and link.bracketed else link.words)
             says = link.says if self.target == "html" else ""
             node = [_link(words, f"{link.page}#{link.anchor}", says)] if link.anchor else words
             if name in self.anchors:
                 node = [{"t": "Span", "c": [[self.anchors.pop(name), [], []], node]}]
             space = [{"t": "Space"}]
-            prefix, suffix = self.tree(part["citationPrefix"]), self.tree(part["citationSuffix"])
+            prefix, suffix = self.around(part).values()
             found += [*(_words("; ") if found else ()), *prefix, *(space if prefix else ()), *node, *suffix]
-        bracketed = parts[0]["citationMode"]["t"] == "NormalCitation"
-        return [*_words("["), *found, *_words("]")] if bracketed else found
+        first, last = "()" if all(works) else "[]"
+        return [*_words(first), *found, *_words(last)] if bracketed else found
+
+    def around(self, part: Any) -> dict[str, Tree]:
+        """Return the words before and after a name in brackets."""
+        return {key: self.tree(part[key]) for key in ("citationPrefix", "citationSuffix")}
 
     def address(self, url: str) -> str:
         """Return the address that a link may lead to."""

@@ -277,8 +277,8 @@ def test_a_report_without_a_ledger_reads_no_record(tmp_path: Path) -> None:
     assert gather(report) == Appendices()
     document = compose(report, {})
     says = "mf76: The hyperbola resolved for ω_3"
-    assert document.cite("html")("mf76", "") == ("(71)", "index.html", "eq-mf76", says)
-    assert document.cite("html")("mf77", "") == ("(72)", "", "", "")
+    assert document.cite("html")("mf76", "")[:4] == ("(71)", "index.html", "eq-mf76", says)
+    assert document.cite("html")("mf77", "")[:4] == ("(72)", "", "", "")
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,8 @@ import pytest
 
 from atlas.build.appendices import gather
 from atlas.errors import AtlasError
+from atlas.places import folder
+from atlas.report import bibliography
 from atlas.report.compose import compose
 from atlas.report.find import find, names
 from atlas.report.load import load
@@ -119,7 +121,8 @@ def test_every_report_of_the_folder_is_sound(name: str) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""
     report = load(find(name))
     found = pictures(report)
-    document = compose(report, found, gather(report))
+    works = bibliography.read(folder("reports") / report.bibliography) if report.bibliography else None
+    document = compose(report, found, gather(report), works)
     assert report.name == name
     for picture in found.values():
         assert not picture.failure

@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from atlas.report.blocks import equation, figure, ledger, prose, reference, table
+from atlas.report.blocks import bibliography, equation, figure, ledger, prose, reference, table
+from atlas.report.blocks.bibliography import Bibliography
 from atlas.report.blocks.equation import Equation
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.ledger import Errata, Ledger
@@ -18,6 +19,7 @@ from atlas.report.blocks.table import Listing, Recorded, Table
 
 __all__ = [
     "KINDS",
+    "Bibliography",
     "Block",
     "Equation",
     "Errata",
@@ -33,7 +35,9 @@ __all__ = [
     "kind_of",
 ]
 
-Block: TypeAlias = Prose | Note | Equation | Figure | Table | Listing | Recorded | Ledger | Errata | Reference
+Block: TypeAlias = (
+    Prose | Note | Equation | Figure | Table | Listing | Recorded | Ledger | Errata | Reference | Bibliography
+)
 
 
 @dataclass(frozen=True)
@@ -56,6 +60,7 @@ KINDS: Mapping[str, Kind] = {
     "ledger": Kind(Ledger, ledger.view_ledger, "ledger"),
     "errata": Kind(Errata, ledger.view_errata, "errata"),
     "reference": Kind(Reference, reference.view, "reference"),
+    "bibliography": Kind(Bibliography, bibliography.view, "bibliography"),
 }
 
 
