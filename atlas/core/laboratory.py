@@ -1,4 +1,4 @@
-"""A body that could exist, in SI units: the charge that it can hold, and what its motion in a magnet radiates.
+"""A body that could exist, in SI units: the charge that it can hold, what it radiates, how the field magnetises it.
 
 All parts have one charge-to-mass ratio mu, so the electric dipole moment about the centre of mass is mu times the sum
 of m x, which is zero: what turns about the centre radiates by its magnetic dipole mu m/2, m the angular momentum, and
@@ -9,7 +9,22 @@ from math import cos, pi, sin
 from typing import Any
 
 from atlas.core.inputs import number, positive
-from atlas.core.units import ELECTRIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.core.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.errors import unknown
+
+DEMAGNETIZATION = {
+    "ring": -1 / 4,
+    "disk": -1.0,
+    "cylindrical_shell": 1 / 2,
+    "thin_rod": 1 / 2,
+    "sphere": 0.0,
+    "spherical_shell": 0.0,
+}
+"""N_perp - N_par of a shape made of a thin wall or wire, N the demagnetising factors across and along its axis.
+
+A wall has the factor 1 along its normal n and 0 along itself, N = n n^T; a wire 1/2 across itself, N = (1 - t t^T)/2;
+these are averaged over the body.
+"""
 
 
 def greatest_charge(radius: Any, surface_field: float) -> float:
@@ -53,3 +68,16 @@ def quadrupole_power(mu: Any, moments: tuple[float, float], angle: Any, rate: An
     s, c = sin(angle), cos(angle)
     third = number(mu, "mu") * (I2 - I3) * number(rate, "The rate") ** 3 * s
     return third * third * (16 * s * s + c * c) / (40 * pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**5)
+
+
+def diamagnetic_energy(susceptibility: Any, volume: Any, B: Any, shape: str) -> float:
+    """Factor of nu^2, in J, in the energy of a body that the field magnetises, nu the cosine of its axis and the field.
+
+    The susceptibility chi, of either sign, is weak and the same everywhere; volume in m^3, B in T. The moment is
+    chi V (1 - chi N) B/mu_0, and the energy -(m, B)/2 = const - chi^2 V B^2 (N_perp - N_par) nu^2/(2 mu_0). AtlasError
+    for a shape that is not in DEMAGNETIZATION.
+    """
+    if shape not in DEMAGNETIZATION:
+        raise unknown("shape", shape, DEMAGNETIZATION, "of a thin wall")
+    strength = (number(susceptibility, "The susceptibility") * number(B, "B")) ** 2 * positive(volume, "The volume")
+    return -strength * DEMAGNETIZATION[shape] / (2 * MAGNETIC_CONSTANT)

@@ -5,7 +5,8 @@ import pytest
 
 from atlas import BallMotion, DomainError
 from atlas.core import laboratory
-from atlas.core.units import ELECTRIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.core.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.errors import AtlasError
 
 EPS = float(np.finfo(float).eps)
 
@@ -68,3 +69,36 @@ def test_the_quadrupole_of_point_charges_radiates_as_the_formula_says(angle: flo
     moments = (g1 + g3, 2 * g1)
     assert abs(laboratory.quadrupole_power(mu, moments, angle, k) / power - 1) <= 1e-11
     assert laboratory.quadrupole_power(mu, (1.0, 1.0), angle, k) == 0.0
+
+
+@pytest.mark.parametrize("shape", ["ring", "disk", "cylindrical_shell", "thin_rod", "spherical_shell"])
+def test_the_demagnetising_factors_are_means_over_the_wall(shape: str) -> None:
+    """The mean of n n^T over a wall, of (1 - t t^T)/2 along a wire, has the trace 1; by a sum over points, 1e-12."""
+    w = (np.arange(64) + 0.5) * 2 * np.pi / 64
+    circle = np.stack([np.cos(w), np.sin(w), 0 * w], axis=1)
+    u, weight = np.polynomial.legendre.leggauss(8)
+    sphere = np.concatenate([np.c_[np.sqrt(1 - z * z) * circle[:, :2], np.full(64, z)] for z in u])
+    axis, along = np.array([[0.0, 0.0, 1.0]]), np.cross([0.0, 0.0, 1.0], circle)
+    walls = {"disk": axis, "cylindrical_shell": circle, "spherical_shell": sphere}
+    wires = {"ring": along, "thin_rod": axis}
+    weights = np.repeat(weight / 2, 64) / 64 if shape == "spherical_shell" else None
+    if shape in walls:
+        N = np.average(np.einsum("ni,nj->nij", walls[shape], walls[shape]), axis=0, weights=weights)
+    else:
+        N = np.mean((np.eye(3) - np.einsum("ni,nj->nij", wires[shape], wires[shape])) / 2, axis=0)
+    assert abs(np.trace(N) - 1) <= 1e-12
+    assert abs(N[0, 0] - N[2, 2] - laboratory.DEMAGNETIZATION[shape]) <= 1e-12
+
+
+def test_the_energy_of_a_magnetised_body_is_that_of_its_moment() -> None:
+    """-(m, B)/2 with m = chi V (1 - chi N) B/mu_0, along the field less across it: 1e-9, either sign of chi."""
+    chi, V, B = -0.01, 3e-6, 2.0
+    N = {"along": 0.0, "across": 0.5}  # a cylindrical surface
+    energy = {name: -chi * V * (1 - chi * n) * B * B / (2 * MAGNETIC_CONSTANT) for name, n in N.items()}
+    found = laboratory.diamagnetic_energy(chi, V, B, "cylindrical_shell")
+    assert abs(found / (energy["along"] - energy["across"]) - 1) <= 1e-9
+    assert found == laboratory.diamagnetic_energy(-chi, V, B, "cylindrical_shell") < 0
+    assert laboratory.diamagnetic_energy(chi, V, B, "sphere") == 0
+    assert abs(MAGNETIC_CONSTANT * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**2 - 1) <= 2e-10
+    with pytest.raises(AtlasError, match="cylindrical_shell"):
+        laboratory.diamagnetic_energy(chi, V, B, "cylindrical")

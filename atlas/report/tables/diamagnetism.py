@@ -1,0 +1,45 @@
+"""What the field does to a body that it magnetises, beside what it does to the body's charge."""
+
+from math import hypot
+
+from atlas.core.laboratory import diamagnetic_energy
+from atlas.errors import AtlasError
+from atlas.report.numbers import Number
+from atlas.report.schema import StrictStruct
+from atlas.report.tables.model import Column, Data, Request
+
+
+class Parameters(StrictStruct, frozen=True):
+    """The susceptibility of the material, and its density in kg/m^3."""
+
+    susceptibility: float
+    density: float
+
+
+def diamagnetism(request: Request) -> Data:
+    """Return the factors of nu^2 in the energy of several bodies: by their charge, and by their own magnetism."""
+    asked = request.take(Parameters)
+    if asked.density <= 0:
+        raise AtlasError("this table takes a positive density.")
+    rows: list[tuple[str | Number, ...]] = []
+    for one in request.cases:
+        record = one.body_record
+        if record is None or one.body is None or one.physical is None or record.mass is None or record.shape is None:
+            raise AtlasError(
+                "this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio."
+            )
+        by_charge = (one.body.I3 - one.body.I2) * hypot(*one.components) ** 2 / 2
+        field = float(hypot(*one.physical.B))
+        own = diamagnetic_energy(asked.susceptibility, record.mass / asked.density, field, record.shape)
+        rows.append((record.title, *(Number(f"{value:.1e}" if value else "0") for value in (by_charge, own))))
+    return Data(
+        (
+            Column("Body"),
+            Column(r"by the charge, $(I_3-I_2)b^2/2$", "J"),
+            Column(r"by the magnetisation, $-\chi^2VB^2\,\Delta N/2\mu_0$", "J"),
+        ),
+        tuple(rows),
+        r"The factors of $\nu^2$ in the energy of the bodies: by their charge, and by their own magnetisation with a "
+        rf"susceptibility $\chi$ of {Number(f'{asked.susceptibility:.1e}').tex()} and {asked.density:g} kg m$^{{-3}}$.",
+        (r"Two digits: $\chi$ is known no better, and $\Delta N$ is that of a thin wall.",),
+    )
