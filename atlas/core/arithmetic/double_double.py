@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.arithmetic.memory import keep
 from atlas.core.arithmetic.wide import exact
 from atlas.core.inputs import FloatArray, common_shape
 
@@ -25,8 +26,9 @@ SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))
 ORDINARY = 2.0**100
 """Rows whose inputs, other than zeros, lie between its inverse and itself: no product of six over- or underflows."""
 
-BLOCK = 16384
-"""Rows evaluated at once, so that what is between stays in the cache, and so many that a call costs little."""
+BLOCK = 8192
+"""Rows evaluated at once: few enough to stay in the cache and in memory that is kept, and so many that a call costs
+little."""
 
 Formula = Callable[..., Any]
 
@@ -208,7 +210,7 @@ def blocks(
     """
     size = int(np.prod(shape))
     columns = [np.float64(x) if np.ndim(x) == 0 else _flat(np.asarray(x), shape) for x in inputs]
-    np.empty(2**20)  # a long array, freed: from then on the C library keeps the memory that each operation gives back
+    keep()
     for start in range(0, size, BLOCK):
         part = slice(start, min(start + BLOCK, size))
         given = [x if isinstance(x, np.float64) else x[part] for x in columns]
