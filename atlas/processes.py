@@ -1,10 +1,13 @@
 """Worker processes, where the system lets us have any."""
 
+import multiprocessing
+import os
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
+from threading import Thread
 from typing import Any
 
 
@@ -17,6 +20,18 @@ def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "s
         return _Pool(workers, get_context(context), begin)
     except (OSError, ImportError, NotImplementedError):
         return None
+
+
+def end_with_parent() -> None:
+    """Let this process end as soon as the one that started it has ended, however that was."""
+    Thread(target=_wait_for_parent, daemon=True).start()
+
+
+def _wait_for_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 class _Pool(ProcessPoolExecutor):

@@ -8,13 +8,13 @@ import re
 from collections import Counter, defaultdict
 
 from atlas.build.reference import described
-from atlas.build.sources import PACKAGE
 from atlas.paper import EQUATIONS, LABEL
 from atlas.report.appendices import Appendices, Finding
 from atlas.report.blocks import Errata, Ledger, Recorded, Reference
 from atlas.report.definition import Report
 from atlas.report.numbers import Number
 from atlas.report.tables.model import Column, Data
+from atlas.sources import PACKAGE
 
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")

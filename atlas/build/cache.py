@@ -20,18 +20,13 @@ from tempfile import mkdtemp
 from typing import Any
 
 from atlas import files
+from atlas.sources import digest
 
 NAME = ".cache"
 """The folder beside what is built."""
 DAY = 24 * 3600.0
 UNUSED = 90 * DAY
 """Seconds after which an entry that nobody has read is removed; what a killed build left goes after a day."""
-
-
-def digest(*parts: Any) -> str:
-    """Return the digest of values that JSON can write, the same on every machine."""
-    text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 class Cache:

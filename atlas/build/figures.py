@@ -11,12 +11,12 @@ from typing import Any
 from atlas import files, processes
 from atlas.build import cache as caches
 from atlas.build import worker
-from atlas.build.cache import Cache, digest
-from atlas.build.sources import PACKAGE, Sources
+from atlas.build.cache import Cache
 from atlas.core.arithmetic.threads import processors
 from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import folder, settle_matplotlib
+from atlas.sources import PACKAGE, Sources, digest
 
 OUT = Path("build/figures")
 FORMATS = ("svg", "pdf", "png")

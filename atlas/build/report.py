@@ -16,13 +16,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from atlas.build import cache as caches
-from atlas.build.cache import Cache, digest
-from atlas.build.sources import PACKAGE, Sources
+from atlas.build.cache import Cache
 from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import folder
 from atlas.report.find import find
 from atlas.report.manifest import MANIFEST, manifest_of
+from atlas.sources import PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild

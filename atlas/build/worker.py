@@ -2,7 +2,6 @@
 
 import gzip
 import json
-import multiprocessing
 import os
 import resource
 import signal
@@ -14,12 +13,12 @@ from contextlib import redirect_stdout
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 from atlas.build.cache import Cache
 from atlas.errors import AtlasError
 from atlas.places import settle_matplotlib
+from atlas.processes import end_with_parent
 from atlas.scene import Curve, Image, Points, Region, Scene, Surface, data, recipes
 from atlas.scene.narrow import narrowed
 
@@ -143,11 +142,4 @@ def begin() -> None:
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     if not sys.warnoptions:  # as on the command line: a float that overflows is told by what shows it
         warnings.simplefilter("ignore", RuntimeWarning)
-    Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
+    end_with_parent()

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build.cache import DAY, UNUSED, Cache, digest
+from atlas.build.cache import DAY, UNUSED, Cache
+from atlas.sources import digest
 
 KEY, OTHER = digest("key"), digest("other")
 LARGE = b"x" * 2_000_000

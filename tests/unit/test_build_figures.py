@@ -14,14 +14,14 @@ import pytest
 
 import atlas.build.figures as figures_module
 import atlas.build.report as report_module
-import atlas.build.sources as sources_module
+import atlas.sources as sources_module
 from atlas import AtlasError, places, processes
 from atlas.build import worker
-from atlas.build.cache import Cache, digest
+from atlas.build.cache import Cache
 from atlas.build.figures import FigureBuild, build_figures, draw, find, parts_of
 from atlas.build.report import key_of
-from atlas.build.sources import PACKAGE, Sources
 from atlas.scene import recipes
+from atlas.sources import PACKAGE, Sources, digest
 
 ROOT = PACKAGE.parent
 WANTED = {

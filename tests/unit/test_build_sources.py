@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build import sources as sources_module
+from atlas import sources as sources_module
 from atlas.build.cache import Cache
-from atlas.build.sources import PACKAGE, Sources
 from atlas.places import folder
+from atlas.sources import PACKAGE, Sources
 
 RECIPE = '''"""A title."""
 

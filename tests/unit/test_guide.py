@@ -60,7 +60,7 @@ def shell(typed: str, shown: str, capsys: pytest.CaptureFixture[str]) -> str:
     """Run a command line in this process; return what is wrong with what it prints, or nothing."""
     capsys.readouterr()
     with pytest.MonkeyPatch.context() as patch:
-        for module in ("atlas.scene.recipes", "atlas.build.figures", "atlas.build.sources"):
+        for module in ("atlas.scene.recipes", "atlas.build.figures", "atlas.sources"):
             patch.setattr(f"{module}.folder", lambda kind: Path(kind) if kind == "figures" else folder(kind))
         with pytest.raises(SystemExit) as ended:
             main(shlex.split(typed))

@@ -1,4 +1,4 @@
-"""What a figure or a report is made from: a digest of the code that it reaches, comments and formatting aside.
+"""What a figure, a report or a table is made from: a digest of the code that it reaches, comments and formatting aside.
 
 A Python file is reached when it is named or imported, at any depth and also inside a function, from a file that is
 reached. Its digest is that of its syntax tree, so that a comment or a line break changes nothing, and a changed
@@ -7,14 +7,14 @@ docstring does (the title of a figure is one). Any other file, and one that is n
 
 import ast
 import hashlib
+import json
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import atlas
 from atlas import _HOMES
-from atlas.build.cache import Cache, digest
 from atlas.places import folder
 
 PACKAGE = Path(atlas.__file__).resolve().parent
@@ -23,13 +23,29 @@ OURS = {"atlas", "figures"}
 MANY = 3000
 
 
+def digest(*parts: Any) -> str:
+    """Return the digest of values that JSON can write, the same on every machine."""
+    text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+class Memory(Protocol):
+    """Where values that JSON can write are remembered by name."""
+
+    def load(self, name: str) -> dict[str, Any]:
+        """Return what is remembered, nothing if there is none."""
+
+    def save(self, name: str, values: dict[str, Any]) -> None:
+        """Remember."""
+
+
 class Sources:
     """Digests of files and of all that they reach.
 
     Every file is read; what its syntax tree says is remembered in the cache under the digest of its bytes.
     """
 
-    def __init__(self, cache: Cache | None = None) -> None:
+    def __init__(self, cache: Memory | None = None) -> None:
         self._cache = cache
         self._known: dict[str, Any] = cache.load("sources") if cache else {}
         self._used: dict[str, Any] = {}
