@@ -10,6 +10,9 @@ from multiprocessing import get_context
 from threading import Thread
 from typing import Any
 
+SAFE = "PYTHONSAFEPATH"
+"""As the option -P of Python, which a process inherits."""
+
 
 def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "spawn") -> ProcessPoolExecutor | None:
     """Return an executor with so many processes, each of which calls `begin` first.
@@ -17,7 +20,8 @@ def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "s
     None where the system has no semaphores, as with a /dev/shm that can't be written: then the work is to be done here.
     """
     try:
-        return _Pool(workers, get_context(context), begin)
+        with _without_main():
+            return _Pool(workers, get_context(context), begin)
     except (OSError, ImportError, NotImplementedError):
         return None
 
@@ -52,11 +56,18 @@ class _Pool(ProcessPoolExecutor):
 
 @contextmanager
 def _without_main() -> Iterator[None]:
-    """Let a process that is started meanwhile believe that the main program is no file."""
+    """Let a process that is started meanwhile believe that the main program is no file.
+
+    Nor does it look for modules in the working folder, where a user may have a ``signal.py``, before it is told the
+    path of this one.
+    """
     main = sys.modules["__main__"]
-    spec, file = main.__spec__, getattr(main, "__file__", None)
-    main.__spec__, main.__file__ = None, None
+    spec, file, safe = main.__spec__, getattr(main, "__file__", None), os.environ.get(SAFE)
+    main.__spec__, main.__file__, os.environ[SAFE] = None, None, "1"
     try:
         yield
     finally:
         main.__spec__, main.__file__ = spec, file
+        os.environ.pop(SAFE)
+        if safe is not None:
+            os.environ[SAFE] = safe

@@ -29,6 +29,8 @@ Progress = Callable[[int, int, str], None]
 class FigureBuild:
     """A figure that is wanted in some kinds of files, and what became of it.
 
+    The recipe is a name, or the place of a file.
+
     The kinds are svg, pdf, png, pgf, csv, csv.gz, and narrow: an SVG for a narrow screen, empty where svg will do.
 
     `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
@@ -48,12 +50,17 @@ class FigureBuild:
     failure: str = ""
 
     @property
+    def stem(self) -> str:
+        """The recipe's name, without the folder where its file may be."""
+        return Path(self.recipe).stem
+
+    @property
     def name(self) -> str:
         """The recipe's name and what distinguishes this figure, for people."""
         from atlas.report.numbers import shown
 
         settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
-        return f"{self.recipe}({settings})" + (" shaded" if self.renderer == "shaded" else "")
+        return f"{self.stem}({settings})" + (" shaded" if self.renderer == "shaded" else "")
 
     @property
     def reason(self) -> str:
@@ -83,7 +90,7 @@ def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str,
         records = ()  # it can't be drawn, which is told when that is tried
     return {
         "parameters": digest(figure.parameters),
-        "recipe and kernels": sources.closure([folder("figures") / f"{figure.recipe}.py"]),
+        "recipe and kernels": sources.closure([recipes.source(figure.recipe)]),
         "records": sources.closure(folder("reports") / "data" / name for name in records),
         "drawing code": sources.closure([PACKAGE / "build" / "worker.py", *filter(Path.is_file, drawing)]),
         "style": sources.named(figure.style),
@@ -96,7 +103,7 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
     """Take from the cache what there is of some figures, and note why the rest must be drawn."""
     for figure in figures:
         figure.parts = parts_of(figure, sources, gl)
-        figure.keys = {kind: digest(figure.recipe, figure.parts, kind) for kind in figure.kinds}
+        figure.keys = {kind: digest(figure.stem, figure.parts, kind) for kind in figure.kinds}
         figure.take(cache)
         if figure.missing():
             before = cache.load(figure.name)
@@ -118,7 +125,7 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
         figure.take(cache)
         if figure.missing() and not failure:
             raise OSError(f"what was drawn is not in {cache.folder}; was it removed?")
-        progress(done, len(figures), figure.recipe)
+        progress(done, len(figures), figure.stem)
 
 
 def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
@@ -193,6 +200,7 @@ def build_figures(
 ) -> list[Files]:
     """Put each of the recipes into out/NAME.FORMAT for each format, each file whole or not at all.
 
+    A name with the ending .py is that of a recipe's file, wherever it is.
     `style` is a style sheet of Matplotlib, a file or a name, applied on top of the package's own. `jobs` of them are
     drawn at once, one a core when it is not given. What the cache in `out` has is not drawn again. The format csv is
     the data of the figure, see `atlas.scene.data`. A figure that fails does not stop the others. Raises AtlasError for
@@ -205,7 +213,8 @@ def build_figures(
 
     cache = Cache(out / caches.NAME)
     cache.prune()
-    figures = [FigureBuild(name, parameters or {}, renderer, tuple(formats), style) for name in names]
+    places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names]
+    figures = [FigureBuild(place, parameters or {}, renderer, tuple(formats), style) for place in places]
     find(figures, cache, Sources(cache), gl.library())
     draw(figures, cache, jobs or cores(), progress)
     return [_put(figure, out) for figure in figures]
@@ -213,7 +222,7 @@ def build_figures(
 
 def _put(figure: FigureBuild, out: Path) -> Files:
     """Put the files of a figure in their places, if they are not there."""
-    name = figure.recipe
+    name = figure.stem
     if figure.failure:
         return Files(name, reason=figure.reason, failure=figure.failure)
     paths = {kind: out / f"{name}.{kind}" for kind in figure.kinds}

@@ -88,7 +88,9 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     """Return the digest of all that a report depends on: its file, code, recipes, templates, records and libraries."""
     from atlas.draw import gl
 
-    code = [PACKAGE / "build" / "report.py", *folder("figures").glob("*.py")]
+    text = file.read_bytes()
+    beside = (path for path in file.absolute().parent.glob("*.py") if os.fsencode(path.name) in text)
+    code = [PACKAGE / "build" / "report.py", *folder("figures").glob("*.py"), *beside]
     places = folder("templates"), folder("reports") / "data", PACKAGE
     extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})
     found = sources.closure([file, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
@@ -161,7 +163,7 @@ def _build(
         *_places(out, report.name),
         len(document.pages),
         len(wanted) - len(failures),
-        failures=tuple((figure.recipe, figure.failure) for figure in failures),
+        failures=tuple((figure.stem, figure.failure) for figure in failures),
         notes=tuple(dict.fromkeys(note for figure in wanted if (note := figure.facts.get("note")))),
         reasons=tuple(("figure", figure.name, figure.reason) for figure in wanted),
         costs=costs.write(out / f"{report.name}.costs.json", report.name, list(wanted), times, jobs),

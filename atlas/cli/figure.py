@@ -15,14 +15,47 @@ if TYPE_CHECKING:
     from atlas.build.figures import Files
 
 
+class FigureCommand(Command):
+    """A command whose help goes on with the parameters of the recipes that are named beside --help."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Note the words that may be recipes: --help is obeyed before they are read."""
+        ctx.obj = [word for word in args if not word.startswith("-")]
+        return super().parse_args(ctx, args)
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options, and before them the parameters of each recipe."""
+        for name in ctx.obj:
+            self._parameters(name, formatter)
+        super().format_options(ctx, formatter)
+
+    @staticmethod
+    def _parameters(name: str, formatter: click.HelpFormatter) -> None:
+        from atlas.scene import recipes
+        from atlas.scene.parameters import MEANINGS, described, typed
+
+        recipe = recipes.load(name)
+        hints, rows = recipe.hints(), []
+        for key, default in recipe.parameters.items():
+            ends = recipe.ranges.get(key)
+            takes = described(hints.get(key), default) + (f" from {ends[0]:g} to {ends[1]:g}" if ends else "")
+            takes += "; left out, the recipe chooses" if default is None else ""
+            means = f"{MEANINGS[key]}: " if key in MEANINGS else ""
+            rows.append((key if default is None else f"{key}={typed(default)}", means + takes))
+        with formatter.section(f"{recipe.title}. Parameters of {recipe.name}, after --set, with their defaults"):
+            formatter.write_dl(rows or [("none", "")])
+
+
 @click.command(
     "figure",
-    cls=Command,
+    cls=FigureCommand,
     epilog=examples(
         "atlas figure hyp_a hyp_b",
         "atlas figure quadric --set ratio=0.5 field=1,0.1 --format pdf --out plots",
         "atlas figure quadric --renderer shaded",
         "atlas figure hyperbola --format csv",
+        "atlas figure ./my_recipe.py --set ratio=0.5 --format pdf",
+        "atlas figure cone --help",
     ),
 )
 @click.argument("names", nargs=-1, metavar="NAME...")
@@ -59,6 +92,8 @@ def command(
 ) -> int:
     """Draw figures as SVG, PDF and PNG, each written whole or not at all; `atlas list` names them.
 
+    A NAME that ends with .py is a recipe's file of your own, anywhere. With a NAME, --help tells its parameters.
+
     What was drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
     others; then the exit status is 1.
     """
@@ -68,10 +103,11 @@ def command(
     if everything == bool(names):
         raise click.UsageError("name the figures, or say --all; `atlas list` names them.")
     wanted = recipes.names() if everything else list(dict.fromkeys(names))
-    known = recipes.names()
     for name in wanted:
-        if name not in known:
-            recipes.load(name)  # says which there are, before anything is drawn
+        recipes.source(name)  # says which there are, before anything is drawn
+    stems = [Path(name).stem for name in wanted]
+    if len({*stems}) < len(stems):
+        raise click.UsageError("two of these recipes have the same name, so that their files would be the same.")
     kinds = dict.fromkeys(formats) or (("png",) if renderer == "shaded" else ("svg", "pdf", "png"))
     parameters = dict(setting(text) for text in settings)
     with bar("figures") as tell:

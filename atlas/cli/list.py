@@ -1,7 +1,8 @@
 """``atlas list``: what there is to draw, to report and to give as a body."""
 
+import textwrap
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -9,21 +10,30 @@ from atlas.cli.options import Command, shapes
 from atlas.cli.present import Printout, dump, show
 from atlas.errors import AtlasError
 
+if TYPE_CHECKING:
+    from atlas.scene.recipes import Recipe
+
+WIDTH = 90
+"""Letters in a line of parameters."""
+
 
 @click.command("list", cls=Command)
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
 def command(as_json: bool) -> int:
-    """Name the figures with their titles, the reports, and the shapes of bodies with their dimensions.
+    """Name the figures with titles and parameters, the reports, and the shapes of bodies with their dimensions.
 
-    A recipe or a report that cannot be read does not hide the others; then the exit status is 1.
+    Each parameter of a figure stands with its default, and with its range if it has one; `atlas figure NAME --help`
+    says what it takes. A recipe or a report that cannot be read does not hide the others; then the exit status is 1.
     """
     from atlas.report import find
     from atlas.scene import recipes
 
     figures, broken = titles(recipes.names(), recipes.title)
     reports, also = titles(find.names(), report_title)
+    known = {name: recipe for name in figures if (recipe := _loaded(name, broken))}
     record: dict[str, Any] = {
         "figures": figures,
+        "parameters": {name: parameters(recipe) for name, recipe in known.items()},
         "reports": reports,
         "shapes": shapes(),
     }
@@ -39,12 +49,50 @@ def command(as_json: bool) -> int:
 def lay_out(record: dict[str, Any]) -> None:
     """Show the three lists as tables."""
     bodies = [[name, " ".join(f"--{size}" for size in sizes)] for name, sizes in record["shapes"].items()]
+    figures = []
+    for name, title in record["figures"].items():
+        figures.append([name, title])
+        words = [_shown(*one) for one in record["parameters"].get(name, {}).items()]
+        figures += [["", line] for line in _lines(words)]
     for heading, rows in (
-        (("figure", "title"), list(record["figures"].items())),
+        (("figure", "title; parameters with defaults and [ranges]"), figures),
         (("report", "title"), list(record["reports"].items())),
         (("shape", "dimensions"), bodies),
     ):
         show(Printout("", heading=heading, rows=rows, justify="left"))
+
+
+def parameters(recipe: "Recipe") -> dict[str, dict[str, Any]]:
+    """Return the parameters of a recipe by name, each with its default and its range."""
+    return {
+        name: {"default": default} | ({"range": recipe.ranges[name]} if name in recipe.ranges else {})
+        for name, default in recipe.parameters.items()
+    }
+
+
+def _shown(name: str, said: dict[str, Any]) -> str:
+    """Write a parameter as one word: omega2=0.7, turns=3[0.001,1000]."""
+    from atlas.scene.parameters import typed
+
+    word = name if said["default"] is None else f"{name}={typed(said['default'])}"
+    ends = "[{:g},{:g}]".format(*said["range"]) if "range" in said else ""
+    return f"{word}{ends}"
+
+
+def _lines(words: list[str]) -> list[str]:
+    """Set words in lines, and break none."""
+    return textwrap.wrap("  ".join(words), WIDTH, break_on_hyphens=False, break_long_words=False)
+
+
+def _loaded(name: str, broken: list[str]) -> "Recipe | None":
+    """Read what a recipe takes; where that fails, note why."""
+    from atlas.scene import recipes
+
+    try:
+        return recipes.load(name)
+    except AtlasError as error:
+        broken.append(str(error))
+        return None
 
 
 def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str], list[str]]:

@@ -116,7 +116,7 @@ def _draws(name: str) -> bool:
         environment[VARIABLE] = WINDOWS[name]
     try:
         child = subprocess.run(  # noqa: S603  our own program, in our own interpreter
-            [sys.executable, "-c", _PROBE],
+            [sys.executable, "-P", "-c", _PROBE],
             env=environment,
             capture_output=True,
             text=True,

@@ -4,6 +4,8 @@ import re
 import tomllib
 from pathlib import Path
 
+from msgspec.structs import replace
+
 from atlas.errors import AtlasError, unknown
 from atlas.report.blocks import Block, Figure, Listing, Recorded, Table
 from atlas.report.definition import Report
@@ -22,7 +24,7 @@ def load(path: Path) -> Report:
     except tomllib.TOMLDecodeError as error:
         raise AtlasError(f"{path} is not TOML: {error}.") from error
     try:
-        report = _consistent(convert(raw, Report))
+        report = _consistent(_located(convert(raw, Report), path.absolute().parent))
     except SchemaError as error:
         raise AtlasError(f"{path}{_line(text, error.key)}: {error}.") from error
     except AtlasError as error:
@@ -30,6 +32,20 @@ def load(path: Path) -> Report:
     if report.bibliography and not (path.parent / report.bibliography).is_file():
         raise AtlasError(f"{path}{_line(text, 'bibliography')}: there is no file {path.parent / report.bibliography}.")
     return report
+
+
+def _located(report: Report, folder: Path) -> Report:
+    """Return the report with the places of the recipes that lie beside it; AtlasError where one doesn't."""
+
+    def place(block: Block) -> Block:
+        if not isinstance(block, Figure) or not block.recipe.endswith(".py"):
+            return block
+        file = folder / Path(block.recipe).name
+        if Path(block.recipe).name != block.recipe.removeprefix("./") or not file.is_file():
+            raise AtlasError(f"recipe = {block.recipe!r} is no file beside the report; it would be {file}.")
+        return replace(block, recipe=str(file))
+
+    return replace(report, pages=tuple(replace(page, blocks=tuple(map(place, page.blocks))) for page in report.pages))
 
 
 def _consistent(report: Report) -> Report:

@@ -140,7 +140,7 @@ def manifest_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
                     figures[block.id + suffix] = FigureEntry(
                         page.slug,
                         texts[block.caption],
-                        picture.recipe,
+                        picture.called,
                         picture.renderer,
                         dict(picture.given),
                         file,

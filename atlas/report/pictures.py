@@ -1,13 +1,14 @@
 """The pictures that a report wants: each figure block's recipe, renderer and parameters, each picture once."""
 
+import re
 import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from atlas.errors import AtlasError, unknown
 from atlas.report.body_and_field import chosen
-from atlas.report.numbers import plain
 
 if TYPE_CHECKING:
     from atlas.report.blocks.figure import Figure
@@ -19,7 +20,7 @@ class Picture:
     """A picture that is drawn once for all the blocks that show it: what is wanted, and what became of it.
 
     stem        its name among the files of the report
-    recipe, renderer, parameters    what to draw; `title` is that of the recipe
+    recipe, renderer, parameters    what to draw: a name in figures/ or a file; `title` is that of the recipe
     caption, alt, size    what the scene says of itself, and its size in millimetres
     given       all parameters of the scene as text
     file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
@@ -43,6 +44,11 @@ class Picture:
     remark: str = ""
 
     @property
+    def called(self) -> str:
+        """The recipe as it stands in the report: its name, or that of its file beside the report."""
+        return Path(self.recipe).name
+
+    @property
     def printed(self) -> str:
         """The file that the PDF shows: PDF in the place of SVG."""
         return self.file.replace(".svg", ".pdf")
@@ -50,8 +56,10 @@ class Picture:
     @property
     def command(self) -> str:
         """The command that draws it."""
-        settings = [f"{name}={_typed(value)}" for name, value in self.parameters.items() if value is not None]
-        words = ["atlas", "figure", self.recipe, *(["--set", *settings] if settings else [])]
+        from atlas.scene.parameters import typed
+
+        settings = [f"{name}={typed(value)}" for name, value in self.parameters.items() if value is not None]
+        words = ["atlas", "figure", self.called, *(["--set", *settings] if settings else [])]
         return shlex.join([*words, *(["--renderer", "shaded"] if self.renderer == "shaded" else [])])
 
 
@@ -71,7 +79,7 @@ def pictures(report: "Report") -> dict[str, Picture]:
             try:
                 for name, picture in _wanted(block, report):
                     if name not in found:
-                        picture.stem = f"{len(found) + 1:02d}-{block.recipe.replace('_', '-')}"
+                        picture.stem = f"{len(found) + 1:02d}-{re.sub('[^A-Za-z0-9]+', '-', Path(block.recipe).stem)}"
                         found[name] = picture
             except AtlasError as error:
                 raise AtlasError(f"page {page.slug!r}, block {place} (figure): {error}") from error
@@ -89,10 +97,10 @@ def _wanted(block: "Figure", report: "Report") -> Iterator[tuple[str, Picture]]:
     parameters = _parameters(block, recipe, report)
     for name in parameters if recipe else ():
         if name not in recipe.parameters:
-            raise unknown("parameter", name, recipe.parameters, f"of the recipe {block.recipe!r}")
+            raise unknown("parameter", name, recipe.parameters, f"of the recipe {Path(block.recipe).name!r}")
     for renderer in ("shaded", "vector") if block.renderer == "both" else (block.renderer,):
         key = f"{block.recipe} {sorted(parameters.items(), key=str)} {renderer}"
-        title = recipe.title if recipe else block.recipe
+        title = recipe.title if recipe else Path(block.recipe).stem
         yield key, Picture("", block.recipe, renderer, parameters, title, failure=failure)
 
 
@@ -122,18 +130,9 @@ def _recipe(name: str) -> tuple[Any, str]:
     """Load a recipe, or return why it can't be loaded; a name that there is not is an error."""
     from atlas.scene import recipes
 
-    if name not in recipes.names():
+    if not name.endswith(".py") and name not in recipes.names():
         raise unknown("recipe", name, recipes.names(), "in figures/")
     try:
         return recipes.load(name), ""
     except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
         return None, f"{type(error).__name__}: {error}"
-
-
-def _typed(value: Any) -> str:
-    """Write a parameter as it is typed after ``--set``."""
-    if isinstance(value, tuple | list):
-        return ",".join(map(_typed, value)) + ("," if len(value) == 1 else "")
-    if isinstance(value, bool):
-        return str(value).lower()
-    return plain(value) if isinstance(value, float | int) else str(value)

@@ -18,6 +18,30 @@ RANGES: Mapping[str, tuple[float, float]] = {
 }
 """Ends of parameters that have one meaning in all recipes; a recipe may set others by a RANGES of its own."""
 
+MEANINGS: Mapping[str, str] = {
+    "ratio": "I = I3/I2, above 0 and at most 2",
+    "ratios": "I = I3/I2 of several bodies, each above 0 and at most 2",
+    "field": "B' = (B2, B3), in 1/time",
+    "omega": "angular velocity at t = 0, in 1/time",
+    "omega2": "second component of the angular velocity at t = 0, in 1/time",
+    "omega3": "third component of the angular velocity at t = 0, in 1/time",
+    "mu": "charge over mass",
+    "E": "electric field",
+    "B": "magnetic field",
+    "c": "speed of light",
+    "turns": "length of the motion in turns",
+    "azimuth": "direction of view in degrees",
+    "elevation": "height of view in degrees",
+    "reach": "how far the axes go, in units of the figure's own length",
+    "horizon": "longest time, in turns",
+    "columns": "panels beside each other",
+    "cells": "cells of a map on one side",
+    "levels": "curves of constant value",
+    "count": "how many are drawn",
+    "unit": "unit in the names of the axes",
+}
+"""What the parameters mean that have one meaning in all recipes."""
+
 MOST = 40
 """Values in a list: each is a curve or a panel."""
 
@@ -43,6 +67,31 @@ def fitted(name: str, value: Any, hint: Any, default: Any, ends: Mapping[str, tu
         if not all(low <= x <= high for x in (result if isinstance(result, tuple) else (result,))):
             raise AtlasError(f"{name} must lie between {low:g} and {high:g}, not {reprlib.repr(value)}.")
     return result
+
+
+def described(hint: Any, default: Any) -> str:
+    """Say in a few words what a parameter takes: a number, two numbers, a list of numbers, left or right."""
+    kind = _kind(default) if hint is None else hint
+    origin, inner = get_origin(kind), get_args(kind)
+    if origin in {Union, UnionType}:
+        return described(next(one for one in inner if one is not NoneType), None)
+    if origin is Literal:
+        return " or ".join(map(str, inner))
+    if origin is tuple:
+        free, plain = inner[-1] is Ellipsis, inner[0] in _PLAIN and len({*inner} - {Ellipsis}) == 1
+        many = _PLURAL[inner[0]].partition(",")[0] if plain else "lists" if free else "values"
+        return f"a list of {many}" if free else f"{COUNTS.get(len(inner), len(inner))} {many}"
+    return _PLAIN[float if kind is Any else kind][0].partition(",")[0] if kind in {Any, *_PLAIN} else "a value"
+
+
+def typed(value: Any) -> str:
+    """Write a value as it is typed after ``--set``, lists of lists apart, which can't be: they stand in brackets."""
+    if isinstance(value, tuple | list):
+        parts = [f"({typed(one)})" if isinstance(one, tuple | list) else typed(one) for one in value]
+        return ",".join(parts) + ("," if len(value) == 1 else "")
+    if isinstance(value, bool):
+        return str(value).lower()
+    return repr(float(value)).removesuffix(".0") if isinstance(value, float | int) else str(value)
 
 
 class _Unfit(Exception):  # noqa: N818  it carries what would be right, and never leaves this file

@@ -49,7 +49,6 @@ def use(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(module, "PACKAGE", copy / "atlas")
     monkeypatch.setattr(places, "_PACKAGE", copy / "atlas")
     sources_module._files.cache_clear()
-    recipes.load.cache_clear()
 
 
 @pytest.fixture
@@ -60,7 +59,6 @@ def checkout(pristine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     use(copy, monkeypatch)
     yield copy  # type: ignore[misc]
     sources_module._files.cache_clear()
-    recipes.load.cache_clear()
 
 
 def figure(recipe: str, *kinds: str, renderer: str = "vector", **parameters: Any) -> FigureBuild:
@@ -100,7 +98,6 @@ def edit(path: Path, old: str, new: str) -> None:
     text = path.read_text(encoding="utf-8")
     assert old in text
     path.write_text(text.replace(old, new, 1), encoding="utf-8")
-    recipes.load.cache_clear()
 
 
 EVERY = set(WANTED)

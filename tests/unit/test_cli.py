@@ -322,9 +322,7 @@ def bad_recipe(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path
     for module in (recipes, figures):
         monkeypatch.setattr(module, "folder", lambda _kind: folder)
     monkeypatch.setattr(figures.processes, "pool", lambda *_: None)  # another process would not know of it
-    recipes.load.cache_clear()
-    yield tmp_path / "out"
-    recipes.load.cache_clear()
+    return tmp_path / "out"
 
 
 def test_a_broken_recipe_hides_no_other(bad_recipe: Path) -> None:

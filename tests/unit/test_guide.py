@@ -32,9 +32,6 @@ def test_every_block_of_the_guide_gives_what_it_shows(
     """Files are written, sessions of Python and of the shell are gone through in one folder and in one process."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
-    (tmp_path / "figures").mkdir()
-    for recipe in folder("figures").glob("*.py"):
-        (tmp_path / "figures" / recipe.name).symlink_to(recipe)
     names, failures = {"__name__": "guide"}, []
     for page, language, text in blocks():
         if text.startswith("# "):
@@ -59,11 +56,8 @@ def sessions(text: str) -> list[tuple[str, str]]:
 def shell(typed: str, shown: str, capsys: pytest.CaptureFixture[str]) -> str:
     """Run a command line in this process; return what is wrong with what it prints, or nothing."""
     capsys.readouterr()
-    with pytest.MonkeyPatch.context() as patch:
-        for module in ("atlas.scene.recipes", "atlas.build.figures", "atlas.sources"):
-            patch.setattr(f"{module}.folder", lambda kind: Path(kind) if kind == "figures" else folder(kind))
-        with pytest.raises(SystemExit) as ended:
-            main(shlex.split(typed))
+    with pytest.raises(SystemExit) as ended:
+        main(shlex.split(typed))
     out, err = capsys.readouterr()
     if doctest.OutputChecker().check_output(shown, out + err, FLAGS) and ended.value.code in {0, 2}:
         return ""

@@ -2,7 +2,6 @@
 
 import inspect
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +9,10 @@ import matplotlib as mpl
 import pytest
 
 from atlas import AtlasError
+from atlas.cli.figure import setting
 from atlas.draw import context
 from atlas.scene import recipes
+from atlas.scene.parameters import described, typed
 from atlas.scene.style import style
 
 
@@ -48,12 +49,10 @@ def test_an_unknown_parameter_is_named_with_the_nearest() -> None:
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Put an empty folder of figures in place of ours."""
     monkeypatch.setattr(recipes, "folder", lambda _kind: tmp_path)
-    recipes.load.cache_clear()
-    yield tmp_path
-    recipes.load.cache_clear()
+    return tmp_path
 
 
 def test_a_parameter_without_default_is_refused(folder: Path) -> None:
@@ -203,3 +202,44 @@ def test_styles_of_lines_that_meet_in_a_plot_differ_in_grey_or_in_dash() -> None
         for b in order[i + 1 :]:
             lightness = [116.0 * grey(line["color"]) ** (1.0 / 3.0) for line in (a, b)]
             assert abs(lightness[0] - lightness[1]) > 8.0 or a["linestyle"] != b["linestyle"], (a, b)
+
+
+def test_a_recipe_is_a_file_anywhere_and_is_read_again_when_it_changes(tmp_path: Path) -> None:
+    """What ends with .py is a place; nothing is left beside the file, and an edited one counts at once."""
+    file = tmp_path / "mine.py"
+    file.write_text(RECIPE, encoding="utf-8")
+    assert recipes.load(str(file)).scene(size=2).parameters["size"] == 2.0
+    file.write_text(RECIPE.replace('"""Typed."""', '"""Typed again."""').replace("(0.5, 2.0)", "(0.5, 3.0)"))
+    assert recipes.title(str(file)) == recipes.load(str(file)).title == "Typed again"
+    assert recipes.load(str(file)).scene(size=3).parameters["size"] == 3.0
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.py"]
+    with pytest.raises(AtlasError, match=r"there is no recipe .*other\.py: it would be a file"):
+        recipes.load(str(tmp_path / "other.py"))
+    file.write_text("def scene(: ...", encoding="utf-8")
+    with pytest.raises(AtlasError, match=r"^mine\.py, line 1: SyntaxError"):
+        recipes.load(str(file))
+
+
+def test_what_a_parameter_takes_is_said_in_words(tmp_path: Path) -> None:
+    """Each kind of annotation has its words, and what is typed after --set reads back."""
+    file = tmp_path / "mine.py"
+    file.write_text(RECIPE, encoding="utf-8")
+    recipe = recipes.load(str(file))
+    assert recipe.ranges["size"] == (0.5, 2.0)
+    hints = recipe.hints()
+    said = {name: described(hints.get(name), default) for name, default in recipe.parameters.items()}
+    assert said == {
+        "ratio": "a number",
+        "field": "two numbers",
+        "levels": "a list of numbers",
+        "omega3": "a number",
+        "unit": "a word",
+        "columns": "a whole number",
+        "size": "a number",
+        "free": "two values",
+        "names": "a list of words",
+        "on": "true or false",
+        "side": "left or right",
+    }
+    for value in (1.5, (1.0, 2.0), (1.0,), True, "s", 1e-6, ("a", "b")):
+        assert setting(f"x={typed(value)}") == ("x", value)

@@ -60,7 +60,7 @@ def view(block: Figure, composer: "Composer") -> FigureView:
     composer.figures += 1
     pictures = composer.pictures(block)
     first = pictures[0]
-    caption = LABEL.sub(r"@\g<0>", block.caption or first.caption or f"The recipe {block.recipe} failed.")
+    caption = LABEL.sub(r"@\g<0>", block.caption or first.caption or f"The recipe {first.called} failed.")
     width, height = first.size
     shown = block.width or width
     anchor = composer.anchor("fig", block.id, "Figure", composer.figures)
