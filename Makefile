@@ -16,7 +16,7 @@ SEED   ?= 0
 .PHONY: help report test figures picture accessibility verify bench stress mutants lint clean setup lock FORCE
 
 help:
-	@echo 'make report    build/report/atlas/index.html and build/report/atlas.pdf, and the guide beside them'
+	@echo 'make report    the atlas, the paper on trial and the guide, as pages and PDF: build/report/atlas/index.html'
 	@echo 'make test      lint, types, floors and tests'
 	@echo 'make figures   every figure as SVG, PDF and PNG in build/figures'
 	@echo 'make build/figures/NAME.svg|pdf|png   one figure;   make picture   the picture of the README'
@@ -33,15 +33,17 @@ MADE    := build/report/.made
 report: $(MADE)
 	@echo build/report/atlas/index.html
 	@echo build/report/atlas.pdf
+	@echo build/report/trial.pdf
 	@echo build/report/guide/index.html
 
 # What is installed may bring a GL library or take it away; so may the variable ATLAS_GL, which stands in the stamp.
 GL      := $(wildcard /etc/ld.so.cache /usr/lib/*/dri /usr/share/glvnd/egl_vendor.d)
-THERE   := $(wildcard build/report/atlas.pdf)$(wildcard build/report/atlas/index.html)
-STAMP   := build/report/atlas.pdfbuild/report/atlas/index.html gl=$(ATLAS_GL)
+THERE   := $(wildcard build/report/atlas.pdf)$(wildcard build/report/trial.pdf)$(wildcard build/report/atlas/index.html)
+STAMP   := build/report/atlas.pdfbuild/report/trial.pdfbuild/report/atlas/index.html gl=$(ATLAS_GL)
 
 $(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(if $(filter-out $(THERE) $(shell cat $(MADE) 2>/dev/null),$(STAMP)),FORCE)
 	@$(ATLAS) report >/dev/null
+	@$(ATLAS) report trial >/dev/null
 	@$(ATLAS) report guide >/dev/null
 	@echo 'gl=$(ATLAS_GL)' >$@
 
@@ -72,6 +74,7 @@ stress: setup
 accessibility: report
 	@npm install --silent --no-save --prefix build/accessibility axe-core@4.14.1 playwright-core@1.65.1
 	@node tests/accessibility.mjs build/report/atlas build/accessibility
+	@node tests/accessibility.mjs build/report/trial build/accessibility
 	@node tests/accessibility.mjs build/report/guide build/accessibility
 
 mutants: setup

@@ -20,13 +20,14 @@ from atlas.build.cache import Cache
 from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import folder
-from atlas.report.find import find
+from atlas.report.find import find, related_to
 from atlas.report.manifest import MANIFEST, manifest_of
 from atlas.sources import PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild
     from atlas.report.compose import Document
+    from atlas.report.definition import Report
     from atlas.report.pandoc import Target
     from atlas.report.pictures import Picture
 
@@ -93,7 +94,8 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     code = [PACKAGE / "build" / "report.py", *folder("figures").glob("*.py"), *beside]
     places = folder("templates"), folder("reports") / "data", PACKAGE
     extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})
-    found = sources.closure([file, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
+    related = [find(name) for name in related_to(file)]
+    found = sources.closure([file, *related, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
     sources.save()
     return digest(found, sources.named(style), sys.version_info[:2], versions(), gl.library())
 
@@ -143,7 +145,7 @@ def _build(
         _describe(figure, picture)
     progress(steps - 2, steps, "texts")
     works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
-    document = compose(report, found, gather(report), works)
+    document = compose(report, found, gather(report), works, _related(report))
     times["tables"] = time.perf_counter()
     _set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
@@ -168,6 +170,16 @@ def _build(
         reasons=tuple(("figure", figure.name, figure.reason) for figure in wanted),
         costs=costs.write(out / f"{report.name}.costs.json", report.name, list(wanted), times, jobs),
     )
+
+
+def _related(report: "Report") -> "dict[str, Document]":
+    """Return the reports beside this one in outline: the numbers and places of what they have."""
+    from atlas.report.compose import compose
+    from atlas.report.load import load
+    from atlas.report.pictures import pictures
+
+    beside = (load(find(name)) for name in report.related)
+    return {one.name: compose(one, pictures(one), outline=True) for one in beside}
 
 
 def _places(out: Path, name: str) -> tuple[Path, Path]:

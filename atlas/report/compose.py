@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import count, product
 from string import ascii_uppercase
 from typing import Any
@@ -22,6 +22,12 @@ from atlas.report.pictures import Picture, keys
 from atlas.report.texts import Link, Texts, citations
 from atlas.report.trial import Use
 from atlas.report.versions import parameters
+
+THEOREMS = {
+    label: f"(T{number})"
+    for number, label in enumerate((label for label, one in EQUATIONS.items() if one.kind == "theorem"), 1)
+}
+"""The numbers of what the paper does not have, in the order of the ledger."""
 
 
 @dataclass(frozen=True)
@@ -50,9 +56,12 @@ class PageView:
 class Document:
     """A report ready to be set: its pages, pictures, texts, and where each citation leads.
 
-    `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations;
-    `ledger` the page of each entry of the ledger; `errata` the page of the errata; `abstract`, `given` and `symbols`
-    are numbers of texts; `bibliography` holds the works that can be cited, `listed_on` is the page of their list.
+    `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations
+    that have none in the paper, those of the theorems the same in every report; `ledger` the page of each entry of the
+    ledger; `errata` the page of the errata; `abstract`, `given`, `symbols` and `formulas`, the equations that are cited
+    here and stand in no page of this report, are numbers of texts. `related` holds the reports beside this one, in
+    outline; a citation of what is not here leads there. `bibliography` holds the works that can be cited, `listed_on`
+    is the page of their list.
     """
 
     report: Report
@@ -69,6 +78,9 @@ class Document:
     bibliography: Bibliography = field(default_factory=Bibliography)
     listed_on: str = ""
     written: dict[Target, list[str]] = field(default_factory=dict)
+    related: "Mapping[str, Document]" = field(default_factory=dict)
+    uses: defaultdict[str, list[Use]] = field(default_factory=lambda: defaultdict(list))
+    formulas: dict[str, int] = field(default_factory=dict)
 
     def set(self, *targets: Target) -> None:
         """Set all texts for each of the targets, side by side, for pandoc is a program of its own."""
@@ -88,6 +100,9 @@ class Document:
             if name in self.targets:
                 file, anchor, words = self.targets[name]
                 return Link(words, file if target == "html" else "", anchor, says)
+            beside = next(filter(None, (one.from_beside(name) for one in self.related.values())), None)
+            if beside:
+                return beside._replace(says=says) if target == "html" else Link(beside.words)
             if name in EQUATIONS:
                 return Link(self.number(name))
             if name in self.bibliography.named:
@@ -98,6 +113,25 @@ class Document:
             raise AtlasError(f"{where}: {unknown('equation, figure, table, page or work', f'@{name}', self.citable)}")
 
         return link
+
+    def from_beside(self, name: str) -> Link | None:
+        """Return what a citation in a report beside this one says and where it leads, None if the name is not here."""
+        folder, title = f"../{self.report.name}", self.report.title
+        if name == f"report:{self.report.name}":
+            return Link(title, f"{folder}/index.html", "page-index")
+        if name in self.ledger:
+            return Link(self.number(name), f"{folder}/{self.ledger[name]}.html", f"ledger-{name}")
+        if name in self.targets:
+            file, anchor, words = self.targets[name]
+            counted = name.startswith(("fig:", "tab:"))
+            return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
+        return None
+
+    def entry(self, label: str) -> str:
+        """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
+        beside = ((name, one.ledger) for name, one in self.related.items())
+        there = next((f"../{name}/{ledger[label]}" for name, ledger in beside if label in ledger), "")
+        return self.ledger.get(label, there)
 
     def number(self, label: str) -> str:
         """Return the number of an equation as it is cited: as printed in the paper, our own, or else its label."""
@@ -137,18 +171,32 @@ def compose(
     pictures: Mapping[str, Picture],
     recorded: Appendices | None = None,
     bibliography: Bibliography | None = None,
+    related: Mapping[str, Document] | None = None,
+    *,
+    outline: bool = False,
 ) -> Document:
     """Give the blocks of a report their numbers, compute its tables, and collect its texts.
 
     `pictures` are those of `atlas.report.pictures.pictures`, `recorded` holds the recorded results that its blocks
     show, `bibliography` the works that can be cited. A citation leads to the entry of the ledger where the report has
-    that, else to the first display of the equation. A picture that failed keeps its place with the reason; anything
-    else that is wrong raises AtlasError.
+    that, else to the first display of the equation, else to one of the reports `related` to this one. An `outline` has
+    the numbers and places of everything, and computes no table. A picture that failed keeps its place with the reason;
+    anything else that is wrong raises AtlasError.
     """
-    document = Document(report, pictures, ledger=pages_of(report), bibliography=bibliography or Bibliography())
+    document = Document(
+        report,
+        pictures,
+        ledger=pages_of(report),
+        equations=dict(THEOREMS),
+        bibliography=bibliography or Bibliography(),
+        related=related or {},
+    )
+    for name, one in document.related.items():
+        for label, uses in one.uses.items():
+            document.uses[label] += [replace(use, file=f"../{name}/{use.file}") for use in uses]
     document.abstract = document.texts.add(report.abstract, "the abstract")
     document.given = [document.texts.add(line, "the parameters", inline=True) for line in parameters(report.parameters)]
-    composer = Composer(document, recorded or Appendices())
+    composer = Composer(document, recorded or Appendices(), outline=outline)
     chapters = map(str, count(1))
     appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
     for page in report.pages:
@@ -168,21 +216,30 @@ def compose(
                 *(page.slug, page.title, page.summary, tuple(blocks), templates, page.part, page.appendix),
             )
         )
+    composer.where = "the equations cited"
+    for name in sorted({name for text in document.texts.texts for name in citations(text.markdown)}):
+        if name in EQUATIONS and name not in document.targets and name not in document.ledger:
+            document.formulas[name] = composer.text(f"$${EQUATIONS[name].tex.strip()}$$")
     composer.where = "the index"
     document.symbols = [
         (composer.text(f"${one.tex}$", inline=True), composer.anchors(one.at)) for one in report.index.symbols
     ]
+    for symbol, (_, anchors) in zip(report.index.symbols, document.symbols, strict=True):
+        if not anchors:
+            raise AtlasError(
+                f"{composer.where}: {symbol.tex} is explained nowhere in this report, only in one beside it."
+            )
     return document
 
 
 class Composer:
     """What the blocks of a report share while they are gone through in order: counts, texts, names, uses."""
 
-    def __init__(self, document: Document, recorded: Appendices) -> None:
-        self.document, self.report, self.recorded = document, document.report, recorded
+    def __init__(self, document: Document, recorded: Appendices, *, outline: bool = False) -> None:
+        self.document, self.report, self.recorded, self.outline = document, document.report, recorded, outline
         self.where = ""
         self.figures = self.tables = 0
-        self.uses: defaultdict[str, list[Use]] = defaultdict(list)
+        self.uses = document.uses
         self.begin(document.report.pages[0])
 
     def begin(self, page: Page) -> None:
@@ -193,7 +250,8 @@ class Composer:
 
     def view(self, block: Block) -> Any:
         """Return the view of a block."""
-        return KINDS[kind_of(block)].view(block, self)
+        kind = KINDS[kind_of(block)]
+        return (kind.outline if self.outline and kind.outline else kind.view)(block, self)
 
     def text(self, markdown: str, *, inline: bool = False) -> int:
         """Take in a text and return its number."""
@@ -203,7 +261,7 @@ class Composer:
         """Take in paragraphs; the first citation of an equation on a page is an anchor for its entry in the ledger."""
         anchors = {}
         for name in citations(markdown):
-            if name not in self.cited and self.document.ledger.get(name, self.page.slug) != self.page.slug:
+            if name in EQUATIONS and name not in self.cited and self.document.ledger.get(name) != self.page.slug:
                 self.cited.add(name)
                 anchors[name] = f"cite-{self.page.slug}-{name}"
                 self.use(name, anchors[name], "text")
@@ -212,7 +270,7 @@ class Composer:
     def caption(self, markdown: str, anchor: str, words: str) -> int:
         """Take in a caption; what it cites is used by its figure or table."""
         for name in citations(markdown):
-            if name in self.document.ledger:
+            if name in EQUATIONS:
                 self.use(name, anchor, words)
         return self.text(markdown, inline=True)
 
@@ -228,9 +286,10 @@ class Composer:
         return sentence if new else ""
 
     def anchors(self, names: Iterable[str]) -> list[str]:
-        """Return where names lead in the PDF. Raises AtlasError for one that is not there."""
+        """Return where names lead in the PDF, but for what stands beside this report. Raises for an unknown one."""
         find, targets = self.document.cite("typst"), self.document.targets
-        return [targets[name][1] if name in targets else find(name, self.where).anchor for name in names]
+        found = (targets[name][1] if name in targets else find(name, self.where).anchor for name in names)
+        return [anchor for anchor in found if anchor]
 
     def use(self, label: str, anchor: str, words: str) -> None:
         """Note that a place of this page uses an equation, once."""
@@ -254,7 +313,8 @@ class Composer:
     def number(self, label: str) -> str:
         """Return the number of an equation; one that has none in the paper gets the next of our own."""
         if label not in EQUATIONS or EQUATIONS[label].number is None:
-            self.document.equations.setdefault(label, f"(A{len(self.document.equations) + 1})")
+            own = len(self.document.equations) - len(THEOREMS) + 1
+            self.document.equations.setdefault(label, f"(A{own})")
         return self.document.number(label)
 
     def pictures(self, block: Figure) -> tuple[Picture, ...]:

@@ -38,7 +38,8 @@ class Index(StrictStruct, frozen=True):
 class Report(StrictStruct, frozen=True):
     """The whole file.
 
-    ``cover`` is the id of the figure on the front page and on the cover; ``related`` names reports to link to;
+    ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand beside
+    this one: the contents lead to them, and so do citations of what they have and this one has not.
     ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites.
     """
 

@@ -1,5 +1,6 @@
 """The report files that there are; found without loading what reads them."""
 
+import tomllib
 from pathlib import Path
 
 from atlas.errors import AtlasError, unknown
@@ -9,6 +10,16 @@ from atlas.places import folder
 def names() -> list[str]:
     """List the reports of the folder ``reports/``."""
     return sorted(path.stem for path in folder("reports").glob("*.toml"))
+
+
+def related_to(file: Path) -> list[str]:
+    """Return the names of the reports that stand beside that of a file; none where the file can't be read."""
+    try:
+        related = tomllib.loads(file.read_text(encoding="utf-8-sig")).get("related", {})
+    except ValueError:
+        return []
+    known = names()
+    return [name for name in related if name in known] if isinstance(related, dict) else []
 
 
 def find(name: str) -> Path:

@@ -46,8 +46,8 @@ def _sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, 
 
 
 def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
-    """Return the formulas of a report by label: those of the ledger and those displayed."""
-    found = {}
+    """Return the formulas of a report by label: those of the ledger, those displayed, and others that are cited."""
+    found = {label: texts[number] for label, number in document.formulas.items()}
     for page in document.pages:
         for block in page.blocks:
             if isinstance(block, EquationView):

@@ -42,11 +42,15 @@ Block: TypeAlias = (
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of block: its record, the function (record, composer) that makes its view, the name of its templates."""
+    """A kind of block: its record, the function (record, composer) that makes its view, the name of its templates.
+
+    `outline` takes the place of the view where only numbers and places are wanted, if the view computes or reads more.
+    """
 
     record: type
     view: Callable[[Any, Any], Any]
     template: str
+    outline: Callable[[Any, Any], None] | None = None
 
 
 KINDS: Mapping[str, Kind] = {
@@ -54,12 +58,12 @@ KINDS: Mapping[str, Kind] = {
     "note": Kind(Note, prose.view_note, "note"),
     "equation": Kind(Equation, equation.view, "equation"),
     "figure": Kind(Figure, figure.view, "figure"),
-    "table": Kind(Table, table.view_computed, "table"),
+    "table": Kind(Table, table.view_computed, "table", table.outline),
     "listing": Kind(Listing, table.view_listing, "table"),
-    "recorded": Kind(Recorded, table.view_recorded, "table"),
+    "recorded": Kind(Recorded, table.view_recorded, "table", table.outline),
     "ledger": Kind(Ledger, ledger.view_ledger, "ledger"),
     "errata": Kind(Errata, ledger.view_errata, "errata"),
-    "reference": Kind(Reference, reference.view, "reference"),
+    "reference": Kind(Reference, reference.view, "reference", reference.outline),
     "bibliography": Kind(Bibliography, bibliography.view, "bibliography"),
 }
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import msgspec
 
 from atlas.errors import AtlasError
-from atlas.paper import equation
+from atlas.paper import EQUATIONS, equation
 from atlas.report.schema import Id, StrictStruct
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ class Equation(StrictStruct, frozen=True, tag_field="kind", tag="equation"):
 class EquationView:
     """An equation with its label and number; only the first display of a label is the one that links lead to.
 
-    `ledger` is the slug of the page with its entry in the ledger, where the report has that.
+    `ledger` is the page, without its suffix, with its entry in the ledger; `within` says that it is in this report.
     """
 
     label: str
@@ -35,6 +35,7 @@ class EquationView:
     scale: float
     anchor: bool
     ledger: str = ""
+    within: bool = False
 
 
 def view(block: Equation, composer: "Composer") -> EquationView:
@@ -48,7 +49,7 @@ def view(block: Equation, composer: "Composer") -> EquationView:
         label, tex = str(block.name), str(block.tex)
     number = composer.number(label)
     first = composer.target(label, f"eq-{label}", number)
-    ledger = composer.document.ledger.get(label, "")
-    if ledger:
+    if label in EQUATIONS:
         composer.use(label, f"eq-{label}" if first else f"page-{composer.page.slug}", "display")
-    return EquationView(label, number, composer.text(f"$${tex.strip()}$$"), block.scale, first, ledger)
+    within, text = label in composer.document.ledger, composer.text(f"$${tex.strip()}$$")
+    return EquationView(label, number, text, block.scale, first, composer.document.entry(label), within)

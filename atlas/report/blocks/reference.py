@@ -57,6 +57,10 @@ def view(block: Reference, composer: "Composer") -> ReferenceView:
     return ReferenceView(tuple(described(name, known[name]) for name in block.names))
 
 
+def outline(_block: Reference, _composer: "Composer") -> None:
+    """Leave out the names, which nothing leads to."""
+
+
 def markdown(docstring: str) -> str:
     """Return a docstring as Markdown: indented lines and what stands in backticks as code, all else as it is."""
     paragraphs = []

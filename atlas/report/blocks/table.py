@@ -133,6 +133,12 @@ def view_recorded(block: Recorded, composer: "Composer") -> TableView:
     return _view(block, composer, tables[name], command=COMMANDS[block.source])
 
 
+def outline(block: Table | Recorded, composer: "Composer") -> None:
+    """Give a table its number, and let citations lead to it."""
+    composer.tables += 1
+    composer.anchor("tab", block.id, "Table", composer.tables)
+
+
 def _view(
     block: Table | Listing | Recorded, composer: "Composer", data: Data, *, name: str = "", command: str = ""
 ) -> TableView:
