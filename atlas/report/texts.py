@@ -113,11 +113,6 @@ def beginning(markdown: str) -> str:
     return found[0] if found else markdown
 
 
-def cited(markdown: str, replace: Callable[[str], str]) -> str:
-    """Replace the citations of a text."""
-    return _CITED.sub(lambda match: replace(match[1]) if match[1] else match[0], markdown)
-
-
 class _Checked:
     """The tree of a text made safe, its citations resolved: only what is written as text and formula reaches a page."""
 

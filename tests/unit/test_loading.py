@@ -97,7 +97,7 @@ CASES = [
     Case("figure hyp_a --format pdf", DRAWING),
     Case("figure flight --renderer shaded", f"{DRAWING} pyvista vtkmodules"),
     Case("diff before/prose after/prose --json", "msgspec", status=1),
-    Case("diff before/prose after/prose --page page.html", "msgspec rich jinja2 fontTools brotli", status=1),
+    Case("diff before/prose after/prose", "msgspec rich", status=1),
     Case("report nosuchreport", "msgspec", status=2),
 ]
 

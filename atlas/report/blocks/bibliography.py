@@ -18,8 +18,6 @@ class Bibliography(StrictStruct, frozen=True, tag_field="kind", tag="bibliograph
 class BibliographyView:
     """It has no texts of its own: the works are those of the document."""
 
-    texts: tuple[()] = ()
-
 
 def view(_block: Bibliography, composer: "Composer") -> BibliographyView:
     """Let citations of works lead to this page."""
