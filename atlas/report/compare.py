@@ -41,7 +41,7 @@ def compare(old: Manifest, new: Manifest) -> list[Change]:
 def _figure(name: str, old: FigureEntry | None, new: FigureEntry | None) -> Iterator[Change]:
     """Go through what changed about a figure; its picture alone may, with the code that draws it."""
     if old is None or new is None:
-        yield Change("figure", name, "" if old is None else old.recipe, "" if new is None else new.recipe)
+        yield Change("figure", name, old.recipe if old else "", new.recipe if new else "")
         return
     given = ({"recipe": one.recipe, "renderer": one.renderer, **one.parameters} for one in (old, new))
     for key, x, y in _paired(*given):
