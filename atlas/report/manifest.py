@@ -1,7 +1,4 @@
-"""What a report says, for machines: each number by its table, row and column, each figure with its digest.
-
-A build writes it beside the pages as manifest.json; `atlas diff` compares two.
-"""
+"""What a built report says, for `atlas diff`: each number by its table, row and column, each figure with its digest."""
 
 import hashlib
 from collections import Counter
@@ -75,7 +72,7 @@ def manifest_of(document: "Document", pictures: Mapping[str, bytes]) -> bytes:
             for picture in block.pictures:
                 name = block.id if picture is block.pictures[0] else f"{block.id}-{picture.renderer}"
                 drawn = _digest(pictures[picture.file]) if picture.file else None
-                figures[name] = FigureEntry(picture.recipe, picture.renderer, dict(picture.given), drawn)
+                figures[name] = FigureEntry(picture.called, picture.renderer, dict(picture.given), drawn)
     words = {
         place: _digest("\n".join(text.markdown for text in group).encode())
         for place, group in groupby(document.texts.texts, lambda text: text.where.partition(",")[0])
