@@ -13,7 +13,7 @@ SEED   ?= 0
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures picture accessibility verify bench stress mutants lint clean setup lock FORCE
+.PHONY: help report test figures picture accessibility verify bench stress mutants lint clean setup lock newest lowest FORCE
 
 help:
 	@echo 'make report    the atlas, the paper on trial and the guide, as pages and PDF: build/report/atlas/index.html'
@@ -24,6 +24,7 @@ help:
 	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 hostile calls'
 	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
 	@echo 'make accessibility   the linter axe-core on every page, in Chromium: needs node and npm'
+	@echo 'make newest    the unit tests with the newest libraries that the ranges allow;   make lowest   with the oldest'
 	@echo 'make lint      ruff, mypy, import-linter;   make clean   removes build/'
 
 # What the report is made from; with nothing changed, make ends without starting Python.
@@ -87,6 +88,7 @@ lint: setup
 	@$(BIN)/lint-imports --no-cache
 
 test: lint
+	@echo 'the tests: about 5 minutes on two cores'
 	@$(BIN)/python -m pytest -n $(JOBS)
 
 clean:
@@ -94,34 +96,58 @@ clean:
 
 setup: $(VENV)/.ready
 
-# The environment belongs to the folder that stands in .ready: one that was copied, moved or left half-made is made again.
-ifneq ($(shell cat $(VENV)/.ready 2>/dev/null),$(CURDIR))
+# What another program's settings would bring into ours, or send elsewhere.
+unexport PYTHONPATH PYTHONHOME PIP_TARGET PIP_PREFIX PIP_USER
+
+# Runs a command in silence; where it fails, says in a line what could not be done, and below it what the command said.
+quietly = said=$$({ $(1); } 2>&1) || { echo "atlas: $(strip $(2)):"; printf '%s\n' "$$said" | tail -n 5; exit 2; } >&2
+
+# The environment belongs to the folder that stands in .ready: one that was copied, moved or left half-made is made again,
+# and one into which a copy of the checkout was installed (pip install .) is put right.
+ifneq ($(shell cat $(VENV)/.ready 2>/dev/null)$(wildcard $(VENV)/lib/python3*/site-packages/atlas_charged_body-*),$(CURDIR))
 $(VENV)/.ready: FORCE
 endif
 
+# The environment finds the checkout by checkout.pth, which names a folder with nothing but a link to atlas/: a relative
+# path, so that it holds in any encoding and in a copy; and pip, which installs into site-packages, writes nothing there.
 $(VENV)/.ready: pyproject.toml requirements.lock
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo 'atlas needs Python 3.11 or newer; say make PYTHON=/path/to/python3.11'; exit 2; }
-	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
-	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then echo 'installing python3-venv'; \
-	    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq python3-venv; } >/dev/null 2>&1 || { echo 'python3-venv could not be installed by apt-get'; exit 2; }; \
-	  else echo 'this Python has no venv; install it: sudo apt-get install python3-venv'; exit 2; fi; }
-	@test "$$(cat $@ 2>/dev/null)" = '$(CURDIR)' || rm -rf $(VENV)
-	@rm -f $@
-	@test -d $(VENV) || { echo 'setting up .venv, once: 1.4 GB on disk'; echo '  a virtual environment'; $(PYTHON) -m venv $(VENV); }
+	@said=$$($(PYTHON) -I -S -c 'import sys; print(sys.version.split()[0]); sys.exit(sys.hexversion < 0x30b0000)' 2>&1) || \
+	  { echo "atlas needs Python 3.11 or newer; $(PYTHON) says: $$said. Another one: make PYTHON=/path/to/python3.11" >&2; exit 2; }
+	@said=$$($(PYTHON) -I -c 'import ensurepip, venv' 2>&1) || case "$$said" in \
+	  *"No module named 'ensurepip'"*|*"No module named 'venv'"*) \
+	    if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then echo 'installing python3-venv'; \
+	      $(call quietly,apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq python3-venv,apt-get could not install python3-venv); \
+	    else echo 'atlas: this Python has no venv; install it: sudo apt-get install python3-venv' >&2; exit 2; fi;; \
+	  *) echo "atlas: $(PYTHON) does not start:" >&2; printf '%s\n' "$$said" | tail -n 5 >&2; exit 2;; esac
+	@test "$$(cat $@ 2>/dev/null)" = "$$(pwd -P)" || rm -rf $(VENV)
+	@rm -f $@ $(VENV)/lib/python3*/site-packages/atlas 2>/dev/null || true   # a link, of older checkouts
+	@test -d $(VENV) || { echo 'setting up .venv, once: 1.7 GB on disk'; echo '  a virtual environment'; $(call quietly,$(PYTHON) -I -m venv $(VENV),the virtual environment could not be made); }
 	@if command -v uv >/dev/null; then echo '  the libraries of requirements.lock, by uv' && uv pip install -q --python $(BIN)/python --require-hashes -r requirements.lock; else false; fi || \
-	  { echo '  the libraries of requirements.lock, by pip: half a minute or more' && $(BIN)/python -m pip install -qq --no-compile --disable-pip-version-check --require-hashes -r requirements.lock; }
-	@ln -sfn ../../../../atlas "$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/atlas"
-	@printf '#!/bin/sh\n# The program of the checkout in whose .venv this stands.\nexec "$$(dirname -- "$$(readlink -f -- "$$0")")/python" -P -m atlas "$$@"\n' >$(ATLAS) && chmod +x $(ATLAS)
-	@echo '  GL libraries for shaded figures' && $(BIN)/python -m atlas.draw.gl --install
-	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -c 'from atlas.places import settle_matplotlib; settle_matplotlib(); import fontTools.subset, fontTools.ttLib.tables.otTables, matplotlib.figure, matplotlib._constrained_layout, matplotlib.backends.backend_pdf, matplotlib.backends.backend_svg, pyvista'   # writes their bytecode, without which each worker compiles them for 1.5 s
-	@echo '$(CURDIR)' >$@
+	  { echo '  the libraries of requirements.lock, by pip: half a minute or more'; $(call quietly,$(BIN)/python -I -m pip install -q --no-compile --disable-pip-version-check --require-hashes -r requirements.lock,pip could not install the libraries); }
+	@if [ -n "$$(echo $(VENV)/lib/python3*/site-packages/atlas_charged_body-*/RECORD | grep -v '\*')" ]; then $(call quietly,$(BIN)/python -I -m pip uninstall -q -y atlas-charged-body,pip could not remove its copy of the checkout); fi
+	@mkdir -p $(VENV)/checkout && ln -sfn ../../atlas $(VENV)/checkout/atlas
+	@$(BIN)/python -I -c 'import pathlib, sysconfig; (pathlib.Path(sysconfig.get_path("purelib")) / "checkout.pth").write_text("../../../checkout\n")'
+	@printf '#!/bin/sh\n# The program of the checkout in whose .venv this stands, and of its libraries alone.\nunset PYTHONPATH PYTHONHOME\nexec "$$(dirname -- "$$(readlink -f -- "$$0")")/python" -P -m atlas "$$@"\n' >$(ATLAS) && chmod +x $(ATLAS)
+	@echo '  GL libraries for shaded figures' && $(BIN)/python -P -m atlas.draw.gl --install
+	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -P -c 'from atlas.places import settle_matplotlib; settle_matplotlib(); import fontTools.subset, fontTools.ttLib.tables.otTables, matplotlib.figure, matplotlib._constrained_layout, matplotlib.backends.backend_pdf, matplotlib.backends.backend_svg, pyvista'   # writes their bytecode, without which each worker compiles them for 1.5 s
+	@pwd -P >$@
 
 $(VENV)/.bench: requirements-bench.lock | setup
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes -r requirements-bench.lock || echo 'heyoka could not be installed: the benchmark goes on without that peer'
+	@$(BIN)/python -I -m pip install -q --disable-pip-version-check --require-hashes -r requirements-bench.lock || echo 'heyoka could not be installed: the benchmark goes on without that peer'
 	@touch $@
 
 # Rewrites the locks from pyproject.toml, for every Python from 3.11 up.
+UV = uv pip compile -q --universal --python-version 3.11 --generate-hashes --no-header --no-annotate
 lock: | setup
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check 'uv==0.13.8'
-	@$(BIN)/uv pip compile -q --universal --python-version 3.11 --generate-hashes --no-header --no-annotate --extra test pyproject.toml -o requirements.lock
-	@$(BIN)/uv pip compile -q --universal --python-version 3.11 --generate-hashes --no-header --no-annotate --extra bench -c requirements.lock pyproject.toml -o requirements-bench.lock
+	@$(BIN)/python -I -m pip install -qq --disable-pip-version-check 'uv>=0.13'
+	@$(BIN)/$(UV) --extra test --extra sweep pyproject.toml -o requirements.lock
+	@$(BIN)/$(UV) --extra bench -c requirements.lock pyproject.toml -o requirements-bench.lock
+
+# The unit tests with the newest and with the lowest versions that the ranges of pyproject.toml allow.
+RANGE_newest = highest
+RANGE_lowest = lowest-direct
+newest lowest: | setup
+	@$(BIN)/python -I -m pip install -qq --disable-pip-version-check 'uv>=0.13'
+	@rm -rf build/$@ && $(PYTHON) -I -m venv build/$@
+	@$(BIN)/uv pip install -q --python build/$@/bin/python --resolution $(RANGE_$@) -r pyproject.toml --extra test --extra sweep
+	@build/$@/bin/python -m pytest -n $(JOBS) tests/unit

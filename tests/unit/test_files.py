@@ -6,6 +6,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
 
 from atlas import files
 from atlas.libraries import LIBRARIES, release, versions
@@ -59,9 +60,21 @@ def test_a_full_disk_names_the_file_that_was_meant(tmp_path: Path) -> None:
 
 
 def test_the_libraries_are_those_of_the_project() -> None:
-    """The list holds exactly the dependencies in pyproject.toml, in the versions pinned there."""
+    """The list holds the dependencies in pyproject.toml that results depend on, in versions of the ranges there."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    pinned = dict(line.split("==") for line in project["dependencies"])
-    assert set(LIBRARIES) == set(pinned)
-    assert versions() == {name: pinned[name] for name in LIBRARIES}
+    wanted = {one.name: one.specifier for one in map(Requirement, project["dependencies"])}
+    assert {*LIBRARIES} == {*wanted} - {"platformdirs", "filelock"}
+    assert versions().keys() == {*LIBRARIES}
+    assert all(wanted[name].contains(found) for name, found in versions().items())
     assert release("no-such-library") is None
+
+
+def test_the_lock_has_every_dependency_in_its_range() -> None:
+    """Also those of the tests and of sweeps; no range is a single version, which nothing could share."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    lines = (ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()
+    locked = dict(line.split(" ")[0].split("==") for line in lines if "==" in line.split(" ")[0])
+    for one in map(Requirement, [*project["dependencies"], *extras["test"], *extras["sweep"]]):
+        assert one.specifier.contains(locked[one.name.replace("_", "-")]), one
+        assert all(part.operator == ">=" for part in one.specifier), one

@@ -1,0 +1,94 @@
+"""The set-up of the Makefile on machines that lack something: one line says what, and the reason stands below it."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+OLD = "#!/bin/sh\necho 3.9.2\nexit 1\n"
+BROKEN = '#!/bin/sh\ncase "$*" in *hexversion*) echo 3.12.1;; *) echo "a sitecustomize ended it" >&2; exit 1;; esac\n'
+BARE = (
+    '#!/bin/sh\ncase "$*" in *hexversion*) echo 3.12.1;; *) echo "No module named \'ensurepip\'" >&2; exit 1;; esac\n'
+)
+NO_NETWORK = "#!/bin/sh\necho 'E: no network today' >&2\nexit 100\n"
+LOCK = "nosuch-library==1.0 --hash=sha256:" + 64 * "0" + "\n"
+
+
+def set_up(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables: str) -> tuple[int, str]:
+    """Run `make setup` in a folder with an apostrophe, with these programs before those of the system."""
+    checkout, first = tmp_path / "it's é", tmp_path / "first"
+    checkout.mkdir(exist_ok=True)
+    first.mkdir(exist_ok=True)
+    for name, text in programs.items():
+        (first / name).write_text(text, encoding="utf-8")
+        (first / name).chmod(0o755)
+    for name in ("Makefile", "pyproject.toml"):
+        shutil.copy(ROOT / name, checkout / name)
+    (checkout / "requirements.lock").write_text(lock, encoding="utf-8")
+    (checkout / "random.py").write_text("raise SystemExit('a module of the user ran')\n", encoding="utf-8")
+    environment = os.environ | {"PATH": f"{first}{os.pathsep}{os.environ['PATH']}", **variables}
+    done = subprocess.run(
+        ["make", "setup"],  # noqa: S607  whichever make there is
+        cwd=checkout,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("programs", "says"),
+    [
+        ({"python3": OLD}, "atlas needs Python 3.11 or newer; python3 says: 3.9.2."),
+        ({"python3": BROKEN}, "atlas: python3 does not start:\na sitecustomize ended it"),
+        (
+            {"python3": BARE, "id": "#!/bin/sh\necho 0\n", "apt-get": NO_NETWORK},
+            "atlas: apt-get could not install python3-venv:\nE: no network today",
+        ),
+        (
+            {"python3": BARE, "id": "#!/bin/sh\necho 1000\n"},
+            "atlas: this Python has no venv; install it: sudo apt-get install python3-venv",
+        ),
+    ],
+    ids=["old", "broken", "no venv, no network", "no venv, a user"],
+)
+def test_what_is_wrong_with_python_is_told(tmp_path: Path, programs: dict[str, str], says: str) -> None:
+    """Its version, or what it says itself, or what the installer says."""
+    status, told = set_up(tmp_path, programs)
+    assert status == 2
+    assert says in told
+    assert "a module of the user ran" not in told
+
+
+def test_pip_tells_why_it_failed(tmp_path: Path) -> None:
+    """The reason is pip's own, and no half-made environment counts as ready."""
+    hidden = {"PYTHONPATH": str(tmp_path), "PYTHONHOME": str(tmp_path), "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": ""}
+    python = f'#!/bin/sh\nexec "{sys.executable}" "$@"\n'
+    status, told = set_up(tmp_path, {"python3": python, "uv": "#!/bin/sh\nexit 1\n"}, LOCK, **hidden)
+    assert status == 2
+    assert "atlas: pip could not install the libraries:\n" in told
+    assert "No matching distribution found for nosuch-library==1.0" in told
+    assert not (tmp_path / "it's é" / ".venv" / ".ready").exists()
+
+
+@pytest.mark.skipif(not (ROOT / ".venv" / ".ready").exists(), reason="this checkout was not set up by make")
+def test_the_program_of_the_checkout_uses_its_own_libraries_alone(tmp_path: Path) -> None:
+    """Neither PYTHONPATH nor PYTHONHOME nor the working folder leads it to others."""
+    for name in ("numpy", "json", "random"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit('a module of the user ran')\n", encoding="utf-8")
+    done = subprocess.run(
+        [ROOT / ".venv" / "bin" / "atlas", *"classify --ratio 1.5 --field 1 2 --json".split()],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(tmp_path), "PYTHONHOME": str(tmp_path), "LC_ALL": "C"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "two-sheet hyperboloid" in done.stdout
