@@ -12,6 +12,7 @@ import click
 from atlas import __version__
 from atlas.cli.encoding import write_plainly
 from atlas.errors import AtlasError
+from atlas.families import FAMILIES
 
 LONG = 400
 """Characters of a word that an error repeats whole."""
@@ -24,6 +25,16 @@ class LazyCommand(click.Command):
         """Load the command and let it read its arguments."""
         command: click.Command = import_module(f"atlas.cli.{self.name}").command
         return command.make_context(*arguments, **more)
+
+
+class FamilyCommand(click.Command):
+    """The command of a family of motions or surfaces, which is made from the register when it is called."""
+
+    def make_context(self, *arguments: Any, **more: Any) -> click.Context:
+        """Make the command and let it read its arguments."""
+        from atlas.cli.family import command
+
+        return command(str(self.name)).make_context(*arguments, **more)
 
 
 class Atlas(click.Group):
@@ -56,12 +67,7 @@ for name, says in {
     "diff": "Compare two built reports.",
     "figure": "Draw figures.",
     "list": "Name the figures, reports and shapes.",
-    "classify": "Name the quadric of constant Omega3.",
     "hyperbola": "Sample the hyperbola mf72.",
-    "motion": "Compute an elementary motion.",
-    "general": "Compute any motion of the body.",
-    "ball": "Rotate a charged ball (mf36 to mf39).",
-    "particle": "Move a point charge.",
     "sweep": "Tabulate quantities over parameters.",
     "check": "Grade a trajectory of your own.",
     "verify": "Put the paper's equations on trial.",
@@ -69,6 +75,9 @@ for name, says in {
     "stress": "Hunt for the worst errors.",
 }.items():
     atlas.add_command(LazyCommand(name, short_help=says))
+for family in FAMILIES.values():
+    if family.command:
+        atlas.add_command(FamilyCommand(family.command.name, short_help=family.command.summary))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -1,55 +1,91 @@
-"""What can be swept: the parameters and quantities of each family of motions, by kernels and by balls."""
+"""What can be swept: the columns of a table over parameters of a family, by kernels and by balls."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas import families
 from atlas.errors import AtlasError, DomainError
+from atlas.families import Family, Quantity
+from atlas.families.model import TIME
 
 Row = Mapping[str, Any]
 NAME = "U28"
 """Text in a table: the names of cases and kinds, none of which is longer."""
-
-
-PERIODIC = ("period", "precession_per_period", "spin_per_period", "modulus", "nome")
-"""Numbers of a general motion that belong to its nutation."""
 
 MISSING = "missing"
 """Column that says why a quantity of a row has no value."""
 
 
 @dataclass(frozen=True)
-class Family:
-    """A family: parameters needed, and others with the value that they have when left out (None: left out).
+class Column:
+    """A quantity in a table: how to get it from objects of kernels, or of balls, and from the row's parameters.
 
-    `make` takes the parameters, arrays or numbers, and returns the kernels' objects; each quantity is got from these
-    and the parameters. `exact` does the same with `atlas.exact` for certified digits, of the quantities in `certified`.
-    So many motions as `at_once` are there at a time. `missing` says why a quantity may have no value in a row; its cell
-    is empty there: NaN, or no text.
+    `missing` says why it may have no value in a row; its cell is empty there: NaN, or no text.
     """
 
-    needed: tuple[str, ...]
-    optional: Mapping[str, float | None]
-    make: Callable[[Row], Any]
-    quantities: Mapping[str, Callable[[Any, Row], Any]]
-    exact: Callable[[Row], Any] | None = None
-    certified: tuple[str, ...] = ()
-    at_once: int = 50_000
-    missing: Mapping[str, str] = field(default_factory=dict)
+    of: Callable[[Any, Row], Any]
+    unit: str = ""
+    certified: bool = False
+    missing: str = ""
+    exact: Callable[[Any, Row], Any] | None = None
+
+
+@dataclass(frozen=True)
+class Swept:
+    """A family in a table, with columns `beside` those of the register."""
+
+    family: Family
+    beside: Mapping[str, Column] = field(default_factory=dict)
+
+    @cached_property
+    def needed(self) -> tuple[str, ...]:
+        """Parameters that every row has."""
+        return tuple(name for p in self.family.parameters if p.needed for name in p.names)
+
+    @cached_property
+    def optional(self) -> Mapping[str, float | None]:
+        """Parameters that may be left out, with the value that they have then (None: left out)."""
+        rest = [p for p in self.family.parameters if not p.needed]
+        found = {name: x for p in rest for name, x in zip(p.names, p.default or (None,) * len(p.names), strict=True)}
+        return found | ({"t": 0.0} if self.family.sampled else {})
+
+    @cached_property
+    def units(self) -> Mapping[str, str]:
+        """Units of all columns, parameters and quantities, by name."""
+        given = {name: p.unit for p in self.family.parameters for name in p.names} | {"t": TIME}
+        return given | {name: column.unit for name, column in self.quantities.items()}
+
+    @cached_property
+    def quantities(self) -> Mapping[str, Column]:
+        """Columns of the quantities by name."""
+        found = {name: column for q in self.family.quantities for name, column in _columns(q)}
+        found |= self.beside
+        for s in self.family.sampled:
+            found |= {name: Column(partial(_at_time, get), s.unit) for name, get in s.columns.items()}
+        return found
+
+    def make(self, row: Row, *, exact: bool = False) -> Any:
+        """Return the objects of parameters, arrays or numbers."""
+        values = []
+        for p in self.family.parameters:
+            parts = tuple(row.get(name) for name in p.names)
+            values.append((np.stack(parts, -1) if p.last else parts) if p.columns else parts[0])
+        return (self.family.balls if exact else self.family.kernels)()(*values)
 
     def columns(self, parameters: Mapping[str, NDArray[Any]], names: Sequence[str]) -> dict[str, NDArray[Any]]:
         """Return the quantities of rows of parameters, arrays of floats or of text."""
-        size = next(iter(parameters.values())).size
+        size, at_once = next(iter(parameters.values())).size, self.family.at_once
         found: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
-        for start in range(0, size, self.at_once):
-            rows = {name: x[start : start + self.at_once] for name, x in parameters.items()}
-            made, count = self.make(rows), min(self.at_once, size - start)
+        for start in range(0, size, at_once):
+            rows = {name: x[start : start + at_once] for name, x in parameters.items()}
+            made, count = self.make(rows), min(at_once, size - start)
             for name, column in found.items():
-                values = np.broadcast_to(self.quantities[name](made, rows), count)
+                values = np.broadcast_to(self.quantities[name].of(made, rows), count)
                 column.append(values.astype(NAME if values.dtype.kind == "U" else np.float64))
         return self._explained({name: np.concatenate(column) for name, column in found.items()})
 
@@ -65,30 +101,31 @@ class Family:
         return self._explained({name: np.array(column, dtype=f"U{digits + 12}") for name, column in texts.items()})
 
     def _balls(self, row: Row, names: Sequence[str]) -> dict[str, Any]:
-        made = self.exact(row) if self.exact else None
-        return {name: self._ball(name, made, row) for name in names}
+        made = self.make(row, exact=True)
+        return {name: self._ball(self.quantities[name], made, row) for name in names}
 
-    def _ball(self, name: str, made: Any, row: Row) -> Any:
+    @staticmethod
+    def _ball(column: Column, made: Any, row: Row) -> Any:
         """Return a quantity as a ball, or as text where it is infinite or has no value."""
         from flint import arb
 
         try:
-            value = self.quantities[name](made, row)
+            value = (column.exact or column.of)(made, row)
         except DomainError:
-            if name not in self.missing:
+            if not column.missing:
                 raise
             return ""
         return "inf" if isinstance(value, arb) and value == arb("inf") else value
 
     def _explained(self, found: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
         """Return the quantities, and beside those that may have no value a column that says why they have none."""
-        lacking = [name for name in found if name in self.missing]
+        lacking = {name: self.quantities[name].missing for name in found if self.quantities[name].missing}
         if lacking:
-            reasons = np.zeros(found[lacking[0]].shape, dtype=NAME)
-            for reason in dict.fromkeys(self.missing.values()):
+            reasons = np.zeros(next(iter(found.values())).shape, dtype=NAME)
+            for reason in dict.fromkeys(column.missing for column in self.quantities.values() if column.missing):
                 gone = np.zeros(reasons.shape, dtype=bool)
                 for name in lacking:
-                    gone |= (self.missing[name] == reason) & empty(found[name])
+                    gone |= (lacking[name] == reason) & empty(found[name])
                 reasons[gone] = [f"{text}, {reason}" if text else reason for text in reasons[gone].tolist()]
             found[MISSING] = reasons
         return found
@@ -96,13 +133,14 @@ class Family:
     def check(self, given: Sequence[str], names: Sequence[str], digits: int | None) -> None:
         """Raise AtlasError for parameters or quantities that the family does not have, or that are missing."""
         known = (*self.needed, *self.optional)
+        certified = [name for name, column in self.quantities.items() if column.certified]
         lists = (
             ("parameter", [x for x in given if x not in known], known),
             ("quantity", [x for x in names if x not in self.quantities], self.quantities),
             (
                 "quantity with certified digits",
-                [x for x in names if digits and x not in self.certified],
-                self.certified,
+                [x for x in names if digits and x not in certified],
+                certified,
             ),
         )
         for what, wrong, there in lists:
@@ -120,36 +158,23 @@ def empty(column: NDArray[Any]) -> NDArray[np.bool]:
     return np.asarray(column == "" if column.dtype.kind == "U" else np.isnan(column))
 
 
-def _elementary(p: Row) -> Any:
-    from atlas.core.elementary import ElementaryMotion
-
-    return ElementaryMotion(p["ratio"], (p["B2"], p["B3"]), p["omega2"], p.get("omega3"))
-
-
-def _exact_elementary(p: Row) -> Any:
-    from atlas.exact.elementary import ElementaryMotion
-
-    return ElementaryMotion(p["ratio"], (p["B2"], p["B3"]), p["omega2"], p.get("omega3"))
+def _columns(q: Quantity) -> Iterator[tuple[str, Column]]:
+    """Go through the columns of a quantity: one, or one for each of its components."""
+    more = q.unit, q.certified, q.missing
+    for i, name in enumerate(q.names):
+        place = i if q.columns else None
+        yield name, Column(partial(_value, q, place, exact=False), *more, partial(_value, q, place, exact=True))
 
 
-def _general(p: Row) -> Any:
-    from atlas.core.general import GeneralMotion
-
-    return GeneralMotion(p["ratio"], (p["B2"], p["B3"]), (p["omega1"], p["omega2"], p["omega3"]))
-
-
-def _exact_general(p: Row) -> Any:
-    from atlas.exact.general import GeneralMotion
-
-    return GeneralMotion(p["ratio"], (p["B2"], p["B3"]), (p["omega1"], p["omega2"], p["omega3"]))
+def _value(q: Quantity, place: int | None, made: Any, _: Row, *, exact: bool) -> Any:
+    value = q.of(made, exact=exact)
+    if place is None:
+        return value
+    return value[place] if isinstance(value, tuple | list) else value[..., place]
 
 
-def _turning_point(i: int, made: Any, _: Row) -> Any:
-    return made.turning_points[i]
-
-
-def _stability(_: Any, p: Row) -> Any:
-    return _hyperbola(p).stability(p["omega2"])
+def _at_time(get: Callable[[Any, Any], Any], made: Any, row: Row) -> Any:
+    return get(made, row["t"])
 
 
 def _error(made: Any, p: Row) -> Any:
@@ -164,131 +189,10 @@ def _plain_error(made: Any, p: Row) -> Any:
     return plain_error(made, p)
 
 
-def _hyperbola(p: Row) -> Any:
-    from atlas.core.hyperbola import Hyperbola
+FAR = "phase beyond 2^50"
+BESIDE = {"elementary": {"error": Column(_error, missing=FAR), "plain_error": Column(_plain_error, missing=FAR)}}
+"""Columns that compare two ways to compute."""
 
-    return Hyperbola(p["ratio"], (p["B2"], p["B3"]))
-
-
-def _free(p: Row) -> Any:
-    from atlas.core.elementary import FreeMotion
-
-    return FreeMotion(p["ratio"], (p["omega1"], p["omega2"], p["omega3"]))
-
-
-def _quadric(p: Row) -> Any:
-    from atlas.core.quadric import Quadric
-
-    return Quadric(p["ratio"], (p["B2"], p["B3"]))
-
-
-def _exact_quadric(p: Row) -> Any:
-    from atlas.exact.quadric import Quadric
-
-    return Quadric(p["ratio"], (p["B2"], p["B3"]))
-
-
-def _ball(p: Row) -> Any:
-    from atlas.core.ball import BallMotion
-
-    return BallMotion(p["inertia"], p["larmor"], (p["m2"], p["m3"]))
-
-
-def _particle(p: Row) -> Any:
-    from atlas.core.particle import ParticleMotion
-
-    E, B, y, v = (np.stack([p[f"{letter}{i}"] for i in (1, 2, 3)], -1) for letter in "EByv")
-    return ParticleMotion(p["mu"], E, B, y, v, p["c"])
-
-
-def _of(name: str) -> Callable[[Any, Row], Any]:
-    return lambda made, _: getattr(made, name)
-
-
-def _entry(i: int, j: int, made: Any, p: Row) -> Any:
-    return made.column(j, p["t"])[..., i - 1]
-
-
-def _component(method: str, i: int, made: Any, p: Row) -> Any:
-    return getattr(made, method)(p["t"])[..., i - 1]
-
-
-def _semi_axis(i: int, made: Any, _: Row) -> Any:
-    return np.asarray(made.semi_axes)[..., i - 1]
-
-
-def _matrix() -> dict[str, Callable[[Any, Row], Any]]:
-    """Return the entries of R at the time t."""
-    return {f"R{i}{j}": partial(_entry, i, j) for i in (1, 2, 3) for j in (1, 2, 3)}
-
-
-def _vector(letter: str, method: str) -> dict[str, Callable[[Any, Row], Any]]:
-    """Return the components of a vector at the time t."""
-    return {f"{letter}{i}": partial(_component, method, i) for i in (1, 2, 3)}
-
-
-FAMILIES: Mapping[str, Family] = {
-    "elementary": Family(
-        ("ratio", "B2", "B3", "omega2"),
-        {"omega3": None, "t": 0.0},
-        _elementary,
-        {name: _of(name) for name in ("case", "omega3", "k", "phi")}
-        | {"stability": _stability, "error": _error, "plain_error": _plain_error}
-        | _matrix()
-        | _vector("Omega", "angular_velocity")
-        | _vector("K", "field_in_body")
-        | _vector("m", "angular_momentum"),
-        _exact_elementary,
-        ("omega3", "k", "phi"),
-        missing=dict.fromkeys(("error", "plain_error"), "phase beyond 2^50"),
-    ),
-    "general": Family(
-        ("ratio", "B2", "B3", "omega1", "omega2", "omega3"),
-        {"t": 0.0},
-        _general,
-        {name: _of(name) for name in ("kind", *PERIODIC)}
-        | {"least": partial(_turning_point, 0), "largest": partial(_turning_point, 1)}
-        | _matrix()
-        | _vector("Omega", "angular_velocity")
-        | _vector("K", "field_in_body")
-        | _vector("m", "angular_momentum"),
-        _exact_general,
-        (*PERIODIC, "least", "largest"),
-        at_once=20_000,
-        missing=dict.fromkeys(("precession_per_period", "spin_per_period"), "no period")
-        | dict.fromkeys(("modulus", "nome"), "triple root"),
-    ),
-    "free": Family(
-        ("ratio", "omega1", "omega2", "omega3"),
-        {"t": 0.0},
-        _free,
-        {name: _of(name) for name in ("k", "phi")} | _matrix() | _vector("Omega", "angular_velocity"),
-    ),
-    "hyperbola": Family(("ratio", "B2", "B3"), {}, _hyperbola, {"least_stability": _of("least_stability")}),
-    "quadric": Family(
-        ("ratio", "B2", "B3"),
-        {},
-        _quadric,
-        {name: _of(name) for name in ("kind", "beta", "a2", "a3")}
-        | {f"C{i}": partial(_semi_axis, i) for i in (1, 2, 3)},
-        _exact_quadric,
-        ("beta", "a2", "a3"),
-    ),
-    "ball": Family(
-        ("inertia", "larmor", "m2", "m3"),
-        {"t": 0.0},
-        _ball,
-        {"gamma": _of("gamma"), "k2": lambda made, _: made.k_hat[0], "k3": lambda made, _: made.k_hat[1]}
-        | _matrix()
-        | _vector("m", "angular_momentum")
-        | _vector("Omega", "angular_velocity"),
-    ),
-    "particle": Family(
-        ("mu",),
-        {"c": 1.0} | {f"{letter}{i}": 0.0 for letter in "EByv" for i in (1, 2, 3)} | {"t": 0.0},
-        _particle,
-        {name: _of(name) for name in ("case", "kind", "cyclotron_frequency", "radius")}
-        | _vector("position", "position")
-        | _vector("velocity", "velocity"),
-    ),
+FAMILIES: Mapping[str, Swept] = {
+    name: Swept(family, BESIDE.get(name, {})) for name, family in families.FAMILIES.items()
 }

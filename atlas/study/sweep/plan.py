@@ -89,7 +89,7 @@ class Plan:
         """Names of the columns: parameters, quantities, and why one of these has no value, if one may have none."""
         # an input that is also asked for, as omega3, stands once
         names = [*(name for name in self.parameters if name not in self.quantities), *self.quantities]
-        return names + [MISSING] * any(name in FAMILIES[self.family].missing for name in self.quantities)
+        return names + [MISSING] * any(FAMILIES[self.family].quantities[name].missing for name in self.quantities)
 
     def part(self, index: int) -> "Plan":
         """Return the plan of one part: a list of its rows."""

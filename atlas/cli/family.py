@@ -1,0 +1,184 @@
+"""``atlas classify|motion|general|ball|particle``: the quantities of a family, and what it has at the times asked for."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import click
+
+from atlas.cli.numbers import along, answer, body_parameters, certificate, in_threes, samples
+from atlas.cli.options import (
+    REAL,
+    Command,
+    body_options,
+    chosen_body,
+    chosen_field,
+    chosen_times,
+    exact_body,
+    exact_field,
+    exactly,
+    examples,
+    field_options,
+    output_options,
+    stack,
+    times_options,
+)
+from atlas.cli.present import Line, Printout, show
+from atlas.errors import DomainError
+from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
+from atlas.families import Command as Described
+from atlas.families.model import TIME
+
+SPARE = 1 << 12
+"""Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
+
+UNKNOWN = (
+    f"with {SPARE} binary digits the number cannot be told from zero, and that it is zero does not follow from a "
+    "symmetry of the motion."
+)
+
+UNITS = {
+    "natural": {},
+    "gaussian": {"1/time": "rad/s", "length/time": "cm/s", "length": "cm"},
+    "si": {"1/time": "rad/s", "length/time": "m/s", "length": "m"},
+}
+"""Systems of units of a family with a speed of light, and what they call its units."""
+
+units_option: Callable[[Any], Any] = click.option(
+    "--units",
+    type=click.Choice(list(UNITS)),
+    default="natural",
+    show_default=True,
+    help="c = 1; statvolt/cm, gauss, cm; volt/m, tesla, m (no factor c).",
+)
+
+
+def command(name: str) -> click.Command:
+    """Make the command of this name."""
+    return next(_made(one, one.command) for one in FAMILIES.values() if one.command and one.command.name == name)
+
+
+def _made(family: Family, described: Described) -> click.Command:
+    """Make the command of a family: its options, and what it does with them."""
+    names = [p.name for p in family.parameters]
+    given = [p for p in family.parameters if p.says]
+    decorators = [
+        *([body_options] if "ratio" in names else []),
+        *([field_options] if "field" in names else []),
+        *map(_option, given),
+        *([units_option] if "c" in names else []),
+        *([times_options] if family.sampled else []),
+        output_options,
+    ]
+
+    def run(**options: Any) -> None:
+        times = chosen_times(options) if family.sampled else []
+        sampled = [s for s in family.sampled if s.printed]
+
+        def floats() -> dict[str, Any]:
+            made = family.kernels()(*_values(family, options, exact=False))
+            return _found(family, made, times, [along(s.at(made), times) for s in sampled], exact=False)
+
+        def balls() -> dict[str, Any]:
+            made = family.balls()(*_values(family, options, exact=True))
+            at = [exactly(t, options) for t in times]
+            return _found(family, made, times, [[s.at(made)(t) for t in at] for s in sampled], exact=True)
+
+        parameters = body_parameters(options) if "ratio" in names else {}
+        parameters |= {p.name: options[p.name] for p in given if options[p.name] is not None}
+        parameters |= {"units": options["units"]} if "c" in names else {}
+        texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
+        if texts is not None:
+            show(_printout(family, described, texts, options))
+
+    made = click.command(described.name, cls=Command, help=described.help, epilog=examples(*described.examples))
+    return made(stack(*decorators)(run))
+
+
+def _option(p: Parameter) -> Callable[[Any], Any]:
+    """Return the option of a parameter."""
+    count = len(p.names)
+    more: dict[str, Any] = {"nargs": count, "metavar": p.metavar} if count > 1 else {}
+    if p.needed:
+        more["required"] = True
+    elif p.default:
+        typed = tuple(f"{x:g}" for x in p.default)
+        more |= {"default": typed} if count > 1 else {"default": typed[0], "show_default": True}
+    return click.option(f"--{p.name}", type=REAL, help=p.says, **more)
+
+
+def _values(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:
+    """Yield the parameters, as kernels or as balls take them."""
+    for p in family.parameters:
+        if p.name == "ratio":
+            yield (exact_body if exact else chosen_body)(options)
+        elif p.name == "field":
+            yield (exact_field if exact else chosen_field)(options)
+        elif p.name == "c":
+            yield _speed_of_light(options["units"])
+        else:
+            value = options[p.name]
+            yield exactly(value, options) if exact and value is not None else value
+
+
+def _speed_of_light(units: str) -> float:
+    """Return the factor c of mf5 in a system of units."""
+    from atlas.core.units import system
+
+    return 1.0 if units == "natural" else system(units).c
+
+
+def _found(
+    family: Family, made: Any, times: Sequence[float], columns: Sequence[Any], *, exact: bool
+) -> dict[str, Any]:
+    """Return the quantities and samples by name.
+
+    One that may be missing is left out then; of others without a value the reason stands under their name.
+    """
+    found, missing = dict[str, Any](), dict[str, str]()
+    for q in family.quantities:
+        if not q.printed:
+            continue
+        try:
+            found[q.name] = q.of(made, exact=exact)
+        except DomainError as reason:
+            if not q.missing:
+                found[q.name], missing[q.name] = None, str(reason)
+        else:
+            if q.unit == TIME and not found[q.name] < float("inf"):
+                found[q.name] = "infinite"
+    names = [s.name for s in family.sampled if s.printed]
+    return (
+        found
+        | ({"missing": missing} if missing else {})
+        | ({"samples": samples(times, **dict(zip(names, columns, strict=True)))} if names else {})
+    )
+
+
+def _printout(family: Family, described: Described, texts: dict[str, Any], options: dict[str, Any]) -> Printout:
+    """Lay the certified texts out, three rows a time."""
+    from atlas.exact.digits import NOT_CERTIFIED
+
+    case = texts[described.named] if described.named else ""
+    units = UNITS[options["units"]] if family.parameters[-1].name == "c" else {}
+    shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
+    lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
+    rows = in_threes(texts.get("samples", []))
+    heading = [name for s in family.sampled if s.printed for name in _heading(s, units)]
+    notes = [*dict.fromkeys(texts.get("missing", {}).values()), certificate(options)]
+    if described.undecided and any(NOT_CERTIFIED in row for row in rows):
+        notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")
+    return Printout(described.title + case, lines, ("t", *heading) if rows else (), rows, notes)
+
+
+def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterator[Line]:
+    """Yield the line of a quantity, or one for each of its components."""
+    says, equation = q.cases.get(case, (q.says, q.equation))
+    count = len(q.lines)
+    parts = [texts] if not q.lines else [None] * count if texts is None else texts
+    for (symbol, words), part in zip(q.lines or [(q.symbol or q.name, says)], parts, strict=True):
+        unit = "" if part is None else units.get(q.unit, q.unit)
+        yield Line(symbol, words, "-" if part is None else q.text(part), unit, equation)
+
+
+def _heading(s: Sampled, units: dict[str, str]) -> list[str]:
+    return [head.replace(f"[{s.unit}]", f"[{units.get(s.unit, s.unit)}]") for head in s.heading]

@@ -1,0 +1,27 @@
+"""The register of families: each family of motions and surfaces once, its parameters, quantities and classes.
+
+Commands, sweeps, the stress run, certified tables and the guide's reference of quantities are made from it.
+"""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from atlas.errors import AtlasError
+from atlas.families import ball, elementary, free, general, hyperbola, particle, quadric
+from atlas.families.model import Command, Family, Parameter, Quantity, Sampled
+
+__all__ = ["FAMILIES", "Command", "Family", "Parameter", "Quantity", "Sampled", "family"]
+
+FAMILIES: Mapping[str, Family] = MappingProxyType(
+    {
+        one.FAMILY.name: one.FAMILY
+        for one in (elementary, general, free, hyperbola, quadric, ball, particle)
+    }
+)  # fmt: skip
+
+
+def family(name: str) -> Family:
+    """Return a family. Raises AtlasError for one that there is not."""
+    if name not in FAMILIES:
+        raise AtlasError(f"There is no family {name!r}; there is {', '.join(FAMILIES)}.")
+    return FAMILIES[name]

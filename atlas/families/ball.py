@@ -1,0 +1,56 @@
+"""The charged ball, mf30 to mf40."""
+
+from typing import Any
+
+from atlas.families.model import RATE, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.shared import in_brackets, rotation
+
+MOMENT = "inertia/time"
+
+
+def _kernels() -> Any:
+    from atlas.core.ball import BallMotion
+
+    return BallMotion
+
+
+def _balls() -> Any:
+    from atlas.exact.ball import BallMotion
+
+    return BallMotion
+
+
+FAMILY = Family(
+    "ball",
+    "motion of a charged ball, B along e3",
+    _kernels,
+    _balls,
+    (
+        Parameter("inertia", "inertia", (1.0,), (0.1, 4.0), needed=False, says="Moment of inertia I0."),
+        Parameter("larmor", RATE, (0.5,), (-3.0, 3.0), says="Larmor frequency alpha = mu |B|/(2c), either sign."),
+        Parameter(
+            "momentum", MOMENT, (0.3, -0.7), (-3.0, 3.0), columns=("m2", "m3"), metavar="M2 M3",
+            says="m(0) = (0, m2, m3), B along e3.",
+        ),
+    ),
+    (
+        Quantity("gamma", "frequency of the turn about k_hat", RATE, "mf39", judged="ball gamma"),
+        Quantity(
+            "k_hat", "its axis", "", "mf39", columns=("k2", "k3"), text=lambda parts: in_brackets(("0", *parts)),
+            judged="ball k_hat",
+        ),
+    ),
+    (
+        rotation("mf38", "ball R"),
+        Sampled("m", "angular_momentum", "angular momentum", MOMENT, "mf36", judged="ball m"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, judged="ball Omega", printed=False),
+    ),
+    {"ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8},
+    Command(
+        "ball",
+        "Rotate a charged ball (mf36 to mf39).",
+        "General motion of a charged ball: R(t) and m(t) (mf36 to mf39).",
+        ("atlas ball --larmor 0.5 --momentum 0.3 -0.7 --times 0 1 10",),
+        "charged ball, B along e3",
+    ),
+)  # fmt: skip

@@ -1,0 +1,110 @@
+"""The motions of a charged symmetric body in elementary functions, mf64 to mf93."""
+
+from typing import Any
+
+from atlas.families.model import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.shared import FIELD, RATIO, rotation
+
+OMEGA3, PRECESSION, PROPER = (
+    "third component of Omega, constant", "frequency of precession about B", "frequency of proper rotation",
+)  # fmt: skip
+FREE_SPIN = ("spin along the field", "transverse field, free spin", "ball, free spin")
+"""Cases in which omega3 is given and the paper has no equation."""
+
+
+def _kernels() -> Any:
+    from atlas.core.elementary import ElementaryMotion
+
+    return ElementaryMotion
+
+
+def _balls() -> Any:
+    from atlas.exact.elementary import ElementaryMotion
+
+    return ElementaryMotion
+
+
+def _period(made: Any) -> Any:
+    """Return 2 pi/|k|; infinite where there is no precession."""
+    import numpy as np
+
+    with np.errstate(divide="ignore"):
+        return np.divide(2 * np.pi, abs(np.asarray(made.k)))
+
+
+def _exact_period(made: Any) -> Any:
+    from flint import arb
+
+    return 2 * arb.pi() / abs(made.k) if made.k else arb("inf")
+
+
+def _stability(made: Any) -> Any:
+    """Return the square of the frequency of small nutations: of the hyperbola, at the motion's omega2."""
+    from atlas.core.hyperbola import Hyperbola
+
+    return Hyperbola(made.ratio, made.field).stability(made.omega2)
+
+
+FAMILY = Family(
+    "elementary",
+    "steady precession of a charged symmetric body",
+    _kernels,
+    _balls,
+    (
+        RATIO,
+        FIELD,
+        Parameter(
+            "omega2", RATE, (0.7,), (-3.0, 3.0), says="Second component of the initial angular velocity.",
+        ),
+        Parameter(
+            "omega3", RATE, (), (-3.0, 3.0), needed=False,
+            says="Third component, where mf76 leaves it free (B = 0, B2 = 0, the pole).",
+        ),
+    ),
+    (
+        Quantity("case", "name of the case"),
+        Quantity(
+            "omega3", OMEGA3, RATE, "mf76", {case: (OMEGA3, "given") for case in ("free body", *FREE_SPIN)},
+            judged="omega3", certified=True,
+        ),
+        Quantity(
+            "k", PRECESSION, RATE, "mf84",
+            {"free body": (PRECESSION.replace("B", "m"), "mf92")} | {case: (PRECESSION, "") for case in FREE_SPIN},
+            judged="k", certified=True,
+        ),
+        Quantity(
+            "phi", PROPER, RATE, "mf77", {"free body": (PROPER, "mf92")} | {case: (PROPER, "") for case in FREE_SPIN},
+            judged="phi", certified=True,
+        ),
+        Quantity(
+            "period", "period of precession, 2 pi/|k|", TIME, get=_period, exact=_exact_period, certified=True,
+            printed=False,
+        ),
+        Quantity(
+            "stability", "square of the frequency of small nutations", "1/time^2", "theorem-band", get=_stability,
+            printed=False,
+        ),
+    ),
+    (
+        rotation("mf89", "R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "mf78", judged="Omega"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, "mf41", judged="K", printed=False),
+        Sampled("m", "angular_momentum", "angular momentum over I2", RATE, "mf93", "m_i/I2", judged="m"),
+    ),
+    {
+        "R": 4, "R at one time": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R(0) = 1": 0,
+        "columns 1, 2": 4, "R13, R23 for |kt| < 1": 8, "R under scaling by 2^n": 0, "third axis": 4,
+        "k": 4, "phi": 4, "omega3": 4, "Omega": 8, "K": 8, "m": 8,
+    },
+    Command(
+        "motion",
+        "Compute an elementary motion.",
+        "Frequencies, rotation matrix R(t) and angular velocity of an elementary motion (mf76 to mf90).",
+        (
+            "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 2.5 --json",
+            "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1e6 --digits 50",
+        ),
+        "elementary motion: ",
+        "case",
+    ),
+)  # fmt: skip

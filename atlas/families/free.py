@@ -1,0 +1,36 @@
+"""The free symmetric body beside the charged one, mf92."""
+
+from typing import Any
+
+from atlas.families.model import RATE, Family, Quantity, Sampled
+from atlas.families.shared import OMEGA, RATIO, rotation
+
+
+def _kernels() -> Any:
+    from atlas.core.elementary import FreeMotion
+
+    return FreeMotion
+
+
+def _balls() -> Any:
+    from atlas.exact.free import FreeMotion
+
+    return FreeMotion
+
+
+FAMILY = Family(
+    "free",
+    "motion of a free symmetric body",
+    _kernels,
+    _balls,
+    (RATIO, OMEGA),
+    (
+        Quantity("k", "frequency of precession about m", RATE, "mf92", judged="free k"),
+        Quantity("phi", "frequency of proper rotation", RATE, "mf92", judged="free phi"),
+    ),
+    (
+        rotation("mf92", "free R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, judged="free Omega"),
+    ),
+    {"free R": 4, "free k": 4, "free phi": 4, "free Omega": 8},
+)

@@ -1,0 +1,76 @@
+"""The motion of a charged symmetric body from any initial angular velocity, in elliptic functions."""
+
+from typing import Any
+
+from atlas.families.model import RATE, TIME, Command, Family, Quantity, Sampled
+from atlas.families.shared import FIELD, OMEGA, RATIO, rotation
+
+
+def _kernels() -> Any:
+    from atlas.core.general import GeneralMotion
+
+    return GeneralMotion
+
+
+def _balls() -> Any:
+    from atlas.exact.general import GeneralMotion
+
+    return GeneralMotion
+
+
+def _finite(made: Any) -> list[list[Any]]:
+    """Return the real and imaginary parts of the roots that are no infinity."""
+    return [[z.real, z.imag] for z in made.roots if abs(float(z.real)) != float("inf")]
+
+
+def _complex(x: str, y: str) -> str:
+    return x if y == "0" else f"{x} {'-' if y.startswith('-') else '+'} {y.lstrip('-')} i"
+
+
+FAMILY = Family(
+    "general",
+    "any motion of a charged symmetric body",
+    _kernels,
+    _balls,
+    (RATIO, FIELD, OMEGA),
+    (
+        Quantity("kind", "name of the kind"),
+        Quantity(
+            "turning_points", "least and largest", RATE, symbol="Omega3", columns=("least", "largest"),
+            text=" ... ".join, certified=True,
+        ),
+        Quantity(
+            "roots", "of Q(Omega3)", RATE, get=_finite, tabled=False,
+            text=lambda roots: ", ".join(_complex(*z) for z in roots) or "none",
+        ),
+        Quantity("period", "period of nutation", TIME, certified=True),
+        Quantity("precession_per_period", "turn about B in one period", missing="no period", certified=True),
+        Quantity("spin_per_period", "turn about the body's axis in one period", missing="no period", certified=True),
+        Quantity("modulus", "of the elliptic functions", missing="triple root", certified=True),
+        Quantity("nome", "of the elliptic functions", missing="triple root", certified=True),
+    ),
+    (
+        rotation("", "general R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, judged="general Omega"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, judged="general K", printed=False),
+        Sampled("m", "angular_momentum", "angular momentum over I2", RATE, symbol="m_i/I2"),
+    ),
+    {
+        "general R": 8, "general R grid": 16, "general Omega": 16, "general K": 16, "general orthogonality": 8,
+        "general R(0) = 1": 4,
+    },
+    Command(
+        "general",
+        "Compute any motion of the body.",
+        "Nutation, rotation matrix R(t) and angular velocity from any initial angular velocity (not in the paper).",
+        (
+            "atlas general --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1 2.5 --json",
+            "atlas general --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 1e6 --digits 50",
+            "atlas general --ratio 2 --field 0 1 --omega 1e-4 0 -1 --grid 0 1 40",
+        ),
+        "general motion: ",
+        "kind",
+        undecided=True,
+    ),
+    at_once=20_000,
+)  # fmt: skip

@@ -1,0 +1,39 @@
+"""The hyperbola of elementary motions, mf72 to mf77."""
+
+from typing import Any
+
+from atlas.families.model import RATE, Family, Quantity
+from atlas.families.shared import FIELD, RATIO
+
+
+def _kernels() -> Any:
+    from atlas.core.hyperbola import Hyperbola
+
+    return Hyperbola
+
+
+def _balls() -> Any:
+    from atlas.exact.hyperbola import Hyperbola
+
+    return Hyperbola
+
+
+FAMILY = Family(
+    "hyperbola",
+    "curve of elementary motions of a body in a field",
+    _kernels,
+    _balls,
+    (RATIO, FIELD),
+    (
+        Quantity("pole", "pole of omega3(omega2)", RATE, "mf76", symbol="-B2", tabled=False),
+        Quantity(
+            "unstable_band", "((omega2 + B2)/B2)^2 where the motion is unstable", symbol="y", text=" to ".join,
+            tabled=False,
+        ),
+        Quantity("least_stability", "least of the squared frequencies of small nutations", "1/time^2", printed=False),
+    ),
+    promises={
+        "omega3 of the hyperbola": 4, "stability": 4, "k of the hyperbola": 4, "phi of the hyperbola": 4,
+        "points of the hyperbola": 4,
+    },
+)  # fmt: skip

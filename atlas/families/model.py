@@ -1,0 +1,162 @@
+"""A family of motions or surfaces as data: its parameters, its quantities, and the classes that compute them."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from operator import attrgetter
+from typing import Any
+
+RATE, TIME = "1/time", "time"
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of both classes, by the name that both give it.
+
+    name      as `--name` and, of a number, as a column; `columns` names the components of a vector
+    unit      in which it is given, "" of a pure number
+    default   what it is when left out, one number a component; of one that is `needed` only where a slider starts
+    needed    whether a motion can't do without it; one that is not and has no default is None when left out
+    range     ends of a slider
+    says      help of the option; "" where the command asks for it in another way, as for a body and its field
+    last      whether arrays of vectors have the components last, else they are a tuple of arrays
+    """
+
+    name: str
+    unit: str
+    default: tuple[float, ...]
+    range: tuple[float, float]
+    needed: bool = True
+    columns: tuple[str, ...] = ()
+    says: str = ""
+    metavar: str | None = None
+    last: bool = False
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of its columns in a table."""
+        return self.columns or (self.name,)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number of a family, several that belong together, or a name.
+
+    name       as an attribute of both classes, and in a table; `columns` names the components of several
+    says       what it is, in a few words; `unit` "" of a pure number and of a name
+    equation   where it stands; `cases`, by the name of a case, where this and what it says are other there
+    symbol     in a printout, the name if there is none; `lines`, symbol and words of each component on its own line
+    get        how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls
+    text       how the texts of its digits become one text
+    missing    why there may be none: an empty cell then, which this explains; "" where that is an error
+    judged     its name in a stress run, if it has a promise or is judged without one
+    certified  whether a sweep gives it in certified digits; `printed`, `tabled`, whether a command prints it and a
+               table has it
+    """
+
+    name: str
+    says: str = ""
+    unit: str = ""
+    equation: str = ""
+    cases: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    symbol: str = ""
+    lines: tuple[tuple[str, str], ...] = ()
+    columns: tuple[str, ...] = ()
+    get: Callable[[Any], Any] | None = None
+    exact: Callable[[Any], Any] | None = None
+    text: Callable[[Any], str] = str
+    missing: str = ""
+    judged: str = ""
+    certified: bool = False
+    printed: bool = True
+    tabled: bool = True
+
+    def of(self, made: Any, *, exact: bool = False) -> Any:
+        """Return it of an object of kernels or, if `exact`, of balls."""
+        return ((exact and self.exact) or self.get or attrgetter(self.name))(made)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of its columns in a table."""
+        return (self.columns or (self.name,)) if self.tabled else ()
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A vector or, if `matrix`, a matrix as a function of time: a method of both classes, `name` in tables."""
+
+    name: str
+    method: str
+    says: str
+    unit: str = ""
+    equation: str = ""
+    symbol: str = ""
+    matrix: bool = False
+    judged: str = ""
+    printed: bool = True
+
+    def at(self, made: Any) -> Callable[[Any], Any]:
+        """Return the function of time."""
+        method: Callable[[Any], Any] = getattr(made, self.method)
+        return method
+
+    @property
+    def heading(self) -> list[str]:
+        """Heads of the columns in which a command prints it, three rows a time."""
+        if self.matrix:
+            return [f"{self.name}_i{j}" for j in (1, 2, 3)]
+        symbol = self.symbol or f"{self.name}_i"
+        return [f"{symbol} [{self.unit}]" if self.unit else symbol]
+
+    @property
+    def columns(self) -> dict[str, Callable[[Any, Any], Any]]:
+        """Return its components in a table, each as a function of an object and the time."""
+        if self.matrix:
+            return {f"{self.name}{i}{j}": partial(_entry, i, j) for i in (1, 2, 3) for j in (1, 2, 3)}
+        return {f"{self.name}{i}": partial(_component, self.method, i) for i in (1, 2, 3)}
+
+
+def _entry(i: int, j: int, made: Any, t: Any) -> Any:
+    return made.column(j, t)[..., i - 1]
+
+
+def _component(method: str, i: int, made: Any, t: Any) -> Any:
+    return getattr(made, method)(t)[..., i - 1]
+
+
+@dataclass(frozen=True)
+class Command:
+    """The command `atlas NAME` of a family.
+
+    `title` stands over what it prints, and is completed by the quantity `named`. With `undecided` a number may be zero
+    without a proof: its digits are looked for only so far, and what that leaves open is said.
+    """
+
+    name: str
+    summary: str
+    help: str
+    examples: tuple[str, ...]
+    title: str
+    named: str = ""
+    undecided: bool = False
+
+
+@dataclass(frozen=True)
+class Family:
+    """A family: parameters in the order that both classes take them in, quantities, and what it has at a time.
+
+    `kernels` and `balls` import and return the class of `atlas.core` and that of `atlas.exact`. `promises` holds the
+    largest errors, in ulps, by the names of a stress run: of quantities and of what else is judged. Tables make so many
+    motions `at_once`.
+    """
+
+    name: str
+    says: str
+    kernels: Callable[[], Any]
+    balls: Callable[[], Any]
+    parameters: tuple[Parameter, ...]
+    quantities: tuple[Quantity, ...]
+    sampled: tuple[Sampled, ...] = ()
+    promises: Mapping[str, float] = field(default_factory=dict)
+    command: Command | None = None
+    at_once: int = 50_000

@@ -1,0 +1,67 @@
+"""A charged point particle in constant E and B, mf1 to mf11."""
+
+from typing import Any
+
+from atlas.families.model import RATE, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.shared import in_brackets
+
+SPEED = "length/time"
+
+
+def _kernels() -> Any:
+    from atlas.core.particle import ParticleMotion
+
+    return ParticleMotion
+
+
+def _balls() -> Any:
+    from atlas.exact.particle import ParticleMotion
+
+    return ParticleMotion
+
+
+def _vector(name: str, letter: str, unit: str, says: str) -> Parameter:
+    columns = (f"{letter}1", f"{letter}2", f"{letter}3")
+    return Parameter(
+        name, unit, (0.0,) * 3, (-3.0, 3.0), needed=False, columns=columns, says=says, metavar="X Y Z", last=True
+    )
+
+
+def _drift(made: Any) -> Any:
+    return made.drift if made.cyclotron_frequency != 0 else None
+
+
+FAMILY = Family(
+    "particle",
+    "motion of a point charge in constant fields",
+    _kernels,
+    _balls,
+    (
+        Parameter("mu", "charge/mass", (1.0,), (-3.0, 3.0), says="Charge-to-mass ratio, either sign."),
+        _vector("electric", "E", "field", "Electric field E; zero when left out."),
+        _vector("magnetic", "B", "field", "Magnetic field B; zero when left out."),
+        _vector("position", "y", "length", "Position at t = 0; the origin when left out."),
+        _vector("velocity", "v", SPEED, "Velocity at t = 0; zero when left out."),
+        Parameter("c", SPEED, (1.0,), (0.5, 2.0), needed=False),
+    ),
+    (
+        Quantity("case", "name of the case", printed=False),
+        Quantity("kind", "name of the path across B", printed=False),
+        Quantity(
+            "cyclotron_frequency", "cyclotron frequency mu |B|/c, with the sign of mu", RATE, "mf9", symbol="omega"
+        ),
+        Quantity("radius", "radius of the circle about the drifting centre", "length", "mf9", printed=False),
+        Quantity("drift", "c [E, B]/B^2", SPEED, "mf6", get=_drift, text=in_brackets, tabled=False),
+    ),
+    (
+        Sampled("position", "position", "position", "length", "mf10.2", "y_i", judged="particle y"),
+        Sampled("velocity", "velocity", "velocity", SPEED, "mf2", "v_i", judged="particle v"),
+    ),
+    command=Command(
+        "particle",
+        "Move a point charge.",
+        "Position and velocity of a point charge in any constant E and B (mf5 to mf11).",
+        ("atlas particle --mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1 2",),
+        "point charge in constant fields",
+    ),
+)

@@ -1,0 +1,55 @@
+"""The quadric of initial data with constant Omega3, mf58 to mf63."""
+
+from typing import Any
+
+from atlas.families.model import RATE, Command, Family, Quantity
+from atlas.families.shared import FIELD, RATIO, in_brackets
+
+
+def _kernels() -> Any:
+    from atlas.core.quadric import Quadric
+
+    return Quadric
+
+
+def _balls() -> Any:
+    from atlas.exact.quadric import Quadric
+
+    return Quadric
+
+
+FAMILY = Family(
+    "quadric",
+    "surface of initial data with constant Omega3",
+    _kernels,
+    _balls,
+    (RATIO, FIELD),
+    (
+        Quantity("kind", "name of the surface"),
+        Quantity("beta", "angle from e2 to I^-1 B'", "rad", "mf61a", judged="beta", certified=True),
+        Quantity("a2", "2 sin(beta)/(1 - sin(beta))", "", "mf60", judged="a2", certified=True),
+        Quantity("a3", "2 sin(beta)/(1 + sin(beta))", "", "mf60", judged="a3", certified=True),
+        Quantity(
+            "semi_axes", "semi-axes along omega'_1..3", RATE, "mf61b, mf63", columns=("C1", "C2", "C3"),
+            lines=tuple((f"C{i}", f"semi-axis along omega'_{i}") for i in (1, 2, 3)), judged="semi-axes",
+        ),
+        Quantity("centre", "-B', the centre", RATE, "mf58", text=in_brackets, tabled=False),
+        Quantity(
+            "axes", "canonical axes", "", "mf61a", text=in_brackets,
+            lines=tuple((f"e'_{i}", "canonical axis") for i in (1, 2, 3)), judged="canonical axes", tabled=False,
+        ),
+    ),
+    promises={"beta": 4, "a2": 4, "a3": 4, "semi-axes": 4, "canonical axes": 4},
+    command=Command(
+        "classify",
+        "Name the quadric of constant Omega3.",
+        "Name the quadric of constant Omega3 and give its canonical form.\n\n"
+        "The kind is decided on I3 against I2 and the components of the field as given.",
+        (
+            "atlas classify --ratio 1.5 --field 1 2",
+            "atlas classify --shape cylindrical-shell --radius 1 --height 0.5 --field 1 2 --json",
+        ),
+        "",
+        "kind",
+    ),
+)  # fmt: skip

@@ -1,0 +1,27 @@
+"""Parameters that several families share, and how values are written."""
+
+from typing import Any
+
+from atlas.families.model import RATE, Parameter, Sampled
+
+RATIO = Parameter("ratio", "", (1.5,), (0.05, 2.0))
+FIELD = Parameter("field", RATE, (1.0, 2.0), (-3.0, 3.0), columns=("B2", "B3"))
+OMEGA = Parameter(
+    "omega",
+    RATE,
+    (0.3, 0.7, 0.2),
+    (-3.0, 3.0),
+    columns=("omega1", "omega2", "omega3"),
+    says="Initial angular velocity, in 1/time.",
+    metavar="W1 W2 W3",
+)
+
+
+def rotation(equation: str, judged: str) -> Sampled:
+    """Return the rotation matrix of a family."""
+    return Sampled("R", "rotation", "rotation matrix", equation=equation, matrix=True, judged=judged)
+
+
+def in_brackets(parts: Any) -> str:
+    """Write a vector."""
+    return f"({', '.join(parts)})"
