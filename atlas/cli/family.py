@@ -1,4 +1,4 @@
-"""``atlas classify|motion|general|ball|particle``: the quantities of a family, and what it has at the times asked for."""
+"""``atlas classify|motion|general|ball|particle``: the quantities of a family, and what it has at given times."""
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
@@ -127,9 +127,7 @@ def _speed_of_light(units: str) -> float:
     return 1.0 if units == "natural" else system(units).c
 
 
-def _found(
-    family: Family, made: Any, times: Sequence[float], columns: Sequence[Any], *, exact: bool
-) -> dict[str, Any]:
+def _found(family: Family, made: Any, times: Sequence[float], columns: Sequence[Any], *, exact: bool) -> dict[str, Any]:
     """Return the quantities and samples by name.
 
     One that may be missing is left out then; of others without a value the reason stands under their name.

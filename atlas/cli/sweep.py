@@ -8,11 +8,22 @@ import click
 
 from atlas.cli.options import REAL, Command, Place, examples
 from atlas.cli.progress import bar
+from atlas.families import FAMILIES
+
+NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
+HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
+
+FAMILY is {NAMES}; a wrong name of a parameter or quantity is answered with the right ones. A row takes microseconds, of
+the family general some tens of them. A CSV file has units in its heading, as in k [1/time]. Where a quantity has no
+value its cell is empty, and the column missing says why. What is done is kept in the folder OUT.parts: a sweep that was
+stopped goes on when it is called again.
+"""
 
 
 @click.command(
     "sweep",
     cls=Command,
+    help=HELP,
     epilog=examples(
         "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "
         "--quantity stability --out map.npz",
@@ -46,13 +57,7 @@ def command(
     rows: int | None,
     jobs: int | None,
 ) -> None:
-    """Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
-
-    FAMILY is elementary, general, free, hyperbola, quadric, ball or particle; a wrong name of a parameter or quantity
-    is answered with the right ones. A row takes microseconds, of the family general some tens of them. Where a quantity
-    has no value its cell is empty, and the column missing says why. What is done is kept in the folder OUT.parts: a
-    sweep that was stopped goes on when it is called again.
-    """
+    """Compute quantities of a family over parameters, and write the table."""
     from atlas.study.sweep.run import sweep
 
     wanted: dict[str, Any] = {"digits": digits, "rows": rows} if toml is None else {}
@@ -67,9 +72,7 @@ def command(
     else:
         settings_read = dict(_setting(text) for text in settings)
     if family is None:
-        raise click.UsageError(
-            "name the family to sweep: elementary, general, free, hyperbola, quadric, ball or particle."
-        )
+        raise click.UsageError(f"name the family to sweep: {NAMES}.")
     if out is None:
         raise click.UsageError("--out says which file the table goes to.")
     columns = _rows(listing) if listing else {}
@@ -147,7 +150,7 @@ def _rows(path: Path) -> dict[str, list[float]]:
             heading, *lines = [line for line in csv.reader(file) if line] or [[]]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
-    names = [name.strip() for name in heading]
+    names = [name.partition("[")[0].strip() for name in heading]  # k [1/time] is k
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
     columns: dict[str, list[float]] = {name: [] for name in names}

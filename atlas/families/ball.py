@@ -34,10 +34,10 @@ FAMILY = Family(
         ),
     ),
     (
-        Quantity("gamma", "frequency of the turn about k_hat", RATE, "mf39", judged="ball gamma"),
+        Quantity("gamma", "frequency of the turn about k_hat", RATE, "mf39", judged="ball gamma", certified=True),
         Quantity(
             "k_hat", "its axis", "", "mf39", columns=("k2", "k3"), text=lambda parts: in_brackets(("0", *parts)),
-            judged="ball k_hat",
+            judged="ball k_hat", certified=True,
         ),
     ),
     (

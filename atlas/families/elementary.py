@@ -64,16 +64,16 @@ FAMILY = Family(
     (
         Quantity("case", "name of the case"),
         Quantity(
-            "omega3", OMEGA3, RATE, "mf76", {case: (OMEGA3, "given") for case in ("free body", *FREE_SPIN)},
+            "omega3", OMEGA3, RATE, "mf76", dict.fromkeys(("free body", *FREE_SPIN), (OMEGA3, "given")),
             judged="omega3", certified=True,
         ),
         Quantity(
             "k", PRECESSION, RATE, "mf84",
-            {"free body": (PRECESSION.replace("B", "m"), "mf92")} | {case: (PRECESSION, "") for case in FREE_SPIN},
+            {"free body": (PRECESSION.replace("B", "m"), "mf92")} | dict.fromkeys(FREE_SPIN, (PRECESSION, "")),
             judged="k", certified=True,
         ),
         Quantity(
-            "phi", PROPER, RATE, "mf77", {"free body": (PROPER, "mf92")} | {case: (PROPER, "") for case in FREE_SPIN},
+            "phi", PROPER, RATE, "mf77", {"free body": (PROPER, "mf92")} | dict.fromkeys(FREE_SPIN, (PROPER, "")),
             judged="phi", certified=True,
         ),
         Quantity(

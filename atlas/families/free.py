@@ -25,8 +25,8 @@ FAMILY = Family(
     _balls,
     (RATIO, OMEGA),
     (
-        Quantity("k", "frequency of precession about m", RATE, "mf92", judged="free k"),
-        Quantity("phi", "frequency of proper rotation", RATE, "mf92", judged="free phi"),
+        Quantity("k", "frequency of precession about m", RATE, "mf92", judged="free k", certified=True),
+        Quantity("phi", "frequency of proper rotation", RATE, "mf92", judged="free phi", certified=True),
     ),
     (
         rotation("mf92", "free R"),

@@ -48,9 +48,16 @@ FAMILY = Family(
         Quantity("case", "name of the case", printed=False),
         Quantity("kind", "name of the path across B", printed=False),
         Quantity(
-            "cyclotron_frequency", "cyclotron frequency mu |B|/c, with the sign of mu", RATE, "mf9", symbol="omega"
+            "cyclotron_frequency",
+            "cyclotron frequency mu |B|/c, with the sign of mu",
+            RATE,
+            "mf9",
+            symbol="omega",
+            certified=True,
         ),
-        Quantity("radius", "radius of the circle about the drifting centre", "length", "mf9", printed=False),
+        Quantity(
+            "radius", "radius of the circle about the drifting centre", "length", "mf9", printed=False, certified=True
+        ),
         Quantity("drift", "c [E, B]/B^2", SPEED, "mf6", get=_drift, text=in_brackets, tabled=False),
     ),
     (

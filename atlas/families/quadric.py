@@ -32,6 +32,7 @@ FAMILY = Family(
         Quantity(
             "semi_axes", "semi-axes along omega'_1..3", RATE, "mf61b, mf63", columns=("C1", "C2", "C3"),
             lines=tuple((f"C{i}", f"semi-axis along omega'_{i}") for i in (1, 2, 3)), judged="semi-axes",
+            certified=True,
         ),
         Quantity("centre", "-B', the centre", RATE, "mf58", text=in_brackets, tabled=False),
         Quantity(

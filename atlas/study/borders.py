@@ -13,7 +13,7 @@ import numpy as np
 
 from atlas.core.general import GeneralMotion
 from atlas.exact.general import GeneralMotion as Balls
-from atlas.study.judges_general import narrow
+from atlas.study.judges import narrow
 from atlas.study.ulps import ONE, absolute
 
 Inputs = tuple[float, tuple[float, float], tuple[float, float, float]]

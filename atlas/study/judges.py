@@ -1,100 +1,151 @@
-"""The judge of elementary motions: it asks the kernels for every quantity, and tallies the errors against balls."""
+"""Judges: what the register of families promises, and what holds beside, asked of kernels and compared with balls.
 
-from collections.abc import Callable, Sequence
+`judge` goes through the quantities of any family; what only one has, as grids and structure, is judged beside.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import chain
+from math import isfinite
+from random import Random
 from typing import Any
 
 import numpy as np
+from flint import arb, ctx
 
-from atlas.core.elementary import ElementaryMotion
-from atlas.exact import elementary as exact_elementary
-from atlas.exact.digits import enclosed
+from atlas.core.inputs import FloatArray
+from atlas.exact.digits import enclosed, numbers
+from atlas.exact.inputs import Real
+from atlas.families import FAMILIES
 from atlas.study import hostile
 from atlas.study.judging import BITS, described, exact_ratio, judging, ratio_of, rigidity, with_more
-from atlas.study.ulps import ONE, Tally, absolute, approximate, of_length, own
+from atlas.study.regimes_general import Draw
+from atlas.study.ulps import ONE, Tally, absolute, approximate, error, of_length, own
+
+Inputs = dict[str, Any]
+Truth = Callable[[Callable[[], Any]], Any]
+Where = Callable[[float], str]
 
 SHIFTS = (1, -7, 60)
 """Powers of two by which all frequencies are scaled, and times the other way: no bit of R may change."""
 
-GRIDS = 1500, 12_000
-"""Matrices on uniform grids, too few and enough for tables; a few of them are judged."""
+GRIDS, GRID = (1500, 12_000), 8200
+"""Matrices on uniform grids, too few and enough for tables; and enough for polynomials. A few of them are judged."""
+
+POINTS, TIMES = 8, 5
+"""Points of each hyperbola, times of each general motion."""
+
+NARROW = 2.0**-80
+"""Radius of the truth of a general motion, beside 1 or beside the largest rate."""
+
+
+def close(function: Callable[[], Any]) -> Any:
+    """Return numbers computed to the relative accuracy of the truth."""
+    return enclosed(function, BITS)
+
+
+def judge(
+    name: str,
+    regime: str,
+    values: Sequence[Any],
+    tally: Tally,
+    inputs: Inputs,
+    *,
+    exactly: Sequence[Any] | None = None,
+    times: Sequence[float] = (),
+    where: Callable[[Any], Where] | None = None,
+    unit: Callable[[str, float], float] | None = None,
+    truth: Truth = close,
+    more: Callable[[Any, Any, Where], None] | None = None,
+) -> None:
+    """Judge an object of a family made of `values`, by balls made of `exactly` where that differs.
+
+    Numbers are judged in ulps of themselves, matrices in ulps of 1, vectors in ulps of their length, or of
+    `unit(name, t)`. `where` makes of the balls what names the regime of a time; `more` judges what else there is.
+    """
+    family = FAMILIES[name]
+    with judging(tally, name, regime, inputs):
+        exact, found = family.balls()(*(exactly or values)), family.kernels()(*values)
+        for q in family.quantities:
+            if q.judged:
+                true = enclosed(lambda q=q: list(_flat(q.of(exact, exact=True))), BITS)  # type: ignore[misc]
+                tally.add(q.judged, regime, own(np.ravel(q.of(found)), true), with_more(inputs))
+        place = where(exact) if where else lambda _: regime
+        for s in family.sampled:
+            for t, value in zip(times, s.at(found)(np.array(times)) if s.judged else (), strict=bool(s.judged)):
+                true = truth(partial(s.at(exact), t))
+                if s.matrix:
+                    errors = absolute(value.flat, chain(*true))
+                elif unit:
+                    errors = [error(x, y, unit(s.name, t)) for x, y in zip(value, true, strict=True)]
+                else:
+                    errors = [of_length(value, true)]
+                tally.add(s.judged, place(t), errors, with_more(inputs, t=t.hex()))
+        if more:
+            more(found, exact, place)
+
+
+def by_clock(regime: str, *rates: str | float) -> Callable[[Any], Where]:
+    """Return what names the regime of a time by the largest phase that rates, quantities or numbers, make of it."""
+
+    def where(exact: Any) -> Where:
+        sizes = (x if isinstance(x, float) else approximate(enclosed(partial(getattr, exact, x), BITS)) for x in rates)
+        fastest = max(map(abs, sizes))
+        return lambda t: f"{regime}, {hostile.clock(fastest, t)}"
+
+    return where
 
 
 def judge_motion(motion: hostile.Motion, regime: str, tally: Tally) -> None:
-    """Judge an elementary motion: scalars, vectors, matrix and the structure of the matrix."""
-    inputs = described(motion)
-    with judging(tally, "elementary motion", regime, inputs):
-        exact = exact_elementary.ElementaryMotion(
-            exact_ratio(motion), (motion.B2, motion.B3), motion.omega2, motion.omega3
-        )
-        found = ElementaryMotion(ratio_of(motion), (motion.B2, motion.B3), motion.omega2, motion.omega3)
-        k, phi, omega3 = enclosed(lambda: (exact.k, exact.phi, exact.omega3), BITS)
-        for name, true in (("k", k), ("phi", phi), ("omega3", omega3)):
-            tally.add(name, regime, own([getattr(found, name)], [true]), with_more(inputs))
-        slow, fast = abs(approximate(k)), max(abs(approximate(k)), abs(approximate(phi)))
-        regimes = [f"{regime}, {hostile.clock(fast, t)}" for t in motion.times]
-        _vectors(motion.times, found, exact, regimes, tally, inputs)
-        _matrices(motion.times, found, exact, regimes, tally, inputs, slow)
-        _structure(motion, found, regime, tally, inputs)
-        rigid = rigidity(found.rotation(np.array(motion.times)))
-        for name, errors in zip(("R orthogonality", "R determinant"), rigid, strict=True):
-            tally.add(name, regime, errors, lambda i: inputs | {"t": motion.times[i].hex()})
-        _grid(motion, found, exact, regime, tally, inputs)
+    """Judge an elementary motion: beside the register, columns, small entries, structure and grids."""
+    inputs, times = described(motion), motion.times
+    rest = (motion.B2, motion.B3), motion.omega2, motion.omega3
+
+    def more(found: Any, exact: Any, where: Where) -> None:
+        at = np.array(times)
+        R, axis, columns = found.rotation(at), found.third_axis(at), [found.column(j, at) for j in (1, 2)]
+        slow = abs(approximate(enclosed(lambda: exact.k, BITS)))
+        for i, t in enumerate(times):
+            true = enclosed(partial(exact.rotation, t), BITS)
+            first, second, third = ([row[j] for row in true] for j in range(3))
+            errors = {
+                "columns 1, 2": absolute(columns[0][i], first) + absolute(columns[1][i], second),
+                "third axis": absolute(axis[i], third),
+            }
+            if i % 6 == 5:
+                errors["R at one time"] = absolute(found.rotation(t).flat, chain(*true))
+            if abs(slow * t) < 1:
+                errors["R13, R23 for |kt| < 1"] = own([*R[i, :2, 2], *axis[i, :2]], third[:2] * 2)
+            for name, values in errors.items():
+                tally.add(name, where(t), values, with_more(inputs, t=t.hex()))
+        start = np.abs(found.rotation(np.array([0.0, -0.0])) - np.eye(3)).max() / ONE
+        tally.add("R(0) = 1", regime, [float(start)], with_more(inputs))
+        _scaling(motion, found, regime, tally, inputs)
+        for name, defects in zip(("R orthogonality", "R determinant"), rigidity(R), strict=True):
+            tally.add(name, regime, defects, lambda i: inputs | {"t": times[i].hex()})
+        for count in GRIDS:
+            step = (times[5] - times[4]) / count
+            if step and times[4] + count * step != times[4]:
+                places = (0, 1, 63, 64, count // 3, count - 33, count - 32, count - 1)
+                _grid("R grid", found, exact, (times[4], step, count), places, regime, tally, inputs)
+
+    clock = by_clock(regime, "k", "phi")
+    values, exactly = (ratio_of(motion), *rest), (exact_ratio(motion), *rest)
+    judge("elementary", regime, values, tally, inputs, exactly=exactly, times=times, where=clock, more=more)
 
 
-def _vectors(times: Sequence[float], found: Any, exact: Any, regimes: list[str], tally: Tally, inputs: Any) -> None:
-    """Judge Omega, K and m in ulps of their length."""
-    methods: list[tuple[str, Callable[[Any], Any], Callable[[Any], Any]]] = [
-        ("Omega", found.angular_velocity, exact.angular_velocity),
-        ("K", found.field_in_body, exact.field_in_body),
-        ("m", found.angular_momentum, exact.angular_momentum),
-    ]
-    for name, kernel, ball in methods:
-        for t, value, where in zip(times, kernel(np.array(times)), regimes, strict=True):
-            true = enclosed(partial(ball, t), BITS)
-            tally.add(name, where, [of_length(value, true)], with_more(inputs, t=t.hex()))
-
-
-def _matrices(
-    times: Sequence[float], found: Any, exact: Any, regimes: list[str], tally: Tally, inputs: Any, k: float
-) -> None:
-    """Judge R, its columns one by one, a lone time in six, and the small entries of the third column."""
-    at = np.array(times)
-    R, axis = found.rotation(at), found.third_axis(at)
-    columns = [found.column(j, at) for j in (1, 2)]
-    for i, (t, where) in enumerate(zip(times, regimes, strict=True)):
-        true = enclosed(partial(exact.rotation, t), BITS)
-        first, second, third = ([row[j] for row in true] for j in range(3))
-        errors = {
-            "R": absolute(R[i].flat, chain(*true)),
-            "columns 1, 2": absolute(columns[0][i], first) + absolute(columns[1][i], second),
-            "third axis": absolute(axis[i], third),
-        }
-        if i % 6 == 5:
-            errors["R at one time"] = absolute(found.rotation(t).flat, chain(*true))
-        if abs(k * t) < 1:
-            errors["R13, R23 for |kt| < 1"] = own([*R[i, :2, 2], *axis[i, :2]], third[:2] * 2)
-        for name, values in errors.items():
-            tally.add(name, where, values, with_more(inputs, t=t.hex()))
-
-
-def _structure(motion: hostile.Motion, found: Any, regime: str, tally: Tally, inputs: Any) -> None:
-    """Judge what must hold to the bit: R(0) = 1, and R unchanged when all frequencies are scaled by a power of two."""
-    start = np.abs(found.rotation(np.array([0.0, -0.0])) - np.eye(3)).max() / ONE
-    tally.add("R(0) = 1", regime, [float(start)], with_more(inputs))
-    times = np.array(motion.times)
+def _scaling(motion: hostile.Motion, found: Any, regime: str, tally: Tally, inputs: Inputs) -> None:
+    """Judge that R does not change when all frequencies are scaled by a power of two."""
+    times, make = np.array(motion.times), FAMILIES["elementary"].kernels()
+    parts = (motion.B2, motion.B3, motion.omega2, motion.omega3 or 0.0)
     for shift in SHIFTS:
-        parts = (motion.B2, motion.B3, motion.omega2, motion.omega3 or 0.0)
-        scaled = [float(np.ldexp(x, shift)) for x in parts]
+        B2, B3, omega2, omega3 = (float(np.ldexp(x, shift)) for x in parts)
         slow = np.ldexp(times, -shift)
-        if any(np.ldexp(x, -shift) != y for x, y in zip(scaled, parts, strict=True)):
+        if any(np.ldexp(x, -shift) != y for x, y in zip((B2, B3, omega2, omega3), parts, strict=True)):
             continue  # a part would leave the range of doubles
         exactly = np.ldexp(slow, shift) == times
-        other = ElementaryMotion(
-            ratio_of(motion), (scaled[0], scaled[1]), scaled[2], None if motion.omega3 is None else scaled[3]
-        )
+        other = make(ratio_of(motion), (B2, B3), omega2, None if motion.omega3 is None else omega3)
         # the same number of times in both: a matrix product may round its last rows in another way
         before, after = found.rotation(times[exactly]), other.rotation(slow[exactly])
         normal = np.abs(before) >= np.finfo(float).tiny  # smaller entries have lost bits to underflow
@@ -102,16 +153,130 @@ def _structure(motion: hostile.Motion, found: Any, regime: str, tally: Tally, in
         tally.add("R under scaling by 2^n", regime, [float(changed)], with_more(inputs, n=shift))
 
 
-def _grid(motion: hostile.Motion, found: Any, exact: Any, regime: str, tally: Tally, inputs: Any) -> None:
-    """Judge uniform grids at their ends, at seams and in between, at the exact times start + i step."""
-    start, end = motion.times[4], motion.times[5]
-    for count in GRIDS:
-        step = (end - start) / count
-        if step == 0 or start + count * step == start:
-            continue
-        R = found.rotation_grid(start, step, count)
-        for i in (0, 1, 63, 64, count // 3, count - 33, count - 32, count - 1):
-            t = Fraction(start) + i * Fraction(step)
-            true = enclosed(partial(exact.rotation, t), BITS)
-            where = {"start": start.hex(), "step": step.hex(), "count": count, "index": i}
-            tally.add("R grid", regime, absolute(R[i].flat, chain(*true)), with_more(inputs, **where))
+def _grid(
+    name: str, found: Any, exact: Any, grid: tuple[float, float, int], places: Iterable[int], regime: str, tally: Tally,
+    inputs: Inputs, truth: Truth = close,
+) -> None:  # fmt: skip
+    """Judge a uniform grid (start, step, count) at a few of its exact times start + i step."""
+    start, step, count = grid
+    R = found.rotation_grid(start, step, count)
+    for i in places:
+        true = truth(partial(exact.rotation, Fraction(start) + i * Fraction(step)))
+        at = ({"start": start.hex()} if start else {}) | {"step": step.hex(), "count": count, "index": i}
+        tally.add(name, regime, absolute(R[i].flat, chain(*true)), with_more(inputs, **at))
+
+
+def judge_hyperbola(motion: hostile.Motion, regime: str, tally: Tally) -> None:
+    """Judge the hyperbola at the motion's omega2: ordinate, frequencies, stability; and points of it."""
+    inputs, w2, field = described(motion), motion.omega2, (motion.B2, motion.B3)
+    if w2 == -motion.B2 or motion.B2 == 0:
+        return
+
+    def more(found: Any, exact: Any, _: Where) -> None:
+        k, phi = found.frequencies(w2)
+        true_k, true_phi = enclosed(lambda: exact.frequencies(w2), BITS)
+        pairs = (
+            ("omega3 of the hyperbola", found.omega3(w2), exact.omega3(w2)),
+            ("k of the hyperbola", k, true_k),
+            ("phi of the hyperbola", phi, true_phi),
+            ("stability", found.stability(w2), exact.stability(w2)),
+        )
+        for name, value, true in pairs:
+            tally.add(name, regime, own([value], [true]), with_more(inputs))
+        if motion.B3:
+            points = [(x, y) for x, y in zip(*found.sample(POINTS), strict=True) if np.isfinite(y)]
+            errors = own((y for _, y in points), (exact.omega3(x) for x, _ in points))
+            tally.add("points of the hyperbola", regime, errors, lambda i: inputs | {"at": float(points[i][0]).hex()})
+
+    exactly = exact_ratio(motion), field
+    judge("hyperbola", regime, (ratio_of(motion), field), tally, inputs, exactly=exactly, more=more)
+
+
+def judge_quadric(motion: hostile.Motion, regime: str, tally: Tally) -> None:
+    """Judge the quadric of the motion's body and field."""
+    field = motion.B2, motion.B3
+    exactly = exact_ratio(motion), field
+    judge("quadric", regime, (ratio_of(motion), field), tally, described(motion), exactly=exactly)
+
+
+def judge_free(motion: hostile.Free, tally: Tally) -> None:
+    """Judge a free body with any initial angular velocity."""
+    clock = by_clock("free body", "k", "phi")
+    judge("free", "free body", (motion.I, motion.omega), tally, described(motion), times=motion.times, where=clock)
+
+
+def judge_ball(ball: hostile.Ball, tally: Tally) -> None:
+    """Judge a charged ball: axis, frequency, matrix, momentum."""
+    values, clock = (ball.inertia, ball.larmor, (ball.m2, ball.m3)), by_clock("ball", "gamma", "larmor")
+    judge("ball", "ball", values, tally, described(ball), times=ball.times, where=clock)
+
+
+def judge_particle(particle: hostile.Particle, tally: Tally) -> None:
+    """Judge a point charge, in ulps of the largest length (speed) that its start and its forces make by that time."""
+    p = particle
+    pull, speed = (float(np.linalg.norm(x)) for x in (np.multiply(p.mu, p.E), p.velocity))
+
+    def unit(name: str, t: float) -> float:
+        fast = speed + abs(t) * pull
+        reach = float(np.linalg.norm(p.position) + abs(t) * fast)
+        return float(np.spacing(reach if name == "position" else fast))
+
+    values, clock = (p.mu, p.E, p.B, p.position, p.velocity, p.c), abs(p.mu) * float(np.linalg.norm(p.B))
+    judge(
+        "particle", "particle", values, tally, described(p), times=p.times, where=by_clock("particle", clock), unit=unit
+    )
+
+
+def judge_general(draw: Draw, regime: str, random: Random, tally: Tally) -> None:
+    """Judge a general motion, in ulps of its largest rate: beside the register, structure and a grid."""
+    I, field, omega = draw
+    inputs = {"I": I.hex(), "field": [x.hex() for x in field], "omega": [x.hex() for x in omega]}
+    size = max(map(abs, (*field, *omega))) or 1.0
+    truth = partial(narrow, size=size)
+
+    def more(found: Any, exact: Any, _: Where) -> None:
+        R = found.rotation(np.array(times))
+        defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
+        tally.add("general orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
+        start = np.abs(found.rotation(0.0) - np.eye(3)).max() / ONE
+        tally.add("general R(0) = 1", regime, [float(start)], lambda _: inputs)
+        # long enough for polynomials; at ends of their windows too
+        grid, places = (0.0, times[-1] / GRID, GRID), (0, 255, 511, 4099, GRID - 1)
+        _grid("general R grid", found, exact, grid, places, regime, tally, inputs, truth)
+
+    times: list[float] = []
+    with judging(tally, "general", regime, inputs):
+        times += _times(FAMILIES["general"].kernels()(*draw).period, size, random).tolist()
+        judge("general", regime, draw, tally, inputs, times=times, unit=lambda *_: size * ONE, truth=truth, more=more)
+
+
+def narrow(function: Callable[[], Any], size: float) -> Any:
+    """Return nested lists of balls computed at a precision at which each is narrow beside 1, or beside the rates.
+
+    An entry may be zero: so the radius is compared with the size of the whole, not of the entry.
+    """
+    precision = 256
+    while True:
+        with ctx.workprec(precision):
+            value = function()
+        if all(_radius(x) <= NARROW * min(1.0, size) for x in numbers(value)):
+            return value
+        precision *= 2
+
+
+def _times(period: float, size: float, random: Random) -> FloatArray:
+    """Return times from a thousandth of a period to a million periods, within the phases that are promised."""
+    unit = period if isfinite(period) else 10.0 / size
+    drawn = [random.choice((1, -1)) * unit * 10 ** random.uniform(-3, 6) for _ in range(TIMES)]
+    return np.clip(drawn, -(2.0**46) / size, 2.0**46 / size)
+
+
+def _radius(x: Real) -> float:
+    if not isinstance(x, arb):
+        return 0.0
+    return float(x.rad()) if x.is_finite() else float("inf")
+
+
+def _flat(value: Any) -> Any:
+    """Go through the numbers of nested tuples and lists."""
+    return chain(*map(_flat, value)) if isinstance(value, list | tuple) else [value]

@@ -49,11 +49,6 @@ def rigidity(R: FloatArray) -> tuple[list[float], list[float]]:
     return (defect / ONE).astype(float).tolist(), (determinant / ONE).astype(float).tolist()
 
 
-def both(first: Callable[[Any], Any], second: Callable[[Any], Any], t: Any) -> tuple[Any, Any]:
-    """Return two quantities at one time."""
-    return first(t), second(t)
-
-
 def ratio_of(motion: hostile.Motion) -> Any:
     """Return the float I where I2 = 1, and a body otherwise."""
     return motion.I3 if motion.I2 == 1.0 else SymmetricBody(motion.I2, motion.I3)

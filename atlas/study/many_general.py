@@ -16,8 +16,9 @@ from flint import arb, ctx
 from atlas.core.general import GeneralMotion
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
+from atlas.exact.inputs import Real
 from atlas.study.bench.case import FloatArray
-from atlas.study.judges_general import narrow, state
+from atlas.study.judges import narrow
 from atlas.study.judging import BITS, rigidity, with_more
 from atlas.study.regimes_general import GENERAL
 from atlas.study.ulps import ONE, Tally, absolute, error, own
@@ -84,6 +85,11 @@ def judge_general_rows(seed: int, index: int) -> Tally:
         with ctx.workprec(BITS + 16):
             tally.add("general scalars", REGIME, own(values, true), with_more(describe(i)))
     return tally
+
+
+def state(exact: Balls, t: float) -> tuple[list[list[Real]], list[Real], list[Real]]:
+    """Return R, Omega and K."""
+    return exact.rotation(t), exact.angular_velocity(t), exact.field_in_body(t)
 
 
 def _scalars(exact: Balls) -> list[arb]:

@@ -17,11 +17,17 @@ from typing import Any
 
 from atlas import files, processes
 from atlas.errors import AtlasError
+from atlas.families import FAMILIES
 from atlas.study import hostile
-from atlas.study.judges import judge_motion
-from atlas.study.judges_bodies import judge_ball, judge_free, judge_particle
-from atlas.study.judges_curves import judge_hyperbola, judge_quadric
-from atlas.study.judges_general import judge_general
+from atlas.study.judges import (
+    judge_ball,
+    judge_free,
+    judge_general,
+    judge_hyperbola,
+    judge_motion,
+    judge_particle,
+    judge_quadric,
+)
 from atlas.study.regimes import REGIMES
 from atlas.study.regimes_general import GENERAL
 from atlas.study.ulps import Refusal, Tally, Worst
@@ -34,17 +40,10 @@ LONG, SHORT = (3_000_000, 0), (60_000, 1)
 
 Progress = Callable[[int, int], None]
 
-LIMITS: Mapping[str, float] = {
-    "R": 4, "R at one time": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R(0) = 1": 0,
-    "columns 1, 2": 4, "R13, R23 for |kt| < 1": 8,
-    "R under scaling by 2^n": 0, "third axis": 4, "k": 4, "phi": 4, "omega3": 4, "Omega": 8, "K": 8, "m": 8,
-    "beta": 4, "a2": 4, "a3": 4, "semi-axes": 4, "canonical axes": 4, "omega3 of the hyperbola": 4, "stability": 4,
-    "k of the hyperbola": 4, "phi of the hyperbola": 4, "points of the hyperbola": 4,
-    "ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8,
-    "free R": 4, "free k": 4, "free phi": 4, "free Omega": 8,
-    "general R": 8, "general R grid": 16, "general Omega": 16, "general K": 16, "general orthogonality": 8,
-    "general R(0) = 1": 4,
-}  # fmt: skip
+STRESSED = ("elementary", "quadric", "hyperbola", "ball", "free", "general", "particle")
+"""The families that a run judges, in the order of its table."""
+
+LIMITS: Mapping[str, float] = {name: ulps for one in STRESSED for name, ulps in FAMILIES[one].promises.items()}
 """What the kernels promise, in ulps, for each quantity that has a promise."""
 
 ARRAYS = {"general determinant": 12, "general integrals": 64, "general scalars": 0.51, "general kind": 0}

@@ -18,7 +18,7 @@ from atlas.core.nutation import grid as general_grid
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.borders import BORDERS
-from atlas.study.judges_general import narrow
+from atlas.study.judges import narrow
 from atlas.study.ulps import absolute
 
 ULP1 = 2.0**-52

@@ -17,8 +17,8 @@ from atlas.core.nutation import rows as general_rows
 from atlas.core.nutation.rows import GeneralRows
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
-from atlas.study.judges_general import narrow, state
-from atlas.study.many_general import REGIME, judge_general_rows
+from atlas.study.judges import narrow
+from atlas.study.many_general import REGIME, judge_general_rows, state
 from atlas.study.regimes_general import GENERAL
 from atlas.study.stress import PROMISES
 from atlas.study.ulps import ONE, absolute, error

@@ -73,7 +73,7 @@ class Swept:
         """Return the objects of parameters, arrays or numbers."""
         values = []
         for p in self.family.parameters:
-            parts = tuple(row.get(name) for name in p.names)
+            parts: tuple[Any, ...] = tuple(row.get(name) for name in p.names)
             values.append((np.stack(parts, -1) if p.last else parts) if p.columns else parts[0])
         return (self.family.balls if exact else self.family.kernels)()(*values)
 
@@ -124,8 +124,8 @@ class Swept:
             reasons = np.zeros(next(iter(found.values())).shape, dtype=NAME)
             for reason in dict.fromkeys(column.missing for column in self.quantities.values() if column.missing):
                 gone = np.zeros(reasons.shape, dtype=bool)
-                for name in lacking:
-                    gone |= (lacking[name] == reason) & empty(found[name])
+                for name, why in lacking.items():
+                    gone |= (why == reason) & empty(found[name])
                 reasons[gone] = [f"{text}, {reason}" if text else reason for text in reasons[gone].tolist()]
             found[MISSING] = reasons
         return found

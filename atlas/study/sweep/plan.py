@@ -91,6 +91,12 @@ class Plan:
         names = [*(name for name in self.parameters if name not in self.quantities), *self.quantities]
         return names + [MISSING] * any(FAMILIES[self.family].quantities[name].missing for name in self.quantities)
 
+    @property
+    def headings(self) -> list[str]:
+        """The same as a CSV file has them: with their unit, `k [1/time]`, where there is one."""
+        units = FAMILIES[self.family].units
+        return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
+
     def part(self, index: int) -> "Plan":
         """Return the plan of one part: a list of its rows."""
         rows = np.arange(index * self.rows, min((index + 1) * self.rows, self.count))

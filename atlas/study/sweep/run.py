@@ -65,7 +65,8 @@ def sweep(
             shutil.rmtree(parts)
         raise
     whole = parts / f"whole{target.suffix}"
-    FORMATS[target.suffix][1](whole, plan.names, plan.count, [_kept(parts, i) for i in range(plan.parts)])
+    heads = plan.headings if target.suffix == ".csv" else plan.names
+    FORMATS[target.suffix][1](whole, heads, plan.count, [_kept(parts, i) for i in range(plan.parts)])
     whole.replace(target)
     shutil.rmtree(parts)
     return target
