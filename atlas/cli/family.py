@@ -100,9 +100,9 @@ def _option(p: Parameter) -> Callable[[Any], Any]:
     more: dict[str, Any] = {"nargs": count, "metavar": p.metavar} if count > 1 else {}
     if p.needed:
         more["required"] = True
-    elif p.default:
-        typed = tuple(f"{x:g}" for x in p.default)
-        more |= {"default": typed} if count > 1 else {"default": typed[0], "show_default": True}
+    elif p.omitted is not None:
+        typed = f"{p.omitted:g}"
+        more |= {"default": (typed,) * count} if count > 1 else {"default": typed, "show_default": True}
     return click.option(f"--{p.name}", type=REAL, help=p.says, **more)
 
 

@@ -35,7 +35,7 @@ def _period(made: Any) -> Any:
 def _exact_period(made: Any) -> Any:
     from flint import arb
 
-    return 2 * arb.pi() / abs(made.k) if made.k else arb("inf")
+    return 2 * arb.pi() / abs(made.k) if made.k != 0 else arb("inf")
 
 
 def _stability(made: Any) -> Any:
@@ -43,6 +43,12 @@ def _stability(made: Any) -> Any:
     from atlas.core.hyperbola import Hyperbola
 
     return Hyperbola(made.ratio, made.field).stability(made.omega2)
+
+
+def _exact_stability(made: Any) -> Any:
+    from atlas.exact.hyperbola import Hyperbola
+
+    return Hyperbola(made.I, (made.B2, made.B3)).stability(made.omega2)
 
 
 FAMILY = Family(
@@ -82,7 +88,7 @@ FAMILY = Family(
         ),
         Quantity(
             "stability", "square of the frequency of small nutations", "1/time^2", "theorem-band", get=_stability,
-            printed=False,
+            exact=_exact_stability, certified=True, printed=False,
         ),
     ),
     (

@@ -15,9 +15,8 @@ class Parameter:
 
     name      as `--name` and, of a number, as a column; `columns` names the components of a vector
     unit      in which it is given, "" of a pure number
-    default   what it is when left out, one number a component; of one that is `needed` only where a slider starts
-    needed    whether a motion can't do without it; one that is not and has no default is None when left out
-    range     ends of a slider
+    default   where a slider starts, one number a component; none for what has no slider; `range`, its ends
+    needed    whether it has to be given; `omitted` is what each component is otherwise, or None
     says      help of the option; "" where the command asks for it in another way, as for a body and its field
     last      whether arrays of vectors have the components last, else they are a tuple of arrays
     """
@@ -27,6 +26,7 @@ class Parameter:
     default: tuple[float, ...]
     range: tuple[float, float]
     needed: bool = True
+    omitted: float | None = None
     columns: tuple[str, ...] = ()
     says: str = ""
     metavar: str | None = None

@@ -20,11 +20,12 @@ def _balls() -> Any:
     return ParticleMotion
 
 
-def _vector(name: str, letter: str, unit: str, says: str) -> Parameter:
+def _vector(name: str, letter: str, unit: str, default: tuple[float, float, float], says: str) -> Parameter:
     columns = (f"{letter}1", f"{letter}2", f"{letter}3")
     return Parameter(
-        name, unit, (0.0,) * 3, (-3.0, 3.0), needed=False, columns=columns, says=says, metavar="X Y Z", last=True
-    )
+        name, unit, default, (-3.0, 3.0), needed=False, omitted=0.0, columns=columns, says=says, metavar="X Y Z",
+        last=True,
+    )  # fmt: skip
 
 
 def _drift(made: Any) -> Any:
@@ -38,11 +39,11 @@ FAMILY = Family(
     _balls,
     (
         Parameter("mu", "charge/mass", (1.0,), (-3.0, 3.0), says="Charge-to-mass ratio, either sign."),
-        _vector("electric", "E", "field", "Electric field E; zero when left out."),
-        _vector("magnetic", "B", "field", "Magnetic field B; zero when left out."),
-        _vector("position", "y", "length", "Position at t = 0; the origin when left out."),
-        _vector("velocity", "v", SPEED, "Velocity at t = 0; zero when left out."),
-        Parameter("c", SPEED, (1.0,), (0.5, 2.0), needed=False),
+        _vector("electric", "E", "field", (0.2, 0.5, 0.0), "Electric field E; zero when left out."),
+        _vector("magnetic", "B", "field", (0.0, 0.0, 1.0), "Magnetic field B; zero when left out."),
+        _vector("position", "y", "length", (0.0, 0.0, 0.0), "Position at t = 0; the origin when left out."),
+        _vector("velocity", "v", SPEED, (1.0, 0.0, 0.0), "Velocity at t = 0; zero when left out."),
+        Parameter("c", SPEED, (1.0,), (0.5, 2.0), needed=False, omitted=1.0),
     ),
     (
         Quantity("case", "name of the case", printed=False),

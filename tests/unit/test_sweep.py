@@ -15,6 +15,7 @@ from click.testing import CliRunner
 
 import atlas
 from atlas.cli.app import atlas as program
+from atlas.cli.app import main
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.study.sweep import run
@@ -64,6 +65,38 @@ def test_dask_writes_the_same_bytes(tmp_path: Path) -> None:
         assert sweep(tmp_path / "d.csv", executor=client) == sweep(tmp_path / "a.csv", jobs=1)
 
 
+def plain(heading: str) -> list[str]:
+    """Return the names in the heading of a CSV file, without their units."""
+    return [name.partition(" [")[0] for name in heading.strip().split(",")]
+
+
+def test_the_heading_of_a_csv_file_names_units_and_is_read_back(tmp_path: Path) -> None:
+    """A rate has its unit, a pure number and a name have none; a list may have units in its heading."""
+    given = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.3, 0.7]}
+    out = atlas.sweep("elementary", given, ["case", "period", "stability", "R11"], tmp_path / "t.csv", jobs=1)
+    assert isinstance(out, Path)
+    heading = out.read_text().splitlines()[0]
+    rates = "B2 [1/time],B3 [1/time],omega2 [1/time]"
+    assert heading == f"ratio,{rates},case,period [time],stability [1/time^2],R11"
+    (tmp_path / "list.csv").write_text(f"ratio,{rates}\n1.5,1,2,0.3\n1.5,1,2,0.7\n")
+    wanted = [word for name in ("case", "period", "stability", "R11") for word in ("--quantity", name)]
+    words = [
+        "sweep",
+        "elementary",
+        "--list",
+        tmp_path / "list.csv",
+        *wanted,
+        "--out",
+        tmp_path / "u.csv",
+        "--jobs",
+        "1",
+    ]
+    with pytest.raises(SystemExit) as end:
+        main([str(word) for word in words])
+    assert end.value.code == 0
+    assert (tmp_path / "u.csv").read_bytes() == out.read_bytes()
+
+
 def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
     """CSV, NPZ and Parquet read back as the columns that were computed, to the bit."""
     pytest.importorskip("pyarrow")
@@ -75,7 +108,7 @@ def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
     with np.load(tmp_path / "t.npz") as arrays:
         found = parquet.read_table(tmp_path / "t.parquet")
         heading, *lines = (tmp_path / "t.csv").read_text().splitlines()
-        columns = dict(zip(heading.split(","), zip(*(line.split(",") for line in lines), strict=True), strict=True))
+        columns = dict(zip(plain(heading), zip(*(line.split(",") for line in lines), strict=True), strict=True))
         for name, values in table.items():
             assert np.array_equal(arrays[name], values)
             assert found[name].to_pylist() == values.tolist()
@@ -152,7 +185,7 @@ def test_a_name_with_a_comma_is_one_cell(tmp_path: Path) -> None:
     out = atlas.sweep("general", given, ["kind", "period"], tmp_path / "a.csv", listed=True, jobs=1)
     assert isinstance(out, Path)
     with out.open(newline="") as file:
-        rows = list(csv.DictReader(file))
+        rows = list(csv.DictReader(file, plain(next(file))))
     table = atlas.sweep("general", given, ["kind", "period"], listed=True)
     assert isinstance(table, dict)
     assert [row["kind"] for row in rows] == table["kind"].tolist()
@@ -194,7 +227,7 @@ def test_a_row_without_a_number_says_why_and_the_table_goes_on(tmp_path: Path, d
     for suffix in (".csv", ".npz", ".parquet"):
         atlas.sweep("general", rows, names, tmp_path / f"t{suffix}", listed=True, digits=digits, rows=2, jobs=1)
     with (tmp_path / "t.csv").open(newline="") as file:
-        text = list(csv.DictReader(file))
+        text = list(csv.DictReader(file, plain(next(file))))
     found = parquet.read_table(tmp_path / "t.parquet")
     with np.load(tmp_path / "t.npz") as arrays:
         for name in names:

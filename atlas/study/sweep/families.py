@@ -50,8 +50,7 @@ class Swept:
     @cached_property
     def optional(self) -> Mapping[str, float | None]:
         """Parameters that may be left out, with the value that they have then (None: left out)."""
-        rest = [p for p in self.family.parameters if not p.needed]
-        found = {name: x for p in rest for name, x in zip(p.names, p.default or (None,) * len(p.names), strict=True)}
+        found = {name: p.omitted for p in self.family.parameters if not p.needed for name in p.names}
         return found | ({"t": 0.0} if self.family.sampled else {})
 
     @cached_property

@@ -1,0 +1,148 @@
+"""The register of families: both classes have what it lists, and agree at its defaults as well as it promises."""
+
+import inspect
+from itertools import chain
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb, ctx
+
+import atlas
+from atlas.errors import AtlasError
+from atlas.exact.digits import enclosed
+from atlas.families import FAMILIES, Family, Quantity, family
+from atlas.paper import EQUATIONS
+from atlas.study import stress
+from atlas.study.ulps import absolute, of_length, own
+
+EVERY = pytest.mark.parametrize("one", FAMILIES.values(), ids=list(FAMILIES))
+TIMES = np.array([0.0, 0.3, -2.5, 40.0])
+
+
+def values(one: Family, *, at: int | None = None) -> list[Any]:
+    """Return the parameters at their defaults, or those needed at one end of their range; None for what is left out."""
+    found: list[Any] = []
+    for p in one.parameters:
+        default = p.default if at is None or not p.needed else (p.range[at],) * len(p.names)
+        found.append((default if p.columns else default[0]) if default else None)
+    return found
+
+
+def flat(value: Any) -> list[Any]:
+    """Return the numbers of nested lists and tuples in a row."""
+    return [*chain(*map(flat, value))] if isinstance(value, list | tuple) else [value]
+
+
+def numeric(q: Quantity, made: Any) -> bool:
+    """Whether a quantity is a number, or several."""
+    value = q.of(made)
+    return value is not None and not isinstance(value, str)
+
+
+def test_a_family_that_there_is_not_is_an_error_with_those_that_there_are() -> None:
+    """The error names the families."""
+    with pytest.raises(AtlasError, match="no family 'nix'; there is elementary, general, "):
+        family("nix")
+
+
+@EVERY
+def test_names_are_told_apart(one: Family) -> None:
+    """No two columns of a table have one name, and no two judged things."""
+    columns = [name for q in one.quantities for name in q.names]
+    columns += [name for s in one.sampled for name in s.columns]
+    assert len(set(columns)) == len(columns)
+    judged = [x.judged for x in (*one.quantities, *one.sampled) if x.judged]
+    assert len(set(judged)) == len(judged)
+
+
+@EVERY
+def test_both_classes_take_the_parameters(one: Family) -> None:
+    """As many as the register has; one that is None when left out is so by default, the others start in their range."""
+    for make in (one.kernels(), one.balls()):
+        takes = list(inspect.signature(make).parameters.values())
+        assert len(takes) == len(one.parameters)
+        for p, taken in zip(one.parameters, takes, strict=True):
+            assert p.needed or p.omitted is not None or taken.default is None
+            assert len(p.default) in {0, len(p.names)}
+            assert all(p.range[0] <= x <= p.range[1] for x in p.default)
+
+
+@EVERY
+def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
+    """At the defaults each number is within its promise of the ball, or within two ulp; names are the same."""
+    found, exact = one.kernels()(*values(one)), one.balls()(*values(one))
+    for q in one.quantities:
+        if not (q.certified or q.printed or q.judged):
+            continue  # of kernels alone
+        if not numeric(q, found) or q.name == "unstable_band":
+            assert q.of(found) == q.of(exact, exact=True)
+            continue
+        true = enclosed(lambda q=q: flat(q.of(exact, exact=True)), 100)  # type: ignore[misc]
+        numbers = np.ravel(np.array(q.of(found), dtype=float)).tolist()
+        with ctx.workprec(128):
+            assert max(own(numbers, true)) <= one.promises.get(q.judged, 2), q.name
+
+
+@EVERY
+def test_kernels_and_balls_agree_on_what_there_is_at_a_time(one: Family) -> None:
+    """Matrices within their promise in ulps of 1, vectors in ulps of their length; or within sixteen."""
+    found, exact = one.kernels()(*values(one)), one.balls()(*values(one))
+    for s in one.sampled:
+        for t, value in zip(TIMES.tolist(), s.at(found)(TIMES), strict=True):
+            with ctx.workprec(192):
+                true = s.at(exact)(t)
+                errors = absolute(value.flat, flat(true)) if s.matrix else [of_length(value, true)]
+            assert max(errors) <= one.promises.get(s.judged, 16), (s.name, t)
+
+
+@EVERY
+@pytest.mark.parametrize("at", [0, 1])
+def test_sliders_end_inside_the_domain(one: Family, at: int) -> None:
+    """A family has a member where all that it needs stands at one end of its range."""
+    made = one.kernels()(*values(one, at=at))
+    for q in one.quantities:
+        if not q.missing:
+            q.of(made)
+
+
+@EVERY
+def test_every_promise_is_of_something_that_is_judged(one: Family) -> None:
+    """What a quantity is judged by is promised, but of the particle; and the stress run takes each promise over."""
+    judged = [x.judged for x in (*one.quantities, *one.sampled) if x.judged]
+    assert one.name == "particle" or set(judged) <= set(one.promises)
+    assert one.promises.items() <= stress.LIMITS.items()
+
+
+@EVERY
+def test_a_quantity_that_may_be_missing_is_so_with_a_reason(one: Family) -> None:
+    """The column beside it can hold the reason, and no other error is hidden by it."""
+    for q in one.quantities:
+        assert len(q.missing) <= 28
+        assert not (q.missing and q.judged)
+
+
+def test_every_equation_of_the_register_is_in_the_ledger() -> None:
+    """A quantity names entries of the ledger, by label, or `given`."""
+    for one in FAMILIES.values():
+        named = [x.equation for x in (*one.quantities, *one.sampled)]
+        named += [equation for q in one.quantities for _, equation in q.cases.values()]
+        for word in chain(*(text.split(", ") for text in named if text)):
+            assert word == "given" or word in EQUATIONS, (one.name, word)
+
+
+def test_an_elementary_motion_has_the_period_of_its_precession() -> None:
+    """It is 2 pi/|k|, after which the body's axis is where it was; without precession it is infinite."""
+    (period,) = [q for q in FAMILIES["elementary"].quantities if q.name == "period"]
+    made = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    exact = FAMILIES["elementary"].balls()(1.5, (1.0, 2.0), 0.7)
+    T = float(period.of(made))
+    assert np.abs(made.third_axis(0.4 + T) - made.third_axis(0.4)).max() < 1e-15
+    assert np.abs(made.third_axis(0.4 + T / 2) - made.third_axis(0.4)).max() > 0.1
+    with ctx.workprec(128):
+        assert period.of(exact, exact=True).overlaps(2 * arb.pi() / abs(arb(exact.k)))
+    rest = FAMILIES["elementary"].balls()(1.5, (1.0, 2.0), 0)
+    assert period.of(rest, exact=True) == arb("inf")
+    assert atlas.sweep("elementary", {"ratio": 1.5, "B2": 1, "B3": 2, "omega2": [0.0, 0.7]}, ["period"])[
+        "period"
+    ].tolist() == [np.inf, T]
