@@ -21,20 +21,24 @@ LONG = 400
 class LazyCommand(click.Command):
     """A command that is loaded when it is called: until then its name and one line of help are known."""
 
+    def loaded(self) -> click.Command:
+        """Load the command."""
+        command: click.Command = import_module(f"atlas.cli.{self.name}").command
+        return command
+
     def make_context(self, *arguments: Any, **more: Any) -> click.Context:
         """Load the command and let it read its arguments."""
-        command: click.Command = import_module(f"atlas.cli.{self.name}").command
-        return command.make_context(*arguments, **more)
+        return self.loaded().make_context(*arguments, **more)
 
 
-class FamilyCommand(click.Command):
-    """The command of a family of motions or surfaces, which is made from the register when it is called."""
+class FamilyCommand(LazyCommand):
+    """The command of a family of motions or surfaces, which is made from the register."""
 
-    def make_context(self, *arguments: Any, **more: Any) -> click.Context:
-        """Make the command and let it read its arguments."""
+    def loaded(self) -> click.Command:
+        """Make the command."""
         from atlas.cli.family import command
 
-        return command(str(self.name)).make_context(*arguments, **more)
+        return command(str(self.name))
 
 
 class Atlas(click.Group):

@@ -60,7 +60,7 @@ def command(name: str) -> click.Command:
 def _made(family: Family, described: Described) -> click.Command:
     """Make the command of a family: its options, and what it does with them."""
     names = [p.name for p in family.parameters]
-    given = [p for p in family.parameters if p.says]
+    given = [p for p in family.parameters if p.option]
     decorators = [
         *([body_options] if "ratio" in names else []),
         *([field_options] if "field" in names else []),

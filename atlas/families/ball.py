@@ -26,11 +26,11 @@ FAMILY = Family(
     _kernels,
     _balls,
     (
-        Parameter("inertia", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0, says="Moment of inertia I0."),
-        Parameter("larmor", RATE, (0.5,), (-3.0, 3.0), says="Larmor frequency alpha = mu |B|/(2c), either sign."),
+        Parameter("inertia", "Moment of inertia I0.", "inertia", (1.0,), (0.1, 4.0), needed=False, omitted=1.0),
+        Parameter("larmor", "Larmor frequency alpha = mu |B|/(2c), either sign.", RATE, (0.5,), (-3.0, 3.0)),
         Parameter(
-            "momentum", MOMENT, (0.3, -0.7), (-3.0, 3.0), columns=("m2", "m3"), metavar="M2 M3",
-            says="m(0) = (0, m2, m3), B along e3.",
+            "momentum", "m(0) = (0, m2, m3), B along e3.", MOMENT, (0.3, -0.7), (-3.0, 3.0), columns=("m2", "m3"),
+            metavar="M2 M3",
         ),
     ),
     (

@@ -59,12 +59,10 @@ FAMILY = Family(
     (
         RATIO,
         FIELD,
+        Parameter("omega2", "Second component of the initial angular velocity.", RATE, (0.7,), (-3.0, 3.0)),
         Parameter(
-            "omega2", RATE, (0.7,), (-3.0, 3.0), says="Second component of the initial angular velocity.",
-        ),
-        Parameter(
-            "omega3", RATE, (), (-3.0, 3.0), needed=False,
-            says="Third component, where mf76 leaves it free (B = 0, B2 = 0, the pole).",
+            "omega3", "Third component, where mf76 leaves it free (B = 0, B2 = 0, the pole).", RATE, (), (-3.0, 3.0),
+            needed=False,
         ),
     ),
     (

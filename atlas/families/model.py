@@ -17,20 +17,21 @@ class Parameter:
     unit      in which it is given, "" of a pure number
     default   where a slider starts, one number a component; none for what has no slider; `range`, its ends
     needed    whether it has to be given; `omitted` is what each component is otherwise, or None
-    says      help of the option; "" where the command asks for it in another way, as for a body and its field
+    says      what it is, the help of the option `--name`; `option` is false where the command has none
     last      whether arrays of vectors have the components last, else they are a tuple of arrays
     """
 
     name: str
+    says: str
     unit: str
     default: tuple[float, ...]
     range: tuple[float, float]
     needed: bool = True
     omitted: float | None = None
     columns: tuple[str, ...] = ()
-    says: str = ""
     metavar: str | None = None
     last: bool = False
+    option: bool = True
 
     @property
     def names(self) -> tuple[str, ...]:

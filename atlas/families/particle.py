@@ -23,8 +23,7 @@ def _balls() -> Any:
 def _vector(name: str, letter: str, unit: str, default: tuple[float, float, float], says: str) -> Parameter:
     columns = (f"{letter}1", f"{letter}2", f"{letter}3")
     return Parameter(
-        name, unit, default, (-3.0, 3.0), needed=False, omitted=0.0, columns=columns, says=says, metavar="X Y Z",
-        last=True,
+        name, says, unit, default, (-3.0, 3.0), needed=False, omitted=0.0, columns=columns, metavar="X Y Z", last=True,
     )  # fmt: skip
 
 
@@ -38,12 +37,12 @@ FAMILY = Family(
     _kernels,
     _balls,
     (
-        Parameter("mu", "charge/mass", (1.0,), (-3.0, 3.0), says="Charge-to-mass ratio, either sign."),
+        Parameter("mu", "Charge-to-mass ratio, either sign.", "charge/mass", (1.0,), (-3.0, 3.0)),
         _vector("electric", "E", "field", (0.2, 0.5, 0.0), "Electric field E; zero when left out."),
         _vector("magnetic", "B", "field", (0.0, 0.0, 1.0), "Magnetic field B; zero when left out."),
         _vector("position", "y", "length", (0.0, 0.0, 0.0), "Position at t = 0; the origin when left out."),
         _vector("velocity", "v", SPEED, (1.0, 0.0, 0.0), "Velocity at t = 0; zero when left out."),
-        Parameter("c", SPEED, (1.0,), (0.5, 2.0), needed=False, omitted=1.0),
+        Parameter("c", "Speed of light.", SPEED, (1.0,), (0.5, 2.0), needed=False, omitted=1.0, option=False),
     ),
     (
         Quantity("case", "name of the case", printed=False),

@@ -4,15 +4,17 @@ from typing import Any
 
 from atlas.families.model import RATE, Parameter, Sampled
 
-RATIO = Parameter("ratio", "", (1.5,), (0.05, 2.0))
-FIELD = Parameter("field", RATE, (1.0, 2.0), (-3.0, 3.0), columns=("B2", "B3"))
+RATIO = Parameter("ratio", "I = I3/I2, in (0, 2].", "", (1.5,), (0.05, 2.0), option=False)
+FIELD = Parameter(
+    "field", "Components of B' = mu B/(2c).", RATE, (1.0, 2.0), (-3.0, 3.0), columns=("B2", "B3"), option=False
+)
 OMEGA = Parameter(
     "omega",
+    "Initial angular velocity, in 1/time.",
     RATE,
     (0.3, 0.7, 0.2),
     (-3.0, 3.0),
     columns=("omega1", "omega2", "omega3"),
-    says="Initial angular velocity, in 1/time.",
     metavar="W1 W2 W3",
 )
 

@@ -16,6 +16,7 @@ from atlas.report.tables import (
     particle,
     points,
     quadric,
+    quantities,
     sizes,
 )
 from atlas.report.tables.model import Data, Maker, Request
@@ -29,6 +30,7 @@ TABLES: Mapping[str, Maker] = MappingProxyType(
         "quadric": quadric.quadric,
         "points": points.points,
         "motion": motion.motion,
+        "quantities": quantities.quantities,
         "samples": motion.samples,
         "ball": ball.ball,
         "companions": companions.companions,
