@@ -122,9 +122,11 @@ def _values(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator
 
 def _speed_of_light(units: str) -> float:
     """Return the factor c of mf5 in a system of units."""
+    if units == "natural":
+        return 1.0
     from atlas.core.units import system
 
-    return 1.0 if units == "natural" else system(units).c
+    return system(units).c
 
 
 def _found(family: Family, made: Any, times: Sequence[float], columns: Sequence[Any], *, exact: bool) -> dict[str, Any]:
