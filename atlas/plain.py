@@ -1,4 +1,4 @@
-r"""TeX and citations of the ledger as plain Unicode: ``$\omega_2\ne-B'_2$, @mf76`` becomes ``ω_2≠-B'_2, mf76``."""
+r"""TeX and citations of the ledger as plain Unicode: ``$\omega_2\ne-B'_2$, @(71)`` becomes ``ω_2≠-B'_2, (71)``."""
 
 import re
 from functools import cache
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from pylatexenc.latex2text import LatexNodes2Text
 
-_CITATION = re.compile(r"(?<!\w)@(?=\w)")
+_CITATION = re.compile(r"(?<!\w)@(?=[\w(])")
 _MISSING = {"ne": "≠", "bot": "⊥", "det": "det", "operatorname": "%s", "mathbf": "%s"}
 """What pylatexenc has no text for, and upright bold letters, which it would write with letters few fonts have."""
 

@@ -1,7 +1,7 @@
 """Laboratory system of a charged ball.
 
 The paper's Figure Ball: e3 points along B, and the angular momentum m(0) lies in the plane of e2 and e3. It goes round
-B with the Larmor frequency alpha, mf36, while the ball turns about the axis k, mf38, mf39, which lies in that plane.
+B with the Larmor frequency alpha, (26), while the ball turns about the axis k, (28), (29), which lies in that plane.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
 """Two turns of a ball on a torus.
 
-Every motion of a ball is R = R_z(-alpha t) R_k(-gamma t), mf38: its attitude is a pair of angles, a point of a torus,
+Every motion of a ball is R = R_z(-alpha t) R_k(-gamma t), (28): its attitude is a pair of angles, a point of a torus,
 and moves on it along a line of constant slope. If gamma/alpha is rational the line closes and with it the trace of each
 point of the ball; if not, both come as near as one likes to where they have been, and never come back.
 """

@@ -1,7 +1,7 @@
 """A ruler of bodies.
 
-All that the field asks of a body is I = I3/I2, mf41.1. On the scale from 0 to 2 stand a needle, a rod, a long solenoid,
-a sphere, a short solenoid, a disk and a loop, each drawn with its true proportions; above it is the quadric mf58 of its
+All that the field asks of a body is I = I3/I2, (33). On the scale from 0 to 2 stand a needle, a rod, a long solenoid,
+a sphere, a short solenoid, a disk and a loop, each drawn with its true proportions; above it is the quadric (51) of its
 initial angular velocities with constant Omega_3.
 """
 
@@ -66,7 +66,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
         title=title(__doc__),
         caption=(
             r"Every symmetric body has its place on the scale of $I=I_3/I_2$, and none lies beyond 2. Seven bodies "
-            r"with their true proportions, the needle with $I=0.02$, the rod with 0.2; above each is the surface mf58 "
+            r"with their true proportions, the needle with $I=0.02$, the rod with 0.2; above each is the surface (51) "
             rf"of its initial angular velocities with constant $\Omega_3$ for $\mathbf{{B}}'$ along "
             rf"${tex_vector((0.0, *field))}$, with the hyperbola of its motions. Bodies longer than a sphere have one "
             r"sheet, flatter ones two. A disk and a loop have one $I$ and therefore one surface: the field does not "

@@ -1,6 +1,6 @@
 """The cone of a ball.
 
-The quadric mf58 for I = 1, mf62: both sheets of the hyperboloid have met in its centre -B'.
+The quadric (51) for I = 1, (56): both sheets of the hyperboloid have met in its centre -B'.
 """
 
 from atlas.core.quadric import Quadric

@@ -25,7 +25,7 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Largest error in any entry of $R(t)$, mf89, for {tex_setting(ratio, field)}: (a, b) over $\omega_2$, "
+            rf"Largest error in any entry of $R(t)$, (84), for {tex_setting(ratio, field)}: (a, b) over $\omega_2$, "
             rf"(c, d) over $I$ at $\omega_2={tex(omega2)}$ in the field $\mathbf{{B}}'={tex_vector((0.0, *field))}$. "
             r"(a, c) The formula in double precision as anyone would write it: the error grows with the phase, and "
             r"faster near the pole $\omega_2=-B'_2$ and for small $I$, until no digit is left. (b, d) The atlas: at "

@@ -1,6 +1,6 @@
 """One precession, moment by moment.
 
-A body drawn at equal steps of one turn of its precession k about the field, mf89: its axis goes round on a cone, and
+A body drawn at equal steps of one turn of its precession k about the field, (84): its axis goes round on a cone, and
 the painted seam shows the proper rotation phi on top of it.
 """
 

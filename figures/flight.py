@@ -1,7 +1,7 @@
 """Flight of a point of the body.
 
-The path y_N(t) = y_0(t) + R(t) x_N(0), as below mf29: the centre of mass flies as a charged particle, mf17, and the
-body turns about it by the elementary motion mf89. Both feel one magnetic field, B = 2 c B'/mu, mf41.
+The path y_N(t) = y_0(t) + R(t) x_N(0), as below (18): the centre of mass flies as a charged particle, (4), and the
+body turns about it by the elementary motion (84). Both feel one magnetic field, B = 2 c B'/mu, (32).
 """
 
 from dataclasses import replace

@@ -1,7 +1,7 @@
 """The flight of a solenoid.
 
 A charged solenoid drawn at equal steps of time on its flight through constant E and B: its centre runs on the path of a
-point charge, mf17, mf11, and about the centre it turns by the elementary motion mf89; the painted seam shows how.
+point charge, (4), (99), and about the centre it turns by the elementary motion (84); the painted seam shows how.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """The two frequencies along the hyperbola.
 
-Precession k = omega2/B2hat, mf84, and proper rotation phi, mf77, over omega2; and their quotient, mf91, which is
-rational for the motions that repeat themselves, theorem-closed, beside that of the free body, mf92.
+Precession k = omega2/B2hat, (79), and proper rotation phi, (72), over omega2; and their quotient, (86), which is
+rational for the motions that repeat themselves, theorem-closed, beside that of the free body, (87).
 """
 
 from fractions import Fraction
@@ -48,12 +48,12 @@ def scene(
     found = closed(hyperbola, free, order) if free else {}
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
     proper = (
-        r"the proper rotation $\phi$, mf77, which is zero at rest and at $\omega_2=-2B'_2$ and has its pole, dotted, "
-        r"at $\omega_2=-B'_2$. (b) Their quotient, mf91: the motion repeats itself where it is rational. Dashed: the "
-        rf"free body that precesses as fast about the same axis, mf92, with $\phi/k{tex_equals(free)}$. Dots: the "
+        r"the proper rotation $\phi$, (72), which is zero at rest and at $\omega_2=-2B'_2$ and has its pole, dotted, "
+        r"at $\omega_2=-B'_2$. (b) Their quotient, (86): the motion repeats itself where it is rational. Dashed: the "
+        rf"free body that precesses as fast about the same axis, (87), with $\phi/k{tex_equals(free)}$. Dots: the "
         rf"motions that repeat themselves after {counted(order)} of the precession, with their $\phi/k=p/q$."
         if free
-        else r"the proper rotation $\phi$, mf77, which is zero on the whole curve. (b) Their quotient, mf91."
+        else r"the proper rotation $\phi$, (72), which is zero on the whole curve. (b) Their quotient, (86)."
     )
     return Scene(
         title=title(__doc__),
@@ -147,7 +147,7 @@ def quotients(
     found: dict[Fraction, ElementaryMotion],
     unit: str,
 ) -> Plane:
-    """Panel (b): phi/k by mf91, which is finite at rest, where both vanish; ``free`` is that of the free body."""
+    """Panel (b): phi/k by (86), which is finite at rest, where both vanish; ``free`` is that of the free body."""
     B2, _ = field
     top = TOP * abs(free) or 1.0
     view = Window(ends, (-top, top))

@@ -1,6 +1,6 @@
 """The hyperboloid of a short solenoid, upper sheet.
 
-The paper's Figure Hyp (a): the sheet of the quadric mf58 through the origin for 1 < I < 2, where it has two, mf61b.
+The paper's Figure Hyp (a): the sheet of the quadric (51) through the origin for 1 < I < 2, where it has two, (55).
 """
 
 from typing import Any

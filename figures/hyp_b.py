@@ -1,6 +1,6 @@
 """The hyperboloid of a long solenoid.
 
-The paper's Figure Hyp (b): the quadric mf58 for 0 < I < 1, where it has one sheet, mf63.
+The paper's Figure Hyp (b): the quadric (51) for 0 < I < 1, where it has one sheet, (57).
 """
 
 from typing import Any

@@ -1,6 +1,6 @@
 """Hyperbola of the elementary motions.
 
-The initial angular velocities (0, omega2, omega3) of the motions with constant Omega3, mf72, in the plane (omega2,
+The initial angular velocities (0, omega2, omega3) of the motions with constant Omega3, (67), in the plane (omega2,
 omega3). Where the family is unstable against nutation (which is not in the paper) it is drawn in another colour.
 """
 
@@ -97,7 +97,7 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
     """Say what the curve is, in which case, and where it is unstable."""
     I, one_less, _ = shape_factors(ratio)
     B2, B3 = components(field)
-    what = r"The initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, mf72, of"
+    what = r"The initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), of"
     sentences = [f"{what} {tex_setting(ratio, field)}."]
     line = rf"the line $\omega_2={tex(-B2)}$, on which $\omega_3$ is free"
     if B2 == 0:

@@ -1,6 +1,6 @@
 """Hyperbolas of the elementary motions for several bodies.
 
-The curves mf72 of bodies with different I = I3/I2 in one field, in the plane (omega2, omega3). All have the centre -B'
+The curves (67) of bodies with different I = I3/I2 in one field, in the plane (omega2, omega3). All have the centre -B'
 and the asymptote omega2 = -B2, and all pass through rest and through -2 B'.
 """
 
@@ -54,7 +54,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The curves mf72 of initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions in the "
+            r"The curves (67) of initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions in the "
             rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
                 r"All have the centre $-\mathbf{B}'$ and the dotted asymptote $\omega_2=-B'_2$, and all pass through "

@@ -1,6 +1,6 @@
 """Invariants of an elementary motion in floating point.
 
-How well the invariants mf44 to mf49 and (m, B'), evaluated from the motion mf89 that the figures draw, stay what they
+How well the invariants (36) to (41) and (m, B'), evaluated from the motion (84) that the figures draw, stay what they
 are: the largest change so far of each, as a part of the sum of the sizes of its terms.
 """
 

@@ -1,8 +1,8 @@
 """Kinds and sizes of the quadrics.
 
-The surface mf58 depends on the body by I = I3/I2, on the field by the angle beta between e2 and I^-1 B', tan(beta) =
+The surface (51) depends on the body by I = I3/I2, on the field by the angle beta between e2 and I^-1 B', tan(beta) =
 B3/(I B2), and by the length of B', which is its scale: so the plane (I, beta) holds every quadric once. Regions are its
-kinds; the lines are levels of the semi-axes C1, C2, C3 of mf61b and mf63 in units of |B'|.
+kinds; the lines are levels of the semi-axes C1, C2, C3 of (55) and (57) in units of |B'|.
 """
 
 import numpy as np
@@ -64,7 +64,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"Every quadric mf58 once, up to its size: across, the body; upwards, the angle $\beta$ between "
+            r"Every quadric (51) once, up to its size: across, the body; upwards, the angle $\beta$ between "
             r"$\mathbf{e}_2$ and $\mathbb{I}^{-1}\mathbf{B}'$, from a field across the body's axis to one along it. "
             r"The kind depends on the body alone: one sheet for $I<1$, two for $I>1$, and a cone on the line between "
             r"them. At the lower edge the surface is a pair of planes, at the upper one a line. Levels of the "

@@ -1,6 +1,6 @@
 """The hyperboloid of a loop and its two tangent planes.
 
-For I = 2 the sheets of the quadric mf58 touch the planes omega_3 = 0, at the origin, and omega_3 = -2 B'_3, at -2 B'.
+For I = 2 the sheets of the quadric (51) touch the planes omega_3 = 0, at the origin, and omega_3 = -2 B'_3, at -2 B'.
 """
 
 from atlas.core.quadric import Quadric

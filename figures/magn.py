@@ -1,7 +1,7 @@
 """Laboratory system of a charged particle.
 
 The paper's Figure Magn: z points along B, and E lies in the plane of y and z, so that [E, B] points along x. A path of
-the particle, mf5 and mf10, drifts along [E, B] while it goes round B and is drawn along B.
+the particle, (93) and (98), drifts along [E, B] while it goes round B and is drawn along B.
 """
 
 import numpy as np

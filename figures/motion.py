@@ -1,7 +1,7 @@
 """An elementary motion.
 
-The body precesses about the field with the frequency k, mf84, while it turns about its third axis with the frequency
-phi, mf77: the body at the start with the way of that axis, mf89; Omega(t), mf78; and m(t), mf93.
+The body precesses about the field with the frequency k, (79), while it turns about its third axis with the frequency
+phi, (72): the body at the start with the way of that axis, (84); Omega(t), (73); and m(t), (88).
 """
 
 from typing import Any
@@ -31,7 +31,7 @@ def scene(
     turns: float = 2.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw the motion for ``turns`` periods of its precession; ``omega3`` is given only where mf76 leaves it free."""
+    """Draw the motion for ``turns`` periods of its precession; ``omega3`` is given only where (71) leaves it free."""
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     turns = positive(turns, "turns")
     k, phi = abs(motion.k), abs(motion.phi)
@@ -54,7 +54,7 @@ def scene(
             rf"$\phi{tex_equals(motion.phi)}$. "
             rf"(a) {turning if motion.k else 'The body, whose third axis does not move.'} "
             r"(b) The angular velocity in the body. "
-            rf"(c) The angular momentum in the laboratory, divided by $I_2$, mf93{along}."
+            rf"(c) The angular momentum in the laboratory, divided by $I_2$, (88){along}."
         ),
         alt=(
             f"Three panels for the elementary motion of {plain_setting(ratio, field)} from the angular velocity "

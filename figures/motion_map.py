@@ -1,7 +1,7 @@
 """Map of all motions that start in the plane of axis and field.
 
 How far the axis of the body nods, the difference between the largest and the least angle to the field, over the initial
-angular velocity (0, omega2, omega3). The map is zero on the hyperbola mf72 alone; its jumps are separatrices. Each
+angular velocity (0, omega2, omega3). The map is zero on the hyperbola (67) alone; its jumps are separatrices. Each
 pixel is a row of a table of turning points.
 """
 

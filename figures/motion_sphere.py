@@ -1,6 +1,6 @@
 """Precession of the third axis.
 
-The axis R_3(t) of an elementary motion on the unit sphere, the third column of mf89: it goes round B on a cone, mf91,
+The axis R_3(t) of an elementary motion on the unit sphere, the third column of (84): it goes round B on a cone, (86),
 with the frequency k. The thin line is the trace of the first axis R_1(t), which feels the proper rotation phi as well.
 """
 
@@ -32,7 +32,7 @@ def scene(
     azimuth: float = 25.0,
     elevation: float = 18.0,
 ) -> Scene:
-    """Show ``turns`` periods of the precession; ``omega3`` is given only where mf76 leaves it free."""
+    """Show ``turns`` periods of the precession; ``omega3`` is given only where (71) leaves it free."""
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     pole = quadric_panel.in_plane(*field) if any(field) else motion.angular_momentum(0.0)
     size = float(np.linalg.norm(pole))

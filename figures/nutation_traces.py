@@ -1,6 +1,6 @@
 """Three ways to nutate.
 
-Off the hyperbola mf72 the axis R_3 nods while it goes round the field. If at a turning point it moves with the
+Off the hyperbola (67) the axis R_3 nods while it goes round the field. If at a turning point it moves with the
 precession, its trace waves; if it moves against it, the trace loops; if it stands still there, the trace has cusps.
 """
 

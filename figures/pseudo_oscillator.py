@@ -1,7 +1,7 @@
 """Quartic and potential of the cubic pseudo-oscillator.
 
-For any initial angular velocity u = Omega3 moves by mf55 as a particle of unit mass with the potential
-V(u) = -a0 u - a1 u^2/2 - a2 u^3/3 - a3 u^4/4, and (du/dt)^2 = Q(u) with a quartic Q; both with the coefficients mf56.
+For any initial angular velocity u = Omega3 moves by (47) as a particle of unit mass with the potential
+V(u) = -a0 u - a1 u^2/2 - a2 u^3/3 - a3 u^4/4, and (du/dt)^2 = Q(u) with a quartic Q; both with the coefficients (48).
 """
 
 from collections.abc import Callable
@@ -43,7 +43,7 @@ def scene(
         caption=(
             rf"The third component $\Omega_3$ of the angular velocity of {tex_setting(ratio, field)}, started with "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic $Q$ of the first integral "
-            r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of mf55, $\ddot\Omega_3=-V'(\Omega_3)$, and the "
+            r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of (47), $\ddot\Omega_3=-V'(\Omega_3)$, and the "
             r"level of the motion. The shaded interval is the "
             rf"allowed one, the dot the start. (c) $\Omega_3(t)$. {still if rest else period}"
         ).rstrip(),

@@ -1,7 +1,7 @@
 """How fast the points of the quadric off its hyperbola are left.
 
-Every point of the quadric mf58 solves the equation mf55 of Omega3 with a constant, but the body starts from it with
-dOmega3/dt = omega1 B2, by mf46: only the points with omega1 = 0, the hyperbola mf72, are motions with constant Omega3.
+Every point of the quadric (51) solves the equation (47) of Omega3 with a constant, but the body starts from it with
+dOmega3/dt = omega1 B2, by (38): only the points with omega1 = 0, the hyperbola (67), are motions with constant Omega3.
 """
 
 from collections.abc import Sequence
@@ -48,8 +48,8 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Points of the quadric mf58 of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$, off the "
-            r"hyperbola. From each, a constant $\Omega_3$ would solve mf55, but the body leaves at the rate "
+            rf"Points of the quadric (51) of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$, off the "
+            r"hyperbola. From each, a constant $\Omega_3$ would solve (47), but the body leaves at the rate "
             r"$\dot\Omega_3(0)=\omega_1B'_2$; only with $\omega_1=0$ it stays. (a) The motion of $\Omega_3$ for "
             rf"$\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; dashed: the rate at the start. "
             f"(b) The largest departure from the start, with dots for the motions of (a); {law}"
@@ -70,14 +70,14 @@ def scene(
 
 
 def start(ratio: Any, field: tuple[float, float], omega1: float, omega2: float) -> PseudoOscillator:
-    """Return the pseudo-oscillator from the point of the quadric over (omega1, omega2), mf59."""
+    """Return the pseudo-oscillator from the point of the quadric over (omega1, omega2), (52)."""
     I, _, two_less = shape_factors(ratio)
     B2, B3 = (number(component, "field") for component in field)
     omega2 = number(omega2, "omega2")
     if B2 == 0:
         raise DomainError("With B2 = 0 the quadric is a line and no point of it is left; give a field across the axis.")
     if omega2 == -B2:
-        raise DomainError(f"omega2 = -B2 = {-B2} is the pole of mf59, where no omega3 belongs to omega2.")
+        raise DomainError(f"omega2 = -B2 = {-B2} is the pole of (52), where no omega3 belongs to omega2.")
     omega3 = B3 * (omega1**2 + omega2 * (omega2 + two_less * B2)) / (I * B2 * (omega2 + B2))
     return PseudoOscillator(ratio, (B2, B3), (omega1, omega2, omega3))
 

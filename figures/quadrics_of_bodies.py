@@ -1,6 +1,6 @@
 """One surface for every shape of body.
 
-The quadrics mf58 of constant Omega_3 in one field, from the loop, I = 2, to a slender rod, at one scale and seen from
+The quadrics (51) of constant Omega_3 in one field, from the loop, I = 2, to a slender rod, at one scale and seen from
 one side, each about its centre -B'. At I = 1 the two sheets meet in a cone; for longer bodies they join to a tube.
 """
 
@@ -46,7 +46,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The initial angular velocities with constant $\Omega_3$, mf58, in the field "
+            r"The initial angular velocities with constant $\Omega_3$, (51), in the field "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$, at one scale, for {named}. Two sheets come together, meet "
             r"in a cone for the ball and join to a tube for long bodies. Heavy line: the hyperbola "
             r"$\omega_1=0$, whose points alone are motions."

@@ -1,6 +1,6 @@
 """The hyperbola on its quadric.
 
-On the whole surface mf58 a constant Omega_3 solves mf55, but from a point of it Omega_3 departs at the rate
+On the whole surface (51) a constant Omega_3 solves (47), but from a point of it Omega_3 departs at the rate
 |omega_1 B2|, theorem-points: the surface is coloured by that rate. Only the hyperbola omega_1 = 0 stays; it is coloured
 by the frequency of a small nutation, theorem-stability.
 """
@@ -53,7 +53,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The surface mf58 for {tex_setting(ratio, field)}, in {BANDS} colours from pale to dark by the rate "
+            rf"The surface (51) for {tex_setting(ratio, field)}, in {BANDS} colours from pale to dark by the rate "
             rf"$\lvert\omega_1B'_2\rvert$ at which $\Omega_3$ departs from each of its points, in equal steps up to "
             rf"${tex(round(widest * field[0], 2))}$ at the rim. Only from the heavy line it does not depart. That line "
             r"is the darker and wider the faster a small nutation about the motion is, in four classes by $\nu_n/b$ "
@@ -78,7 +78,7 @@ def radius_squared(quadric: Quadric, height: FloatArray) -> FloatArray:
 
 
 def quadric_rest(quadric: Quadric) -> float:
-    """Return the square of C1, with the sign of I - 1: that of mf60 with its sign changed."""
+    """Return the square of C1, with the sign of I - 1: that of (54) with its sign changed."""
     return float(quadric.semi_axes[0]) ** 2 * (1.0 if quadric.kind == "two-sheet hyperboloid" else -1.0)
 
 

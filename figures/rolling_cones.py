@@ -1,8 +1,8 @@
 """Body cone and space cone.
 
 An elementary motion is the rolling, without slipping, of a cone fixed in the body about R_3 on a cone fixed in space
-about the field: they touch along the angular velocity k B_hat + phi R_3, mf90. The free body that precesses with the
-same k, mf92, rolls on a cone about its angular momentum.
+about the field: they touch along the angular velocity k B_hat + phi R_3, (85). The free body that precesses with the
+same k, (87), rolls on a cone about its angular momentum.
 """
 
 from dataclasses import replace
@@ -45,7 +45,7 @@ def scene(
             r"$\mathbf{R}_3$ (amber) rolls on the space cone about $\mathbf{B}$ (green); they touch along the "
             r"instantaneous axis $\boldsymbol{\omega}=k\hat{\mathbf{B}}+\phi\mathbf{R}_3$, whose tip draws the polhode "
             rf"in the body and the herpolhode in space. Here $k={tex(motion.k)}$ and $\phi={tex(motion.phi)}$. (b) The "
-            r"free body with the same axis of precession and the same $k$, mf92: its space cone is about the angular "
+            r"free body with the same axis of precession and the same $k$, (87): its space cone is about the angular "
             rf"momentum, and $\phi={tex(free.phi)}$. The body cone {contact(motion, axis)} in (a) and "
             f"{contact(free, axis)} in (b)."
         ),

@@ -1,7 +1,7 @@
 """Nutation frequency along the elementary family.
 
-The motions with constant Omega3 are stable against nutation where nu^2 = -p'(omega3) > 0, p being the cubic of mf55,
-and unstable where nu^2 <= 0, theorem-band. On the hyperbola mf72, with x = (omega2 + B2)/B2 and tau = B3/B2,
+The motions with constant Omega3 are stable against nutation where nu^2 = -p'(omega3) > 0, p being the cubic of (47),
+and unstable where nu^2 <= 0, theorem-band. On the hyperbola (67), with x = (omega2 + B2)/B2 and tau = B3/B2,
 
     nu^2/B2^2 = (1 + tau^2) x^2 + (1 - I)(2 tau^2 - 1) + tau^2 (1 - I)^2/x^2,
 
@@ -48,7 +48,7 @@ def scene(
         title=title(__doc__),
         caption=(
             f"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
-            r"squared, $\nu_n^2=-Q''(\omega_3)/2$ with the quartic $Q$ of theorem-quartic, along the hyperbola mf72. "
+            r"squared, $\nu_n^2=-Q''(\omega_3)/2$ with the quartic $Q$ of theorem-quartic, along the hyperbola (67). "
             + (
                 f"The motion is unstable on the shaded bands {where}, inside which it is negative. "
                 if bands

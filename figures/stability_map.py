@@ -1,6 +1,6 @@
 """Where elementary motions can be unstable.
 
-With tau = |B3/B2| the least nutation frequency squared along the hyperbola mf72 is, in units of B2^2,
+With tau = |B3/B2| the least nutation frequency squared along the hyperbola (67) is, in units of B2^2,
 
     least = 2 tau sqrt(1 + tau^2) |1-I| - (1-I)(1 - 2 tau^2),        at x^2 = tau |1-I|/sqrt(1 + tau^2),
 

@@ -1,6 +1,6 @@
 """Prolate trochoid, cycloid and curtate trochoid of a charged particle.
 
-The projection of the path on the plane orthogonal to B, mf10.1 and mf11: the guiding centre drifts along
+The projection of the path on the plane orthogonal to B, (100) and (99): the guiding centre drifts along
 e1 = [E, B]/|[E, B]| with the speed v = c |E_perp|/|B|, and the particle turns round it with the speed a omega.
 """
 
@@ -69,7 +69,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The path of a charged particle, mf10.1, with $\mu={tex(mu)}$ and $c={tex(c)}$ in the fields "
+            rf"The path of a charged particle, (100), with $\mu={tex(mu)}$ and $c={tex(c)}$ in the fields "
             rf"$\mathbf{{E}}={tex_vector(E)}$ and $\mathbf{{B}}={tex_vector(B)}$, projected on the plane orthogonal to "
             r"$\mathbf{B}$; $x$ runs along $[\mathbf{E},\mathbf{B}]$ and $y$ along $\mathbf{E}_\perp$. The guiding "
             r"centre drifts along the dashed line with the speed $v=c\lvert\mathbf{E}_\perp\rvert/\lvert\mathbf{B}"

@@ -1,6 +1,6 @@
 """The rotation matrix as two turns.
 
-R(t) = R_B(k t) R_z(phi t), mf90: first the body turns by phi t about its own axis, which still stands along e3, then it
+R(t) = R_B(k t) R_z(phi t), (85): first the body turns by phi t about its own axis, which still stands along e3, then it
 is carried by k t about the field. No third turn is needed, since the axis keeps its angle with the field.
 """
 
@@ -70,7 +70,7 @@ def scene(
         caption=(
             rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, in its first attitude; turned by "
             rf"$\phi t={tex(round(proper, 3))}$ about its axis; and then by $kt={tex(round(precession, 3))}$ about "
-            r"$\mathbf{B}$: this is the attitude $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, mf90."
+            r"$\mathbf{B}$: this is the attitude $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, (85)."
         ),
         alt=(
             f"Three drawings of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: upright with its seam in "

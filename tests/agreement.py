@@ -71,15 +71,15 @@ def modules(floor: str) -> dict[str, Path]:
 
 
 class Ledger:
-    """Evaluates proved forms and notes their labels."""
+    """Evaluates proved forms and notes their names."""
 
     def __init__(self) -> None:
-        self.labels: set[str] = set()
+        self.names: set[str] = set()
 
-    def __call__(self, label: str, side: str, /, **letters: Any) -> Any:
+    def __call__(self, name: str, side: str, /, **letters: Any) -> Any:
         """Return what an equation says that a side is, see `proof.formula.value`."""
-        self.labels.add(label)
-        return value(label, side, **letters)
+        self.names.add(name)
+        return value(name, side, **letters)
 
 
 Size = Callable[[list[Fraction], Any], float | None]
@@ -108,10 +108,10 @@ def power(degree: int) -> Size:
 
 @dataclasses.dataclass(frozen=True)
 class Tie:
-    """One quantity, the labels that it is tied to, and how.
+    """One quantity, the names that it is tied to, and how.
 
     quantity  "Class.name" or "module.function"
-    labels    of the ledger's entries that `truth` evaluates
+    names    of the ledger's entries that `truth` evaluates
     read      (floor, point) -> the quantity on a floor; `exact` where the exact floor is asked in another way
     truth     (ledger, point) -> what the entries make it
     points    where they are compared
@@ -119,7 +119,7 @@ class Tie:
     """
 
     quantity: str
-    labels: str
+    names: str
     read: Callable[[Any, Any], Any]
     truth: Callable[[Ledger, Any], Any]
     points: Sequence[Any]
@@ -129,7 +129,7 @@ class Tie:
     exact: Callable[[Any, Any], Any] | None = None
 
     def __str__(self) -> str:
-        return f"{self.quantity} {self.labels}"
+        return f"{self.quantity} {self.names}"
 
 
 def each(ties: Iterable[Tie]) -> Any:
@@ -143,7 +143,7 @@ def agree(tie: Tie, floor: str, points: Sequence[Any] | None = None) -> None:
     for point in tie.points if points is None else points:
         ledger = Ledger()
         true = [_fraction(x) for x in _flat(tie.truth(ledger, point))]
-        assert ledger.labels == set(tie.labels.split())
+        assert ledger.names == set(tie.names.split())
         if floor == "core":
             _compare_doubles(tie, point, true)
         else:
@@ -306,13 +306,13 @@ def unit_field(p: Any) -> dict[str, Any]:
 
 
 def elementary(say: Ledger, p: Any) -> dict[str, Any]:
-    """Return the letters omega3, phi and k of the elementary motion that starts with omega2, by mf76, mf77, mf84."""
+    """Return the letters omega3, phi and k of the elementary motion that starts with omega2, by (71), (72), (79)."""
     given = letters(p, "omega2 I B2 B3")
-    k = say("mf84", "k", omega2=p.omega2, **unit_field(p))
-    return {"omega3": say("mf76", "omega3", **given), "phi": say("mf77", "phi", **given), "k": k}
+    k = say("(79)", "k", omega2=p.omega2, **unit_field(p))
+    return {"omega3": say("(71)", "omega3", **given), "phi": say("(72)", "phi", **given), "k": k}
 
 
 def rotation(say: Ledger, p: Any, t: Any) -> Any:
-    """Return R(t) of mf89."""
+    """Return R(t) of (84)."""
     constants = elementary(say, p)
-    return say("mf89", "R", k=constants["k"], phi=constants["phi"], t=t, **unit_field(p))
+    return say("(84)", "R", k=constants["k"], phi=constants["phi"], t=t, **unit_field(p))

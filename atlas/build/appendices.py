@@ -8,7 +8,8 @@ import re
 from collections import Counter, defaultdict
 
 from atlas.build.reference import described
-from atlas.paper import EQUATIONS, LABEL
+from atlas.paper import EQUATIONS
+from atlas.paper.citation import cited
 from atlas.report.appendices import Appendices, Finding
 from atlas.report.blocks import Errata, Ledger, Recorded, Reference
 from atlas.report.definition import Report
@@ -44,9 +45,9 @@ def _findings() -> dict[str, Finding]:
 
     mutants, modules = recorded.load_mutants(), _modules()
     findings = {}
-    for label, verdict in recorded.load().items():
-        changed = mutants.get(label)
-        findings[label] = Finding(
+    for name, verdict in recorded.load().items():
+        changed = mutants.get(name)
+        findings[name] = Finding(
             verdict.verdict,
             verdict.method,
             verdict.follows,
@@ -56,8 +57,8 @@ def _findings() -> dict[str, Finding]:
             verdict.note,
             changed.tried if changed else 0,
             changed.noticed if changed else 0,
-            " ".join(dict.fromkeys(reason(label, line) for _, line, _ in changed.survivors)) if changed else "",
-            modules.get(label, ()),
+            " ".join(dict.fromkeys(reason(name, line) for _, line, _ in changed.survivors)) if changed else "",
+            modules.get(name, ()),
             verdict.grade,
             verdict.slip,
         )
@@ -65,14 +66,14 @@ def _findings() -> dict[str, Finding]:
 
 
 def _modules() -> dict[str, tuple[str, ...]]:
-    """Return for each label the modules of the kernels and of the balls whose docstrings cite it."""
+    """Return for each name the modules of the kernels and of the balls whose docstrings cite it."""
     found: defaultdict[str, list[str]] = defaultdict(list)
     for floor in ("core", "exact"):
         for path in sorted((PACKAGE / floor).rglob("*.py")):
             text = " ".join(_DOCSTRING.findall(path.read_text("utf-8")))
-            for label in dict.fromkeys(LABEL.findall(text)):
-                found[label].append(path.relative_to(PACKAGE).as_posix())
-    return {label: tuple(paths) for label, paths in found.items()}
+            for name in cited(text):
+                found[name].append(path.relative_to(PACKAGE).as_posix())
+    return {name: tuple(paths) for name, paths in found.items()}
 
 
 def _trial() -> dict[str, Data]:
@@ -84,11 +85,11 @@ def _trial() -> dict[str, Data]:
     verdicts, mutants = recorded.load(), recorded.load_mutants()
     kinds = ("proved", "definition", "refuted", "supported", "undecided")
     totals: defaultdict[str, Counter[str]] = defaultdict(Counter)
-    for label, entry in EQUATIONS.items():
-        changed = mutants.get(label)
+    for name, entry in EQUATIONS.items():
+        changed = mutants.get(name)
         for key in (entry.section, "all"):
             totals[key]["entries"] += 1
-            totals[key][verdicts[label].verdict if label in verdicts else "undecided"] += 1
+            totals[key][verdicts[name].verdict if name in verdicts else "undecided"] += 1
             totals[key]["tried"] += changed.tried if changed else 0
             totals[key]["noticed"] += changed.noticed if changed else 0
     totals["All"] = totals.pop("all")
@@ -99,15 +100,15 @@ def _trial() -> dict[str, Data]:
         numbers = (Number(str(count[name])) for name in ("entries", *kinds, "tried", "noticed", "left"))
         rows.append((_SECTIONS.get(key, key), *numbers))
     reasons: defaultdict[str, Counter[str]] = defaultdict(Counter)
-    for label, changed in mutants.items():
+    for name, changed in mutants.items():
         for _, line, _ in changed.survivors:
-            reasons[reason(label, line) or "Not explained."][label] += 1
+            reasons[reason(name, line) or "Not explained."][name] += 1
     return {
         "totals": Data(tuple(map(Column, heads)), tuple(rows), "The trial in numbers."),
         "survivors": Data(
             (Column("Why they survive"), Column("Entries, with the number of survivors")),
             tuple(
-                (why, ", ".join(f"@{label} ({count})" for label, count in counts.items()))
+                (why, ", ".join(f"@{name} ({count})" for name, count in counts.items()))
                 for why, counts in reasons.items()
             ),
             "Changed forms that the trial does not refute.",
@@ -117,12 +118,12 @@ def _trial() -> dict[str, Data]:
             tuple(
                 (
                     grade.capitalize(),
-                    Number(str(len(labels))),
+                    Number(str(len(names))),
                     ", ".join(
-                        f"@{label}" for label, verdict in verdicts.items() if verdict.grade and grade == verdict.grade
+                        f"@{name}" for name, verdict in verdicts.items() if verdict.grade and grade == verdict.grade
                     ),
                 )
-                for grade, labels in slips(verdicts.values()).items()
+                for grade, names in slips(verdicts.values()).items()
             ),
             "Distinct slips by grade; several entries may share one.",
         ),

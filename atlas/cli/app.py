@@ -71,7 +71,7 @@ for name, says in {
     "diff": "Compare two built reports.",
     "figure": "Draw figures.",
     "list": "Name the figures, reports and shapes.",
-    "hyperbola": "Sample the hyperbola mf72.",
+    "hyperbola": "Sample the hyperbola (67).",
     "sweep": "Tabulate quantities over parameters.",
     "check": "Grade a trajectory of your own.",
     "verify": "Put the paper's equations on trial.",

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 @field_options
 @click.option("--omega", type=REAL, nargs=3, metavar="W1 W2 W3", help="Initial angular velocity, of a general motion.")
 @click.option("--omega2", type=REAL, help="Its second component alone, of an elementary motion.")
-@click.option("--omega3", type=REAL, help="Third component, where mf76 leaves it free.")
+@click.option("--omega3", type=REAL, help="Third component, where (71) leaves it free.")
 @click.option(
     "--threshold", type=REAL, default="6", show_default=True, help="Correct digits below which a column fails."
 )

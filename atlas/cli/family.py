@@ -121,7 +121,7 @@ def _values(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator
 
 
 def _speed_of_light(units: str) -> float:
-    """Return the factor c of mf5 in a system of units."""
+    """Return the factor c of (93) in a system of units."""
     if units == "natural":
         return 1.0
     from atlas.core.units import system

@@ -41,7 +41,7 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 )
 @output_options
 def command(**options: Any) -> None:
-    """Sample the hyperbola mf72: omega3, the frequencies k and phi, and the nutation frequency squared."""
+    """Sample the hyperbola (67): omega3, the frequencies k and phi, and the nutation frequency squared."""
     points = list(options["omega2"]) or sampled(curve_of(options), options["count"])
 
     def floats() -> dict[str, Any]:
@@ -87,11 +87,11 @@ def printout(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -
     """Lay the certified texts out, a row a point."""
     band = texts["unstable_band"]
     lines = [
-        Line("-B2", "pole of omega3(omega2)", texts["pole"], "1/time", "mf76"),
+        Line("-B2", "pole of omega3(omega2)", texts["pole"], "1/time", "(71)"),
         Line(
             "y", "((omega2 + B2)/B2)^2 where the motion is unstable", f"{band[0]} to {band[1]}" if band else "nowhere"
         ),
     ]
     heading = [f"{name} [1/time]" for name in COLUMNS[:-1]] + ["nutation^2 [1/time^2]"]
     rows = [[f"{float(row['omega2'])!r}", *(row[name] for name in COLUMNS[1:])] for row in texts["points"]]
-    return Printout("hyperbola of elementary motions, mf72", lines, heading, rows, [*notes, certificate(options)])
+    return Printout("hyperbola of elementary motions, (67)", lines, heading, rows, [*notes, certificate(options)])

@@ -12,7 +12,7 @@ from atlas.cli.progress import bar
 from atlas.plain import plain
 
 COLUMNS = (
-    "label",
+    "name",
     "number",
     "section",
     "kind",
@@ -29,9 +29,9 @@ COLUMNS = (
 @click.command(
     "verify",
     cls=Command,
-    epilog=examples("atlas verify mf56 mf76", "atlas verify --json", "atlas verify --mutants --all mf89"),
+    epilog=examples("atlas verify 48 71", "atlas verify --json", "atlas verify --mutants --all 84"),
 )
-@click.argument("labels", nargs=-1, metavar="[LABEL...]")
+@click.argument("names", nargs=-1, metavar="[NUMBER|NAME...]")
 @click.option("--mutants", is_flag=True, help="Change each true form in one place at a time: does the trial notice?")
 @click.option("--all", "every", is_flag=True, help="With --mutants: every change that can be made, not a sample.")
 @click.option("--record", is_flag=True, help="Keep what was found as the recorded verdicts that reports draw.")
@@ -39,15 +39,18 @@ COLUMNS = (
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=1, show_default=True, help="Trials side by side.")
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
 def command(
-    labels: tuple[str, ...], mutants: bool, every: bool, record: bool, anew: bool, jobs: int, as_json: bool
+    names: tuple[str, ...], mutants: bool, every: bool, record: bool, anew: bool, jobs: int, as_json: bool
 ) -> int:
     """Try equations and claims of the paper, all if none is named, on the form as printed.
+
+    An equation is named by its printed number, 72 or "(72)", one without a number, and a theorem, by its name in the
+    ledger. A LaTeX label of the paper's source will do, too.
 
     A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided,
     supported, or definition where there is nothing to prove. Slips are graded. The exit
     status is 1 if a verdict differs from the recorded one, or a mutant survives without a reason.
     """
-    if record and labels:
+    if record and names:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
     if every and not mutants:
         raise click.UsageError("--all is about --mutants: give both.")
@@ -60,8 +63,8 @@ def command(
     options |= {"every": every} if mutants else {}
     with bar("trials") as tell:
         run = proof.mutants if mutants else proof.verify
-        found = run(labels or None, lambda label, done, total: tell(done, total, label), **options)
-    status = _mutants(found, as_json) if mutants else _verdicts(found, as_json, record, named=bool(labels))
+        found = run(names or None, lambda name, done, total: tell(done, total, name), **options)
+    status = _mutants(found, as_json) if mutants else _verdicts(found, as_json, record, named=bool(names))
     if record:
         proof.recorded.save(found, *([proof.recorded.MUTANTS] if mutants else []))
     return status
@@ -78,11 +81,10 @@ def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
         equations = [{name: one.as_dict()[name] for name in COLUMNS} | {"example": one.example} for one in found]
         dump({"equations": equations, "different": [list(row) for row in different]})
     else:
-        heading = ("label", "number", "verdict", "slip", "corrected form", "method", "s")
+        heading = ("equation", "verdict", "slip", "corrected form", "method", "s")
         rows = [
             [
-                one.label,
-                str(one.number or ""),
+                one.name,
                 one.verdict,
                 one.grade,
                 one.corrected_verdict,
@@ -94,22 +96,22 @@ def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
         show(Printout("the paper's equations on trial, as printed", heading=heading, rows=rows, justify="left"))
         for one in found:
             if one.grade or named:
-                says = {"says": EQUATIONS[one.label].says, "tried from": one.follows} if named else {}
+                says = {"says": EQUATIONS[one.name].says, "tried from": one.follows} if named else {}
                 words = {name: plain(text) for name, text in says.items()}
                 words |= {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
                 words |= {"note": plain(one.note)} if named else {}
                 words = {name: text for name, text in words.items() if text}
-                click.echo("\n".join([one.label, *(f"  {name + ':':16}{text}" for name, text in words.items())]))
+                click.echo("\n".join([one.name, *(f"  {name + ':':16}{text}" for name, text in words.items())]))
         totals = Counter(one.verdict for one in found)
         seconds = sum(one.seconds for one in found)
         click.echo(f"{', '.join(f'{n} {name}' for name, n in totals.most_common())}; {seconds:.0f} s of trials")
-        graded = {grade: len(labels) for grade, labels in slips(found).items() if labels}
+        graded = {grade: len(names) for grade, names in slips(found).items() if names}
         if graded:
             each = ", ".join(f"{count} {grade}" for grade, count in graded.items())
             count = sum(graded.values())
             click.echo(f"{count} distinct slip{'s' if count != 1 else ''}: {each}")
-    for label, was, now in different:
-        click.echo(f"atlas: {label} was recorded as {was} and is found {now}", err=True)
+    for name, was, now in different:
+        click.echo(f"atlas: {name} was recorded as {was} and is found {now}", err=True)
     return int(bool(different) and not record)
 
 
@@ -117,36 +119,36 @@ def _mutants(found: Any, as_json: bool) -> int:
     """Show what became of the mutants; return the exit status."""
     from atlas.proof.survivors import reason
 
-    why = {(one.label, line): plain(reason(one.label, line)) for one in found for _, line, _ in one.survivors}
-    unexplained = [(label, line) for (label, line), text in why.items() if not text]
+    why = {(one.name, line): plain(reason(one.name, line)) for one in found for _, line, _ in one.survivors}
+    unexplained = [(name, line) for (name, line), text in why.items() if not text]
     if as_json:
         dump({"mutants": [one.as_dict() | {"survivors": _explained(one, why)} for one in found]})
     else:
         rows = [
             [
-                one.label,
+                one.name,
                 str(one.tried),
                 str(one.noticed),
                 str(len(one.survivors)),
-                " ".join(dict.fromkeys(why[one.label, line] for _, line, _ in one.survivors)),
+                " ".join(dict.fromkeys(why[one.name, line] for _, line, _ in one.survivors)),
             ]
             for one in found
         ]
-        heading = ("label", "mutants", "noticed", "survive", "because")
+        heading = ("equation", "mutants", "noticed", "survive", "because")
         show(Printout("forms changed in one place", heading=heading, rows=rows, justify="left"))
         for one in found:
             for what, line, decision in one.survivors:
-                click.echo(f"{one.label} survives {what}: {line} ({decision})")
+                click.echo(f"{one.name} survives {what}: {line} ({decision})")
         tried, noticed = sum(one.tried for one in found), sum(one.noticed for one in found)
         click.echo(f"{tried} mutants, {noticed} noticed, {tried - noticed} survive")
-    for label, line in unexplained:
-        click.echo(f"atlas: a mutant of {label} survives and no reason is on record: {line}", err=True)
+    for name, line in unexplained:
+        click.echo(f"atlas: a mutant of {name} survives and no reason is on record: {line}", err=True)
     return int(bool(unexplained))
 
 
 def _explained(one: Any, why: dict[tuple[str, str], str]) -> list[dict[str, str]]:
     """Return the survivors of an entry for JSON, each with its reason."""
     return [
-        {"change": what, "line": line, "verdict": full, "reason": why[one.label, line]}
+        {"change": what, "line": line, "verdict": full, "reason": why[one.name, line]}
         for what, line, full in one.survivors
     ]

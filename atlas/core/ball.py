@@ -1,4 +1,4 @@
-"""General motion of a charged ball, mf30 to mf40."""
+"""General motion of a charged ball, (20) to (30)."""
 
 from functools import cached_property
 from typing import Any
@@ -15,7 +15,7 @@ from atlas.errors import DomainError
 
 
 def ball(I0: Number, alpha: Number, m2: Number, m3: Number) -> tuple[tuple[Number, Number], Number, Number]:
-    """Return a vector along k_hat, gamma and alpha, mf39."""
+    """Return a vector along k_hat, gamma and alpha, (29)."""
     along = m3 + alpha * I0
     return (-m2, -along), length(m2, along) / I0, alpha
 
@@ -26,22 +26,22 @@ def rates(I0: Number, m2: Number, m3: Number) -> tuple[Number, Number]:
 
 
 class Ball(DoubleRotation):
-    """One ball: R = R_z(-alpha t) R_k(-gamma t), the transposed of R_k(gamma t) R_z(alpha t), mf38."""
+    """One ball: R = R_z(-alpha t) R_k(-gamma t), the transposed of R_k(gamma t) R_z(alpha t), (28)."""
 
     def __init__(self, inertia: float, larmor: float, m2: float, m3: float) -> None:
         along, gamma, alpha = ball(*exact(inertia, larmor, m2, m3))
         self.vectors = {"m": (0.0, m2, m3), "Omega": (0.0, *wide(rates, inertia, m2, m3))}
-        # mf39 is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
+        # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
         axis = (ZERO, *direction(along)) if gamma else (ZERO, ZERO, -ONE)
         super().__init__(axis, gamma, alpha, inverse=True)
 
 
 class BallMotion(Motion[Ball]):
-    """Motion of a ball with the field along e3 and m(0) = (0, m2, m3): R = R_z(-alpha t) R_k(-gamma t), mf38.
+    """Motion of a ball with the field along e3 and m(0) = (0, m2, m3): R = R_z(-alpha t) R_k(-gamma t), (28).
 
-    `inertia` I0 > 0; `larmor` alpha = mu |B|/(2c), mf37, of either sign, in 1/time; `momentum` (m2, m3) in
+    `inertia` I0 > 0; `larmor` alpha = mu |B|/(2c), (27), of either sign, in 1/time; `momentum` (m2, m3) in
     inertia/time. Arrays broadcast; the inputs are taken as exact. The frame is that of Figure Ball, e3 along the field
-    and m(0) in the plane (e2, e3), not that of the symmetric body. For m2 = 0 the two turns are one, mf40.
+    and m(0) in the plane (e2, e3), not that of the symmetric body. For m2 = 0 the two turns are one, (30).
     """
 
     _unit = slice(1, 4)
@@ -56,21 +56,21 @@ class BallMotion(Motion[Ball]):
 
     @cached_property
     def gamma(self) -> Any:
-        """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, mf39."""
+        """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, (29)."""
         return over(lambda *inputs: ball(*inputs)[1], *self._inputs, unit=self._unit)
 
     @cached_property
     def k_hat(self) -> tuple[Any, Any]:
-        """Axis (k2, k3) of mf39; (0, -1) where gamma = 0, and mf39 is 0/0."""
+        """Axis (k2, k3) of (29); (0, -1) where gamma = 0, and (29) is 0/0."""
         k2, k3 = over(lambda *inputs: direction(ball(*inputs)[0]), *self._inputs, unit=self._unit, degree=(0, 0))
         return k2, plain(np.where(self.gamma == 0, -1.0, k3))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, mf36; shape (..., 3)."""
+        """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, (26); shape (..., 3)."""
         return self._spread(lambda one, t, out: one.swung(one.vector("m"), t, out), t, (3,))
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below mf35; shape (..., 3)."""
+        """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below (25); shape (..., 3)."""
         return self._spread(lambda one, t, out: one.turned(one.vector("Omega"), t, out), t, (3,))
 
     def _groups(self) -> list[Group]:

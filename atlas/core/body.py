@@ -1,4 +1,4 @@
-"""Symmetric bodies: the moments of inertia I1 = I2 and I3, and the mass matrix 1.32 behind them."""
+"""Symmetric bodies: the moments of inertia I1 = I2 and I3, and the mass matrix (8) behind them."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -22,7 +22,7 @@ NO_SUCH_BODY = "since the mass matrix element g3 = (2 I2 - I3)/2 is a sum of m x
 
 
 def moments(ratio: Any) -> tuple[float, Any]:
-    """Return (I2, I3) of a body, or (1.0, I) for a number or an array of numbers I = I3/I2, mf41.1.
+    """Return (I2, I3) of a body, or (1.0, I) for a number or an array of numbers I = I3/I2, (33).
 
     The inputs stay exact: a body is never rounded to its quotient. Domain: 0 < I3 <= 2 I2.
     Raises DomainError outside it, and for a thin rod (I3 = 0), whose turn about its own axis has no inertia.
@@ -44,7 +44,7 @@ def moments(ratio: Any) -> tuple[float, Any]:
 
 @dataclass(frozen=True)
 class SymmetricBody:
-    """A body with I1 = I2, as in mf41.1: its moments of inertia I2 and I3 about the centre of mass.
+    """A body with I1 = I2, as in (33): its moments of inertia I2 and I3 about the centre of mass.
 
     `I2` > 0 across the symmetry axis, `I3` along it, 0 <= I3 <= 2 I2, in any one unit.
     `axes` (3, 3): its rows are the principal axes, the symmetry axis last, in the frame in which a mass matrix or
@@ -69,7 +69,7 @@ class SymmetricBody:
 
     @property
     def ratio(self) -> float:
-        """I = I3/I2, mf41.1, rounded to a float; the kernels take I2 and I3 themselves."""
+        """I = I3/I2, (33), rounded to a float; the kernels take I2 and I3 themselves."""
         return self.I3 / self.I2
 
     @property
@@ -79,7 +79,7 @@ class SymmetricBody:
 
     @property
     def mass_matrix(self) -> tuple[float, float, float]:
-        """Diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix 1.32."""
+        """Diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix (8)."""
         return self.I3 / 2, self.I3 / 2, self.I2 - self.I3 / 2
 
     @classmethod
@@ -135,12 +135,12 @@ class SymmetricBody:
 
     @classmethod
     def from_point_masses(cls, masses: Any, positions: Any, *, tolerance: float = 1e-9) -> Self:
-        """Body of point masses, 1.32: `masses` (N,), `positions` (N, 3) from any origin; then `from_mass_matrix`."""
+        """Body of point masses, (8): `masses` (N,), `positions` (N, 3) from any origin; then `from_mass_matrix`."""
         return cls.from_mass_matrix(mass_matrix_of_points(masses, positions), tolerance=tolerance)
 
     @classmethod
     def from_mass_matrix(cls, mass_matrix: Any, *, tolerance: float = 1e-9) -> Self:
-        """Body of a mass matrix 1.32, by its principal axes: I2 = g1 + g3, I3 = 2 g1 where g1 = g2.
+        """Body of a mass matrix (8), by its principal axes: I2 = g1 + g3, I3 = 2 g1 where g1 = g2.
 
         `mass_matrix` is (3, 3), or (3,) for a diagonal. Two principal values that differ by no more than `tolerance`
         times the largest are equal, and their mean is taken. If all three are, the body is totally symmetric and

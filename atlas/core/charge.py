@@ -1,14 +1,14 @@
-"""One charged point particle in constant E and B, mf1 to mf11, for any fields and any sign of mu.
+"""One charged point particle in constant E and B, (89) to (99), for any fields and any sign of mu.
 
 The paper's solution divides by B and holds for mu > 0. Here, with w = -mu B/c, n its direction, x = |w| t and
-a = mu E, every vector split along B and across it, mf1 reads y'' = a + [w, y'] and integrates to
+a = mu E, every vector split along B and across it, (89) reads y'' = a + [w, y'] and integrates to
 
     y'(t) = v_par + cos x v_perp + sin x [n, v_perp] + t {a_par + s a_perp + g [n, a_perp]},
     y(t) = y(0) + t {v_par + s v_perp + g [n, v_perp]} + t^2 {a_par/2 + f a_perp + h [n, a_perp]},
 
     s = sin x / x,   f = (1 - cos x)/x^2,   g = (1 - cos x)/x,   h = (x - sin x)/x^2,
 
-with v = y'(0). No term is larger than the motion itself, any sign of mu is right, and B -> 0 is the parabola of mf2.
+with v = y'(0). No term is larger than the motion itself, any sign of mu is right, and B -> 0 is the parabola of (90).
 """
 
 from collections.abc import Callable
@@ -44,7 +44,7 @@ class Path:
     """
 
     def fill_position(self: Any, t: FloatArray, out: FloatArray) -> None:
-        """Write y(t), mf10.2 with mf5 and mf10, at times (m,) into (m, 3)."""
+        """Write y(t), (101) with (93) and (98), at times (m,) into (m, 3)."""
 
         def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
             v, a = self.velocity_parts[:, i], self.acceleration_parts[:, i]
@@ -55,7 +55,7 @@ class Path:
         _check(out, "The position")
 
     def fill_velocity(self: Any, t: FloatArray, out: FloatArray) -> None:
-        """Write y'(t), mf2, at times (m,) into (m, 3)."""
+        """Write y'(t), (90), at times (m,) into (m, 3)."""
 
         def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
             v, a = self.velocity_parts[:, i], self.acceleration_parts[:, i]
@@ -65,7 +65,7 @@ class Path:
         _check(out, "The velocity")
 
     def fill_centre(self: Any, t: FloatArray, out: FloatArray) -> None:
-        """Write O(t) of mf11, carried along B with the particle, at times (m,) into (m, 3)."""
+        """Write O(t) of (99), carried along B with the particle, at times (m,) into (m, 3)."""
         with np.errstate(over="ignore", invalid="ignore"):
             for i, (start, velocity, acceleration) in enumerate(zip(*self.centre, strict=True)):
                 out[:, i] = start + t * (velocity + t * (acceleration / 2))
@@ -134,12 +134,12 @@ class Charge(Path):
 
     @property
     def cyclotron_frequency(self) -> float:
-        """Frequency omega = mu |B|/c of mf9, with the sign of mu."""
+        """Frequency omega = mu |B|/c of (97), with the sign of mu."""
         return self.rate if self.mu >= 0 else -self.rate
 
     @property
     def prime(self) -> FloatArray:
-        """B' = mu B/(2c) = -w/2, mf41."""
+        """B' = mu B/(2c) = -w/2, (32)."""
         return rounded(times(Fraction(-1, 2), self._w), "B' = mu B/(2c)")
 
     @property
@@ -150,13 +150,13 @@ class Charge(Path):
 
     @property
     def radius(self) -> float:
-        """Radius a of mf9."""
+        """Radius a of (97)."""
         self.needs_field("radius")
         return root(dot(self._circling, self._circling) / self._w2)
 
     @property
     def centre(self) -> FloatArray:
-        """Rows (3, 3): position, velocity and acceleration of the point O(t) of mf11, at t = 0."""
+        """Rows (3, 3): position, velocity and acceleration of the point O(t) of (99), at t = 0."""
         self.needs_field("guiding centre")
         start = plus(exact(self.y0), times(1 / self._w2, cross(self._w, self._circling)))
         along = times(dot(self._w, self._v) / self._w2, self._w)

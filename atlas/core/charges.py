@@ -37,7 +37,7 @@ class Charges(Path):
     def at(self, index: Any, t: FloatArray, *, centre: bool = False) -> "Charges":
         """Return particles by their index, ready for the times t that go with them; AtlasError beyond 2^50.
 
-        Of the point O(t) of mf11 alone if `centre`.
+        Of the point O(t) of (99) alone if `centre`.
         """
         some = copy(self)
         if centre:
@@ -58,12 +58,12 @@ class Charges(Path):
 
     @cached_property
     def cyclotron_frequency(self) -> FloatArray:
-        """Frequency omega = mu |B|/c of mf9, shape (m,), with the sign of mu."""
+        """Frequency omega = mu |B|/c of (97), shape (m,), with the sign of mu."""
         return np.where(self.mu >= 0, self.rate, -self.rate)
 
     @cached_property
     def prime(self) -> FloatArray:
-        """B' = mu B/(2c), mf41, (m, 3)."""
+        """B' = mu B/(2c), (32), (m, 3)."""
         return np.where(self.force, self._over(_prime, 3, "prime"), 0.0).T
 
     @cached_property
@@ -74,13 +74,13 @@ class Charges(Path):
 
     @cached_property
     def radius(self) -> FloatArray:
-        """Radius a of mf9, shape (m,)."""
+        """Radius a of (97), shape (m,)."""
         self.needs_field("radius")
         return np.asarray(self._over(_radius, 1, "radius")[0])
 
     @cached_property
     def centre(self) -> FloatArray:
-        """Position, velocity and acceleration of the point O(t) of mf11 at t = 0, (3, 3, m)."""
+        """Position, velocity and acceleration of the point O(t) of (99) at t = 0, (3, 3, m)."""
         self.needs_field("guiding centre")
         start, velocity = self._over(_centre, 6, "centre").reshape(2, 3, -1)
         return np.array([start, velocity, self.acceleration_parts[0]])

@@ -25,7 +25,7 @@ class Clebsch:
     MK: Any
     """The Casimir (M, K), |B'| times the canonical momentum along B, in the unit of inertia/time^2."""
     K2: Any
-    """The Casimir K^2 = B'^2, mf45, in 1/time^2."""
+    """The Casimir K^2 = B'^2, (37), in 1/time^2."""
     energy: Any
     """Kinetic energy (Omega, J Omega)/2 = H - (M, K), theorem-kinetic-energy, in the unit of inertia/time^2."""
 

@@ -1,4 +1,4 @@
-"""Motions of a symmetric body in elementary functions, mf64 to mf93, and the free body beside them, mf92."""
+"""Motions of a symmetric body in elementary functions, (58) to (88), and the free body beside them, (87)."""
 
 from functools import cached_property, partial
 from math import prod
@@ -31,13 +31,13 @@ FREE = 4
 
 
 def case_of(I2: float, I3: float, B2: float, B3: float, omega2: float) -> str:
-    """Name the case, decided on the inputs as given; DomainError where mf72 has no point."""
+    """Name the case, decided on the inputs as given; DomainError where (67) has no point."""
     if B2 == 0:
         if B3 == 0:
             return "free body"
         if omega2:
             raise DomainError(
-                f"With B2 = 0 every elementary motion has omega2 = 0, not {omega2}: mf72 reads B3 omega2^2 = 0."
+                f"With B2 = 0 every elementary motion has omega2 = 0, not {omega2}: (67) reads B3 omega2^2 = 0."
             )
         return "spin along the field"
     if omega2 == -B2:
@@ -46,29 +46,29 @@ def case_of(I2: float, I3: float, B2: float, B3: float, omega2: float) -> str:
         if I2 == I3:
             return "ball, free spin"
         raise DomainError(
-            f"omega2 = -B2 = {omega2} is the pole of omega3(omega2), mf76: "
+            f"omega2 = -B2 = {omega2} is the pole of omega3(omega2), (71): "
             "no elementary motion starts there unless B3 = 0 or I = 1."
         )
     return "precession" if omega2 else "at rest"
 
 
 def ordinate(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return omega3 = B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2)), mf76, for B2 != 0 and omega2 != -B2."""
+    """Return omega3 = B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2)), (71), for B2 != 0 and omega2 != -B2."""
     return _common(I3, B2, B3, omega2) * (I2 * omega2 + (I2 + I2 - I3) * B2)
 
 
 def proper(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return phi = B3 w2 (1-I) (w2 + 2 B2) / (I B2 (w2 + B2)), mf77, for B2 != 0 and omega2 != -B2."""
+    """Return phi = B3 w2 (1-I) (w2 + 2 B2) / (I B2 (w2 + B2)), (72), for B2 != 0 and omega2 != -B2."""
     return _common(I3, B2, B3 * (I2 - I3), omega2) * (omega2 + (B2 + B2))
 
 
 def _common(I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return the factor that mf76 and mf77 share; what is often one number for many omega2 stands by itself."""
+    """Return the factor that (71) and (72) share; what is often one number for many omega2 stands by itself."""
     return omega2 / (omega2 + B2) * (B3 / (I3 * B2))
 
 
 def precession(B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return k = omega2/B2hat, mf84, for B2 != 0."""
+    """Return k = omega2/B2hat, (79), for B2 != 0."""
     return omega2 * (length(B2, B3) / B2)
 
 
@@ -100,7 +100,7 @@ def turning(case: str, *inputs: Number) -> tuple[tuple[Number, Number], Number, 
 
 
 def quotient(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return omega3 = I2 omega2 B3/(I3 B2) of the free body that precesses with the charged one, above mf92."""
+    """Return omega3 = I2 omega2 B3/(I3 B2) of the free body that precesses with the charged one, above (87)."""
     return I2 * omega2 * B3 / (I3 * B2)
 
 
@@ -115,28 +115,28 @@ class Elementary(DoubleRotation):
         w3, along, k, phi = constants(self.case, *inputs)
         self.omega3 = float(w3)
         if self.case not in CASES[:FREE] and given is not None and given != self.omega3:
-            raise DomainError(f"omega3 follows from omega2 by mf76 and is {self.omega3}, not {given}: leave it out.")
+            raise DomainError(f"omega3 follows from omega2 by (71) and is {self.omega3}, not {given}: leave it out.")
         third = float(inputs[1] * w3 / inputs[0])
         self.vectors = {"Omega": (0.0, omega2, self.omega3), "K": (0.0, B2, B3), "m": (0.0, omega2, third)}
         super().__init__((ZERO, *direction(along)), k, phi)
 
 
 class ElementaryMotion(Motion[Elementary]):
-    """Motion R(t) = R_B(k t) R_z(phi t) of a charged symmetric body, mf89, mf90, from Omega(0) = (0, omega2, omega3).
+    """Motion R(t) = R_B(k t) R_z(phi t) of a charged symmetric body, (84), (85), from Omega(0) = (0, omega2, omega3).
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c); `omega2` and, where it
     is free, `omega3`: in one unit 1/time; the inputs are taken as exact and broadcast with one another and with t.
 
     `case` is one of
 
-    - "precession": omega3 by mf76, k = omega2/B2hat, mf84, phi by mf77;
+    - "precession": omega3 by (71), k = omega2/B2hat, (79), phi by (72);
     - "at rest": omega2 = 0, and R = 1;
-    - "free body": B = 0, any omega3; the axis is that of m, k = |m|/I2, phi = (1-I) omega3, mf92;
+    - "free body": B = 0, any omega3; the axis is that of m, k = |m|/I2, phi = (1-I) omega3, (87);
     - "spin along the field": B2 = 0 = omega2, any omega3; k = 0, phi = omega3;
     - "transverse field, free spin": B3 = 0, omega2 = -B2, any omega3; phi = omega3;
     - "ball, free spin": I3 = I2, omega2 = -B2, any omega3; phi = omega3 + B3.
 
-    The last two are lost in mf76. The signs of B2 and B3 are free, though the paper takes both positive.
+    The last two are lost in (71). The signs of B2 and B3 are free, though the paper takes both positive.
     Raises DomainError at the pole omega2 = -B2 otherwise, for B2 = 0 with omega2 != 0, and if omega3 is not given where
     it is free or given where it is not. A frequency that overflows is inf; its motion is not lost, as long as
     the phases stay within 2^50.
@@ -173,17 +173,17 @@ class ElementaryMotion(Motion[Elementary]):
 
     @cached_property
     def omega3(self) -> Any:
-        """Constant Omega3 = omega3, mf76, or as given where it is free."""
+        """Constant Omega3 = omega3, (71), or as given where it is free."""
         return self._scalars[0]
 
     @cached_property
     def k(self) -> Any:
-        """Frequency of precession about B, k = omega2/B2hat, mf84."""
+        """Frequency of precession about B, k = omega2/B2hat, (79)."""
         return self._scalars[1]
 
     @cached_property
     def phi(self) -> Any:
-        """Frequency of proper rotation phi, mf77."""
+        """Frequency of proper rotation phi, (72)."""
         return self._scalars[2]
 
     @cached_property
@@ -231,19 +231,19 @@ class ElementaryMotion(Motion[Elementary]):
         return {"Omega": (0.0, self.omega2, omega3), "K": (0.0, *self.field), "m": (0.0, self.omega2, third)}
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) = (omega2 sin phi t, omega2 cos phi t, omega3) in the body, mf78; (..., 3)."""
+        """Angular velocity Omega(t) = (omega2 sin phi t, omega2 cos phi t, omega3) in the body, (73); (..., 3)."""
         return self._spread(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, mf41, mf68; shape (..., 3)."""
+        """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, (32), (62), (60); (..., 3)."""
         return self._spread(lambda one, t, out: one.swung(one.vector("K"), t, out), t, (3,))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in mf93; shape (..., 3)."""
+        """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88); shape (..., 3)."""
         return self._spread(lambda one, t, out: one.turned(one.vector("m"), t, out), t, (3,))
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
-        """Constants E', K^2, c3, c5 of mf44 to mf49 and (m, B')/I2 of mf93, by name.
+        """Constants E', K^2, c3, c5 of (36) to (41) and (m, B')/I2 of (88), by name.
 
         Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
         check, good to a few ulp of the largest term. DomainError where a term is too large for a float.
@@ -258,17 +258,17 @@ class ElementaryMotion(Motion[Elementary]):
 
     @property
     def beside(self) -> "FreeMotion":
-        """Free body that precesses about the same axis with the same k, mf92: omega3 = I2 omega2 B3/(I3 B2).
+        """Free body that precesses about the same axis with the same k, (87): omega3 = I2 omega2 B3/(I3 B2).
 
         Raises DomainError for B2 = 0, where its omega3 is not determined, and where it is too large for a float.
         """
         I2, I3 = moments(self.ratio)
         B2, B3 = self.field
         if not np.all(B2):
-            raise DomainError("With B2 = 0 the free body beside the motion, mf92, has no omega3.")
+            raise DomainError("With B2 = 0 the free body beside the motion, (87), has no omega3.")
         omega3 = over(quotient, I2, I3, B2, B3, self.omega2, unit=slice(2, 5))
         if not np.isfinite(omega3).all():
-            raise DomainError("omega3 of the free body beside the motion, mf92, is too large for a float.")
+            raise DomainError("omega3 of the free body beside the motion, (87), is too large for a float.")
         return FreeMotion(self.ratio, (0.0, self.omega2, omega3))
 
 
@@ -289,7 +289,7 @@ class Free(DoubleRotation):
 
 
 class FreeMotion(Motion[Free]):
-    """Motion of a free symmetric body, R(t) = R_m(k t) R_z(phi t), above mf92: precession without nutation.
+    """Motion of a free symmetric body, R(t) = R_m(k t) R_z(phi t), above (87): precession without nutation.
 
     `ratio` I = I3/I2 or a SymmetricBody; `omega` (omega1, omega2, omega3), the initial angular velocity, 1/time; arrays
     broadcast. The axis is that of m = (I2 omega1, I2 omega2, I3 omega3); k = |m|/I2; phi = (1 - I) omega3.
@@ -308,7 +308,7 @@ class FreeMotion(Motion[Free]):
 
     @cached_property
     def phi(self) -> Any:
-        """Frequency of proper rotation phi = (1 - I) omega3, mf92."""
+        """Frequency of proper rotation phi = (1 - I) omega3, (87)."""
         return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._unit)
 
     def angular_velocity(self, t: Any) -> FloatArray:

@@ -17,7 +17,7 @@ class Field:
     """Constant fields B and E that act on matter of charge-to-mass ratio mu, in any frame of the user.
 
     `B`, `E` (3,); `mu` of either sign, or 0; `c` > 0, the speed of light where the units have it in the Lorentz force
-    mf1 (Gaussian), 1 where not (SI); see `atlas.core.units`.
+    (89) (Gaussian), 1 where not (SI); see `atlas.core.units`.
     """
 
     B: FloatArray
@@ -25,7 +25,7 @@ class Field:
     mu: float = 1.0
     c: float = 1.0
     prime: FloatArray = attribute(init=False)
-    """B' = mu B/(2c), mf41, shape (3,), in 1/time: for mu < 0 opposite to B."""
+    """B' = mu B/(2c), (32), shape (3,), in 1/time: for mu < 0 opposite to B."""
 
     def __post_init__(self) -> None:
         """Check the numbers, and make B'."""
@@ -52,7 +52,7 @@ class Field:
 
 @dataclass(frozen=True, eq=False)
 class LaboratoryFrame:
-    """Frame of figure Lssc: e3 along the body's axis at t = 0, B' in the plane of e2 and e3 with B2 >= 0, mf41.
+    """Frame of figure Lssc: e3 along the body's axis at t = 0, B' in the plane of e2 and e3 with B2 >= 0, (32).
 
     `axis` (3,), not zero; `B` (3,), the vector B' (for mu < 0 it is not B that has B2 >= 0, but B'), both in the
     user's frame. Both are taken as exact, and whether they are parallel is decided exactly.

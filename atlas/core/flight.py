@@ -1,4 +1,4 @@
-"""Flight of a point of the body: its centre of mass, mf17, and the rotation about it, y_N = y_0 + R x_N(0)."""
+"""Flight of a point of the body: its centre of mass, (4), and the rotation about it, y_N = y_0 + R x_N(0)."""
 
 from typing import Any, Protocol
 
@@ -25,7 +25,7 @@ class Rotation(Protocol):
 
 
 class Flight:
-    """Path of the point N of a body, y_N(t) = y_0(t) + R(t) x_N(0), as below mf29, in the user's frame.
+    """Path of the point N of a body, y_N(t) = y_0(t) + R(t) x_N(0), as below (18), in the user's frame.
 
     `particle` moves as the centre of mass, in the user's frame. `motion` is the body's rotation, in the laboratory
     `frame`; without one the user's frame is the laboratory. `point` (..., 3) is x_N(0), from the centre of mass to the
@@ -53,7 +53,7 @@ class Flight:
         return self.particle.position(t) + self.arm(t)
 
     def velocity(self, t: Any) -> FloatArray:
-        """Velocity dy_N/dt = dy_0/dt + R [Omega, x_N(0)], by mf21; shape (..., 3)."""
+        """Velocity dy_N/dt = dy_0/dt + R [Omega, x_N(0)], by (12); shape (..., 3)."""
         turning = np.matvec(self.motion.rotation(t), bracket(self.motion.angular_velocity(t), self._arm))
         return np.asarray(self.particle.velocity(t) + np.matvec(self._to_user, turning))
 

@@ -112,7 +112,7 @@ def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:
 class GeneralMotion(Motion[General]):
     """Motion R(t), R(0) = 1, of a charged symmetric body from any initial angular velocity (not in the paper).
 
-    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c), as in mf41; `omega` =
+    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c), as in (32); `omega` =
     (omega1, omega2, omega3), the initial angular velocity: in one unit 1/time, of any sign. The inputs are taken as
     exact and broadcast with one another and with t. `in_laboratory` takes a field in any direction and any attitude.
 
@@ -120,7 +120,7 @@ class GeneralMotion(Motion[General]):
     axis and B, cos theta = K3/b. `kind` is one of
 
     - "at rest", "precession", "spin along the field": Omega3 is constant, as in `ElementaryMotion`;
-    - "free body": B = 0, mf92; "ball": I3 = I2, any motion that is none of these;
+    - "free body": B = 0, (87); "ball": I3 = I2, any motion that is none of these;
     - "nutation, two real roots" and "nutation, four real roots" of Q: elliptic functions of time;
     - "separatrix": Omega3 tends to a double root of Q, hyperbolic functions; "separatrix, triple root": rational ones;
       "separatrix between B and -B": the axis turns over from one pole of the sphere to the other, once.
@@ -263,7 +263,7 @@ class GeneralMotion(Motion[General]):
         return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' in the body, mf41; shape (..., 3)."""
+        """Field K(t) = R^T B' in the body, (32); shape (..., 3)."""
         return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
 
     def angular_momentum(self, t: Any) -> FloatArray:
@@ -271,7 +271,7 @@ class GeneralMotion(Motion[General]):
         return np.asarray(finite(np.matvec(self.rotation(t), self._momentum(self.angular_velocity(t))), "m/I2"))
 
     def invariants(self, t: Any = 0.0) -> dict[str, Any]:
-        """Constants E', K^2, c3, c5 of mf44 to mf49, and (M, B') with M/I2 = (Omega + K) in the body's axes."""
+        """Constants E', K^2, c3, c5 of (36) to (41), and (M, B') with M/I2 = (Omega + K) in the body's axes."""
         Omega, K = self.angular_velocity(t), self.field_in_body(t)
         four = integrals(self.ratio, Omega, K)
         along = np.vecdot(self._momentum(Omega + K), K)

@@ -1,4 +1,4 @@
-"""The hyperbola of elementary motions, mf72 to mf77, sampled by hyperbolic parameter, and its stability."""
+"""The hyperbola of elementary motions, (67) to (72), sampled by hyperbolic parameter, and its stability."""
 
 from collections.abc import Callable
 from fractions import Fraction
@@ -26,7 +26,7 @@ MOST = 10**8
 
 
 class Hyperbola:
-    """The curve mf72 in the plane omega1 = 0: B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
+    """The curve (67) in the plane omega1 = 0: B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
     broadcast with omega2 in `omega3`, `frequencies` and `stability` and with each other in `least_stability`; the rest
@@ -54,7 +54,7 @@ class Hyperbola:
 
     @property
     def pole(self) -> Any:
-        """The omega2 = -B2 that mf76 leaves out."""
+        """The omega2 = -B2 that (71) leaves out."""
         return 0.0 - self.B2
 
     @property
@@ -65,7 +65,7 @@ class Hyperbola:
         """
         I2, I3, B2, B3 = self._exact
         if not (B2 and B3):
-            raise DomainError("The curve mf72 has asymptotes only if neither B2 nor B3 is zero.")
+            raise DomainError("The curve (67) has asymptotes only if neither B2 nor B3 is zero.")
         x, y = I3 * B2, I2 * B3
         h = length(x, y)
         return np.array([0.0, 1.0]), np.array([float(x / h), float(y / h)])
@@ -82,11 +82,11 @@ class Hyperbola:
         }
 
     def omega3(self, omega2: Any) -> Any:
-        """Ordinate omega3 of the curve at omega2, mf76, rounded once. DomainError at the pole and for B2 = 0."""
+        """Ordinate omega3 of the curve at omega2, (71), rounded once. DomainError at the pole and for B2 = 0."""
         return self._over(ordinate, omega2)
 
     def frequencies(self, omega2: Any) -> tuple[Any, Any]:
-        """Frequencies k = omega2/B2hat, mf84, and phi, mf77, each rounded once. DomainError as for `omega3`."""
+        """Frequencies k = omega2/B2hat, (79), and phi, (72), each rounded once. DomainError as for `omega3`."""
         k, phi = self._over(_frequencies, omega2, degree=(1, 1))
         return k, phi
 
@@ -99,7 +99,7 @@ class Hyperbola:
         return ClosedMotion(self._ratio, (self.B2, self.B3), p, q)
 
     def stability(self, omega2: Any) -> Any:
-        """Nutation frequency squared -p'(omega3), p the cubic of mf55, in 1/time^2: theorem-stability.
+        """Nutation frequency squared -p'(omega3), p the cubic of (47), in 1/time^2: theorem-stability.
 
         The motion is stable where it is positive and unstable where it is negative; where it is zero, at the ends of
         the unstable band, the motion is unstable too, theorem-band-ends, unless B3 = 0, theorem-equatorial-stability.
@@ -137,7 +137,7 @@ class Hyperbola:
         growth. DomainError for B2 = 0.
         """
         if np.any(np.equal(self.B2, 0)):
-            raise DomainError("With B2 = 0 the curve mf72 is the line omega2 = 0, and omega3 is free on it.")
+            raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
         return over(_least_stability, self.I2, self.I3, self.B2, self.B3, unit=slice(2, 4), degree=2) + 0.0
 
     @property
@@ -225,14 +225,14 @@ class Hyperbola:
         return float(((abs(I2 - I3) / I2) * B2 * B2).sqrt()) or abs(self.B2)
 
     def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
-        """Return what a formula of I2, I3, B2, B3 and omega2 gives, where mf76 holds."""
+        """Return what a formula of I2, I3, B2, B3 and omega2 gives, where (71) holds."""
         omega2 = real(omega2, "omega2")
         if np.any(np.equal(self.B2, 0)):
-            raise DomainError("With B2 = 0 the curve mf72 is the line omega2 = 0, and omega3 is free on it.")
+            raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
         pole = omega2 == self.pole
         if np.any(pole):
             found = np.broadcast_to(omega2, pole.shape)[pole].flat[0]
-            raise DomainError(f"omega2 = -B2 = {found} is the pole of omega3(omega2), mf76.")
+            raise DomainError(f"omega2 = -B2 = {found} is the pole of omega3(omega2), (71).")
         return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, 5), **more)
 
 

@@ -1,4 +1,4 @@
-"""Inertia tensor and mass matrix 1.32, one from the other, for any body."""
+"""Inertia tensor and mass matrix (8), one from the other, for any body."""
 
 from typing import Any
 
@@ -15,13 +15,13 @@ LARGEST = float(np.finfo(float).max) / 8
 
 
 def mass_matrix(inertia: Any) -> FloatArray:
-    """Mass matrix g = (tr I / 2) 1 - I of inertia tensors (..., 3, 3), unchecked; see mf21."""
+    """Mass matrix g = (tr I / 2) 1 - I of inertia tensors (..., 3, 3), unchecked; see (12)."""
     inertia = np.asarray(inertia, dtype=np.float64)
     return np.asarray(np.trace(inertia, axis1=-2, axis2=-1)[..., None, None] / 2 * np.eye(3) - inertia)
 
 
 def mass_matrix_from_inertia(inertia: Any) -> FloatArray:
-    """Mass matrix g = (tr I / 2) 1 - I of an inertia tensor: 2 g1 = I2 + I3 - I1, and so on; see mf22.
+    """Mass matrix g = (tr I / 2) 1 - I of an inertia tensor: 2 g1 = I2 + I3 - I1, and so on; see (11).
 
     `inertia` is a diagonal of shape (3,) or tensors of shape (..., 3, 3); the result has the same shape.
     """
@@ -30,7 +30,7 @@ def mass_matrix_from_inertia(inertia: Any) -> FloatArray:
 
 
 def inertia_from_mass_matrix(mass_matrix: Any) -> FloatArray:
-    """Inertia tensor I = (tr g) 1 - g of a mass matrix 1.32, as defined below mf21.
+    """Inertia tensor I = (tr g) 1 - g of a mass matrix (8), as defined below (12).
 
     `mass_matrix` is a diagonal of shape (3,) or matrices of shape (..., 3, 3); the result has the same shape.
     """
@@ -39,7 +39,7 @@ def inertia_from_mass_matrix(mass_matrix: Any) -> FloatArray:
 
 
 def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
-    """Mass matrix g_ij = sum m_N x_N^i x_N^j, 1.32, of points counted from their centre of mass.
+    """Mass matrix g_ij = sum m_N x_N^i x_N^j, (8), of points counted from their centre of mass.
 
     `masses` (N,), all positive; `positions` (N, 3) in any frame and from any origin. Returns (3, 3).
     """
@@ -56,7 +56,7 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
 def inertia_tensor(inertia: Any) -> FloatArray:
     """Return the inertia tensor (3, 3) of a body, from itself or from principal moments (3,), checked.
 
-    Raises DomainError unless it is positive, with each principal moment at most the sum of the others: by mf22,
+    Raises DomainError unless it is positive, with each principal moment at most the sum of the others: by (11),
     2 g1 = I2 + I3 - I1 is a sum of 2 m x^2. A plane body has equality, up to rounding.
     """
     tensor, _ = diagonal_or_matrices(inertia, "The inertia tensor")

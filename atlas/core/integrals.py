@@ -1,4 +1,4 @@
-"""The four integrals of motion of a symmetric body, mf44, mf45, mf48, mf49."""
+"""The four integrals of motion of a symmetric body, (36), (37), (40), (41)."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -15,17 +15,17 @@ class Integrals:
     """What a symmetric body conserves; each a float, or an array if the motion was one."""
 
     E: Any
-    """E' = 2E/I2 = Omega1^2 + Omega2^2 + I Omega3^2, mf44, in 1/time^2."""
+    """E' = 2E/I2 = Omega1^2 + Omega2^2 + I Omega3^2, (36), in 1/time^2."""
     K2: Any
-    """K^2 = B'^2, mf45, in 1/time^2."""
+    """K^2 = B'^2, (37), in 1/time^2."""
     c3: Any
-    """c3 = K3 + Omega3, mf48, in 1/time."""
+    """c3 = K3 + Omega3, (40), in 1/time."""
     c5: Any
-    """c5 = Omega1 K1 + Omega2 K2 - Omega3^2 + (2 - I) c3 Omega3, mf49, in 1/time^2."""
+    """c5 = Omega1 K1 + Omega2 K2 - Omega3^2 + (2 - I) c3 Omega3, (41), in 1/time^2."""
 
 
 def integrals(ratio: Any, Omega: Any, K: Any) -> Integrals:
-    """Return the integrals E', K^2, c3 and c5 of a state, mf44, mf45, mf48, mf49.
+    """Return the integrals E', K^2, c3 and c5 of a state, (36), (37), (40), (41).
 
     `Omega`, `K` (..., 3), both in the body and in 1/time; at t = 0, K = (0, B2, B3). c5 is written as
     Omega1 K1 + Omega2 K2 + Omega3 [(1 - I) Omega3 + (2 - I) K3], in which c3 is gone and I = 1 exact.
@@ -48,6 +48,6 @@ def integrals(ratio: Any, Omega: Any, K: Any) -> Integrals:
 
 
 def shape_factors(ratio: Any) -> tuple[Any, Any, Any]:
-    """Return I, 1 - I and 2 - I of I = I3/I2, mf41.1, the differences formed from the moments and so without loss."""
+    """Return I, 1 - I and 2 - I of I = I3/I2, (33), the differences formed from the moments and so without loss."""
     I2, I3 = moments(ratio)
     return I3 / I2, (I2 - I3) / I2, 2 * ((I2 - I3 / 2) / I2)

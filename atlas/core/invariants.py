@@ -1,4 +1,4 @@
-"""Constants of an elementary motion, mf44 to mf49 and mf93, from its exact inputs: rational, and rounded once."""
+"""Constants of an elementary motion, (36) to (41) and (88), from its exact inputs: rational, and rounded once."""
 
 from fractions import Fraction
 from math import inf
@@ -12,9 +12,9 @@ NAMES = ("E'", "K^2", "c3", "c5", "(m,B')")
 
 
 def exact_invariants(I2: float, I3: float, B2: float, B3: float, omega2: float, omega3: float) -> tuple[float, ...]:
-    """Return E', mf44, K^2, mf45, c3, mf48, c5, mf49, and (m, B')/I2, mf93, of the motion from (0, omega2, omega3).
+    """Return E', (36), K^2, (37), c3, (40), c5, (41), and (m, B')/I2, (88), of the motion from (0, omega2, omega3).
 
-    `omega3` counts where it is free, for B2 = 0 and at the pole omega2 = -B2; elsewhere it is that of mf76. Sums that
+    `omega3` counts where it is free, for B2 = 0 and at the pole omega2 = -B2; elsewhere it is that of (71). Sums that
     cancel, as c3 does on the whole line (omega2 + B2)^2 = (1-I) B2^2, keep all their digits; inf beyond the floats.
     """
     I, b2, b3, w2 = Fraction(I3) / Fraction(I2), Fraction(B2), Fraction(B3), Fraction(omega2)

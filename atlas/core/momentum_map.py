@@ -58,7 +58,7 @@ def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
 def steady(ratio: Any, b: Any, w: Any, r: Any) -> Conserved:
     """Return (M3, p, h) of the steady precession at nu = r with the rate w in Larmor's frame, theorem-steady.
 
-    M3 = r (w^2 + A)/w, p = w (1 - r^2) + r M3, h = M3^2/I + b^2 + A r^2 + w^2 (1 - r^2). On the hyperbola mf76 w is
+    M3 = r (w^2 + A)/w, p = w (1 - r^2) + r M3, h = M3^2/I + b^2 + A r^2 + w^2 (1 - r^2). On the hyperbola (71) w is
     k + b and r is B3/b. DomainError where w = 0 or |r| > 1.
     """
     I, A, b = _constants(ratio, b)

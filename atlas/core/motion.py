@@ -49,7 +49,7 @@ def components(value: Any, names: Sequence[str], what: str) -> list[Any]:
 
 
 class Motion(Generic[Turning]):
-    """Motions R(t) = R_n(k t) R_z(phi t), mf90, of the shape of the parameters, which broadcasts with the times."""
+    """Motions R(t) = R_n(k t) R_z(phi t), (85), of the shape of the parameters, which broadcasts with the times."""
 
     _unit = slice(0)
     """Which of the inputs are frequencies."""
@@ -87,7 +87,7 @@ class Motion(Generic[Turning]):
         }
 
     _inverse = False
-    """Whether the matrix is the transposed one, mf38."""
+    """Whether the matrix is the transposed one, (28)."""
 
     def _groups(self) -> list[Group]:
         """Return the motions by the formulas that hold for them."""
@@ -98,7 +98,7 @@ class Motion(Generic[Turning]):
         raise NotImplementedError
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Rotation matrix R(t), mf89, mf90; shape (..., 3, 3).
+        """Rotation matrix R(t), (84), (85); shape (..., 3, 3).
 
         `t` of any shape, finite; its phases k t, phi t up to 2^50. `out`, C-contiguous float64, is filled if given.
         Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15. Raises AtlasError beyond.
@@ -112,7 +112,7 @@ class Motion(Generic[Turning]):
         return self._spread(lambda turning, t, out: turning.column(j, t, out), t, (3,))
 
     def third_axis(self, t: Any) -> FloatArray:
-        """Third inertia axis R_3(t) in the laboratory, the third column of mf89; shape (..., 3)."""
+        """Third inertia axis R_3(t) in the laboratory, the third column of (84); shape (..., 3)."""
         return self.column(3, t)
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Charged point particles in constant E and B, mf1 to mf11: the motion of the body's centre of mass, mf17."""
+"""Charged point particles in constant E and B, (89) to (99): the motion of the body's centre of mass, (4)."""
 
 from collections.abc import Callable
 from math import prod
@@ -14,7 +14,7 @@ from atlas.errors import DomainError
 
 
 class ParticleMotion:
-    """Motion of a particle of charge-to-mass ratio mu from its position and velocity at t = 0, mf1.
+    """Motion of a particle of charge-to-mass ratio mu from its position and velocity at t = 0, (89).
 
     `mu` of either sign, or 0; `E`, `B`, `position`, `velocity` (..., 3); `c` > 0 as in `atlas.Field`. The inputs are
     taken as exact, and broadcast with one another and with the times: arrays of them are as many particles. Any E and
@@ -47,10 +47,10 @@ class ParticleMotion:
 
     @classmethod
     def trochoid(cls, mu: Any, E: Any, B: Any, radius: Any, c: Any = 1.0) -> Self:
-        """Motion mf11: y(0) = a e2 and y'(0) = (c |E_perp|/|B| + a omega) e1, in the frame `axes` of figure Magn.
+        """Motion (99): y(0) = a e2 and y'(0) = (c |E_perp|/|B| + a omega) e1, in the frame `axes` of figure Magn.
 
-        `radius` is a; omega = mu |B|/c has the sign of mu, where the paper's |mu B|/c in mf9 is right for mu > 0 only.
-        Then y_perp(t) = c |E_perp|/|B| t e1 + a {e1 sin(omega t) + e2 cos(omega t)}. The paper's other data, mf10.1,
+        `radius` is a; omega = mu |B|/c has the sign of mu, where the paper's |mu B|/c in (97) is right for mu > 0 only.
+        Then y_perp(t) = c |E_perp|/|B| t e1 + a {e1 sin(omega t) + e2 cos(omega t)}. The paper's other data, (100),
         shift it along e2 by a constant: printed mu |E_perp|/omega, it must be a length, mu |E_perp|/omega^2.
         """
         still = cls(mu, E, B, np.zeros(3), np.zeros(3), c)
@@ -79,7 +79,7 @@ class ParticleMotion:
 
     @property
     def cyclotron_frequency(self) -> Any:
-        """Frequency omega = mu |B|/c of mf9, with the sign of mu, in rad per unit of time; 0 without a field."""
+        """Frequency omega = mu |B|/c of (97), with the sign of mu, in rad per unit of time; 0 without a field."""
         return self._each("cyclotron_frequency")
 
     @property
@@ -90,17 +90,17 @@ class ParticleMotion:
 
     @property
     def prime(self) -> FloatArray:
-        """B' = mu B/(2c), mf41, in which a body that flies with the particle turns; shape (..., 3)."""
+        """B' = mu B/(2c), (32), in which a body that flies with the particle turns; shape (..., 3)."""
         return np.asarray(self._each("prime"))
 
     @property
     def drift(self) -> FloatArray:
-        """Velocity c [E, B]/B^2 of the point O(t) of mf11 across B, whatever the sign of mu; shape (..., 3)."""
+        """Velocity c [E, B]/B^2 of the point O(t) of (99) across B, whatever the sign of mu; shape (..., 3)."""
         return np.asarray(self._each("drift"))
 
     @property
     def radius(self) -> Any:
-        """Radius a of mf9: that of the circle around the drifting centre."""
+        """Radius a of (97): that of the circle around the drifting centre."""
         return self._each("radius")
 
     @property
@@ -109,15 +109,15 @@ class ParticleMotion:
         return np.asarray(self._each("axes"))
 
     def position(self, t: Any) -> FloatArray:
-        """Position y(t), shape (..., 3) for times of any shape, mf10.2 with mf5 and mf10."""
+        """Position y(t), shape (..., 3) for times of any shape, (101) with (93) and (98)."""
         return self._spread(Path.fill_position, t)
 
     def velocity(self, t: Any) -> FloatArray:
-        """Velocity y'(t), shape (..., 3) for times of any shape, mf2."""
+        """Velocity y'(t), shape (..., 3) for times of any shape, (90)."""
         return self._spread(Path.fill_velocity, t)
 
     def guiding_centre(self, t: Any) -> FloatArray:
-        """Point O(t) of mf11 about which the particle circles, carried along B with it; shape (..., 3)."""
+        """Point O(t) of (99) about which the particle circles, carried along B with it; shape (..., 3)."""
         return self._spread(Path.fill_centre, t)
 
     def _each(self, name: str) -> Any:

@@ -1,4 +1,4 @@
-"""The cubic pseudo-oscillator that Omega3 obeys, mf54 to mf57, and its first integral, a quartic."""
+"""The cubic pseudo-oscillator that Omega3 obeys, (46) to (49), and its first integral, a quartic."""
 
 from functools import cached_property
 from typing import Any
@@ -12,7 +12,7 @@ from atlas.errors import AtlasError
 
 
 def cubic(ratio: Any, conserved: Integrals) -> tuple[Any, Any, Any, Any]:
-    """Coefficients (a0, a1, a2, a3) of mf55, by mf56 with its slip set right.
+    """Coefficients (a0, a1, a2, a3) of (47), by (48) with its slip set right.
 
     a0 = [(2-I) c5 + E'] c3,  a1 = -2 c5 - (1-I)(4-I) c3^2 - E' - I K^2,  a2 = 6 (1-I) c3,  a3 = -2 (1-I).
     The printed a1 has [I - (2-1)^2] c3^2; true is [I - (2-I)^2] = -(1-I)(4-I), which does not cancel near I = 1.
@@ -28,7 +28,7 @@ def quartic(ratio: Any, conserved: Integrals) -> tuple[Any, Any, Any, Any, Any]:
     """Coefficients (q0, ..., q4) of Q(u) = q0 + q1 u + ... + q4 u^4 with (dOmega3/dt)^2 = Q(Omega3).
 
     Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2, and Q' = 2 (a0 + a1 u + a2 u^2 + a3 u^3) with
-    the cubic of mf55: so q4 = a3/2 = I - 1. Not in the paper: it follows from mf44, mf45, mf48, mf49 and mf46, as
+    the cubic of (47): so q4 = a3/2 = I - 1. Not in the paper: it follows from (36), (37), (40), (41) and (38), as
     (Omega1 K2 - Omega2 K1)^2 + (Omega1 K1 + Omega2 K2)^2 = (Omega1^2 + Omega2^2)(K1^2 + K2^2).
     """
     E, K2, c3, c5 = conserved.E, conserved.K2, conserved.c3, conserved.c5
@@ -37,7 +37,7 @@ def quartic(ratio: Any, conserved: Integrals) -> tuple[Any, Any, Any, Any, Any]:
 
 
 class PseudoOscillator:
-    """The motion of u = Omega3 of a symmetric body, mf55: d^2u/dt^2 = p(u), a cubic, from initial data.
+    """The motion of u = Omega3 of a symmetric body, (47): d^2u/dt^2 = p(u), a cubic, from initial data.
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B', and `omega` (..., 3), the initial
     angular velocity, in one unit 1/time; arrays broadcast with one another and with u.
@@ -55,16 +55,16 @@ class PseudoOscillator:
 
     @cached_property
     def integrals(self) -> Integrals:
-        """The integrals E', K^2, c3, c5 of mf44 to mf49."""
+        """The integrals E', K^2, c3, c5 of (36) to (41)."""
         K = np.stack(np.broadcast_arrays(0.0, self.B2, self.B3), axis=-1)
         return integrals(self.ratio, np.stack([self.omega1, self.omega2, self.omega3], axis=-1), K)
 
     @cached_property
     def coefficients(self) -> tuple[Any, Any, Any, Any]:
-        """Coefficients (a0, a1, a2, a3) of the cubic, mf56."""
+        """Coefficients (a0, a1, a2, a3) of the cubic, (48)."""
         with np.errstate(over="ignore", invalid="ignore"):
             values = cubic(self.ratio, self.integrals)
-        finite(values, "A coefficient of the cubic mf55")
+        finite(values, "A coefficient of the cubic (47)")
         return values
 
     @cached_property
@@ -76,7 +76,7 @@ class PseudoOscillator:
         return values
 
     def acceleration(self, u: Any) -> Any:
-        """Acceleration p(u) of Omega3, by mf57: through omega3 - u, so that nothing cancels near the start."""
+        """Acceleration p(u) of Omega3, by (49): through omega3 - u, so that nothing cancels near the start."""
         I, _, two_less = shape_factors(self.ratio)
         u, d, P, D, L = self._from_start(u)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -84,7 +84,7 @@ class PseudoOscillator:
         return finite(plain(value), "The acceleration p(u)")
 
     def stiffness(self, u: Any) -> Any:
-        """Return the derivative p'(u) of the cubic mf55: a constant solution is stable where it is negative."""
+        """Return the derivative p'(u) of the cubic (47): a constant solution is stable where it is negative."""
         _, a1, a2, a3 = self.coefficients
         u = self._met(u)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -106,7 +106,7 @@ class PseudoOscillator:
             return finite(plain((self.omega1 * self.B2) ** 2 + d * rest), "The first integral Q(u)")
 
     def _from_start(self, u: Any) -> tuple[Any, Any, Any, Any, Any]:
-        """Return u, d = omega3 - u and P, D, L (see `quartic`) as they stand in mf57."""
+        """Return u, d = omega3 - u and P, D, L (see `quartic`) as they stand in (49)."""
         I, _, two_less = shape_factors(self.ratio)
         u = self._met(u)
         with np.errstate(over="ignore", invalid="ignore"):

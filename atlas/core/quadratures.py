@@ -1,4 +1,4 @@
-"""From Omega3(t) to the rest of the motion, mf50 to mf53: K algebraically, Omega1 and Omega2 by one quadrature."""
+"""From Omega3(t) to the rest of the motion, (42) to (45): K algebraically, Omega1 and Omega2 by one quadrature."""
 
 from typing import Any
 
@@ -10,9 +10,9 @@ from atlas.errors import DomainError
 
 
 def transverse_square(ratio: Any, conserved: Integrals, u: Any) -> Any:
-    """Return Omega1^2 + Omega2^2 = E' - I u^2 at Omega3 = u, mf44.
+    """Return Omega1^2 + Omega2^2 = E' - I u^2 at Omega3 = u, (36).
 
-    Raises DomainError where it is not positive: there the body turns about its axis alone, and mf50 to mf53 are 0/0.
+    Raises DomainError where it is not positive: there the body turns about its axis alone, and (42) to (45) are 0/0.
     """
     I, _, _ = shape_factors(ratio)
     u = real(u, "u")
@@ -22,7 +22,7 @@ def transverse_square(ratio: Any, conserved: Integrals, u: Any) -> Any:
 
 
 def field_projection(ratio: Any, conserved: Integrals, u: Any) -> Any:
-    """Return Omega1 K1 + Omega2 K2 = u^2 - (2-I) c3 u + c5 at Omega3 = u, mf49."""
+    """Return Omega1 K1 + Omega2 K2 = u^2 - (2-I) c3 u + c5 at Omega3 = u, (41)."""
     _, _, two_less = shape_factors(ratio)
     u = real(u, "u")
     common_shape(np.shape(two_less), np.shape(conserved.c3), np.shape(conserved.c5), u.shape)
@@ -31,9 +31,9 @@ def field_projection(ratio: Any, conserved: Integrals, u: Any) -> Any:
 
 
 def field_in_body(ratio: Any, conserved: Integrals, Omega: Any, rate: Any) -> FloatArray:
-    """Field K in the body, mf50, from Omega (..., 3) and `rate` = dOmega3/dt.
+    """Field K in the body, (42), from Omega (..., 3) and `rate` = dOmega3/dt.
 
-    The denominator E' - I Omega3^2 is taken as what it is by mf44, Omega1^2 + Omega2^2, which cannot cancel.
+    The denominator E' - I Omega3^2 is taken as what it is by (36), Omega1^2 + Omega2^2, which cannot cancel.
     """
     u1, u2, u3 = np.moveaxis(vectors(Omega, "Omega"), -1, 0)
     rate = real(rate, "dOmega3/dt")
@@ -45,20 +45,20 @@ def field_in_body(ratio: Any, conserved: Integrals, Omega: Any, rate: Any) -> Fl
 
 
 def frequency(ratio: Any, conserved: Integrals, u: Any) -> Any:
-    """Frequency phi = [(2-I) c3 E' - (E' + I c5) u]/(E' - I u^2) at Omega3 = u, mf52: Omega's turn about the axis."""
+    """Frequency phi = [(2-I) c3 E' - (E' + I c5) u]/(E' - I u^2) at Omega3 = u, (44): Omega's turn about the axis."""
     I, _, two_less = shape_factors(ratio)
     D, u = transverse_square(ratio, conserved, u), real(u, "u")
     common_shape(np.shape(D), np.shape(conserved.c3), np.shape(conserved.c5))
     with np.errstate(over="ignore", invalid="ignore"):
         value = (two_less * conserved.c3 * conserved.E - (conserved.E + I * conserved.c5) * u) / D
-    return finite(plain(value), "The frequency of mf52")
+    return finite(plain(value), "The frequency of (44)")
 
 
 def angular_velocity(ratio: Any, conserved: Integrals, u: Any, angle: Any) -> FloatArray:
-    """Angular velocity Omega (..., 3) in the body, mf53, at Omega3 = u.
+    """Angular velocity Omega (..., 3) in the body, (45), at Omega3 = u.
 
     `angle` is Phi + phi_0: the integral of `frequency` over time, plus the phase at t = 0, tan(phi_0) = omega1/omega2.
-    The constant f0 of the paper is not free: mf44 makes it 1.
+    The constant f0 of the paper is not free: (36) makes it 1.
     """
     length, angle, u = np.sqrt(transverse_square(ratio, conserved, u)), real(angle, "The angle"), real(u, "u")
     return np.stack(np.broadcast_arrays(length * np.sin(angle), length * np.cos(angle), u), axis=-1)
@@ -68,7 +68,7 @@ def _positive(D: Any) -> Any:
     """Return D = Omega1^2 + Omega2^2 if it is positive everywhere."""
     if (np.asarray(D) <= 0).any():
         raise DomainError(
-            "mf50 to mf53 divide by Omega1^2 + Omega2^2 = E' - I Omega3^2, which must be positive "
+            "(42) to (45) divide by Omega1^2 + Omega2^2 = E' - I Omega3^2, which must be positive "
             f"but is {np.min(D)}: there the body turns about its axis alone."
         )
     return plain(D)

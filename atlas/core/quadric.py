@@ -1,4 +1,4 @@
-"""The quadric of initial data with constant Omega3, mf58, and its canonical form mf60 to mf63."""
+"""The quadric of initial data with constant Omega3, (51), and its canonical form (54) to (57)."""
 
 from functools import cached_property
 from typing import Any
@@ -16,15 +16,15 @@ KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "on
 
 
 class Quadric:
-    """The surface mf58: omega1^2 + (omega2+B2)^2 - (I B2/B3)(omega2+B2)(omega3+B3) = (1-I) B2^2.
+    """The surface (51): omega1^2 + (omega2+B2)^2 - (I B2/B3)(omega2+B2)(omega3+B3) = (1-I) B2^2.
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
-    broadcast. The inputs are taken as exact, the scalars are rounded once. In the coordinates mf61a about the centre,
+    broadcast. The inputs are taken as exact, the scalars are rounded once. In the coordinates (53) about the centre,
 
-        omega'_1^2 - omega'_2^2/a2 + omega'_3^2/a3 = (1 - I) B2^2,                                               mf60
+        omega'_1^2 - omega'_2^2/a2 + omega'_3^2/a3 = (1 - I) B2^2,                                               (54)
 
     a2 and a3 as printed there. They have the sign of B3: the paper takes B3 > 0, and for B3 < 0 the axes 2 and 3
-    interchange their roles. The cone's semi-axes are a2 and a3, mf62; its C1, C2, C3 are zero.
+    interchange their roles. The cone's semi-axes are a2 and a3, (56); its C1, C2, C3 are zero.
 
     Degenerate kinds: for B2 = 0 ("line") C1, C2, C3 are zero and the infinite one of a2, a3 raises DomainError; for
     B = 0 ("all space") beta, a2, a3 and the axes do, since I^-1 B' has no direction.
@@ -49,7 +49,7 @@ class Quadric:
 
     @cached_property
     def beta(self) -> Any:
-        """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], mf61a; only its tangent is rounded before."""
+        """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], (53); only its tangent is rounded before."""
         I2, I3, B2, B3 = self._directed()
         vertical = B2 == 0
         slope = over(tangent, I2, I3, np.where(vertical, 1.0, B2), B3, unit=slice(2, 4), degree=0)
@@ -58,23 +58,23 @@ class Quadric:
 
     @cached_property
     def a2(self) -> Any:
-        """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), mf60."""
+        """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54)."""
         I2, I3, B2, B3 = self._directed()
         if np.any((B2 == 0) & (B3 > 0)):
-            raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of mf60 is infinite.")
+            raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
         return over(a2, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
 
     @cached_property
     def a3(self) -> Any:
-        """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), mf60."""
+        """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54)."""
         I2, I3, B2, B3 = self._directed()
         if np.any((B2 == 0) & (B3 < 0)):
-            raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of mf60 is infinite.")
+            raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
         return over(a3, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
 
     @cached_property
     def semi_axes(self) -> Any:
-        """Semi-axes C1, C2, C3 of mf61b, mf63: the roots of |1-I| B2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
+        """Semi-axes C1, C2, C3 of (55), (57): the roots of |1-I| B2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
         along = np.asarray(B2) == 0
         found = over(semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, 4), degree=(1, 1, 1))
@@ -89,7 +89,7 @@ class Quadric:
 
     @cached_property
     def axes(self) -> FloatArray:
-        """Directions of omega'_1..3 as rows, mf61a: the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3)."""
+        """Directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3)."""
         I2, I3, B2, B3 = self._directed()
         cos, sin = over(half_angle, I2, I3, B2, B3, unit=slice(2, 4), degree=(0, 0))
         cos, sin = np.where((B2 < 0) & (B3 >= 0), -cos, cos), np.where((B2 < 0) & (B3 < 0), -sin, sin)
@@ -102,7 +102,7 @@ class Quadric:
         return axes
 
     def canonical(self, omega: Any) -> FloatArray:
-        """Coordinates omega'_1..3, mf61a, of points `omega` (..., 3); inf where one is beyond the largest float."""
+        """Coordinates omega'_1..3, (53), of points `omega` (..., 3); inf where one is beyond the largest float."""
         omega = vectors(omega, "omega")
         common_shape(self.shape, omega.shape[:-1])
         # the difference and its turn may be larger than the coordinates: a quarter of each is not
@@ -112,7 +112,7 @@ class Quadric:
             return np.asarray(np.ldexp(turned, -part))
 
     def residual(self, omega: Any) -> Any:
-        """Left-hand side of mf58.1 at points `omega` (..., 3), in 1/time^3, rounded once: zero on the surface only.
+        """Left-hand side of (50) at points `omega` (..., 3), in 1/time^3, rounded once: zero on the surface only.
 
         B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3.
         """
@@ -132,19 +132,19 @@ def tangent(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
 
 
 def a2(*inputs: Number) -> Number:
-    """Return a2 of mf60: with (x, y) along I^-1 B' and h its length, 2 y/(h - y)."""
+    """Return a2 of (54): with (x, y) along I^-1 B' and h its length, 2 y/(h - y)."""
     y, _, less, _ = _direction(*inputs)
     return (y + y) / less
 
 
 def a3(*inputs: Number) -> Number:
-    """Return a3 of mf60: 2 y/(h + y)."""
+    """Return a3 of (54): 2 y/(h + y)."""
     y, _, _, more = _direction(*inputs)
     return (y + y) / more
 
 
 def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number]:
-    """Return C1, C2, C3 of mf61b, mf63, for B2 != 0."""
+    """Return C1, C2, C3 of (55), (57), for B2 != 0."""
     square = abs(I2 - I3) / I2 * B2 * B2
     y, _, less, more = _direction(I2, I3, B2, B3)
     twice = square * abs(y + y)
@@ -152,13 +152,13 @@ def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, N
 
 
 def half_angle(*inputs: Number) -> tuple[Number, Number]:
-    """Return the sizes of cos and sin of beta/2 + pi/4, mf61a: their squares are (1 -+ sin beta)/2."""
+    """Return the sizes of cos and sin of beta/2 + pi/4, (53): their squares are (1 -+ sin beta)/2."""
     _, h, less, more = _direction(*inputs)
     return (less / (h + h)).sqrt(), (more / (h + h)).sqrt()
 
 
 def residual(I2: Number, I3: Number, B2: Number, B3: Number, w1: Number, w2: Number, w3: Number) -> Number:
-    """Return the left-hand side of mf58.1."""
+    """Return the left-hand side of (50)."""
     times_I2 = B3 * (w1 * w1 + w2 * w2) * I2 + ((I2 + I2 - I3) * B3 * w2 - I3 * w3 * (w2 + B2)) * B2
     return times_I2 / I2
 

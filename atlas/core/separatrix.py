@@ -37,7 +37,7 @@ class Companion:
     b: float
     """Length of B', in 1/time."""
     c3: float
-    """Omega3 + K3, mf48, in 1/time."""
+    """Omega3 + K3, (40), in 1/time."""
     double: float
     """The double root r of q, a cosine."""
     turning: float
@@ -78,13 +78,13 @@ class Companion:
         return np.stack([across.real, across.imag, self.c3 - self.b * self.cosine(t)], axis=-1)
 
     def field_in_body(self, t: Any, start: float = 0.0) -> FloatArray:
-        """Field K(t) in the body, mf41, shape (..., 3), 1/time; at t = start it is (0, B2, B3) with B2 >= 0."""
+        """Field K(t) in the body, (32), shape (..., 3), 1/time; at t = start it is (0, B2, B3) with B2 >= 0."""
         return np.asarray(self.b * self._attitude(t, start)[..., 2, :])
 
     def rotation(self, t: Any, start: float = 0.0) -> FloatArray:
         """Rotation matrix R(t) with R(start) = 1 in the laboratory where B' = K(start); shape (..., 3, 3).
 
-        It solves mf21 and mf27 with omega = `angular_velocity(start, start)`.
+        It solves (12) and (16) with omega = `angular_velocity(start, start)`.
         """
         return np.asarray(self._attitude(start, start).T @ self._attitude(t, start))
 
@@ -130,7 +130,7 @@ def companions(ratio: Any, field: Any, omega2: Any) -> tuple[Companion, ...]:
     if not B2:
         raise DomainError("With B2 = 0 the elementary motions turn about the field: see `atlas.core.axial`.")
     if w2 == -B2:
-        raise DomainError(f"omega2 = -B2 = {w2} is the pole of omega3(omega2), mf76.")
+        raise DomainError(f"omega2 = -B2 = {w2} is the pole of omega3(omega2), (71).")
     i2, i3, b2, b3, omega = exact(I2, I3, B2, B3, w2)
     less = (i2 - i3) / i2
     b = length(b2, b3)

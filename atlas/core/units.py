@@ -1,8 +1,8 @@
 """Gaussian and SI units: the one place where the factor c is put in or left out.
 
-The paper is Gaussian: the force is e E + (e/c) [v, B], mf1, so every B comes with mu/c, and B' = mu B/(2c), mf41. In SI
-the force is q E + q [v, B]: there is no c, and B' = mu B/2. The formulas of the paper are those of SI with c = 1, and
-so `Field`, `ParticleMotion` take c: 29 979 245 800 cm/s with Gaussian quantities, 1 with those of SI.
+The paper is Gaussian: the force is e E + (e/c) [v, B], (89), so every B comes with mu/c, and B' = mu B/(2c), (32). In
+SI the force is q E + q [v, B]: there is no c, and B' = mu B/2. The formulas of the paper are those of SI with c = 1,
+and so `Field`, `ParticleMotion` take c: 29 979 245 800 cm/s with Gaussian quantities, 1 with those of SI.
 
 |            | Gaussian               | SI                  | one SI unit in Gaussian ones    |
 |------------|------------------------|---------------------|---------------------------------|
@@ -84,26 +84,26 @@ def system(name: str | System) -> System:
 
 
 def charge_to_mass(charge: Any, mass: Any) -> float:
-    """Charge-to-mass ratio mu = e/m, mf1, of either sign, in units of charge over mass."""
+    """Charge-to-mass ratio mu = e/m, (89), of either sign, in units of charge over mass."""
     return number(charge, "The charge") / positive(mass, "The mass")
 
 
 def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
-    """Vector B' = mu B/(2c), mf41, in rad/s; in SI without c.
+    """Vector B' = mu B/(2c), (32), in rad/s; in SI without c.
 
-    `mu` and `B` (any shape) in the units of that system. |B'| is Larmor's frequency mf37; for mu < 0 the vector B' is
+    `mu` and `B` (any shape) in the units of that system. |B'| is Larmor's frequency (27); for mu < 0 the vector B' is
     opposite to B.
     """
     return plain(prime(number(mu, "mu"), real(B, "B"), system(units).c))
 
 
 def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:
-    """Frequency omega = mu |B|/c of mf9 in rad/s, with the sign of mu, for a field of strength B; twice Larmor's."""
+    """Frequency omega = mu |B|/c of (97) in rad/s, with the sign of mu, for a field of strength B; twice Larmor's."""
     return 2 * larmor_field(mu, B, units)
 
 
 def prime(mu: float, B: FloatArray, c: float) -> FloatArray:
-    """Vector B' = mu B/(2c), mf41, of numbers already checked: exact, then rounded once."""
+    """Vector B' = mu B/(2c), (32), of numbers already checked: exact, then rounded once."""
     factor = Fraction(mu) / (2 * Fraction(c))
     components = np.array(rounded([factor * Fraction(b) for b in B.flat], "B' = mu B/(2c)"))
     if mu and ((components == 0) != (B.ravel() == 0)).any():

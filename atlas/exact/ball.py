@@ -1,4 +1,4 @@
-"""The charged ball (mf36 to mf40) as balls in the other sense of the word."""
+"""The charged ball (26) to (30) as balls in the other sense of the word."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
 
 
 class BallMotion:
-    """The ball with inertia I0, Larmor frequency alpha (mf37) and m(0) = (0, m2, m3), the field along e3."""
+    """The ball with inertia I0, Larmor frequency alpha (27) and m(0) = (0, m2, m3), the field along e3."""
 
     def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
         self.inertia = rational(inertia, "the inertia")
@@ -21,19 +21,19 @@ class BallMotion:
 
     @property
     def gamma(self) -> Real:
-        """The frequency of the turn about k_hat, mf39."""
+        """The frequency of the turn about k_hat, (29)."""
         return self._size / self.inertia
 
     @property
     def k_hat(self) -> tuple[Real, Real]:
-        """The axis (k2, k3), mf39; (0, -1) where gamma = 0 and the paper's form is 0/0."""
+        """The axis (k2, k3), (29); (0, -1) where gamma = 0 and the paper's form is 0/0."""
         size = self._size
         if size == 0:
             return fmpq(0), fmpq(-1)
         return -self.m2 / size, -(self.m3 + self.larmor * self.inertia) / size
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t), mf38; for a momentum along the field mf40, in which the two turns are one."""
+        """Return R(t), (28); for a momentum along the field (30), in which the two turns are one."""
         t = rational(t, "the time")
         if self.m2 == 0:
             s, c = sin_cos(self.m3 / self.inertia * t)
@@ -55,12 +55,12 @@ class BallMotion:
         ]
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m(t) in the laboratory frame, mf36."""
+        """Return m(t) in the laboratory frame, (26)."""
         S, C = sin_cos(self.larmor * rational(t, "the time"))
         return [self.m2 * S, self.m2 * C, self.m3]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) = R^T m/I0 in the body, below mf35: the turn by gamma t about k_hat, of m(0)/I0."""
+        """Return Omega(t) = R^T m/I0 in the body, below (25): the turn by gamma t about k_hat, of m(0)/I0."""
         size = self._size
         if size == 0:
             return [fmpq(0), self.m2 / self.inertia, self.m3 / self.inertia]

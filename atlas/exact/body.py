@@ -1,4 +1,4 @@
-"""Moments of inertia as exact rationals: of a ratio, of a body, of a shape with its dimensions (1.32, mf41.1)."""
+"""Moments of inertia as exact rationals: of a ratio, of a body, of a shape with its dimensions (8), (33)."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -15,7 +15,7 @@ ROD = (
 
 
 def ratio_of(ratio: Any) -> fmpq:
-    """Return I = I3/I2, mf41.1, exactly: of a number, or the quotient of a body's two moments.
+    """Return I = I3/I2, (33), exactly: of a number, or the quotient of a body's two moments.
 
     Domain: 0 < I <= 2. Raises DomainError outside.
     """
@@ -43,7 +43,7 @@ def float_text(value: fmpq) -> str:
 
 
 def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:
-    """Return (I2, I3) of a homogeneous shape, 1.32, exactly, from its ``mass`` and its dimensions."""
+    """Return (I2, I3) of a homogeneous shape, (8), exactly, from its ``mass`` and its dimensions."""
     if name not in SHAPES:
         raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(SHAPES)}.")
     names, formula = SHAPES[name]
@@ -59,7 +59,7 @@ def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:
 
 
 def mass_matrix(I2: Any, I3: Any) -> tuple[fmpq, fmpq, fmpq]:
-    """Return the diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix 1.32."""
+    """Return the diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix (8)."""
     I2, I3 = rational(I2, "I2"), rational(I3, "I3")
     return I3 / 2, I3 / 2, I2 - I3 / 2
 

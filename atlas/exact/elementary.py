@@ -1,4 +1,4 @@
-"""The motions in elementary functions (mf76 to mf78, mf89 to mf93) as balls."""
+"""The motions in elementary functions (71) to (73), (84) to (88) as balls."""
 
 from typing import Any
 
@@ -11,9 +11,9 @@ from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
 
 
 class ElementaryMotion:
-    """The motion R(t) = R_axis(k t) R_z(phi t), mf90, that starts with Omega(0) = (0, omega2, omega3).
+    """The motion R(t) = R_axis(k t) R_z(phi t), (85), that starts with Omega(0) = (0, omega2, omega3).
 
-    ``omega3`` is given where mf76 leaves it free: for B = 0, for B2 = 0 with omega2 = 0, and at the pole
+    ``omega3`` is given where (71) leaves it free: for B = 0, for B2 = 0 with omega2 = 0, and at the pole
     omega2 = -B2 with B3 = 0 or I = 1. The axis is that of B, or of the angular momentum where there is no field.
     Every value is computed anew at the precision of the moment, see `atlas.exact.digits`.
     """
@@ -33,7 +33,7 @@ class ElementaryMotion:
             if self.omega2 != 0:
                 raise DomainError(
                     f"With B2 = 0 every elementary motion has omega2 = 0, not {float_text(self.omega2)}: "
-                    "mf72 reads B3 omega2^2 = 0."
+                    "(67) reads B3 omega2^2 = 0."
                 )
             return "spin along the field"
         if self.omega2 + self.B2 == 0:
@@ -42,7 +42,7 @@ class ElementaryMotion:
             if self.I == 1:
                 return "ball, free spin"
             raise DomainError(
-                f"omega2 = -B2 = {float_text(self.omega2)} is the pole of omega3(omega2), mf76: "
+                f"omega2 = -B2 = {float_text(self.omega2)} is the pole of omega3(omega2), (71): "
                 "no elementary motion starts there unless B3 = 0 or I = 1."
             )
         return "at rest" if self.omega2 == 0 else "precession"
@@ -52,7 +52,7 @@ class ElementaryMotion:
             value = Hyperbola(self.I, (self.B2, self.B3)).omega3(self.omega2)
             if given is not None and float_text(given) != float_text(value):
                 raise DomainError(
-                    f"omega3 follows from omega2 by mf76 and is {float_text(value)}, not {float_text(given)}: "
+                    f"omega3 follows from omega2 by (71) and is {float_text(value)}, not {float_text(given)}: "
                     "leave it out."
                 )
             return value
@@ -74,7 +74,7 @@ class ElementaryMotion:
 
     @property
     def _direction(self) -> tuple[fmpq, fmpq]:
-        """Components 2 and 3 of a vector along the axis: B', the angular momentum, or e3 where both are zero."""
+        """Components 2 and 3 of a vector along the axis, (77): B', the angular momentum, or e3 where both are zero."""
         if self.case != "free body":
             return self.B2, self.B3
         if self.omega2 == 0 and self.omega3 == 0:
@@ -83,7 +83,7 @@ class ElementaryMotion:
 
     @property
     def k(self) -> Real:
-        """Frequency of precession: omega2/B2hat, mf84; of the free body |m|/I2, mf92."""
+        """Frequency of precession: omega2/B2hat, (79); of the free body |m|/I2, (87)."""
         if self.case == "free body":
             return root(self.omega2**2 + (self.I * self.omega3) ** 2)
         if self.B2 == 0:
@@ -92,7 +92,7 @@ class ElementaryMotion:
 
     @property
     def phi(self) -> fmpq:
-        """Frequency of proper rotation: omega3 - B3 omega2/B2, mf77; of the free body (1-I) omega3, mf92."""
+        """Frequency of proper rotation: omega3 - B3 omega2/B2, (72); of the free body (1-I) omega3, (87)."""
         if self.case == "free body":
             return (1 - self.I) * self.omega3
         if self.B2 == 0:
@@ -100,13 +100,13 @@ class ElementaryMotion:
         return self.omega3 - self.B3 * self.omega2 / self.B2
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t), mf89, as rows."""
+        """Return R(t), (84), as rows."""
         A = self._precession(t)
         S, C = sin_cos(self.phi * rational(t, "the time"))
         return [[row[0] * C + row[1] * S, row[1] * C - row[0] * S, row[2]] for row in A]
 
     def quaternion(self, t: Any) -> list[Real]:
-        """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of mf90."""
+        """Return a unit quaternion of R(t), scalar first: the product of those of the two turns of (85)."""
         t = rational(t, "the time")
         n2, n3 = self.axis
         s, c = sin_cos(self.k * t / 2)
@@ -118,21 +118,21 @@ class ElementaryMotion:
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t), mf89."""
+        """Return the third column of R(t), (84)."""
         return [row[2] for row in self._precession(t)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) in the body's frame, mf78."""
+        """Return Omega(t) in the body's frame, (73)."""
         S, C = sin_cos(self.phi * rational(t, "the time"))
         return [self.omega2 * S, self.omega2 * C, self.omega3]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', mf41: the field turns about the third axis with frequency phi."""
+        """Return K(t) = R^T B', (32), (62), (60): the field turns about the third axis with frequency phi."""
         S, C = sin_cos(self.phi * rational(t, "the time"))
         return [self.B2 * S, self.B2 * C, self.B3]
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m(t)/I2 in the laboratory frame, mf93: it precesses about the axis with frequency k.
+        """Return m(t)/I2 in the laboratory frame, (88): it precesses about the axis with frequency k.
 
         Its parts along the axis and across it are rational but for one square root, and zero exactly where they are.
         """
@@ -149,7 +149,7 @@ class ElementaryMotion:
 
     @property
     def invariants(self) -> dict[str, fmpq]:
-        """The constants E', K^2, c3, c5 of mf44 to mf49 and (m, B')/I2 of mf93."""
+        """The constants E', K^2, c3, c5 of (36) to (41) and (m, B')/I2 of (88)."""
         w2, w3, B2, B3, I = self.omega2, self.omega3, self.B2, self.B3, self.I
         return {
             "E'": w2**2 + I * w3**2,
@@ -160,7 +160,7 @@ class ElementaryMotion:
         }
 
     def _precession(self, t: Any) -> list[list[Real]]:
-        """Return R_axis(k t), the first factor of mf90."""
+        """Return R_axis(k t), the first factor of (85)."""
         (x, y), (n2, n3) = self._direction, self.axis
         s, c = sin_cos(self.k * rational(t, "the time"))
         v = (1 - c) / (x**2 + y**2)

@@ -1,4 +1,4 @@
-"""The path of a point of the body, mf10.2 with mf89: the centre of mass flies, the body turns about it."""
+"""The path of a point of the body, (101) with (84): the centre of mass flies, the body turns about it."""
 
 from typing import Any, Protocol
 

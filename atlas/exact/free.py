@@ -1,4 +1,4 @@
-"""The free symmetric body beside the charged one (mf92), for any initial angular velocity."""
+"""The free symmetric body beside the charged one (87), for any initial angular velocity."""
 
 from typing import Any
 
@@ -9,7 +9,7 @@ from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
 
 
 class FreeMotion:
-    """The motion R(t) = R_m(k t) R_z(phi t) of a body without field that starts with ``omega``, above mf92."""
+    """The motion R(t) = R_m(k t) R_z(phi t) of a body without field that starts with ``omega``, above (87)."""
 
     def __init__(self, ratio: Any, omega: Any) -> None:
         self.I = ratio_of(ratio)
@@ -22,7 +22,7 @@ class FreeMotion:
 
     @property
     def phi(self) -> fmpq:
-        """Frequency of proper rotation (1 - I) omega3, mf92."""
+        """Frequency of proper rotation (1 - I) omega3, (87)."""
         return (1 - self.I) * self.omega[2]
 
     def rotation(self, t: Any) -> list[list[Real]]:

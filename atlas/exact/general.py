@@ -323,7 +323,7 @@ class GeneralMotion:
         ]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', mf41."""
+        """Return K(t) = R^T B', (32)."""
         R = self.rotation(t)
         return [sum((R[i][j] * self.field[i] for i in range(3)), fmpq(0)) for j in range(3)]
 
@@ -334,6 +334,6 @@ class GeneralMotion:
 
     @property
     def invariants(self) -> dict[str, fmpq]:
-        """The constants E', K^2, c3, c5 of mf44 to mf49, and (M, B') with M = II (Omega + K) in units of I2."""
+        """The constants E', K^2, c3, c5 of (36) to (41), and (M, B') with M = II (Omega + K) in units of I2."""
         q = self.quartic
         return {"E'": q.E, "K^2": q.K2, "c3": q.c3, "c5": q.c5, "(M,B')": q.momentum}

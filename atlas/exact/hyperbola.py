@@ -1,4 +1,4 @@
-"""The hyperbola of elementary motions (mf72 to mf77) and its stability: rational but for two square roots."""
+"""The hyperbola of elementary motions (67) to (72) and its stability: rational but for two square roots."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from atlas.exact.inputs import Real, rational, rationals, root
 
 
 class Hyperbola:
-    """The curve mf72 in the plane omega1 = 0 for I = I3/I2 and the field (B2, B3)."""
+    """The curve (67) in the plane omega1 = 0 for I = I3/I2 and the field (B2, B3)."""
 
     def __init__(self, ratio: Any, field: Any) -> None:
         self.I = ratio_of(ratio)
@@ -18,14 +18,14 @@ class Hyperbola:
 
     @property
     def pole(self) -> fmpq:
-        """The value -B2 of omega2 that mf76 leaves out."""
+        """The value -B2 of omega2 that (71) leaves out."""
         return -self.B2
 
     @property
     def asymptotes(self) -> tuple[tuple[Real, Real], tuple[Real, Real]]:
         """Unit directions (omega2, omega3) of the asymptotes through -B': the pole's, and that of I^-1 B'."""
         if self.B2 == 0 or self.B3 == 0:
-            raise DomainError("The curve mf72 has asymptotes only if neither B2 nor B3 is zero.")
+            raise DomainError("The curve (67) has asymptotes only if neither B2 nor B3 is zero.")
         size = root((self.I * self.B2) ** 2 + self.B3**2)
         return (fmpq(0), fmpq(1)), (self.I * self.B2 / size, self.B3 / size)
 
@@ -40,18 +40,18 @@ class Hyperbola:
         }
 
     def omega3(self, omega2: Any) -> fmpq:
-        """Return the ordinate omega3 of mf76: B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2))."""
+        """Return the ordinate omega3 of (71): B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2))."""
         w2 = self._off_the_pole(omega2)
         return self.B3 * w2 * (w2 + (2 - self.I) * self.B2) / (self.I * self.B2 * (w2 + self.B2))
 
     def frequencies(self, omega2: Any) -> tuple[Real, fmpq]:
-        """Return k = omega2/B2hat of mf89 and phi of mf77."""
+        """Return k = omega2/B2hat of (84) and phi of (72)."""
         w2 = self._off_the_pole(omega2)
         phi = self.B3 * w2 * (1 - self.I) * (w2 + 2 * self.B2) / (self.I * self.B2 * (w2 + self.B2))
         return w2 / self.B2 * root(self.B2**2 + self.B3**2), phi
 
     def stability(self, omega2: Any) -> fmpq:
-        """Return the nutation frequency squared -p'(omega3), with p the cubic of mf55; see `stable`."""
+        """Return the nutation frequency squared -p'(omega3), with p the cubic of (47); see `stable`."""
         x = self._off_the_pole(omega2) / self.B2 + 1
         tau = self.B3 / self.B2
         even = (1 + tau**2) * x**4 + (1 - self.I) * (2 * tau**2 - 1) * x**2 + tau**2 * (1 - self.I) ** 2
@@ -82,7 +82,7 @@ class Hyperbola:
     def _off_the_pole(self, omega2: Any) -> fmpq:
         w2 = rational(omega2, "omega2")
         if self.B2 == 0:
-            raise DomainError("With B2 = 0 the hyperbola mf72 is the axis omega2 = 0, and omega3 is free on it.")
+            raise DomainError("With B2 = 0 the hyperbola (67) is the axis omega2 = 0, and omega3 is free on it.")
         if w2 + self.B2 == 0:
-            raise DomainError(f"omega2 = -B2 = {float_text(w2)} is the pole of omega3(omega2), mf76.")
+            raise DomainError(f"omega2 = -B2 = {float_text(w2)} is the pole of omega3(omega2), (71).")
         return w2

@@ -1,4 +1,4 @@
-"""The charged particle in constant fields (mf1, mf5, mf10) as balls, for any E, B and sign of mu."""
+"""The charged particle in constant fields (89), (93), (98) as balls, for any E, B and sign of mu."""
 
 from typing import Any, TypeAlias
 
@@ -25,12 +25,12 @@ class ParticleMotion:
 
     @property
     def cyclotron_frequency(self) -> Real:
-        """The frequency omega = mu |B|/c of mf9, with the sign of mu."""
+        """The frequency omega = mu |B|/c of (97), with the sign of mu."""
         return -root(self._w2) if self.mu < 0 else root(self._w2)
 
     @property
     def drift(self) -> Vector:
-        """The drift velocity c [E, B]/B^2 of mf6, whatever the sign of mu."""
+        """The drift velocity c [E, B]/B^2 of (94), whatever the sign of mu."""
         self._needs_field("drift")
         return tuple(self.c * x / _dot(self.B, self.B) for x in _cross(self.E, self.B))
 
@@ -42,23 +42,23 @@ class ParticleMotion:
 
     @property
     def radius(self) -> Real:
-        """The radius a of mf9: that of the circle around the drifting centre."""
+        """The radius a of (97): that of the circle around the drifting centre."""
         self._needs_field("radius")
         _, _, _, q = self._vectors()
         return root(_dot(q, q) / self._w2)
 
     def guiding_centre(self, t: Any) -> list[fmpq]:
-        """Return the point O(t) of mf11 about which the particle circles, carried along B with it."""
+        """Return the point O(t) of (99) about which the particle circles, carried along B with it."""
         self._needs_field("guiding centre")
         t = rational(t, "the time")
         terms = zip(self.start, *self._vectors(), strict=True)
         return [y - r + d * t + p * t**2 / 2 for y, d, p, r, _ in terms]
 
     def position(self, t: Any) -> list[Real]:
-        """Return y(t), mf10 with the constants of the given start: y0 + d t + p t^2/2 + (c - 1) r + s q.
+        """Return y(t), (98) with the constants of the given start: y0 + d t + p t^2/2 + (c - 1) r + s q.
 
         Here w = mu B/c, s = sin(|w| t)/|w| and c = cos(|w| t); the vectors are rational, so that what vanishes (a
-        drift at the right speed, say) does so exactly. Without a field it is the parabola that mf2 gives.
+        drift at the right speed, say) does so exactly. Without a field it is the parabola that (90) gives.
         """
         t = rational(t, "the time")
         if self._w2 == 0:
@@ -68,7 +68,7 @@ class ParticleMotion:
         return [y + d * t + p * t**2 / 2 + (c - 1) * r + s * q for y, d, p, r, q in terms]
 
     def velocity(self, t: Any) -> list[Real]:
-        """Return v(t), the derivative of mf10: v0 + p t - w^2 s r + (c - 1) q in the letters of `position`.
+        """Return v(t), the derivative of (98): v0 + p t - w^2 s r + (c - 1) q in the letters of `position`.
 
         Since d + q = v0, a component that is 0 at the start is exactly 0 there.
         """

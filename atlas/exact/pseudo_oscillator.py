@@ -1,4 +1,4 @@
-"""The cubic pseudo-oscillator of Omega3 (mf44 to mf57), for any initial angular velocity, exactly: all is rational."""
+"""The cubic pseudo-oscillator of Omega3 (36) to (49), for any initial angular velocity, exactly: all is rational."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ class PseudoOscillator:
 
     @property
     def integrals(self) -> dict[str, fmpq]:
-        """The integrals E' (mf44), K^2 (mf45), c3 (mf48) and c5 (mf49)."""
+        """The integrals E' (36), K^2 (37), c3 (40) and c5 (41)."""
         w1, w2, w3 = self.omega
         c3 = w3 + self.B3
         return {
@@ -30,7 +30,7 @@ class PseudoOscillator:
 
     @property
     def coefficients(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
-        """a0..a3 of mf56, with ``I - (2-I)^2`` in a1 where the paper prints ``I - (2-1)^2``."""
+        """a0..a3 of (48), with ``I - (2-I)^2`` in a1 where the paper prints ``I - (2-1)^2``."""
         I = self.I
         E, b2, c3, c5 = self.integrals.values()
         return (
@@ -41,7 +41,7 @@ class PseudoOscillator:
         )
 
     def acceleration(self, u: Any) -> fmpq:
-        """Return the second derivative of Omega3 where Omega3 = u, mf55."""
+        """Return the second derivative of Omega3 where Omega3 = u, (47)."""
         u = rational(u, "Omega3")
         a0, a1, a2, a3 = self.coefficients
         return a0 + u * (a1 + u * (a2 + u * a3))
@@ -60,7 +60,7 @@ class PseudoOscillator:
         )
 
     def quartic(self, u: Any) -> fmpq:
-        """Return (dOmega3/dt)^2 where Omega3 = u: the first integral of mf55."""
+        """Return (dOmega3/dt)^2 where Omega3 = u: the first integral of (47)."""
         u = rational(u, "Omega3")
         E, b2, c3, c5 = self.integrals.values()
         return (E - self.I * u**2) * (b2 - (c3 - u) ** 2) - (u**2 - (2 - self.I) * c3 * u + c5) ** 2

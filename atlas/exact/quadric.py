@@ -1,4 +1,4 @@
-"""The quadric of initial data (mf58 to mf63) as balls."""
+"""The quadric of initial data (51) to (57) as balls."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from atlas.exact.inputs import Real, rationals, root
 
 
 class Quadric:
-    """The surface mf58 for I = I3/I2 and the field (B2, B3), with its canonical form mf60."""
+    """The surface (51) for I = I3/I2 and the field (B2, B3), with its canonical form (54)."""
 
     def __init__(self, ratio: Any, field: Any) -> None:
         self.I = ratio_of(ratio)
@@ -18,7 +18,7 @@ class Quadric:
 
     @property
     def kind(self) -> str:
-        """What surface mf58.1 is, decided on the inputs as given."""
+        """What surface (50) is, decided on the inputs as given."""
         if self.B2 == 0:
             return "all space" if self.B3 == 0 else "line"
         if self.B3 == 0:
@@ -29,14 +29,14 @@ class Quadric:
 
     @property
     def sin_beta(self) -> Real:
-        """The sine of beta, which mf60 is written in."""
+        """The sine of beta, which (54) is written in."""
         if self.B2 == 0 and self.B3 == 0:
             raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
         return self.B3 / root(self.B3**2 + (self.I * self.B2) ** 2)
 
     @property
     def beta(self) -> Real:
-        """The angle from e2 to I^-1 B', mf61a: tan beta = B3/(I B2)."""
+        """The angle from e2 to I^-1 B', (53): tan beta = B3/(I B2)."""
         if self.B2 == 0 and self.B3 == 0:
             raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
         if self.B3 == 0 and self.B2 > 0:
@@ -45,21 +45,21 @@ class Quadric:
 
     @property
     def a2(self) -> Real:
-        """2 sin(beta)/(1 - sin(beta)), mf60."""
+        """2 sin(beta)/(1 - sin(beta)), (54)."""
         if self.B2 == 0 and self.B3 > 0:
-            raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of mf60 is infinite.")
+            raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
         return 2 * self.sin_beta / (1 - self.sin_beta)
 
     @property
     def a3(self) -> Real:
-        """2 sin(beta)/(1 + sin(beta)), mf60."""
+        """2 sin(beta)/(1 + sin(beta)), (54)."""
         if self.B2 == 0 and self.B3 < 0:
-            raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of mf60 is infinite.")
+            raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
         return 2 * self.sin_beta / (1 + self.sin_beta)
 
     @property
     def semi_axes(self) -> tuple[Real, Real, Real]:
-        """C1, C2, C3 of mf61b and mf63: the roots of |1-I| B2^2 (1, |a2|, |a3|)."""
+        """C1, C2, C3 of (55) and (57): the roots of |1-I| B2^2 (1, |a2|, |a3|)."""
         size = abs(1 - self.I) * self.B2**2
         if size == 0:
             return fmpq(0), fmpq(0), fmpq(0)
@@ -72,7 +72,7 @@ class Quadric:
 
     @property
     def axes(self) -> list[list[Real]]:
-        """The directions of omega'_1..3 as rows, mf61a: the angle beta/2 + pi/4 in the plane (e2, e3)."""
+        """The directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3)."""
         s, c = self._angle()
         zero, one = fmpq(0), fmpq(1)
         return [[one, zero, zero], [zero, c, s], [zero, -s, c]]
@@ -87,13 +87,13 @@ class Quadric:
         return s, c
 
     def residual(self, omega: Any) -> fmpq:
-        """Return the left-hand side of mf58.1 at a point."""
+        """Return the left-hand side of (50) at a point."""
         w1, w2, w3 = rationals(omega, "omega", 3)
         I, B2, B3 = self.I, self.B2, self.B3
         return B3 * (w1**2 + w2**2) - I * B2 * w2 * w3 + (2 - I) * B2 * B3 * w2 - I * B2**2 * w3
 
     def canonical(self, omega: Any) -> list[Real]:
-        """Return the coordinates omega'_1..3 of a point, mf61a."""
+        """Return the coordinates omega'_1..3 of a point, (53)."""
         w1, w2, w3 = rationals(omega, "omega", 3)
         shifted = (w1, w2 + self.B2, w3 + self.B3)
         return [sum((a * x for a, x in zip(axis, shifted, strict=True)), fmpq(0)) for axis in self.axes]

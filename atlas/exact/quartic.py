@@ -4,7 +4,7 @@ With u = Omega3, M3 = I c3 and p = (M, K)/b, in units of I2,
 
     Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2,
 
-of which mf55 is half the derivative. Its coefficients are rational for rational inputs, so that a multiple root is
+of which (47) is half the derivative. Its coefficients are rational for rational inputs, so that a multiple root is
 known exactly and not to within a tolerance.
 """
 

@@ -1,6 +1,6 @@
 """The Euler-Poisson equations of a symmetric body by Taylor series in balls: an oracle that knows no elliptic function.
 
-Of mf21 and mf46, with K = R^T B',
+Of (12) and (38), with K = R^T B',
 
     dOmega1/dt = Omega2 [(1-I) Omega3 + (2-I) K3] - I Omega3 K2,    dOmega3/dt = Omega1 K2 - Omega2 K1,
     dOmega2/dt = I Omega3 K1 - Omega1 [(1-I) Omega3 + (2-I) K3],    dR_i/dt = [R_i, Omega]  (R_i: rows of R).

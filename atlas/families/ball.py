@@ -1,4 +1,4 @@
-"""The charged ball, mf30 to mf40."""
+"""The charged ball, (20) to (30)."""
 
 from typing import Any
 
@@ -34,22 +34,22 @@ FAMILY = Family(
         ),
     ),
     (
-        Quantity("gamma", "frequency of the turn about k_hat", RATE, "mf39", judged="ball gamma", certified=True),
+        Quantity("gamma", "frequency of the turn about k_hat", RATE, "(29)", judged="ball gamma", certified=True),
         Quantity(
-            "k_hat", "its axis", "", "mf39", columns=("k2", "k3"), text=lambda parts: in_brackets(("0", *parts)),
+            "k_hat", "its axis", "", "(29)", columns=("k2", "k3"), text=lambda parts: in_brackets(("0", *parts)),
             judged="ball k_hat", certified=True,
         ),
     ),
     (
-        rotation("mf38", "ball R"),
-        Sampled("m", "angular_momentum", "angular momentum", MOMENT, "mf36", judged="ball m"),
+        rotation("(28)", "ball R"),
+        Sampled("m", "angular_momentum", "angular momentum", MOMENT, "(26)", judged="ball m"),
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, judged="ball Omega", printed=False),
     ),
     {"ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8},
     Command(
         "ball",
-        "Rotate a charged ball (mf36 to mf39).",
-        "General motion of a charged ball: R(t) and m(t) (mf36 to mf39).",
+        "Rotate a charged ball (26) to (29).",
+        "General motion of a charged ball: R(t) and m(t) (26) to (29).",
         ("atlas ball --larmor 0.5 --momentum 0.3 -0.7 --times 0 1 10",),
         "charged ball, B along e3",
     ),

@@ -1,4 +1,4 @@
-"""The motions of a charged symmetric body in elementary functions, mf64 to mf93."""
+"""The motions of a charged symmetric body in elementary functions, (58) to (88)."""
 
 from typing import Any
 
@@ -61,23 +61,23 @@ FAMILY = Family(
         FIELD,
         Parameter("omega2", "Second component of the initial angular velocity.", RATE, (0.7,), (-3.0, 3.0)),
         Parameter(
-            "omega3", "Third component, where mf76 leaves it free (B = 0, B2 = 0, the pole).", RATE, (), (-3.0, 3.0),
+            "omega3", "Third component, where (71) leaves it free (B = 0, B2 = 0, the pole).", RATE, (), (-3.0, 3.0),
             needed=False,
         ),
     ),
     (
         Quantity("case", "name of the case"),
         Quantity(
-            "omega3", OMEGA3, RATE, "mf76", dict.fromkeys(("free body", *FREE_SPIN), (OMEGA3, "given")),
+            "omega3", OMEGA3, RATE, "(71)", dict.fromkeys(("free body", *FREE_SPIN), (OMEGA3, "given")),
             judged="omega3", certified=True,
         ),
         Quantity(
-            "k", PRECESSION, RATE, "mf84",
-            {"free body": (PRECESSION.replace("B", "m"), "mf92")} | dict.fromkeys(FREE_SPIN, (PRECESSION, "")),
+            "k", PRECESSION, RATE, "(79)",
+            {"free body": (PRECESSION.replace("B", "m"), "(87)")} | dict.fromkeys(FREE_SPIN, (PRECESSION, "")),
             judged="k", certified=True,
         ),
         Quantity(
-            "phi", PROPER, RATE, "mf77", {"free body": (PROPER, "mf92")} | dict.fromkeys(FREE_SPIN, (PROPER, "")),
+            "phi", PROPER, RATE, "(72)", {"free body": (PROPER, "(87)")} | dict.fromkeys(FREE_SPIN, (PROPER, "")),
             judged="phi", certified=True,
         ),
         Quantity(
@@ -90,10 +90,10 @@ FAMILY = Family(
         ),
     ),
     (
-        rotation("mf89", "R"),
-        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "mf78", judged="Omega"),
-        Sampled("K", "field_in_body", "field B' in the body", RATE, "mf41", judged="K", printed=False),
-        Sampled("m", "angular_momentum", "angular momentum over I2", RATE, "mf93", "m_i/I2", judged="m"),
+        rotation("(84)", "R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "(73)", judged="Omega"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, "(32)", judged="K", printed=False),
+        Sampled("m", "angular_momentum", "angular momentum over I2", RATE, "(88)", "m_i/I2", judged="m"),
     ),
     {
         "R": 4, "R at one time": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R(0) = 1": 0,
@@ -103,7 +103,7 @@ FAMILY = Family(
     Command(
         "motion",
         "Compute an elementary motion.",
-        "Frequencies, rotation matrix R(t) and angular velocity of an elementary motion (mf76 to mf90).",
+        "Frequencies, rotation matrix R(t) and angular velocity of an elementary motion (71) to (85).",
         (
             "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 2.5 --json",
             "atlas motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 1e6 --digits 50",

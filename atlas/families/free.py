@@ -1,4 +1,4 @@
-"""The free symmetric body beside the charged one, mf92."""
+"""The free symmetric body beside the charged one, (87)."""
 
 from typing import Any
 
@@ -25,11 +25,11 @@ FAMILY = Family(
     _balls,
     (RATIO, OMEGA),
     (
-        Quantity("k", "frequency of precession about m", RATE, "mf92", judged="free k", certified=True),
-        Quantity("phi", "frequency of proper rotation", RATE, "mf92", judged="free phi", certified=True),
+        Quantity("k", "frequency of precession about m", RATE, "(87)", judged="free k", certified=True),
+        Quantity("phi", "frequency of proper rotation", RATE, "(87)", judged="free phi", certified=True),
     ),
     (
-        rotation("mf92", "free R"),
+        rotation("(87)", "free R"),
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, judged="free Omega"),
     ),
     {"free R": 4, "free k": 4, "free phi": 4, "free Omega": 8},

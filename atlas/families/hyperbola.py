@@ -1,4 +1,4 @@
-"""The hyperbola of elementary motions, mf72 to mf77."""
+"""The hyperbola of elementary motions, (67) to (72)."""
 
 from typing import Any
 
@@ -25,7 +25,7 @@ FAMILY = Family(
     _balls,
     (RATIO, FIELD),
     (
-        Quantity("pole", "pole of omega3(omega2)", RATE, "mf76", symbol="-B2", tabled=False),
+        Quantity("pole", "pole of omega3(omega2)", RATE, "(71)", symbol="-B2", tabled=False),
         Quantity(
             "unstable_band", "((omega2 + B2)/B2)^2 where the motion is unstable", symbol="y", text=" to ".join,
             tabled=False,

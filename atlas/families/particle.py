@@ -1,4 +1,4 @@
-"""A charged point particle in constant E and B, mf1 to mf11."""
+"""A charged point particle in constant E and B, (89) to (99)."""
 
 from typing import Any
 
@@ -51,23 +51,23 @@ FAMILY = Family(
             "cyclotron_frequency",
             "cyclotron frequency mu |B|/c, with the sign of mu",
             RATE,
-            "mf9",
+            "(97)",
             symbol="omega",
             certified=True,
         ),
         Quantity(
-            "radius", "radius of the circle about the drifting centre", "length", "mf9", printed=False, certified=True
+            "radius", "radius of the circle about the drifting centre", "length", "(97)", printed=False, certified=True
         ),
-        Quantity("drift", "c [E, B]/B^2", SPEED, "mf6", get=_drift, text=in_brackets, tabled=False),
+        Quantity("drift", "c [E, B]/B^2", SPEED, "(94)", get=_drift, text=in_brackets, tabled=False),
     ),
     (
-        Sampled("position", "position", "position", "length", "mf10.2", "y_i", judged="particle y"),
-        Sampled("velocity", "velocity", "velocity", SPEED, "mf2", "v_i", judged="particle v"),
+        Sampled("position", "position", "position", "length", "(101)", "y_i", judged="particle y"),
+        Sampled("velocity", "velocity", "velocity", SPEED, "(90)", "v_i", judged="particle v"),
     ),
     command=Command(
         "particle",
         "Move a point charge.",
-        "Position and velocity of a point charge in any constant E and B (mf5 to mf11).",
+        "Position and velocity of a point charge in any constant E and B (93) to (99).",
         ("atlas particle --mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1 2",),
         "point charge in constant fields",
     ),

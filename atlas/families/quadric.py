@@ -1,4 +1,4 @@
-"""The quadric of initial data with constant Omega3, mf58 to mf63."""
+"""The quadric of initial data with constant Omega3, (51) to (57)."""
 
 from typing import Any
 
@@ -26,17 +26,17 @@ FAMILY = Family(
     (RATIO, FIELD),
     (
         Quantity("kind", "name of the surface"),
-        Quantity("beta", "angle from e2 to I^-1 B'", "rad", "mf61a", judged="beta", certified=True),
-        Quantity("a2", "2 sin(beta)/(1 - sin(beta))", "", "mf60", judged="a2", certified=True),
-        Quantity("a3", "2 sin(beta)/(1 + sin(beta))", "", "mf60", judged="a3", certified=True),
+        Quantity("beta", "angle from e2 to I^-1 B'", "rad", "(53)", judged="beta", certified=True),
+        Quantity("a2", "2 sin(beta)/(1 - sin(beta))", "", "(54)", judged="a2", certified=True),
+        Quantity("a3", "2 sin(beta)/(1 + sin(beta))", "", "(54)", judged="a3", certified=True),
         Quantity(
-            "semi_axes", "semi-axes along omega'_1..3", RATE, "mf61b, mf63", columns=("C1", "C2", "C3"),
+            "semi_axes", "semi-axes along omega'_1..3", RATE, "(55), (57)", columns=("C1", "C2", "C3"),
             lines=tuple((f"C{i}", f"semi-axis along omega'_{i}") for i in (1, 2, 3)), judged="semi-axes",
             certified=True,
         ),
-        Quantity("centre", "-B', the centre", RATE, "mf58", text=in_brackets, tabled=False),
+        Quantity("centre", "-B', the centre", RATE, "(51)", text=in_brackets, tabled=False),
         Quantity(
-            "axes", "canonical axes", "", "mf61a", text=in_brackets,
+            "axes", "canonical axes", "", "(53)", text=in_brackets,
             lines=tuple((f"e'_{i}", "canonical axis") for i in (1, 2, 3)), judged="canonical axes", tabled=False,
         ),
     ),

@@ -1,4 +1,4 @@
-r"""The ledger: the labelled equations of the paper, the claims that it makes in words, and our own theorems.
+r"""The ledger: the equations of the paper, the claims that it makes in words, and our own theorems.
 
 The paper: A. A. Deriglazov, *Rotation matrix of a charged symmetrical body: one-parameter family of solutions in
 elementary functions*, arXiv 2403.12089, Universe 2024, 10(6), 250. One file holds one topic, in the paper's order.
@@ -8,11 +8,10 @@ The numbers are those that LaTeX prints: a row of `eqnarray` that ends in `\\` o
 unless it says `\nonumber`; a row that ends in the primitive `\cr` takes none.
 """
 
-import re
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from atlas.errors import unknown
+from atlas.errors import AtlasError, unknown
 from atlas.paper import (
     ball,
     clebsch,
@@ -28,33 +27,51 @@ from atlas.paper import (
     separatrix,
     theorems,
 )
-from atlas.paper.equation import Equation, Kind, Section
+from atlas.paper.equation import Equation, Kind, Section, slug
 
-__all__ = ["EQUATIONS", "LABEL", "Equation", "Kind", "Section", "equation", "topic"]
+__all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "find", "topic"]
 
 _FILES = (
     *(lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle),
     *(theorems, clebsch, general, separatrix, closed),
 )
 
-_TOPICS = {entry.label: file.__name__.rpartition(".")[2] for file in _FILES for entry in file.EQUATIONS}
+_TOPICS = {entry.name: file.__name__.rpartition(".")[2] for file in _FILES for entry in file.EQUATIONS}
 
-EQUATIONS: Mapping[str, Equation] = MappingProxyType(
-    {entry.label: entry for file in _FILES for entry in file.EQUATIONS}
-)
+EQUATIONS: Mapping[str, Equation] = MappingProxyType({entry.name: entry for file in _FILES for entry in file.EQUATIONS})
+"""The entries by name: "(72)" for what has a number in print."""
 
-
-LABEL = re.compile(r"(?<![@\w-])(?:mf\d+(?:\.\d+)?[ab]?|The\.1|Aff100|(?:text|theorem)(?:-[a-z0-9]+)+)\b")
-"""A label where a docstring or a caption names it; those that are numbers, such as 1.6, can't be told from numbers."""
-
-
-def equation(label: str) -> Equation:
-    """Return the equation with that label; AtlasError with the nearest label if there is none."""
-    if label not in EQUATIONS:
-        raise unknown("equation", label, EQUATIONS, "in the ledger")
-    return EQUATIONS[label]
+_ALIASES = {
+    alias: tuple(entry for entry in EQUATIONS.values() if entry.alias == alias)
+    for alias in {entry.alias: None for entry in EQUATIONS.values() if entry.alias}
+}
+_NUMBERS = [entry.number for entry in EQUATIONS.values() if entry.number is not None]
 
 
-def topic(label: str) -> str:
+def find(word: str) -> tuple[Equation, ...]:
+    """Return the entries that a user means by 72, (72), a name, or a LaTeX label of the paper's source.
+
+    It is one, but for a label that stands twice in the source. AtlasError with the nearest name if there is none.
+    """
+    number = slug(word)
+    name = f"({number})" if number.isdecimal() else word
+    found = (EQUATIONS[name],) if name in EQUATIONS else _ALIASES.get(name, ())
+    if not found and number.isdecimal():
+        near = min(_NUMBERS, key=lambda known: abs(known - int(number)))
+        raise AtlasError(f"there is no equation ({number}) in the ledger; the nearest is ({near}).")
+    if not found:
+        raise unknown("equation", word, [*EQUATIONS, *_ALIASES], "in the ledger")
+    return found
+
+
+def equation(word: str) -> Equation:
+    """Return the one entry that is meant, as `find` does; AtlasError if it is one of two with the same label."""
+    found = find(word)
+    if len(found) > 1:
+        raise AtlasError(f"{word} is the label of {' and of '.join(entry.name for entry in found)}: say which.")
+    return found[0]
+
+
+def topic(name: str) -> str:
     """Return the topic of an equation: the stem of its file here, and of the files about it on the other floors."""
-    return _TOPICS[equation(label).label]
+    return _TOPICS[equation(name).name]

@@ -1,11 +1,10 @@
-"""Section III: the charged ball, mf30.0 to mf40."""
+"""Section III: the charged ball, (19) to (30)."""
 
 from atlas.paper.equation import Equation
 
 EQUATIONS = (
     Equation(
-        label="text-momentum",
-        number=None,
+        name="text-momentum",
         section="III",
         kind="claim",
         says=(
@@ -20,16 +19,15 @@ EQUATIONS = (
         assumptions=("$R(t)$ is a rotation", "$g$ is diagonal"),
     ),
     Equation(
-        label="mf30.0",
-        number=19,
+        name="(19)",
+        alias="mf30.0",
         section="III",
         kind="definition",
         says="A totally symmetric body: the ball",
         tex=r"I_1=I_2=I_3\equiv I_0",
     ),
     Equation(
-        label="text-ball-axis",
-        number=None,
+        name="text-ball-axis",
         section="III",
         kind="claim",
         says="The angular momentum of a ball lies along its axis of rotation",
@@ -41,8 +39,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf30",
-        number=20,
+        name="(20)",
+        alias="mf30",
         section="III",
         kind="derivation step",
         says="Poisson equations of the ball",
@@ -50,8 +48,8 @@ EQUATIONS = (
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
-        label="mf31",
-        number=21,
+        name="(21)",
+        alias="mf31",
         section="III",
         kind="derivation step",
         says="Euler equations of the ball",
@@ -59,8 +57,8 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
-        label="mf32",
-        number=22,
+        name="(22)",
+        alias="mf32",
         section="III",
         kind="derivation step",
         says=r"The angular momentum of the ball precesses about $\mathbf{B}$",
@@ -68,8 +66,8 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
-        label="mf33",
-        number=23,
+        name="(23)",
+        alias="mf33",
         section="III",
         kind="derivation step",
         says=r"Length of the angular momentum and its projection on $\mathbf{B}$ are conserved",
@@ -77,8 +75,7 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
-        label="text-ball-body-precession",
-        number=None,
+        name="text-ball-body-precession",
         section="III",
         kind="claim",
         says=(
@@ -93,23 +90,21 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-ball-equivalent",
-        number=None,
+        name="text-ball-equivalent",
         section="III",
         kind="claim",
-        says=r"With $\mathbf{m}$ in the place of $\boldsymbol{\Omega}$ the Euler equations @mf31 are @mf32, and the "
+        says=r"With $\mathbf{m}$ in the place of $\boldsymbol{\Omega}$ the Euler equations @(21) are @(22), and the "
         "other way round",
         tex=(
             r"\boldsymbol{\Omega}=\frac{1}{I_0}R^T\mathbf{m}:\qquad\dot{\boldsymbol{\Omega}}+\frac{\mu}{2c}[R^T"
             r"\mathbf{B},\boldsymbol{\Omega}]=\frac{1}{I_0}R^T\Bigl\{\dot{\mathbf{m}}+\frac{\mu}{2c}[\mathbf{B},"
             r"\mathbf{m}]\Bigr\}"
         ),
-        assumptions=("$I_1 = I_2 = I_3$", "@mf30, $R(t)$ is a rotation"),
+        assumptions=("$I_1 = I_2 = I_3$", "@(20), $R(t)$ is a rotation"),
         quote="So the system (20), (21) is equivalent to",
     ),
     Equation(
-        label="text-linear-poisson",
-        number=None,
+        name="text-linear-poisson",
         section="III",
         kind="claim",
         says=(
@@ -121,8 +116,8 @@ EQUATIONS = (
         quote="have the same solutions in the set of orthogonal matrices",
     ),
     Equation(
-        label="mf34",
-        number=24,
+        name="(24)",
+        alias="mf34",
         section="III",
         kind="derivation step",
         says="Poisson equations of the ball, linear in $R$",
@@ -133,8 +128,8 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$", "$R(t)$ is a rotation"),
     ),
     Equation(
-        label="mf35",
-        number=25,
+        name="(25)",
+        alias="mf35",
         section="III",
         kind="derivation step",
         says="Rate of the angular momentum of the ball",
@@ -142,8 +137,7 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
-        label="text-ball-frame",
-        number=None,
+        name="text-ball-frame",
         section="III",
         kind="claim",
         says="For a ball the axes of the laboratory may be chosen freely: the inertia tensor stays diagonal",
@@ -155,8 +149,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf36",
-        number=26,
+        name="(26)",
+        alias="mf36",
         section="III",
         kind="claim",
         says="Angular momentum of the ball at any time",
@@ -171,19 +165,18 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf37",
-        number=27,
+        name="(27)",
+        alias="mf37",
         section="III",
         kind="definition",
         says="Larmor frequency",
         tex=r"\alpha=\frac{\mu\lvert \mathbf{B}\rvert}{2c}",
     ),
     Equation(
-        label="text-ball-ansatz",
-        number=None,
+        name="text-ball-ansatz",
         section="III",
         kind="claim",
-        says=r"At $t = 0$ the ansatz @mf38 fixes $\hat{\mathbf{k}}$ and $\gamma$",
+        says=r"At $t = 0$ the ansatz @(28) fixes $\hat{\mathbf{k}}$ and $\gamma$",
         tex=(
             r"\hat{k}_2=-\frac{m_2}{\gamma I_0},\qquad\hat{k}_3=-\frac{\alpha I_0+m_3}{\gamma I_0},\qquad I_0^2"
             r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2"
@@ -191,8 +184,8 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
-        label="mf38",
-        number=28,
+        name="(28)",
+        alias="mf38",
         section="III",
         kind="claim",
         says="Rotation matrix of the ball: two rotations",
@@ -213,12 +206,12 @@ EQUATIONS = (
         assumptions=(
             "$I_1 = I_2 = I_3$",
             r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{m}(0)$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",
-            r"$\hat{\mathbf{k}}$ and $\gamma$ of @mf39",
+            r"$\hat{\mathbf{k}}$ and $\gamma$ of @(29)",
         ),
     ),
     Equation(
-        label="mf39",
-        number=29,
+        name="(29)",
+        alias="mf39",
         section="III",
         kind="claim",
         says="Axis and frequency of the second rotation of the ball",
@@ -229,8 +222,7 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$",),
     ),
     Equation(
-        label="text-ball-two-rotations",
-        number=None,
+        name="text-ball-two-rotations",
         section="III",
         kind="claim",
         says=r"The motion of the ball is a rotation about $\hat{\mathbf{k}}$ by $-\gamma t$, then one "
@@ -241,8 +233,7 @@ EQUATIONS = (
         quote="The total motion can be thought as a superposition of two rotations",
     ),
     Equation(
-        label="text-ball-parallel",
-        number=None,
+        name="text-ball-parallel",
         section="III",
         kind="claim",
         says=r"A ball launched along $\mathbf{B}$: $\hat{\mathbf{k}} = (0, 0, -1)$ and $\gamma = \alpha + m_3/I_0$",
@@ -250,8 +241,8 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$", r"$\mathbf{m}(0)$ and $\mathbf{B}$ parallel in the same sense"),
     ),
     Equation(
-        label="mf40",
-        number=30,
+        name="(30)",
+        alias="mf40",
         section="III",
         kind="claim",
         says=r"A ball launched along $\mathbf{B}$ turns about $\mathbf{B}$ steadily",

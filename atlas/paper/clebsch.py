@@ -13,19 +13,17 @@ _AXES = (
 
 EQUATIONS = (
     Equation(
-        label="theorem-larmor-frame",
-        number=None,
+        name="theorem-larmor-frame",
         section="Atlas",
         kind="theorem",
         says=r"$S = R_B(bt) R$ is the body seen from the frame that turns with $-\mathbf{B}'$, where it has the spin "
         r"$\boldsymbol{\Omega} + \mathbf{K}$",
         tex=r"S=R_{\hat{\mathbf{B}}}(bt)R,\qquad \dot S_{ij}=-\varepsilon_{jab}(\boldsymbol{\Omega}+\mathbf{K})_aS_{ib}"
         r",\qquad \mathbf{K}=S^T\mathbf{B}'",
-        assumptions=("@mf21", r"$b = |\mathbf{B}'|$"),
+        assumptions=("@(12)", r"$b = |\mathbf{B}'|$"),
     ),
     Equation(
-        label="theorem-larmor",
-        number=None,
+        name="theorem-larmor",
         section="Atlas",
         kind="theorem",
         says="Seen from that frame a body of any inertia tensor carries no charge and feels the potential "
@@ -35,8 +33,7 @@ EQUATIONS = (
         assumptions=_ANY,
     ),
     Equation(
-        label="theorem-momentum-canonical",
-        number=None,
+        name="theorem-momentum-canonical",
         section="Atlas",
         kind="theorem",
         says=r"$\mathbf{M} = J (\boldsymbol{\Omega} + \mathbf{K})$ is the canonical momentum, and the kinetic energy "
@@ -47,8 +44,7 @@ EQUATIONS = (
         assumptions=_ANY,
     ),
     Equation(
-        label="theorem-lie-poisson",
-        number=None,
+        name="theorem-lie-poisson",
         section="Atlas",
         kind="theorem",
         says="The Lie–Poisson equations of $e(3)$: Kirchhoff's equations of a body in a fluid",
@@ -59,8 +55,7 @@ EQUATIONS = (
         assumptions=_AXES,
     ),
     Equation(
-        label="theorem-bracket",
-        number=None,
+        name="theorem-bracket",
         section="Atlas",
         kind="theorem",
         says=r"The bracket of $e(3)$ obeys Jacobi's identity, and $\mathbf{K}^2$ and $(\mathbf{M}, \mathbf{K})$ "
@@ -69,8 +64,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{M}$, $\mathbf{K}$ any vectors",),
     ),
     Equation(
-        label="theorem-kinetic-energy",
-        number=None,
+        name="theorem-kinetic-energy",
         section="Atlas",
         kind="theorem",
         says=r"The kinetic energy is $H$ less the Casimir $(\mathbf{M}, \mathbf{K})$",
@@ -78,8 +72,7 @@ EQUATIONS = (
         assumptions=_ANY,
     ),
     Equation(
-        label="theorem-clebsch",
-        number=None,
+        name="theorem-clebsch",
         section="Atlas",
         kind="theorem",
         says="Clebsch's integral: a charged body of any inertia tensor in a homogeneous field is integrable",
@@ -87,8 +80,7 @@ EQUATIONS = (
         assumptions=_ANY,
     ),
     Equation(
-        label="theorem-involution",
-        number=None,
+        name="theorem-involution",
         section="Atlas",
         kind="theorem",
         says="$H$ and $F$ are in involution, and with the Casimirs independent if the three moments differ",
@@ -97,8 +89,7 @@ EQUATIONS = (
         assumptions=(*_AXES, "$I_1$, $I_2$, $I_3$ all different, for the rank"),
     ),
     Equation(
-        label="theorem-clebsch-symmetric",
-        number=None,
+        name="theorem-clebsch-symmetric",
         section="Atlas",
         kind="theorem",
         says=r"For $I_1 = I_2$ the integral $F$ is $H$, the square of $M_3 = I_3 c_3$, and $\mathbf{K}^2$",
@@ -110,14 +101,13 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-pair",
-        number=None,
+        name="theorem-pair",
         section="Atlas",
         kind="theorem",
         says=r"$\boldsymbol{\omega}$ and $-2 \mathbf{B}' - \boldsymbol{\omega}$ are one initial spin in Larmor's "
         "frame, run in opposite senses of time",
         tex=r"\tilde{\boldsymbol{\Omega}}(t)=-2\mathbf{K}(-t)-\boldsymbol{\Omega}(-t),\qquad\tilde R(t)=R_{\hat{\mathbf"
         r"{B}}}(-2bt)R(-t)",
-        assumptions=("$J$ any inertia tensor in the body", r"@mf21 and @mf27 for $R$, $\boldsymbol{\Omega}$"),
+        assumptions=("$J$ any inertia tensor in the body", r"@(12) and @(16) for $R$, $\boldsymbol{\Omega}$"),
     ),
 )

@@ -6,8 +6,7 @@ _FIELD = r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$"
 
 EQUATIONS = (
     Equation(
-        label="theorem-closed",
-        number=None,
+        name="theorem-closed",
         section="Atlas",
         kind="theorem",
         says=r"One elementary motion, and no other, has $\phi/k = \varrho$, for every $\varrho$ but two",
@@ -23,8 +22,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-closed-free",
-        number=None,
+        name="theorem-closed-free",
         section="Atlas",
         kind="theorem",
         says="What the field does to the proper rotation at the same precession depends on $k$ alone",
@@ -32,7 +30,7 @@ EQUATIONS = (
         assumptions=(
             _FIELD,
             r"$\omega_2$ differs from $-B'_2$",
-            r"$\phi$ of @mf92 for the same $k$, $I$ differs from 1",
+            r"$\phi$ of @(87) for the same $k$, $I$ differs from 1",
             "$k$ differs from 0, the motion at rest",
         ),
     ),

@@ -1,11 +1,11 @@
-"""Section V, second half: the elementary motion, mf78 to mf93."""
+"""Section V, second half: the elementary motion, (73) to (88)."""
 
 from atlas.paper.equation import Equation
 
 EQUATIONS = (
     Equation(
-        label="mf78",
-        number=73,
+        name="(73)",
+        alias="mf78",
         section="V",
         kind="claim",
         says="Angular velocity of the elementary motion",
@@ -20,8 +20,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-body-precession",
-        number=None,
+        name="text-body-precession",
         section="V",
         kind="claim",
         says="In the body-fixed frame the angular velocity precesses about the third axis with the frequency $\\phi$",
@@ -36,16 +35,16 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf79",
-        number=74,
+        name="(74)",
+        alias="mf79",
         section="V",
         kind="derivation step",
         says="Poisson equations for a row of $R$",
         tex=r"\dot{\boldsymbol{\gamma}}=[\boldsymbol{\gamma}, \boldsymbol{\Omega}(t)]",
     ),
     Equation(
-        label="mf80",
-        number=75,
+        name="(75)",
+        alias="mf80",
         section="V",
         kind="derivation step",
         says="Poisson equations for a row of $R$ in components",
@@ -58,8 +57,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf81",
-        number=76,
+        name="(76)",
+        alias="mf81",
         section="V",
         kind="derivation step",
         says="An integral of the rows",
@@ -70,8 +69,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf82",
-        number=77,
+        name="(77)",
+        alias="mf82",
         section="V",
         kind="derivation step",
         says="One ratio of the components of the field",
@@ -79,8 +78,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="text-row-constants",
-        number=None,
+        name="text-row-constants",
         section="V",
         kind="claim",
         says="The constants $c$ of the three rows",
@@ -88,8 +86,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="mf83",
-        number=78,
+        name="(78)",
+        alias="mf83",
         section="V",
         kind="derivation step",
         says="First two entries of a row through the third",
@@ -101,8 +99,8 @@ EQUATIONS = (
         assumptions=(r"$\omega_2$ differs from 0",),
     ),
     Equation(
-        label="mf84",
-        number=79,
+        name="(79)",
+        alias="mf84",
         section="V",
         kind="derivation step",
         says="The third entry of a row is a harmonic oscillator with frequency $k$",
@@ -116,8 +114,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf85",
-        number=80,
+        name="(80)",
+        alias="mf85",
         section="V",
         kind="derivation step",
         says="General solution for the third entry of a row",
@@ -125,8 +123,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
-        label="mf86",
-        number=81,
+        name="(81)",
+        alias="mf86",
         section="V",
         kind="derivation step",
         says="First two entries of a row at any time",
@@ -141,8 +139,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
-        label="mf87",
-        number=82,
+        name="(82)",
+        alias="mf87",
         section="V",
         kind="derivation step",
         says="A row at $t = 0$",
@@ -156,8 +154,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
-        label="mf88",
-        number=83,
+        name="(83)",
+        alias="mf88",
         section="V",
         kind="derivation step",
         says="The constants of the three rows",
@@ -174,8 +172,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf89",
-        number=84,
+        name="(84)",
+        alias="mf89",
         section="V",
         kind="claim",
         says="Rotation matrix of the elementary motion",
@@ -190,15 +188,14 @@ EQUATIONS = (
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",
-            r"$k = \omega_2/\hat{B}_2$, $\phi$ of @mf77",
+            r"$k = \omega_2/\hat{B}_2$, $\phi$ of @(72)",
         ),
     ),
     Equation(
-        label="text-hidden",
-        number=None,
+        name="text-hidden",
         section="V",
         kind="claim",
-        says=r"Of the moments and of $\mu$ the matrix @mf89 knows only through $\phi$: $k$ does not depend on them",
+        says=r"Of the moments and of $\mu$ the matrix @(84) knows only through $\phi$: $k$ does not depend on them",
         tex=r"""k=\frac{\omega_2\lvert\mathbf{B}\rvert}{B_2}""",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
         quote=(
@@ -207,8 +204,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf90",
-        number=85,
+        name="(85)",
+        alias="mf90",
         section="V",
         kind="claim",
         says=r"The rotation matrix is a proper rotation followed by a precession about $\mathbf{B}$",
@@ -221,11 +218,10 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="text-precession",
-        number=None,
+        name="text-precession",
         section="V",
         kind="claim",
-        says=r"The two factors of @mf90 turn about $\mathbf{B}$ by $kt$ and about $OZ$ by $\phi t$",
+        says=r"The two factors of @(85) turn about $\mathbf{B}$ by $kt$ and about $OZ$ by $\phi t$",
         tex=(
             r"R_{\hat{\mathbf{B}}}(t,k)=\cos kt\,\mathbf{1}+(1-\cos kt)\,\hat{\mathbf{B}}\hat{\mathbf{B}}^T+"
             r"\sin kt\,[\hat{\mathbf{B}},\cdot\,]"
@@ -237,8 +233,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-axis-precesses",
-        number=None,
+        name="text-axis-precesses",
         section="V",
         kind="claim",
         says="The third inertia axis precesses about the field with the frequency $k$",
@@ -253,8 +248,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-ball-limit",
-        number=None,
+        name="text-ball-limit",
         section="V",
         kind="claim",
         says=r"For $I_2 = I_3$ there is no proper rotation: $\phi = 0$",
@@ -266,8 +260,8 @@ EQUATIONS = (
         quote=r"admits the limit of totally symmetric body $I_2=I_3$, this implies $\phi=0$",
     ),
     Equation(
-        label="mf91",
-        number=86,
+        name="(86)",
+        alias="mf91",
         section="V",
         kind="claim",
         says="Relation between the two frequencies",
@@ -281,8 +275,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-free-general",
-        number=None,
+        name="text-free-general",
         section="V",
         kind="claim",
         says=(
@@ -294,8 +287,8 @@ EQUATIONS = (
         quote="the most general motion of a free symmetrical body is the precession without nutation",
     ),
     Equation(
-        label="mf92",
-        number=87,
+        name="(87)",
+        alias="mf92",
         section="V",
         kind="claim",
         says="Proper rotation of the free body beside it",
@@ -303,12 +296,11 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
-        label="text-affirmation-free",
-        number=None,
+        name="text-affirmation-free",
         section="V",
         kind="claim",
         says=(
-            "Affirmation: the matrix @mf89 with the frequency @mf92 is the motion of the free body launched "
+            "Affirmation: the matrix @(84) with the frequency @(87) is the motion of the free body launched "
             r"with $\boldsymbol{\Omega}(0) = (0, \omega_2, I_2 \omega_2 B_3/(I_3 B_2))$"
         ),
         tex=(
@@ -318,8 +310,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
-        label="text-free-frequency",
-        number=None,
+        name="text-free-frequency",
         section="V",
         kind="claim",
         says=r"The free body precesses with $k = |\mathbf{m}|/I_2 = \omega_2/\hat{B}_2$",
@@ -327,8 +318,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
-        label="text-free-proper",
-        number=None,
+        name="text-free-proper",
         section="V",
         kind="claim",
         says="Proper rotation of the free body through its angular momentum",
@@ -336,8 +326,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "no magnetic field"),
     ),
     Equation(
-        label="text-momentum-moves",
-        number=None,
+        name="text-momentum-moves",
         section="V",
         kind="claim",
         says="The components of angular momentum are not conserved in the elementary motion",
@@ -353,8 +342,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-constant-omega3",
-        number=None,
+        name="text-constant-omega3",
         section="V",
         kind="claim",
         says=r"In the elementary motion $\Omega_3(t) = \omega_2 = \text{const}$",
@@ -365,8 +353,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf93",
-        number=88,
+        name="(88)",
+        alias="mf93",
         section="V",
         kind="claim",
         says=r"The projection of the angular momentum on $\mathbf{B}$ is conserved in the elementary motion",
@@ -377,8 +365,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-momentum-plane",
-        number=None,
+        name="text-momentum-plane",
         section="V",
         kind="claim",
         says=r"The angular momentum always lies in the plane orthogonal to $\mathbf{B}$",

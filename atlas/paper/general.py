@@ -8,8 +8,7 @@ _CURVE = r"$q(\nu)$ is the square of the rate of $\nu$, as in @theorem-top"
 
 EQUATIONS = (
     Equation(
-        label="theorem-top",
-        number=None,
+        name="theorem-top",
         section="Atlas",
         kind="theorem",
         says=r"In Larmor's frame: an uncharged symmetric top in the potential $(I_3 - I_2) b^2 \nu^2/2$, $\nu = \cos "
@@ -19,8 +18,7 @@ EQUATIONS = (
         assumptions=(_BODY, _LETTERS, r"$z$ along $\mathbf{B}$, $|\nu| < 1$ for the angles"),
     ),
     Equation(
-        label="theorem-top-quartic",
-        number=None,
+        name="theorem-top-quartic",
         section="Atlas",
         kind="theorem",
         says="The quartic $q$ of the top is the quartic $Q$ of the pseudo-oscillator in other letters",
@@ -28,8 +26,7 @@ EQUATIONS = (
         assumptions=(_BODY, _LETTERS),
     ),
     Equation(
-        label="theorem-weierstrass",
-        number=None,
+        name="theorem-weierstrass",
         section="Atlas",
         kind="theorem",
         says="From a root $e$ of any quartic $Q$ the solution of $du^2 = Q(u)$ in the function of Weierstrass",
@@ -39,8 +36,7 @@ EQUATIONS = (
         assumptions=("$Q = a_0 u^4 + 4 a_1 u^3 + 6 a_2 u^2 + 4 a_3 u + a_4$", "$Q(e) = 0$, $u = e$ at $t = 0$"),
     ),
     Equation(
-        label="theorem-lame",
-        number=None,
+        name="theorem-lame",
         section="Atlas",
         kind="theorem",
         says="Up to a steady turn the Cayley–Klein parameters obey real equations of Lamé's kind, the same for any $p$",
@@ -49,8 +45,7 @@ EQUATIONS = (
         assumptions=(_BODY, _LETTERS, _CURVE, r"$a=\xi\exp(i(M_3-c_3)t/2)$, with $\eta$ the opposite sign"),
     ),
     Equation(
-        label="theorem-residues",
-        number=None,
+        name="theorem-residues",
         section="Atlas",
         kind="theorem",
         says=r"Where $\nu = -1$ or 1 the rate $d\nu/dt$ is imaginary, and of its two signs one alone leaves a residue, "
@@ -61,8 +56,7 @@ EQUATIONS = (
         assumptions=(_BODY, _LETTERS, _CURVE),
     ),
     Equation(
-        label="theorem-sigma",
-        number=None,
+        name="theorem-sigma",
         section="Atlas",
         kind="theorem",
         says="The Cayley–Klein parameters in sigma functions, their exponents in closed form",

@@ -1,11 +1,11 @@
-"""Section V, first half: the hyperbola of the motions, mf64 to mf77."""
+"""Section V, first half: the hyperbola of the motions, (58) to (72)."""
 
 from atlas.paper.equation import Equation
 
 EQUATIONS = (
     Equation(
-        label="mf64",
-        number=58,
+        name="(58)",
+        alias="mf64",
         section="V",
         kind="definition",
         says="Motions with a constant third component of angular velocity are looked for",
@@ -15,8 +15,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf65",
-        number=59,
+        name="(59)",
+        alias="mf65",
         section="V",
         kind="derivation step",
         says=r"Euler equations for a constant $\Omega_3$",
@@ -33,8 +33,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf66",
-        number=60,
+        name="(60)",
+        alias="mf66",
         section="V",
         kind="derivation step",
         says=r"Rate of the field seen from the body for a constant $\Omega_3$",
@@ -42,8 +42,8 @@ EQUATIONS = (
         assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$",),
     ),
     Equation(
-        label="mf67",
-        number=61,
+        name="(61)",
+        alias="mf67",
         section="V",
         kind="derivation step",
         says=r"Three integrals for a constant $\Omega_3$",
@@ -57,8 +57,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf68",
-        number=62,
+        name="(62)",
+        alias="mf68",
         section="V",
         kind="derivation step",
         says=r"$K_1$, $K_2$ are proportional to $\Omega_1$, $\Omega_2$",
@@ -69,8 +69,8 @@ EQUATIONS = (
         assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$", r"$\omega_1^2 + \omega_2^2 > 0$"),
     ),
     Equation(
-        label="mf69",
-        number=63,
+        name="(63)",
+        alias="mf69",
         section="V",
         kind="derivation step",
         says=r"Precession of $\boldsymbol{\Omega}$ by the Euler equations",
@@ -84,8 +84,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf70",
-        number=64,
+        name="(64)",
+        alias="mf70",
         section="V",
         kind="derivation step",
         says=r"Precession of $\boldsymbol{\Omega}$ by the equations for $\mathbf{K}$",
@@ -96,8 +96,8 @@ EQUATIONS = (
         assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$", r"$\omega_2$ differs from 0"),
     ),
     Equation(
-        label="mf71",
-        number=65,
+        name="(65)",
+        alias="mf71",
         section="V",
         kind="derivation step",
         says="Both precessions agree",
@@ -108,17 +108,17 @@ EQUATIONS = (
         assumptions=(r"$\omega_2$ differs from 0",),
     ),
     Equation(
-        label="mf71.1",
-        number=66,
+        name="(66)",
+        alias="mf71.1",
         section="V",
         kind="derivation step",
-        says="The necessary condition @mf58.1 again",
+        says="The necessary condition @(50) again",
         tex=r"B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2-I{B'_2}^2\omega_3=0",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="mf72",
-        number=67,
+        name="(67)",
+        alias="mf72",
         section="V",
         kind="derivation step",
         says=r"The initial data of the motions: a hyperbola in the plane $\omega_1 = 0$",
@@ -129,11 +129,10 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-combining",
-        number=None,
+        name="text-combining",
         section="V",
         kind="claim",
-        says=r"@mf71 and @mf71.1 together leave only $\omega_1 = 0$",
+        says=r"@(65) and @(66) together leave only $\omega_1 = 0$",
         tex=r"\text{(65), (66)}\implies\omega_1=0",
         assumptions=(
             "$\\omega_2$ differs from 0",
@@ -145,8 +144,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf73",
-        number=68,
+        name="(68)",
+        alias="mf73",
         section="V",
         kind="claim",
         says="The hyperbola of the circular loop and the short solenoid",
@@ -160,8 +159,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
     ),
     Equation(
-        label="mf74",
-        number=69,
+        name="(69)",
+        alias="mf74",
         section="V",
         kind="claim",
         says="The hyperbola of the long solenoid",
@@ -175,8 +174,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
     ),
     Equation(
-        label="mf75",
-        number=70,
+        name="(70)",
+        alias="mf75",
         section="V",
         kind="claim",
         says="The ball: the hyperbola degenerates into two lines",
@@ -190,8 +189,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
     ),
     Equation(
-        label="mf76",
-        number=71,
+        name="(71)",
+        alias="mf76",
         section="V",
         kind="derivation step",
         says=r"The hyperbola resolved for $\omega_3$",
@@ -202,8 +201,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="mf77",
-        number=72,
+        name="(72)",
+        alias="mf77",
         section="V",
         kind="derivation step",
         says="Frequency of proper rotation",

@@ -1,11 +1,11 @@
-"""Section II, first half: from the action of the particles to the equations for the rotation matrix, 1.6 to 1.38."""
+"""Section II, first half: from the action of the particles to the equations for the rotation matrix, (1) to (9)."""
 
 from atlas.paper.equation import Equation
 
 EQUATIONS = (
     Equation(
-        label="1.6",
-        number=1,
+        name="(1)",
+        alias="1.6",
         section="II",
         kind="definition",
         says="Action of $n$ free particles held together by Lagrange multipliers",
@@ -20,8 +20,7 @@ EQUATIONS = (
         assumptions=(r"$\lambda_{AB}$ is symmetric",),
     ),
     Equation(
-        label="text-constraints",
-        number=None,
+        name="text-constraints",
         section="II",
         kind="claim",
         says="Varying the multipliers gives the constraints",
@@ -32,16 +31,16 @@ EQUATIONS = (
         quote=r"The variations with respect to $\lambda_{AN}$ imply the constraints",
     ),
     Equation(
-        label="mf15",
-        number=2,
+        name="(2)",
+        alias="mf15",
         section="II",
         kind="definition",
-        says="Potential energy of the body: the sum over its particles of @mf13",
+        says="Potential energy of the body: the sum over its particles of @(103)",
         tex=r"-U=\sum_{N=1}^n e_NA_0(\mathbf{y}_N)+\frac{e_N}{c}(\mathbf{A}(\mathbf{y}_N), \dot{\mathbf{y}}_N)",
     ),
     Equation(
-        label="mf16",
-        number=3,
+        name="(3)",
+        alias="mf16",
         section="II",
         kind="derivation step",
         says="Equations of motion of the constrained particles, varied from the action",
@@ -60,8 +59,8 @@ EQUATIONS = (
         assumptions=(r"$\lambda_{AB}$ is symmetric", r"all particles have the same charge-to-mass ratio $\mu$"),
     ),
     Equation(
-        label="mf17",
-        number=4,
+        name="(4)",
+        alias="mf17",
         section="II",
         kind="derivation step",
         says="The centre of mass moves as one charged point particle",
@@ -69,8 +68,7 @@ EQUATIONS = (
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
     ),
     Equation(
-        label="text-translation",
-        number=None,
+        name="text-translation",
         section="II",
         kind="claim",
         says=(
@@ -82,8 +80,7 @@ EQUATIONS = (
         quote="rotational motion of the body does not affect its translational motion",
     ),
     Equation(
-        label="text-rigid",
-        number=None,
+        name="text-rigid",
         section="II",
         kind="claim",
         says=(
@@ -95,8 +92,7 @@ EQUATIONS = (
         quote="guarantee that distances and angles among the particles do not change with time",
     ),
     Equation(
-        label="text-rigid-plane",
-        number=None,
+        name="text-rigid-plane",
         section="II",
         kind="claim",
         says="The constraints keep the distances in a plane body too, such as the loop of Section IV",
@@ -108,8 +104,8 @@ EQUATIONS = (
         quote="guarantee that distances and angles among the particles do not change with time",
     ),
     Equation(
-        label="mf18",
-        number=5,
+        name="(5)",
+        alias="mf18",
         section="II",
         kind="derivation step",
         says="Equations of motion of the particles about the centre of mass",
@@ -124,11 +120,11 @@ EQUATIONS = (
             r"m_\alpha\mathbf{E}+\frac{\mu}{c}m_\alpha[\dot{\mathbf{x}}_\alpha,\mathbf{B}] "
             r"\end{aligned}"
         ),
-        assumptions=("@mf16 and @mf17", r"all particles have the same charge-to-mass ratio $\mu$"),
+        assumptions=("@(3) and @(4)", r"all particles have the same charge-to-mass ratio $\mu$"),
     ),
     Equation(
-        label="mf19",
-        number=6,
+        name="(6)",
+        alias="mf19",
         section="II",
         kind="derivation step",
         says="Second-order equations for the rotation matrix",
@@ -136,27 +132,27 @@ EQUATIONS = (
             r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i(\sum m_N\mathbf{x}_N)-A_{ia}g_{aj}, \qquad R^TR="
             r"\mathbf{1}, \qquad R(0)=\mathbf{1}"
         ),
-        assumptions=(r"$\mathbf{x}_N(t) = R(t) \mathbf{x}_N(0)$", "the particles obey @mf18"),
+        assumptions=(r"$\mathbf{x}_N(t) = R(t) \mathbf{x}_N(0)$", "the particles obey @(5)"),
     ),
     Equation(
-        label="mf20",
-        number=7,
+        name="(7)",
+        alias="mf20",
         section="II",
         kind="definition",
         says="The magnetic force on the rotating body as a matrix",
         tex=r"A_{ia}=\frac{\mu}{c}\epsilon_{inp}B_n\dot R_{pa}",
     ),
     Equation(
-        label="1.32",
-        number=8,
+        name="(8)",
+        alias="1.32",
         section="II",
         kind="definition",
         says="Mass matrix of the body",
         tex=r"g_{ij}\equiv\sum_{N=1}^{n}m_Nx_N^i(0)x_N^j(0)",
     ),
     Equation(
-        label="1.38",
-        number=9,
+        name="(9)",
+        alias="1.38",
         section="II",
         kind="derivation step",
         says="The symmetric matrix of the constraint forces",
@@ -170,8 +166,7 @@ EQUATIONS = (
         assumptions=(r"$\lambda_{AB}$ is symmetric", "round brackets on indices: sum of both orders, no factor $1/2$"),
     ),
     Equation(
-        label="text-multipliers-symmetric",
-        number=None,
+        name="text-multipliers-symmetric",
         section="II",
         kind="claim",
         says="The matrix of the constraint forces is symmetric",
@@ -180,20 +175,18 @@ EQUATIONS = (
         quote=r"while $\lambda_{jk}(t)$ is the symmetric matrix",
     ),
     Equation(
-        label="text-electric-field",
-        number=None,
+        name="text-electric-field",
         section="II",
         kind="claim",
         says=(
-            "The electric field drops out of the rotation: the second term of @mf19 vanishes about the centre of mass"
+            "The electric field drops out of the rotation: the second term of @(6) vanishes about the centre of mass"
         ),
         tex=r"\mu E_i\sum m_Nx_N^j=0",
         assumptions=(r"the sum of $m_N \mathbf{x}_N$ is zero",),
         quote="the electric field do not affect the motion of rotational degrees of freedom",
     ),
     Equation(
-        label="text-rotation-apart",
-        number=None,
+        name="text-rotation-apart",
         section="II",
         kind="claim",
         says=(

@@ -1,11 +1,11 @@
-"""Appendix: a point particle in constant fields, mf1 to mf14."""
+"""Appendix: a point particle in constant fields, (89) to (104)."""
 
 from atlas.paper.equation import Equation
 
 EQUATIONS = (
     Equation(
-        label="mf1",
-        number=89,
+        name="(89)",
+        alias="mf1",
         section="VII",
         kind="derivation step",
         says="Lorentz force: the equation of motion of a charged particle",
@@ -17,16 +17,15 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf2",
-        number=90,
+        name="(90)",
+        alias="mf2",
         section="VII",
         kind="derivation step",
         says="The equation of motion integrated once",
         tex=r"\dot{\mathbf{y}}=\mu\mathbf{E}t+\frac{\mu}{c}[\mathbf{y}, \mathbf{B}]+\mathbf{C}",
     ),
     Equation(
-        label="text-no-magnetic-field",
-        number=None,
+        name="text-no-magnetic-field",
         section="VII",
         kind="claim",
         says=r"Without a magnetic field the particle falls along $\mathbf{E}$",
@@ -34,8 +33,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B} = 0$",),
     ),
     Equation(
-        label="text-helix",
-        number=None,
+        name="text-helix",
         section="VII",
         kind="claim",
         says=r"Without an electric field the particle moves on a helix about an axis along $\mathbf{B}$",
@@ -44,8 +42,8 @@ EQUATIONS = (
         quote="particle moves along a helical line located on a cylinder",
     ),
     Equation(
-        label="mf3",
-        number=91,
+        name="(91)",
+        alias="mf3",
         section="VII",
         kind="derivation step",
         says=r"Motion along $\mathbf{B}$, integrated once",
@@ -53,8 +51,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="mf4",
-        number=92,
+        name="(92)",
+        alias="mf4",
         section="VII",
         kind="derivation step",
         says=r"Motion across $\mathbf{B}$, integrated once",
@@ -65,8 +63,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="mf5",
-        number=93,
+        name="(93)",
+        alias="mf5",
         section="VII",
         kind="derivation step",
         says=r"Motion along $\mathbf{B}$",
@@ -74,8 +72,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="text-parallel-acceleration",
-        number=None,
+        name="text-parallel-acceleration",
         section="VII",
         kind="claim",
         says=r"Along $\mathbf{B}$ the particle moves with the acceleration $|\mu \mathbf{E}_\bot|$",
@@ -84,8 +81,7 @@ EQUATIONS = (
         quote=r"moves with the acceleration $\lvert\mu\mathbf{E}_{\bot}\rvert$ along the axis $\mathbf{B}$",
     ),
     Equation(
-        label="text-double-product",
-        number=None,
+        name="text-double-product",
         section="VII",
         kind="claim",
         says=r"A vector orthogonal to $\mathbf{B}$ is minus its double product with $\mathbf{B}$ over $\mathbf{B}^2$",
@@ -93,8 +89,8 @@ EQUATIONS = (
         assumptions=(r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",),
     ),
     Equation(
-        label="mf6",
-        number=94,
+        name="(94)",
+        alias="mf6",
         section="VII",
         kind="derivation step",
         says=r"The electric field across $\mathbf{B}$ absorbed by a uniform motion",
@@ -107,8 +103,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="mf7",
-        number=95,
+        name="(95)",
+        alias="mf7",
         section="VII",
         kind="derivation step",
         says="Equation for the first shifted variable",
@@ -121,8 +117,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="mf8",
-        number=96,
+        name="(96)",
+        alias="mf8",
         section="VII",
         kind="derivation step",
         says=r"The twice shifted variable precesses about $\mathbf{B}$",
@@ -130,8 +126,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="mf9",
-        number=97,
+        name="(97)",
+        alias="mf9",
         section="VII",
         kind="derivation step",
         says="General solution for the twice shifted variable",
@@ -145,8 +141,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="text-drift-direction",
-        number=None,
+        name="text-drift-direction",
         section="VII",
         kind="claim",
         says=r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{e}_1$",
@@ -154,8 +149,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="mf10",
-        number=98,
+        name="(98)",
+        alias="mf10",
         section="VII",
         kind="derivation step",
         says=r"General solution across $\mathbf{B}$",
@@ -167,8 +162,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="text-time-shift",
-        number=None,
+        name="text-time-shift",
         section="VII",
         kind="claim",
         says="The phase $\\omega_0$ goes away with another origin of time",
@@ -181,11 +175,10 @@ EQUATIONS = (
         quote=r"By choosing the time reference point, we can give any desired value to the constant $\omega_0$",
     ),
     Equation(
-        label="text-first-two-terms",
-        number=None,
+        name="text-first-two-terms",
         section="VII",
         kind="claim",
-        says=r"With $\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$ the first two terms of @mf10 "
+        says=r"With $\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$ the first two terms of @(98) "
         "vanish",
         tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies\frac{[\mathbf{C}_{"
@@ -196,8 +189,7 @@ EQUATIONS = (
         quote="the first two terms in Eq. (98) vanish",
     ),
     Equation(
-        label="text-initial-position",
-        number=None,
+        name="text-initial-position",
         section="VII",
         kind="claim",
         says=r"That choice puts the particle at $\mathbf{y}_\bot(0) = a \mathbf{e}_2$",
@@ -209,8 +201,8 @@ EQUATIONS = (
         quote="This corresponds to the choice of initial position",
     ),
     Equation(
-        label="mf11",
-        number=99,
+        name="(99)",
+        alias="mf11",
         section="VII",
         kind="claim",
         says="The trochoid: a uniform drift plus a rotation",
@@ -223,8 +215,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="text-drift",
-        number=None,
+        name="text-drift",
         section="VII",
         kind="claim",
         says=r"The guiding centre moves along $\mathbf{e}_1$ with the speed $\mu |\mathbf{E}_\bot|/\omega$",
@@ -236,12 +227,11 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-trochoid-constant",
-        number=None,
+        name="text-trochoid-constant",
         section="VII",
         kind="claim",
         says=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2 - \mu |\mathbf{E}_\bot| \mathbf{e}_1$ "
-        "is a constant of @mf2: a velocity",
+        "is a constant of @(90): a velocity",
         tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}-\mu\lvert\mathbf{E}_{\bot}"
             r"\rvert\mathbf{e}_1"
@@ -249,8 +239,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="mf10.1",
-        number=100,
+        name="(100)",
+        alias="mf10.1",
         section="VII",
         kind="claim",
         says="The trochoid in components",
@@ -261,8 +251,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="text-trochoid",
-        number=None,
+        name="text-trochoid",
         section="VII",
         kind="claim",
         says="The curve is a trochoid: the path of a point that a rolling circle carries along",
@@ -274,8 +263,8 @@ EQUATIONS = (
         quote="These are parametric equations of a plane curve called trochoid",
     ),
     Equation(
-        label="mf10.2",
-        number=101,
+        name="(101)",
+        alias="mf10.2",
         section="VII",
         kind="derivation step",
         says=r"The trajectory: motion along $\mathbf{B}$ plus motion across $\mathbf{B}$",
@@ -283,8 +272,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="mf12",
-        number=102,
+        name="(102)",
+        alias="mf12",
         section="VII",
         kind="definition",
         says="Scalar and vector potentials of constant fields",
@@ -295,8 +284,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-potentials",
-        number=None,
+        name="text-potentials",
         section="VII",
         kind="claim",
         says="The fields that these potentials give",
@@ -307,19 +295,19 @@ EQUATIONS = (
         quote="This implies the standard agreement",
     ),
     Equation(
-        label="mf13",
-        number=103,
+        name="(103)",
+        alias="mf13",
         section="VII",
         kind="definition",
         says="Potential energy of a charged particle",
         tex=r"-U=eA_0+\frac{e}{c}(\mathbf{A}, \dot{\mathbf{y}})",
     ),
     Equation(
-        label="mf14",
-        number=104,
+        name="(104)",
+        alias="mf14",
         section="VII",
         kind="claim",
-        says="Lagrangian of a charged particle; it implies @mf1",
+        says="Lagrangian of a charged particle; it implies @(89)",
         tex=(
             r"L=K-U=\frac{m}{2}\dot{\mathbf{y}}^2+eA_0+\frac{e}{c}(\mathbf{A},\dot{\mathbf{y}})=\frac{m}{2}\dot{"
             r"\mathbf{y}}^2+e(\mathbf{y},\mathbf{E})+\frac{e}{2c}([\mathbf{y},\dot{\mathbf{y}}],\mathbf{B})"

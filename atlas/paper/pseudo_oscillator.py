@@ -1,11 +1,10 @@
-"""Section IV, first half: the symmetric body and the cubic pseudo-oscillator, mf41.0 to mf57."""
+"""Section IV, first half: the symmetric body and the cubic pseudo-oscillator, (31) to (49)."""
 
 from atlas.paper.equation import Equation
 
 EQUATIONS = (
     Equation(
-        label="text-mass-matrix",
-        number=None,
+        name="text-mass-matrix",
         section="IV",
         kind="claim",
         says="Mass matrix of the symmetric body",
@@ -13,8 +12,7 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="text-laboratory",
-        number=None,
+        name="text-laboratory",
         section="IV",
         kind="claim",
         says=(
@@ -32,16 +30,16 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf41.0",
-        number=31,
+        name="(31)",
+        alias="mf41.0",
         section="IV",
         kind="definition",
         says="Initial angular velocity: the same components in both frames",
         tex=r"\boldsymbol{\Omega}(0)=\boldsymbol{\omega}(0)=(\omega_1, \omega_2, \omega_3)^T",
     ),
     Equation(
-        label="mf41",
-        number=32,
+        name="(32)",
+        alias="mf41",
         section="IV",
         kind="definition",
         says=r"The field in units of a frequency, $\mathbf{B}'$, and its components $\mathbf{K}$ in the body-fixed "
@@ -55,16 +53,16 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="mf41.1",
-        number=33,
+        name="(33)",
+        alias="mf41.1",
         section="IV",
         kind="definition",
         says="The ratio of moments $I$ and the energy $E'$",
         tex=r"I\equiv\frac{I_3}{I_2}, \qquad E'\equiv\frac{2E}{I_2}",
     ),
     Equation(
-        label="mf42",
-        number=34,
+        name="(34)",
+        alias="mf42",
         section="IV",
         kind="derivation step",
         says=r"Euler equations through $\mathbf{K}$",
@@ -75,8 +73,8 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="mf43",
-        number=35,
+        name="(35)",
+        alias="mf43",
         section="IV",
         kind="derivation step",
         says="Rate of the field seen from the body",
@@ -84,8 +82,8 @@ EQUATIONS = (
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
-        label="mf44",
-        number=36,
+        name="(36)",
+        alias="mf44",
         section="IV",
         kind="derivation step",
         says="First integral: energy",
@@ -93,8 +91,8 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="mf45",
-        number=37,
+        name="(37)",
+        alias="mf45",
         section="IV",
         kind="derivation step",
         says="Second integral: length of the field",
@@ -102,8 +100,8 @@ EQUATIONS = (
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
-        label="mf46",
-        number=38,
+        name="(38)",
+        alias="mf46",
         section="IV",
         kind="derivation step",
         says="Euler equations of the symmetric body in components",
@@ -117,8 +115,8 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="mf47",
-        number=39,
+        name="(39)",
+        alias="mf47",
         section="IV",
         kind="derivation step",
         says="Rate of the field seen from the body in components",
@@ -132,8 +130,8 @@ EQUATIONS = (
         assumptions=("$R(t)$ is a rotation",),
     ),
     Equation(
-        label="mf48",
-        number=40,
+        name="(40)",
+        alias="mf48",
         section="IV",
         kind="derivation step",
         says="Third integral $c_3$",
@@ -141,8 +139,8 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="mf49",
-        number=41,
+        name="(41)",
+        alias="mf49",
         section="IV",
         kind="derivation step",
         says="Fourth integral $c_5$",
@@ -153,11 +151,10 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="text-four-integrals",
-        number=None,
+        name="text-four-integrals",
         section="IV",
         kind="claim",
-        says="The four integrals @mf44, @mf45, @mf48, @mf49 are independent",
+        says="The four integrals @(36), @(37), @(40), @(41) are independent",
         tex=(
             r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},\mathbf{K})}="
             "4"
@@ -166,8 +163,8 @@ EQUATIONS = (
         quote="This system admits four integrals of motion",
     ),
     Equation(
-        label="mf50",
-        number=42,
+        name="(42)",
+        alias="mf50",
         section="IV",
         kind="derivation step",
         says="The field in the body-fixed frame through the angular velocity",
@@ -184,8 +181,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf51",
-        number=43,
+        name="(43)",
+        alias="mf51",
         section="IV",
         kind="derivation step",
         says=r"Linear equations for $\Omega_1$, $\Omega_2$ when $\Omega_3$ is known",
@@ -199,8 +196,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf52",
-        number=44,
+        name="(44)",
+        alias="mf52",
         section="IV",
         kind="derivation step",
         says="Coefficients of these linear equations",
@@ -215,8 +212,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf53",
-        number=45,
+        name="(45)",
+        alias="mf53",
         section="IV",
         kind="derivation step",
         says=r"$\Omega_1$, $\Omega_2$ by quadratures",
@@ -230,8 +227,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf54",
-        number=46,
+        name="(46)",
+        alias="mf54",
         section="IV",
         kind="derivation step",
         says=r"Second derivative of $\Omega_3$",
@@ -242,8 +239,8 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="mf55",
-        number=47,
+        name="(47)",
+        alias="mf55",
         section="IV",
         kind="claim",
         says=r"$\Omega_3$ of any motion obeys a cubic pseudo-oscillator",
@@ -251,8 +248,8 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="mf56",
-        number=48,
+        name="(48)",
+        alias="mf56",
         section="IV",
         kind="derivation step",
         says="Coefficients of the cubic",
@@ -267,18 +264,17 @@ EQUATIONS = (
         assumptions=(r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",),
     ),
     Equation(
-        label="text-cubic-degree",
-        number=None,
+        name="text-cubic-degree",
         section="IV",
         kind="claim",
-        says="The polynomial on the right side of @mf55 has the degree three",
+        says="The polynomial on the right side of @(47) has the degree three",
         tex=r"""a_3=-2(1-I)\ne0""",
         assumptions=("$I$ differs from 1 (the paper does not except it)",),
         quote="a root of the third degree polynomial",
     ),
     Equation(
-        label="mf57",
-        number=49,
+        name="(49)",
+        alias="mf57",
         section="IV",
         kind="derivation step",
         says="The cubic through the initial data",

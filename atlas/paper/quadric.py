@@ -1,11 +1,11 @@
-"""Section IV, second half: the quadric of constant solutions, mf58.1 to mf63."""
+"""Section IV, second half: the quadric of constant solutions, (50) to (57)."""
 
 from atlas.paper.equation import Equation
 
 EQUATIONS = (
     Equation(
-        label="mf58.1",
-        number=50,
+        name="(50)",
+        alias="mf58.1",
         section="IV",
         kind="derivation step",
         says=r"Condition on the initial data for a constant $\Omega_3$",
@@ -16,8 +16,8 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="mf58",
-        number=51,
+        name="(51)",
+        alias="mf58",
         section="IV",
         kind="derivation step",
         says="The same condition: a surface of second order",
@@ -28,8 +28,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-quadric-origin",
-        number=None,
+        name="text-quadric-origin",
         section="IV",
         kind="claim",
         says="The surface passes through the origin",
@@ -38,8 +37,8 @@ EQUATIONS = (
         quote="the surface always pass through the origin of coordinate system",
     ),
     Equation(
-        label="mf59",
-        number=52,
+        name="(52)",
+        alias="mf59",
         section="IV",
         kind="derivation step",
         says=r"The condition resolved for $\omega_3$: a two-parametric family of constant solutions",
@@ -54,8 +53,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="mf61a",
-        number=53,
+        name="(53)",
+        alias="mf61",
         section="IV",
         kind="definition",
         says="Canonical coordinates of the quadric",
@@ -71,8 +70,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$\tan\beta = B'_3/(I B'_2)$"),
     ),
     Equation(
-        label="text-turned",
-        number=None,
+        name="text-turned",
         section="IV",
         kind="claim",
         says=(
@@ -87,8 +85,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="text-beta",
-        number=None,
+        name="text-beta",
         section="IV",
         kind="claim",
         says=r"$\beta$, the angle between $\mathbf{e}_2$ and $I^{-1} \mathbf{B}'$, has $\tan\beta = B'_3/(I B'_2)$",
@@ -96,8 +93,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="text-beta-range",
-        number=None,
+        name="text-beta-range",
         section="IV",
         kind="claim",
         says=r"The canonical axes are turned by more than $\pi/4$ and less than $\pi/2$",
@@ -105,8 +101,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="mf60",
-        number=54,
+        name="(54)",
+        alias="mf60",
         section="IV",
         kind="derivation step",
         says="The quadric in canonical form",
@@ -120,8 +116,8 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(
-        label="mf61b",
-        number=55,
+        name="(55)",
+        alias="mf61",
         section="IV",
         kind="claim",
         says="$I > 1$: a hyperboloid of two sheets",
@@ -136,8 +132,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", r"$1 < I \le 2$"),
     ),
     Equation(
-        label="text-two-sheets",
-        number=None,
+        name="text-two-sheets",
         section="IV",
         kind="claim",
         says="For $I > 1$ the squared semi-axes are positive: the surface is a hyperboloid of two sheets",
@@ -146,8 +141,7 @@ EQUATIONS = (
         quote="Hence the surface of initial data is a hyperboloid of two sheets",
     ),
     Equation(
-        label="text-short-cylinder",
-        number=None,
+        name="text-short-cylinder",
         section="IV",
         kind="claim",
         says="A sufficiently short cylindrical surface has $1 < I < 2$, a long one $0 < I < 1$",
@@ -156,8 +150,7 @@ EQUATIONS = (
         quote="This body could be a charged sufficiently short cylindrical surface",
     ),
     Equation(
-        label="text-plane-body",
-        number=None,
+        name="text-plane-body",
         section="IV",
         kind="claim",
         says="$I = 2$ is a plane body",
@@ -165,8 +158,7 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2$",),
     ),
     Equation(
-        label="text-tangent-planes",
-        number=None,
+        name="text-tangent-planes",
         section="IV",
         kind="claim",
         says=r"$I = 2$: the two sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$",
@@ -175,8 +167,8 @@ EQUATIONS = (
         quote="the sheets of the hyperboloid are tangent to the horizontal planes",
     ),
     Equation(
-        label="mf62",
-        number=56,
+        name="(56)",
+        alias="mf62",
         section="IV",
         kind="claim",
         says="$I = 1$: a cone",
@@ -184,18 +176,17 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
     ),
     Equation(
-        label="text-cone-semi-axes",
-        number=None,
+        name="text-cone-semi-axes",
         section="IV",
         kind="claim",
-        says="The cone @mf62 has the semi-axes $a_2$ and $a_3$ of @mf60",
+        says="The cone @(56) has the semi-axes $a_2$ and $a_3$ of @(54)",
         tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{a_3^2}=\frac{{\omega'_2}^2}{a_2^2}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
         quote="turn into the cone [...] with semi axes $a_2$ and $a_3$ written in equation (54)",
     ),
     Equation(
-        label="mf63",
-        number=57,
+        name="(57)",
+        alias="mf63",
         section="IV",
         kind="claim",
         says="$I < 1$: a hyperboloid of one sheet",
@@ -210,8 +201,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
     ),
     Equation(
-        label="text-one-sheet",
-        number=None,
+        name="text-one-sheet",
         section="IV",
         kind="claim",
         says="For $I < 1$ the squared semi-axes are positive: the surface is a hyperboloid of one sheet",
@@ -220,8 +210,7 @@ EQUATIONS = (
         quote="Hence the surface of initial data is a hyperboloid of one sheet",
     ),
     Equation(
-        label="text-not-all",
-        number=None,
+        name="text-not-all",
         section="IV",
         kind="claim",
         says="Not all constant solutions of the pseudo-oscillator are motions of the body",

@@ -16,8 +16,7 @@ _FAMILY = (
 
 EQUATIONS = (
     Equation(
-        label="theorem-steady",
-        number=None,
+        name="theorem-steady",
         section="Atlas",
         kind="theorem",
         says=r"The double roots $\nu_0$ of $q$ with $|\nu_0| < 1$: steady precessions with the rate $w$ in Larmor's "
@@ -33,8 +32,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-nutation",
-        number=None,
+        name="theorem-nutation",
         section="Atlas",
         kind="theorem",
         says=r"Nutation frequency of a steady precession: a square and a bound, for every $I$ and both signs of "
@@ -44,8 +42,7 @@ EQUATIONS = (
         assumptions=(_BODY, _LETTERS, r"$\nu_0$, $w$ as in @theorem-steady, $w$ differs from 0"),
     ),
     Equation(
-        label="theorem-companion-range",
-        number=None,
+        name="theorem-companion-range",
         section="Atlas",
         kind="theorem",
         says=r"The other two roots of $q$ beside a double root $\nu_0$: real exactly if $\nu_0^2 \le z \le 1$",
@@ -54,8 +51,7 @@ EQUATIONS = (
         assumptions=(_BODY, _LETTERS, r"$\nu_0$, $w$ as in @theorem-steady, $w$ differs from 0", "$0 < I < 1$"),
     ),
     Equation(
-        label="theorem-companion-roots",
-        number=None,
+        name="theorem-companion-roots",
         section="Atlas",
         kind="theorem",
         says=r"All these motions by two angles: $e = \cos (2 \delta)$ where the axis turns back, and $z = \cos "
@@ -66,8 +62,7 @@ EQUATIONS = (
         assumptions=_FAMILY,
     ),
     Equation(
-        label="theorem-companion",
-        number=None,
+        name="theorem-companion",
         section="Atlas",
         kind="theorem",
         says="The second elementary family: the Cayley–Klein parameters are turned vectors, linear in $C$ and $S$",
@@ -81,8 +76,7 @@ EQUATIONS = (
         assumptions=(*_FAMILY, "cosine and sine stand for cosh and sinh if $c < 0$, and $C = 1$, $S = t/2$ if $c = 0$"),
     ),
     Equation(
-        label="theorem-companion-nutation",
-        number=None,
+        name="theorem-companion-nutation",
         section="Atlas",
         kind="theorem",
         says=r"The nutation of the second elementary family, for any quartic with a double root $\nu_0$ and a simple "
@@ -94,8 +88,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-companion-triple",
-        number=None,
+        name="theorem-companion-triple",
         section="Atlas",
         kind="theorem",
         says="A triple root: the separatrix closes in rational functions of time",
@@ -108,8 +101,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-axis-stable",
-        number=None,
+        name="theorem-axis-stable",
         section="Atlas",
         kind="theorem",
         says=r"A spin along the field is stable for $D \ge 0$, $M_3$ not 0, for all times: a conserved sum of squares",
@@ -124,8 +116,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-axis-escape",
-        number=None,
+        name="theorem-axis-escape",
         section="Atlas",
         kind="theorem",
         says=r"For $D < 0$ it is not: one motion leaves it as $\exp (\sqrt{-D} t/2)$, turns where $\nu = e$, and "
@@ -144,8 +135,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-axis-pushed",
-        number=None,
+        name="theorem-axis-pushed",
         section="Atlas",
         kind="theorem",
         says=r"Pushed across by $s_1$ a spin along the field turns back at a root of a cubic in $x = \tan "
@@ -154,8 +144,7 @@ EQUATIONS = (
         assumptions=(_BODY, _LETTERS, r"$B'_2 = 0$, $\boldsymbol{\omega} = (s_1, 0, \omega_3)$ at $t = 0$"),
     ),
     Equation(
-        label="theorem-axis-pendulum",
-        number=None,
+        name="theorem-axis-pendulum",
         section="Atlas",
         kind="theorem",
         says="A disk at rest in Larmor's frame, $M_3 = 0$: a plane pendulum that tips over from the field's axis to "

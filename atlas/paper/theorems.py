@@ -4,8 +4,7 @@ from atlas.paper.equation import Equation
 
 EQUATIONS = (
     Equation(
-        label="theorem-quartic",
-        number=None,
+        name="theorem-quartic",
         section="Atlas",
         kind="theorem",
         says=(
@@ -22,8 +21,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-points",
-        number=None,
+        name="theorem-points",
         section="Atlas",
         kind="theorem",
         says=(
@@ -42,8 +40,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-stability",
-        number=None,
+        name="theorem-stability",
         section="Atlas",
         kind="theorem",
         says="Square of the nutation frequency along the hyperbola, $Q$ being the quartic of @theorem-quartic",
@@ -59,8 +56,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-root",
-        number=None,
+        name="theorem-root",
         section="Atlas",
         kind="theorem",
         says=(
@@ -70,12 +66,11 @@ EQUATIONS = (
         tex=r"Q(\omega_3+v)=v^2\left[-\nu_n^2+(1-I)\,v\,(4B'_3-v)\right],\qquad\nu_n^2=-\tfrac12Q''(\omega_3)",
         assumptions=(
             r"$I_1 = I_2$, third axis of inertia along $\mathbf{e}_3$ at $t = 0$",
-            "an elementary motion: $\\omega_1=0$ and @mf58.1",
+            "an elementary motion: $\\omega_1=0$ and @(50)",
         ),
     ),
     Equation(
-        label="theorem-stable-short",
-        number=None,
+        name="theorem-stable-short",
         section="Atlas",
         kind="theorem",
         says="For $I\\ge1$ the elementary motions are stable everywhere",
@@ -91,8 +86,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-band",
-        number=None,
+        name="theorem-band",
         section="Atlas",
         kind="theorem",
         says=(
@@ -111,8 +105,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-band-ends",
-        number=None,
+        name="theorem-band-ends",
         section="Atlas",
         kind="theorem",
         says=(
@@ -130,8 +123,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-equatorial-stability",
-        number=None,
+        name="theorem-equatorial-stability",
         section="Atlas",
         kind="theorem",
         says="$B'_3=0$: nutation on the line $\\omega_2=-B'_2$ with any $\\omega_3$, and on the line $\\omega_3=0$",
@@ -145,8 +137,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-ball-nutation",
-        number=None,
+        name="theorem-ball-nutation",
         section="Atlas",
         kind="theorem",
         says=(
@@ -157,8 +148,7 @@ EQUATIONS = (
         assumptions=("$I=1$",),
     ),
     Equation(
-        label="theorem-ball-line",
-        number=None,
+        name="theorem-ball-line",
         section="Atlas",
         kind="theorem",
         says=r"$I = 1$: every point of the line $\omega_1 = 0$, $\omega_2 = -B'_2$ is a motion",
@@ -166,8 +156,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$I = 1$"),
     ),
     Equation(
-        label="theorem-equatorial-field",
-        number=None,
+        name="theorem-equatorial-field",
         section="Atlas",
         kind="theorem",
         says=r"$B'_3 = 0$: every point of the line $\omega_1 = 0$, $\omega_2 = -B'_2$ is a motion, for every $I$",
@@ -175,20 +164,18 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}' = (0, B'_2, 0)$",),
     ),
     Equation(
-        label="theorem-quadric-lines",
-        number=None,
+        name="theorem-quadric-lines",
         section="Atlas",
         kind="theorem",
         says=(
             r"$I < 1$: the quadric holds the two lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$, "
-            r"$\omega_3$ free, which @mf59 loses"
+            r"$\omega_3$ free, which @(52) loses"
         ),
         tex=r"\omega_2=-B'_2,\qquad\omega_1=\pm\sqrt{1-I}\,B'_2",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$", "$0 < I < 1$"),
     ),
     Equation(
-        label="theorem-momentum",
-        number=None,
+        name="theorem-momentum",
         section="Atlas",
         kind="theorem",
         says=r"In the elementary motion the angular momentum precesses about $\mathbf{B}$ with the frequency $k$",
@@ -199,8 +186,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-moment",
-        number=None,
+        name="theorem-moment",
         section="Atlas",
         kind="theorem",
         says=(
@@ -214,8 +200,7 @@ EQUATIONS = (
         assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
     ),
     Equation(
-        label="theorem-drift",
-        number=None,
+        name="theorem-drift",
         section="Atlas",
         kind="theorem",
         says=r"The guiding centre drifts with $c [\mathbf{E}, \mathbf{B}]/\mathbf{B}^2$ whatever the charge",
@@ -223,8 +208,7 @@ EQUATIONS = (
         assumptions=(r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}$ in the plane $(\mathbf{e}_2, \mathbf{e}_3)$",),
     ),
     Equation(
-        label="theorem-ball-rest",
-        number=None,
+        name="theorem-ball-rest",
         section="Atlas",
         kind="theorem",
         says=r"$m_2 = 0$, $m_3 = -\alpha I_0$: $\gamma = 0$ and the ball turns about $\mathbf{B}$ by $-\alpha t$",
@@ -232,8 +216,7 @@ EQUATIONS = (
         assumptions=("$I_1 = I_2 = I_3$", r"$\mathbf{B}$ along $\mathbf{e}_3$"),
     ),
     Equation(
-        label="theorem-angles",
-        number=None,
+        name="theorem-angles",
         section="Atlas",
         kind="theorem",
         says=r"Rates of the Euler angles about $\mathbf{B}$",
@@ -245,8 +228,7 @@ EQUATIONS = (
         ),
     ),
     Equation(
-        label="theorem-cayley-klein",
-        number=None,
+        name="theorem-cayley-klein",
         section="Atlas",
         kind="theorem",
         says="Logarithmic derivatives of the Cayley–Klein parameters of the general motion",

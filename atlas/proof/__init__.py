@@ -1,8 +1,8 @@
 """The trial of the paper's equations: claims, proofs and verdicts; an independent witness that imports no kernel.
 
     from atlas import proof
-    proof.verify(["mf77"])        try entries of the ledger now, all if none is named
-    proof.mutants(["mf77"])       change each in one place at a time and see whether the trial notices
+    proof.verify(["(72)"])        try entries of the ledger now, all if none is named
+    proof.mutants(["(72)"])       change each in one place at a time and see whether the trial notices
     proof.recorded.load()           the recorded verdicts, without SymPy
 
 `notation` reads a printed formula, `model` says what stands before it, `decide` decides, `trial` joins the three; one

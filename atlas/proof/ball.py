@@ -1,4 +1,4 @@
-"""Section III on trial: the charged ball, mf30.0 to mf40."""
+"""Section III on trial: the charged ball, (19) to (30)."""
 
 from functools import cache
 
@@ -53,7 +53,7 @@ def uniform_ball_model() -> Model:
 
 @cache
 def ball_model() -> Model:
-    """mf27 with I = I0 and so g = I0/2; m = I0 R Omega."""
+    """(16) with I = I0 and so g = I0/2; m = I0 R Omega."""
     tensor = I0 * sympy.eye(3)
     rate = general.euler(tensor, tensor / 2, R.T * Bf) / I0
     dm = I0 * R * (hat(Omega) * Omega + rate)
@@ -68,7 +68,7 @@ def ball_model() -> Model:
 
 @cache
 def momentum_flow_model() -> Model:
-    """Any vector m that obeys mf32."""
+    """Any vector m that obeys (22)."""
     m = vector("m")
     return Model({"m": m, "Bf": Bf}, flow=dict(zip(m, -mu / (2 * c) * cross(Bf, m), strict=True)))
 
@@ -84,7 +84,7 @@ def larmor_model() -> Model:
 
 @cache
 def larmor_frequency_model() -> Model:
-    """Rate of the angle of m about B, from mf32: (m x dm).B over |m_perp|^2 |B|, turned clockwise."""
+    """Rate of the angle of m about B, from (22): (m x dm).B over |m_perp|^2 |B|, turned clockwise."""
     m, b = vector("m"), sympy.Symbol("b", positive=True)
     field = sympy.Matrix([0, 0, b])
     dm = -mu / (2 * c) * cross(field, m)
@@ -106,14 +106,14 @@ def rodrigues(axis: Value, cosine: Value, sine: Value) -> Value:
 
 @cache
 def motion_model() -> Model:
-    """Model the angular momentum mf36 and the constants mf39, solved for m2, m3."""
+    """Model the angular momentum (26) and the constants (29), solved for m2, m3."""
     spin = sympy.Matrix([m2 * sa, m2 * ca, m3])
     return _motion(spin, [*ANGLES, (m2, -gamma * I0 * k2), (m3, -gamma * I0 * k3 - alpha * I0), *AXIS])
 
 
 @cache
 def start_model() -> Model:
-    """Model the momentum that the ansatz mf38 has at t = 0: I0 times the axial vector of dR/dt."""
+    """Model the momentum that the ansatz (28) has at t = 0: I0 times the axial vector of dR/dt."""
     first = rodrigues(sympy.Matrix([0, 0, 1]), ca, -sa) * rodrigues(sympy.Matrix([0, k2, k3]), cg, -sg)
     model = _motion(sympy.zeros(3, 1), [])
     W = (model.letters["d"](first)).subs(START)
@@ -142,7 +142,7 @@ def true_constants_model() -> tuple[Model, Model]:
 
 @cache
 def parallel_model(sign: int = 1) -> Model:
-    """m2 = 0 and m3 + alpha I0 of one sign, with k and gamma of mf39."""
+    """m2 = 0 and m3 + alpha I0 of one sign, with k and gamma of (29)."""
     axis = {"k2": sympy.Integer(0), "k3": -sympy.Integer(sign), "gamma": size / I0}
     letters = {"alpha": alpha, "I0": I0, "m3": sign * size - alpha * I0, **axis}
     return Model(letters, domains=UPRIGHT, units=units.BALL)
@@ -188,7 +188,7 @@ def round_model() -> Model:
 
 @cache
 def body_flow_model() -> Model:
-    """Omega by mf31 and K = mu/(2c) R^T B by mf43, for any state."""
+    """Omega by (21) and K = mu/(2c) R^T B by (35), for any state."""
     K = vector("K")
     flow = dict(zip([*Omega, *K], [*(-cross(K, Omega)), *(-cross(Omega, K))], strict=True))
     return Model({"Omega": Omega, "K": K}, flow=flow)
@@ -196,7 +196,7 @@ def body_flow_model() -> Model:
 
 @cache
 def any_momentum_model() -> Model:
-    """Any vector m with any rate; Omega = R^T m/I0 with R of mf30."""
+    """Any vector m with any rate; Omega = R^T m/I0 with R of (20)."""
     m, rate = vector("m"), vector("w")
     spin = R.T * m / I0
     letters = {"Omega": spin, "dOmega": ((R * hat(spin)).T * m + R.T * rate) / I0, "m": m, "dm": rate}
@@ -218,53 +218,53 @@ def frame_model() -> Model:
 
 TRIALS = (
     Trial(
-        label="text-momentum",
+        name="text-momentum",
         printed="m = g1*cross(R1,dR1) + g2*cross(R2,dR2) + g3*cross(R3,dR3) = R*I*T(R)*omega = R*I*Omega",
         model=kinematic_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the principal axes",
     ),
     Trial(
-        label="mf30.0",
+        name="(19)",
         printed="I1 = I2 = I3 = I0",
         model=uniform_ball_model,
         follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$",
     ),
     Trial(
-        label="text-ball-axis",
+        name="text-ball-axis",
         printed="m = I0*omega = I0*R*Omega; cross(omega,m) = 0",
         model=round_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the "
         "principal axes with equal moments",
     ),
     Trial(
-        label="mf30",
+        name="(20)",
         printed="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
         model=general.poisson_model,
-        follows="@mf21",
+        follows="@(12)",
     ),
     Trial(
-        label="mf31",
+        name="(21)",
         printed="dOmega = -mu/(2*c)*cross(T(R)*Bf,Omega)",
         model=ball_model,
-        follows="@mf27 with $g = I_0/2$",
+        follows="@(16) with $g = I_0/2$",
     ),
     Trial(
-        label="mf32",
+        name="(22)",
         printed="dm = -mu/(2*c)*cross(Bf,m)",
         model=ball_model,
-        follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @mf30 and @mf31",
+        follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)",
     ),
     Trial(
-        label="mf33",
+        name="(23)",
         printed="d(m[1]^2 + m[2]^2 + m[3]^2) = 0; d(m[1]*Bf[1] + m[2]*Bf[2] + m[3]*Bf[3]) = 0",
         model=momentum_flow_model,
-        follows="@mf32",
+        follows="@(22)",
     ),
     Trial(
-        label="text-ball-body-precession",
+        name="text-ball-body-precession",
         printed="d2(Omega) = cross(K,cross(K,Omega))",
         model=body_flow_model,
-        follows=r"@mf31 and @mf43: a precession about $\mathbf{K}$ with the frequency $|\mathbf{K}| = \alpha$ has this "
+        follows=r"@(21) and @(35): a precession about $\mathbf{K}$ with the frequency $|\mathbf{K}| = \alpha$ has this "
         "second rate",
         corrected="d(Omega) = -cross(Omega + K,Omega); d(Omega + K) = 0",
         corrected_tex=(
@@ -274,69 +274,69 @@ TRIALS = (
         grade="wording",
         note=r"It is so at each instant, but $R^T \mathbf{B}$ moves as well. What stands still in the body is "
         r"$\boldsymbol{\Omega} + \mathbf{K}$, and the components turn about that with the frequency $\gamma$ of "
-        "@mf39, not with Larmor's.",
+        "@(29), not with Larmor's.",
     ),
     Trial(
-        label="text-ball-equivalent",
+        name="text-ball-equivalent",
         printed="dOmega + mu/(2*c)*cross(T(R)*Bf,Omega) = 1/I0*T(R)*(dm + mu/(2*c)*cross(Bf,m))",
         model=any_momentum_model,
-        follows=r"$\boldsymbol{\Omega} = R^T \mathbf{m}/I_0$ differentiated by @mf30, for any rate of $\mathbf{m}$",
+        follows=r"$\boldsymbol{\Omega} = R^T \mathbf{m}/I_0$ differentiated by @(20), for any rate of $\mathbf{m}$",
         note="The left side vanishes if and only if the right one does.",
     ),
     Trial(
-        label="text-linear-poisson",
+        name="text-linear-poisson",
         printed="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
         model=ball_model,
         follows=r"$\det R = 1$",
     ),
     Trial(
-        label="mf34",
+        name="(24)",
         printed="dR[i,j] = 1/I0*eps[i,a,b]*m[a]*R[b,j]; dRj[j] = 1/I0*cross(m,Rj[j])",
         model=ball_model,
-        follows=r"@mf30 and $\mathbf{m} = I_0 R \boldsymbol{\Omega}$",
+        follows=r"@(20) and $\mathbf{m} = I_0 R \boldsymbol{\Omega}$",
     ),
     Trial(
-        label="mf35",
+        name="(25)",
         printed="dm = -mu/(2*c)*cross(Bf,m)",
         model=ball_model,
-        follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @mf30 and @mf31",
+        follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)",
     ),
     Trial(
-        label="text-ball-frame",
+        name="text-ball-frame",
         printed="R*(I0*one)*T(R) = I0*one",
         model=frame_model,
         follows="$R R^T = 1$",
     ),
     Trial(
-        label="mf36",
+        name="(26)",
         printed=f"m = {_LEFT}*[0, m2, m3] = [m2*sin(alpha*t), m2*cos(alpha*t), m3]",
         model=larmor_model,
-        follows=r"@mf35 by substitution, $\alpha$ of @mf37",
+        follows=r"@(25) by substitution, $\alpha$ of @(27)",
         defines=("m",),
         solves="d(m) = -mu/(2*c)*cross([0, 0, b],m); at0(m) = [0, m2, m3]",
     ),
     Trial(
-        label="mf37",
+        name="(27)",
         printed="alpha = mu*b/(2*c)",
         model=larmor_frequency_model,
-        follows=r"the rate of the angle of $\mathbf{m}$ about $\mathbf{B}$ in @mf32",
+        follows=r"the rate of the angle of $\mathbf{m}$ about $\mathbf{B}$ in @(22)",
     ),
     Trial(
-        label="text-ball-ansatz",
+        name="text-ball-ansatz",
         printed="k2 = -m2/(gamma*I0); k3 = -(alpha*I0 + m3)/(gamma*I0); I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
         model=start_model,
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$",
     ),
     Trial(
-        label="mf38",
+        name="(28)",
         printed=f"R = {_EXPANDED} = {_LEFT}*{_RIGHT}",
         model=motion_model,
-        follows=r"@mf34 by substitution, with $\mathbf{m}$ of @mf36 and $\hat{\mathbf{k}}$, $\gamma$ of @mf39",
+        follows=r"@(24) by substitution, with $\mathbf{m}$ of @(26) and $\hat{\mathbf{k}}$, $\gamma$ of @(29)",
         defines=("R",),
         solves=_LINEAR,
     ),
     Trial(
-        label="mf39",
+        name="(29)",
         printed="k2 = -m2/sqrt(m2^2 + (alpha*I0 + m3)^2); k3 = -(m3 + alpha*I0)/sqrt(m2^2 + (alpha*I0 + m3)^2);"
         " gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2)",
         model=constants_model,
@@ -357,17 +357,17 @@ TRIALS = (
         r"and $\hat{\mathbf{k}}$ is any unit vector, see @theorem-ball-rest.",
     ),
     Trial(
-        label="text-ball-two-rotations",
+        name="text-ball-two-rotations",
         printed=f"{_LEFT}*{_RIGHT} = rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, k2,"
         f" k3],cos(gamma*t),-sin(gamma*t))",
         model=motion_model,
         follows="Rodrigues' formula for a rotation about a unit vector",
     ),
     Trial(
-        label="text-ball-parallel",
+        name="text-ball-parallel",
         printed="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
         model=parallel_model,
-        follows="@mf39 with $m_2 = 0$",
+        follows="@(29) with $m_2 = 0$",
         also=(
             Part(
                 line="k2 = 0; k3 = 1; gamma = -(alpha + m3/I0)",
@@ -376,13 +376,13 @@ TRIALS = (
         ),
         note=r"In the same sense as $\mathbf{B}$, or against it with $m_3 > -\alpha I_0$. For $m_3 < -\alpha I_0$ "
         r"both signs turn round, $\hat k_3 = 1$ and $\gamma = -(\alpha + m_3/I_0)$, since $\gamma$ is a root and "
-        "never negative. The product, and so @mf40, is the same.",
+        "never negative. The product, and so @(30), is the same.",
     ),
     Trial(
-        label="mf40",
+        name="(30)",
         printed=f"R = {_STEADY}",
         model=parallel_motion_model,
-        follows=r"@mf34 by substitution with $\mathbf{m} = (0, 0, m_3)$, and @text-ball-two-rotations with the "
+        follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, m_3)$, and @text-ball-two-rotations with the "
         "constants of @text-ball-parallel",
         defines=("R",),
         solves=_LINEAR,

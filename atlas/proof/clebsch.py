@@ -28,7 +28,7 @@ def gradient(vectors: Value) -> Callable[[Value], Value]:
 
 @cache
 def tensor_model() -> Model:
-    """Model any state Omega, K of a body of any inertia tensor J, with the rates mf27 and mf43."""
+    """Model any state Omega, K of a body of any inertia tensor J, with the rates (16) and (35)."""
     inverse = J.adjugate() / determinant(J)
     spin, field = inverse * (cross(J * Omega, Omega) - 2 * cross(MASS * K, Omega)), cross(K, Omega)
     letters = {"J": J, "Omega": Omega, "K": K, "W": Omega + K, "M": J * (Omega + K), "det": determinant}
@@ -39,7 +39,7 @@ def tensor_model() -> Model:
 
 @cache
 def reversed_model() -> Model:
-    """Model the state (-2K - Omega, K): J times its rate by mf27, beside minus the rate of -2K - Omega itself."""
+    """Model the state (-2K - Omega, K): J times its rate by (16), beside minus the rate of -2K - Omega itself."""
     other = -2 * K - Omega
     letters = {**tensor_model().letters, "other": other}
     letters["Jrate"] = cross(J * other, other) - 2 * cross(MASS * K, other)
@@ -68,7 +68,7 @@ def frame_model() -> Model:
 
 @cache
 def poisson_model() -> Model:
-    """Model any M and K as coordinates of e(3), principal moments, the bracket, and the rates of mf27, mf43."""
+    """Model any M and K as coordinates of e(3), principal moments, the bracket, and the rates of (16), (35)."""
     gM, gK = gradient(M), gradient(K)
     H = dot(M, AXES.inv() * M) / 2 + dot(K, AXES * K) / 2
     spin = AXES.inv() * M - K
@@ -112,41 +112,41 @@ _L = "1/2*dot(Omega,J*Omega) + dot(K,J*Omega)"
 
 TRIALS = (
     Trial(
-        label="theorem-larmor-frame",
+        name="theorem-larmor-frame",
         printed="S = P*R; d(S[i,j]) = -eps[j,a,b]*(Omega[a] + K[a])*S[i,b]; T(S)*Bp = K;"
         " S2 = P2*R; d(S2[i,j]) = -eps[j,a,b]*(Omega[a] + 2*K[a])*S2[i,b]; T(S2)*Bp = K",
         model=frame_model,
-        follows="@mf21, with $P = R_B(bt)$ and $P_2 = R_B(2bt)$",
+        follows="@(12), with $P = R_B(bt)$ and $P_2 = R_B(2bt)$",
         defines=("S", "S2"),
         note="The last equation, in the reversed time, is what @theorem-pair needs.",
     ),
     Trial(
-        label="theorem-larmor",
+        name="theorem-larmor",
         printed="J*d(W) = cross(J*W,W) + cross(K,J*K); d(K) = cross(K,W); W = Omega + K",
         model=tensor_model,
-        follows="@mf27 and @mf43",
+        follows="@(16) and @(35)",
         note=r"Larmor's theorem, exact in the field and for every inertia tensor. The torque $[\mathbf{K}, J "
         r"\mathbf{K}]$ is that of the potential $(\mathbf{K}, J \mathbf{K})/2$, quadratic in the field.",
     ),
     Trial(
-        label="theorem-momentum-canonical",
+        name="theorem-momentum-canonical",
         printed=f"L = {_L}; M = gradOmega(L); dot(M,Omega) - L = 1/2*dot(Omega,J*Omega);"
         " d(M) = cross(M,Omega) + cross(J*Omega,K)",
         model=tensor_model,
-        follows="@mf27, with the Lagrangian @mf14 summed over the body",
+        follows="@(16), with the Lagrangian @(104) summed over the body",
         defines=("L",),
         note=r"The last equation is that of Euler and Poincaré for $L$, in which $\mathbf{K}$ moves with the body.",
     ),
     Trial(
-        label="theorem-lie-poisson",
+        name="theorem-lie-poisson",
         printed="H = 1/2*dot(M,inv(J)*M) + 1/2*dot(K,J*K); d(M) = cross(M,gradM(H)) + cross(K,gradK(H));"
         " d(K) = cross(K,gradM(H)); d(H) = 0; d(dot(K,K)) = 0; d(dot(M,K)) = 0",
         model=poisson_model,
-        follows=r"@mf27 and @mf43 with $\boldsymbol{\Omega} = J^{-1} \mathbf{M} - \mathbf{K}$",
+        follows=r"@(16) and @(35) with $\boldsymbol{\Omega} = J^{-1} \mathbf{M} - \mathbf{K}$",
         defines=("H",),
     ),
     Trial(
-        label="theorem-bracket",
+        name="theorem-bracket",
         printed="br(M[i],M[j]) = -eps[i,j,k]*M[k]; br(M[i],K[j]) = -eps[i,j,k]*K[k]; br(K[i],K[j]) = 0;"
         " eps[i,j,k]*br(br(M[i],M[j]),M[k]) = 0;"
         " eps[l,i,j]*br(br(M[i],M[j]),K[k]) + 2*eps[l,i,j]*br(br(M[j],K[k]),M[i]) = 0;"
@@ -157,24 +157,24 @@ TRIALS = (
         "antisymmetric, for the coordinates is that for all functions, since a bracket is a derivation.",
     ),
     Trial(
-        label="theorem-kinetic-energy",
+        name="theorem-kinetic-energy",
         printed="energy = 1/2*dot(W,J*W) + 1/2*dot(K,J*K) - dot(M,K); d(energy) = 0",
         model=tensor_model,
-        follows=r"$\mathbf{M} = J \mathbf{W}$, $\mathbf{W} = \boldsymbol{\Omega} + \mathbf{K}$, @mf27 and @mf43",
+        follows=r"$\mathbf{M} = J \mathbf{W}$, $\mathbf{W} = \boldsymbol{\Omega} + \mathbf{K}$, @(16) and @(35)",
         note="$F$ is not needed. The two Hamiltonians differ by a Casimir, which generates the turn of Larmor's frame.",
     ),
     Trial(
-        label="theorem-clebsch",
+        name="theorem-clebsch",
         printed="F = dot(M,M) - dot(K,adj(J)*K); adj(J)*J = det(J)*one; d(F) = 0;"
         " cross(J*Omega,J*K) = adj(J)*cross(Omega,K)",
         model=tensor_model,
-        follows=r"@mf27 and @mf43; $\det J J^{-1}$ is the matrix of cofactors",
+        follows=r"@(16) and @(35); $\det J J^{-1}$ is the matrix of cofactors",
         defines=("F",),
         note=r"The last identity is why: $(J \mathbf{W}, [\mathbf{K}, J \mathbf{K}]) = (\mathbf{K}, \det J J^{-1} "
         r"[\mathbf{K}, \mathbf{W}])$.",
     ),
     Trial(
-        label="theorem-involution",
+        name="theorem-involution",
         printed="F = dot(M,M) - det(J)*dot(K,inv(J)*K); br(F,H) = 0; d(F) = 0; rank(H,F,dot(M,K),dot(K,K)) = 4",
         model=poisson_model,
         follows="the bracket of @theorem-bracket; the gradients at one point, moments 2, 3, 4",
@@ -182,17 +182,17 @@ TRIALS = (
         note="Independent at one point, so at all but those of a set of measure zero.",
     ),
     Trial(
-        label="theorem-clebsch-symmetric",
+        name="theorem-clebsch-symmetric",
         printed="F = 2*I2*H + (1 - I2/I3)*M3^2 - I2*(I2 + I3)*dot(K,K); M3 = I3*c3;"
         " c5 = dot(M,K)/I2 - dot(K,K) + (1 - I)*c3^2; E = 2/I2*(H - dot(M,K))",
         model=symmetric_model,
-        follows="@mf44, @mf48 and @mf49 at any state",
+        follows="@(36), @(40) and @(41) at any state",
     ),
     Trial(
-        label="theorem-pair",
+        name="theorem-pair",
         printed="other = -2*K - Omega; Jrate = -J*d(other); Krate = -d(K)",
         model=reversed_model,
-        follows=r"@mf27 and @mf43 at the state $(-2\mathbf{K} - \boldsymbol{\Omega}, \mathbf{K})$, against their rates "
+        follows=r"@(16) and @(35) at the state $(-2\mathbf{K} - \boldsymbol{\Omega}, \mathbf{K})$, against their rates "
         "along the motion, time reversed",
         note="$R$ follows: by @theorem-larmor-frame $S$ is one motion for both, and $R(t)$ of the other is $R_B(-bt) "
         "S(-t) = R_B(-2bt) R(-t)$, the $S_2$ of @theorem-larmor-frame at $-t$.",

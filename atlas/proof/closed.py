@@ -14,7 +14,7 @@ h2, h3, p = sympy.symbols("h2 h3 p", real=True)
 
 @cache
 def closed_model() -> Model:
-    """Model a point of the hyperbola with phi of mf77 and k of mf84, and any number r."""
+    """Model a point of the hyperbola with phi of (72) and k of (79), and any number r."""
     B2, B3 = b * h2, b * h3
     phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
     letters: dict[str, Value] = {"I": I, "b": b, "hB2": h2, "hB3": h3, "r": r, "k": omega2 / h2, "phi": phi}
@@ -24,20 +24,20 @@ def closed_model() -> Model:
 
 TRIALS = (
     Trial(
-        label="theorem-closed",
+        name="theorem-closed",
         printed="I*(b + k)*(phi/k - r) = ((1 - I)*hB3 - I*r)*k + (2*(1 - I)*hB3 - I*r)*b;"
         " kr = -b*(2*(1 - I)*hB3 - I*r)/((1 - I)*hB3 - I*r); at(phi,kr)/kr = r; I*(b + kr)*((1 - I)*hB3 - I*r)"
         " = -I*b*(1 - I)*hB3",
         model=closed_model,
-        follows="@mf77 and @mf84",
+        follows="@(72) and @(79)",
         defines=("kr",),
         note="The first relation is linear in $k$: one root, none where the coefficient of $k$ is 0. By the last one "
         r"$b + k_\varrho$ is not 0 if $I$ differs from 1; $k_\varrho$ is 0 for the second $\varrho$ that is left out.",
     ),
     Trial(
-        label="theorem-closed-free",
+        name="theorem-closed-free",
         printed="phi/free = (2*b + k)/(b + k)",
         model=closed_model,
-        follows="@mf77, @mf84 and @mf92",
+        follows="@(72), @(79) and @(87)",
     ),
 )

@@ -1,4 +1,4 @@
-"""Section V, second half, on trial: the rotation matrix in elementary functions, mf78 to mf93."""
+"""Section V, second half, on trial: the rotation matrix in elementary functions, (73) to (88)."""
 
 from functools import cache
 
@@ -33,7 +33,7 @@ DOMAINS = {"u": "unit"}
 
 
 def precession() -> Value:
-    """Rotation about the field by the angle k t, as mf90 writes it."""
+    """Rotation about the field by the angle k t, as (85) writes it."""
     return sympy.Matrix(
         [
             [ck, -hB3 * sk, hB2 * sk],
@@ -54,7 +54,7 @@ def _model(
 
 @cache
 def velocity_model() -> Model:
-    """K = (B2 sin, B2 cos, B3) of mf68, and the whole system mf42, mf43 for it."""
+    """K = (B2 sin, B2 cos, B3) of (62), and the whole system (34), (35) for it."""
     letters = {"K": sympy.Matrix([B2 * sf, B2 * cf, B3]), "J": TENSOR, "g": MASS}
     return _model(letters, [*ON_HYPERBOLA, PHI, *ANGLES, *FIELD])
 
@@ -71,7 +71,7 @@ def row_model() -> Model:
 
 @cache
 def integral_model() -> Model:
-    """Any row that obeys mf80 with Omega of mf78; c is what mf81 says at that state."""
+    """Any row that obeys (75) with Omega of (73); c is what (76) says at that state."""
     rows = dict(zip(gamma, cross(gamma, SPIN), strict=True))
     letters = {f"Omega{n + 1}": SPIN[n] for n in range(3)} | {f"gamma{n + 1}": gamma[n] for n in range(3)}
     letters["c"] = SPIN[0] * g1 + SPIN[1] * g2 + hB3 * omega2 / hB2 * g3
@@ -88,19 +88,19 @@ def ratio_model() -> Model:
 
 @cache
 def rows_model() -> Model:
-    """Model the constant c of mf81 for the three rows of R(0) = 1."""
+    """Model the constant c of (76) for the three rows of R(0) = 1."""
     value = SPIN.subs(START)
     letters = {f"c_{n + 1}": [value[0], value[1], hB3 * omega2 / hB2][n] for n in range(3)}
     return _model(letters, [*FIELD])
 
 
 def _third(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
-    """gamma_3 of mf85."""
+    """gamma_3 of (80)."""
     return size * (ck * phase[0] - sk * phase[1]) + constant * hB3 * omega2 / (hB2 * k**2)
 
 
 def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
-    """Return A row by mf83 and mf85."""
+    """Return A row by (78) and (80)."""
     third = _third(constant, size, phase)
     rate = -k * size * (sk * phase[0] + ck * phase[1])
     rest = constant - hB3 * omega2 / hB2 * third
@@ -111,7 +111,7 @@ def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
 
 @cache
 def solution_model() -> Model:
-    """Model the row of mf83 and mf85, for any constants."""
+    """Model the row of (78) and (80), for any constants."""
     row = _row(c, amplitude, (c0, s0))
     rates = cross(row, SPIN)
     letters = {"gamma3": row[2], "rate3": rates[2], "Omega1": SPIN[0], "Omega2": SPIN[1]}
@@ -127,7 +127,7 @@ def solution_model() -> Model:
 
 @cache
 def matrix_model() -> Model:
-    """Omega of mf78, the field B', and the moments of the body."""
+    """Omega of (73), the field B', and the moments of the body."""
     letters = {"Omega": SPIN, "Bp": sympy.Matrix([0, B2, B3]), "J": TENSOR, "g": MASS, "R": precession() * PROPER}
     letters |= {
         "rod": rodrigues,
@@ -149,7 +149,7 @@ def ball_limit_model() -> Model:
 
 @cache
 def frequencies_model() -> Model:
-    """Phi of mf77 with omega2 = k_B hat B2."""
+    """Phi of (72) with omega2 = k_B hat B2."""
     kB = sympy.Symbol("kB", real=True)
     I3 = sympy.Symbol("I3", positive=True)
     letters = {"phiB": omega3 - B3 / B2 * omega2, "kB": kB, "b": b, "I3": I3}
@@ -158,7 +158,7 @@ def frequencies_model() -> Model:
 
 @cache
 def free_model() -> Model:
-    """Model the free body launched with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)); phi is whatever mf92 says."""
+    """Model the free body launched with Omega(0) = (0, omega2, I2 omega2 B3/(I3 B2)); phi is whatever (87) says."""
     I3 = sympy.Symbol("I3", positive=True)
     spin = sympy.Matrix([omega2 * sf, omega2 * cf, I2 * omega2 * B3 / (I3 * B2)])
     body = sympy.diag(I2, I2, I3)
@@ -243,144 +243,144 @@ def free_proper_model() -> Model:
 
 TRIALS = (
     Trial(
-        label="mf78",
+        name="(73)",
         printed="Omega = [omega2*sin(phi*t), omega2*cos(phi*t), omega3]",
         model=velocity_model,
-        follows=r"@mf42, @mf43 by substitution, with $\mathbf{K}$ of @mf68, $\omega_3$ of @mf76, $\phi$ of @mf77",
+        follows=r"@(34), @(35) by substitution, with $\mathbf{K}$ of @(62), $\omega_3$ of @(71), $\phi$ of @(72)",
         defines=("Omega",),
         solves="J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*K,Omega); d(K) = -cross(Omega,K); at0(Omega) = [0,"
         " omega2, omega3]",
     ),
     Trial(
-        label="text-body-precession",
+        name="text-body-precession",
         printed="d(Omega) = -phi*cross(e3,Omega)",
         model=matrix_model,
-        follows="@mf78",
+        follows="@(73)",
         note=r"Clockwise for $\phi > 0$.",
     ),
-    Trial(label="mf79", printed="dgamma = cross(gamma,Omega)", model=row_model, follows="@mf21 for one row"),
+    Trial(name="(74)", printed="dgamma = cross(gamma,Omega)", model=row_model, follows="@(12) for one row"),
     Trial(
-        label="mf80",
+        name="(75)",
         printed="dgamma1 = gamma2*omega3 - gamma3*Omega2; dgamma2 = gamma3*Omega1 - gamma1*omega3;"
         " dgamma3 = gamma1*Omega2 - gamma2*Omega1",
         model=row_model,
-        follows="@mf79 in components",
+        follows="@(74) in components",
     ),
     Trial(
-        label="mf81",
+        name="(76)",
         printed="d(Omega1*gamma1 + Omega2*gamma2 + hB3*omega2/hB2*gamma3) = 0",
         model=integral_model,
-        follows=r"@mf80 with $\boldsymbol{\Omega}$ of @mf78",
+        follows=r"@(75) with $\boldsymbol{\Omega}$ of @(73)",
     ),
-    Trial(label="mf82", printed="B3/B2 = Bl3/Bl2 = hB3/hB2", model=ratio_model, follows="@mf41"),
+    Trial(name="(77)", printed="B3/B2 = Bl3/Bl2 = hB3/hB2", model=ratio_model, follows="@(32)"),
     Trial(
-        label="text-row-constants",
+        name="text-row-constants",
         printed="c_1 = 0; c_2 = omega2; c_3 = hB3*omega2/hB2",
         model=rows_model,
-        follows="@mf81 at $t = 0$ for the rows of $R(0) = 1$",
+        follows="@(76) at $t = 0$ for the rows of $R(0) = 1$",
     ),
     Trial(
-        label="mf83",
+        name="(78)",
         printed="gamma1 = 1/omega2^2*(Omega1*(c - hB3*omega2/hB2*gamma3) + Omega2*d(gamma3));"
         " gamma2 = 1/omega2^2*(Omega2*(c - hB3*omega2/hB2*gamma3) - Omega1*d(gamma3))",
         model=integral_model,
-        follows="@mf80 and @mf81",
+        follows="@(75) and @(76)",
     ),
     Trial(
-        label="mf84",
+        name="(79)",
         printed="d2(gamma3) + k^2*gamma3 = c*hB3*omega2/hB2; k = omega2/hB2",
         model=integral_model,
-        follows="@mf80, @mf81 and @mf83",
+        follows="@(75), @(76) and @(78)",
     ),
     Trial(
-        label="mf85",
+        name="(80)",
         printed="gamma3 = amp*cos(k*t + k0) + c*hB3*omega2/(hB2*k^2)",
         model=solution_model,
-        follows="@mf84 by substitution, with two constants",
+        follows="@(79) by substitution, with two constants",
         defines=("gamma3",),
         solves="d2(gamma3) + k^2*gamma3 = c*hB3*omega2/hB2",
     ),
     Trial(
-        label="mf86",
+        name="(81)",
         printed=f"gamma1 = {_BRACKET}*sin(phi*t) - amp/hB2*sin(k*t + k0)*cos(phi*t);"
         f" gamma2 = {_BRACKET}*cos(phi*t) + amp/hB2*sin(k*t + k0)*sin(phi*t)",
         model=solution_model,
-        follows=r"@mf80 by substitution, with $\gamma_3$ of @mf85",
+        follows=r"@(75) by substitution, with $\gamma_3$ of @(80)",
         defines=("gamma1", "gamma2"),
         solves="d(gamma1) = gamma2*omega3 - gamma3*Omega2; d(gamma2) = gamma3*Omega1 - gamma1*omega3;"
         " d(gamma3) = gamma1*Omega2 - gamma2*Omega1",
     ),
     Trial(
-        label="mf87",
+        name="(82)",
         printed="start1 = -amp/hB2*sin(k0); start2 = 1/omega2*(c - amp*hB3*omega2/hB2*cos(k0) - c*hB3^2);"
         " start3 = amp*cos(k0) + c*hB2*hB3/omega2",
         model=solution_model,
-        follows="@mf85 and @mf86 at $t = 0$",
+        follows="@(80) and @(81) at $t = 0$",
     ),
     Trial(
-        label="mf88",
+        name="(83)",
         printed="row(0,-hB2,pi/2) = [1, 0, 0]; row(omega2,-hB2*hB3,0) = [0, 1, 0];"
         " row(hB3*omega2/hB2,1 - hB3^2,0) = [0, 0, 1]; 1 - hB3^2 = hB2^2",
         model=solution_model,
-        follows=r"@mf87: the three rows of $R(0) = 1$; $\text{row}(c, b, k_0)$ is the row at $t = 0$ "
+        follows=r"@(82): the three rows of $R(0) = 1$; $\text{row}(c, b, k_0)$ is the row at $t = 0$ "
         "with these constants",
     ),
     Trial(
-        label="mf89",
+        name="(84)",
         printed=f"R = {_MF89}",
         model=matrix_model,
-        follows=r"@mf21 and @mf27 by substitution, with $\boldsymbol{\Omega}$ of @mf78",
+        follows=r"@(12) and @(16) by substitution, with $\boldsymbol{\Omega}$ of @(73)",
         defines=("R",),
         solves=f"{_POISSON}; {_EULER}",
     ),
     Trial(
-        label="text-hidden",
+        name="text-hidden",
         printed="k = omega2*Bl/Bl2",
         model=hidden_model,
         follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
     ),
     Trial(
-        label="mf90",
+        name="(85)",
         printed=f"R = {_LEFT}*{_RIGHT} = P*Q",
         model=matrix_model,
-        follows="@mf89",
+        follows="@(84)",
         defines=("R",),
         solves=_POISSON,
     ),
     Trial(
-        label="text-precession",
+        name="text-precession",
         printed="P = cos(k*t)*one + (1 - cos(k*t))*hat_B*T(hat_B) + sin(k*t)*hat(hat_B); Q ="
         " rod(e3,cos(phi*t),sin(phi*t))",
         model=matrix_model,
         follows="Rodrigues' formula",
     ),
     Trial(
-        label="text-axis-precesses",
+        name="text-axis-precesses",
         printed="d(R*e3) = k*cross(hat_B,R*e3)",
         model=matrix_model,
-        follows="@mf89",
+        follows="@(84)",
     ),
     Trial(
-        label="text-ball-limit",
+        name="text-ball-limit",
         printed="omega3 - B3/B2*omega2 = 0",
         model=ball_limit_model,
-        follows="@mf76, @mf77 with $I = 1$",
+        follows="@(71), @(72) with $I = 1$",
     ),
     Trial(
-        label="mf91",
+        name="(86)",
         printed="phiB = (I2 - I3)*hB3*(2*b + kB)/(I3*(b + kB))*kB",
         model=frequencies_model,
-        follows=r"@mf76, @mf77 and $\omega_2 = k_B \hat{B}_2$",
+        follows=r"@(71), @(72) and $\omega_2 = k_B \hat{B}_2$",
     ),
     Trial(
-        label="text-free-general",
+        name="text-free-general",
         printed="d(a) = 1/I2*cross(m,a); d(dot(m,a)) = 0",
         model=free_body_model,
         follows=r"$\dot{\mathbf{a}} = [\boldsymbol{\omega}, \mathbf{a}]$ for the third axis $\mathbf{a}$,"
         r" $\mathbf{m}$ constant, $\boldsymbol{\omega}= \mathbf{m}/I_2+(1/I_3-1/I_2)(\mathbf{a},\mathbf{m})\mathbf{a}$",
     ),
     Trial(
-        label="mf92",
+        name="(87)",
         printed="phi = (I2 - I3)/I3*hB3*kB",
         model=free_model,
         follows="the free Euler and Poisson equations by substitution",
@@ -388,13 +388,13 @@ TRIALS = (
         solves=f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega)",
     ),
     Trial(
-        label="text-affirmation-free",
+        name="text-affirmation-free",
         printed="Omega0 = [0, omega2, I2*omega2*B3/(I3*B2)]; J*Omega0 = I2*omega2/B2*Bp",
         model=free_model,
         follows="the launch of the free body",
     ),
     Trial(
-        label="text-free-frequency",
+        name="text-free-frequency",
         printed="size/I2 = omega2/hB2 = k",
         model=free_frequency_model,
         follows=r"$\mathbf{m} = (I_2 \omega_2/B_2) \mathbf{B}'$, its length for either sign of $\omega_2$",
@@ -403,38 +403,38 @@ TRIALS = (
             r"\boxed{\lvert k\rvert}=\frac{\lvert\mathbf{m}\rvert}{I_2},\qquad k=\frac{\omega_2}{\hat{B}_2}=k_B"
         ),
         grade="missing case",
-        note=r"For $\omega_2 < 0$ the length $|\mathbf{m}|$ loses the sign; @mf92 holds with $k = \omega_2/\hat{B}_2$.",
+        note=r"For $\omega_2 < 0$ the length $|\mathbf{m}|$ loses the sign; @(87) holds with $k = \omega_2/\hat{B}_2$.",
     ),
     Trial(
-        label="text-free-proper",
+        name="text-free-proper",
         printed="phi = (I2 - I3)/(I2*I3)*m3 = (I2 - I3)/I3*hB3*omega2/hB2 = (I2 - I3)/I3*hB3*kB",
         model=free_proper_model,
         follows=r"@text-free-general: what is left of $\Omega_3$ when the precession is taken away",
     ),
     Trial(
-        label="text-momentum-moves",
+        name="text-momentum-moves",
         printed="dot(dm,dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2",
         model=matrix_model,
-        follows=r"@mf28: the length of $d\mathbf{m}/dt$, zero only for $I = 1$ or $\omega_2 = 0$",
+        follows=r"@(17): the length of $d\mathbf{m}/dt$, zero only for $I = 1$ or $\omega_2 = 0$",
     ),
     Trial(
-        label="text-constant-omega3",
+        name="text-constant-omega3",
         printed="Omega[3] = omega2; d(Omega[3]) = 0",
         model=matrix_model,
-        follows="@mf78",
+        follows="@(73)",
         corrected="Omega[3] = omega3; d(Omega[3]) = 0",
         corrected_tex=r"\Omega_3(t)=\boxed{\omega_3}=\text{const}",
         grade="misprint",
         note="A wrong index.",
     ),
     Trial(
-        label="mf93",
+        name="(88)",
         printed="d(m[1]*Bp[1] + m[2]*Bp[2] + m[3]*Bp[3]) = 0",
         model=matrix_model,
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$ by substitution",
     ),
     Trial(
-        label="text-momentum-plane",
+        name="text-momentum-plane",
         printed="dot(m,Bp) = 0",
         model=matrix_model,
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$",

@@ -1,4 +1,4 @@
-"""Section II, second half, on trial: Euler-Poisson equations for any rotation and any inertia tensor, The.1 to mf29."""
+"""Section II, second half, on trial: Euler-Poisson equations for any rotation and any inertia tensor, (10) to (18)."""
 
 from functools import cache
 
@@ -21,7 +21,7 @@ def _antisymmetric(S: Value) -> Value:
 
 @cache
 def multiplier_model() -> Model:
-    """The.1 with any matrix A, and Lam, the multipliers that it needs: The.1 holds if and only if Lam is symmetric.
+    """(10) with any matrix A, and Lam, the multipliers that it needs: (10) holds if and only if Lam is symmetric.
 
     R^T d2R = hat(Omega)^2 + hat(w), w the rate of Omega. IdOmega is what the symmetry of Lam makes of I w.
     """
@@ -41,7 +41,7 @@ def multiplier_model() -> Model:
 
 @cache
 def magnetic_model() -> Model:
-    """Model the magnetic force of mf20 as the matrix A, and I times the rate of Omega from mf22."""
+    """Model the magnetic force of (7) as the matrix A, and I times the rate of Omega from (11)."""
     dR = R * hat(Omega)
     A = sympy.Matrix(3, 3, lambda i, a: (mu / c * Bf.cross(dR.col(a)))[i])
     model = multiplier_model()
@@ -51,13 +51,13 @@ def magnetic_model() -> Model:
 
 
 def euler(tensor: Value, mass: Value, field: Value) -> Value:
-    """I times the rate of Omega, mf27 as proved, with the field seen from the body."""
+    """I times the rate of Omega, (16) as proved, with the field seen from the body."""
     return cross(tensor * Omega, Omega) - mu / c * cross(mass * field, Omega)
 
 
 @cache
 def momentum_model() -> Model:
-    """Angular momentum in both frames, with the rates that mf27 and mf21 give them.
+    """Angular momentum in both frames, with the rates that (16) and (12) give them.
 
     M is any vector and J any symmetric matrix, the inverse of I: Omega = J M. More isn't needed of them.
     """
@@ -87,7 +87,7 @@ def poisson_model() -> Model:
 
 @cache
 def matrix_flow_model() -> Model:
-    """Any matrix that obeys mf21."""
+    """Any matrix that obeys (12)."""
     free = matrix("R")
     return Model({"R": free, "Omega": Omega}, flow=dict(zip(free, free * hat(Omega), strict=True)))
 
@@ -154,7 +154,7 @@ _MF23 = (
 
 @cache
 def algebraic_model() -> Model:
-    """Principal axes, any matrix A; IdOmega is what mf22 makes of the rate of Omega."""
+    """Principal axes, any matrix A; IdOmega is what (11) makes of the rate of Omega."""
     whole = multiplier_model()
     swap = {g[i, j]: 0 for i in range(3) for j in range(3) if i != j}
     letters = {**whole.letters, "g": g.xreplace(swap), "I": moments.xreplace(swap)}
@@ -185,7 +185,7 @@ def covariance_model() -> Model:
 
 @cache
 def flight_model() -> Model:
-    """Four particles about their centre of mass; w is the rate of Omega, IdOmega that of mf27 times I."""
+    """Four particles about their centre of mass; w is the rate of Omega, IdOmega that of (16) times I."""
     masses = dict(enumerate(sympy.symbols("m1:5", positive=True), 1))
     places = {N: vector(f"x{N}_") for N in (1, 2, 3)}
     places[4] = -sum((masses[N] * places[N] for N in places), sympy.zeros(3, 1)) / masses[4]
@@ -199,31 +199,31 @@ def flight_model() -> Model:
 
 TRIALS = (
     Trial(
-        label="The.1",
+        name="(10)",
         printed="ddRg[i,j] = -R[i,k]*Lam[k,j] - A[i,k]*g[k,j]",
         model=multiplier_model,
-        follows="@mf19 about the centre of mass, solved for the multipliers",
+        follows="@(6) about the centre of mass, solved for the multipliers",
         definition=True,
     ),
     Trial(
-        label="Aff100",
+        name="text-affirmation",
         printed=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_MF22})",
         model=multiplier_model,
-        follows=r"@The.1 with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
-        note="The multipliers are symmetric if and only if @mf22 holds: one identity proves both directions, for "
+        follows=r"@(10) with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
+        note="The multipliers are symmetric if and only if @(11) holds: one identity proves both directions, for "
         "every rotation, every symmetric mass matrix and every matrix $A$. That $g$ be non-degenerate is not "
         "needed, only $I$.",
     ),
     Trial(
-        label="text-multipliers-algebraic",
+        name="text-multipliers-algebraic",
         printed="lam = -(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega) + T(R)*A)*g = T(lam)",
         model=algebraic_model,
-        follows=r"@The.1 with the rate of $\boldsymbol{\Omega}$ of @mf22, for any matrix $A$",
+        follows=r"@(10) with the rate of $\boldsymbol{\Omega}$ of @(11), for any matrix $A$",
         defines=("lam",),
         solves="R*(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega))*g = -R*lam - A*g",
     ),
     Trial(
-        label="text-nondegenerate",
+        name="text-nondegenerate",
         printed="g1*g2*g3 != 0",
         model=moments_model,
         follows="the moments of mass of any body and of a plane one",
@@ -235,54 +235,54 @@ TRIALS = (
         "tensor be non-degenerate, which it is for every body that is no rod.",
     ),
     Trial(
-        label="mf22",
+        name="(11)",
         printed=f"IdOmega[k] = {_MF22}",
         model=multiplier_model,
-        follows="the symmetry of the multipliers in @The.1",
+        follows="the symmetry of the multipliers in @(10)",
     ),
     Trial(
-        label="mf21",
+        name="(12)",
         printed="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
         model=poisson_model,
         follows="any moving rotation, by its Cayley parameters",
     ),
     Trial(
-        label="text-inertia-tensor",
+        name="text-inertia-tensor",
         printed="I[i,j] = g[a,a]*delta[i,j] - g[i,j]",
         model=inertia_model,
         follows=r"the kinetic energy of four particles that turn with $\boldsymbol{\Omega}$",
     ),
     Trial(
-        label="text-mass-moments",
+        name="text-mass-moments",
         printed="2*g1 = I2 + I3 - I1; 2*g2 = I3 + I1 - I2; 2*g3 = I1 + I2 - I3",
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$",
     ),
     Trial(
-        label="text-inertia-axes",
+        name="text-inertia-axes",
         printed="turned = R*I*T(R); turned*R1 = I1*R1; turned*R2 = I2*R2; turned*R3 = I3*R3;"
         " at0(R1) = e1; at0(R2) = e2; at0(R3) = e3",
         model=axes_model,
         follows="the inertia tensor of three masses on the principal axes that are turned by $R$, and $R(0) = 1$",
     ),
     Trial(
-        label="text-orthogonal",
+        name="text-orthogonal",
         printed="d(R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]) = 0",
         model=matrix_flow_model,
-        follows="@mf21 for any matrix $R$",
+        follows="@(12) for any matrix $R$",
     ),
     Trial(
-        label="text-covariance",
+        name="text-covariance",
         printed="rate(seen(I),seen(g),S*K,S*Omega) = S*rate(I,g,K,Omega); hat(S*Omega) = seen(hat(Omega))",
         model=covariance_model,
-        follows="the right side of @mf27 and that of @mf21, for any rotation $S$",
+        follows="the right side of @(16) and that of @(12), for any rotation $S$",
         note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
     ),
     Trial(
-        label="mf23",
+        name="text-force-matrix",
         printed=_MF23.format(sign="").replace("= ", "= ", 1) + " = R[i,a]*dot(Bf,R*Omega) - (R*Omega)[i]*(T(R)*Bf)[a]",
         model=magnetic_model,
-        follows="@mf21 and $R R^T = 1$",
+        follows="@(12) and $R R^T = 1$",
         corrected=_MF23.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
         corrected_tex=(
             r"\begin{aligned} \epsilon_{ijk}B_j\dot R_{ka}&=\boxed{-}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}="
@@ -291,24 +291,24 @@ TRIALS = (
             r"=\boxed{(R\boldsymbol{\Omega})_i(\mathbf{B}R)_a-R_{ia}(\mathbf{B}R\boldsymbol{\Omega})} \end{aligned}"
         ),
         grade="misprint",
-        note="The minus of @mf21 is lost at the first step and back in @mf24.",
+        note="The minus of @(12) is lost at the first step and back in @(13).",
     ),
     Trial(
-        label="mf24",
+        name="(13)",
         printed="A[i,a] = -mu/c*eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
         " = mu/c*((R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega))",
         model=magnetic_model,
-        follows="@mf20 and @mf21",
+        follows="@(7) and @(12)",
     ),
     Trial(
-        label="mf25",
+        name="(14)",
         printed="IdOmega = cross(I*Omega,Omega) - mu/(2*c)*(I*cross(T(R)*Bf,Omega) - cross(I*T(R)*Bf,Omega)"
         " + cross(T(R)*Bf,I*Omega))",
         model=magnetic_model,
-        follows="@mf22 with the matrix $A$ of @mf20",
+        follows="@(11) with the matrix $A$ of @(7)",
     ),
     Trial(
-        label="mf26",
+        name="(15)",
         printed="(I*cross(K,Omega))[1] - cross(I*K,Omega)[1] + cross(K,I*Omega)[1]"
         " = (I1 - I2 + I3)*K2*Omega3 - (I1 - I3 + I2)*K3*Omega2 = 2*g2*K2*Omega3 - 2*g3*K3*Omega2 ="
         " 2*cross(g*K,Omega)[1]",
@@ -316,37 +316,37 @@ TRIALS = (
         follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$",
     ),
     Trial(
-        label="text-other-components",
+        name="text-other-components",
         printed="I*cross(K,Omega) - cross(I*K,Omega) + cross(K,I*Omega) = 2*cross(g*K,Omega)",
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$, all three components",
     ),
     Trial(
-        label="mf27",
+        name="(16)",
         printed="IdOmega = cross(I*Omega,Omega) - mu/c*cross(g*T(R)*Bf,Omega)",
         model=magnetic_model,
-        follows="@mf22 with the matrix $A$ of @mf20",
+        follows="@(11) with the matrix $A$ of @(7)",
     ),
     Trial(
-        label="mf28",
+        name="(17)",
         printed="dm = -mu/c*cross(R*g*T(R)*Bf,R*inv(I)*T(R)*m)",
         model=momentum_model,
-        follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$, @mf21 and @mf27",
+        follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$, @(12) and @(16)",
     ),
     Trial(
-        label="mf29",
+        name="(18)",
         printed="dM = cross(M,inv(I)*M) - mu/c*cross(g*T(R)*Bf,inv(I)*M)",
         model=momentum_model,
-        follows=r"$\mathbf{M} = I \boldsymbol{\Omega}$ and @mf27",
+        follows=r"$\mathbf{M} = I \boldsymbol{\Omega}$ and @(16)",
     ),
     Trial(
-        label="text-grioli",
+        name="text-grioli",
         printed="IdOmega = cross(I*Omega,Omega) - mu*b/c*cross(g*G3,Omega)",
         model=grioli_model,
-        follows=r"@mf27 with $\mathbf{B} = (0, 0, b)$",
+        follows=r"@(16) with $\mathbf{B} = (0, 0, b)$",
     ),
     Trial(
-        label="text-flight",
+        name="text-flight",
         printed="R*(I*w - IdOmega) = m[N]*cross(R*x[N], R*(hat(Omega)*hat(Omega) + hat(w))*x[N]"
         " - mu/c*cross(R*hat(Omega)*x[N],Bf))",
         model=flight_model,
@@ -359,7 +359,7 @@ TRIALS = (
                 model=flight_model,
             ),
         ),
-        note=r"Both vanish if @mf17 holds and the rate $w$ of $\boldsymbol{\Omega}$ is that of @mf27, and only then. "
+        note=r"Both vanish if @(4) holds and the rate $w$ of $\boldsymbol{\Omega}$ is that of @(16), and only then. "
         "A force that is for all particles in proportion to their masses has no torque about the centre of "
         "mass, and is left out of it.",
     ),

@@ -13,20 +13,20 @@ from atlas.proof.notation import Reader, letters_of, parse
 from atlas.proof.run import trial
 
 
-def value(label: str, side: str, /, **letters: Any) -> Any:
+def value(name: str, side: str, /, **letters: Any) -> Any:
     """Evaluate what an equation says that one of its sides is, in the form that has been proved.
 
     side     a letter, or a whole side as the trial writes it: "omega3", "d(Omega1)", "0"
     letters  the values of the letters on the other side: numbers (floats are taken as exact), sequences as vectors and
              nested ones as matrices, SymPy objects, functions such as d
 
-        value("mf76", "omega3", omega2=0.7, I=1.5, B2=1.0, B3=2.0)
+        value("(71)", "omega3", omega2=0.7, I=1.5, B2=1.0, B3=2.0)
 
     The corrected form is read first; the printed one where that only adds cases. Of a chain a = b = c the last side
     counts that has no other letters. Returns an exact SymPy number; a vector or a matrix of such where the side is
     one, or has one or two free indices. AtlasError if the equation has no such side or lacks a value.
     """
-    case = trial(equation(label).label)
+    case = trial(equation(name).name)
     known = {**COMMON, **{name: _exact(given) for name, given in letters.items()}}
     wanted = ast.dump(parse(f"{side} = 0")[0].left)
     lacking: list[str] = []
@@ -40,8 +40,8 @@ def value(label: str, side: str, /, **letters: Any) -> Any:
                 return _components(Reader(known), other)
             lacking = lacking or missing
     if lacking:
-        raise AtlasError(f"{label} needs the value of {', '.join(lacking)} too")
-    raise AtlasError(f"{label} does not say what {side!r} is; it reads {case.corrected or case.printed}")
+        raise AtlasError(f"{name} needs the value of {', '.join(lacking)} too")
+    raise AtlasError(f"{name} does not say what {side!r} is; it reads {case.corrected or case.printed}")
 
 
 def _components(reader: Reader, side: ast.expr) -> Any:

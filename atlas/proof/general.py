@@ -82,20 +82,20 @@ _SIGMA = (
 
 TRIALS = (
     Trial(
-        label="theorem-top",
+        name="theorem-top",
         printed=f"d(nu)^2 = {_q}; P/b/(1 - nu^2) + b = (p - M3*nu)/(1 - nu^2);"
         " u - nu*P/b/(1 - nu^2) = c3 - nu*(p - M3*nu)/(1 - nu^2); d(M3) = 0; d(p) = 0; d(h) = 0; M3 = I*c3",
         model=top_model,
-        follows="@mf42 and @mf43 at any state, and the rates of @theorem-angles",
+        follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
     ),
     Trial(
-        label="theorem-top-quartic",
+        name="theorem-top-quartic",
         printed=f"{_Q} = b^2*({_q})",
         model=letters_model,
         follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$, $\nu = (c_3 - u)/b$",
     ),
     Trial(
-        label="theorem-weierstrass",
+        name="theorem-weierstrass",
         printed="Q = a0*u^4 + 4*a1*u^3 + 6*a2*u^2 + 4*a3*u + a4; x = e + slope(Q)/4/(P - bend(Q)/24);"
         " g2 = a0*a4 - 4*a1*a3 + 3*a2^2; g3 = a0*a2*a4 + 2*a1*a2*a3 - a2^3 - a0*a3^2 - a1^2*a4",
         model=weierstrass_model,
@@ -105,7 +105,7 @@ TRIALS = (
         " (slope(Q)/4)^2*(4*P^3 - g2*P - g3)/(P - bend(Q)/24)^4 = at(Q,x)",
     ),
     Trial(
-        label="theorem-lame",
+        name="theorem-lame",
         printed="C = 1/4*(g + M3^2); x = 1/2*w/(1 + nu);"
         " y = 1/2*(p + M3)/(1 + nu) = 1/2*((p - M3*nu)/(1 + nu) + M3);"
         " d(x) + x^2 - y^2 = 3/4*A*nu^2 - 1/2*A*nu - C; d(y) + 2*x*y = 0;"
@@ -118,7 +118,7 @@ TRIALS = (
         "zeros are simple.",
     ),
     Trial(
-        label="theorem-residues",
+        name="theorem-residues",
         printed="q = (1 - nu^2)*(g - A*nu^2) - (p - M3*nu)^2 = w^2; at(q,-1) = -(p + M3)^2; at(q,1) = -(p - M3)^2;"
         " 1/2*(s*(p + M3) + p + M3)/(s*(p + M3)) = 1/2*(1 + s); 1/2*(-s*(p - M3) + p - M3)/(-s*(p - M3)) = 1/2*(1 - s)",
         model=lambda: tuple(curve_model(s) for s in (1, -1)),
@@ -128,7 +128,7 @@ TRIALS = (
         r"$\xi$ is $[w_0 + i(p + M_3)]/(2 w_0 (t - z))$: residue 1 or 0.",
     ),
     Trial(
-        label="theorem-sigma",
+        name="theorem-sigma",
         printed=_SIGMA,
         model=sigma_model,
         follows="@theorem-cayley-klein, @theorem-top and @theorem-weierstrass, with the addition theorem of zeta",

@@ -1,4 +1,4 @@
-"""Section V, first half, on trial: motions with a constant Omega3, mf64 to mf77."""
+"""Section V, first half, on trial: motions with a constant Omega3, (58) to (72)."""
 
 from functools import cache
 
@@ -35,14 +35,14 @@ _STATE |= {"omega1": omega1, "omega2": omega2, "omega3": omega3}
 
 
 def _rates() -> tuple[Value, Value]:
-    """Rates of Omega and K by mf42, mf43 in vectors, at Omega3 = omega3 and K3 = c3 - omega3 = B3."""
+    """Rates of Omega and K by (34), (35) in vectors, at Omega3 = omega3 and K3 = c3 - omega3 = B3."""
     Omega, K = sympy.Matrix([Omega1, Omega2, omega3]), sympy.Matrix([K1, K2, B3])
     return tensor.inv() * (cross(tensor * Omega, Omega) - 2 * cross(mass * K, Omega)), -cross(Omega, K)
 
 
 @cache
 def constant_model() -> Model:
-    """Omega3 = omega3, so that K3 = B3 by mf48."""
+    """Omega3 = omega3, so that K3 = B3 by (40)."""
     dOmega, dK = _rates()
     letters = {f"dOmega{n + 1}": dOmega[n] for n in range(3)} | {f"dK{n + 1}": dK[n] for n in range(2)}
     letters["K3"] = (omega3 + B3) - omega3
@@ -52,7 +52,7 @@ def constant_model() -> Model:
 
 @cache
 def proportional_model() -> Model:
-    """K1, K2 proportional to Omega1, Omega2, as the last equation of mf65 has it."""
+    """K1, K2 proportional to Omega1, Omega2, as the last equation of (59) has it."""
     dOmega, dK = _rates()
     flow = {Omega1: dOmega[0], Omega2: dOmega[1], K1: dK[0], K2: dK[1]}
     start = {Omega1: omega1, Omega2: omega2, K1: sympy.Integer(0), K2: B2}
@@ -61,7 +61,7 @@ def proportional_model() -> Model:
 
 @cache
 def circle_model() -> Model:
-    """Omega turned from omega by any angle, and (Omega, K) = omega2 B2 as in mf67."""
+    """Omega turned from omega by any angle, and (Omega, K) = omega2 B2 as in (61)."""
     cosine, sine = turn(p)
     where = [(Omega1, cosine * omega1 + sine * omega2), (Omega2, cosine * omega2 - sine * omega1)]
     where += [(B2, kappa * (omega1**2 + omega2**2) / omega2), (K1, kappa * Omega1), (K2, kappa * Omega2)]
@@ -70,7 +70,7 @@ def circle_model() -> Model:
 
 @cache
 def precession_model() -> Model:
-    """Rates with K of mf68: from the Euler equations, and from the rates of K."""
+    """Rates with K of (62): from the Euler equations, and from the rates of K."""
     factor = omega2 * B2 / (omega1**2 + omega2**2)
     swap = {K1: factor * Omega1, K2: factor * Omega2}
     euler, field = (rates.xreplace(swap) for rates in _rates())
@@ -95,7 +95,7 @@ def agreement_model() -> Model:
 
 @cache
 def motion_model() -> tuple[Model, Model]:
-    """Omega1 K2 = Omega2 K1 at t = 0 says omega1 B2 = 0; then mf71.1, resolved or, for I = 1, at omega2 = -B2."""
+    """Omega1 K2 = Omega2 K1 at t = 0 says omega1 B2 = 0; then (66), resolved or, for I = 1, at omega2 = -B2."""
     zero = (omega1, sympy.Integer(0))
     ball = [zero, (omega2, -B2), (I, sympy.Integer(1))]
     return Model(LETTERS, [(omega3, constant_omega3()), zero], units=units.QUADRIC), Model(
@@ -111,7 +111,7 @@ def pole_on_curve_model() -> Model:
 
 @cache
 def both_conditions_model() -> tuple[Model, Model]:
-    """All solutions of mf71 and mf71.1: their difference is a multiple of omega1^2 omega3."""
+    """All solutions of (65) and (66): their difference is a multiple of omega1^2 omega3."""
     square = omega1**2 + omega2**2
     difference = I * B2**2 * omega3 - I * B2**2 * omega2**2 * omega3 / square
     certain(sympy.cancel(difference - I * B2**2 * omega3 * omega1**2 / square) == 0)
@@ -145,7 +145,7 @@ def degenerate_model() -> tuple[Model, Model]:
 
 @cache
 def frequency_model() -> Model:
-    """Phi' of mf69 at omega1 = 0, on the hyperbola."""
+    """Phi' of (63) at omega1 = 0, on the hyperbola."""
     phi = _frequencies()[0].subs(I3, I * I2)
     where = [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]
     return Model({**LETTERS, "phi": phi}, where, units=units.QUADRIC)
@@ -163,75 +163,75 @@ def _plane_axes(factor: str) -> str:
 
 TRIALS = (
     Trial(
-        label="mf64",
+        name="(58)",
         printed="d(omega3) = 0; at0(Omega1) = omega1; at0(Omega2) = omega2",
         model=constant_model,
         follows=r"the ansatz: $\Omega_3$ is the constant $\omega_3$",
         definition=True,
     ),
     Trial(
-        label="mf65",
+        name="(59)",
         printed="dOmega1 = ((1 - I)*omega3 + (2 - I)*B3)*Omega2 - I*omega3*K2;"
         " dOmega2 = -((1 - I)*omega3 + (2 - I)*B3)*Omega1 + I*omega3*K1; dOmega3 = Omega1*K2 - Omega2*K1",
         model=constant_model,
-        follows=r"@mf42 with $\Omega_3 = \omega_3$",
+        follows=r"@(34) with $\Omega_3 = \omega_3$",
     ),
     Trial(
-        label="mf66",
+        name="(60)",
         printed="dK1 = omega3*K2 - B3*Omega2; dK2 = -omega3*K1 + B3*Omega1; K3 = B3",
         model=constant_model,
-        follows=r"@mf43 and @mf48 with $\Omega_3 = \omega_3$",
+        follows=r"@(35) and @(40) with $\Omega_3 = \omega_3$",
     ),
     Trial(
-        label="mf67",
+        name="(61)",
         printed="d(Omega1^2 + Omega2^2) = 0; d(K1^2 + K2^2) = 0; d(Omega1*K1 + Omega2*K2) = 0;"
         " at0(Omega1^2 + Omega2^2) = omega1^2 + omega2^2; at0(K1^2 + K2^2) = B2^2;"
         " at0(Omega1*K1 + Omega2*K2) = omega2*B2",
         model=proportional_model,
-        follows="@mf65 and @mf66",
+        follows="@(59) and @(60)",
     ),
     Trial(
-        label="mf68",
+        name="(62)",
         printed="K1 = omega2*B2/(omega1^2 + omega2^2)*Omega1; K2 = omega2*B2/(omega1^2 + omega2^2)*Omega2",
         model=circle_model,
-        follows="@mf67 and the last equation of @mf65",
+        follows="@(61) and the last equation of @(59)",
     ),
     Trial(
-        label="mf69",
+        name="(63)",
         printed="dOmega1 = phip*Omega2; dOmega2 = -phip*Omega1;"
         " phip = (1 - I)*omega3 + (2 - I)*B3 - I*B2*omega2*omega3/(omega1^2 + omega2^2)",
         model=precession_model,
-        follows="@mf65 and @mf68",
+        follows="@(59) and @(62)",
         defines=("phip",),
     ),
     Trial(
-        label="mf70",
+        name="(64)",
         printed="nu1 = phi*Omega2; nu2 = -phi*Omega1; phi = omega3 - B3*(omega1^2 + omega2^2)/(B2*omega2)",
         model=precession_model,
-        follows=r"@mf66 and @mf68; $\nu$ is the rate of $\boldsymbol{\Omega}$ that they give",
+        follows=r"@(60) and @(62); $\nu$ is the rate of $\boldsymbol{\Omega}$ that they give",
         defines=("phi",),
     ),
     Trial(
-        label="mf71",
+        name="(65)",
         printed="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2"
         " - I*B2^2*omega2^2*omega3/(omega1^2 + omega2^2) = 0",
         model=agreement_model,
-        follows=r"$\phi' = \phi$ in @mf69, @mf70, solved for $\omega_3$",
+        follows=r"$\phi' = \phi$ in @(63), @(64), solved for $\omega_3$",
     ),
-    Trial(label="mf71.1", printed=_MF711, model=condition_model, follows="@mf58.1"),
+    Trial(name="(66)", printed=_MF711, model=condition_model, follows="@(50)"),
     Trial(
-        label="mf72",
+        name="(67)",
         printed=_MF72,
         model=motion_model,
-        follows="@mf71.1 and the last equation of @mf65 at $t = 0$",
-        note=r"That $\omega_1 = 0$ follows from the last equation of @mf65; @mf71 and @mf71.1 do not suffice, see "
+        follows="@(66) and the last equation of @(59) at $t = 0$",
+        note=r"That $\omega_1 = 0$ follows from the last equation of @(59); @(65) and @(66) do not suffice, see "
         "@text-combining.",
     ),
     Trial(
-        label="text-combining",
+        name="text-combining",
         printed="omega1 = 0",
         model=both_conditions_model,
-        follows=r"every $\boldsymbol{\omega}$ that obeys @mf71 and @mf71.1",
+        follows=r"every $\boldsymbol{\omega}$ that obeys @(65) and @(66)",
         corrected="omega1*omega3 = 0; omega1*(omega1^2 + omega2^2 + (2 - I)*B2*omega2) = 0",
         corrected_tex=(
             r"\text{(65), (66)}\implies\omega_1=0\quad\boxed{\text{or}\quad\omega_3=0,\ "
@@ -239,35 +239,35 @@ TRIALS = (
         ),
         grade="gap in the argument",
         note=r"The circle $\omega_3 = 0$, $\omega_1^2 + \omega_2^2 + (2-I) B'_2 \omega_2 = 0$ obeys both conditions "
-        "too. The motions are on the hyperbola all the same, by the last equation of @mf65 at $t = 0$.",
+        "too. The motions are on the hyperbola all the same, by the last equation of @(59) at $t = 0$.",
     ),
     Trial(
-        label="mf73",
+        name="(68)",
         printed=f"w2^2/C2s - w3^2/C3s = 1; {_plane_axes('(I - 1)')}",
         model=lambda: canonical_model("above", plane=True),
-        follows=r"@mf61b with $\omega_1 = 0$",
+        follows=r"@(55) with $\omega_1 = 0$",
         defines=AXES,
     ),
     Trial(
-        label="mf74",
+        name="(69)",
         printed=f"-w2^2/C2s + w3^2/C3s = 1; {_plane_axes('(1 - I)')}",
         model=lambda: canonical_model("below", plane=True),
-        follows=r"@mf63 with $\omega_1 = 0$",
+        follows=r"@(57) with $\omega_1 = 0$",
         defines=AXES,
     ),
     Trial(
-        label="mf75",
+        name="(70)",
         printed=_MF75,
         model=degenerate_model,
-        follows=r"@mf62 with $\omega_1 = 0$, $a_2$ and $a_3$ as defined in this line",
+        follows=r"@(56) with $\omega_1 = 0$, $a_2$ and $a_3$ as defined in this line",
         defines=("a2", "a3"),
-        note="The letters $a_2$ and $a_3$ have another meaning here than in @mf60: the roots of the former.",
+        note="The letters $a_2$ and $a_3$ have another meaning here than in @(54): the roots of the former.",
     ),
     Trial(
-        label="mf76",
+        name="(71)",
         printed=f"omega3 = {_MF76}",
         model=lambda: motion_model()[0],
-        follows=r"@mf72 for $\omega_2$ different from $-B'_2$",
+        follows=r"@(67) for $\omega_2$ different from $-B'_2$",
         corrected=f"omega3 = {_MF76}",
         corrected_also=(
             Part(line=f"omega2 = -B2; I = 1; {_MF72}", model=lambda: motion_model()[1]),
@@ -281,15 +281,15 @@ TRIALS = (
             r"\quad\text{if}\quad I=1} \end{aligned}"
         ),
         grade="missing case",
-        slip="mf59",
+        slip="(52)",
         note=r"The formula is right, and $-B'_2$ is excluded in words. For $I = 1$ the line $\omega_2 = -B'_2$ is "
         "lost with it, and every point of that is a motion, see @theorem-ball-line; for any other $I$ nothing "
         "is missing.",
     ),
     Trial(
-        label="mf77",
+        name="(72)",
         printed="phi = omega3 - B3/B2*omega2 = B3*omega2*(1 - I)*(omega2 + 2*B2)/(I*B2*(omega2 + B2))",
         model=frequency_model,
-        follows="@mf69 on the hyperbola @mf76",
+        follows="@(63) on the hyperbola @(71)",
     ),
 )

@@ -1,4 +1,4 @@
-"""Section II, first half, on trial: six constrained particles, varied from the action, 1.6 to 1.38.
+"""Section II, first half, on trial: six constrained particles, varied from the action, (1) to (9).
 
 Six particles are the fewest for which every sum of the paper has more than one term: particle 1, the frame 2, 3, 4, and
 two more. Nothing in the derivation depends on their number.
@@ -28,7 +28,7 @@ COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": held}
 
 
 def potential_energy() -> Value:
-    """Minus U of mf15: for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m."""
+    """Minus U of (2): for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m."""
     return sum(mu * m[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
 
 
@@ -99,7 +99,7 @@ def carried(value: Value) -> Value:
 
 @cache
 def relative_model() -> Model:
-    """Model the particles seen from the centre of mass, whose acceleration is that of mf17."""
+    """Model the particles seen from the centre of mass, whose acceleration is that of (4)."""
     mass = sum(m.values())
     y0 = sum((m[N] * y[N] for N in ALL), sympy.zeros(3, 1)) / mass
     v0 = sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass
@@ -111,7 +111,7 @@ def relative_model() -> Model:
         "dx": {N: dy[N] - v0 for N in ALL},
         "ddx": {N: forces()[N] / m[N] - a0 for N in ALL},
         "carried": carried,
-        # what keeps the sum of m_N x_N zero in mf18: the sum of its equations, in which the other multipliers cancel
+        # what keeps the sum of m_N x_N zero in (5): the sum of its equations, in which the other multipliers cancel
         "lami": ((total - push) / mass).applyfunc(sympy.cancel),
         "y": y,
         "mu0": mass,
@@ -188,7 +188,7 @@ def spatial_model() -> Model:
 
 TRIALS = (
     Trial(
-        label="1.6",
+        name="(1)",
         printed="L = 1/2*m[N]*dot(dy[N],dy[N]) + 1/2*lam[A,C]*(dot(y[A] - y[1], y[C] - y[1]) - a[A,C])"
         " + 1/2*lam[A,be]*(dot(y[A] - y[1], y[be] - y[1]) - a[A,be])",
         model=action_model,
@@ -196,52 +196,52 @@ TRIALS = (
         definition=True,
     ),
     Trial(
-        label="text-constraints",
+        name="text-constraints",
         printed="2*dL[A,be] = dot(y[A] - y[1], y[be] - y[1]) - a[A,be];"
         " (1 + delta[A,C])*dL[A,C] = dot(y[A] - y[1], y[C] - y[1]) - a[A,C]",
         model=action_model,
-        follows="the action @1.6 for six particles, differentiated",
+        follows="the action @(1) for six particles, differentiated",
     ),
     Trial(
-        label="mf15",
+        name="(2)",
         printed="minusU = e[N]*A0[N] + e[N]/c*dot(A[N],dy[N])",
         model=potential_model,
-        follows="the sum of @mf13 over the particles, with the potentials @mf12",
+        follows="the sum of @(103) over the particles, with the potentials @(102)",
         definition=True,
     ),
     Trial(
-        label="mf16",
+        name="(3)",
         printed="m[1]*ddy[1] = -lam[A,C]*(y[C] - y[1]) - 1/2*lam[A,al]*(y[A] + y[al] - 2*y[1]) + mu*m[1]*E +"
         " mu/c*m[1]*cross(dy[1],Bf);"
         " m[A]*ddy[A] = lam[A,C]*(y[C] - y[1]) + 1/2*lam[A,al]*(y[al] - y[1]) + mu*m[A]*E + mu/c*m[A]*cross(dy[A],Bf);"
         " m[al]*ddy[al] = 1/2*lam[A,al]*(y[A] - y[1]) + mu*m[al]*E + mu/c*m[al]*cross(dy[al],Bf)",
         model=particles_model,
-        follows="the variation of the action @1.6, @mf15 for six particles",
+        follows="the variation of the action @(1), @(2) for six particles",
     ),
     Trial(
-        label="mf17",
+        name="(4)",
         printed="ddy0 = mu*E + mu/c*cross(dy0,Bf)",
         model=particles_model,
-        follows="the sum of @mf16 over six particles",
+        follows="the sum of @(3) over six particles",
     ),
     Trial(
-        label="text-translation",
+        name="text-translation",
         printed="stirred(ddy0) = ddy0",
         model=particles_model,
-        follows="@mf16 summed over six particles, at two states with the same centre of mass",
+        follows="@(3) summed over six particles, at two states with the same centre of mass",
     ),
     Trial(
-        label="text-rigid",
+        name="text-rigid",
         printed="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
         model=rigid_model,
         follows="the constraints keep the products $X^T X$ of the frame, so that $R = X X_0^{-1}$ is orthogonal",
         note="Three fixed products with an independent frame fix every further particle in it.",
     ),
     Trial(
-        label="text-rigid-plane",
+        name="text-rigid-plane",
         printed="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)",
         model=plane_model,
-        follows="the products with three vectors of one plane, which are all that @1.6 fixes of a further particle",
+        follows="the products with three vectors of one plane, which are all that @(1) fixes of a further particle",
         corrected="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)",
         corrected_model=spatial_model,
         corrected_tex=(
@@ -249,18 +249,18 @@ TRIALS = (
             r"\lvert\mathbf{y}_\beta-\mathbf{y}_1\rvert=\text{const}"
         ),
         grade="missing case",
-        note="Particles 1 to 4 must not lie in one plane. In a plane body they do, and then @1.6 leaves every "
+        note="Particles 1 to 4 must not lie in one plane. In a plane body they do, and then @(1) leaves every "
         "further particle free to rise out of the plane. One particle beside the plane, however light, mends it.",
     ),
     Trial(
-        label="mf18",
+        name="(5)",
         printed=_line(
             _RELATIVE.format(
                 lost=" + m[1]*lami + mu*m[1]*E", lostA=" + m[A]*lami + mu*m[A]*E", lostal=" + m[al]*lami + mu*m[al]*E"
             )
         ),
         model=relative_model,
-        follows="@mf16 less $m_N$ times @mf17, for six particles",
+        follows="@(3) less $m_N$ times @(4), for six particles",
         corrected=_line(
             _RELATIVE.format(
                 lost=" + m[1]*lami + mu*m[1]*E", lostA=" + m[A]*lami + mu*m[A]*E", lostal=" + m[al]*lami + mu*m[al]*E"
@@ -276,7 +276,7 @@ TRIALS = (
         "electric field is gone already here.",
     ),
     Trial(
-        label="mf19",
+        name="(6)",
         printed="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total - A[i,a]*g[a,j]",
         model=rotation_model,
         follows=r"the equations of six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$, times $\mathbf{x}_N^j(0)$, "
@@ -287,21 +287,21 @@ TRIALS = (
         note="The second term lacks its index $j$. It vanishes about the centre of mass, so nothing later suffers.",
     ),
     Trial(
-        label="mf20",
+        name="(7)",
         printed="A[i,a] = mu/c*eps[i,n,p]*Bf[n]*dR[p,a]",
         model=rotation_model,
         follows=r"the magnetic force on six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$",
         definition=True,
     ),
     Trial(
-        label="1.32",
+        name="(8)",
         printed="g[i,j] = m[N]*x[N,i]*x[N,j]",
         model=rotation_model,
-        follows="the matrix that multiplies the second derivative of $R$ in @mf19",
+        follows="the matrix that multiplies the second derivative of $R$ in @(6)",
         definition=True,
     ),
     Trial(
-        label="1.38",
+        name="(9)",
         printed=_line(_MULTIPLIERS.format(sign="-")),
         model=rotation_model,
         follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
@@ -316,21 +316,21 @@ TRIALS = (
         note=r"The last sign is wrong: the products of $\mathbf{x}_1$ with itself add.",
     ),
     Trial(
-        label="text-multipliers-symmetric",
+        name="text-multipliers-symmetric",
         printed="lamM[j,k] = lamM[k,j]",
         model=rotation_model,
         follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
     ),
     Trial(
-        label="text-electric-field",
+        name="text-electric-field",
         printed="0 = m[N]*(y[N] - m[M]*y[M]/mu0)",
         model=relative_model,
         follows="the definition of the centre of mass",
     ),
     Trial(
-        label="text-rotation-apart",
+        name="text-rotation-apart",
         printed="carried(ddx[N]) = ddx[N]",
         model=relative_model,
-        follows="@mf16 less @mf17 for six particles, at two states that differ by a shift and a velocity",
+        follows="@(3) less @(4) for six particles, at two states that differ by a shift and a velocity",
     ),
 )

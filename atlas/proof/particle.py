@@ -1,4 +1,4 @@
-"""The appendix on trial: a point particle in constant fields, mf1 to mf14."""
+"""The appendix on trial: a point particle in constant fields, (89) to (104)."""
 
 from functools import cache
 
@@ -20,7 +20,7 @@ e1, e2 = sympy.Matrix([1, 0, 0]), sympy.Matrix([0, 1, 0])
 
 
 def lorentz(spin: Value = v) -> Value:
-    """Acceleration of mf1."""
+    """Acceleration of (89)."""
     return mu * E + mu / c * cross(spin, B)
 
 
@@ -33,7 +33,7 @@ def euler(lagrangian: Value) -> Value:
 
 @cache
 def lagrangian_model() -> Model:
-    """Model the Lagrangian of mf14 with the potentials of mf12, mu = e/m; its acceleration by variation."""
+    """Model the Lagrangian of (104) with the potentials of (102), mu = e/m; its acceleration by variation."""
     A0, A = dot(y, E), cross(B, y) / 2
     L = m * dot(v, v) / 2 + e * A0 + e / c * dot(A, v)
     letters = {"m": m, "e": e, "c": c, "E": E, "Bf": B, "y": y, "v": v, "A0": A0, "A": A, "ddy": euler(L), "mu": e / m}
@@ -84,7 +84,7 @@ def _split() -> dict[str, Value]:
 
 @cache
 def split_model() -> Model:
-    """mf2 with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
+    """(90) with B along e3 and E in the plane (e2, e3), projected on B and across it; mu of either sign."""
     parts = _split()
     flow = dict(zip(parts["y"], parts["dypar"] + parts["dyperp"], strict=True))
     letters = {**parts, "ypar0": sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)])}
@@ -103,7 +103,7 @@ def parallel_model() -> Model:
 
 @cache
 def fall_along_model() -> Model:
-    """mf5."""
+    """(93)."""
     parts = _split()
     ypar = sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)]) + parts["Cpar"] * t + mu * PARALLEL * t**2 / 2
     return Model({**parts, "ypar": ypar}, flow={t: sympy.Integer(1)}, units=units.PARTICLE)
@@ -126,7 +126,7 @@ def orthogonal_model() -> Model:
 
 @cache
 def shifted_model() -> Model:
-    """Model the shifted variables y1 and y2 of the part across B, with the rates that mf4 gives them."""
+    """Model the shifted variables y1 and y2 of the part across B, with the rates that (92) gives them."""
     parts = _split()
     drift = c * cross(ACROSS, ALONG_Z) / b**2
     second = (c * cross(parts["Cperp"], ALONG_Z) + c**2 * ACROSS) / (mu * b**2)
@@ -141,7 +141,7 @@ def shifted_model() -> Model:
 def charges_model(choice: str = "any") -> tuple[Model, Model]:
     """B along e3, E_perp along e2, a charge of either sign, omega t and omega0 as angles.
 
-    choice: what C_perp is: any vector across B, or what the text chooses for mf11 or for mf10.1.
+    choice: what C_perp is: any vector across B, or what the text chooses for (99) or for (100).
     """
     cases = []
     for sign in (1, -1):
@@ -161,7 +161,7 @@ def charges_model(choice: str = "any") -> tuple[Model, Model]:
 
 @cache
 def drift_model() -> tuple[Model, Model]:
-    """Model the velocity that mf1 leaves as it is, solved from it, for a charge of either sign."""
+    """Model the velocity that (89) leaves as it is, solved from it, for a charge of either sign."""
     cases = []
     for case in charges_model():
         rest = sympy.symbols("rest1:3", real=True)
@@ -183,7 +183,7 @@ def signed_model(choice: str = "any") -> tuple[Model, Model]:
 
 @cache
 def start_model() -> tuple[Model, Model]:
-    """mf10 as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
+    """(98) as corrected with omega0 = 0 and C_perp such that its first term vanishes."""
     first, second = (
         Model({**model.letters, "yperp": _general(model)}, model.where, model.flow, model.start, units=units.PARTICLE)
         for model in signed_model("origin")
@@ -192,7 +192,7 @@ def start_model() -> tuple[Model, Model]:
 
 
 def _general(model: Model) -> Value:
-    """Return the right side of mf10 with omega0 = 0."""
+    """Return the right side of (98) with omega0 = 0."""
     constant = (cross(model.letters["Cperp"], ALONG_Z) + c * ACROSS) / (omega * b)
     return constant + model.letters["mu"] * E2 / omega * t * e1 + a * (e1 * sw + e2 * cw)
 
@@ -213,7 +213,7 @@ _SENSE = (
 
 @cache
 def later_model() -> tuple[Model, Model]:
-    """Model mf10 as corrected with omega0 at t, and with omega0 = 0 and another C_perp at t + omega0/omega."""
+    """Model (98) as corrected with omega0 at t, and with omega0 = 0 and another C_perp at t + omega0/omega."""
     cases = []
     for model in signed_model():
         mu_, C = model.letters["mu"], model.letters["Cperp"]
@@ -230,7 +230,7 @@ def later_model() -> tuple[Model, Model]:
 
 @cache
 def rolling_model() -> tuple[Model, Model]:
-    """Model mf10.1 as corrected: a point at the distance a from the middle of a circle of radius r that rolls."""
+    """Model (100) as corrected: a point at the distance a from the middle of a circle of radius r that rolls."""
     cases = []
     for model in signed_model("trochoid"):
         mu_ = model.letters["mu"]
@@ -242,90 +242,90 @@ def rolling_model() -> tuple[Model, Model]:
 
 TRIALS = (
     Trial(
-        label="mf1",
+        name="(89)",
         printed="m*ddy = e*E + e/c*cross(v,Bf); ddy = mu*E + mu/c*cross(v,Bf)",
         model=lagrangian_model,
-        follows="the variation of the Lagrangian @mf14",
+        follows="the variation of the Lagrangian @(104)",
     ),
     Trial(
-        label="mf2",
+        name="(90)",
         printed="dy = mu*E*t + mu/c*cross(y,Bf) + C",
         model=velocity_model,
-        follows="its rate is @mf1",
+        follows="its rate is @(89)",
         defines=("dy",),
         solves="d(dy) = mu*E + mu/c*cross(dy,Bf)",
     ),
     Trial(
-        label="text-no-magnetic-field",
+        name="text-no-magnetic-field",
         printed="y = y0 + C*t + 1/2*mu*E*t^2",
         model=fall_model,
-        follows=r"@mf1 with $\mathbf{B} = 0$ by substitution",
+        follows=r"@(89) with $\mathbf{B} = 0$ by substitution",
         defines=("y",),
         solves="d2(y) = mu*E; at0(y) = y0; at0(d(y)) = C",
     ),
     Trial(
-        label="text-helix",
+        name="text-helix",
         printed="d(y2[1]^2 + y2[2]^2) = 0; d2(y2) = -(mu*b/c)^2*y2; d2(ypar) = 0",
         model=helix_model,
-        follows=r"@mf2 with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
+        follows=r"@(90) with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
     ),
     Trial(
-        label="mf3", printed="dypar = Cpar + mu*Epar*t", model=split_model, follows=r"@mf2 projected on $\mathbf{B}$"
+        name="(91)", printed="dypar = Cpar + mu*Epar*t", model=split_model, follows=r"@(90) projected on $\mathbf{B}$"
     ),
     Trial(
-        label="mf4",
+        name="(92)",
         printed="dyperp = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t",
         model=split_model,
-        follows=r"@mf2 projected across $\mathbf{B}$",
+        follows=r"@(90) projected across $\mathbf{B}$",
     ),
     Trial(
-        label="mf5",
+        name="(93)",
         printed="ypar = ypar0 + Cpar*t + 1/2*mu*Epar*t^2",
         model=parallel_model,
-        follows="@mf3 by substitution",
+        follows="@(91) by substitution",
         defines=("ypar",),
         solves="d(ypar) = Cpar + mu*Epar*t; at0(ypar) = ypar0",
     ),
     Trial(
-        label="text-parallel-acceleration",
+        name="text-parallel-acceleration",
         printed="dot(d2(ypar),d2(ypar)) = mu^2*dot(Eperp,Eperp)",
         model=fall_along_model,
-        follows="@mf5",
+        follows="@(93)",
         corrected="dot(d2(ypar),d2(ypar)) = mu^2*dot(Epar,Epar)",
         corrected_tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\boxed{\Vert}}\rvert",
         grade="misprint",
         note=r"The wrong part of $\mathbf{E}$.",
     ),
     Trial(
-        label="text-double-product",
+        name="text-double-product",
         printed="Eperp = -cross(cross(Eperp,Bf),Bf)/dot(Bf,Bf)",
         model=orthogonal_model,
         follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
     ),
     Trial(
-        label="mf6",
+        name="(94)",
         printed="dyperp = mu/c*cross(yperp - c*t*cross(Eperp,Bf)/b^2,Bf) + Cperp",
         model=split_model,
-        follows="@mf4",
+        follows="@(92)",
     ),
     Trial(
-        label="mf7",
+        name="(95)",
         printed="dy1 = mu/c*cross(y1,Bf) + Cperp - c*cross(Eperp,Bf)/b^2;"
         " dy1 = mu/c*cross(y1 - (c*cross(Cperp,Bf) + c^2*Eperp)/(mu*b^2),Bf)",
         model=shifted_model,
-        follows=r"@mf4 for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
+        follows=r"@(92) for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
     ),
     Trial(
-        label="mf8",
+        name="(96)",
         printed="dy2 = -mu/c*cross(Bf,y2)",
         model=shifted_model,
-        follows="@mf4 for the twice shifted variable",
+        follows="@(92) for the twice shifted variable",
     ),
     Trial(
-        label="mf9",
+        name="(97)",
         printed="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = abs(mu*b)/c",
         model=charges_model,
-        follows="@mf8 by substitution, for either sign of the charge",
+        follows="@(96) by substitution, for either sign of the charge",
         defines=("y2", "omega"),
         solves="d(y2) = -mu/c*cross(Bf,y2)",
         corrected="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = mu*b/c",
@@ -337,16 +337,16 @@ TRIALS = (
         note=f"{_SENSE} A negative charge turns the other way.",
     ),
     Trial(
-        label="text-drift-direction",
+        name="text-drift-direction",
         printed="cross(Eperp,Bf) = E2*b*e1",
         model=charges_model,
         follows=r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}_\bot$ along $\mathbf{e}_2$",
     ),
     Trial(
-        label="mf10",
+        name="(98)",
         printed=_MF10,
         model=charges_model,
-        follows=r"@mf4 by substitution, for either sign of the charge, $\omega$ of @mf9",
+        follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=_SOLVES,
         corrected=_MF10 + "; omega = mu*b/c",
@@ -357,19 +357,19 @@ TRIALS = (
             r"+a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}" + _SIGNED
         ),
         grade="sign of the charge",
-        slip="mf9",
+        slip="(97)",
         note=_SENSE,
     ),
     Trial(
-        label="text-time-shift",
+        name="text-time-shift",
         printed="first + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)) = then",
         model=later_model,
-        follows=r"@mf10 as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
+        follows=r"@(98) as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
         r"\mathbf{E}_\bot \omega_0/\omega$",
-        note=r"$\mathbf{C}_\bot$ changes with it, since @mf2 names the time.",
+        note=r"$\mathbf{C}_\bot$ changes with it, since @(90) names the time.",
     ),
     Trial(
-        label="text-first-two-terms",
+        name="text-first-two-terms",
         printed="(cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1 = 0",
         model=lambda: signed_model("origin"),
         follows=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
@@ -379,19 +379,19 @@ TRIALS = (
             r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}"
         ),
         grade="wording",
-        note="Only the first term vanishes, both summands of its numerator together; the drift stays, as @mf11 has it.",
+        note="Only the first term vanishes, both summands of its numerator together; the drift stays, as @(99) has it.",
     ),
     Trial(
-        label="text-initial-position",
+        name="text-initial-position",
         printed="at0(yperp) = a*e2",
         model=start_model,
-        follows=r"@mf10 as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
+        follows=r"@(98) as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
     ),
     Trial(
-        label="mf11",
+        name="(99)",
         printed=_MF11,
         model=lambda: charges_model("origin"),
-        follows=r"@mf4 by substitution, for either sign of the charge, $\omega$ of @mf9",
+        follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=f"{_SOLVES}; at0(yperp) = a*e2",
         corrected=_MF11 + "; omega = mu*b/c",
@@ -401,23 +401,23 @@ TRIALS = (
             r"+a\left\{\mathbf{e}_1\sin\omega t+\mathbf{e}_2\cos\omega t\right\}" + _SIGNED
         ),
         grade="sign of the charge",
-        slip="mf9",
+        slip="(97)",
         note=_SENSE,
     ),
     Trial(
-        label="text-drift",
+        name="text-drift",
         printed="drift = mu*E2/omega*e1",
         model=drift_model,
-        follows=r"@mf1 solved for the velocity that does not change, for either sign of the charge, $\omega$ of @mf9",
+        follows=r"@(89) solved for the velocity that does not change, for either sign of the charge, $\omega$ of @(97)",
         corrected="drift = c*cross(Eperp,Bf)/b^2",
         corrected_tex=r"\dot{\mathbf{O}}=\boxed{\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}}",
         grade="sign of the charge",
-        slip="mf9",
-        note=r"The drift doesn't depend on the charge; with the positive $\omega$ of @mf9 a negative one would drift "
+        slip="(97)",
+        note=r"The drift doesn't depend on the charge; with the positive $\omega$ of @(97) a negative one would drift "
         "backwards.",
     ),
     Trial(
-        label="text-trochoid-constant",
+        name="text-trochoid-constant",
         printed="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2*e1",
         model=lambda: signed_model("trochoid"),
         follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
@@ -427,14 +427,14 @@ TRIALS = (
             r"-\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\boxed{\omega}}\mathbf{e}_1"
         ),
         grade="misprint",
-        slip="mf10.1",
+        slip="(100)",
         note="An acceleration is taken from a velocity. With the factor put right the constant is zero.",
     ),
     Trial(
-        label="mf10.1",
+        name="(100)",
         printed=_TROCHOID.format(omega="omega").replace("yy", "y"),
         model=lambda: charges_model("trochoid"),
-        follows="@mf10 with the constant chosen there; dimensions",
+        follows="@(98) with the constant chosen there; dimensions",
         defines=("x", "y"),
         solves="d(x) = mu/c*b*y + dot(Cperp,e1); d(y) = -mu/c*b*x + mu*E2*t",
         corrected=_TROCHOID.format(omega="omega^2").replace("yy", "y") + "; omega = mu*b/c",
@@ -445,26 +445,26 @@ TRIALS = (
         ),
         grade="misprint",
         note=r"The shift of $y$ must be a length, $\mu |\mathbf{E}_\bot|/\omega^2$, as $\mathbf{C}_\bot$ must be a "
-        r"velocity; and, as in @mf9, $\omega$ takes the sign of the charge.",
+        r"velocity; and, as in @(97), $\omega$ takes the sign of the charge.",
     ),
     Trial(
-        label="text-trochoid",
+        name="text-trochoid",
         printed="x = r*omega*t + a*sin(omega*t); y = r + a*cos(omega*t)",
         model=rolling_model,
         follows=(
-            "@mf10.1 as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
+            "@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
             "turns by one radian"
         ),
     ),
     Trial(
-        label="mf10.2",
+        name="(101)",
         printed="y = ypar + yperp",
         model=split_model,
         follows=r"the projections on $\mathbf{B}$ and across it",
         definition=True,
     ),
     Trial(
-        label="mf12",
+        name="(102)",
         printed="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - b1*y3, B1*y2 - B2*y1]",
         model=lagrangian_model,
         follows="the vector product in components",
@@ -477,13 +477,13 @@ TRIALS = (
         note="A lower-case $b_1$ that means nothing here stands for $B_1$.",
     ),
     Trial(
-        label="text-potentials",
+        name="text-potentials",
         printed="E = grad(A0) - 1/c*partial_t(A); Bf = curl(A)",
         model=lagrangian_model,
-        follows="the potentials @mf12",
+        follows="the potentials @(102)",
     ),
     Trial(
-        label="mf13",
+        name="(103)",
         printed="U = -(e*A0 + e/c*dot(A,v))",
         model=lagrangian_model,
         follows="its generalised force $-dU/dy + d/dt dU/dv$ is the Lorentz force",
@@ -491,10 +491,10 @@ TRIALS = (
         solves="force(U) = e*E + e/c*cross(v,Bf)",
     ),
     Trial(
-        label="mf14",
+        name="(104)",
         printed="L = m/2*dot(v,v) + e*A0 + e/c*dot(A,v) = m/2*dot(v,v) + e*dot(y,E) + e/(2*c)*dot(cross(y,v),Bf)",
         model=lagrangian_model,
-        follows="the potentials @mf12, and @mf1 by variation",
+        follows="the potentials @(102), and @(89) by variation",
         defines=("L",),
         solves="m*acceleration(L) = e*E + e/c*cross(v,Bf)",
     ),

@@ -1,4 +1,4 @@
-"""Section IV, first half, on trial: the symmetric body and the cubic pseudo-oscillator, mf41.0 to mf57."""
+"""Section IV, first half, on trial: the symmetric body and the cubic pseudo-oscillator, (31) to (49)."""
 
 from functools import cache
 
@@ -27,7 +27,7 @@ START = dict(zip([*Omega, *K], [*omega, 0, B2, B3], strict=True))
 
 
 def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
-    """E', c3, c5 at a point: twice the energy over I2, and what mf48 and mf49 conserve."""
+    """E', c3, c5 at a point: twice the energy over I2, and what (40) and (41) conserve."""
     c3 = field[2] + spin[2]
     return {
         "E": spin[0] ** 2 + spin[1] ** 2 + scale * spin[2] ** 2,
@@ -37,7 +37,7 @@ def integrals(spin: Value, field: Value, scale: Value) -> dict[str, Value]:
 
 
 def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Value]:
-    """Coefficients of the cubic, mf56 as corrected; square is that of the field."""
+    """Coefficients of the cubic, (48) as corrected; square is that of the field."""
     E, c3, c5 = values["E"], values["c3"], values["c5"]
     return {
         "a0": ((2 - scale) * c5 + E) * c3,
@@ -49,7 +49,7 @@ def cubic(values: dict[str, Value], square: Value, scale: Value) -> dict[str, Va
 
 @cache
 def state_model() -> Model:
-    """Any state Omega, K of the system mf42, mf43 in vectors; E' and c3, c5 as what they are at that state."""
+    """Any state Omega, K of the system (34), (35) in vectors; E' and c3, c5 as what they are at that state."""
     energy = (tensor * Omega).dot(Omega) / 2
     letters = {f"Omega{n + 1}": Omega[n] for n in range(3)} | {f"K{n + 1}": K[n] for n in range(3)}
     letters |= {f"omega{n + 1}": omega[n] for n in range(3)}
@@ -76,7 +76,7 @@ def bare_model() -> Model:
 
 @cache
 def field_model() -> Model:
-    """mf27 and mf21 with K = mu/(2c) R^T B and a symmetric body."""
+    """(16) and (12) with K = mu/(2c) R^T B and a symmetric body."""
     (R, where), B = rotation_symbols(), vector("B")
     mu, c = general.mu, general.c
     seen = mu / (2 * c) * R.T * B
@@ -135,7 +135,7 @@ def quadrature_model() -> Model:
 
 @cache
 def initial_model() -> Model:
-    """Model the cubic mf55, mf56 as proved, with its integrals at t = 0: Omega = omega, K = B'."""
+    """Model the cubic (47), (48) as proved, with its integrals at t = 0: Omega = omega, K = B'."""
     u, field = sympy.Symbol("Omega3", real=True), sympy.Matrix([0, B2, B3])
     a = cubic(integrals(omega, field, ratio), dot(field, field), ratio)
     letters = {f"omega{n + 1}": omega[n] for n in range(3)} | {"Omega3": u, "B2": B2, "B3": B3, "I": ratio}
@@ -180,13 +180,13 @@ def degree_model() -> tuple[Model, Model]:
 
 TRIALS = (
     Trial(
-        label="text-mass-matrix",
+        name="text-mass-matrix",
         printed="g1 = 1/2*I3; g2 = 1/2*I3; g3 = 1/2*(2*I2 - I3)",
         model=symmetric_body_model,
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
     ),
     Trial(
-        label="text-laboratory",
+        name="text-laboratory",
         printed="S*J*T(S) = J; S*B = [0, B2, B3]",
         model=laboratory_model,
         follows=r"a rotation about $\mathbf{e}_3$ by the angle between $\mathbf{e}_2$ and the part of $\mathbf{B}$ "
@@ -195,72 +195,72 @@ TRIALS = (
         "are a field along the axis of the body and one across it.",
     ),
     Trial(
-        label="mf41.0",
+        name="(31)",
         printed="at0(Omega) = at0(R*Omega) = w",
         model=frame_model,
         follows=r"$\boldsymbol{\Omega} = R^T \boldsymbol{\omega}$ and $R(0) = 1$",
     ),
     Trial(
-        label="mf41",
+        name="(32)",
         printed="Bprime = mu/(2*c)*Bf = [0, B2, B3]; K = mu/(2*c)*BR(Bf,R) = BR(Bprime,R); at0(K) = Bprime",
         model=frame_model,
         follows="$K_j = B'_i R_{ij}$ and $R(0) = 1$",
     ),
     Trial(
-        label="mf41.1",
+        name="(33)",
         printed="I = I3/I2; E = 2*energy/I2",
         model=state_model,
-        follows=r"the energy is $(I_2 \Omega_1^2 + I_2 \Omega_2^2 + I_3 \Omega_3^2)/2$ and makes @mf44",
+        follows=r"the energy is $(I_2 \Omega_1^2 + I_2 \Omega_2^2 + I_3 \Omega_3^2)/2$ and makes @(36)",
         defines=("I", "E"),
         solves="Omega1^2 + Omega2^2 + I*Omega3^2 = E",
     ),
     Trial(
-        label="mf42",
+        name="(34)",
         printed="IdOmega = cross(I*Omega,Omega) - 2*cross(g*K,Omega)",
         model=field_model,
-        follows="@mf27 and @mf41",
+        follows="@(16) and @(32)",
     ),
-    Trial(label="mf43", printed="dK = -cross(Omega,K)", model=field_model, follows="@mf21 and @mf41"),
+    Trial(name="(35)", printed="dK = -cross(Omega,K)", model=field_model, follows="@(12) and @(32)"),
     Trial(
-        label="mf44",
+        name="(36)",
         printed="Omega1^2 + Omega2^2 + I*Omega3^2 = E; d(Omega1^2 + Omega2^2 + I*Omega3^2) = 0;"
         " at0(E) = omega1^2 + omega2^2 + I*omega3^2",
         model=state_model,
-        follows="@mf42, @mf43",
+        follows="@(34), @(35)",
     ),
     Trial(
-        label="mf45",
+        name="(37)",
         printed="d(K1^2 + K2^2 + K3^2) = 0; at0(K1^2 + K2^2 + K3^2) = B2^2 + B3^2",
         model=state_model,
-        follows="@mf43",
+        follows="@(35)",
     ),
     Trial(
-        label="mf46",
+        name="(38)",
         printed="d(Omega1) = (1 - I)*Omega3*Omega2 - I*Omega3*K2 + (2 - I)*Omega2*K3;"
         " d(Omega2) = -(1 - I)*Omega3*Omega1 + I*Omega3*K1 - (2 - I)*Omega1*K3; d(Omega3) = Omega1*K2 - Omega2*K1",
         model=state_model,
-        follows="@mf42 in components",
+        follows="@(34) in components",
     ),
     Trial(
-        label="mf47",
+        name="(39)",
         printed="d(K1) = Omega3*K2 - Omega2*K3; d(K2) = -Omega3*K1 + Omega1*K3; d(K3) = -(Omega1*K2 - Omega2*K1)",
         model=state_model,
-        follows="@mf43 in components",
+        follows="@(35) in components",
     ),
     Trial(
-        label="mf48",
+        name="(40)",
         printed="K3 + Omega3 = c3; d(K3 + Omega3) = 0; at0(c3) = omega3 + B3",
         model=state_model,
-        follows="@mf46 and @mf47",
+        follows="@(38) and @(39)",
     ),
     Trial(
-        label="mf49",
+        name="(41)",
         printed=f"{_C5} = c5; d({_C5}) = 0; at0(c5) = omega2*B2 - omega3^2 + (2 - I)*(omega3 + B3)*omega3",
         model=state_model,
-        follows="@mf46 and @mf47",
+        follows="@(38) and @(39)",
     ),
     Trial(
-        label="text-four-integrals",
+        name="text-four-integrals",
         printed=f"F = [Omega1^2 + Omega2^2 + I*Omega3^2, K1^2 + K2^2 + K3^2, K3 + Omega3, {_C5}]",
         model=state_model,
         defines=("F",),
@@ -271,41 +271,41 @@ TRIALS = (
         note="Independent at one point, so at all but those of a set of measure zero.",
     ),
     Trial(
-        label="mf50",
+        name="(42)",
         printed=f"K1 = (Omega1*{_P} - Omega2*d(Omega3))/(E - I*Omega3^2);"
         f" K2 = (Omega2*{_P} + Omega1*d(Omega3))/(E - I*Omega3^2); K3 = -Omega3 + c3",
         model=state_model,
-        follows="@mf46, @mf48 and @mf49",
+        follows="@(38), @(40) and @(41)",
     ),
     Trial(
-        label="mf51",
+        name="(43)",
         printed=_MF51,
         model=state_model,
-        follows=r"@mf46 with $\mathbf{K}$ of @mf50, $\phi$ and $f$ of @mf52",
+        follows=r"@(38) with $\mathbf{K}$ of @(42), $\phi$ and $f$ of @(44)",
     ),
     Trial(
-        label="mf52",
+        name="(44)",
         printed="phi = ((2 - I)*c3*E - (E + I*c5)*Omega3)/(E - I*Omega3^2); f = ln(sqrt(E - I*Omega3^2))",
         model=state_model,
-        follows="@mf51 by substitution",
+        follows="@(43) by substitution",
         defines=("phi", "f"),
         solves=_MF51,
         note="$f$ counts up to a constant: the logarithm of a quantity with a dimension.",
     ),
     Trial(
-        label="mf53",
+        name="(45)",
         printed="Omega1 = f0*sqrt(E - I*u^2)*sin(Phi + phi0); Omega2 = f0*sqrt(E - I*u^2)*cos(Phi + phi0)",
         model=quadrature_model,
-        follows="@mf51 by substitution, with two constants",
+        follows="@(43) by substitution, with two constants",
         defines=("Omega1", "Omega2"),
         solves=_MF51,
-        note="General for @mf51 alone; @mf44 then leaves $f_0^2 = 1$.",
+        note="General for @(43) alone; @(36) then leaves $f_0^2 = 1$.",
     ),
     Trial(
-        label="mf54",
+        name="(46)",
         printed=_MF54.format(K="k2"),
         model=state_model,
-        follows="the rate of the last equation of @mf46, with @mf46, @mf47 and @mf48",
+        follows="the rate of the last equation of @(38), with @(38), @(39) and @(40)",
         corrected=_MF54.format(K="K2"),
         corrected_tex=(
             r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1K_1+\Omega_2\boxed{K_2})-I\Omega_3(K_1^2+K_2^2)"
@@ -315,13 +315,13 @@ TRIALS = (
         note="A lower-case $k_2$ that means nothing here stands for $K_2$.",
     ),
     Trial(
-        label="mf55", printed=_MF55, model=state_model, follows="@mf54 and the four integrals, with @mf56 as corrected"
+        name="(47)", printed=_MF55, model=state_model, follows="@(46) and the four integrals, with @(48) as corrected"
     ),
     Trial(
-        label="mf56",
+        name="(48)",
         printed=_MF56.format(x="1"),
         model=bare_model,
-        follows="@mf54 and the four integrals",
+        follows="@(46) and the four integrals",
         defines=("a0", "a1", "a2", "a3"),
         solves=_MF55,
         corrected=_MF56.format(x="I"),
@@ -333,19 +333,19 @@ TRIALS = (
         note="A 1 stands for $I$.",
     ),
     Trial(
-        label="text-cubic-degree",
+        name="text-cubic-degree",
         printed="leading = -2*(1 - I); leading^2 > 0",
         model=degree_model,
-        follows="@mf55 with @mf56 as corrected",
-        note="For the ball, $I = 1$, both $a_2$ and $a_3$ vanish, and @mf55 is a harmonic oscillator.",
+        follows="@(47) with @(48) as corrected",
+        note="For the ball, $I = 1$, both $a_2$ and $a_3$ vanish, and @(47) is a harmonic oscillator.",
     ),
     Trial(
-        label="mf57",
+        name="(49)",
         printed="ddOmega3 = ((2 - I)*B3 - I*omega3 + 2*(omega3 - Omega3))"
         "*(omega2*B2 - (omega3^2 - Omega3^2) + (2 - I)*(B3 + omega3)*(omega3 - Omega3))"
         " - I*Omega3*(Bsquare - (B3 + (omega3 - Omega3))^2)"
         " + (B3 + (omega3 - Omega3))*(omega1^2 + omega2^2 + I*(omega3^2 - Omega3^2))",
         model=initial_model,
-        follows="@mf55, @mf56 as corrected, and the integrals at $t = 0$",
+        follows="@(47), @(48) as corrected, and the integrals at $t = 0$",
     ),
 )

@@ -1,4 +1,4 @@
-"""Section IV, second half, on trial: the surface of constant solutions, mf58.1 to mf63."""
+"""Section IV, second half, on trial: the surface of constant solutions, (50) to (57)."""
 
 from collections.abc import Iterable
 from functools import cache
@@ -26,7 +26,7 @@ RESTING = sympy.Symbol("omega3_of_cubic", real=True)
 
 
 def at_start(u: Value) -> Value:
-    """Return the cubic of mf55, mf56 as corrected, at Omega3 = u and with its integrals at t = 0."""
+    """Return the cubic of (47), (48) as corrected, at Omega3 = u and with its integrals at t = 0."""
     field = sympy.Matrix([0, B2, B3])
     a = cubic(integrals(sympy.Matrix([omega1, omega2, omega3]), field, I), field.dot(field), I)
     return a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3
@@ -108,7 +108,7 @@ PHASES = {delta: (cd, sd)}
 
 @cache
 def coordinates_model() -> Model:
-    """Model the quadratic form of mf58, and what its canonical form must be."""
+    """Model the quadratic form of (51), and what its canonical form must be."""
     form = omega1**2 + (omega2 + B2) ** 2 - I * B2 / B3 * (omega2 + B2) * (omega3 + B3)
     length = omega1**2 + (omega2 + B2) ** 2 + (omega3 + B3) ** 2
     sine = -(cd**2 - sd**2)
@@ -119,7 +119,7 @@ def coordinates_model() -> Model:
 
 @cache
 def _axes() -> tuple[Value, Value]:
-    """Return unit eigenvectors of the form mf58 in the plane (omega2, omega3), checked to be such."""
+    """Return unit eigenvectors of the form (51) in the plane (omega2, omega3), checked to be such."""
     cotangent = I * B2 / B3
     form = sympy.Matrix([[1, -cotangent / 2], [-cotangent / 2, 0]])
     first, second = sympy.Matrix([cd, sd]), sympy.Matrix([-sd, cd])
@@ -210,7 +210,7 @@ def plane_body_model() -> Model:
 
 @cache
 def leaving_points_model() -> Model:
-    """Points of the quadric with omega1 > 0; the rate of Omega3 there is that of mf46 at t = 0."""
+    """Points of the quadric with omega1 > 0; the rate of Omega3 there is that of (38) at t = 0."""
     away = sympy.Symbol("omega1", positive=True)
     rate = state_model().letters["at0"](state_model().letters["d"](state_model().letters["Omega3"]))
     certain(sympy.expand(rate - omega1 * B2) == 0)
@@ -251,16 +251,16 @@ def turned_model() -> Model:
 
 TRIALS = (
     Trial(
-        label="mf58.1",
+        name="(50)",
         printed=_MF581,
         model=condition_model,
-        follows=r"@mf57 with $\Omega_3 = \omega_3$: every $\boldsymbol{\omega}$ for which the cubic vanishes",
+        follows=r"@(49) with $\Omega_3 = \omega_3$: every $\boldsymbol{\omega}$ for which the cubic vanishes",
     ),
     Trial(
-        label="mf58",
+        name="(51)",
         printed=_MF58,
         model=condition_model,
-        follows="@mf58.1, and the other way round: the two differ by the factor $B'_3$ for every "
+        follows="@(50), and the other way round: the two differ by the factor $B'_3$ for every "
         r"$\boldsymbol{\omega}$",
         also=(
             Part(
@@ -269,14 +269,12 @@ TRIALS = (
             ),
         ),
     ),
+    Trial(name="text-quadric-origin", printed=_MF58, model=origin_model, follows=r"@(51) at $\boldsymbol{\omega} = 0$"),
     Trial(
-        label="text-quadric-origin", printed=_MF58, model=origin_model, follows=r"@mf58 at $\boldsymbol{\omega} = 0$"
-    ),
-    Trial(
-        label="mf59",
+        name="(52)",
         printed=f"omega3 = {_MF59}",
         model=lambda: condition_model()[0],
-        follows=r"@mf58.1 for $\omega_2$ different from $-B'_2$",
+        follows=r"@(50) for $\omega_2$ different from $-B'_2$",
         corrected=f"omega3 = {_MF59}",
         corrected_also=(
             Part(line="omega2 = -B2; omega1 = sign*sqrt(1 - I)*B2; " + _MF581, model=lost_lines_model),
@@ -291,118 +289,118 @@ TRIALS = (
             r"\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I\le1} \end{aligned}"
         ),
         grade="missing case",
-        note=r"The family is right, and $-B'_2$ is excluded in words. But it is not all of @mf58.1: for $I \le 1$ the "
+        note=r"The family is right, and $-B'_2$ is excluded in words. But it is not all of @(50): for $I \le 1$ the "
         r"lines $\omega_2 = -B'_2$, $\omega_1 = \pm \sqrt{1-I} B'_2$ with any $\omega_3$ obey it too; for $I > "
         "1$ nothing is missing.",
     ),
     Trial(
-        label="mf61a",
+        name="(53)",
         printed="w1 = omega1; w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3 + B3)*sin(beta/2 + pi/4);"
         " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
         model=coordinates_model,
-        follows=r"lengths from the centre $-\mathbf{B}'$ are kept, and the form @mf58 becomes that of @mf60",
+        follows=r"lengths from the centre $-\mathbf{B}'$ are kept, and the form @(51) becomes that of @(54)",
         defines=("w1", "w2", "w3"),
         solves="w1^2 + w2^2 + w3^2 = length; w1^2 - w2^2/a2 + w3^2/a3 = form",
     ),
     Trial(
-        label="text-turned",
+        name="text-turned",
         printed="w1 = omega1; w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3 + B3)*sin(beta/2 + pi/4);"
         " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
         model=turned_model,
-        follows="components along the turned axes, against @mf61a",
+        follows="components along the turned axes, against @(53)",
     ),
     Trial(
-        label="text-beta",
+        name="text-beta",
         printed="tan(beta) = B3/(I*B2)",
         model=angle_model,
         follows=r"$I^{-1} \mathbf{B}' = r (0, \cos \beta, \sin \beta)$",
     ),
     Trial(
-        label="text-beta-range",
+        name="text-beta-range",
         printed="pi/4 < beta/2 + pi/4 < pi/2",
         model=range_model,
         follows=r"$\tan\beta > 0$",
         check=decide_linear,
     ),
     Trial(
-        label="mf60",
+        name="(54)",
         printed=f"w1^2 - w2^2/a2 + w3^2/a3 = (1 - I)*B2^2; a2 = {_A2}; a3 = {_A3}",
         model=canonical_model,
-        follows="@mf58 in the coordinates along its own eigenvectors",
+        follows="@(51) in the coordinates along its own eigenvectors",
         defines=("a2", "a3"),
     ),
     Trial(
-        label="mf61b",
+        name="(55)",
         printed=f"w1^2/C1s - w2^2/C2s + w3^2/C3s = -1; {axes_line('(I - 1)')}",
         model=lambda: canonical_model("above"),
-        follows="@mf60",
+        follows="@(54)",
         defines=AXES,
     ),
     Trial(
-        label="text-two-sheets",
+        name="text-two-sheets",
         printed="C1s = (I - 1)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
         model=lambda: axes_model(above=True),
-        follows=r"@mf61b, $0 < \sin\beta < 1$ and $I > 1$",
+        follows=r"@(55), $0 < \sin\beta < 1$ and $I > 1$",
     ),
     Trial(
-        label="text-short-cylinder",
+        name="text-short-cylinder",
         printed="I = 12*r^2/(6*r^2 + h^2); I - 1 = (6*r^2 - h^2)/(6*r^2 + h^2)",
         model=shell_model,
         follows="the moments of the surface, integrated",
     ),
     Trial(
-        label="text-plane-body",
+        name="text-plane-body",
         printed="2 - I = 2*g3/I2",
         model=plane_body_model,
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
     ),
     Trial(
-        label="text-tangent-planes",
+        name="text-tangent-planes",
         printed="(omega3 + B3)^2 - B3^2"
         " = B3^2*(omega1^2 + omega2^2)*(omega1^2 + (omega2 + 2*B2)^2)/(4*B2^2*(omega2 + B2)^2)",
         model=loop_model,
-        follows="@mf58.1 with $I = 2$",
+        follows="@(50) with $I = 2$",
         note=r"Never negative, and zero only at $\boldsymbol{\omega} = 0$ and at $\boldsymbol{\omega} = -2 "
         r"\mathbf{B}'$: there the sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$.",
     ),
     Trial(
-        label="mf62",
+        name="(56)",
         printed="w1^2 + w3^2/a3 = w2^2/a2",
         model=lambda: canonical_model("one"),
-        follows="@mf60 with $I = 1$, $a_2$ and $a_3$ as there",
+        follows="@(54) with $I = 1$, $a_2$ and $a_3$ as there",
     ),
     Trial(
-        label="text-cone-semi-axes",
+        name="text-cone-semi-axes",
         printed="w1^2 + w3^2/a3^2 = w2^2/a2^2",
         model=lambda: canonical_model("one"),
-        follows="@mf60 with $I = 1$",
+        follows="@(54) with $I = 1$",
         corrected="w1^2 + w3^2/a3 = w2^2/a2",
         corrected_tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{\boxed{(\sqrt{a_3})^2}}=\frac{{\omega'_2}^2}{\boxed{(\sqrt{a_2})^2}}",
         grade="wording",
-        note="The semi-axes are the roots of $a_2$ and $a_3$, as @mf75 has them under the same letters.",
+        note="The semi-axes are the roots of $a_2$ and $a_3$, as @(70) has them under the same letters.",
     ),
     Trial(
-        label="mf63",
+        name="(57)",
         printed=f"w1^2/C1s - w2^2/C2s + w3^2/C3s = 1; {axes_line('(1 - I)')}",
         model=lambda: canonical_model("below"),
-        follows="@mf60",
+        follows="@(54)",
         defines=AXES,
     ),
     Trial(
-        label="text-one-sheet",
+        name="text-one-sheet",
         printed="C1s = (1 - I)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
         model=lambda: axes_model(above=False),
-        follows=r"@mf63, $0 < \sin\beta < 1$ and $I < 1$",
+        follows=r"@(57), $0 < \sin\beta < 1$ and $I < 1$",
     ),
     Trial(
-        label="text-not-all",
+        name="text-not-all",
         printed=f"{_MF581}; omega1*B2 > 0",
         model=leaving_points_model,
         follows=(
             r"points of the quadric with $\omega_1 > 0$, at which $\Omega_3$ starts with the rate $\omega_1 "
             "B'_2$, @theorem-points"
         ),
-        note=r"By the last equation of @mf46 at $t = 0$, where $\mathbf{K} = \mathbf{B}'$. The other half of the "
+        note=r"By the last equation of @(38) at $t = 0$, where $\mathbf{K} = \mathbf{B}'$. The other half of the "
         "quadric is its mirror image.",
     ),
 )

@@ -1,6 +1,6 @@
 """The recorded verdicts, kept beside the proofs: a page is drawn from them and never waits for a proof.
 
-`source(label)` is a fingerprint of everything that a proof depends on: the files of the machinery, the file of the
+`source(name)` is a fingerprint of everything that a proof depends on: the files of the machinery, the file of the
 topic and the topics that it builds on, comments and blank lines aside. A recorded verdict is current if its
 fingerprint is.
 """
@@ -46,21 +46,21 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
-def source(label: str, *, changes: bool = False) -> str:
+def source(name: str, *, changes: bool = False) -> str:
     """Return the fingerprint of the proof of an entry of the ledger, or of that and of the changes tried on it."""
-    return _fingerprint(topic(label), MACHINERY + (("changes", "quick") if changes else ()))
+    return _fingerprint(topic(name), MACHINERY + (("changes", "quick") if changes else ()))
 
 
 def load(path: Path = VERDICTS) -> dict[str, Verdict]:
-    """Return the recorded verdicts by label, in the ledger's order."""
-    recorded = {entry["label"]: Verdict(**entry) for entry in _read(path)}
-    return {label: recorded[label] for label in EQUATIONS if label in recorded}
+    """Return the recorded verdicts by name, in the ledger's order."""
+    recorded = {entry["name"]: Verdict(**entry) for entry in _read(path)}
+    return {name: recorded[name] for name in EQUATIONS if name in recorded}
 
 
 def load_mutants(path: Path = MUTANTS) -> dict[str, Sensitivity]:
-    """Return the recorded mutants by label, in the ledger's order."""
-    recorded = {entry["label"]: sensitivity(**entry) for entry in _read(path)}
-    return {label: recorded[label] for label in EQUATIONS if label in recorded}
+    """Return the recorded mutants by name, in the ledger's order."""
+    recorded = {entry["name"]: sensitivity(**entry) for entry in _read(path)}
+    return {name: recorded[name] for name in EQUATIONS if name in recorded}
 
 
 def sensitivity(survivors: Iterable[Iterable[str]], **entry: Any) -> Sensitivity:
@@ -81,34 +81,34 @@ def _read(path: Path) -> list[dict[str, Any]]:
 
 
 def save(found: Iterable[Verdict | Sensitivity], path: Path = VERDICTS) -> None:
-    """Write records, over those of the same labels that are there; seconds change only where the proof did."""
-    old = {entry["label"]: entry for entry in _read(path)}
+    """Write records, over those of the same names that are there; seconds change only where the proof did."""
+    old = {entry["name"]: entry for entry in _read(path)}
     for record in found:
         entry = record.as_dict()
-        before = old.get(record.label)
+        before = old.get(record.name)
         if before and before["source"] == entry["source"]:
             entry["seconds"] = before["seconds"]
-        old[record.label] = entry
-    ordered = [old[label] for label in EQUATIONS if label in old]
+        old[record.name] = entry
+    ordered = [old[name] for name in EQUATIONS if name in old]
     files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
 def stale(recorded: Mapping[str, Verdict] | Mapping[str, Sensitivity] | None = None) -> list[str]:
-    """Return the labels of the ledger without a verdict, or whose proof has changed since its verdict was recorded."""
+    """Return the names of the ledger without a verdict, or whose proof has changed since its verdict was recorded."""
     records = load() if recorded is None else recorded
     changes = any(isinstance(entry, Sensitivity) for entry in records.values())
     return [name for name in EQUATIONS if name not in records or records[name].source != source(name, changes=changes)]
 
 
 def differs(found: Iterable[Verdict], recorded: Mapping[str, Verdict] | None = None) -> list[tuple[str, str, str]]:
-    """Return (label, recorded, found) wherever a verdict, or that on its corrected form, isn't the recorded one."""
+    """Return (name, recorded, found) wherever a verdict, or that on its corrected form, isn't the recorded one."""
     records = load() if recorded is None else recorded
     changed = []
     for verdict in found:
-        before = records.get(verdict.label)
+        before = records.get(verdict.name)
         was = _both(before) if before else "not recorded"
         if was != _both(verdict):
-            changed.append((verdict.label, was, _both(verdict)))
+            changed.append((verdict.name, was, _both(verdict)))
     return changed
 
 

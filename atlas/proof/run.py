@@ -13,7 +13,8 @@ from typing import Any, TypeVar
 
 from atlas import processes
 from atlas.errors import AtlasError
-from atlas.paper import EQUATIONS, equation, topic
+from atlas.paper import EQUATIONS, equation, find, topic
+from atlas.paper.equation import slug
 from atlas.proof import recorded
 from atlas.proof.changes import changes
 from atlas.proof.decide import Outcome
@@ -58,27 +59,27 @@ def limit(seconds: float) -> Iterator[None]:
 
 @cache
 def trials(stem: str) -> dict[str, Trial]:
-    """Return the trials of one topic by label."""
-    return {trial.label: trial for trial in import_module(f"atlas.proof.{stem}").TRIALS}
+    """Return the trials of one topic by name."""
+    return {trial.name: trial for trial in import_module(f"atlas.proof.{stem}").TRIALS}
 
 
-def trial(label: str) -> Trial:
+def trial(name: str) -> Trial:
     """Return the trial of an entry of the ledger."""
-    equation(label)
-    found = trials(topic(label)).get(label)
+    equation(name)
+    found = trials(topic(name)).get(name)
     if found is None:
-        raise AtlasError(f"nothing has been tried about {label!r}: add a trial to atlas/proof/{topic(label)}.py")
+        raise AtlasError(f"nothing has been tried about {name!r}: add a trial to atlas/proof/{topic(name)}.py")
     return found
 
 
-def try_one(label: str) -> Verdict:
+def try_one(name: str) -> Verdict:
     """Try one entry of the ledger, now."""
-    entry, case = equation(label), trial(label)
+    entry, case = equation(name), trial(name)
     start = time.perf_counter()
     outcome = _within_time(lambda: case.of_printed(shrink=True))
     corrected = _within_time(case.of_corrected).decision if case.corrected else ""
     return Verdict(
-        label=label,
+        name=name,
         number=entry.number,
         section=entry.section,
         kind=entry.kind,
@@ -94,7 +95,7 @@ def try_one(label: str) -> Verdict:
         counterexample=outcome.counterexample,
         note=case.note,
         seconds=round(time.perf_counter() - start, 2),
-        source=recorded.source(label),
+        source=recorded.source(name),
     )
 
 
@@ -110,12 +111,12 @@ def _within_time(run: Callable[[], Outcome]) -> Outcome:
         return Outcome("undecided", f"out of time after {LIMIT:.0f} s")
 
 
-def try_mutants(label: str, *, every: bool = False) -> Sensitivity:
+def try_mutants(name: str, *, every: bool = False) -> Sensitivity:
     """Change the form of an entry that is proved in one place at a time, and see whether the trial notices.
 
     every  all changes that the grammar yields, not a sample of them
     """
-    case = trial(label)
+    case = trial(name)
     start = time.perf_counter()
     tried, survivors = 0, []
     for part in case.true_parts:
@@ -123,7 +124,7 @@ def try_mutants(label: str, *, every: bool = False) -> Sensitivity:
         first = cases if isinstance(cases, Model) else cases[0]
         known = frozenset(first.letters) | set(part.defines)
         numbers = Numbers(part)
-        for line, what in changes(part.line, known, most=None if every else SAMPLE, seed=label):
+        for line, what in changes(part.line, known, most=None if every else SAMPLE, seed=name):
             tried += 1
             if numbers.refute(line):
                 continue
@@ -131,17 +132,17 @@ def try_mutants(label: str, *, every: bool = False) -> Sensitivity:
                 full = _within_time(lambda part=part, line=line: part.outcome(line)).decision  # type: ignore[misc]
                 survivors.append((what, line, full))
     return Sensitivity(
-        label=label,
+        name=name,
         tried=tried,
         noticed=tried - len(survivors),
         survivors=tuple(survivors),
         seconds=round(time.perf_counter() - start, 2),
-        source=recorded.source(label, changes=True),
+        source=recorded.source(name, changes=True),
     )
 
 
 def verify(
-    labels: Iterable[str] | None = None,
+    names: Iterable[str] | None = None,
     progress: Progress | None = None,
     *,
     jobs: int = 1,
@@ -149,15 +150,15 @@ def verify(
 ) -> list[Verdict]:
     """Try entries of the ledger, all if none is named, and return their verdicts in the ledger's order.
 
-    progress      called with (label, how many are done, how many there are) after each trial
+    progress      called with (name, how many are done, how many there are) after each trial
     jobs          processes side by side
     cache_folder  where verdicts are kept by the fingerprint of their proof; None tries everything anew
     """
-    return _run(try_one, "verdict", Verdict, labels, progress, jobs, cache_folder)
+    return _run(try_one, "verdict", Verdict, names, progress, jobs, cache_folder)
 
 
 def mutants(
-    labels: Iterable[str] | None = None,
+    names: Iterable[str] | None = None,
     progress: Progress | None = None,
     *,
     every: bool = False,
@@ -166,40 +167,40 @@ def mutants(
 ) -> list[Sensitivity]:
     """Try a sample of the mutants of entries of the ledger, or `every` one; other arguments as for `verify`."""
     run = partial(try_mutants, every=every)
-    return _run(run, "all-mutants" if every else "mutants", recorded.sensitivity, labels, progress, jobs, cache_folder)
+    return _run(run, "all-mutants" if every else "mutants", recorded.sensitivity, names, progress, jobs, cache_folder)
 
 
 def _run(
     run: Callable[[str], Found],
     kind: str,
     make: Callable[..., Found],
-    labels: Iterable[str] | None,
+    names: Iterable[str] | None,
     progress: Progress | None,
     jobs: int,
     folder: Path | None,
 ) -> list[Found]:
-    wanted = [equation(label).label for label in labels] if labels else list(EQUATIONS)
-    wanted = [label for label in EQUATIONS if label in set(wanted)]
-    prints = {label: recorded.source(label, changes=kind != "verdict") for label in wanted}
-    places = {label: folder / f"{kind}-{label}-{prints[label]}.json" for label in wanted} if folder else {}
-    found = {label: make(**json.loads(path.read_text("utf-8"))) for label, path in places.items() if path.is_file()}
-    missing = [label for label in wanted if label not in found]
-    for done, (label, result) in enumerate(_each(run, missing, jobs), len(found) + 1):
-        found[label] = result
+    meant = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
+    wanted = [name for name in EQUATIONS if name in meant]
+    prints = {name: recorded.source(name, changes=kind != "verdict") for name in wanted}
+    places = {name: folder / f"{kind}-{slug(name)}-{prints[name]}.json" for name in wanted} if folder else {}
+    found = {name: make(**json.loads(path.read_text("utf-8"))) for name, path in places.items() if path.is_file()}
+    missing = [name for name in wanted if name not in found]
+    for done, (name, result) in enumerate(_each(run, missing, jobs), len(found) + 1):
+        found[name] = result
         if folder:
             folder.mkdir(parents=True, exist_ok=True)
-            fresh = places[label].with_suffix(".new")
+            fresh = places[name].with_suffix(".new")
             fresh.write_text(json.dumps(result.as_dict()), "utf-8")
-            fresh.replace(places[label])
+            fresh.replace(places[name])
         if progress:
-            progress(label, done, len(wanted))
-    return [found[label] for label in wanted]
+            progress(name, done, len(wanted))
+    return [found[name] for name in wanted]
 
 
-def _each(run: Callable[[str], Found], labels: list[str], jobs: int) -> Iterator[tuple[str, Found]]:
-    executor = processes.pool(jobs, context="fork") if jobs > 1 and len(labels) > 1 else None
+def _each(run: Callable[[str], Found], names: list[str], jobs: int) -> Iterator[tuple[str, Found]]:
+    executor = processes.pool(jobs, context="fork") if jobs > 1 and len(names) > 1 else None
     if executor is None:
-        yield from ((label, run(label)) for label in labels)
+        yield from ((name, run(name)) for name in names)
         return
     with executor as pool:
-        yield from zip(labels, pool.map(run, labels), strict=True)
+        yield from zip(names, pool.map(run, names), strict=True)

@@ -24,7 +24,7 @@ def steady_model() -> Model:
 
 @cache
 def precession_model() -> Model:
-    """Model a steady precession with the rate w at nu = r; and the point of the hyperbola mf76 that has both."""
+    """Model a steady precession with the rate w at nu = r; and the point of the hyperbola (71) that has both."""
     I, B2, B3, omega2, q1 = sympy.symbols("I B2 B3 omega2 q1", real=True)
     hat = (2 * q1 / (1 + q1**2), (1 - q1**2) / (1 + q1**2))
     letters = {"nu": nu, "r": r, "A": A, "w": w, "M3": r * (w**2 + A) / w, "I": I, "b": b, **AT}
@@ -136,7 +136,7 @@ _TURNED = (
 
 TRIALS = (
     Trial(
-        label="theorem-steady",
+        name="theorem-steady",
         printed=f"q = {_q}; at(q,r) = 0; slope(q,r) = 2*(1 - r^2)*(M3*w - r*(w^2 + A)); G - A*r^2 = w^2*(1 - r^2)",
         model=steady_model,
         follows=r"@theorem-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, and "
@@ -146,12 +146,12 @@ TRIALS = (
         r"$k$ and $\hat{B}_3$.",
     ),
     Trial(
-        label="theorem-nutation",
+        name="theorem-nutation",
         printed=f"q = {_q}; at(q,r) = 0; slope(q,r) = 0; -1/2*bend(q,r) = w^2 - A*(3*r^2 - 1) + A^2*r^2/w^2;"
         " w^2 - A*(3*r^2 - 1) + A^2*r^2/w^2 = (w - A*r/w)^2 + A*(1 - r)*(1 + 3*r)"
         " = (w + A*r/w)^2 + A*(1 + r)*(1 - 3*r); momentum*(k + b) = hB3*((k + b)^2 + (I - 1)*b^2)",
         model=precession_model,
-        follows="@theorem-steady; the last relation is @mf76 in these letters, so that $w = k + b$ "
+        follows="@theorem-steady; the last relation is @(71) in these letters, so that $w = k + b$ "
         r"and $\nu_0 = \hat{B}_3$",
         defines=("q",),
         note=r"For $I > 1$ take the upper sign with $|\nu_0|$: the bound $A (1 - \nu_0)(1 + 3\nu_0)$ is met at "
@@ -159,13 +159,13 @@ TRIALS = (
         r"stable if $|\nu_0| > 1/3$.",
     ),
     Trial(
-        label="theorem-companion-range",
+        name="theorem-companion-range",
         printed=f"{_q} = A*(nu - r)^2*((nu + r)^2 - (1 - z)*(z - r^2)/z); z = -w^2/A",
         model=range_model,
         follows="@theorem-steady with $A = -w^2/z$, $z = w^2/((1-I) b^2)$",
     ),
     Trial(
-        label="theorem-companion-roots",
+        name="theorem-companion-roots",
         printed="(1 + g^2)*r = -x; M3 = w*g^2/(1 + g^2)*x; -A = w^2*(1 + g^2); c = A*(r - e)*(3*r + e);"
         f" {_q} = A*(nu - r)^2*(nu - e)*(nu + 2*r + e)",
         model=family_model,
@@ -175,7 +175,7 @@ TRIALS = (
         "met by any two angles.",
     ),
     Trial(
-        label="theorem-companion",
+        name="theorem-companion",
         printed=_SPINOR,
         model=family_model,
         follows="@theorem-top and @theorem-cayley-klein by substitution, $T = S/C$",
@@ -185,7 +185,7 @@ TRIALS = (
         "formula holds for $c$ of either sign and 0; $c > 0$ is the separatrix of an unstable elementary motion.",
     ),
     Trial(
-        label="theorem-companion-nutation",
+        name="theorem-companion-nutation",
         printed="S2 = T^2/(1 - c*T^2);"
         " x = r + (e - r)*(1 - c*T^2)/(1 - A*(e - r)^2*T^2) = r + (e - r)/(1 + (c - A*(e - r)^2)*S2)",
         model=double_model,
@@ -194,7 +194,7 @@ TRIALS = (
         solves="d(x)^2 = (x - r)^2*(c + d1*(x - r) + A*(x - r)^2); c + d1*(e - r) + A*(e - r)^2 = 0",
     ),
     Trial(
-        label="theorem-companion-triple",
+        name="theorem-companion-triple",
         printed="x = r - 4*r/(1 + 4*a*r^2*t^2)",
         model=triple_model,
         follows=r"@theorem-companion-nutation with $c = 0$, $e = -3\nu_0$",
@@ -202,7 +202,7 @@ TRIALS = (
         solves="d(x)^2 = -a*(x - r)^3*(x + 3*r)",
     ),
     Trial(
-        label="theorem-axis-stable",
+        name="theorem-axis-stable",
         printed="D = M3^2 - 4*A; M1^2 + M2^2 - A*(1 - nu^2) - M3*(p - M3)"
         " = (M1 - 1/2*M3*n1)^2 + (M2 - 1/2*M3*n2)^2 + 1/4*D*(1 - nu^2) + 1/2*M3^2*(1 - nu)^2;"
         " d(M1^2 + M2^2 - A*(1 - nu^2)) = 0; d(p) = 0; start(D) = I^2*(Omega3 + b)^2 + 4*(1 - I)*b^2",
@@ -212,7 +212,7 @@ TRIALS = (
         note=r"Every term is positive away from $\nu = 1$, $M_1 = M_2 = 0$, so a small push stays small for all times.",
     ),
     Trial(
-        label="theorem-axis-escape",
+        name="theorem-axis-escape",
         printed="e = abs3/a - 1; c = -D; ai = M3*(1 - e)/(1 + e)*T; N1 = 1 + ai^2;"
         " N2 = s^2*(1 - c*T^2); x = (N1 - N2)/(N1 + N2)",
         model=escape_model,
@@ -224,14 +224,14 @@ TRIALS = (
         "one likes, and leaves it.",
     ),
     Trial(
-        label="theorem-axis-pushed",
+        name="theorem-axis-pushed",
         printed="d(nu)^2 = 4*dx^2/(1 + x)^4;"
         " (1 - nu^2)*(G - A*nu^2) - (p - M3*nu)^2 = 4*x*(s1^2*(1 + x)^2 + x*(4*A - M3^2*(1 + x)^2))/(1 + x)^4",
         model=pushed_model,
         follows="@theorem-top with $p = M_3$ and $2 H - M_3^2/I - b^2 = s_1^2 + A$ at $t = 0$",
     ),
     Trial(
-        label="theorem-axis-pendulum",
+        name="theorem-axis-pendulum",
         printed="x = -T",
         model=pendulum_model,
         follows=r"@theorem-top by substitution, $T = \tanh(\sqrt{A} t)$",

@@ -7,38 +7,38 @@ _CONSTANTS = "A constant of integration is arbitrary: its sign, a factor or a sh
 _FIRST_K = r"At $t = 0$ the first component of $\mathbf{K}$ is 0, whatever multiplies it."
 
 REASONS: dict[str, tuple[tuple[str, str], ...]] = {
-    "1.6": (("", _SYMMETRIC),),
+    "(1)": (("", _SYMMETRIC),),
     "text-constraints": (("", _SYMMETRIC),),
-    "mf16": (("", _SYMMETRIC),),
-    "mf18": (("", _SYMMETRIC),),
-    "mf19": (("", _SYMMETRIC),),
-    "1.32": (("", _SYMMETRIC),),
-    "1.38": (("", _SYMMETRIC),),
+    "(3)": (("", _SYMMETRIC),),
+    "(5)": (("", _SYMMETRIC),),
+    "(6)": (("", _SYMMETRIC),),
+    "(8)": (("", _SYMMETRIC),),
+    "(9)": (("", _SYMMETRIC),),
     "text-multipliers-symmetric": (("", "A matrix is equal to itself."),),
-    "The.1": (("", _SYMMETRIC),),
-    "Aff100": (("", _SYMMETRIC),),
+    "(10)": (("", _SYMMETRIC),),
+    "text-affirmation": (("", _SYMMETRIC),),
     "text-nondegenerate": (("", "All three moments are positive, and so is the product of any three of them."),),
-    "mf22": (("", _SYMMETRIC),),
+    "(11)": (("", _SYMMETRIC),),
     "text-inertia-tensor": (("", _SYMMETRIC),),
-    "mf23": (("", "$R R^T$ is symmetric: its indices are exchanged, which changes nothing."),),
+    "text-force-matrix": (("", "$R R^T$ is symmetric: its indices are exchanged, which changes nothing."),),
     "text-flight": (
         ("", r"What is linear in $\mathbf{x}_N$ sums to zero about the centre of mass, whatever multiplies it."),
     ),
-    "mf30.0": (("", "Every moment of a ball is the same number, so one may stand for another."),),
+    "(19)": (("", "Every moment of a ball is the same number, so one may stand for another."),),
     "text-ball-body-precession": (
         ("", r"The vector product of $\boldsymbol{\Omega}$ with itself is 0, whatever multiplies it."),
     ),
-    "mf36": (
+    "(26)": (
         ("", r"The first column of the matrix is multiplied by the first component of $\mathbf{m}(0)$, which is 0."),
     ),
     "text-mass-matrix": (("", "$g_1 = g_2$, so one may stand for the other."),),
-    "mf45": (("", _FIRST_K),),
+    "(37)": (("", _FIRST_K),),
     "text-quadric-origin": (
         (r"\(omega2 (\+ -|- )B2\) \^ 2", "At the origin only the square of $B'_2$ is left of that bracket."),
         ("", r"At the origin $\boldsymbol{\omega} = 0$, whatever multiplies or exchanges its components."),
     ),
-    "mf59": (("", "For $I > 1$ both terms stay positive with this change, and so does their sum."),),
-    "mf61a": (("", r"Only the square of $\omega'_1$ occurs."),),
+    "(52)": (("", "For $I > 1$ both terms stay positive with this change, and so does their sum."),),
+    "(53)": (("", r"Only the square of $\omega'_1$ occurs."),),
     "text-beta-range": (
         (r"-\(pi / 4\)|pi / 5", "The lower bound is a weaker one."),
         (r"< 2 \* \(pi / 2\)|< pi \* 2", "The upper bound is a weaker one."),
@@ -46,13 +46,13 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
     ),
     "text-not-all": (("", "$B'_3$ is positive as $B'_2$ is."),),
     "text-cubic-degree": (("", "The square of twice a number is positive as well."),),
-    "mf64": (("", "Any of the initial components is a constant."),),
-    "mf67": (("", _FIRST_K),),
-    "mf85": (("", _CONSTANTS),),
-    "mf93": (("", r"The first component of $\mathbf{B}'$ is 0, whatever multiplies it."),),
-    "mf2": (("", _CONSTANTS),),
-    "mf9": (("", _CONSTANTS),),
-    "mf10": (("", _CONSTANTS),),
+    "(58)": (("", "Any of the initial components is a constant."),),
+    "(61)": (("", _FIRST_K),),
+    "(80)": (("", _CONSTANTS),),
+    "(88)": (("", r"The first component of $\mathbf{B}'$ is 0, whatever multiplies it."),),
+    "(90)": (("", _CONSTANTS),),
+    "(97)": (("", _CONSTANTS),),
+    "(98)": (("", _CONSTANTS),),
     "text-first-two-terms": (("", "The numerator is 0, so that it may be multiplied by what divides it."),),
     "text-trochoid-constant": (("", "With the factor put right both sides are 0, whatever multiplies one of them."),),
     "text-potentials": (
@@ -86,6 +86,6 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
 """For each entry, patterns of changed lines with the reason why these are true; the first that is found counts."""
 
 
-def reason(label: str, line: str) -> str:
+def reason(name: str, line: str) -> str:
     """Return why a changed line of an entry is not refuted; empty if no reason is on record."""
-    return next((why for pattern, why in REASONS.get(label, ()) if re.search(pattern, line)), "")
+    return next((why for pattern, why in REASONS.get(name, ()) if re.search(pattern, line)), "")

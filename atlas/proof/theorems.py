@@ -160,13 +160,13 @@ def ball_nutation_model() -> Model:
 
 @cache
 def cubic_model() -> Model:
-    """Model the cubic of mf55, its constants those at the start, at Omega3 = omega3."""
+    """Model the cubic of (47), its constants those at the start, at Omega3 = omega3."""
     return Model({**LETTERS, "p": at_start(omega3)})
 
 
 @cache
 def torque_model() -> Model:
-    """mf28 for any symmetric mass matrix and any Omega."""
+    """(17) for any symmetric mass matrix and any Omega."""
     whole = euler_poisson.magnetic_model()
     R, tensor, mass = (whole.letters[name] for name in ("R", "I", "g"))
     spin, field = euler_poisson.Omega, euler_poisson.Bf
@@ -251,38 +251,38 @@ _MOTION = f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Om
 
 TRIALS = (
     Trial(
-        label="theorem-quartic",
+        name="theorem-quartic",
         printed=f"Q = {_Q}",
         model=quartic_model,
-        follows="@mf46 to @mf49, for any state",
+        follows="@(38) to @(41), for any state",
         defines=("Q",),
         solves="here(Q) = udot^2; slope(Q) = 2*p; leading(Q) = I - 1",
     ),
     Trial(
-        label="theorem-points",
+        name="theorem-points",
         printed=f"at0(d(Omega3)) = omega1*B2; at0(d2(Omega3)) = {_CONDITION}",
         model=state_model,
-        follows=r"@mf46 and @mf47 at $t = 0$, and the cubic at $\omega_3$",
+        follows=r"@(38) and @(39) at $t = 0$, and the cubic at $\omega_3$",
         also=(
             Part(line=f"p = {_CONDITION}", model=cubic_model),
             Part(line="d(d2(Omega3)) = (a1 + 2*a2*Omega3 + 3*a3*Omega3^2)*d(Omega3)", model=state_model),
         ),
         note=r"A constant $\Omega_3$ has both rates zero. Conversely, the two rates obey linear equations along every "
-        r"motion: that of the first is the second, that of the second the first times the slope of the cubic @mf55. "
-        "So if both are zero at the start, they stay zero. With $B'_2 > 0$ these points are the hyperbola @mf72 and, "
+        r"motion: that of the first is the second, that of the second the first times the slope of the cubic @(47). "
+        "So if both are zero at the start, they stay zero. With $B'_2 > 0$ these points are the hyperbola @(67) and, "
         "for $I = 1$, the line of @theorem-ball-line.",
     ),
     Trial(
-        label="theorem-stability",
+        name="theorem-stability",
         printed="minus_slope = B2^2*((1 + tau^2)*x^4 + (1 - I)*(2*tau^2 - 1)*x^2 + tau^2*(1 - I)^2)/x^2"
         " = kappa2 + (1 - I)*b2*(3*hB3s - 1) + (1 - I)^2*b2^2*hB3s/kappa2",
         model=stability_model,
-        follows="@mf56 as corrected, on the hyperbola @mf76",
+        follows="@(48) as corrected, on the hyperbola @(71)",
         note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\ddot\varepsilon = -\nu_n^2 \varepsilon$ to first order. By "
-        "@theorem-quartic the second derivative of $Q$ is twice the slope of the cubic @mf55.",
+        "@theorem-quartic the second derivative of $Q$ is twice the slope of the cubic @(47).",
     ),
     Trial(
-        label="theorem-root",
+        name="theorem-root",
         printed="(E - I*(omega3 + v)^2)*(Bsquare - (c3 - omega3 - v)^2)"
         " - ((omega3 + v)^2 - (2 - I)*c3*(omega3 + v) + c5)^2 = v^2*(slope + (1 - I)*v*(4*B3 - v))",
         model=root_model,
@@ -291,7 +291,7 @@ TRIALS = (
         r"$\nu_n^2 < 0$ it is not. Where $\nu_n = 0$ the sign of the next term decides.",
     ),
     Trial(
-        label="theorem-stable-short",
+        name="theorem-stable-short",
         printed="minus_slope - (I - 1)*B2^2 = X^2 + S^2; S = tau*(X^2 - (I - 1)*B2^2)/X",
         model=stability_model,
         follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
@@ -299,7 +299,7 @@ TRIALS = (
         also=(Part(line="X^2 > 0; (I - 1)*B2^2 >= 0", model=short_model),),
     ),
     Trial(
-        label="theorem-band",
+        name="theorem-band",
         printed=f"minus_slope = B2^2*(1 + t2)*(z - ym)*(z - yp)/z; ym = {_YM}; yp = {_YP}; 8*t2 = 1 - root^2",
         model=band_model,
         follows=r"@theorem-stability with $z = x^2$, $t_2 = \tau^2 = (1 - \text{root}^2)/8$ and $0\le\text{root}<1$",
@@ -321,7 +321,7 @@ TRIALS = (
         "@theorem-band-ends.",
     ),
     Trial(
-        label="theorem-band-ends",
+        name="theorem-band-ends",
         printed="v = 4*B3/(1 + 4*(1 - I)*B3^2*t^2)",
         model=leaving_model,
         follows=r"@theorem-root with $\nu_n = 0$: $\omega_3$ is a triple root of $Q$",
@@ -330,84 +330,84 @@ TRIALS = (
         also=(Part(line="(1 - I)*v^3*(4*B3 - v) > 0", model=between_model),),
         note="This motion has the constants of the elementary one, comes as near to it as one likes for $t$ to minus "
         r"infinity, and yet leaves it by $4 B'_3$. At the ends $E' - I \omega_3^2 = \omega_2^2 > 0$, so that "
-        r"@mf50 brings $\mathbf{K}$ near as well.",
+        r"@(42) brings $\mathbf{K}$ near as well.",
     ),
     Trial(
-        label="theorem-equatorial-stability",
+        name="theorem-equatorial-stability",
         printed="minus_slope = I^2*omega3^2 - (1 - I)*B2^2",
         model=lambda: equatorial_model("upright"),
-        follows=r"@mf56 as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
+        follows=r"@(48) as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
         also=(Part(line="minus_slope = X^2 - (1 - I)*B2^2", model=lambda: equatorial_model("level")),),
         note=r"With $B'_3 = 0$ the root of $Q$ that @theorem-root has where $\nu_n = 0$ is fourfold, and for "
         "$I < 1$ the quartic $Q$ is negative beside it: there the ends belong to the stable motions.",
     ),
     Trial(
-        label="theorem-ball-nutation",
+        name="theorem-ball-nutation",
         printed="minus_slope = omega1^2 + (omega2 + B2)^2 + (omega3 + B3)^2",
         model=ball_nutation_model,
-        follows="@mf56 as corrected, with $I = 1$",
+        follows="@(48) as corrected, with $I = 1$",
         note=r"So every motion of the ball is stable but the one with $\boldsymbol{\omega} = -\mathbf{B}'$. There the "
         r"ball rests in Larmor's frame, and pushed by $\delta$ it turns in that frame with the angular velocity "
         r"$\delta$, however small.",
     ),
     Trial(
-        label="theorem-ball-line",
+        name="theorem-ball-line",
         printed="k = -b; phi = omega3 + B3; R = P*Q",
         model=lambda: turning_model("ball"),
-        follows=r"@mf21 and @mf27 by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
+        follows=r"@(12) and @(16) by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
         defines=("R",),
         solves=_MOTION,
     ),
     Trial(
-        label="theorem-equatorial-field",
+        name="theorem-equatorial-field",
         printed="k = -B2/hB2; phi = omega3; R = P*Q",
         model=lambda: turning_model("equator"),
-        follows=r"@mf21 and @mf27 by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
+        follows=r"@(12) and @(16) by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
         defines=("R",),
         solves=_MOTION,
     ),
     Trial(
-        label="theorem-quadric-lines",
+        name="theorem-quadric-lines",
         printed="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0;"
         " omega1^2 = (1 - I)*B2^2; omega2 = -B2",
         model=lines_model,
-        follows=r"@mf58.1 by substitution, any $\omega_3$",
+        follows=r"@(50) by substitution, any $\omega_3$",
     ),
     Trial(
-        label="theorem-momentum",
+        name="theorem-momentum",
         printed="dm = k*cross(hat_B,m)",
         model=elementary.matrix_model,
-        follows=r"@mf28 with $R$ of @mf89 and $\boldsymbol{\Omega}$ of @mf78",
+        follows=r"@(17) with $R$ of @(84) and $\boldsymbol{\Omega}$ of @(73)",
     ),
     Trial(
-        label="theorem-moment",
+        name="theorem-moment",
         printed="dm = mu/(2*c)*(cross(m,Bf) - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf)",
         model=torque_model,
-        follows="@mf28 and @mf21, any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
+        follows="@(17) and @(12), any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
     ),
     Trial(
-        label="theorem-drift",
+        name="theorem-drift",
         printed="drift = c*cross(Eperp,Bf)/b^2",
         model=drift_model,
-        follows="@mf1 solved for the velocity that does not change, for either sign of the charge",
-        note=r"The rest of the velocity turns about $\mathbf{B}$ by @mf8 and is zero in the mean.",
+        follows="@(89) solved for the velocity that does not change, for either sign of the charge",
+        note=r"The rest of the velocity turns about $\mathbf{B}$ by @(96) and is zero in the mean.",
     ),
     Trial(
-        label="theorem-ball-rest",
+        name="theorem-ball-rest",
         printed="R = [[cos(alpha*t), sin(alpha*t), 0], [-sin(alpha*t), cos(alpha*t), 0], [0, 0, 1]]",
         model=rest_model,
-        follows=r"@mf34 by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
+        follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
         defines=("R",),
         solves="d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one",
     ),
     Trial(
-        label="theorem-angles",
+        name="theorem-angles",
         printed="psi1 = P/b/(1 - nu^2); chi1 = u - nu*psi1",
         model=angles_model,
         follows=r"$R = R_z(\psi) R_x(\theta) R_z(\chi)$ with any rates",
     ),
     Trial(
-        label="theorem-cayley-klein",
+        name="theorem-cayley-klein",
         printed="d(ca)/ca = 1/2*d(nu)/(1 + nu); 1/2*(psi1 + chi1) = 1/2*(P/b/(1 + nu) + u);"
         " d(sb)/sb = -1/2*d(nu)/(1 - nu); 1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) - u)",
         model=angles_model,

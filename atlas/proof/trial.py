@@ -53,7 +53,7 @@ class Trial:
     check      how the lines are decided, if not by `decide`
     """
 
-    label: str
+    name: str
     printed: str
     model: Callable[[], Cases]
     follows: str

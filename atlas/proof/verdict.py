@@ -16,7 +16,7 @@ around it."""
 class Verdict:
     """The verdict on one entry of the ledger, on the form as printed.
 
-    label, number, section, kind   as in the ledger
+    name, number, section, kind   as in the ledger
     verdict         proved, refuted, undecided, supported (sampled only, with the count in `method`), or definition (it
                     says what its letters mean, and there is nothing to prove)
     grade           the kind of slip, one of `GRADES`, where the entry needs an erratum: it is refuted, or it is true
@@ -33,7 +33,7 @@ class Verdict:
     source          fingerprint of the proof's source
     """
 
-    label: str
+    name: str
     number: int | None
     section: str
     kind: str
@@ -73,11 +73,11 @@ class Verdict:
 
 
 def slips(verdicts: Iterable[Verdict]) -> dict[Grade, list[str]]:
-    """Return the distinct slips by grade, the grave ones first, each by the label under which it is counted."""
+    """Return the distinct slips by grade, the grave ones first, each by the name under which it is counted."""
     found: dict[Grade, list[str]] = {grade: [] for grade in GRADES}
     for verdict in verdicts:
         if verdict.grade and not verdict.slip:
-            found[verdict.grade].append(verdict.label)
+            found[verdict.grade].append(verdict.name)
     return found
 
 
@@ -91,7 +91,7 @@ class Sensitivity:
                 `survivors.reason`
     """
 
-    label: str
+    name: str
     tried: int
     noticed: int
     survivors: tuple[tuple[str, str, str], ...] = ()

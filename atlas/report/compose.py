@@ -10,6 +10,7 @@ from typing import Any
 
 from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
+from atlas.paper.equation import slug
 from atlas.plain import plain
 from atlas.report.appendices import Appendices
 from atlas.report.bibliography import Bibliography
@@ -24,8 +25,8 @@ from atlas.report.trial import Use
 from atlas.report.versions import parameters
 
 THEOREMS = {
-    label: f"(T{number})"
-    for number, label in enumerate((label for label, one in EQUATIONS.items() if one.kind == "theorem"), 1)
+    name: f"(T{number})"
+    for number, name in enumerate((name for name, one in EQUATIONS.items() if one.kind == "theorem"), 1)
 }
 """The numbers of what the paper does not have, in the order of the ledger."""
 
@@ -96,7 +97,7 @@ class Document:
             says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
             if name in self.ledger:
                 page = f"{self.ledger[name]}.html" if target == "html" else ""
-                return Link(self.number(name), page, f"ledger-{name}", says)
+                return Link(self.number(name), page, f"ledger-{slug(name)}", says)
             if name in self.targets:
                 file, anchor, words = self.targets[name]
                 return Link(words, file if target == "html" else "", anchor, says)
@@ -120,23 +121,22 @@ class Document:
         if name == f"report:{self.report.name}":
             return Link(title, f"{folder}/index.html", "page-index")
         if name in self.ledger:
-            return Link(self.number(name), f"{folder}/{self.ledger[name]}.html", f"ledger-{name}")
+            return Link(self.number(name), f"{folder}/{self.ledger[name]}.html", f"ledger-{slug(name)}")
         if name in self.targets:
             file, anchor, words = self.targets[name]
             counted = name.startswith(("fig:", "tab:"))
             return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
         return None
 
-    def entry(self, label: str) -> str:
+    def entry(self, name: str) -> str:
         """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
-        beside = ((name, one.ledger) for name, one in self.related.items())
-        there = next((f"../{name}/{ledger[label]}" for name, ledger in beside if label in ledger), "")
-        return self.ledger.get(label, there)
+        beside = ((folder, one.ledger) for folder, one in self.related.items())
+        there = next((f"../{folder}/{ledger[name]}" for folder, ledger in beside if name in ledger), "")
+        return self.ledger.get(name, there)
 
-    def number(self, label: str) -> str:
-        """Return the number of an equation as it is cited: as printed in the paper, our own, or else its label."""
-        printed = EQUATIONS[label].number if label in EQUATIONS else None
-        return f"({printed})" if printed is not None else self.equations.get(label, f"({label})")
+    def number(self, name: str) -> str:
+        """Return an equation as it is cited: by its number in print, one of our own, or else its name."""
+        return name if name.startswith("(") else self.equations.get(name, f"({name})")
 
     @property
     def cover(self) -> Picture | None:
@@ -192,8 +192,8 @@ def compose(
         related=related or {},
     )
     for name, one in document.related.items():
-        for label, uses in one.uses.items():
-            document.uses[label] += [replace(use, file=f"../{name}/{use.file}") for use in uses]
+        for used, uses in one.uses.items():
+            document.uses[used] += [replace(use, file=f"../{name}/{use.file}") for use in uses]
     document.abstract = document.texts.add(report.abstract, "the abstract")
     document.given = [document.texts.add(line, "the parameters", inline=True) for line in parameters(report.parameters)]
     composer = Composer(document, recorded or Appendices(), outline=outline)
@@ -263,7 +263,7 @@ class Composer:
         for name in citations(markdown):
             if name in EQUATIONS and name not in self.cited and self.document.ledger.get(name) != self.page.slug:
                 self.cited.add(name)
-                anchors[name] = f"cite-{self.page.slug}-{name}"
+                anchors[name] = f"cite-{self.page.slug}-{slug(name)}"
                 self.use(name, anchors[name], "text")
         return self.document.texts.add(markdown, self.where, anchors=anchors)
 
@@ -291,11 +291,11 @@ class Composer:
         found = (targets[name][1] if name in targets else find(name, self.where).anchor for name in names)
         return [anchor for anchor in found if anchor]
 
-    def use(self, label: str, anchor: str, words: str) -> None:
+    def use(self, name: str, anchor: str, words: str) -> None:
         """Note that a place of this page uses an equation, once."""
         place = Use(self.page.title, f"{self.page.slug}.html", anchor, words)
-        if place not in self.uses[label]:
-            self.uses[label].append(place)
+        if place not in self.uses[name]:
+            self.uses[name].append(place)
 
     def target(self, name: str, anchor: str, words: str) -> bool:
         """Let a name lead to an anchor of this page; return whether it is the first to do so."""
@@ -310,12 +310,12 @@ class Composer:
         self.target(f"{kind}:{name}", f"{kind}-{name}", f"{word} {number}")
         return f"{kind}-{name}"
 
-    def number(self, label: str) -> str:
+    def number(self, name: str) -> str:
         """Return the number of an equation; one that has none in the paper gets the next of our own."""
-        if label not in EQUATIONS or EQUATIONS[label].number is None:
+        if not name.startswith("("):
             own = len(self.document.equations) - len(THEOREMS) + 1
-            self.document.equations.setdefault(label, f"(A{own})")
-        return self.document.number(label)
+            self.document.equations.setdefault(name, f"(A{own})")
+        return self.document.number(name)
 
     def pictures(self, block: Figure) -> tuple[Picture, ...]:
         """Return the pictures of a figure block."""

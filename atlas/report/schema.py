@@ -14,7 +14,9 @@ Vector: TypeAlias = tuple[float, float, float]
 Pair: TypeAlias = tuple[float, float]
 Id: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
 Slug: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"[a-z0-9]+(-[a-z0-9]+)*")]
+EquationName: TypeAlias = Annotated[str, msgspec.Meta(pattern=r"\(\d+\)|[A-Za-z0-9]+(-[A-Za-z0-9]+)*")]
 PATTERNS = {
+    r"\(\d+\)|[A-Za-z0-9]+(-[A-Za-z0-9]+)*": "letters and digits with hyphens between them, or a number in brackets",
     r"[A-Za-z0-9]+(-[A-Za-z0-9]+)*": "letters and digits with hyphens between them",
     r"[a-z0-9]+(-[a-z0-9]+)*": "small letters and digits with hyphens between them",
 }

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from html import unescape
 from itertools import pairwise
 
+from atlas.paper.equation import slug
 from atlas.report.blocks.equation import EquationView
 from atlas.report.blocks.ledger import LedgerView
 from atlas.report.compose import Document
@@ -15,14 +16,14 @@ _START = re.compile(
     r'|<main id="([^"]+)">|</main>'
 )
 _TITLE = re.compile(r"<h[123][^>]*>(.*?)</h[123]>|(?:<figcaption[^>]*>)<b>(.*?)</b>|^(.*?)</h[23]>", re.DOTALL)
-_TAG = re.compile(r'<div class="tag"><span>(.*?)</span> <a[^>]*>(.*?)</a>', re.DOTALL)
+_TAG = re.compile(r'<div class="tag">(.*?)</div>', re.DOTALL)
 
 
 def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) -> str:
     """Return the index of a report as a script, which a page opened from disk can load: ``atlasIndex({...})``.
 
     ``sections`` holds rows (page, anchor, title, words) of its sections, figures, tables and equations in the order of
-    the pages, ``equations`` the formula of each label as HTML. Formulas are no words that can be searched.
+    the pages, ``equations`` the formula of each name as HTML. Formulas are no words that can be searched.
     """
     sections = [
         row for page in document.pages for row in _sections(page.file, f"{page.number} {page.title}", pages[page.file])
@@ -39,21 +40,21 @@ def _sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, 
         content = html[start.end() : end.start()]
         tag, title = _TAG.search(content), _TITLE.search(content)
         if anchor.startswith("eq-") and tag:
-            yield file, anchor, f"Equation {tag[1]} {tag[2]}", page
+            yield file, anchor, f"Equation {_words(tag[1])}", page
         else:
             head = _words(next(filter(None, title.groups()), "")).removesuffix(".") if title else page
             yield file, anchor, page if anchor.startswith("page-") else f"{head} — {page}", _words(content)
 
 
 def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
-    """Return the formulas of a report by label: those of the ledger, those displayed, and others that are cited."""
-    found = {label: texts[number] for label, number in document.formulas.items()}
+    """Return the formulas by the names in their anchors: those of the ledger, those displayed, others that are cited."""
+    found = {slug(name): texts[number] for name, number in document.formulas.items()}
     for page in document.pages:
         for block in page.blocks:
             if isinstance(block, EquationView):
-                found[block.label] = texts[block.text]
+                found[slug(block.name)] = texts[block.text]
             elif isinstance(block, LedgerView):
-                found |= {entry.label: texts[entry.formula] for entry in block.entries}
+                found |= {slug(entry.name): texts[entry.formula] for entry in block.entries}
     return found
 
 

@@ -1,7 +1,7 @@
 """The texts of a report: collected while its blocks are gone through, checked, and set together.
 
 A text is Markdown with TeX between dollars. Its links lead to http, https, mailto, doi or a page of the report, it
-holds no pictures, and a citation such as ``@mf72`` becomes a link.
+holds no pictures, and a citation such as ``@(67)`` becomes a link.
 """
 
 import json
@@ -15,7 +15,9 @@ from atlas.report import pandoc
 from atlas.report.mathml import mend_all
 from atlas.report.pandoc import FormulaError, Target, Tree
 
-_CITED = re.compile(r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@([a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL)
+_CITED = re.compile(
+    r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\(\d+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL
+)
 """A citation, in the first group; formulas and code, in which there is none, are passed over."""
 _OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
 _INSIDE = re.compile(r"[\w-]+\.html(?:#[\w.-]+)?|#[\w.-]+")
@@ -73,7 +75,7 @@ class Texts:
         keys = [json.dumps([pandoc.release(), text.markdown, text.inline]) for text in self.texts]
         new = {key: text for key, text in zip(keys, self.texts, strict=True) if key not in self.memory}
         if new:
-            trees = pandoc.read([(text.markdown, text.inline) for text in new.values()])
+            trees = pandoc.read([(_braced(text.markdown), text.inline) for text in new.values()])
             for key, tree in zip(new, trees, strict=True):
                 self.memory[key] = json.dumps(tree)
         self._trees = [json.loads(self.memory[key]) for key in keys]
@@ -111,6 +113,11 @@ def beginning(markdown: str) -> str:
     """Return a caption up to its first mark of punctuation outside formulas: what a list of tables shows of it."""
     found = re.match(r"(?:\$[^$]*\$|[^$])+?(?=[,;:.]\s|\.?$)", " ".join(markdown.split()))
     return found[0] if found else markdown
+
+
+def _braced(markdown: str) -> str:
+    """Write ``@(72)`` as pandoc reads it, with braces about a name that is no word."""
+    return _CITED.sub(lambda found: f"@{{{found[1]}}}" if (found[1] or "").startswith("(") else found[0], markdown)
 
 
 class _Checked:

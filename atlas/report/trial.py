@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from atlas.paper import EQUATIONS
-from atlas.paper.equation import Equation
+from atlas.paper.equation import Equation, slug
 from atlas.report.appendices import Finding
 
 SECTIONS = tuple(dict.fromkeys(entry.section for entry in EQUATIONS.values()))
@@ -41,7 +41,7 @@ class EntryView:
     `uses` fills while the report is gone through.
     """
 
-    label: str
+    name: str
     number: str
     kind: str
     verdict: str
@@ -61,6 +61,16 @@ class EntryView:
     grade: str = ""
     slip: str = ""
     quote: int | None = None
+
+    @property
+    def slug(self) -> str:
+        """The name in links."""
+        return slug(self.name)
+
+    @property
+    def same(self) -> str:
+        """The entry that shares the slip, in links."""
+        return slug(self.slip)
 
     @property
     def texts(self) -> list[int]:
@@ -83,8 +93,8 @@ def entries(
     An entry that the trial has no finding on is undecided.
     """
     nothing = Finding("undecided", "not tried", "")
-    pairs = ((entry, findings.get(label, nothing)) for label, entry in EQUATIONS.items())
-    return tuple(_entry(entry, found, keep, uses[entry.label]) for entry, found in pairs if wanted(entry, found))
+    pairs = ((entry, findings.get(name, nothing)) for name, entry in EQUATIONS.items())
+    return tuple(_entry(entry, found, keep, uses[entry.name]) for entry, found in pairs if wanted(entry, found))
 
 
 def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list[Use]) -> EntryView:
@@ -93,8 +103,8 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
 
     how = found.method if not found.follows else f"{found.method}, from {found.follows}"
     return EntryView(
-        label=entry.label,
-        number=f"({entry.number})" if entry.number is not None else "",
+        name=entry.name,
+        number=entry.name if entry.number is not None else "",
         kind=entry.kind,
         verdict=found.verdict,
         says=keep(entry.says, inline=True),
@@ -118,10 +128,10 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
 
 def by_grade(found: Sequence[EntryView]) -> tuple[EntryView, ...]:
     """Return entries with a slip, the grave ones first; those that share a slip stand together."""
-    place = {entry.label: number for number, entry in enumerate(found)}
+    place = {entry.name: number for number, entry in enumerate(found)}
 
     def order(entry: EntryView) -> tuple[int, int, int]:
-        own = place[entry.label]
+        own = place[entry.name]
         return GRADES.index(entry.grade), place.get(entry.slip, own), own
 
     return tuple(sorted(found, key=order))

@@ -1,4 +1,4 @@
-"""The hyperbola mf72 in the plane (omega2, omega3): the window it is shown in, and its branches there."""
+"""The hyperbola (67) in the plane (omega2, omega3): the window it is shown in, and its branches there."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -67,9 +67,9 @@ def window(field: Any, reach: float = 2.6, *, square: bool = False) -> Window:
 
 
 def branches(ratio: Any, field: Any, view: Window, millimetres: tuple[float, float]) -> tuple[FloatArray, ...]:
-    """Return the pieces (N, 2) of the curve mf72 that the window shows, drawn ``millimetres`` wide and high.
+    """Return the pieces (N, 2) of the curve (67) that the window shows, drawn ``millimetres`` wide and high.
 
-    With x = (omega2 + B2)/B2 each branch mf76 runs in log |x| from the edge of the window to where it has left the
+    With x = (omega2 + B2)/B2 each branch (71) runs in log |x| from the edge of the window to where it has left the
     window at the pole. For I = 1, B3 = 0 or B2 = 0 it is straight lines.
     """
     B2, B3 = components(field)
@@ -157,7 +157,7 @@ class Place:
 
 
 def places(ratio: Any, field: Any) -> tuple[Place, ...]:
-    """Return the named points of the hyperbola mf72: at rest, -2 B', and -(2-I) B2, where omega3 = 0 again.
+    """Return the named points of the hyperbola (67): at rest, -2 B', and -(2-I) B2, where omega3 = 0 again.
 
     The last is the state of rest for I = 2 and lies at the pole for I = 1: then it is left out, as it is for B2 = 0 or
     B3 = 0, where nothing singles it out.

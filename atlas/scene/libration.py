@@ -1,4 +1,4 @@
-"""Omega3(t) away from equilibrium, for figures: the motion of the pseudo-oscillator mf55 by one quadrature.
+"""Omega3(t) away from equilibrium, for figures: the motion of the pseudo-oscillator (47) by one quadrature.
 
 Between its turning points u- and u+ the first integral is Q(u) = (u+ - u)(u - u-) r(u) with r > 0. Put
 u = (u+ + u-)/2 + (u+ - u-)/2 sin s; then dt = ds/sqrt(r), a smooth periodic function of s, which a Fourier series

@@ -1,4 +1,4 @@
-"""Panels in space of the quadric mf58: its surface with the vectors, axes and angles of the paper's Figure Hyp.
+"""Panels in space of the quadric (51): its surface with the vectors, axes and angles of the paper's Figure Hyp.
 
 All lengths are angular velocities, in the unit of the field (1/time); points are arrays (3,) in the laboratory basis
 e1, e2, e3.
@@ -69,7 +69,7 @@ def extent(quadric: Quadric, field: tuple[float, float]) -> tuple[float, float]:
 
 
 def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = "both") -> list[Surface]:
-    """Return the drawn sheets of a hyperboloid or cone mf58, one surface each: 'both', or only that of the 'origin'.
+    """Return the drawn sheets of a hyperboloid or cone (51), one surface each: 'both', or only that of the 'origin'.
 
     ``field`` is (B2, B3) of B', of which neither vanishes. A hyperboloid of one sheet and a cone are one surface.
     """
@@ -88,7 +88,7 @@ def sheets(I: float, quadric: Quadric, field: tuple[float, float], which: str = 
 
 
 def planes(field: tuple[float, float]) -> list[Layer]:
-    """Return the two planes omega_3 = 0 and omega_2 = -B2 into which the quadric mf58 falls apart for B3 = 0."""
+    """Return the two planes omega_3 = 0 and omega_2 = -B2 into which the quadric (51) falls apart for B3 = 0."""
     B2, reach = field[0], 1.6 * abs(field[0])
     corner = in_plane(-B2, 0.0)
     layers: list[Layer] = []
@@ -99,7 +99,7 @@ def planes(field: tuple[float, float]) -> list[Layer]:
 
 
 def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
-    """Return the surface mf58 with the hyperbola mf72 on it and, for hyperboloids and cones, the canonical axes omega'.
+    """Return the surface (51) with the hyperbola (67) on it and, for hyperboloids and cones, the canonical axes omega'.
 
     ``ratio`` is I = I3/I2 or a body, ``field`` (B2, B3) of B'; ``which`` is as for `sheets`. A pair of planes and a
     line are drawn as such; for B' = 0, where every omega qualifies, the list is empty.
@@ -120,7 +120,7 @@ def surface_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
 
 
 def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") -> list[Layer]:
-    """Return the layers of the paper's Figure Hyp: the quadric mf58, the laboratory axes, B', I^-1 B' and beta.
+    """Return the layers of the paper's Figure Hyp: the quadric (51), the laboratory axes, B', I^-1 B' and beta.
 
     Arguments are those of `surface_layers`. Raises AtlasError where the ratio or the field is not valid.
     """
@@ -135,7 +135,7 @@ def quadric_layers(ratio: Any, field: tuple[float, float], which: str = "both") 
 
 
 def hyperbolas(I: float, surfaces: Sequence[Surface], field: tuple[float, float]) -> list[Layer]:
-    """Return the section omega_1 = 0 of the surfaces, mf72, as curves (N, 3)."""
+    """Return the section omega_1 = 0 of the surfaces, (67), as curves (N, 3)."""
     Q = quadrics.quadric_matrix(I, field)
     fine = tolerance(float(np.hypot(*field)))
     return [Curve(c, "hyperbola") for surface in surfaces for c in quadrics.hyperbola(Q, surface, fine)]
@@ -174,7 +174,7 @@ def angle(centre: FloatArray, value: float, radius: float, name: str) -> list[La
 
 
 def canonical(quadric: Quadric, reach: float, across: float) -> list[Layer]:
-    """Return the canonical axes omega'_1..3 through -B', mf61a, and the angle beta/2 + pi/4 from e2 to omega'_2.
+    """Return the canonical axes omega'_1..3 through -B', (53), and the angle beta/2 + pi/4 from e2 to omega'_2.
 
     The axis of the sheets is ``reach`` long, the others ``across``.
     """

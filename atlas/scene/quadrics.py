@@ -1,4 +1,4 @@
-"""The quadric of constant Omega_3, mf58, as surfaces to draw: sheets cut across their axis."""
+"""The quadric of constant Omega_3, (51), as surfaces to draw: sheets cut across their axis."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -15,7 +15,7 @@ _WIRES, _PARALLELS = 12, 5
 
 
 def quadric_matrix(I: float, field: tuple[float, float]) -> FloatArray:
-    """Return the (4, 4) matrix of mf58.1, negative inside the sheets (around their axis).
+    """Return the (4, 4) matrix of (50), negative inside the sheets (around their axis).
 
     B3 (w1^2 + w2^2) - I B2 w2 w3 + (2 - I) B2 B3 w2 - I B2^2 w3, divided by B3 where that is not zero.
     """
@@ -27,7 +27,7 @@ def quadric_matrix(I: float, field: tuple[float, float]) -> FloatArray:
 
 
 def sheet_axis(quadric: Quadric) -> int:
-    """Return which canonical axis the sheets lie around: omega'_2 (1) for B3 / B2 > 0, omega'_3 (2) otherwise."""
+    """Return the row in `axes` of the canonical axis the sheets lie around: omega'_2 for B3/B2 > 0, else omega'_3."""
     return 1 if quadric.a2 > 0.0 else 2
 
 
@@ -97,7 +97,7 @@ def profile(rest: float, slope: float, sign: float) -> tuple[_Line, _Line, Calla
 
 
 def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:
-    """Return the sheets of the quadric mf58 of a body within ``reach`` of its centre along its axis.
+    """Return the sheets of the quadric (51) of a body within ``reach`` of its centre along its axis.
 
     ``field`` is (B2, B3) of B', of which neither vanishes; a hyperboloid of one sheet and a cone are one surface.
     """
@@ -115,7 +115,7 @@ def centre_value(Q: FloatArray, centre: FloatArray) -> float:
 
 
 def hyperbola(Q: FloatArray, surface: Surface, tolerance: float) -> list[FloatArray]:
-    """Return the part of the hyperbola mf72, omega_1 = 0, that lies on a drawn surface, as polylines (N, 3)."""
+    """Return the part of the hyperbola (67), omega_1 = 0, that lies on a drawn surface, as polylines (N, 3)."""
     points = np.concatenate([np.reshape(grid, (-1, 3)) for grid in surface.grids])
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = 0.5 * (low + high), 0.5 * float(np.linalg.norm(high - low))

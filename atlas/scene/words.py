@@ -49,13 +49,13 @@ def listed(items: Sequence[str], last: str = "and") -> str:
 
 
 def quotient(ratio: Any) -> float:
-    """Return I = I3/I2, mf41.1, of a number or a body, for a sentence and for nothing finer."""
+    """Return I = I3/I2, (33), of a number or a body, for a sentence and for nothing finer."""
     I2, I3 = moments(ratio)
     return float(I3 / I2)
 
 
 def body_name(ratio: Any) -> str:
-    """Return what the paper calls a body with this I = I3/I2, mf41.1; decided on I3 against I2 as given."""
+    """Return what the paper calls a body with this I = I3/I2, (33); decided on I3 against I2 as given."""
     I2, I3 = moments(ratio)
     if I3 == 2 * I2:
         return "loop"

@@ -91,7 +91,7 @@ class AnyBody:
         yield from _clebsch(conserved(J, Omega, K), conserved(J, first, field))
         square, double = (K * K).sum(-1), np.einsum("...i,ij,...j->...", Omega, J, Omega)
         true = (field @ field, first @ J @ first)
-        yield "K^2", "length of the field in the body, squared", "mf45", square / (true[0] or 1) - 1
+        yield "K^2", "length of the field in the body, squared", "(37)", square / (true[0] or 1) - 1
         yield "T", "kinetic energy", "theorem-kinetic-energy", double / (true[1] or 1) - 1
 
 
@@ -106,10 +106,10 @@ def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
     """Yield the norm of the quaternion and the orthogonality of R."""
     if QUATERNION[0] in columns:
         norm = np.sqrt(sum(columns[name] ** 2 for name in QUATERNION))
-        yield "|q|", "norm of the quaternion", "mf21", norm - 1
+        yield "|q|", "norm of the quaternion", "(12)", norm - 1
     if R is not None:
         defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2))
-        yield "R^T R", "orthogonality of R", "mf21", defect
+        yield "R^T R", "orthogonality of R", "(12)", defect
 
 
 def _clebsch(found: Iterable[Any], start: Iterable[Any]) -> Iterable[Deviation]:
@@ -121,15 +121,15 @@ def _clebsch(found: Iterable[Any], start: Iterable[Any]) -> Iterable[Deviation]:
 def _integrals(I: Any, Omega: Any, K: Any) -> Iterable[tuple[str, str, str, Any]]:
     """Yield the integrals of motion that Omega and K determine."""
     if Omega is not None:
-        yield "E'", "energy 2 E/I2", "mf44", Omega[:, 0] ** 2 + Omega[:, 1] ** 2 + I * Omega[:, 2] ** 2
+        yield "E'", "energy 2 E/I2", "(36)", Omega[:, 0] ** 2 + Omega[:, 1] ** 2 + I * Omega[:, 2] ** 2
     if K is not None:
-        yield "K^2", "length of the field in the body, squared", "mf45", (K**2).sum(-1)
+        yield "K^2", "length of the field in the body, squared", "(37)", (K**2).sum(-1)
     if Omega is not None and K is not None:
         u, c3 = Omega[:, 2], K[:, 2] + Omega[:, 2]
         across = Omega[:, 0] * K[:, 0] + Omega[:, 1] * K[:, 1]
-        yield "c3", "K3 + Omega3", "mf48", c3
-        yield "c5", "the fourth integral", "mf49", across - u**2 + (2 - I) * c3 * u
-        yield "(m,B')", "momentum along the field, over I2", "mf93", across + I * u * K[:, 2]
+        yield "c3", "K3 + Omega3", "(40)", c3
+        yield "c5", "the fourth integral", "(41)", across - u**2 + (2 - I) * c3 * u
+        yield "(m,B')", "momentum along the field, over I2", "(88)", across + I * u * K[:, 2]
 
 
 def _scales(motion: ElementaryMotion | GeneralMotion) -> dict[str, fmpq]:

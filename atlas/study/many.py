@@ -1,6 +1,6 @@
 """Stress of arrays of motions: hostile rows by the million, scalars against exact rationals, matrices against laws.
 
-Every row's omega3 and phi are held against the rational numbers mf76 and mf77 give, and its k^2 against that of mf84;
+Every row's omega3 and phi are held against the rational numbers (71) and (72) give, and its k^2 against that of (79);
 R^T R = 1 and det R = 1 are evaluated in extended precision, and one matrix in `BALLS` is held against balls. Beside
 each fourth array of these goes one of general motions, see `many_general`.
 """
@@ -106,7 +106,7 @@ def judge_rows(seed: int, index: int) -> Tally:
 
 
 def _scalars(row: list[float], omega3: float, k: float, phi: float) -> tuple[float, float, float]:
-    """Return the errors of omega3, k and phi in ulps, from mf76, mf77 and the square of mf84 in rationals."""
+    """Return the errors of omega3, k and phi in ulps, from (71), (72) and the square of (79) in rationals."""
     I, b2, b3, w2 = (fmpq(*x.as_integer_ratio()) for x in row[:4])
     common = b3 * w2 / (I * b2 * (w2 + b2))
     square = w2 * w2 * (b2 * b2 + b3 * b3) / (b2 * b2)

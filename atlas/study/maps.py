@@ -1,4 +1,4 @@
-"""Maps of the largest error in R over (omega2, t) and (I, t), of the plain formula mf89 and of ours, against balls."""
+"""Maps of the largest error in R over (omega2, t) and (I, t), of the plain formula (84) and of ours, against balls."""
 
 import math
 from dataclasses import dataclass
@@ -47,7 +47,7 @@ def over_ratio(field: Field, omega2: float, cells: tuple[int, int] = (80, 54)) -
 def _mapped(x: FloatArray, ratio: float | Range, field: Field, omega2: float | Range, rows: int) -> ErrorMap:
     """Make the table over what varies between the edges x, and over time."""
     if field[0] == 0:
-        raise DomainError("A map of errors needs B2 different from zero: mf76 and mf77 divide by it.")
+        raise DomainError("A map of errors needs B2 different from zero: (71) and (72) divide by it.")
     b = math.hypot(*field)
     t = np.geomspace(*CLOCK, rows + 1)
     settings = {"ratio": ratio, "B2": field[0], "B3": field[1], "omega2": omega2, "t": Range.middles(t / b, log=True)}

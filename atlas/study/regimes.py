@@ -113,7 +113,7 @@ def _mixed_scales(random: Random) -> Draw:
 
 
 def _resonant(random: Random) -> Draw:
-    """Draw a motion with phi/k near a simple fraction, from mf91 solved for omega2."""
+    """Draw a motion with phi/k near a simple fraction, from (86) solved for omega2."""
     I, B2, B3, w2 = _ordinary(random)
     wanted = sign(random) * random.randint(1, 4) / random.randint(1, 4)
     pull = B3 / math.hypot(B2, B3) * (1 - I) * math.copysign(1, B2)

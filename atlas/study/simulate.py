@@ -1,4 +1,4 @@
-"""The Euler–Poisson equations, mf21 and mf27, by one of SciPy's integrators: a peer of the closed forms."""
+"""The Euler–Poisson equations, (12) and (16), by one of SciPy's integrators: a peer of the closed forms."""
 
 import warnings
 from dataclasses import dataclass
@@ -73,7 +73,7 @@ def simulate(
     rtol: float = 1e-10,
     atol: float = 1e-12,
 ) -> Simulation:
-    """Integrate the Euler–Poisson equations mf21, mf27 from R = 1 at t = 0.
+    """Integrate the Euler–Poisson equations (12), (16) from R = 1 at t = 0.
 
     `inertia` is a SymmetricBody, a ratio I = I3/I2, principal moments (3,) or any inertia tensor (3, 3) of a body, in
     the laboratory axes; `field` is B' (3,) or (B2, B3); `omega` (3,) the initial angular velocity, in the same unit

@@ -48,7 +48,7 @@ class Truth:
         return np.asarray((np.abs(t) <= PHASE * self._phases.reach) & EXTENDED)
 
     def at(self, t: FloatArray) -> tuple[Long, Long, Long]:
-        """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`; by mf89, mf78."""
+        """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`; by (84), (73)."""
         half, left_out, sign, _ = self._phases.angles(t, np.empty((8, 2, t.size)))
         x = half.astype(np.longdouble) + left_out  # half the phase, less whole quarter turns; sign tells their parity
         sines, cosines = np.sin(x), np.cos(x)

@@ -71,10 +71,10 @@ card.hidden = true;
 document.body.append(card);
 const hide = () => { card.hidden = true; };
 const show = async link => {
-  const label = decodeURIComponent(link.hash).replace(/^#(eq|ledger)-/, "");
+  const name = decodeURIComponent(link.hash).replace(/^#(eq|ledger)-/, "");
   const {equations} = await index();
-  if (!(label in equations) || !link.matches(":hover, :focus")) return;
-  card.innerHTML = equations[label];
+  if (!(name in equations) || !link.matches(":hover, :focus")) return;
+  card.innerHTML = equations[name];
   if (link.title) { link.dataset.says = link.title; link.removeAttribute("title"); }
   if (link.dataset.says) card.append(element("p", {}, link.dataset.says));
   card.hidden = false;

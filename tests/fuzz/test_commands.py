@@ -39,7 +39,7 @@ BASES = {
     "figure": "",
     "list": "",
     "diff": "old new",
-    "verify": "mf999",
+    "verify": "999",
     "bench": "--read nosuch.json",
 }
 NEVER = {

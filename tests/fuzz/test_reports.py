@@ -41,8 +41,8 @@ REPORT: dict[str, Any] = {
             "slug": "index",
             "title": "First",
             "blocks": [
-                {"kind": "prose", "text": "See @mf58, @tab:one and [a link](https://example.org)."},
-                {"kind": "equation", "label": "mf76"},
+                {"kind": "prose", "text": "See @(51), @tab:one and [a link](https://example.org)."},
+                {"kind": "equation", "name": "(71)"},
             ],
         }
     ],

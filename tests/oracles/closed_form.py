@@ -49,7 +49,7 @@ def _rounded(value: Any) -> Any:
 
 @dataclass(frozen=True)
 class Elementary:
-    """Frequencies of an elementary motion: mf76, ``k = omega2/B2hat`` and mf77, with the axis they belong to."""
+    """Frequencies of an elementary motion: (71), ``k = omega2/B2hat`` and (72), with the axis they belong to."""
 
     omega2: mpf
     omega3: mpf
@@ -63,9 +63,9 @@ class Elementary:
 def elementary(
     I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, omega3: Number | None = None
 ) -> Elementary:
-    """Return omega3, k and phi (mf76, mf77, mf84); ``omega3`` is needed where the formula leaves it free.
+    """Return omega3, k and phi (71), (72), (79); ``omega3`` is needed where the formula leaves it free.
 
-    That is for B = 0 (the free body, where the axis is that of the angular momentum, mf92), for B2 = 0, and at
+    That is for B = 0 (the free body, where the axis is that of the angular momentum, (87)), for B2 = 0, and at
     ``omega2 = -B2`` with B3 = 0 or I3 = I2.
     """
     I, B2, B3, omega2 = exact(I3) / exact(I2), exact(B2), exact(B3), exact(omega2)
@@ -87,7 +87,7 @@ def elementary(
 def elementary_rotation(
     I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, t: Number, omega3: Number | None = None
 ) -> mpmath.matrix:
-    """Return R(t) = R_axis(k t) R_z(phi t), mf90."""
+    """Return R(t) = R_axis(k t) R_z(phi t), (85)."""
     e = elementary(I2, I3, B2, B3, omega2, omega3, digits=mp.dps)
     t = exact(t)
     return rotation(e.axis2, e.axis3, e.k * t) * rotation(mpf(0), mpf(1), e.phi * t)
@@ -97,14 +97,14 @@ def elementary_rotation(
 def elementary_angular_velocity(
     I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, t: Number, omega3: Number | None = None
 ) -> tuple[mpf, mpf, mpf]:
-    """Return Omega(t) in the body frame, mf78."""
+    """Return Omega(t) in the body frame, (73)."""
     e = elementary(I2, I3, B2, B3, omega2, omega3, digits=mp.dps)
     angle = e.phi * exact(t)
     return (e.omega2 * mp.sin(angle), e.omega2 * mp.cos(angle), e.omega3)
 
 
 def rotation(axis2: mpf, axis3: mpf, angle: mpf) -> mpmath.matrix:
-    """Return the turn by ``angle`` about the unit vector (0, axis2, axis3), the first factor of mf90."""
+    """Return the turn by ``angle`` about the unit vector (0, axis2, axis3), the first factor of (85)."""
     c, s = mp.cos(angle), mp.sin(angle)
     return mpmath.matrix([
         [c, -axis3 * s, axis2 * s],
@@ -115,7 +115,7 @@ def rotation(axis2: mpf, axis3: mpf, angle: mpf) -> mpmath.matrix:
 
 @dataclass(frozen=True)
 class Quadric:
-    """The canonical form mf60: ``omega1'^2 - omega2'^2/a2 + omega3'^2/a3 = (1-I) B2^2``, and C_i^2 of mf61, mf63."""
+    """The canonical form (54): ``omega1'^2 - omega2'^2/a2 + omega3'^2/a3 = (1-I) B2^2``, and C_i^2 of (55), (57)."""
 
     beta: mpf
     a2: mpf
@@ -127,7 +127,7 @@ class Quadric:
 
 @_precisely
 def quadric(I2: Number, I3: Number, B2: Number, B3: Number) -> Quadric:
-    """Return beta, a2, a3, the squared semi-axes |1-I| B2^2 (1, a2, a3) and the rows omega'_1..3 of mf61a; B2 != 0."""
+    """Return beta, a2, a3, the squared semi-axes |1-I| B2^2 (1, a2, a3) and the rows omega'_1..3 of (53); B2 != 0."""
     I, B2, B3 = exact(I3) / exact(I2), exact(B2), exact(B3)
     beta = mp.atan2(B3, I * B2)
     a2, a3 = 2 * mp.sin(beta) / (1 - mp.sin(beta)), 2 * mp.sin(beta) / (1 + mp.sin(beta))
@@ -140,7 +140,7 @@ def quadric(I2: Number, I3: Number, B2: Number, B3: Number) -> Quadric:
 
 @dataclass(frozen=True)
 class Ball:
-    """The ball of mf39: axis (0, k2, k3) and frequency gamma; k2 = 0, k3 = -1 where gamma = 0."""
+    """The ball of (29): axis (0, k2, k3) and frequency gamma; k2 = 0, k3 = -1 where gamma = 0."""
 
     k2: mpf
     k3: mpf
@@ -149,7 +149,7 @@ class Ball:
 
 @_precisely
 def ball(inertia: Number, larmor: Number, m2: Number, m3: Number) -> Ball:
-    """Return the axis and the frequency of the ball, mf39."""
+    """Return the axis and the frequency of the ball, (29)."""
     I0, alpha, m2, m3 = (exact(x) for x in (inertia, larmor, m2, m3))
     size = mp.sqrt(m2**2 + (alpha * I0 + m3) ** 2)
     if size == 0:
@@ -159,7 +159,7 @@ def ball(inertia: Number, larmor: Number, m2: Number, m3: Number) -> Ball:
 
 @_precisely
 def ball_rotation(inertia: Number, larmor: Number, m2: Number, m3: Number, t: Number) -> mpmath.matrix:
-    """Return R(t) of the ball, mf38: both turns run clockwise."""
+    """Return R(t) of the ball, (28): both turns run clockwise."""
     b = ball(inertia, larmor, m2, m3, digits=mp.dps)
     t = exact(t)
     return rotation(mpf(0), mpf(1), -exact(larmor) * t) * rotation(b.k2, b.k3, -b.gamma * t)
@@ -167,7 +167,7 @@ def ball_rotation(inertia: Number, larmor: Number, m2: Number, m3: Number, t: Nu
 
 @_precisely
 def ball_angular_momentum(larmor: Number, m2: Number, m3: Number, t: Number) -> tuple[mpf, mpf, mpf]:
-    """Return m(t) of the ball in the laboratory frame, mf36."""
+    """Return m(t) of the ball in the laboratory frame, (26)."""
     angle = exact(larmor) * exact(t)
     return (exact(m2) * mp.sin(angle), exact(m2) * mp.cos(angle), exact(m3))
 
@@ -190,7 +190,7 @@ def particle(
     t: Number,
     c: Number = 1,
 ) -> Particle:
-    """Return y(t) and v(t) of mf1 as the exponential of the (7, 7) matrix of the linear system in (y, v, 1).
+    """Return y(t) and v(t) of (89) as the exponential of the (7, 7) matrix of the linear system in (y, v, 1).
 
     Any E and B, zero too; the matrix exponential knows nothing of trochoids. Keep |mu B t/c| below about 1e6.
     """

@@ -1,4 +1,4 @@
-"""The Euler-Poisson equations (mf21, mf27) by Taylor series in fixed point, for any inertia tensor, field and start.
+"""The Euler-Poisson equations (12), (16) by Taylor series in fixed point, for any inertia tensor, field and start.
 
     I dOmega/dt = [I Omega, Omega] - 2 [g K, Omega],   dK/dt = [K, Omega],   dR_i/dt = [R_i, Omega]  (R_i: rows of R)
 

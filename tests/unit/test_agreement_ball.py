@@ -1,4 +1,4 @@
-"""Charged ball: core and exact say what the ledger's mf36 to mf40 say."""
+"""Charged ball: core and exact say what the ledger's (26) to (30) say."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -36,18 +36,18 @@ def motion(f: Floor, p: Any) -> Any:
 
 
 def constants(say: Ledger, p: Any) -> dict[str, Any]:
-    """Return gamma, k2 and k3 of mf39."""
-    return {name: say("mf39", name, **letters(p, "m2 m3 alpha I0")) for name in ("gamma", "k2", "k3")}
+    """Return gamma, k2 and k3 of (29)."""
+    return {name: say("(29)", name, **letters(p, "m2 m3 alpha I0")) for name in ("gamma", "k2", "k3")}
 
 
 def rotation(say: Ledger, p: Any, t: Any) -> Any:
-    """Return R(t) of mf38."""
-    return say("mf38", "R", alpha=p.alpha, t=t, **constants(say, p))
+    """Return R(t) of (28)."""
+    return say("(28)", "R", alpha=p.alpha, t=t, **constants(say, p))
 
 
 def momentum(say: Ledger, p: Any) -> Any:
-    """Return m(t) of mf36."""
-    return say("mf36", "m", **letters(p, "alpha t m2 m3"))
+    """Return m(t) of (26)."""
+    return say("(26)", "m", **letters(p, "alpha t m2 m3"))
 
 
 def spin(say: Ledger, p: Any) -> Any:
@@ -55,10 +55,10 @@ def spin(say: Ledger, p: Any) -> Any:
     return rotation(say, p, p.t).T * momentum(say, p) / sympy.Rational(p.I0)
 
 
-MATRIX = "mf38 mf39"
+MATRIX = "(28) (29)"
 
 TIES = (
-    Tie("BallMotion.gamma", "mf39", lambda f, p: motion(f, p).gamma, lambda say, p: constants(say, p)["gamma"], POINTS),
+    Tie("BallMotion.gamma", "(29)", lambda f, p: motion(f, p).gamma, lambda say, p: constants(say, p)["gamma"], POINTS),
     Tie(
         "BallMotion.gamma",
         "text-ball-parallel",
@@ -68,7 +68,7 @@ TIES = (
     ),
     Tie(
         "BallMotion.k_hat",
-        "mf39",
+        "(29)",
         lambda f, p: motion(f, p).k_hat,
         lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")],
         POINTS,
@@ -76,7 +76,7 @@ TIES = (
     ),
     Tie(
         "BallMotion.k_hat",
-        "mf39",
+        "(29)",
         lambda f, p: motion(f, p).k_hat,
         lambda say, p: [constants(say, p)[name] for name in ("k2", "k3")],
         ALONG,
@@ -98,9 +98,9 @@ TIES = (
     ),
     Tie(
         "BallMotion.rotation",
-        "mf40",
+        "(30)",
         lambda f, p: motion(f, p).rotation(p.t),
-        lambda say, p: say("mf40", "R", **letters(p, "m3 I0 t")),
+        lambda say, p: say("(30)", "R", **letters(p, "m3 I0 t")),
         ALONG,
         size=unit,
     ),
@@ -141,7 +141,7 @@ TIES = (
     ),
     Tie(
         "BallMotion.angular_momentum",
-        "mf36",
+        "(26)",
         lambda f, p: motion(f, p).angular_momentum(p.t),
         momentum,
         [*POINTS, *ALONG, *REST],
@@ -149,7 +149,7 @@ TIES = (
     ),
     Tie(
         "BallMotion.angular_velocity",
-        f"{MATRIX} mf36",
+        f"{MATRIX} (26)",
         lambda f, p: motion(f, p).angular_velocity(p.t),
         spin,
         POINTS,
@@ -166,10 +166,10 @@ def test_the_ball_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 
 def test_a_larmor_turn_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """-alpha for alpha: only the matrix mf40 of a ball with m2 = 0 does not depend on it."""
+    """-alpha for alpha: only the matrix (30) of a ball with m2 = 0 does not depend on it."""
     right = ball.ball
     monkeypatch.setattr(ball, "ball", lambda I0, alpha, m2, m3: right(I0, -alpha, m2, m3))
-    moved = [tie for tie in TIES if tie.labels not in {"mf40", "theorem-ball-rest"}]
+    moved = [tie for tie in TIES if tie.names not in {"(30)", "theorem-ball-rest"}]
     disagree(moved, *{tie.quantity for tie in moved})
 
 

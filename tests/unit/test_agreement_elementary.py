@@ -1,4 +1,4 @@
-"""Elementary motion and the free body beside it: core and exact say what the ledger's mf76 to mf93 say."""
+"""Elementary motion and the free body beside it: core and exact say what the ledger's (71) to (88) say."""
 
 from typing import Any
 
@@ -32,7 +32,7 @@ FREE = bodies(92, 6, B2=0.0, B3=0.0)
 ALONG = bodies(3, 2, B2=0.0, omega=lambda p: (0.0, 0.0, p.omega[2]))
 SPINS = bodies(4, 6)
 
-CONSTANTS = "mf76 mf77 mf84"
+CONSTANTS = "(71) (72) (79)"
 GRID = (0.7, 0.31, 3)
 TIMES = [sympy.Rational(0.7) + i * sympy.Rational(0.31) for i in range(3)]
 
@@ -48,21 +48,21 @@ def with_spin(f: Floor, p: Any) -> Any:
 
 
 def spin(say: Ledger, p: Any, t: Any) -> Any:
-    """Return Omega(t), mf78."""
+    """Return Omega(t), (73)."""
     constants = elementary(say, p)
-    return say("mf78", "Omega", omega2=p.omega2, omega3=constants["omega3"], phi=constants["phi"], t=t)
+    return say("(73)", "Omega", omega2=p.omega2, omega3=constants["omega3"], phi=constants["phi"], t=t)
 
 
 def field(say: Ledger, p: Any) -> Any:
-    """Return K(t), mf68 and mf66."""
+    """Return K(t), (62) and (60)."""
     Omega = spin(say, p, p.t)
     given = {"omega1": 0, "Omega1": Omega[0], "Omega2": Omega[1], **letters(p, "omega2 B2 B3")}
-    return [say("mf68", "K1", **given), say("mf68", "K2", **given), say("mf66", "K3", **given)]
+    return [say("(62)", "K1", **given), say("(62)", "K2", **given), say("(60)", "K3", **given)]
 
 
 def field_seen(say: Ledger, p: Any) -> Any:
-    """Return K(t) = B' R, mf41."""
-    return say("mf41", "K", Bprime=[0, *p.field], R=rotation(say, p, p.t), BR=lambda B, R: R.T * B)
+    """Return K(t) = B' R, (32)."""
+    return say("(32)", "K", Bprime=[0, *p.field], R=rotation(say, p, p.t), BR=lambda B, R: R.T * B)
 
 
 def momentum(say: Ledger, p: Any, t: Any) -> Any:
@@ -73,21 +73,21 @@ def momentum(say: Ledger, p: Any, t: Any) -> Any:
 def invariants(say: Ledger, p: Any) -> list[Any]:
     """Return E', K^2, c3, c5 and (m, B')/I2 at t = 0."""
     given = {"omega1": 0, "omega3": elementary(say, p)["omega3"], **letters(p, "omega2 I B2 B3")}
-    four = [("mf44", "at0(E)"), ("mf45", "at0(K1^2 + K2^2 + K3^2)"), ("mf48", "at0(c3)"), ("mf49", "at0(c5)")]
+    four = [("(36)", "at0(E)"), ("(37)", "at0(K1^2 + K2^2 + K3^2)"), ("(40)", "at0(c3)"), ("(41)", "at0(c5)")]
     m = sympy.Matrix(momentum(say, p, 0))
-    along = say("mf93", "0", d=lambda x: x, m=m, Bp=[0, *p.field])
-    return [*(say(label, side, **given) for label, side in four), along]
+    along = say("(88)", "0", d=lambda x: x, m=m, Bp=[0, *p.field])
+    return [*(say(name, side, **given) for name, side in four), along]
 
 
 def two_turns(say: Ledger, axis: Any, k: Any, phi: Any, t: Any) -> Any:
-    """Return R = P Q of mf90, both factors by Rodrigues' formula."""
+    """Return R = P Q of (85), both factors by Rodrigues' formula."""
     P = say("text-precession", "P", hat_B=axis, k=k, t=t)
     Q = say("text-precession", "Q", rod=rodrigues, e3=[0, 0, 1], phi=phi, t=t)
-    return say("mf90", "R", P=P, Q=Q)
+    return say("(85)", "R", P=P, Q=Q)
 
 
 def lost_constants(say: Ledger, p: Any) -> dict[str, Any]:
-    """Return k and phi where mf76 has no value: on the ball's extra line, and on that of a transverse field."""
+    """Return k and phi where (71) has no value: on the ball's extra line, and on that of a transverse field."""
     if p.B3 == 0:
         phi = say("theorem-equatorial-field", "phi", omega3=p.omega3)
         return {"k": say("theorem-equatorial-field", "k", B2=p.B2, **unit_field(p)), "phi": phi}
@@ -108,7 +108,7 @@ def free_constants(say: Ledger, p: Any, *, whole: bool = False) -> dict[str, Any
     size = sympy.sqrt(m.dot(m))
     across = sympy.sqrt(m[0] ** 2 + m[1] ** 2)
     k = say("text-free-frequency", "k", omega2=across, hB2=across / size)
-    return {"axis": m / size, "k": k, "phi": say("mf92", "phi", I2=1, I3=p.I, hB3=m[2] / size, kB=k)}
+    return {"axis": m / size, "k": k, "phi": say("(87)", "phi", I2=1, I3=p.I, hB3=m[2] / size, kB=k)}
 
 
 def free_rotation(say: Ledger, p: Any, t: Any, *, whole: bool = False) -> Any:
@@ -134,8 +134,8 @@ def quaternion_rotation(f: Floor, p: Any) -> list[Any]:
 
 
 def axis(say: Ledger, p: Any) -> Any:
-    """Return the unit vector along (B2, B3), of which mf82 gives the slope."""
-    slope = say("mf82", "hB3/hB2", B2=p.B2, B3=p.B3)
+    """Return the unit vector along (B2, B3), of which (77) gives the slope."""
+    slope = say("(77)", "hB3/hB2", B2=p.B2, B3=p.B3)
     along = 1 / sympy.sqrt(1 + slope**2) * (1 if p.B2 > 0 else -1)
     return [along, along * slope]
 
@@ -148,9 +148,9 @@ def strongest(_true: list[Any], p: Any) -> float:
 
 
 LOST = ((BALL, "theorem-ball-line"), (EQUATOR, "theorem-equatorial-field"))
-TWO_TURNS = "mf90 text-precession"
-MATRIX = f"{CONSTANTS} mf89"
-FREE_LABELS = "mf92 text-free-frequency"
+TWO_TURNS = "(85) text-precession"
+MATRIX = f"{CONSTANTS} (84)"
+FREE_LABELS = "(87) text-free-frequency"
 
 PRECESSION = (
     *(
@@ -206,7 +206,7 @@ PRECESSION = (
     ),
     Tie(
         "ElementaryMotion.axis",
-        "mf82",
+        "(77)",
         lambda f, p: motion(f, p).axis,
         axis,
         POINTS,
@@ -214,7 +214,7 @@ PRECESSION = (
     ),
     Tie(
         "ElementaryMotion.angular_velocity",
-        f"{CONSTANTS} mf78",
+        f"{CONSTANTS} (73)",
         lambda f, p: motion(f, p).angular_velocity(p.t),
         lambda say, p: spin(say, p, p.t),
         POINTS,
@@ -222,7 +222,7 @@ PRECESSION = (
     ),
     Tie(
         "ElementaryMotion.field_in_body",
-        f"{CONSTANTS} mf78 mf68 mf66",
+        f"{CONSTANTS} (73) (62) (60)",
         lambda f, p: motion(f, p).field_in_body(p.t),
         field,
         POINTS,
@@ -230,7 +230,7 @@ PRECESSION = (
     ),
     Tie(
         "ElementaryMotion.field_in_body",
-        f"{MATRIX} mf41",
+        f"{MATRIX} (32)",
         lambda f, p: motion(f, p).field_in_body(p.t),
         field_seen,
         POINTS,
@@ -238,7 +238,7 @@ PRECESSION = (
     ),
     Tie(
         "ElementaryMotion.angular_momentum",
-        f"{MATRIX} mf78 text-momentum",
+        f"{MATRIX} (73) text-momentum",
         lambda f, p: motion(f, p).angular_momentum(p.t),
         lambda say, p: momentum(say, p, p.t),
         POINTS,
@@ -246,7 +246,7 @@ PRECESSION = (
     ),
     Tie(
         "ElementaryMotion.invariants",
-        f"{MATRIX} mf44 mf45 mf48 mf49 mf78 mf93 text-momentum",
+        f"{MATRIX} (36) (37) (40) (41) (73) (88) text-momentum",
         lambda f, p: motion(f, p).invariants(p.t),
         invariants,
         POINTS,
@@ -269,24 +269,24 @@ SPECIAL = (
     *(
         Tie(
             f"ElementaryMotion.{name}",
-            label,
+            entry,
             lambda f, p, name=name: getattr(with_spin(f, p), name),
             lambda say, p, name=name: lost_constants(say, p)[name],
             points,
         )
         for name in ("k", "phi")
-        for points, label in LOST
+        for points, entry in LOST
     ),
     *(
         Tie(
             "ElementaryMotion.rotation",
-            f"{label} {TWO_TURNS}",
+            f"{entry} {TWO_TURNS}",
             lambda f, p: with_spin(f, p).rotation(p.t),
             lost_rotation,
             points,
             size=unit,
         )
-        for points, label in LOST
+        for points, entry in LOST
     ),
     *(
         Tie(
@@ -382,7 +382,7 @@ def test_a_precession_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 
 @each(SPECIAL)
-def test_the_motions_that_mf76_loses_are_those_of_the_ledger(tie: Tie, floor: str) -> None:
+def test_the_motions_that_equation_71_loses_are_those_of_the_ledger(tie: Tie, floor: str) -> None:
     """Where omega3 is free: the lines of the ball and of a transverse field, no field, and a spin along it."""
     agree(tie, floor)
 
@@ -394,7 +394,7 @@ def test_the_free_body_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 
 def test_a_wrong_sign_in_the_constants_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """(omega2 - 2 B2) for (omega2 + 2 B2) in mf77."""
+    """(omega2 - 2 B2) for (omega2 + 2 B2) in (72)."""
     right = kernel.proper
 
     def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> Wide:

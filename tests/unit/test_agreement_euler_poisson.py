@@ -1,4 +1,4 @@
-"""Equations of motion, inertia and units: the kernels say what the ledger's 1.32 to mf29 and mf41 to mf47 say."""
+"""Equations of motion, inertia and units: the kernels say what the ledger's (8) to (18) and (32) to (39) say."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -51,15 +51,15 @@ def body(say: Ledger, p: Any) -> dict[str, Any]:
 
 
 def acceleration(say: Ledger, p: Any) -> Any:
-    """Return dOmega/dt of mf42."""
+    """Return dOmega/dt of (34)."""
     both = body(say, p)
-    return both["I"].inv() * say("mf42", "IdOmega", K=p.K, Omega=p.Omega, **both)
+    return both["I"].inv() * say("(34)", "IdOmega", K=p.K, Omega=p.Omega, **both)
 
 
 def acceleration_in_field(say: Ledger, p: Any) -> Any:
-    """Return dOmega/dt of mf27, in B' = mu B/(2c)."""
+    """Return dOmega/dt of (16), in B' = mu B/(2c)."""
     both = body(say, p)
-    return both["I"].inv() * say("mf27", "IdOmega", mu=2, c=1, R=p.R, Bf=p.B, Omega=p.Omega, **both)
+    return both["I"].inv() * say("(16)", "IdOmega", mu=2, c=1, R=p.R, Bf=p.B, Omega=p.Omega, **both)
 
 
 def inverse(matrix: Any) -> Any:
@@ -73,7 +73,7 @@ def tensor(p: Any) -> Any:
 
 
 def symmetric(p: Any, sides: str) -> dict[str, Any]:
-    """Return the letters of mf46 to mf49 that are in `sides`."""
+    """Return the letters of (38) to (41) that are in `sides`."""
     every = {f"Omega{n + 1}": x for n, x in enumerate(p.omega)} | {f"K{n + 1}": x for n, x in enumerate(p.K)}
     every |= {"I": p.I}
     return {name: every[name] for name in sides.split()}
@@ -83,16 +83,16 @@ STATE = "Omega1 Omega2 Omega3 K1 K2 K3"
 
 
 def conserved_along(say: Ledger, p: Any) -> Any:
-    """Return (K, I (Omega + K)) by c5 of mf49, mf48 and mf45: I2 [c5 + K^2 - (1 - I) c3^2]."""
-    c3 = say("mf48", "c3", **symmetric(p, STATE))
-    c5 = say("mf49", "c5", c3=c3, I=p.I, **symmetric(p, STATE))
-    return p.I2 * (c5 + say("mf45", "0", d=lambda x: x, **symmetric(p, STATE)) - (1 - p.I) * c3**2)
+    """Return (K, I (Omega + K)) by c5 of (41), (40) and (37): I2 [c5 + K^2 - (1 - I) c3^2]."""
+    c3 = say("(40)", "c3", **symmetric(p, STATE))
+    c5 = say("(41)", "c5", c3=c3, I=p.I, **symmetric(p, STATE))
+    return p.I2 * (c5 + say("(37)", "0", d=lambda x: x, **symmetric(p, STATE)) - (1 - p.I) * c3**2)
 
 
 def energy(say: Ledger, p: Any) -> Any:
-    """Return E of which mf41.1 makes E' = 2E/I2, mf44."""
-    double = say("mf41.1", "E", energy=1, I2=p.I2)
-    return say("mf44", "E", **symmetric(p, "Omega1 Omega2 Omega3 I")) / double
+    """Return E of which (33) makes E' = 2E/I2, (36)."""
+    double = say("(33)", "E", energy=1, I2=p.I2)
+    return say("(36)", "E", **symmetric(p, "Omega1 Omega2 Omega3 I")) / double
 
 
 def mass_elements(say: Ledger, moments: Any) -> list[Any]:
@@ -102,10 +102,10 @@ def mass_elements(say: Ledger, moments: Any) -> list[Any]:
 
 
 def of_points(say: Ledger, p: Any) -> Any:
-    """Return 1.32 of three masses, counted from their centre."""
+    """Return (8) of three masses, counted from their centre."""
     m, x = exact(p.masses), exact(p.places)
     centre = (m.T * x) / sum(m)
-    return say("1.32", "g[i,j]", m=m, x=sympy.Matrix(3, 3, lambda i, j: x[i, j] - centre[j]))
+    return say("(8)", "g[i,j]", m=m, x=sympy.Matrix(3, 3, lambda i, j: x[i, j] - centre[j]))
 
 
 def shell_ratio(f: Floor, p: Any) -> Any:
@@ -117,61 +117,61 @@ def shell_ratio(f: Floor, p: Any) -> Any:
 EQUATIONS = (
     Tie(
         "euler_poisson.hat",
-        "mf79",
+        "(74)",
         lambda f, p: p.K @ f.euler_poisson.hat(p.Omega),
-        lambda say, p: say("mf79", "dgamma", gamma=p.K, Omega=p.Omega),
+        lambda say, p: say("(74)", "dgamma", gamma=p.K, Omega=p.Omega),
         POINTS,
         size=lambda _true, p: norm(p.K) * norm(p.Omega),
         floors=("core",),
     ),
     Tie(
         "euler_poisson.bracket",
-        "mf79",
+        "(74)",
         lambda f, p: f.euler_poisson.bracket(p.K, p.Omega),
-        lambda say, p: say("mf79", "dgamma", gamma=p.K, Omega=p.Omega),
+        lambda say, p: say("(74)", "dgamma", gamma=p.K, Omega=p.Omega),
         POINTS,
         size=lambda _true, p: norm(p.K) * norm(p.Omega),
         floors=("core",),
     ),
     Tie(
         "euler_poisson.rotation_rate",
-        "mf21",
+        "(12)",
         lambda f, p: f.euler_poisson.rotation_rate(p.R, p.Omega),
-        lambda say, p: say("mf21", "d(R[i,j])", R=p.R, Omega=p.Omega),
+        lambda say, p: say("(12)", "d(R[i,j])", R=p.R, Omega=p.Omega),
         POINTS,
         size=lambda _true, p: norm(p.R) * norm(p.Omega),
         floors=("core",),
     ),
     Tie(
         "euler_poisson.field_in_body",
-        "mf41",
+        "(32)",
         lambda f, p: f.euler_poisson.field_in_body(p.R, p.B),
-        lambda say, p: say("mf41", "K", Bprime=p.B, R=p.R, BR=lambda B, R: R.T * B),
+        lambda say, p: say("(32)", "K", Bprime=p.B, R=p.R, BR=lambda B, R: R.T * B),
         POINTS,
         size=lambda _true, p: norm(p.R) * norm(p.B),
         floors=("core",),
     ),
     Tie(
         "euler_poisson.field_rate",
-        "mf43",
+        "(35)",
         lambda f, p: f.euler_poisson.field_rate(p.K, p.Omega),
-        lambda say, p: say("mf43", "dK", K=p.K, Omega=p.Omega),
+        lambda say, p: say("(35)", "dK", K=p.K, Omega=p.Omega),
         POINTS,
         size=lambda _true, p: norm(p.K) * norm(p.Omega),
         floors=("core",),
     ),
     Tie(
         "euler_poisson.field_rate",
-        "mf47",
+        "(39)",
         lambda f, p: f.euler_poisson.field_rate(p.K, p.omega),
-        lambda say, p: [say("mf47", f"d(K{n})", **symmetric(p, STATE)) for n in (1, 2, 3)],
+        lambda say, p: [say("(39)", f"d(K{n})", **symmetric(p, STATE)) for n in (1, 2, 3)],
         SYMMETRIC,
         size=power(2),
         floors=("core",),
     ),
     Tie(
         "euler_poisson.angular_acceleration",
-        "mf42 text-inertia-tensor",
+        "(34) text-inertia-tensor",
         lambda f, p: f.euler_poisson.angular_acceleration(p.inertia, p.K, p.Omega),
         acceleration,
         POINTS,
@@ -181,7 +181,7 @@ EQUATIONS = (
     ),
     Tie(
         "euler_poisson.angular_acceleration",
-        "mf27 text-inertia-tensor",
+        "(16) text-inertia-tensor",
         lambda f, p: f.euler_poisson.angular_acceleration(p.inertia, f.euler_poisson.field_in_body(p.R, p.B), p.Omega),
         acceleration_in_field,
         POINTS,
@@ -191,9 +191,9 @@ EQUATIONS = (
     ),
     Tie(
         "euler_poisson.angular_acceleration",
-        "mf46",
+        "(38)",
         lambda f, p: f.euler_poisson.angular_acceleration(tensor(p), p.K, p.omega),
-        lambda say, p: [say("mf46", f"d(Omega{n})", I=p.I, **symmetric(p, STATE)) for n in (1, 2, 3)],
+        lambda say, p: [say("(38)", f"d(Omega{n})", I=p.I, **symmetric(p, STATE)) for n in (1, 2, 3)],
         SYMMETRIC,
         size=lambda true, p: power(2)(true, p) * max(1, 1 / float(p.I)),
         ulps=8,
@@ -201,9 +201,9 @@ EQUATIONS = (
     ),
     Tie(
         "euler_poisson.body_momentum_rate",
-        "mf29 text-inertia-tensor",
+        "(18) text-inertia-tensor",
         lambda f, p: f.euler_poisson.body_momentum_rate(p.inertia, f.euler_poisson.field_in_body(p.R, p.B), p.M),
-        lambda say, p: say("mf29", "dM", mu=2, c=1, M=p.M, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
+        lambda say, p: say("(18)", "dM", mu=2, c=1, M=p.M, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
         POINTS,
         size=lambda _true, p: (
             (norm(p.M) + norm(p.inertia) * norm(p.R) * norm(p.B))
@@ -216,9 +216,9 @@ EQUATIONS = (
     ),
     Tie(
         "euler_poisson.momentum_rate",
-        "mf28 text-inertia-tensor",
+        "(17) text-inertia-tensor",
         lambda f, p: f.euler_poisson.momentum_rate(p.inertia, p.B, p.R, p.m),
-        lambda say, p: say("mf28", "dm", mu=2, c=1, m=p.m, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
+        lambda say, p: say("(17)", "dm", mu=2, c=1, m=p.m, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
         POINTS,
         size=lambda _true, p: norm(p.R) ** 4 * norm(p.B) * norm(p.m) * np.linalg.cond(p.inertia),
         ulps=16,
@@ -226,7 +226,7 @@ EQUATIONS = (
     ),
     Tie(
         "euler_poisson.energy",
-        "mf41.1 mf44",
+        "(33) (36)",
         lambda f, p: f.euler_poisson.energy(tensor(p), p.omega),
         energy,
         SYMMETRIC,
@@ -234,7 +234,7 @@ EQUATIONS = (
     ),
     Tie(
         "euler_poisson.momentum_along_field",
-        "mf45 mf48 mf49",
+        "(37) (40) (41)",
         lambda f, p: f.euler_poisson.momentum_along_field(tensor(p), p.K, p.omega),
         conserved_along,
         SYMMETRIC,
@@ -273,7 +273,7 @@ MATTER = (
     ),
     Tie(
         "inertia.mass_matrix_of_points",
-        "1.32",
+        "(8)",
         lambda f, p: f.inertia.mass_matrix_of_points(p.masses, p.places),
         of_points,
         POINTS,
@@ -283,9 +283,9 @@ MATTER = (
     ),
     Tie(
         "SymmetricBody.ratio",
-        "mf41.1",
+        "(33)",
         lambda f, p: f.SymmetricBody(float(p.I2), float(p.I3)).ratio,
-        lambda say, p: say("mf41.1", "I", **letters(p, "I2 I3")),
+        lambda say, p: say("(33)", "I", **letters(p, "I2 I3")),
         SYMMETRIC,
         floors=("core",),
     ),
@@ -324,45 +324,45 @@ MATTER = (
     ),
     Tie(
         "Field.prime",
-        "mf41",
+        "(32)",
         lambda f, p: f.Field(p.B, mu=p.mu, c=p.c).prime,
-        lambda say, p: say("mf41", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        lambda say, p: say("(32)", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
         POINTS,
         floors=("core",),
     ),
     Tie(
         "units.prime",
-        "mf41",
+        "(32)",
         lambda f, p: f.units.prime(p.mu, p.B, p.c),
-        lambda say, p: say("mf41", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        lambda say, p: say("(32)", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
         POINTS,
         floors=("core",),
     ),
     Tie(
         "units.larmor_field",
-        "mf37 mf41",
+        "(27) (32)",
         lambda f, p: [f.units.larmor_field(p.mu, p.B), f.units.larmor_field(p.mu, p.c, "Gaussian")],
         lambda say, p: [
-            *say("mf41", "Bprime", mu=p.mu, c=1, Bf=p.B),
-            say("mf37", "alpha", mu=p.mu, b=p.c, c=29_979_245_800),
+            *say("(32)", "Bprime", mu=p.mu, c=1, Bf=p.B),
+            say("(27)", "alpha", mu=p.mu, b=p.c, c=29_979_245_800),
         ],
         POINTS,
         floors=("core",),
     ),
     Tie(
         "units.cyclotron_frequency",
-        "mf9",
+        "(97)",
         lambda f, p: f.units.cyclotron_frequency(p.mu, p.c),
-        lambda say, p: say("mf9", "omega", mu=p.mu, b=p.c, c=1),
+        lambda say, p: say("(97)", "omega", mu=p.mu, b=p.c, c=1),
         POINTS,
         floors=("core",),
     ),
     Tie(
         "units.charge_to_mass",
-        "mf1",
+        "(89)",
         lambda f, p: f.units.charge_to_mass(p.mu, p.mass),
         lambda say, p: (
-            say("mf1", "m*ddy", e=p.mu, c=1, E=[1, 0, 0], v=[0, 0, 0], Bf=[0, 0, 0])[0] / sympy.Rational(p.mass)
+            say("(89)", "m*ddy", e=p.mu, c=1, E=[1, 0, 0], v=[0, 0, 0], Bf=[0, 0, 0])[0] / sympy.Rational(p.mass)
         ),
         POINTS,
         floors=("core",),
@@ -385,7 +385,7 @@ def test_what_the_equations_are_made_of_is_what_the_ledger_says(tie: Tie, floor:
 
 
 def test_a_wrong_sign_of_the_magnetic_torque_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """+2 g K for -2 g K in mf27, mf28 and mf29."""
+    """+2 g K for -2 g K in (16), (17) and (18)."""
     right = euler_poisson.mass_matrix
     monkeypatch.setattr(euler_poisson, "mass_matrix", lambda inertia: -right(inertia))
     lost = ("angular_acceleration", "body_momentum_rate", "momentum_rate")
@@ -393,7 +393,7 @@ def test_a_wrong_sign_of_the_magnetic_torque_is_noticed(monkeypatch: pytest.Monk
 
 
 def test_a_vector_product_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """[b, a] for [a, b]: the sign of mf21, which mf23 loses in print."""
+    """[b, a] for [a, b]: the sign of (12), which text-force-matrix loses in print."""
     right = euler_poisson.hat
     monkeypatch.setattr(euler_poisson, "hat", lambda omega: -right(omega))
     lost = ("rotation_rate", "field_rate", "angular_acceleration", "bracket", "hat")

@@ -1,4 +1,4 @@
-"""Hyperbola: core and exact say what the ledger's mf72 to mf84 and the theorems on stability say."""
+"""Hyperbola: core and exact say what the ledger's (67) to (79) and the theorems on stability say."""
 
 import dataclasses
 from typing import Any
@@ -19,8 +19,8 @@ FOLDED = [p for p in [*POINTS, *BAND] if p.I != 1 and p.B3]
 
 
 def ordinate(say: Ledger, p: Any, omega2: Any) -> Any:
-    """Return omega3 of mf76 at another omega2."""
-    return say("mf76", "omega3", omega2=omega2, **letters(p, "I B2 B3"))
+    """Return omega3 of (71) at another omega2."""
+    return say("(71)", "omega3", omega2=omega2, **letters(p, "I B2 B3"))
 
 
 def zeros(curve: Any, omega2: Any) -> list[Any]:
@@ -29,27 +29,27 @@ def zeros(curve: Any, omega2: Any) -> list[Any]:
 
 
 def special(say: Ledger, p: Any) -> list[Any]:
-    """Rest; the other point where phi of mf77 is zero; the other one where omega3 of mf76 is."""
+    """Rest; the other point where phi of (72) is zero; the other one where omega3 of (71) is."""
     omega2 = sympy.Symbol("omega2")
-    generic = say("mf77", "phi", omega2=omega2, I=sympy.Rational(1, 2), **letters(p, "B2 B3"))  # for I = 1 phi is 0
+    generic = say("(72)", "phi", omega2=omega2, I=sympy.Rational(1, 2), **letters(p, "B2 B3"))  # for I = 1 phi is 0
     (still,) = zeros(generic, omega2)
     level = zeros(ordinate(say, p, omega2) * (omega2 + sympy.Rational(p.B2)), omega2) or [0]
     return [0, ordinate(say, p, 0), still, ordinate(say, p, still), *level, 0]
 
 
 def pole(say: Ledger, p: Any) -> Any:
-    """Return the pole of mf76."""
+    """Return the pole of (71)."""
     omega2 = sympy.Symbol("omega2")
     generic = say(
-        "mf76", "omega3", omega2=omega2, I=sympy.Rational(1, 2), **letters(p, "B2 B3")
+        "(71)", "omega3", omega2=omega2, I=sympy.Rational(1, 2), **letters(p, "B2 B3")
     )  # for I = 1 it cancels
     return sympy.solve(sympy.denom(sympy.cancel(generic)), omega2)
 
 
 def asymptotes(say: Ledger, p: Any) -> list[Any]:
-    """Directions in which mf72 is satisfied far away: the zeros of its terms of the second degree."""
+    """Directions in which (67) is satisfied far away: the zeros of its terms of the second degree."""
     x, y, far = sympy.symbols("x y far")
-    curve = say("mf72", "0", omega2=far * x, omega3=far * y, **letters(p, "I B2 B3"))
+    curve = say("(67)", "0", omega2=far * x, omega3=far * y, **letters(p, "I B2 B3"))
     form = sympy.Poly(sympy.expand(curve), far).coeff_monomial(far**2)
     assert form.subs(x, 0) == 0
     slope = sympy.solve(sympy.cancel(form / x), y)[0] / x
@@ -88,21 +88,21 @@ def curve(f: Floor, p: Any) -> Any:
 TIES = (
     Tie(
         "Hyperbola.omega3",
-        "mf76",
+        "(71)",
         lambda f, p: curve(f, p).omega3(p.omega2),
         lambda say, p: ordinate(say, p, p.omega2),
         POINTS,
     ),
     Tie(
         "Hyperbola.frequencies",
-        "mf76 mf77 mf84",
+        "(71) (72) (79)",
         lambda f, p: curve(f, p).frequencies(p.omega2),
         lambda say, p: [elementary(say, p)[name] for name in ("k", "phi")],
         POINTS,
     ),
-    Tie("Hyperbola.pole", "mf76", lambda f, p: curve(f, p).pole, pole, POINTS),
-    Tie("Hyperbola.special", "mf76 mf77", lambda f, p: curve(f, p).special, special, POINTS),
-    Tie("Hyperbola.asymptotes", "mf72", lambda f, p: curve(f, p).asymptotes, asymptotes, POINTS),
+    Tie("Hyperbola.pole", "(71)", lambda f, p: curve(f, p).pole, pole, POINTS),
+    Tie("Hyperbola.special", "(71) (72)", lambda f, p: curve(f, p).special, special, POINTS),
+    Tie("Hyperbola.asymptotes", "(67)", lambda f, p: curve(f, p).asymptotes, asymptotes, POINTS),
     Tie(
         "Hyperbola.stability",
         "theorem-stability",
@@ -121,7 +121,7 @@ TIES = (
     Tie("Hyperbola.unstable_band", "theorem-band", lambda f, p: curve(f, p).unstable_band, band, BAND),
     Tie(
         "Hyperbola.sample",
-        "mf76",
+        "(71)",
         lambda f, p: curve(f, p).sample(7)[1],
         lambda say, p: [ordinate(say, p, x) for x in curve(Floor("core"), p).sample(7)[0]],
         POINTS[:4],
@@ -129,7 +129,7 @@ TIES = (
     ),
     Tie(
         "Hyperbola.branches",
-        "mf76",
+        "(71)",
         lambda f, p: [omega3 for _, omega3 in curve(f, p).branches(6)],
         lambda say, p: [ordinate(say, p, x) for omega2, _ in curve(Floor("core"), p).branches(6) for x in omega2],
         POINTS[:4],
@@ -145,7 +145,7 @@ def test_the_hyperbola_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 
 def test_a_wrong_sign_in_the_curve_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """(1 + I) for (1 - I) in mf77 and I for (2 - I) in mf76."""
+    """(1 + I) for (1 - I) in (72) and I for (2 - I) in (71)."""
 
     def ordinate(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> Wide:
         return B3 * omega2 / (I3 * B2 * (omega2 + B2)) * (I2 * omega2 + I3 * B2)
@@ -159,10 +159,10 @@ def test_a_wrong_sign_in_the_curve_is_noticed(monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_a_wrong_sign_in_the_ledger_is_noticed_on_both_floors(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The floors are held together from either end: (omega2 - 2 B2) for (omega2 + 2 B2) in what is tried as mf77."""
-    right = formula.trial("mf77")
+    """The floors are held together from either end: (omega2 - 2 B2) for (omega2 + 2 B2) in what is tried as (72)."""
+    right = formula.trial("(72)")
     wrong = dataclasses.replace(right, printed=right.printed.replace("omega2 + 2*B2", "omega2 - 2*B2"))
     assert wrong.printed != right.printed
-    monkeypatch.setattr(formula, "trial", lambda label: wrong if label == "mf77" else trial(label))
+    monkeypatch.setattr(formula, "trial", lambda name: wrong if name == "(72)" else trial(name))
     disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special")
     disagree(TIES, "Hyperbola.frequencies", "Hyperbola.special", floor="exact")

@@ -1,4 +1,4 @@
-"""Integrals, pseudo-oscillator and quadratures: core and exact say what the ledger's mf44 to mf57 say."""
+"""Integrals, pseudo-oscillator and quadratures: core and exact say what the ledger's (36) to (49) say."""
 
 from typing import Any
 
@@ -29,26 +29,26 @@ def state(p: Any) -> dict[str, Any]:
 def at_start(say: Ledger, p: Any) -> dict[str, Any]:
     """Return E', K^2, c3, c5 by what they are at t = 0."""
     given = letters(p, "I B2 B3 omega1 omega2 omega3")
-    sides = {"E": ("mf44", "at0(E)"), "Bsquare": ("mf45", "at0(K1^2 + K2^2 + K3^2)")}
-    sides |= {"c3": ("mf48", "at0(c3)"), "c5": ("mf49", "at0(c5)")}
-    return {name: say(label, side, **given) for name, (label, side) in sides.items()}
+    sides = {"E": ("(36)", "at0(E)"), "Bsquare": ("(37)", "at0(K1^2 + K2^2 + K3^2)")}
+    sides |= {"c3": ("(40)", "at0(c3)"), "c5": ("(41)", "at0(c5)")}
+    return {name: say(entry, side, **given) for name, (entry, side) in sides.items()}
 
 
 def in_motion(say: Ledger, p: Any) -> dict[str, Any]:
     """Return the same of any state."""
-    found = {"E": say("mf44", "E", I=p.I, **state(p)), "Bsquare": say("mf45", "0", d=lambda x: x, **state(p))}
-    found["c3"] = say("mf48", "c3", **state(p))
-    return found | {"c5": say("mf49", "c5", I=p.I, c3=found["c3"], **state(p))}
+    found = {"E": say("(36)", "E", I=p.I, **state(p)), "Bsquare": say("(37)", "0", d=lambda x: x, **state(p))}
+    found["c3"] = say("(40)", "c3", **state(p))
+    return found | {"c5": say("(41)", "c5", I=p.I, c3=found["c3"], **state(p))}
 
 
 def cubic(say: Ledger, p: Any, conserved: dict[str, Any]) -> dict[str, Any]:
-    """Return a0 ... a3 of mf56 as corrected."""
-    return {name: say("mf56", name, I=p.I, **conserved) for name in ("a0", "a1", "a2", "a3")}
+    """Return a0 ... a3 of (48) as corrected."""
+    return {name: say("(48)", name, I=p.I, **conserved) for name in ("a0", "a1", "a2", "a3")}
 
 
 def acceleration(say: Ledger, p: Any, u: Any) -> Any:
-    """Return the cubic of mf55 at u."""
-    return say("mf55", "d2(Omega3)", Omega3=u, **cubic(say, p, at_start(say, p)))
+    """Return the cubic of (47) at u."""
+    return say("(47)", "d2(Omega3)", Omega3=u, **cubic(say, p, at_start(say, p)))
 
 
 def stiffness(say: Ledger, p: Any) -> Any:
@@ -79,30 +79,30 @@ def same(p: Any) -> dict[str, Any]:
 
 
 def projection(say: Ledger, p: Any) -> Any:
-    """Return Omega1 K1 + Omega2 K2 of mf49 at Omega3 = u."""
-    rest = say("mf49", "c5", Omega1=0, Omega2=0, K1=0, K2=0, I=p.I, c3=same(p)["c3"], Omega3=p.u)
+    """Return Omega1 K1 + Omega2 K2 of (41) at Omega3 = u."""
+    rest = say("(41)", "c5", Omega1=0, Omega2=0, K1=0, K2=0, I=p.I, c3=same(p)["c3"], Omega3=p.u)
     return sympy.Rational(same(p)["c5"]) - rest
 
 
 def across(say: Ledger, p: Any) -> Any:
-    """Return Omega1^2 + Omega2^2 of mf44 at Omega3 = u."""
-    return sympy.Rational(same(p)["E"]) - say("mf44", "E", Omega1=0, Omega2=0, Omega3=p.u, I=p.I)
+    """Return Omega1^2 + Omega2^2 of (36) at Omega3 = u."""
+    return sympy.Rational(same(p)["E"]) - say("(36)", "E", Omega1=0, Omega2=0, Omega3=p.u, I=p.I)
 
 
 def field(say: Ledger, p: Any) -> list[Any]:
-    """Return K of mf50, dOmega3/dt and all but E' given."""
-    given = {**state(p), "E": say("mf44", "E", I=p.I, **state(p)), "d": lambda _: sympy.Rational(p.t)}
+    """Return K of (42), dOmega3/dt and all but E' given."""
+    given = {**state(p), "E": say("(36)", "E", I=p.I, **state(p)), "d": lambda _: sympy.Rational(p.t)}
     known = same(p)
-    return [say("mf50", name, I=p.I, c3=known["c3"], c5=known["c5"], **given) for name in ("K1", "K2", "K3")]
+    return [say("(42)", name, I=p.I, c3=known["c3"], c5=known["c5"], **given) for name in ("K1", "K2", "K3")]
 
 
 def spin(say: Ledger, p: Any) -> list[Any]:
-    """Return Omega of mf53 at the angle t; f0 is 1 by mf44."""
+    """Return Omega of (45) at the angle t; f0 is 1 by (36)."""
     given = {"f0": 1, "E": same(p)["E"], "I": p.I, "u": p.u, "Phi": p.t, "phi0": 0}
-    return [say("mf53", "Omega1", **given), say("mf53", "Omega2", **given), p.u]
+    return [say("(45)", "Omega1", **given), say("(45)", "Omega2", **given), p.u]
 
 
-INTEGRALS = "mf44 mf45 mf48 mf49"
+INTEGRALS = "(36) (37) (40) (41)"
 
 TIES = (
     Tie(
@@ -116,9 +116,9 @@ TIES = (
     ),
     Tie(
         "integrals.shape_factors",
-        "mf41.1",
+        "(33)",
         lambda f, p: f.integrals.shape_factors(p.body),
-        lambda say, p: [n + s * say("mf41.1", "I", I3=p.I3, I2=p.I2) for n, s in ((0, 1), (1, -1), (2, -1))],
+        lambda say, p: [n + s * say("(33)", "I", I3=p.I3, I2=p.I2) for n, s in ((0, 1), (1, -1), (2, -1))],
         POINTS,
         floors=("core",),
     ),
@@ -132,7 +132,7 @@ TIES = (
     ),
     Tie(
         "PseudoOscillator.coefficients",
-        f"{INTEGRALS} mf56",
+        f"{INTEGRALS} (48)",
         lambda f, p: oscillator(f, p).coefficients,
         lambda say, p: cubic(say, p, at_start(say, p)).values(),
         POINTS,
@@ -150,7 +150,7 @@ TIES = (
     ),
     Tie(
         "PseudoOscillator.acceleration",
-        f"{INTEGRALS} mf55 mf56",
+        f"{INTEGRALS} (47) (48)",
         lambda f, p: oscillator(f, p).acceleration(p.u),
         lambda say, p: acceleration(say, p, p.u),
         POINTS,
@@ -159,13 +159,13 @@ TIES = (
     ),
     Tie(
         "PseudoOscillator.acceleration",
-        "mf45 mf57",
+        "(37) (49)",
         lambda f, p: oscillator(f, p).acceleration(p.u),
         lambda say, p: say(
-            "mf57",
+            "(49)",
             "ddOmega3",
             Omega3=p.u,
-            Bsquare=say("mf45", "at0(K1^2 + K2^2 + K3^2)", **letters(p, "B2 B3")),
+            Bsquare=say("(37)", "at0(K1^2 + K2^2 + K3^2)", **letters(p, "B2 B3")),
             **letters(p, "I B2 B3 omega1 omega2 omega3"),
         ),
         POINTS,
@@ -174,7 +174,7 @@ TIES = (
     ),
     Tie(
         "PseudoOscillator.stiffness",
-        f"{INTEGRALS} mf55 mf56",
+        f"{INTEGRALS} (47) (48)",
         lambda f, p: oscillator(f, p).stiffness(p.u),
         stiffness,
         POINTS,
@@ -193,9 +193,9 @@ TIES = (
     ),
     Tie(
         "pseudo_oscillator.cubic",
-        "mf56",
+        "(48)",
         lambda f, p: f.pseudo_oscillator.cubic(p.body, conserved(p)),
-        lambda say, p: [say("mf56", name, **same(p)) for name in ("a0", "a1", "a2", "a3")],
+        lambda say, p: [say("(48)", name, **same(p)) for name in ("a0", "a1", "a2", "a3")],
         POINTS,
         size=power(3),
         ulps=16,
@@ -213,7 +213,7 @@ TIES = (
     ),
     Tie(
         "quadratures.transverse_square",
-        "mf44",
+        "(36)",
         lambda f, p: f.quadratures.transverse_square(p.body, conserved(p), p.u),
         across,
         POINTS,
@@ -222,7 +222,7 @@ TIES = (
     ),
     Tie(
         "quadratures.field_projection",
-        "mf49",
+        "(41)",
         lambda f, p: f.quadratures.field_projection(p.body, conserved(p), p.u),
         projection,
         POINTS,
@@ -231,7 +231,7 @@ TIES = (
     ),
     Tie(
         "quadratures.field_in_body",
-        "mf44 mf50",
+        "(36) (42)",
         lambda f, p: f.quadratures.field_in_body(p.body, conserved(p), p.omega, p.t),
         field,
         MOVING,
@@ -240,16 +240,16 @@ TIES = (
     ),
     Tie(
         "quadratures.frequency",
-        "mf52",
+        "(44)",
         lambda f, p: f.quadratures.frequency(p.body, conserved(p), p.u),
-        lambda say, p: say("mf52", "phi", **same(p)),
+        lambda say, p: say("(44)", "phi", **same(p)),
         POINTS,
         size=lambda _true, p: 4 * p.scale**3 / (p.u**2 + p.omega1**2),
         floors=("core",),
     ),
     Tie(
         "quadratures.angular_velocity",
-        "mf53",
+        "(45)",
         lambda f, p: f.quadratures.angular_velocity(p.body, conserved(p), p.u, p.t),
         spin,
         POINTS,
@@ -277,7 +277,7 @@ def test_a_wrong_sign_of_one_less_the_ratio_is_noticed(monkeypatch: pytest.Monke
     )
 
 
-def test_the_paper_s_slip_in_mf56_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_paper_s_slip_in_equation_48_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """(2-1)^2 for (2-I)^2, as printed: the kernel holds the corrected form, and so does the ledger."""
     right = pseudo_oscillator.cubic
 
@@ -291,7 +291,7 @@ def test_the_paper_s_slip_in_mf56_is_noticed(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_a_wrong_sign_in_the_quadratures_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """2 + I for 2 - I in mf49, mf50 and mf52."""
+    """2 + I for 2 - I in (41), (42) and (44)."""
     right = quadratures.shape_factors
     monkeypatch.setattr(quadratures, "shape_factors", lambda ratio: (*right(ratio)[:2], 2 + right(ratio)[0]))
     disagree(TIES, *(f"quadratures.{name}" for name in ("field_projection", "field_in_body", "frequency")))

@@ -1,4 +1,4 @@
-"""Point particle and flight: core and exact say what the ledger's mf1 to mf11 say, for either sign of the charge."""
+"""Point particle and flight: core and exact say what the ledger's (89) to (99) say, for either sign of the charge."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -75,8 +75,8 @@ def frame(say: Ledger, p: Any) -> Any:
 
 
 def frequency(say: Ledger, p: Any) -> Any:
-    """Return omega of mf9, with the sign of the charge."""
-    return say("mf9", "omega", mu=p.mu, b=split(p)["b"], c=p.c)
+    """Return omega of (97), with the sign of the charge."""
+    return say("(97)", "omega", mu=p.mu, b=split(p)["b"], c=p.c)
 
 
 def drift(say: Ledger, p: Any) -> Any:
@@ -86,25 +86,25 @@ def drift(say: Ledger, p: Any) -> Any:
 
 
 def constants(say: Ledger, p: Any) -> Any:
-    """Return C of mf2 in its two parts, from y and v at t = 0."""
+    """Return C of (90) in its two parts, from y and v at t = 0."""
     s = split(p)
-    C = exact(p.v) - say("mf2", "dy", mu=p.mu, E=s["E"], t=0, c=p.c, y=p.y, Bf=s["Bf"], C=[0, 0, 0])
+    C = exact(p.v) - say("(90)", "dy", mu=p.mu, E=s["E"], t=0, c=p.c, y=p.y, Bf=s["Bf"], C=[0, 0, 0])
     along = s["Bf"] * s["Bf"].dot(C) / s["Bf"].dot(s["Bf"])
     return along, C - along
 
 
 def across(say: Ledger, p: Any, t: Any, a: Any, omega0: Any) -> Any:
-    """Return y_perp(t) of mf10, on a circle of radius a that begins at the angle omega0."""
+    """Return y_perp(t) of (98), on a circle of radius a that begins at the angle omega0."""
     s = split(p)
     e1, e2, _ = frame(say, p)
     given = {"Cperp": constants(say, p)[1], "omega": frequency(say, p), "e1": e1, "e2": e2, "mu": p.mu, "c": p.c}
     return say(
-        "mf10", "yperp", a=a, omega0=omega0, t=t, **given, **{name: s[name] for name in ("Bf", "Eperp", "b", "E2")}
+        "(98)", "yperp", a=a, omega0=omega0, t=t, **given, **{name: s[name] for name in ("Bf", "Eperp", "b", "E2")}
     )
 
 
 def circle(say: Ledger, p: Any) -> tuple[Any, Any]:
-    """Return a and omega0 of mf10 from the position at t = 0."""
+    """Return a and omega0 of (98) from the position at t = 0."""
     y, B = exact(p.y), exact(p.B)
     arm = y - B * B.dot(y) / B.dot(B) - across(say, p, 0, 0, 0)
     e1, e2, _ = frame(say, p)
@@ -112,35 +112,35 @@ def circle(say: Ledger, p: Any) -> tuple[Any, Any]:
 
 
 def along(say: Ledger, p: Any) -> Any:
-    """Return y_par(t) of mf5."""
+    """Return y_par(t) of (93)."""
     y, B = exact(p.y), exact(p.B)
     C, start = constants(say, p)[0], B * B.dot(y) / B.dot(B)
-    return say("mf5", "ypar", ypar0=start, Cpar=C, t=p.t, mu=p.mu, Epar=split(p)["Epar"])
+    return say("(93)", "ypar", ypar0=start, Cpar=C, t=p.t, mu=p.mu, Epar=split(p)["Epar"])
 
 
 def place(say: Ledger, p: Any) -> Any:
-    """Return y(t), mf10.2."""
-    return say("mf10.2", "y", ypar=along(say, p), yperp=across(say, p, p.t, *circle(say, p)))
+    """Return y(t), (101)."""
+    return say("(101)", "y", ypar=along(say, p), yperp=across(say, p, p.t, *circle(say, p)))
 
 
 def velocity(say: Ledger, p: Any) -> Any:
-    """Return dy/dt, mf2."""
+    """Return dy/dt, (90)."""
     s, C = split(p), sum(constants(say, p), sympy.zeros(3, 1))
-    return say("mf2", "dy", mu=p.mu, E=s["E"], t=p.t, c=p.c, y=place(say, p), Bf=s["Bf"], C=C)
+    return say("(90)", "dy", mu=p.mu, E=s["E"], t=p.t, c=p.c, y=place(say, p), Bf=s["Bf"], C=C)
 
 
 def centre(say: Ledger, p: Any) -> Any:
     """Return O(t): y(t) on a circle of radius 0."""
-    return say("mf10.2", "y", ypar=along(say, p), yperp=across(say, p, p.t, 0, 0))
+    return say("(101)", "y", ypar=along(say, p), yperp=across(say, p, p.t, 0, 0))
 
 
 def trochoid(say: Ledger, p: Any) -> Any:
-    """Return y(t) of mf11, and mf5 from rest."""
+    """Return y(t) of (99), and (93) from rest."""
     s = split(p)
     e1, e2, _ = frame(say, p)
-    yperp = say("mf11", "yperp", mu=p.mu, E2=s["E2"], omega=frequency(say, p), t=p.t, a=p.a, e1=e1, e2=e2)
-    ypar = say("mf5", "ypar", ypar0=[0, 0, 0], Cpar=[0, 0, 0], t=p.t, mu=p.mu, Epar=s["Epar"])
-    return say("mf10.2", "y", ypar=ypar, yperp=yperp)
+    yperp = say("(99)", "yperp", mu=p.mu, E2=s["E2"], omega=frequency(say, p), t=p.t, a=p.a, e1=e1, e2=e2)
+    ypar = say("(93)", "ypar", ypar0=[0, 0, 0], Cpar=[0, 0, 0], t=p.t, mu=p.mu, Epar=s["Epar"])
+    return say("(101)", "y", ypar=ypar, yperp=yperp)
 
 
 def fall(say: Ledger, p: Any) -> Any:
@@ -154,10 +154,10 @@ def turned(say: Ledger, p: Any) -> Any:
 
 
 def swept(say: Ledger, p: Any) -> Any:
-    """Return dR/dt x, mf21, with Omega of mf78."""
+    """Return dR/dt x, (12), with Omega of (73)."""
     constants = elementary(say, p)
-    Omega = say("mf78", "Omega", omega2=p.omega2, omega3=constants["omega3"], phi=constants["phi"], t=p.t)
-    return say("mf21", "d(R[i,j])", R=rotation(say, p, p.t), Omega=Omega) * exact(p.point)
+    Omega = say("(73)", "Omega", omega2=p.omega2, omega3=constants["omega3"], phi=constants["phi"], t=p.t)
+    return say("(12)", "d(R[i,j])", R=rotation(say, p, p.t), Omega=Omega) * exact(p.point)
 
 
 def motion(f: Floor, p: Any) -> Any:
@@ -190,24 +190,24 @@ def swinging(true: list[Any], p: Any) -> float:
     )
 
 
-ACROSS = "mf2 mf9 mf10 text-drift-direction"
-PATH = f"{ACROSS} mf5 mf10.2"
-MATRIX = "mf76 mf77 mf84 mf89"
+ACROSS = "(90) (97) (98) text-drift-direction"
+PATH = f"{ACROSS} (93) (101)"
+MATRIX = "(71) (72) (79) (84)"
 
 TIES = (
-    Tie("ParticleMotion.cyclotron_frequency", "mf9", lambda f, p: motion(f, p).cyclotron_frequency, frequency, POINTS),
+    Tie("ParticleMotion.cyclotron_frequency", "(97)", lambda f, p: motion(f, p).cyclotron_frequency, frequency, POINTS),
     Tie(
         "ParticleMotion.period",
-        "mf9",
+        "(97)",
         lambda f, p: motion(f, p).period,
         lambda say, p: 2 * sympy.pi / abs(frequency(say, p)),
         POINTS,
     ),
     Tie(
         "ParticleMotion.prime",
-        "mf41",
+        "(32)",
         lambda f, p: motion(f, p).prime,
-        lambda say, p: say("mf41", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        lambda say, p: say("(32)", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
         POINTS,
         floors=("core",),
     ),
@@ -248,7 +248,7 @@ TIES = (
     ),
     Tie(
         "ParticleMotion.trochoid",
-        "mf5 mf9 mf10.2 mf11 text-drift-direction",
+        "(93) (97) (101) (99) text-drift-direction",
         lambda f, p: f.ParticleMotion.trochoid(p.mu, p.E, p.B, p.a, p.c).position(p.t),
         trochoid,
         POINTS,
@@ -274,7 +274,7 @@ TIES = (
     ),
     Tie(
         "Flight.velocity",
-        f"{PATH} {MATRIX} mf78 mf21",
+        f"{PATH} {MATRIX} (73) (12)",
         lambda f, p: flight(f, p).velocity(p.t),
         lambda say, p: velocity(say, p) + swept(say, p),
         BODIES,
@@ -299,6 +299,6 @@ def test_a_force_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_the_paper_s_sense_of_rotation_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """mf9 as printed, omega = |mu B|/c: right for mu > 0 only."""
+    """(97) as printed, omega = |mu B|/c: right for mu > 0 only."""
     monkeypatch.setattr(charge.Charge, "cyclotron_frequency", property(lambda self: self.rate))
     disagree(TIES, "ParticleMotion.cyclotron_frequency", "ParticleMotion.trochoid")

@@ -1,4 +1,4 @@
-"""Quadric: core and exact say what the ledger's mf58 to mf63 say."""
+"""Quadric: core and exact say what the ledger's (51) to (57) say."""
 
 from typing import Any
 
@@ -21,13 +21,13 @@ def beta(say: Ledger, p: Any) -> Any:
 
 
 def coordinates(say: Ledger, p: Any, omega: Any) -> list[Any]:
-    """Coordinates mf61a of a point."""
+    """Coordinates (53) of a point."""
     at = dict(zip(("omega1", "omega2", "omega3"), omega, strict=True))
-    return [say("mf61a", name, beta=beta(say, p), **at, **letters(p, "B2 B3")) for name in ("w1", "w2", "w3")]
+    return [say("(53)", name, beta=beta(say, p), **at, **letters(p, "B2 B3")) for name in ("w1", "w2", "w3")]
 
 
 def axes(say: Ledger, p: Any) -> Any:
-    """Rows of mf61a: what the coordinates gain along e1, e2, e3."""
+    """Rows of (53): what the coordinates gain along e1, e2, e3."""
     steps = [[int(i == j) - sympy.Rational(b) for j, b in enumerate((0, p.B2, p.B3))] for i in range(3)]
     return sympy.Matrix([coordinates(say, p, omega) for omega in steps]).T
 
@@ -38,17 +38,17 @@ def centre(say: Ledger, p: Any) -> Any:
 
 
 def semi_axes(say: Ledger, p: Any) -> list[Any]:
-    """Roots of the squares of mf61b or mf63, which have the sign of B3."""
-    label = "mf61b" if p.I > 1 else "mf63"
-    squares = [say(label, name, beta=beta(say, p), **letters(p, "I B2")) for name in ("C1s", "C2s", "C3s")]
+    """Roots of the squares of (55) or (57), which have the sign of B3."""
+    entry = "(55)" if p.I > 1 else "(57)"
+    squares = [say(entry, name, beta=beta(say, p), **letters(p, "I B2")) for name in ("C1s", "C2s", "C3s")]
     return [sympy.sqrt(abs(square)) for square in squares]
 
 
 def off_canonical(say: Ledger, p: Any) -> Any:
-    """Left side of mf60 less the right one, times B3: what mf58.1 has on its left."""
+    """Left side of (54) less the right one, times B3: what (50) has on its left."""
     w = dict(zip(("w1", "w2", "w3"), coordinates(say, p, p.omega), strict=True))
-    a = {name: say("mf60", name, beta=beta(say, p)) for name in ("a2", "a3")}
-    left = say("mf60", "(1 - I)*B2^2", **w, **a)
+    a = {name: say("(54)", name, beta=beta(say, p)) for name in ("a2", "a3")}
+    left = say("(54)", "(1 - I)*B2^2", **w, **a)
     return ((left - (1 - p.I) * sympy.Rational(p.B2) ** 2) * sympy.Rational(p.B3)).evalf(60)
 
 
@@ -64,37 +64,37 @@ TIES = (
     ),
     Tie(
         "Quadric.a2",
-        "mf60 text-beta",
+        "(54) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).a2,
-        lambda say, p: say("mf60", "a2", beta=beta(say, p)),
+        lambda say, p: say("(54)", "a2", beta=beta(say, p)),
         POINTS,
     ),
     Tie(
         "Quadric.a3",
-        "mf60 text-beta",
+        "(54) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).a3,
-        lambda say, p: say("mf60", "a3", beta=beta(say, p)),
+        lambda say, p: say("(54)", "a3", beta=beta(say, p)),
         POINTS,
     ),
     Tie(
         "Quadric.semi_axes",
-        "mf61b text-beta",
+        "(55) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).semi_axes,
         semi_axes,
         TWO_SHEETS,
     ),
     Tie(
         "Quadric.semi_axes",
-        "mf63 text-beta",
+        "(57) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).semi_axes,
         semi_axes,
         ONE_SHEET,
     ),
-    Tie("Quadric.centre", "mf61a text-beta", lambda f, p: f.Quadric(p.body, p.field).centre, centre, POINTS),
-    Tie("Quadric.axes", "mf61a text-beta", lambda f, p: f.Quadric(p.body, p.field).axes, axes, POINTS),
+    Tie("Quadric.centre", "(53) text-beta", lambda f, p: f.Quadric(p.body, p.field).centre, centre, POINTS),
+    Tie("Quadric.axes", "(53) text-beta", lambda f, p: f.Quadric(p.body, p.field).axes, axes, POINTS),
     Tie(
         "Quadric.canonical",
-        "mf61a text-beta",
+        "(53) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).canonical(p.omega),
         lambda say, p: coordinates(say, p, p.omega),
         POINTS,
@@ -102,14 +102,14 @@ TIES = (
     ),
     Tie(
         "Quadric.residual",
-        "mf58.1",
+        "(50)",
         lambda f, p: f.Quadric(p.body, p.field).residual(p.omega),
-        lambda say, p: say("mf58.1", "0", **letters(p, "I B2 B3 omega1 omega2 omega3")),
+        lambda say, p: say("(50)", "0", **letters(p, "I B2 B3 omega1 omega2 omega3")),
         POINTS,
     ),
     Tie(
         "Quadric.residual",
-        "mf60 mf61a text-beta",
+        "(54) (53) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).residual(p.omega),
         off_canonical,
         POINTS[:3],
@@ -131,7 +131,7 @@ def test_a_wrong_sign_in_the_eigenvalues_is_noticed(monkeypatch: pytest.MonkeyPa
 
 
 def test_a_wrong_sign_in_the_quadric_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """(2 + I) for (2 - I) in mf58.1: its two ties are both gone."""
+    """(2 + I) for (2 - I) in (50): its two ties are both gone."""
     right = quadric.residual
 
     def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, w1: Wide, w2: Wide, w3: Wide) -> Wide:

@@ -26,7 +26,7 @@ HOSTILE = [
 
 @pytest.mark.parametrize("inputs", HOSTILE)
 def test_gamma_and_k_hat_are_rounded_once(inputs: tuple[float, float, float, float]) -> None:
-    """The frequency and the axis of mf39 are within an ulp of their own size."""
+    """The frequency and the axis of (29) are within an ulp of their own size."""
     ball, true = BallMotion(*inputs[:2], inputs[2:]), closed_form.ball(*inputs, digits=40)
     for ours, exact in zip((ball.gamma, *ball.k_hat), (true.gamma, true.k2, true.k3), strict=True):
         assert abs(mpf(ours) - exact) <= 0.51 * float(np.spacing(abs(float(exact)) or 5e-324))
@@ -34,7 +34,7 @@ def test_gamma_and_k_hat_are_rounded_once(inputs: tuple[float, float, float, flo
 
 @pytest.mark.parametrize("inputs", HOSTILE)
 def test_every_entry_is_true_to_4_ulp(inputs: tuple[float, float, float, float]) -> None:
-    """R of mf38 and R^T R are within 4 ulp(1), for phases up to 2^50; and the identity at zero."""
+    """R of (28) and R^T R are within 4 ulp(1), for phases up to 2^50; and the identity at zero."""
     ball = BallMotion(*inputs[:2], inputs[2:])
     assert np.array_equal(ball.rotation(0.0), np.eye(3))
     for n in (-20.0, 0.0, 20.0, 49.9):
@@ -46,7 +46,7 @@ def test_every_entry_is_true_to_4_ulp(inputs: tuple[float, float, float, float])
 
 
 def test_the_ball_solves_the_equations_of_motion() -> None:
-    """A Taylor integration of mf21, mf27 for I1 = I2 = I3 gives the same R and m."""
+    """A Taylor integration of (12), (16) for I1 = I2 = I3 gives the same R and m."""
     I0, alpha, m2, m3 = 2.0, 0.5, 0.3, -0.4
     ball = BallMotion(I0, alpha, (m2, m3))
     omega = (0.0, m2 / I0, m3 / I0)
@@ -60,7 +60,7 @@ def test_the_ball_solves_the_equations_of_motion() -> None:
 @settings(max_examples=40)
 @given(st.floats(0.1, 5), st.floats(-3, 3), st.floats(-3, 3), st.floats(-1e6, 1e6))
 def test_along_the_field_the_two_turns_are_one(I0: float, alpha: float, m3: float, t: float) -> None:
-    """For m2 = 0, R is the turn about e3 with frequency m3/I0, mf40."""
+    """For m2 = 0, R is the turn about e3 with frequency m3/I0, (30)."""
     with mp.workdps(50):
         angle = mpf(m3) / mpf(I0) * mpf(t)
         c, s = float(mp.cos(angle)), float(mp.sin(angle))
@@ -69,7 +69,7 @@ def test_along_the_field_the_two_turns_are_one(I0: float, alpha: float, m3: floa
 
 
 def test_momentum_precesses_with_the_larmor_frequency() -> None:
-    """m(t) is mf36: constant in length and along the field, mf33, turned clockwise by alpha t."""
+    """m(t) is (26): constant in length and along the field, (23), turned clockwise by alpha t."""
     ball, t = BallMotion(2.0, 0.5, (0.3, -0.4)), np.linspace(-20, 20, 41)
     m = ball.angular_momentum(t)
     assert np.abs(np.hypot(m[:, 0], m[:, 1]) - 0.3).max() <= 4 * ULP1
@@ -77,8 +77,8 @@ def test_momentum_precesses_with_the_larmor_frequency() -> None:
     assert np.abs(m[:, 0] - 0.3 * np.sin(0.5 * t)).max() <= 8 * ULP1
 
 
-def test_where_mf39_is_undefined_the_ball_turns_back_with_the_field() -> None:
-    """At m2 = 0, m3 = -alpha I0, where mf39 is 0/0, gamma = 0 and R = R_z(-alpha t)."""
+def test_where_equation_29_is_undefined_the_ball_turns_back_with_the_field() -> None:
+    """At m2 = 0, m3 = -alpha I0, where (29) is 0/0, gamma = 0 and R = R_z(-alpha t)."""
     ball = BallMotion(2.0, 0.5, (0.0, -1.0))
     assert (ball.gamma, ball.k_hat) == (0.0, (0.0, -1.0))
     c, s = np.cos(0.5 * 3.0), np.sin(0.5 * 3.0)

@@ -65,7 +65,7 @@ def points(rings: list[Ring], corners: int = 5) -> tuple[NDArray[np.float64], ND
 def test_a_shape_has_the_moments_of_the_points_it_is_made_of(
     name: str, dimensions: dict[str, float], rings: list[Ring]
 ) -> None:
-    """The formula of each shape agrees with 1.32 on points that fill it."""
+    """The formula of each shape agrees with (8) on points that fill it."""
     shape, cloud = from_shape(name, **dimensions), SymmetricBody.from_point_masses(*points(rings))
     assert abs(cloud.I2 - shape.I2) < 16 * EPS * shape.I2
     assert abs(cloud.I3 - shape.I3) <= 16 * EPS * shape.I3

@@ -33,11 +33,11 @@ title = "The page"
 
 [[pages.blocks]]
 kind = "prose"
-text = "The vector $\\mathbf{B}'$ and @mf76."
+text = "The vector $\\mathbf{B}'$ and @(71)."
 
 [[pages.blocks]]
 kind = "equation"
-label = "mf76"
+name = "(71)"
 
 [[pages.blocks]]
 kind = "figure"

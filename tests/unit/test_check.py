@@ -183,7 +183,7 @@ def test_parameters_come_from_options_or_from_the_file(write: Writer) -> None:
 
 
 def test_a_free_body_needs_its_omega3(write: Writer) -> None:
-    """Without a field omega3 is a parameter, and the grade is against mf92."""
+    """Without a field omega3 is a parameter, and the grade is against (87)."""
     text = "# ratio = 0.5\n# field = 0 0\n# omega2 = 0.7\n# omega3 = 0.3\n"
     t = 3.0
     Omega = closed_form.elementary_angular_velocity(1, 0.5, 0, 0, 0.7, t, 0.3)

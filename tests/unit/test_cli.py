@@ -132,7 +132,7 @@ def test_floats_in_json_read_back_the_same() -> None:
         ("hyperbola --ratio 1.5 --field 1 2 --count 1", "--count"),
         ("ball --larmor 1 --momentum 1 1 --inertia 0", "inertia"),
         ("particle --mu 1e308 --magnetic 0 0 1e308 --velocity 1 0 0 --times 1 --json", "larger units"),
-        ("verify mf999", "mf999"),
+        ("verify 999", "999"),
         ("stress --samples 0", "--samples"),
         ("bench --read tests", "'tests' is a directory"),
         ("bench --read reports/data/bench.json --quick", "nothing but --json"),
@@ -212,7 +212,7 @@ def test_a_read_only_folder_is_told_before_any_work(tmp_path: Path, monkeypatch:
 
 def test_a_library_that_is_missing_is_told_in_one_line() -> None:
     """As after new code came with new libraries: what is missing, and what installs it."""
-    block = "import sys; sys.modules['pylatexenc'] = None; from atlas.cli.app import main; main(['verify', 'mf76'])"
+    block = "import sys; sys.modules['pylatexenc'] = None; from atlas.cli.app import main; main(['verify', '71'])"
     result = subprocess.run([sys.executable, "-c", block], capture_output=True, text=True, check=False)
     assert result.returncode == 1
     assert result.stderr == "atlas: the library pylatexenc is not installed; in a checkout, `make setup` installs it\n"
@@ -293,14 +293,14 @@ def test_the_plane_pair_has_a_hyperbola() -> None:
     [
         ("--field 0 0 --omega2 1 --omega3 2", ("given", "frequency of precession about m")),
         ("--field 0 1 --omega2 0 --omega3 2", ("given", "frequency of precession about B")),
-        ("--field 1 2 --omega2 0.7", ("mf76", "mf84", "mf77")),
+        ("--field 1 2 --omega2 0.7", ("(71)", "(79)", "(72)")),
     ],
 )
 def test_a_motion_is_labelled_by_its_case(words: str, says: tuple[str, ...]) -> None:
-    """A free omega3 is not said to follow from mf76, and without a field nothing precesses about it."""
+    """A free omega3 is not said to follow from (71), and without a field nothing precesses about it."""
     out = CliRunner().invoke(command, f"motion --ratio 1.5 {words}".split(), catch_exceptions=False).stdout
     assert all(part in out for part in says)
-    assert ("mf76" in out) == ("mf76" in says)
+    assert ("(71)" in out) == ("(71)" in says)
 
 
 def test_a_reason_is_told_once() -> None:

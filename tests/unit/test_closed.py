@@ -13,13 +13,13 @@ CASES = [(1.5, (1.0, 2.0), 1, 2), (0.5, (1.0, 0.1), 2, 3), (2.0, (1.0, 2.0), -3,
 
 
 def _true_frequency(ratio: float, field: tuple[float, float], r: Fraction) -> mpmath.mpf:
-    """Return k with 60 digits as the root of phi - r k = 0, phi by mf77: by bisection of a sign, no formula for k."""
+    """Return k with 60 digits as the root of phi - r k = 0, phi by (72): by bisection of a sign, no formula for k."""
     with mpmath.workdps(60):
         I, B2, B3 = mpmath.mpf(ratio), mpmath.mpf(field[0]), mpmath.mpf(field[1])
         b = mpmath.sqrt(B2**2 + B3**2)
 
         def excess(w: mpmath.mpf) -> mpmath.mpf:
-            """Return (phi/k - r) times the denominator of mf77."""
+            """Return (phi/k - r) times the denominator of (72)."""
             return B3 * (1 - I) * (w + 2 * B2) * B2 / b - r.numerator * I * B2 * (w + B2) / mpmath.mpf(r.denominator)
 
         return mpmath.findroot(excess, (mpmath.mpf(-1), mpmath.mpf(1)), solver="secant") * b / B2

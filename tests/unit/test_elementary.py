@@ -51,7 +51,7 @@ def ulps(ours: Any, true: mpf) -> float:
 
 @pytest.mark.parametrize("inputs", HOSTILE)
 def test_the_scalars_are_rounded_once(inputs: tuple[float, float, float, float]) -> None:
-    """omega3, mf76, k, mf84, and phi, mf77, are within one ulp of their own size on hostile inputs."""
+    """omega3, (71), k, (79), and phi, (72), are within one ulp of their own size on hostile inputs."""
     I, B2, B3, omega2 = inputs
     motion, true = ElementaryMotion(I, (B2, B3), omega2), closed_form.elementary(1.0, I, B2, B3, omega2, digits=40)
     assert max(ulps(motion.omega3, true.omega3), ulps(motion.k, true.k), ulps(motion.phi, true.phi)) <= 0.51
@@ -71,7 +71,7 @@ def test_the_scalars_are_rounded_once_for_any_inputs(I: float, B2: float, B3: fl
 
 @pytest.mark.parametrize("case", CASES)
 def test_every_case_has_its_name_and_solves_the_equations(case: str) -> None:
-    """Each case is a motion: a Taylor integration of mf21, mf27 gives the same R, Omega and K."""
+    """Each case is a motion: a Taylor integration of (12), (16) gives the same R, Omega and K."""
     I, field, omega2, omega3 = CASES[case]
     motion = ElementaryMotion(I, field, omega2, omega3)
     assert motion.case == case
@@ -92,7 +92,7 @@ def test_every_case_has_its_name_and_solves_the_equations(case: str) -> None:
 
 @pytest.mark.parametrize("case", CASES)
 def test_momentum_is_that_of_omega_turned_into_the_laboratory(case: str) -> None:
-    """m/I2 = R I Omega/I2, as in mf93."""
+    """m/I2 = R I Omega/I2, as in (88)."""
     I, field, omega2, omega3 = CASES[case]
     motion, t = ElementaryMotion(I, field, omega2, omega3), np.linspace(-5, 5, 41)
     body = motion.angular_velocity(t) * [1.0, 1.0, I]
@@ -126,7 +126,7 @@ def test_vectors_are_true_to_8_ulp_of_their_length(inputs: tuple[float, float, f
 
 @pytest.mark.parametrize("case", CASES)
 def test_the_invariants_are_constant(case: str) -> None:
-    """E', K^2, c3, c5, mf44 to mf49, and (m, B'), mf93, do not change."""
+    """E', K^2, c3, c5, (36) to (41), and (m, B'), (88), do not change."""
     I, field, omega2, omega3 = CASES[case]
     values = ElementaryMotion(I, field, omega2, omega3).invariants(np.linspace(-1e6, 1e6, 101))
     assert set(values) == {"E'", "K^2", "c3", "c5", "(m,B')"}
@@ -206,7 +206,7 @@ def test_shapes_that_do_not_meet_are_one_sentence() -> None:
         pair.rotation(np.ma.masked_array([0.0, 1.0], [True, False]))
 
 
-def test_the_closed_form_differentiates_to_mf21() -> None:
+def test_the_closed_form_differentiates_to_equation_12() -> None:
     """dR/dt = R [Omega]x, by central differences of the closed form."""
     motion, t, h = ElementaryMotion(0.7, (1.1, -0.6), 1.3), np.linspace(-3, 3, 13), 2.0**-17
     slope = (motion.rotation(t + h) - motion.rotation(t - h)) / (2 * h)
@@ -215,7 +215,7 @@ def test_the_closed_form_differentiates_to_mf21() -> None:
     assert np.abs(slope - motion.rotation(t) @ hat.mT).max() < 1e-9
 
 
-def test_frequencies_obey_mf91() -> None:
+def test_frequencies_obey_equation_86() -> None:
     """For B2 > 0, phi = (I2 - I3) B3hat (2 b + k) k/(I3 (b + k))."""
     body, (B2, B3) = SymmetricBody(2.0, 3.0), (1.0, 2.0)
     motion, b = ElementaryMotion(body, (B2, B3), 0.7), np.hypot(B2, B3)
@@ -224,7 +224,7 @@ def test_frequencies_obey_mf91() -> None:
 
 
 def test_the_free_body_beside_precesses_alike() -> None:
-    """The free body of mf92 has the same k and axis, and phi = (I2 - I3) B3hat k/I3."""
+    """The free body of (87) has the same k and axis, and phi = (I2 - I3) B3hat k/I3."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
     free = motion.beside
     assert free.k == pytest.approx(motion.k, rel=4 * ULP1)

@@ -1,4 +1,4 @@
-"""The equations of section II on random clouds of points: the body is what 1.32 says, particles held together."""
+"""The equations of section II on random clouds of points: the body is what (8) says, particles held together."""
 
 from dataclasses import dataclass
 
@@ -76,7 +76,7 @@ class Cloud:
 
 @given(seeds)
 def test_mass_matrix_and_energy_are_those_of_the_points(seed: int) -> None:
-    """The mass matrix g of 1.32 is (tr I/2) 1 - I, and (Omega, I Omega)/2 is the points' kinetic energy."""
+    """The mass matrix g of (8) is (tr I/2) 1 - I, and (Omega, I Omega)/2 is the points' kinetic energy."""
     c = Cloud.random(seed)
     assert np.abs(mass_matrix(c.inertia) - mass_matrix_of_points(c.masses, c.start)).max() < c.tolerance
     assert abs(equations.energy(c.inertia, c.Omega) - c.masses @ (c.v**2).sum(axis=1) / 2) < c.tolerance
@@ -84,7 +84,7 @@ def test_mass_matrix_and_energy_are_those_of_the_points(seed: int) -> None:
 
 @given(seeds)
 def test_the_torque_is_that_of_the_lorentz_forces(seed: int) -> None:
-    """The right-hand side of mf28 is the sum of [x_N, f_N], since the constraints' forces have no torque."""
+    """The right-hand side of (17) is the sum of [x_N, f_N], since the constraints' forces have no torque."""
     c = Cloud.random(seed)
     m = (c.masses[:, None] * np.cross(c.x, c.v)).sum(axis=0)
     assert np.abs(m - c.R @ c.inertia @ c.Omega).max() < c.tolerance
@@ -94,21 +94,21 @@ def test_the_torque_is_that_of_the_lorentz_forces(seed: int) -> None:
 
 @given(seeds)
 def test_the_accelerations_need_only_symmetric_multipliers(seed: int) -> None:
-    """With mf27, the lambda of mf19 = -R^T (R'' + A) g comes out symmetric, which is all that the constraints ask."""
+    """With (16), the lambda of (6) = -R^T (R'' + A) g comes out symmetric, which is all that the constraints ask."""
     c = Cloud.random(seed)
     g = mass_matrix(c.inertia)
     R1 = equations.rotation_rate(c.R, c.Omega)
     R2 = equations.rotation_rate(R1, c.Omega) + equations.rotation_rate(
         c.R, equations.angular_acceleration(c.inertia, c.K, c.Omega)
     )
-    A = 2 * np.cross(c.B, R1, axisb=0, axisc=0)  # mf20
+    A = 2 * np.cross(c.B, R1, axisb=0, axisc=0)  # (7)
     multipliers = -c.R.T @ (R2 + A) @ g
     assert np.abs(multipliers - multipliers.T).max() < c.tolerance
 
 
 @given(seeds)
 def test_the_three_forms_agree(seed: int) -> None:
-    """The forms mf27, mf28 and mf29 are one equation for Omega, m = R I Omega and M = I Omega."""
+    """The forms (16), (17) and (18) are one equation for Omega, m = R I Omega and M = I Omega."""
     c = Cloud.random(seed)
     M, K = c.inertia @ c.Omega, equations.field_in_body(c.R, c.B)
     body = equations.body_momentum_rate(c.inertia, K, M)
@@ -119,7 +119,7 @@ def test_the_three_forms_agree(seed: int) -> None:
 
 @given(seeds)
 def test_three_terms_make_one_with_the_mass_matrix(seed: int) -> None:
-    """In mf26, I[K, Omega] - [I K, Omega] + [K, I Omega] = 2 [g K, Omega], also for a tensor that is not diagonal."""
+    """In (15), I[K, Omega] - [I K, Omega] + [K, I Omega] = 2 [g K, Omega], also for a tensor that is not diagonal."""
     c = Cloud.random(seed)
     I, K, Omega = c.inertia, c.K, c.Omega
     three = I @ np.cross(K, Omega) - np.cross(I @ K, Omega) + np.cross(K, I @ Omega)
@@ -130,7 +130,7 @@ def test_three_terms_make_one_with_the_mass_matrix(seed: int) -> None:
 
 @given(seeds)
 def test_rotations_stay_rotations_and_carry_the_field(seed: int) -> None:
-    """The rate of R^T R vanishes by mf21, the rows turn as mf79 says, and K = R^T B' changes as mf43 says."""
+    """The rate of R^T R vanishes by (12), the rows turn as (74) says, and K = R^T B' changes as (35) says."""
     c = Cloud.random(seed)
     rate = equations.rotation_rate(c.R, c.Omega)
     assert np.abs(rate.T @ c.R + c.R.T @ rate).max() < c.tolerance
@@ -154,7 +154,7 @@ def test_every_body_conserves_energy_field_and_momentum_along_the_field(seed: in
 
 @given(seeds)
 def test_a_symmetric_body_conserves_one_more(seed: int) -> None:
-    """With I1 = I2 the sum Omega3 + K3 is conserved, mf48; without that symmetry it is not."""
+    """With I1 = I2 the sum Omega3 + K3 is conserved, (40); without that symmetry it is not."""
     for symmetric in (True, False):
         c = Cloud.random(seed, symmetric=symmetric)
         dOmega, dK = equations.angular_acceleration(c.inertia, c.K, c.Omega), equations.field_rate(c.K, c.Omega)
@@ -163,7 +163,7 @@ def test_a_symmetric_body_conserves_one_more(seed: int) -> None:
 
 @given(seeds)
 def test_the_momentum_of_a_ball_precesses_with_larmors_frequency(seed: int) -> None:
-    """For I1 = I2 = I3, mf28 is dm/dt = -[B', m], mf32: m^2 and (m, B) are conserved, mf33."""
+    """For I1 = I2 = I3, (17) is dm/dt = -[B', m], (22): m^2 and (m, B) are conserved, (23)."""
     c = Cloud.random(seed, round_=True)
     m = c.R @ c.inertia @ c.Omega
     rate = equations.momentum_rate(c.inertia, c.B, c.R, m)
@@ -174,18 +174,18 @@ def test_the_momentum_of_a_ball_precesses_with_larmors_frequency(seed: int) -> N
 
 @given(seeds)
 def test_the_components_of_a_symmetric_body(seed: int) -> None:
-    """The forms mf42 and mf43 give the components mf46 and mf47 as printed."""
+    """The forms (34) and (35) give the components (38) and (39) as printed."""
     rng = np.random.default_rng(seed)
     I, (O1, O2, O3), (K1, K2, K3) = rng.uniform(0.1, 2), rng.normal(size=3), rng.normal(size=3)
-    mf46 = [
+    angular = [
         (1 - I) * O3 * O2 - I * O3 * K2 + (2 - I) * O2 * K3,
         -(1 - I) * O3 * O1 + I * O3 * K1 - (2 - I) * O1 * K3,
         O1 * K2 - O2 * K1,
     ]
-    mf47 = [O3 * K2 - O2 * K3, -O3 * K1 + O1 * K3, -(O1 * K2 - O2 * K1)]
+    field = [O3 * K2 - O2 * K3, -O3 * K1 + O1 * K3, -(O1 * K2 - O2 * K1)]
     K, Omega = np.array([K1, K2, K3]), np.array([O1, O2, O3])
-    assert np.abs(equations.angular_acceleration(np.diag([1, 1, I]), K, Omega) - mf46).max() < 1000 * EPS
-    assert np.abs(equations.field_rate(K, Omega) - mf47).max() < 100 * EPS
+    assert np.abs(equations.angular_acceleration(np.diag([1, 1, I]), K, Omega) - angular).max() < 1000 * EPS
+    assert np.abs(equations.field_rate(K, Omega) - field).max() < 100 * EPS
 
 
 def test_arrays_broadcast() -> None:

@@ -149,7 +149,7 @@ def test_constant_omega3_is_the_elementary_motion(kind: str) -> None:
 
 
 def test_the_free_body_is_its_own_motion() -> None:
-    """Without a field the motion is that of mf92."""
+    """Without a field the motion is that of (87)."""
     I, B, omega = KINDS["free body"]
     t = Fraction(10**6 + 1, 3)
     R, S = GeneralMotion(I, B, omega).rotation(t), FreeMotion(I, omega).rotation(t)

@@ -73,7 +73,7 @@ times = st.floats(-1e15, 1e15) | st.sampled_from([0.0, 1e-300, 1.0])
 @settings(max_examples=60)
 @given(ratios, ordinary | sizes, ordinary | sizes, ordinary, times)
 def test_elementary_motion_contains_mpmath(I: float, B2: float, B3: float, w2: float, t: float) -> None:
-    """Frequencies, matrix and angular velocity agree with mf76, mf77, mf89, mf78 evaluated in mpmath."""
+    """Frequencies, matrix and angular velocity agree with (71), (72), (84), (73) evaluated in mpmath."""
     if w2 + B2 == 0:
         return
     motion = ElementaryMotion(I, (B2, B3), w2)
@@ -112,7 +112,7 @@ def test_elementary_motion_contains_mpmath(I: float, B2: float, B3: float, w2: f
 def test_named_cases_solve_the_equations_of_motion(
     case: str, ratio: float, field: tuple[float, float], omega2: float, omega3: float | None
 ) -> None:
-    """In each special case matrix and angular velocity are those of the Taylor series of mf21 and mf27."""
+    """In each special case matrix and angular velocity are those of the Taylor series of (12) and (16)."""
     motion = ElementaryMotion(ratio, field, omega2, omega3)
     assert motion.case == case
     start = (0, omega2, as_fraction(motion.omega3))
@@ -153,7 +153,7 @@ def test_decimal_strings_are_taken_as_typed() -> None:
 @settings(max_examples=60)
 @given(ratios, ordinary | sizes, ordinary | sizes)
 def test_quadric_contains_mpmath(I: float, B2: float, B3: float) -> None:
-    """Angle, a2, a3, semi-axes and axes agree with mf60 to mf63 evaluated in mpmath."""
+    """Angle, a2, a3, semi-axes and axes agree with (54) to (57) evaluated in mpmath."""
     q = Quadric(I, (B2, B3))
     expected = closed_form.quadric(1, I, B2, B3)
     assert_same(lambda: [q.beta, q.a2, q.a3], [expected.beta, expected.a2, expected.a3])
@@ -195,7 +195,7 @@ def test_a_body_is_never_rounded_to_its_quotient() -> None:
 def test_points_of_the_hyperbola_lie_on_the_quadric_and_rest_on_the_cubic(
     I: float, B2: float, B3: float, w2: float
 ) -> None:
-    """mf76 solves mf58.1 and makes mf55 vanish, exactly; its stability is -p' of that cubic."""
+    """(71) solves (50) and makes (47) vanish, exactly; its stability is -p' of that cubic."""
     if w2 + B2 == 0:
         return
     h = Hyperbola(I, (B2, B3))
@@ -242,7 +242,7 @@ def test_the_unstable_band_ends_where_the_stability_changes_sign() -> None:
 @settings(max_examples=40)
 @given(ordinary | sizes, ordinary, ordinary | sizes, times)
 def test_ball_contains_mpmath(larmor: float, m2: float, m3: float, t: float) -> None:
-    """Axis, frequency, matrix and momentum of the ball agree with mf36 to mf39 evaluated in mpmath."""
+    """Axis, frequency, matrix and momentum of the ball agree with (26) to (29) evaluated in mpmath."""
     b = BallMotion(0.4, larmor, (m2, m3))
     expected = closed_form.ball(0.4, larmor, m2, m3)
     assert_same(lambda: [b.k_hat, b.gamma], [expected.k2, expected.k3, expected.gamma])
@@ -252,7 +252,7 @@ def test_ball_contains_mpmath(larmor: float, m2: float, m3: float, t: float) -> 
 
 
 def test_the_ball_that_does_not_turn_about_k_turns_about_the_field() -> None:
-    """At m2 = 0, m3 = -alpha I0, where mf39 reads 0/0, R = R_z(-alpha t)."""
+    """At m2 = 0, m3 = -alpha I0, where (29) reads 0/0, R = R_z(-alpha t)."""
     b = BallMotion(0.5, 3.0, (0.0, -1.5))
     assert b.gamma == 0
     assert_same(lambda: b.rotation(0.75), flat(closed_form.ball_rotation(0.5, 3.0, 0.0, -1.5, 0.75)))
@@ -267,13 +267,13 @@ def test_a_particle_at_the_drift_velocity_flies_straight() -> None:
 
 
 def test_a_momentum_along_the_field_stays_there_exactly() -> None:
-    """For I = 1 the momentum of mf76 is parallel to B', and m(t) has an exact zero."""
+    """For I = 1 the momentum of (71) is parallel to B', and m(t) has an exact zero."""
     m = ElementaryMotion(1.0, (1.0, 2.0), 0.5).angular_momentum(0.3)
     assert m == [0, fmpq(1, 2), 1]
 
 
 def test_the_ball_obeys_the_equations_of_motion() -> None:
-    """Matrix and angular velocity of mf38 are those of the Taylor series, in the frame with B along e3."""
+    """Matrix and angular velocity of (28) are those of the Taylor series, in the frame with B along e3."""
     b = BallMotion(0.5, 0.75, (0.3, -0.8))
     (state,) = taylor.taylor((1, 1, 1), (0, 0, 0.75), (0, Fraction(0.3) * 2, Fraction(-0.8) * 2), [2.5], digits=45)
     found = enclosed(lambda: [*b.rotation(2.5), b.angular_velocity(2.5)], 200)
@@ -286,7 +286,7 @@ def test_the_ball_obeys_the_equations_of_motion() -> None:
 @pytest.mark.parametrize("omega", [(0.3, 0.7, -0.2), (0.0, 0.0, 0.5), (1.5, 0.0, 0.0), (0.0, 0.0, 0.0)])
 @pytest.mark.parametrize("I", [0.25, 1.0, 2.0])
 def test_the_free_body_obeys_the_equations_of_motion(omega: Triple, I: float) -> None:
-    """Precession about any angular momentum and proper rotation, mf92, are the Taylor series without a field."""
+    """Precession about any angular momentum and proper rotation, (87), are the Taylor series without a field."""
     free = FreeMotion(I, omega)
     (state,) = taylor.taylor((1, 1, I), (0, 0, 0), omega, [4.5], digits=45)
     found = enclosed(lambda: [*free.rotation(4.5), free.angular_velocity(4.5)], 200)
@@ -327,7 +327,7 @@ def test_a_vanishing_field_bends_nothing() -> None:
 
 
 def test_a_point_of_the_body_flies_with_the_centre_and_turns_with_the_body() -> None:
-    """mf10.2 and mf89: the centre of mass keeps its own path, and at t = 0 the point is where it was."""
+    """(101) and (84): the centre of mass keeps its own path, and at t = 0 the point is where it was."""
     particle = ParticleMotion(1.0, (0.1, 0.0, 0.0), (0.0, 2.0, 4.0), (0, 0, 0), (1, 0, 0))
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
     assert Flight(particle, motion, (0, 0, 0)).position(1.5)[0].overlaps(arb(particle.position(1.5)[0]))

@@ -162,7 +162,7 @@ def test_recipes_import_only_the_floors_below(name: str) -> None:
 
 
 def residual(ratio: float, field: tuple[float, float], point: np.ndarray) -> float:
-    """Return mf72 at a point, exactly, over the sum of the sizes of its terms."""
+    """Return (67) at a point, exactly, over the sum of the sizes of its terms."""
     I, B2, B3, w2, w3 = (Fraction(float(x)) for x in (ratio, *field, *point))
     terms = (B3 * w2 * w2, -I * B2 * w2 * w3, (2 - I) * B2 * B3 * w2, -I * B2 * B2 * w3)
     return float(abs(sum(terms)) / (sum(map(abs, terms)) or 1))
@@ -171,7 +171,7 @@ def residual(ratio: float, field: tuple[float, float], point: np.ndarray) -> flo
 @pytest.mark.parametrize("field", [field for field in FIELDS if any(field)])
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_drawn_points_satisfy_the_equation_of_the_hyperbola(ratio: float, field: tuple[float, float]) -> None:
-    """Every point of the drawn branches satisfies mf72 to 3 eps of its terms, lines at the pole included."""
+    """Every point of the drawn branches satisfies (67) to 3 eps of its terms, lines at the pole included."""
     (panel,) = load("hyperbola").scene(ratio=ratio, field=field).panels
     drawn = curves(panel, "hyperbola")
     assert drawn
@@ -212,7 +212,7 @@ def test_the_dashed_line_is_the_asymptote(ratio: float, field: tuple[float, floa
 
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_named_points_lie_on_the_curve(ratio: float) -> None:
-    """Rest, -2B' and the second zero of omega3 satisfy mf72; phi vanishes at the first two."""
+    """Rest, -2B' and the second zero of omega3 satisfy (67); phi vanishes at the first two."""
     field = (1.0, 2.0)
     named = places(ratio, field)
     assert [place.at for place in named[:2]] == [(0.0, 0.0), (-2.0, -4.0)]
@@ -224,7 +224,7 @@ def test_named_points_lie_on_the_curve(ratio: float) -> None:
 
 @pytest.mark.parametrize("field", [(1.0, 0.1), (-1.0, 0.3), (2.0, -0.4), (1.0, 0.0)])
 def test_the_family_is_unstable_inside_the_bands_and_stable_outside(field: tuple[float, float]) -> None:
-    """The nutation frequency squared, from the cubic mf55 itself, is negative in the bands and positive beside them."""
+    """The nutation frequency squared, from the cubic (47) itself, is negative in the bands and positive beside them."""
     bands = unstable(0.5, field)
     assert len(bands) == (1 if field[1] == 0 else 2)
     hyperbola = Hyperbola(0.5, field)
@@ -236,7 +236,7 @@ def test_the_family_is_unstable_inside_the_bands_and_stable_outside(field: tuple
 
 
 def curvature(ratio: float, field: tuple[float, float], omega2: float, omega3: float) -> float:
-    """Return -p'(omega3) by a difference quotient of mf57."""
+    """Return -p'(omega3) by a difference quotient of (49)."""
     oscillator = PseudoOscillator(ratio, field, (0.0, omega2, omega3))
     step = 1e-5
     return float(oscillator.acceleration(omega3 - step) - oscillator.acceleration(omega3 + step)) / (2 * step)
@@ -263,7 +263,7 @@ def test_free_spins_across_the_field_are_unstable_below_their_bound() -> None:
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, 0.1), (2.0, -3.0)])
 @pytest.mark.parametrize("ratio", [2.0, 1.5, 0.5])
 def test_drawn_frequencies_obey_their_equations(ratio: float, field: tuple[float, float]) -> None:
-    """The drawn k and phi are mf84 and mf77, and the quotient drawn is their quotient, mf91, at any point."""
+    """The drawn k and phi are (79) and (72), and the quotient drawn is their quotient, (86), at any point."""
     upper, lower = load("frequencies").scene(ratio=ratio, field=field).panels
     (B2, B3), b = field, np.hypot(*field)
     for line in curves(upper, "second"):
@@ -278,7 +278,7 @@ def test_drawn_frequencies_obey_their_equations(ratio: float, field: tuple[float
 
 
 def test_quotient_levels_out_at_the_free_body() -> None:
-    """The dashed line is phi/k of the free body beside the motion, mf92."""
+    """The dashed line is phi/k of the free body beside the motion, (87)."""
     _, lower = load("frequencies").scene(ratio=1.5, field=(1.0, 2.0)).panels
     beside = ElementaryMotion(1.5, (1.0, 2.0), 0.7).beside
     (line,) = curves(lower, "reference")
@@ -325,7 +325,7 @@ def test_the_third_axis_traces_a_circle_about_the_field() -> None:
 
 
 def test_drawn_angular_velocity_is_that_of_the_paper() -> None:
-    """The three curves are omega2 sin(phi t), omega2 cos(phi t) and omega3, mf78."""
+    """The three curves are omega2 sin(phi t), omega2 cos(phi t) and omega3, (73)."""
     scene = load("motion").scene(ratio=0.5, field=(1.0, 2.0), omega2=-1.7)
     phi = 2.0 * -1.7 * 0.5 * 0.3 / (0.5 * -0.7)
     omega3 = 2.0 * -1.7 * (-1.7 + 1.5) / (0.5 * -0.7)
@@ -336,7 +336,7 @@ def test_drawn_angular_velocity_is_that_of_the_paper() -> None:
 
 
 def test_drawn_angular_momentum_keeps_its_projection_on_the_field() -> None:
-    """(m, B') of mf93 from the drawn curves, brought to common times, equals the dashed level."""
+    """(m, B') of (88) from the drawn curves, brought to common times, equals the dashed level."""
     scene = load("motion").scene(ratio=1.5, field=(1.0, 2.0), omega2=0.7)
     panel = scene.panels[2]
     (level,) = curves(panel, "reference")
@@ -362,7 +362,7 @@ def test_residuals_of_the_invariants_stay_at_rounding() -> None:
 
 @pytest.mark.parametrize("mu", [1.0, -0.5])
 def test_trochoids_are_those_of_the_paper(mu: float) -> None:
-    """The paths are x = V t + a sin(omega t), y = a cos(omega t), mf11, with omega of the sign of the charge."""
+    """The paths are x = V t + a sin(omega t), y = a cos(omega t), (99), with omega of the sign of the charge."""
     E, B, c = (0.3, 1.0, 2.0), (0.0, 1.0, 2.0), 1.5
     scene = load("trochoids").scene(mu=mu, E=E, B=B, c=c, speeds=(2.0, 1.0, 0.5, 0.0), turns=2.5)
     V = c * np.linalg.norm(np.cross(E, B)) / np.dot(B, B)
@@ -456,7 +456,7 @@ def test_turning_points_bound_the_allowed_interval(
 
 
 def test_the_potential_is_minus_half_the_quartic() -> None:
-    """V is drawn so that level - V = Q/2 at every point: the first integral of mf55."""
+    """V is drawn so that level - V = Q/2 at every point: the first integral of (47)."""
     omega = (0.3, 0.7, 0.2)
     scene = load("pseudo_oscillator").scene(omega=omega)
     panel = scene.panels[1]
@@ -466,7 +466,7 @@ def test_the_potential_is_minus_half_the_quartic() -> None:
 
 
 def test_points_of_the_quadric_leave_it_at_the_rate_of_the_paper() -> None:
-    """The starts solve mf58.1, and Omega3 begins with the slope omega1 B2; with omega1 = 0 nothing moves."""
+    """The starts solve (50), and Omega3 begins with the slope omega1 B2; with omega1 = 0 nothing moves."""
     values = (0.8, -0.4, 0.2)
     panel, _ = load("quadric_leak").scene(ratio=0.5, field=(1.5, 2.0), omega2=0.7, omega1=values).panels
     for value, role in zip(values, ("main", "second", "third"), strict=True):

@@ -49,7 +49,7 @@ def defect(Q: FloatArray, points: FloatArray) -> float:
 
 @pytest.mark.parametrize(("name", "parameters"), HYPERBOLOIDS)
 def test_meshes_wires_and_rims_lie_on_the_quadric(name: str, parameters: dict[str, Any]) -> None:
-    """Each point satisfies mf58 to a few eps of its terms, and the half spaces hold it."""
+    """Each point satisfies (51) to a few eps of its terms, and the half spaces hold it."""
     used = recipes.load(name).parameters | parameters
     quadric = Quadric(used.get("ratio", {"cone": 1.0, "loop": 2.0}.get(name)), used["field"])
     for surface in layers(name, Surface, "surface", **parameters):
@@ -63,7 +63,7 @@ def test_meshes_wires_and_rims_lie_on_the_quadric(name: str, parameters: dict[st
 
 @pytest.mark.parametrize(("name", "parameters"), HYPERBOLOIDS)
 def test_the_heavy_line_is_the_hyperbola(name: str, parameters: dict[str, Any]) -> None:
-    """It lies in omega_1 = 0 and on mf72, and one of its branches passes through the origin."""
+    """It lies in omega_1 = 0 and on (67), and one of its branches passes through the origin."""
     used = recipes.load(name).parameters | parameters
     ratio, field = used.get("ratio", {"cone": 1.0, "loop": 2.0}.get(name)), used["field"]
     hyperbola = Hyperbola(ratio, field)
@@ -99,7 +99,7 @@ def test_canonical_axes_and_vectors_are_those_of_the_kernel(ratio: float, field:
 
 
 def test_the_planes_of_the_loop_touch_its_sheets() -> None:
-    """At each point of contact the gradient of mf58 is vertical, and no point of the sheets is between the planes."""
+    """At each point of contact the gradient of (51) is vertical, and no point of the sheets is between the planes."""
     field = recipes.load("loop").parameters["field"]
     Q = quadric_matrix(2.0, field)
     planes = layers("loop", Surface, "tangent_plane")
@@ -115,7 +115,7 @@ def test_the_planes_of_the_loop_touch_its_sheets() -> None:
 
 
 def test_the_trace_lies_on_the_sphere_and_on_the_cone() -> None:
-    """R_3(t) is a unit vector at the angle of e3 from B, mf91, and ends where it began after one period of k."""
+    """R_3(t) is a unit vector at the angle of e3 from B, (86), and ends where it began after one period of k."""
     (trace,) = (layer.points for layer in layers("motion_sphere", Curve, "trace"))
     assert np.abs(np.linalg.norm(trace, axis=1) - 1.0).max() < 4.0 * EPS
     axis = np.array([0.0, 1.0, 2.0]) / np.sqrt(5.0)
@@ -152,7 +152,7 @@ def test_the_electric_field_of_a_plate_leans_as_it_does(E: tuple[float, float]) 
 )
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 1.5])
 def test_degenerate_quadrics_are_drawn_too(ratio: float, field: tuple[float, float], kind: str) -> None:
-    """Each kind has its picture, whose surfaces and lines satisfy mf58.1."""
+    """Each kind has its picture, whose surfaces and lines satisfy (50)."""
     scene = recipes.load("quadric").scene(ratio=ratio, field=field)
     assert kind in scene.caption
     quadric = Quadric(ratio, field)

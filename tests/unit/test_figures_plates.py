@@ -53,7 +53,7 @@ def test_disk_and_loop_have_one_quadric() -> None:
 
 
 def test_levels_are_semi_axes_by_the_eigenvalues_of_the_form() -> None:
-    """On a drawn level sqrt|F(centre)/lambda| of the matrix of mf58.1 is that level, within 3e-3 of itself."""
+    """On a drawn level sqrt|F(centre)/lambda| of the matrix of (50) is that level, within 3e-3 of itself."""
     for k, (panel, order) in enumerate(zip(panels("kinds_of_quadric"), ("omega1", "least", "greatest"), strict=True)):
         names = {round(float(label.text.strip("$")), 6) for label in layers(panel, Label, "main")}
         for line in layers(panel, Curve, "main"):
@@ -98,7 +98,7 @@ def test_a_marked_motion_repeats_itself(ratio: float) -> None:
 
 
 def test_the_colours_of_the_surface_are_rates_of_the_equations_of_motion() -> None:
-    """In each band an integration departs at a rate of that band, 1e-6 of B2^2; its points are on mf58, 1e-12."""
+    """In each band an integration departs at a rate of that band, 1e-6 of B2^2; its points are on (51), 1e-12."""
     (panel,) = panels("ribbon")
     bands = layers(panel, Surface)
     widest = max(np.abs(s.grids[0][..., 0]).max() for s in bands if s.role == "rate_4")

@@ -198,7 +198,7 @@ def test_any_field_and_any_attitude() -> None:
 
 @pytest.mark.parametrize("inputs", [(1.5, (1, 2), 0.7), (0.5, (1, 0.1), -0.5), (1, (1, 2), 0.7), (0.7, (-1, 3), 2.0)])
 def test_on_the_hyperbola_it_is_the_elementary_motion(inputs: Any) -> None:
-    """With the omega3 of mf76, rounded, R agrees with `ElementaryMotion` while a rounding of omega3 has not grown."""
+    """With the omega3 of (71), rounded, R agrees with `ElementaryMotion` while a rounding of omega3 has not grown."""
     I, B, omega2 = inputs
     elementary, t = ElementaryMotion(I, B, omega2), np.linspace(-20, 20, 101)
     general = GeneralMotion(I, B, (0, omega2, elementary.omega3))

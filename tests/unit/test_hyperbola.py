@@ -21,7 +21,7 @@ FIELDS = [(1.0, 2.0), (-1.0, 2.0), (1.0, -1e-12), (1e-12, 1.0), (1e140, 2e140), 
 @pytest.mark.parametrize("ratio", RATIOS)
 @pytest.mark.parametrize("field", FIELDS)
 def test_sampled_points_are_true_to_one_ulp(ratio: float, field: tuple[float, float]) -> None:
-    """Each omega3 is within an ulp of mf76 at the double omega2, on both branches."""
+    """Each omega3 is within an ulp of (71) at the double omega2, on both branches."""
     omega2, omega3 = Hyperbola(ratio, field).sample(20)
     assert omega2.shape == omega3.shape == (20,)
     for x, y in zip(omega2.tolist(), omega3.tolist(), strict=True):
@@ -70,7 +70,7 @@ def test_straight_curves_are_sampled_as_lines() -> None:
 @settings(max_examples=40)
 @given(st.floats(0.1, 2), st.floats(0.1, 3), st.floats(-3, 3), st.floats(-5, 5))
 def test_points_of_the_curve_lie_on_the_quadric_and_start_motions(I: float, B2: float, B3: float, x: float) -> None:
-    """The residual of mf58.1 vanishes to rounding, and k, phi are those of the motion."""
+    """The residual of (50) vanishes to rounding, and k, phi are those of the motion."""
     omega2 = x * B2
     if abs(x + 1) < 1e-3:
         return
@@ -84,7 +84,7 @@ def test_points_of_the_curve_lie_on_the_quadric_and_start_motions(I: float, B2: 
 @pytest.mark.parametrize("ratio", [0.3, 0.5, 1.0, 1.5, 2.0])
 @pytest.mark.parametrize("field", [(1.0, 2.0), (1.0, 0.1), (-1.0, 0.3)])
 def test_stability_is_minus_the_slope_of_the_cubic(ratio: float, field: tuple[float, float]) -> None:
-    """The nutation frequency squared is -p'(omega3), p the cubic of mf55."""
+    """The nutation frequency squared is -p'(omega3), p the cubic of (47)."""
     curve = Hyperbola(ratio, field)
     for x in (-2.7, -1.4, 0.5, 1.0, 3.0):
         omega2 = (x - 1) * field[0]

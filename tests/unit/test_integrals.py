@@ -17,7 +17,7 @@ NAMES = ("E", "K2", "c3", "c5")
 
 @given(ratios, three, st.floats(-3, 3), st.floats(-3, 3))
 def test_the_constants_are_those_of_the_initial_data(I: float, omega: tuple[float, ...], B2: float, B3: float) -> None:
-    """At t = 0 each integral is what the right-hand sides of mf44, mf45, mf48, mf49 say."""
+    """At t = 0 each integral is what the right-hand sides of (36), (37), (40), (41) say."""
     w1, w2, w3 = omega
     got = integrals(I, omega, (0, B2, B3))
     size = 1 + sum(w * w for w in omega) + B2 * B2 + B3 * B3
@@ -30,7 +30,7 @@ def test_the_constants_are_those_of_the_initial_data(I: float, omega: tuple[floa
 
 @given(ratios, three, three)
 def test_their_rates_vanish_by_the_equations(I: float, omega: tuple[float, ...], K: tuple[float, ...]) -> None:
-    """Along mf42, mf43, a short step h changes each integral by no more than h^2 (their curvature) and rounding."""
+    """Along (34), (35), a short step h changes each integral by no more than h^2 (their curvature) and rounding."""
     inertia, h = np.diag([1, 1, I]), 2.0**-20
     O, k = np.array(omega), np.array(K)
     dO, dK = equations.angular_acceleration(inertia, k, O), equations.field_rate(k, O)

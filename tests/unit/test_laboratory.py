@@ -39,7 +39,7 @@ def test_the_dipole_of_a_flying_charge_loses_energy_at_the_rate_of_larmor() -> N
 
 
 def test_the_magnetic_moment_of_a_ball_radiates_by_its_precession() -> None:
-    """The second derivative of mu m(t)/2 of the ball's motion mf36 gives the power, 1e-12 of it."""
+    """The second derivative of mu m(t)/2 of the ball's motion (26) gives the power, 1e-12 of it."""
     mu, alpha = 3.0, 0.8
     ball = BallMotion(2.0, alpha, momentum=(1.3, -0.4))
     t = np.arange(32) * 2 * np.pi / alpha / 32

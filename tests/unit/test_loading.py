@@ -89,7 +89,7 @@ CASES = [
     Case("list --json", "numpy"),
     Case(f"check true.csv {MOTION}", "flint msgspec rich numpy"),
     Case(f"check true.csv {MOTION} --json --figure error.svg", "flint msgspec matplotlib contourpy fontTools numpy"),
-    Case("verify mf76", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
+    Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
     Case("bench --read bench.json", "msgspec numpy flint rich"),
     Case("sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "numpy"),
     Case("stress --samples 40 --jobs 1 --json", "numpy flint multiprocessing"),
@@ -112,10 +112,10 @@ slug = "index"
 title = "The page"
 [[pages.blocks]]
 kind = "prose"
-text = "The rotation matrix $R(t)$ and @mf76."
+text = "The rotation matrix $R(t)$ and @(71)."
 [[pages.blocks]]
 kind = "equation"
-label = "mf76"
+name = "(71)"
 """
 FIGURES = """
 [[pages.blocks]]

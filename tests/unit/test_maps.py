@@ -48,7 +48,7 @@ def test_a_map_needs_a_field_across_the_axis() -> None:
 
 
 def test_the_plain_formula_is_the_rotation_at_short_times() -> None:
-    """It is mf89, the identity at t = 0."""
+    """It is (84), the identity at t = 0."""
     assert np.array_equal(plain_rotation(1.5, 1.0, 2.0, 0.7, np.zeros(1))[0].round(15), np.eye(3))
 
 
@@ -68,14 +68,14 @@ def test_an_error_in_a_table_is_that_of_the_matrix_beside_it() -> None:
     assert np.isnan(errors["plain_error"][3])
     with mpmath.workdps(60):
         for row, time in enumerate(t[:3]):
-            true = [float(x - mpmath.mpf(found[name][row])) for name, x in zip(entries, mf89(time), strict=True)]
+            true = [float(x - mpmath.mpf(found[name][row])) for name, x in zip(entries, matrix(time), strict=True)]
             assert abs(errors["error"][row] - np.abs(true).max()) <= 1e-25
     # at phases of 1 the plain formula errs by roundings, at 1e6 and 3e14 by the phase's
     assert errors["plain_error"][0] < 1e-15
     assert 1e-12 < errors["plain_error"][1] < 1e-9 < errors["plain_error"][2]
 
 
-def mf89(t: float) -> list[Any]:
+def matrix(t: float) -> list[Any]:
     """Return the entries of R for I = 1.5, B' = (1, 2) and omega2 = 0.7, a double, with mpmath."""
     w2, b = mpmath.mpf(0.7), mpmath.sqrt(5)
     k, phi = w2 * b, -(w2 * (w2 + 2) * 2) / (3 * (w2 + 1))

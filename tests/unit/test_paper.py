@@ -1,16 +1,15 @@
-"""The ledger holds every equation of the paper, under the label and the number that it has there."""
+"""The ledger holds every equation of the paper, under the number that it has there."""
 
 import re
 import subprocess
 import sys
-from pathlib import Path
+from collections import Counter
 
 import pypandoc
 import pytest
 
 from atlas.errors import AtlasError
-from atlas.paper import EQUATIONS, LABEL, equation
-from atlas.places import folder
+from atlas.paper import EQUATIONS, equation, find
 
 # Every equation label of the paper, in the paper's order; mf61 occurs twice there, mf47 twice in one equation.
 LABELS = """
@@ -24,39 +23,67 @@ mf1 mf2 mf3 mf4 mf5 mf6 mf7 mf8 mf9 mf10 mf11 mf10.1 mf10.2 mf12 mf13 mf14
 """.split()
 
 
+NUMBERED = [label for label in LABELS if label != "mf23"]
+TWICE = {"mf61a": "mf61", "mf61b": "mf61"}
+
+
 def test_every_labelled_equation_of_the_paper_is_in_the_ledger() -> None:
-    """No label is missing, and the only others are the first affirmation, claims in words and theorems of our own."""
-    ours = {label for label in EQUATIONS if label == "Aff100" or label.startswith(("text-", "theorem-"))}
-    assert set(EQUATIONS) == set(LABELS) | ours
-    assert not set(LABELS) & ours
+    """No label is missing, and what has none is a claim in words or a theorem of our own."""
+    found = [alias for entry in EQUATIONS.values() if (alias := entry.alias)]
+    assert Counter(found) == Counter([*(TWICE.get(label, label) for label in LABELS), "Aff100"])
+    others = [name for name, entry in EQUATIONS.items() if not entry.alias]
+    assert all(name.startswith(("text-", "theorem-")) for name in others)
 
 
 def test_the_numbers_are_those_in_print() -> None:
     r"""The numbered equations run from 1 to 104 in the paper's order; mf23 ends in \nonumber."""
-    assert [EQUATIONS[label].number for label in LABELS if label != "mf23"] == list(range(1, 105))
-    assert EQUATIONS["mf23"].number is None
-    assert all(entry.number is None for label, entry in EQUATIONS.items() if label not in LABELS)
+    assert [name for name, entry in EQUATIONS.items() if entry.number is not None] == [f"({n})" for n in range(1, 105)]
+    assert [EQUATIONS[f"({n})"].alias for n in range(1, 105)] == [TWICE.get(label, label) for label in NUMBERED]
+    assert equation("mf23").number is None
 
 
-@pytest.mark.parametrize("label", EQUATIONS)
-def test_an_entry_says_what_it_is_in_one_line(label: str) -> None:
+@pytest.mark.parametrize("name", EQUATIONS)
+def test_an_entry_says_what_it_is_in_one_line(name: str) -> None:
     """Every field is filled, no sentence runs over a line, none ends in a stop."""
-    entry = equation(label)
-    assert entry.label == label
+    entry = equation(name)
+    assert entry.name == name
     assert entry.kind in {"definition", "derivation step", "claim", "theorem"}
     assert entry.section in {"II", "III", "IV", "V", "VII", "Atlas"}
-    assert (entry.kind == "theorem") == (entry.section == "Atlas") == label.startswith("theorem-")
+    assert (entry.kind == "theorem") == (entry.section == "Atlas") == name.startswith("theorem-")
     for words in (entry.says, *entry.assumptions):
         assert words
         assert "\n" not in words
         assert not words.endswith(".")
-    assert entry.title.endswith(label)
 
 
-def test_a_misspelt_label_is_told_its_neighbour() -> None:
-    """An unknown label is an error that names the nearest one."""
-    with pytest.raises(AtlasError, match=r"'mf77x' in the ledger \(did you mean 'mf77'\?\)"):
-        equation("mf77x")
+@pytest.mark.parametrize("word", ["72", "(72)", "mf77"])
+def test_an_equation_is_found_by_its_number_and_by_its_label(word: str) -> None:
+    """The printed number with and without brackets, and the label of the source, mean one entry."""
+    assert equation(word) is EQUATIONS["(72)"]
+    assert find(word) == (EQUATIONS["(72)"],)
+
+
+def test_a_label_that_stands_twice_in_the_source_means_both_equations() -> None:
+    """mf61 is on (53) and (55): both are found, and one alone cannot be meant."""
+    assert [entry.name for entry in find("mf61")] == ["(53)", "(55)"]
+    with pytest.raises(AtlasError, match=r"^mf61 is the label of \(53\) and of \(55\): say which\.$"):
+        equation("mf61")
+
+
+@pytest.mark.parametrize(
+    ("word", "said"),
+    [
+        ("mf77x", r"'mf77x' in the ledger \(did you mean 'mf77'\?\)"),
+        ("theorem-pear", r"'theorem-pear' in the ledger \(did you mean 'theorem-pair'\?\)"),
+        ("105", r"no equation \(105\) in the ledger; the nearest is \(104\)"),
+        ("(0)", r"no equation \(0\) in the ledger; the nearest is \(1\)"),
+        ("\N{SUPERSCRIPT TWO}", "there is no equation"),
+    ],
+)
+def test_a_misspelt_name_is_told_its_neighbour(word: str, said: str) -> None:
+    """An unknown number, name or label is an error that says the nearest one."""
+    with pytest.raises(AtlasError, match=said):
+        find(word)
 
 
 @pytest.mark.parametrize("target", [["html", "--mathml"], ["typst"]])
@@ -77,21 +104,7 @@ def test_every_formula_can_be_typeset(target: list[str]) -> None:
 def test_no_formula_uses_old_font_switches() -> None:
     r"""The TeX is modern: no {\bf B}, no eqnarray, no \mbox, no bare bars."""
     for entry in EQUATIONS.values():
-        assert not re.search(r"\\bf\b|eqnarray|\\mbox|\\cr\b|\\nonumber|\\label|\|", entry.tex), entry.label
-
-
-def _docstrings() -> list[tuple[Path, str]]:
-    sources = [*folder("figures").parent.joinpath("atlas").rglob("*.py"), *folder("figures").rglob("*.py")]
-    return [
-        (path, text) for path in sources for text in re.findall(r'r?"""(.*?)"""', path.read_text("utf-8"), re.DOTALL)
-    ]
-
-
-def test_every_label_cited_in_a_docstring_exists() -> None:
-    """What a docstring of the package or of a recipe cites is in the ledger."""
-    cited = [(path, label) for path, text in _docstrings() for label in LABEL.findall(text)]
-    assert len(cited) > 50
-    assert [(path.name, label) for path, label in cited if label not in EQUATIONS] == []
+        assert not re.search(r"\\bf\b|eqnarray|\\mbox|\\cr\b|\\nonumber|\\name|\|", entry.tex), entry.name
 
 
 def test_the_ledger_loads_nothing_heavy() -> None:

@@ -19,7 +19,7 @@ ORIGIN = np.zeros(3)
 
 
 def by_series(p: ParticleMotion, t: float) -> tuple[list[mpmath.mpf], list[mpmath.mpf]]:
-    """Solve mf1 by its Taylor series in t, summed until a term no longer counts; the working precision covers it."""
+    """Solve (89) by its Taylor series in t, summed until a term no longer counts; the working precision covers it."""
     mu, c, t = mp.mpf(p.mu), mp.mpf(p.c), mp.mpf(float(t))
     b = [mp.mpf(float(x)) * mu / c for x in p.B]
     y, v = ([mp.mpf(float(x)) for x in start] for start in (p.y0, p.v0))
@@ -51,7 +51,7 @@ def sizes(p: ParticleMotion, t: float) -> tuple[float, float]:
 def test_position_and_velocity_solve_the_equation(
     mu: float, E: Any, B: Any, y0: Any, v0: Any, c: float, t: float
 ) -> None:
-    """The motion agrees with the Taylor series of mf1, to 50 digits, to a few ulp of the size of its terms."""
+    """The motion agrees with the Taylor series of (89), to 50 digits, to a few ulp of the size of its terms."""
     p = ParticleMotion(mu, E, B, y0, v0, c)
     with mp.workdps(50 + int(abs(p.cyclotron_frequency * t))):
         y, v = by_series(p, t)
@@ -61,7 +61,7 @@ def test_position_and_velocity_solve_the_equation(
 
 @given(vectors, vectors, st.sampled_from([1.0, -1.0]), st.integers(-1000, 0))
 def test_the_field_can_go_to_zero(E: Any, B: Any, mu: float, power: int) -> None:
-    """As B -> 0 by powers of two, the path goes over to the parabola of mf2, with no loss on the way."""
+    """As B -> 0 by powers of two, the path goes over to the parabola of (90), with no loss on the way."""
     y0, v0, t = np.array([0.3, -0.2, 0.1]), np.array([1.0, 2.0, -0.5]), 1.5
     weak = ParticleMotion(mu, E, B * 2.0**power, y0, v0).position(t)
     parabola = ParticleMotion(mu, E, ORIGIN, y0, v0).position(t)
@@ -101,7 +101,7 @@ def test_without_a_charge_there_is_no_frequency() -> None:
 
 
 def test_the_two_charges_turn_opposite_ways() -> None:
-    """The helix about B is left-handed in time for mu > 0: mf9, sin and cos on e1 and e2, and mirrored for mu < 0."""
+    """The helix about B is left-handed in time for mu > 0: (97), sin and cos on e1 and e2, and mirrored for mu < 0."""
     t = np.linspace(0, 3, 7)
     plus, minus = (ParticleMotion(mu, ORIGIN, [0, 0, 1], [0, 1, 0], [mu, 0, 0.5]).position(t) for mu in (1.0, -1.0))
     assert np.abs(plus - np.stack([np.sin(t), np.cos(t), t / 2], axis=-1)).max() < 4 * EPS
@@ -111,7 +111,7 @@ def test_the_two_charges_turn_opposite_ways() -> None:
 @pytest.mark.parametrize("mu", [1.0, -1.0, 2.5, -0.3])
 @pytest.mark.parametrize(("radius", "kind"), [(0.5, "curtate trochoid"), (1.0, "cycloid"), (2.0, "prolate trochoid")])
 def test_the_trochoid_of_the_paper(mu: float, radius: float, kind: str) -> None:
-    """From the special data, y_perp = V t e1 + a {e1 sin(omega t) + e2 cos(omega t)}, mf11, for both charges."""
+    """From the special data, y_perp = V t e1 + a {e1 sin(omega t) + e2 cos(omega t)}, (99), for both charges."""
     E, B, c = np.array([0.0, 2.0, 1.5]), np.array([0.0, 0.0, 4.0]), 3.0
     V, omega = c * 2 / 4, mu * 4 / c
     p = ParticleMotion.trochoid(mu, E, B, radius * V / omega, c)

@@ -21,33 +21,33 @@ from atlas.proof.run import trial, trials, try_one
 from atlas.proof.verdict import GRADES, slips
 
 RECORDED = recorded.load()
-REFUTED = [label for label, verdict in RECORDED.items() if verdict.verdict == "refuted"]
+REFUTED = [name for name, verdict in RECORDED.items() if verdict.verdict == "refuted"]
 # every third entry of what is quickly decided; the slips are tried below
-AGAIN = [label for label in RECORDED if RECORDED[label].seconds < 1][::3]
+AGAIN = [name for name in RECORDED if RECORDED[name].seconds < 1][::3]
 # what the readers of the paper had found before; the trial must find it, and more
-KNOWN_SLIPS = ["mf56", "mf54", "mf10.1", "text-parallel-acceleration", "mf9", "mf10", "mf11", "text-constant-omega3"]
-KNOWN_SLIPS += ["text-momentum-plane", "text-cone-semi-axes", "mf39", "mf12"]
+KNOWN_SLIPS = ["(48)", "(46)", "(100)", "text-parallel-acceleration", "(97)", "(98)", "(99)", "text-constant-omega3"]
+KNOWN_SLIPS += ["text-momentum-plane", "text-cone-semi-axes", "(29)", "(102)"]
 NEW_SLIPS = [
-    "1.38",
-    "mf19",
-    "mf23",
+    "(9)",
+    "(6)",
+    "text-force-matrix",
     "text-combining",
     "text-rigid-plane",
     "text-nondegenerate",
     "text-ball-body-precession",
 ]
 # true as far as they go, and not the whole truth
-UNFINISHED = ["mf18", "mf59", "mf76"]
-DEFINITIONS = ["1.6", "mf15", "mf20", "1.32", "The.1", "mf64", "mf10.2"]
+UNFINISHED = ["(5)", "(52)", "(71)"]
+DEFINITIONS = ["(1)", "(2)", "(7)", "(8)", "(10)", "(58)", "(101)"]
 
 
 def test_every_entry_of_the_ledger_has_a_trial_and_a_recorded_verdict() -> None:
-    """Each label is tried in the file of its topic, and nothing else is."""
-    tried = [label for stem in {topic(label) for label in EQUATIONS} for label in trials(stem)]
+    """Each name is tried in the file of its topic, and nothing else is."""
+    tried = [name for stem in {topic(name) for name in EQUATIONS} for name in trials(stem)]
     assert sorted(tried) == sorted(EQUATIONS)
     assert list(RECORDED) == list(EQUATIONS)
-    for label in EQUATIONS:
-        assert trial(label).label == label
+    for name in EQUATIONS:
+        assert trial(name).name == name
 
 
 def test_the_recorded_verdicts_are_those_of_the_present_proofs() -> None:
@@ -55,17 +55,17 @@ def test_the_recorded_verdicts_are_those_of_the_present_proofs() -> None:
     assert recorded.stale(RECORDED) == []
 
 
-@pytest.mark.parametrize("stem", sorted({topic(label) for label in EQUATIONS}))
+@pytest.mark.parametrize("stem", sorted({topic(name) for name in EQUATIONS}))
 def test_a_recorded_verdict_quotes_its_trial(stem: str) -> None:
     """What of a record needs no proof stands in the trial or in the ledger, word for word."""
-    for label, case in trials(stem).items():
+    for name, case in trials(stem).items():
         entry, lines = (
-            EQUATIONS[label],
+            EQUATIONS[name],
             ["; ".join(part.line for part in parts) for parts in (case.parts, case.corrected_parts)],
         )
-        assert RECORDED[label] == replace(
-            RECORDED[label],
-            label=label,
+        assert RECORDED[name] == replace(
+            RECORDED[name],
+            name=name,
             number=entry.number,
             section=entry.section,
             kind=entry.kind,
@@ -81,35 +81,35 @@ def test_a_recorded_verdict_quotes_its_trial(stem: str) -> None:
 
 def test_every_verdict_is_sound() -> None:
     """Each entry is proved as printed, a definition, or refuted; what needs an erratum has a form that is proved."""
-    assert [label for label, verdict in RECORDED.items() if not verdict.sound] == []
+    assert [name for name, verdict in RECORDED.items() if not verdict.sound] == []
 
 
 def test_what_holds_by_definition_is_not_called_proved() -> None:
     """These entries only say what their letters mean."""
-    assert [label for label, verdict in RECORDED.items() if verdict.verdict == "definition"] == DEFINITIONS
+    assert [name for name, verdict in RECORDED.items() if verdict.verdict == "definition"] == DEFINITIONS
 
 
 def test_slips_are_graded_and_counted_once() -> None:
     """Every refuted entry has a grade, several may share one slip, and the grave grades come first."""
-    graded = {label: verdict for label, verdict in RECORDED.items() if verdict.grade}
+    graded = {name: verdict for name, verdict in RECORDED.items() if verdict.grade}
     assert set(graded) == {*REFUTED, *UNFINISHED}
     assert all(graded[verdict.slip].slip == "" for verdict in graded.values() if verdict.slip)
     found = slips(RECORDED.values())
     assert tuple(found) == GRADES
-    assert {grade: len(labels) for grade, labels in found.items()} == {
+    assert {grade: len(names) for grade, names in found.items()} == {
         "sign of the charge": 1,
         "gap in the argument": 1,
         "missing case": 4,
         "misprint": 9,
         "wording": 5,
     }
-    assert {label for label, verdict in graded.items() if verdict.slip == "mf9"} == {"mf10", "mf11", "text-drift"}
+    assert {name for name, verdict in graded.items() if verdict.slip == "(97)"} == {"(98)", "(99)", "text-drift"}
 
 
-@pytest.mark.parametrize("label", [*REFUTED, *UNFINISHED])
-def test_the_shown_correction_marks_what_has_changed(label: str) -> None:
+@pytest.mark.parametrize("name", [*REFUTED, *UNFINISHED])
+def test_the_shown_correction_marks_what_has_changed(name: str) -> None:
     """Something is marked, but not all of it."""
-    tex = RECORDED[label].corrected_tex
+    tex = RECORDED[name].corrected_tex
     assert r"\boxed{" in tex
     depth, left = 0, ""
     for piece in re.split(r"(\\boxed\{|\{|\})", tex):
@@ -120,23 +120,23 @@ def test_the_shown_correction_marks_what_has_changed(label: str) -> None:
 
 
 def test_what_is_unfinished_is_true_and_its_whole_form_is_proved() -> None:
-    """mf59, mf76 leave out lines of which each point is a solution; mf18 has a letter without a meaning."""
-    for label in UNFINISHED:
-        assert RECORDED[label].verdict == "proved"
-        assert RECORDED[label].corrected_verdict == "proved"
+    """(52), (71) leave out lines of which each point is a solution; (5) has a letter without a meaning."""
+    for name in UNFINISHED:
+        assert RECORDED[name].verdict == "proved"
+        assert RECORDED[name].corrected_verdict == "proved"
 
 
-@pytest.mark.parametrize("label", AGAIN)
-def test_a_recorded_verdict_is_found_again(label: str) -> None:
+@pytest.mark.parametrize("name", AGAIN)
+def test_a_recorded_verdict_is_found_again(name: str) -> None:
     """The trial, held now, ends as recorded, with the same method and to the last digit of a counterexample."""
-    assert replace(try_one(label), seconds=RECORDED[label].seconds) == RECORDED[label]
+    assert replace(try_one(name), seconds=RECORDED[name].seconds) == RECORDED[name]
 
 
-@pytest.mark.parametrize("label", dict.fromkeys(KNOWN_SLIPS + NEW_SLIPS + REFUTED))
-def test_the_slips_of_the_paper_are_found(label: str) -> None:
+@pytest.mark.parametrize("name", dict.fromkeys(KNOWN_SLIPS + NEW_SLIPS + REFUTED))
+def test_the_slips_of_the_paper_are_found(name: str) -> None:
     """Each is refuted as printed, with the values on record that show it, and its corrected form is proved."""
-    found = try_one(label)
-    assert replace(found, seconds=RECORDED[label].seconds) == RECORDED[label]
+    found = try_one(name)
+    assert replace(found, seconds=RECORDED[name].seconds) == RECORDED[name]
     assert found.verdict == "refuted"
     assert found.corrected_verdict == "proved"
     assert found.corrected_tex
@@ -146,17 +146,17 @@ def test_the_slips_of_the_paper_are_found(label: str) -> None:
     assert breaks or shown["left"] != shown["right"] or "no value" in shown["left"]
 
 
-@pytest.mark.parametrize("label", REFUTED)
-def test_a_corrected_form_refutes_the_printed_one(label: str) -> None:
+@pytest.mark.parametrize("name", REFUTED)
+def test_a_corrected_form_refutes_the_printed_one(name: str) -> None:
     """What the corrected form says is not what is printed: the lines differ, or what they are said of."""
-    case = trial(label)
+    case = trial(name)
     assert case.corrected
     assert case.corrected != case.printed or case.corrected_model not in {None, case.model}
 
 
 def test_counterexample_of_the_cubic_by_hand() -> None:
-    """The second derivative mf54 agrees with the cubic mf56 if that has (2-I)^2, not if (2-1)^2."""
-    shown = RECORDED["mf56"].counterexample
+    """The second derivative (46) agrees with the cubic (48) if that has (2-I)^2, not if (2-1)^2."""
+    shown = RECORDED["(48)"].counterexample
     spin, field = [Fraction(shown[f"Omega{n}"]) for n in (1, 2, 3)], [Fraction(shown[f"K{n}"]) for n in (1, 2, 3)]
     ratio = Fraction(shown["I3"]) / Fraction(shown["I2"])
     c3 = field[2] + spin[2]
@@ -177,7 +177,7 @@ def test_counterexample_of_the_cubic_by_hand() -> None:
 
 def test_counterexample_of_the_multipliers_by_hand() -> None:
     """1.38: one multiplier between particles 4 and 6, particle 1 at (1, 0, 0), all others at the origin."""
-    shown = RECORDED["1.38"].counterexample
+    shown = RECORDED["(9)"].counterexample
     assert shown["lam[4,6]"] == "1"
     assert shown["x[1]"] == "[1, 0, 0]"
     # forces of L = lam/2 (x4 - x1, x6 - x1): on 1 it is -(x4 + x6 - 2 x1)/2 = x1; lambda_kj = -sum of force_k x_j
@@ -186,8 +186,8 @@ def test_counterexample_of_the_multipliers_by_hand() -> None:
     assert -Fraction(1, 2) * (-2 * 1 * 1) == Fraction(shown["right"]) == 1
 
 
-def test_the_lines_that_mf59_leaves_out_by_hand() -> None:
-    """Every point with omega2 = -B2, omega1^2 = (1-I) B2^2 obeys mf58.1, whatever omega3 is."""
+def test_the_lines_that_equation_52_leaves_out_by_hand() -> None:
+    """Every point with omega2 = -B2, omega1^2 = (1-I) B2^2 obeys (50), whatever omega3 is."""
     B2, B3, ratio, w1, w2 = Fraction(2), Fraction(3), Fraction(3, 4), Fraction(1), Fraction(-2)
     assert w1**2 == (1 - ratio) * B2**2
     for w3 in (Fraction(0), Fraction(7), Fraction(-3, 5)):
@@ -211,7 +211,7 @@ def test_the_end_of_the_unstable_band_by_hand() -> None:
 
 
 def test_counterexample_of_the_combined_conditions_by_hand() -> None:
-    """A point off omega1 = 0 obeys both mf71 and mf71.1."""
+    """A point off omega1 = 0 obeys both (65) and (66)."""
     shown = RECORDED["text-combining"].counterexample
     w1, w2, w3, B2, ratio, B3 = (
         *(Fraction(shown[name]) for name in ("omega1", "omega2", "omega3", "B2", "I")),
@@ -223,37 +223,37 @@ def test_counterexample_of_the_combined_conditions_by_hand() -> None:
     assert w1 != 0
 
 
-def _wrong(label: str, **changes: str) -> run.Verdict:
+def _wrong(name: str, **changes: str) -> run.Verdict:
     """Try an entry with something else in its place."""
-    broken = replace(trial(label), **changes)
+    broken = replace(trial(name), **changes)
     outcome = broken.of_printed()
-    return replace(RECORDED[label], verdict=outcome.decision, counterexample=outcome.counterexample)
+    return replace(RECORDED[name], verdict=outcome.decision, counterexample=outcome.counterexample)
 
 
 @pytest.mark.parametrize(
-    ("label", "right", "wrong"),
+    ("name", "right", "wrong"),
     [
-        ("mf77", "omega2 + 2*B2", "omega2 + 3*B2"),
-        ("mf89", "hB2*sin(k*t)]", "hB3*sin(k*t)]"),
-        ("mf27", "mu/c*cross(g", "mu/(2*c)*cross(g"),
-        ("mf91", "2*b + kB", "b + kB"),
-        ("mf38", "-k2*sin(gamma*t)*cos(alpha*t)", "k2*sin(gamma*t)*cos(alpha*t)"),
+        ("(72)", "omega2 + 2*B2", "omega2 + 3*B2"),
+        ("(84)", "hB2*sin(k*t)]", "hB3*sin(k*t)]"),
+        ("(16)", "mu/c*cross(g", "mu/(2*c)*cross(g"),
+        ("(86)", "2*b + kB", "b + kB"),
+        ("(28)", "-k2*sin(gamma*t)*cos(alpha*t)", "k2*sin(gamma*t)*cos(alpha*t)"),
         ("theorem-stability", "2*tau^2 - 1", "tau^2 - 1"),
         ("text-ball-equivalent", "1/I0*T(R)", "1/I0*R"),
         ("text-inertia-axes", "turned*R2 = I2*R2", "turned*R2 = I3*R2"),
     ],
 )
-def test_a_broken_entry_turns_the_run_red(label: str, right: str, wrong: str) -> None:
+def test_a_broken_entry_turns_the_run_red(name: str, right: str, wrong: str) -> None:
     """A formula of the ledger that is changed is refuted, and that differs from what is recorded."""
-    assert right in trial(label).printed
-    found = _wrong(label, printed=trial(label).printed.replace(right, wrong, 1))
+    assert right in trial(name).printed
+    found = _wrong(name, printed=trial(name).printed.replace(right, wrong, 1))
     assert found.verdict == "refuted"
-    assert [changed[0] for changed in recorded.differs([found], RECORDED)] == [label]
+    assert [changed[0] for changed in recorded.differs([found], RECORDED)] == [name]
 
 
 def test_a_correction_that_is_wrong_too_turns_the_run_red() -> None:
     """A refuted entry whose corrected form isn't proved doesn't count as settled."""
-    broken = replace(trial("mf56"), corrected=trial("mf56").corrected.replace("6*(1 - I)", "5*(1 - I)"))
+    broken = replace(trial("(48)"), corrected=trial("(48)").corrected.replace("6*(1 - I)", "5*(1 - I)"))
     assert broken.of_corrected().decision == "refuted"
 
 
@@ -265,8 +265,8 @@ def test_out_of_time_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
             pass
 
     monkeypatch.setattr(run, "LIMIT", 0.05)
-    monkeypatch.setattr(run, "trial", lambda label: replace(trials(topic(label))[label], check=forever))
-    found = run.try_one("mf77")
+    monkeypatch.setattr(run, "trial", lambda name: replace(trials(topic(name))[name], check=forever))
+    found = run.try_one("(72)")
     assert found.verdict == "undecided"
     assert "out of time" in found.method
 
@@ -330,17 +330,17 @@ def test_a_definition_may_be_used_through_another_letter() -> None:
 
 
 @pytest.mark.parametrize(
-    ("label", "right", "wrong"),
+    ("name", "right", "wrong"),
     [
         ("theorem-band", "within <= 0", "within > 0"),
         ("theorem-band", "outside > 0", "outside < 0"),
         ("theorem-points", "3*a3*Omega3^2", "2*a3*Omega3^2"),
-        ("mf40", "[0, 0, -1]", "[0, 0, 1]"),
+        ("(30)", "[0, 0, -1]", "[0, 0, 1]"),
     ],
 )
-def test_the_other_half_of_a_theorem_is_tried_too(label: str, right: str, wrong: str) -> None:
-    """The sign on both sides of the band's ends, the converse about a constant Omega3, what mf38 reduces to."""
-    case = trial(label)
+def test_the_other_half_of_a_theorem_is_tried_too(name: str, right: str, wrong: str) -> None:
+    """The sign on both sides of the band's ends, the converse about a constant Omega3, what (28) reduces to."""
+    case = trial(name)
     assert [part.line.count(right) for part in case.also].count(1) == 1
     parts = tuple(replace(part, line=part.line.replace(right, wrong)) for part in case.also)
     assert replace(case, also=parts).of_printed().decision == "refuted"
@@ -348,7 +348,7 @@ def test_the_other_half_of_a_theorem_is_tried_too(label: str, right: str, wrong:
 
 def test_a_further_line_must_hold_too() -> None:
     """An entry is proved only if all its lines are."""
-    case = trial("mf58")
+    case = trial("(51)")
     assert case.also
     wrong = replace(case.also[0], line=case.also[0].line.replace("(1 - I)*B2^2", "(2 - I)*B2^2"))
     assert replace(case, also=(wrong,)).of_printed().decision == "refuted"
@@ -405,27 +405,27 @@ def test_verify_reports_progress_and_uses_its_cache(tmp_path: object) -> None:
     """Labels come back in the ledger's order; a second run reads what the first has written."""
     seen: list[tuple[str, int, int]] = []
     folder = tmp_path / "proofs"  # type: ignore[operator]
-    first = verify(["mf82", "mf47"], lambda *call: seen.append(call), cache_folder=folder)
-    assert [verdict.label for verdict in first] == ["mf47", "mf82"]
-    assert seen == [("mf47", 1, 2), ("mf82", 2, 2)]
-    assert verify(["mf82", "mf47"], lambda *call: seen.append(call), cache_folder=folder) == first
+    first = verify(["(77)", "(39)"], lambda *call: seen.append(call), cache_folder=folder)
+    assert [verdict.name for verdict in first] == ["(39)", "(77)"]
+    assert seen == [("(39)", 1, 2), ("(77)", 2, 2)]
+    assert verify(["(77)", "(39)"], lambda *call: seen.append(call), cache_folder=folder) == first
     assert len(seen) == 2
 
 
 def test_unknown_labels_are_refused() -> None:
-    """A label that isn't in the ledger is an error, not an empty run."""
-    with pytest.raises(AtlasError, match="mf770"):
-        verify(["mf770"])
+    """A name that isn't in the ledger is an error, not an empty run."""
+    with pytest.raises(AtlasError, match="720"):
+        verify(["720"])
 
 
 def test_every_corrected_formula_can_be_typeset() -> None:
     """The corrected forms turn into MathML without a warning."""
-    labels = [*REFUTED, *UNFINISHED]
-    source = "\n\n".join(f"$${RECORDED[label].corrected_tex}$$" for label in labels)
+    names = [*REFUTED, *UNFINISHED]
+    source = "\n\n".join(f"$${RECORDED[name].corrected_tex}$$" for name in names)
     command = [pypandoc.get_pandoc_path(), "-f", "markdown", "-t", "html", "--mathml"]
     done = subprocess.run(command, input=source, capture_output=True, encoding="utf-8", check=True)
     assert not done.stderr
-    assert done.stdout.count("<math") == len(labels)
+    assert done.stdout.count("<math") == len(names)
 
 
 def test_recorded_verdicts_load_without_sympy() -> None:

@@ -65,8 +65,8 @@ def test_what_does_not_balance_has_no_meaning(line: str) -> None:
         Reader(LETTERS).relations(line)
 
 
-@pytest.mark.parametrize("label", EQUATIONS)
-def test_every_printed_line_is_written_as_it_is_read(label: str) -> None:
+@pytest.mark.parametrize("name", EQUATIONS)
+def test_every_printed_line_is_written_as_it_is_read(name: str) -> None:
     """Writing a line that was read gives one that reads the same."""
-    line = write(parse(trial(label).printed))
+    line = write(parse(trial(name).printed))
     assert write(parse(line)) == line

@@ -11,18 +11,18 @@ from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
 from atlas.proof import recorded, run
 
-VERDICT = recorded.load()["mf77"]
+VERDICT = recorded.load()["(72)"]
 
 
 def test_what_is_saved_is_read_back(tmp_path: Path) -> None:
     """A record survives the way through the file, and others of the file stay."""
     path = tmp_path / "verdicts.json"
-    recorded.save([VERDICT, recorded.load()["mf56"]], path)
-    assert recorded.load(path) == {"mf56": recorded.load()["mf56"], "mf77": VERDICT}
+    recorded.save([VERDICT, recorded.load()["(48)"]], path)
+    assert recorded.load(path) == {"(48)": recorded.load()["(48)"], "(72)": VERDICT}
     changed = replace(VERDICT, verdict="undecided")
     recorded.save([changed], path)
-    assert recorded.load(path)["mf77"].verdict == "undecided"
-    assert set(recorded.load(path)) == {"mf56", "mf77"}
+    assert recorded.load(path)["(72)"].verdict == "undecided"
+    assert set(recorded.load(path)) == {"(48)", "(72)"}
 
 
 @pytest.mark.parametrize("words", ["--record", "--mutants --all --record"])
@@ -45,7 +45,7 @@ def test_seconds_change_only_with_the_proof(tmp_path: Path) -> None:
     recorded.save([replace(VERDICT, seconds=99.0)], path)
     assert path.read_bytes() == before
     recorded.save([replace(VERDICT, seconds=99.0, source="another")], path)
-    assert recorded.load(path)["mf77"].seconds == 99.0
+    assert recorded.load(path)["(72)"].seconds == 99.0
 
 
 def test_a_missing_record_is_empty_and_a_spoilt_one_is_an_error(tmp_path: Path) -> None:
@@ -58,35 +58,35 @@ def test_a_missing_record_is_empty_and_a_spoilt_one_is_an_error(tmp_path: Path) 
 
 
 def test_a_changed_verdict_differs() -> None:
-    """Both the verdict and that on the corrected form count; a new label is not recorded."""
+    """Both the verdict and that on the corrected form count; a new name is not recorded."""
     verdicts = recorded.load()
     assert recorded.differs(verdicts.values(), verdicts) == []
-    assert recorded.differs([replace(VERDICT, verdict="refuted")], verdicts) == [("mf77", "proved", "refuted")]
-    slip = replace(verdicts["mf56"], corrected_verdict="undecided")
-    assert recorded.differs([slip], verdicts)[0][0] == "mf56"
-    assert recorded.differs([VERDICT], {}) == [("mf77", "not recorded", "proved")]
+    assert recorded.differs([replace(VERDICT, verdict="refuted")], verdicts) == [("(72)", "proved", "refuted")]
+    slip = replace(verdicts["(48)"], corrected_verdict="undecided")
+    assert recorded.differs([slip], verdicts)[0][0] == "(48)"
+    assert recorded.differs([VERDICT], {}) == [("(72)", "not recorded", "proved")]
 
 
 def test_the_fingerprint_follows_what_a_proof_builds_on(monkeypatch: pytest.MonkeyPatch) -> None:
     """A change in the machinery touches every proof, a change in a topic those that build on it, a comment none."""
-    before = {label: recorded.source(label) for label in ("mf77", "mf89", "mf17", "mf58")}
+    before = {name: recorded.source(name) for name in ("(72)", "(84)", "(4)", "(51)")}
     normal = recorded._normal
 
     def changed_in(stem: str) -> dict[str, str]:
         recorded._fingerprint.cache_clear()
         monkeypatch.setattr(recorded, "_normal", lambda name: normal(name) + ("\nx = 1" if name == stem else ""))
-        found = {label: recorded.source(label) for label in before}
+        found = {name: recorded.source(name) for name in before}
         recorded._fingerprint.cache_clear()
         return found
 
     touched = {
-        stem: {label for label, source in changed_in(stem).items() if source != before[label]}
+        stem: {name for name, source in changed_in(stem).items() if source != before[name]}
         for stem in ("decide", "quadric")
     }
     monkeypatch.setattr(recorded, "_normal", normal)
-    assert touched == {"decide": set(before), "quadric": {"mf77", "mf89", "mf58"}}
-    assert recorded.source("mf77") == before["mf77"]
-    assert recorded.source("mf77", changes=True) != before["mf77"]
+    assert touched == {"decide": set(before), "quadric": {"(72)", "(84)", "(51)"}}
+    assert recorded.source("(72)") == before["(72)"]
+    assert recorded.source("(72)", changes=True) != before["(72)"]
 
 
 def test_comments_and_blank_lines_do_not_count() -> None:

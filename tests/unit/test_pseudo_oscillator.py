@@ -24,7 +24,7 @@ def size(*values: float) -> float:
 
 @given(ratios, three, three)
 def test_omega3_obeys_the_cubic_oscillator(I: float, omega: tuple[float, ...], K: tuple[float, ...]) -> None:
-    """From any state, the second time derivative of Omega3 by mf46, mf47 is the cubic mf55 at Omega3."""
+    """From any state, the second time derivative of Omega3 by (38), (39) is the cubic (47) at Omega3."""
     inertia, O, k = np.diag([1, 1, I]), np.array(omega), np.array(K)
     dO, dK = equations.angular_acceleration(inertia, k, O), equations.field_rate(k, O)
     second = dO[0] * k[1] + O[0] * dK[1] - dO[1] * k[0] - O[1] * dK[0]
@@ -37,19 +37,19 @@ def test_omega3_obeys_the_cubic_oscillator(I: float, omega: tuple[float, ...], K
 
 @given(ratios, three, three)
 def test_the_transverse_form_of_the_acceleration(I: float, omega: tuple[float, ...], K: tuple[float, ...]) -> None:
-    """The same acceleration is mf54, where the printed k_2 is K_2."""
+    """The same acceleration is (46), where the printed k_2 is K_2."""
     (O1, O2, O3), (K1, K2, K3) = omega, K
     c3 = O3 + K3
-    mf54 = (-2 * O3 + (2 - I) * c3) * (O1 * K1 + O2 * K2) - I * O3 * (K1**2 + K2**2) + (c3 - O3) * (O1**2 + O2**2)
+    exact = (-2 * O3 + (2 - I) * c3) * (O1 * K1 + O2 * K2) - I * O3 * (K1**2 + K2**2) + (c3 - O3) * (O1**2 + O2**2)
     a0, a1, a2, a3 = cubic(I, integrals(I, omega, K))
-    assert abs(mf54 - (a0 + O3 * (a1 + O3 * (a2 + O3 * a3)))) <= 32 * EPS * size(*omega, *K)
+    assert abs(exact - (a0 + O3 * (a1 + O3 * (a2 + O3 * a3)))) <= 32 * EPS * size(*omega, *K)
 
 
 @given(ratios, fields, three, st.floats(-3, 3))
 def test_the_two_forms_of_the_cubic_agree(
     I: float, field: tuple[float, float], omega: tuple[float, ...], u: float
 ) -> None:
-    """The form mf57, in the initial data, is the cubic with the coefficients mf56, for every u."""
+    """The form (49), in the initial data, is the cubic with the coefficients (48), for every u."""
     oscillator = PseudoOscillator(I, field, omega)
     value = np.polyval(oscillator.coefficients[::-1], u)
     assert abs(oscillator.acceleration(u) - value) <= 64 * EPS * size(*omega, *field, u)
@@ -71,7 +71,7 @@ def test_the_quartic_is_the_first_integral_of_the_cubic(
 
 
 def exact_cubic(I: float, field: tuple[float, float], omega: tuple[float, ...]) -> list[Fraction]:
-    """Find p = Q'/2 in fractions from Q = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2, without mf56."""
+    """Find p = Q'/2 in fractions from Q = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2, without (48)."""
     I_, B2, B3, w1, w2, w3 = (Fraction(x) for x in (I, *field, *omega))
     E, K2, c3 = w1**2 + w2**2 + I_ * w3**2, B2**2 + B3**2, w3 + B3
     c5 = w2 * B2 - w3**2 + (2 - I_) * c3 * w3
@@ -89,7 +89,7 @@ def exact_cubic(I: float, field: tuple[float, float], omega: tuple[float, ...]) 
 def test_the_coefficients_are_exact_but_for_rounding(
     I: float, field: tuple[float, float], omega: tuple[float, ...]
 ) -> None:
-    """Each of mf56 agrees with exact arithmetic on another route; a2 and a3 keep their own digits even beside I = 1."""
+    """Each of (48) agrees with exact arithmetic on another route; a2 and a3 keep their own digits even beside I = 1."""
     got, true = PseudoOscillator(I, field, omega).coefficients, exact_cubic(I, field, omega)
     scale = size(*omega, *field) ** 0.75
     for a, b, unit in zip(got, true, (scale, scale, abs(float(true[2])), abs(float(true[3]))), strict=True):
@@ -97,7 +97,7 @@ def test_the_coefficients_are_exact_but_for_rounding(
 
 
 def test_the_printed_a1_is_refuted() -> None:
-    """With the printed [I - (2-1)^2] in mf56, a1 would be another number."""
+    """With the printed [I - (2-1)^2] in (48), a1 would be another number."""
     I, field, omega = 1.5, (1.0, 2.0), (0.3, 0.7, 0.2)
     c = PseudoOscillator(I, field, omega).integrals
     printed = -2 * c.c5 + (I - (2 - 1) ** 2) * c.c3**2 - c.E - I * c.K2
@@ -108,15 +108,15 @@ def test_the_printed_a1_is_refuted() -> None:
 
 @given(ratios, fields, three)
 def test_the_start_is_met_without_cancellation(I: float, field: tuple[float, float], omega: tuple[float, ...]) -> None:
-    """At u = omega3, Q is (omega1 B2)^2 and p the left-hand side of mf58.1, to their last digits."""
+    """At u = omega3, Q is (omega1 B2)^2 and p the left-hand side of (50), to their last digits."""
     oscillator, (B2, B3), (w1, w2, w3) = PseudoOscillator(I, field, omega), field, omega
     assert oscillator.quartic(w3) == (w1 * B2) ** 2
-    mf58 = B3 * (w1**2 + w2**2) - I * B2 * w2 * w3 + (2 - I) * B2 * B3 * w2 - I * B2**2 * w3
-    assert abs(oscillator.acceleration(w3) - mf58) <= 16 * EPS * size(*omega, *field)
+    left = B3 * (w1**2 + w2**2) - I * B2 * w2 * w3 + (2 - I) * B2 * B3 * w2 - I * B2**2 * w3
+    assert abs(oscillator.acceleration(w3) - left) <= 16 * EPS * size(*omega, *field)
 
 
 def test_a_constant_solution_of_the_elementary_family() -> None:
-    """With omega3 from mf76 the acceleration vanishes; with I = 0.5, tau = 0.1, x = 0.5 the motion is unstable."""
+    """With omega3 from (71) the acceleration vanishes; with I = 0.5, tau = 0.1, x = 0.5 the motion is unstable."""
     I, B2, B3, w2 = 0.5, 1.0, 0.1, -0.5
     w3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
     oscillator = PseudoOscillator(I, (B2, B3), (0, w2, w3))

@@ -18,7 +18,7 @@ three = st.tuples(numbers, numbers, numbers)
 
 @given(ratios, transverse, three)
 def test_the_field_follows_from_the_angular_velocity(I: float, omega: tuple[float, ...], K: tuple[float, ...]) -> None:
-    """The algebraic mf50 gives back K of any state, from Omega, dOmega3/dt and the integrals."""
+    """The algebraic (42) gives back K of any state, from Omega, dOmega3/dt and the integrals."""
     conserved = integrals(I, omega, K)
     rate = omega[0] * K[1] - omega[1] * K[0]
     got = quadratures.field_in_body(I, conserved, omega, rate)
@@ -28,7 +28,7 @@ def test_the_field_follows_from_the_angular_velocity(I: float, omega: tuple[floa
 
 @given(ratios, transverse, three)
 def test_omega_turns_with_the_frequency_of_the_paper(I: float, omega: tuple[float, ...], K: tuple[float, ...]) -> None:
-    """The rates of Omega1 and Omega2 are phi Omega2 + f' Omega1 and -phi Omega1 + f' Omega2, mf51, with phi of mf52."""
+    """The rates of Omega1 and Omega2 are phi Omega2 + f' Omega1 and -phi Omega1 + f' Omega2, (43), with phi of (44)."""
     (u1, u2, u3), k = omega, np.array(K)
     d1, d2, d3 = equations.angular_acceleration(np.diag([1, 1, I]), k, omega)
     conserved = integrals(I, omega, k)
@@ -43,7 +43,7 @@ def test_omega_turns_with_the_frequency_of_the_paper(I: float, omega: tuple[floa
 
 @pytest.mark.parametrize("I", [0.6, 1.0, 1.5])
 def test_one_quadrature_gives_the_angular_velocity(I: float) -> None:
-    """Along the Taylor series' motion, mf53 with the integral of phi (Gauss, 20 points) is Omega at the end, f0 = 1."""
+    """Along the Taylor series' motion, (45) with the integral of phi (Gauss, 20 points) is Omega at the end, f0 = 1."""
     omega, field, T = (0.4, 1.1, 0.3), (0.0, 0.7, 0.4), 2.0
     nodes, weights = np.polynomial.legendre.leggauss(20)
     times = [*(T * (nodes + 1) / 2), T]

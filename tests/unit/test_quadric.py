@@ -75,7 +75,7 @@ def test_extreme_fields_neither_overflow_nor_vanish(scale: float) -> None:
 @pytest.mark.parametrize("ratio", [0.5, 1.5, 2.0])
 @pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, 2.0), (1.0, -2.0), (-1.0, -2.0)])
 def test_the_canonical_form_is_that_of_the_surface(ratio: float, field: tuple[float, float]) -> None:
-    """In the coordinates mf61a a point of the surface obeys mf60, for fields of any sign."""
+    """In the coordinates (53) a point of the surface obeys (54), for fields of any sign."""
     quadric = Quadric(ratio, field)
     B2, B3 = field
     w1, w2 = 0.4, 1.7 * B2

@@ -70,7 +70,7 @@ def test_page_and_print_cite_alike(tmp_path: Path) -> None:
         ('kind = "bibliography"', 'kind = "prose"\ntext = "None."', "'bibliography'"),
         ('bibliography = "works.bib"', 'bibliography = "work.bib"', "no file"),
         ('bibliography = "works.bib"\n', "", "BibTeX"),
-        ("[@euler1765;", "[@mf27;", "brackets of their own"),
+        ("[@euler1765;", "[@(16);", "brackets of their own"),
         ("[@euler1765;", "[see @euler1765;", "lost in print"),
     ],
 )

@@ -1,5 +1,6 @@
 """The PDF as a book: parts and appendices, lists and index, equations by number, no sentence said twice on a page."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -28,7 +29,7 @@ prime = [1.0, 2.0]
 
 [index]
 words = ["nutation", "proper rotation"]
-symbols = [{ tex = "\\omega_3", at = ["mf76"] }]
+symbols = [{ tex = "\\omega_3", at = ["(71)"] }]
 
 [[pages]]
 slug = "index"
@@ -38,14 +39,14 @@ part = "The motion"
 [[pages.blocks]]
 kind = "prose"
 text = '''
-Proper rotation, @mf77, has no nutation; the hyperbola is @mf76.
+Proper rotation, @(72), has no nutation; the hyperbola is @(71).
 
 ## A section
 '''
 
 [[pages.blocks]]
 kind = "equation"
-label = "mf76"
+name = "(71)"
 
 [[pages.blocks]]
 kind = "table"
@@ -97,10 +98,11 @@ def test_a_sentence_has_the_number_of_a_cell(book: list[str]) -> None:
 
 
 def test_equations_are_cited_by_the_printed_number(book: list[str]) -> None:
-    """The text has the number; the label stands beside the display, for those who hold the source."""
+    """The text has the number, and so has the display; no label of the source is printed."""
     body = " ".join(book[2:])
     assert "Proper rotation, (72), has no nutation; the hyperbola is (71)." in body
-    assert body.count("mf76") == 1
+    assert body.count("(71)") == 2
+    assert not re.search(r"\bmf\d", body)
 
 
 def test_the_index_finds_words_and_symbols(book: list[str]) -> None:
@@ -112,15 +114,15 @@ def test_the_index_finds_words_and_symbols(book: list[str]) -> None:
 
 def test_a_symbol_of_the_index_leads_somewhere(tmp_path: Path) -> None:
     """A name that there is not is told with the nearest one."""
-    (tmp_path / "book.toml").write_text(BOOK.replace('at = ["mf76"]', 'at = ["mf7b"]'), encoding="utf-8")
-    with pytest.raises(AtlasError, match=r"the index: .*'@mf7b'"):
+    (tmp_path / "book.toml").write_text(BOOK.replace('at = ["(71)"]', 'at = ["(905)"]'), encoding="utf-8")
+    with pytest.raises(AtlasError, match=r"the index: .*'@\(905\)'"):
         compose(load(tmp_path / "book.toml"), {}, Appendices())
 
 
 @pytest.mark.parametrize(
     ("caption", "short"),
     [
-        ("The quadric of the ball, @mf58, in canonical form.", "The quadric of the ball"),
+        ("The quadric of the ball, @(51), in canonical form.", "The quadric of the ball"),
         ("The trial in numbers.", "The trial in numbers"),
         ("The letters: one letter, one thing.", "The letters"),
         ("Drift $c[E, B]$ of a particle. More.", "Drift $c[E, B]$ of a particle"),

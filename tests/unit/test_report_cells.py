@@ -105,7 +105,7 @@ def test_the_cells_of_a_motion() -> None:
 
 
 def test_the_cells_of_a_motion_at_some_times() -> None:
-    """Time, Omega(t) of mf78 and the third column of mf89."""
+    """Time, Omega(t) of (73) and the third column of (84)."""
     with mp.workdps(40):
         rows = []
         for t in TIMES:
@@ -144,7 +144,7 @@ def test_the_cells_of_a_flight() -> None:
 
 
 def test_the_cells_of_the_ball() -> None:
-    """m2, m3, alpha as given; gamma and the axis of mf39."""
+    """m2, m3, alpha as given; gamma and the axis of (29)."""
     with mp.workdps(40):
         one = closed_form.ball(1, 0.45, 0.3, -0.7)
         values = (0.3, -0.7, 0.45, one.gamma, one.k2, one.k3)
@@ -172,7 +172,7 @@ def test_the_cells_of_companions() -> None:
 
 
 def test_the_cells_of_body_and_field() -> None:
-    """What was given; the moments of a shell, their ratio, mu, and B' of mf41, where e2 makes B'_2 positive."""
+    """What was given; the moments of a shell, their ratio, mu, and B' of (32), where e2 makes B'_2 positive."""
     shell = Body(title="shell", shape="cylindrical_shell", mass=0.75, radius=0.25, height=0.375, charge=-0.3)
     magnet = Field(title="magnet", B=(0.0, 3.0, 4.5), E=(0.5, 0.0, -2.5))
     with mp.workdps(40):

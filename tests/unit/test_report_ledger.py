@@ -16,6 +16,7 @@ from atlas.build.appendices import gather
 from atlas.build.report import Built, build_report
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
+from atlas.paper.equation import slug
 from atlas.proof import recorded
 from atlas.proof.verdict import GRADES
 from atlas.report import trial
@@ -43,19 +44,19 @@ title = "The first page"
 
 [[pages.blocks]]
 kind = "prose"
-text = "The frequency @mf77 and again @mf77, the theorem @theorem-points, a claim in words, @text-ball-limit."
+text = "The frequency @(72) and again @(72), the theorem @theorem-points, a claim in words, @text-ball-limit."
 
 [[pages.blocks]]
 kind = "equation"
-label = "mf76"
+name = "(71)"
 
 [[pages.blocks]]
 kind = "equation"
-label = "theorem-ball-line"
+name = "theorem-ball-line"
 
 [[pages.blocks]]
 kind = "note"
-text = "See @theorem-ball-line and `@mf1`."
+text = "See @theorem-ball-line and `@(89)`."
 
 [[pages.blocks]]
 kind = "table"
@@ -63,7 +64,7 @@ table = "points"
 id = "points"
 body = "ball"
 field = "oblique"
-caption = "Points of @mf72."
+caption = "Points of @(67)."
 parameters = { omega2 = [0.7] }
 
 [[pages]]
@@ -116,10 +117,11 @@ def pages(built: Built) -> dict[str, reader.HtmlElement]:
 
 
 def entries(pages: dict[str, reader.HtmlElement]) -> Iterator[tuple[str, str, reader.HtmlElement]]:
-    """Go through the entries of the ledger: label, page, element."""
+    """Go through the entries of the ledger: name, page, element."""
     for name, page in pages.items():
         for element in page.xpath("//section[starts-with(@id, 'ledger-')]"):
-            yield element.get("id").removeprefix("ledger-"), name, element
+            anchor = element.get("id").removeprefix("ledger-")
+            yield f"({anchor})" if anchor.isdecimal() else anchor, name, element
 
 
 def links(element: reader.HtmlElement, page: str) -> list[tuple[str, str]]:
@@ -131,15 +133,13 @@ def links(element: reader.HtmlElement, page: str) -> list[tuple[str, str]]:
 def test_every_entry_stands_once_with_its_verdict(pages: dict[str, reader.HtmlElement]) -> None:
     """All entries of the ledger are there, each with the verdict on record and the number in print."""
     verdicts = recorded.load()
-    found = {label: element for label, _, element in entries(pages)}
-    assert Counter(label for label, _, _ in entries(pages)) == Counter(list(EQUATIONS))
-    for label, element in found.items():
+    found = {name: element for name, _, element in entries(pages)}
+    assert Counter(name for name, _, _ in entries(pages)) == Counter(list(EQUATIONS))
+    for name, element in found.items():
         (shown,) = element.xpath(".//h2/span[contains(@class, 'verdict')]")
-        assert shown.text == verdicts[label].verdict
+        assert shown.text == verdicts[name].verdict
         heading = element.xpath("string(.//h2)")
-        assert label in heading
-        if EQUATIONS[label].number is not None:
-            assert f"({EQUATIONS[label].number})" in heading
+        assert name in heading
         assert element.xpath(".//*[local-name()='math']")
 
 
@@ -149,8 +149,8 @@ def test_every_entry_says_what_the_paper_and_the_record_say(pages: dict[str, rea
     So does the verdict of a corrected form, where there is one.
     """
     verdicts = recorded.load()
-    for label, _, element in entries(pages):
-        entry, found = EQUATIONS[label], verdicts[label]
+    for name, _, element in entries(pages):
+        entry, found = EQUATIONS[name], verdicts[name]
         how = found.method + (f", from {found.follows}" if found.follows else "")
         slip = f"Slip: {found.grade}. " if found.grade else ""
         places = {
@@ -162,57 +162,58 @@ def test_every_entry_says_what_the_paper_and_the_record_say(pages: dict[str, rea
         }
         for place, text in places.items():
             first = re.split(r"[$*`@\[_^<'\"]", text)[0].strip()
-            assert element.xpath(place).startswith(first), (label, place)
+            assert element.xpath(place).startswith(first), (name, place)
         corrected = element.xpath("./dl/dt[.='Corrected']/following-sibling::dd[1]")
-        assert len(corrected) == bool(found.corrected_tex), label
-        assert all(one.text.startswith(found.corrected_verdict) for one in corrected), label
+        assert len(corrected) == bool(found.corrected_tex), name
+        assert all(one.text.startswith(found.corrected_verdict) for one in corrected), name
 
 
 def test_every_use_and_its_entry_link_to_each_other(pages: dict[str, reader.HtmlElement]) -> None:
     """From the entry to the place that uses it, and from there back to the entry; no use is forgotten."""
     uses = set()
-    for label, page, element in entries(pages):
+    for name, page, element in entries(pages):
         for file, anchor in links(element.xpath(".//dl")[0], page):
             if file != "index.html":
                 continue
             (place,) = pages[file].xpath(f"//*[@id='{anchor}']")
-            assert (page, f"ledger-{label}") in links(place, file)
-            uses.add(label)
-    assert uses == {"mf77", "theorem-points", "text-ball-limit", "mf76", "theorem-ball-line", "mf72"}
+            assert (page, f"ledger-{slug(name)}") in links(place, file)
+            uses.add(name)
+    assert uses == {"(72)", "theorem-points", "text-ball-limit", "(71)", "theorem-ball-line", "(67)"}
     cited = {anchor for _, anchor in links(pages["index.html"], "index.html") if anchor.startswith("ledger-")}
-    assert cited == {f"ledger-{label}" for label in uses}
+    assert cited == {f"ledger-{slug(name)}" for name in uses}
 
 
 def test_modules_that_cite_an_entry_are_named(pages: dict[str, reader.HtmlElement]) -> None:
     """The frequency of proper rotation is computed where the docstrings say so."""
-    (found,) = [element for label, _, element in entries(pages) if label == "mf77"]
+    (found,) = [element for name, _, element in entries(pages) if name == "(72)"]
     assert "core/hyperbola.py" in found.xpath(".//code/text()")
 
 
 def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dict[str, reader.HtmlElement]) -> None:
     """As many errata as entries with a slip, the grave ones first; each with both forms and what breaks the printed."""
-    refuted = {label: verdict for label, verdict in recorded.load().items() if verdict.grade}
-    found = {e.get("id").removeprefix("erratum-"): e for e in pages["slips.html"].xpath("//section[@id]")}
+    refuted = {name: verdict for name, verdict in recorded.load().items() if verdict.grade}
+    anchors = {f"erratum-{slug(name)}": name for name in refuted}
+    found = {anchors[e.get("id")]: e for e in pages["slips.html"].xpath("//section[@id]")}
     assert sorted(found) == sorted(refuted)
-    grades = [GRADES.index(refuted[label].grade) for label in found]
+    grades = [GRADES.index(refuted[name].grade) for name in found]
     assert grades == sorted(grades)
     headings = pages["slips.html"].xpath("//h2[@class='grade']/text()")
     assert headings == [grade.capitalize() for grade in GRADES]
-    for label, element in found.items():
-        assert element.xpath("./div[contains(@class, 'sides')]/div[2]//*[@class='changed']"), label
+    for name, element in found.items():
+        assert element.xpath("./div[contains(@class, 'sides')]/div[2]//*[@class='changed']"), name
         quote = element.xpath("string(.//p[@class='quote'])")
-        assert EQUATIONS[label].quote.partition("$")[0][:20] in quote
+        assert EQUATIONS[name].quote.partition("$")[0][:20] in quote
         sides = element.xpath("./div[contains(@class, 'sides')]/div")
         assert [len(side.xpath(".//*[local-name()='math']")) > 0 for side in sides] == [True, True]
-        assert refuted[label].corrected_verdict in sides[1].xpath("string(./p)")
-        if refuted[label].verdict != "refuted":
+        assert refuted[name].corrected_verdict in sides[1].xpath("string(./p)")
+        if refuted[name].verdict != "refuted":
             continue
         example = element.xpath("string(./div[@class='counterexample'])")
-        counter = refuted[label].counterexample
+        counter = refuted[name].counterexample
         assert counter.get("relation", counter.get("reason")) in example
         back = {anchor for _, anchor in links(element.xpath("./h3")[0], "slips.html")}
-        shared = {f"erratum-{refuted[label].slip}"} if refuted[label].slip else set()
-        assert back == {f"ledger-{label}"} | shared
+        shared = {f"erratum-{slug(refuted[name].slip)}"} if refuted[name].slip else set()
+        assert back == {f"ledger-{slug(name)}"} | shared
 
 
 def test_links_lead_somewhere_and_no_markup_is_left(pages: dict[str, reader.HtmlElement]) -> None:
@@ -227,10 +228,10 @@ def test_links_lead_somewhere_and_no_markup_is_left(pages: dict[str, reader.Html
 
 
 def test_the_pdf_holds_every_entry(built: Built) -> None:
-    """Every label is printed, and every link of the PDF leads to a place in it."""
+    """Every name is printed, and every link of the PDF leads to a place in it."""
     pdf = PdfReader(built.pdf)
     text = re.sub(r"\s+", "", "".join(page.extract_text() for page in pdf.pages)).replace("\xad", "")
-    assert [label for label in EQUATIONS if label not in text] == []
+    assert [name for name in EQUATIONS if name not in text] == []
     assert text.count("Counterexample") >= 2 * sum(v.verdict == "refuted" for v in recorded.load().values())
 
 
@@ -262,10 +263,10 @@ def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatc
 
 def test_an_entry_without_a_verdict_is_undecided(toml: Path) -> None:
     """What the record does not hold is not passed off as proved."""
-    document = compose(load(toml), {}, _with(Finding("supported", "1000 samples", "mf76")))
+    document = compose(load(toml), {}, _with(Finding("supported", "1000 samples", "(71)")))
     shown = [entry for page in document.pages for block in page.blocks for entry in getattr(block, "entries", ())]
-    assert {entry.label: entry.verdict for entry in shown} == dict.fromkeys(EQUATIONS, "undecided") | {
-        "mf77": "supported"
+    assert {entry.name: entry.verdict for entry in shown} == dict.fromkeys(EQUATIONS, "undecided") | {
+        "(72)": "supported"
     }
 
 
@@ -276,9 +277,9 @@ def test_a_report_without_a_ledger_reads_no_record(tmp_path: Path) -> None:
     report = load(file)
     assert gather(report) == Appendices()
     document = compose(report, {})
-    says = "mf76: The hyperbola resolved for ω_3"
-    assert document.cite("html")("mf76", "")[:4] == ("(71)", "index.html", "eq-mf76", says)
-    assert document.cite("html")("mf77", "")[:4] == ("(72)", "", "", "")
+    says = "(71): The hyperbola resolved for ω_3"
+    assert document.cite("html")("(71)", "")[:4] == ("(71)", "index.html", "eq-71", says)
+    assert document.cite("html")("(72)", "")[:4] == ("(72)", "", "", "")
 
 
 @pytest.mark.parametrize(
@@ -307,4 +308,4 @@ def test_pages_of_recorded_results_load_no_algebra(toml: Path, tmp_path: Path) -
 def _with(finding: Finding) -> Appendices:
     """Return appendices with one finding and empty tables."""
     names = ("trial: totals", "trial: survivors", "bench: Limits of speed", "stress: worst errors")
-    return Appendices({"mf77": finding}, {name: Data((), (), name) for name in names})
+    return Appendices({"(72)": finding}, {name: Data((), (), name) for name in names})

@@ -47,7 +47,7 @@ TOKENS = (
     *(
         "#panic()",
         "<b>",
-        "@mf72",
+        "@(67)",
         " $x$ ",
         r" $\text{#panic() b}$ ",
         "[a](b.html)",
@@ -318,8 +318,8 @@ def test_a_body_of_another_type_is_told_by_its_key(line: str, words: str, tmp_pa
 
 def test_citations_are_found_as_pandoc_finds_them() -> None:
     """What counts as a use and what becomes a link are the same names."""
-    text = "See @mf58.1, (@theorem-points); `@mf1`, $x@y$ and a@b.c, @fig:curve and [@tab:points; see @mf2, p. 3]."
+    text = "See @(50), (@theorem-points); `@(89)`, $x@y$ and a@b.c, @fig:curve and [@tab:points; see @(90), p. 3]."
     texts, found = Texts(), []
     texts.add(text, "here", inline=True)
     texts.set("html", lambda name, _: found.append(name) or Link(name))
-    assert found == citations(text) == ["mf58.1", "theorem-points", "fig:curve", "tab:points", "mf2"]
+    assert found == citations(text) == ["(50)", "theorem-points", "fig:curve", "tab:points", "(90)"]

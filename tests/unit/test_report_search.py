@@ -33,10 +33,10 @@ slug = "index"
 title = "First"
 [[pages.blocks]]
 kind = "prose"
-text = "See @mf76.\\n\\n## A heading of $\\\\omega_2$\\n\\nwords\\n\\n## A heading of $k$\\n\\nmore <words>"
+text = "See @(71).\\n\\n## A heading of $\\\\omega_2$\\n\\nwords\\n\\n## A heading of $k$\\n\\nmore <words>"
 [[pages.blocks]]
 kind = "equation"
-label = "mf76"
+name = "(71)"
 [[pages]]
 slug = "second"
 title = "Second"
@@ -75,19 +75,19 @@ def test_what_is_found_is_there(made: dict[str, str]) -> None:
         ("index.html", "page-index"),
         ("index.html", "a-heading-of"),
         ("index.html", "a-heading-of-2"),
-        ("index.html", "eq-mf76"),
+        ("index.html", "eq-71"),
         ("second.html", "page-second"),
         ("second.html", "fig-curve"),
         ("second.html", "tab-1"),
     }
     words = {anchor: text for _, anchor, _, text in content["sections"]}
     assert "more <words>" in words["a-heading-of-2"]
-    assert content["equations"]["mf76"].startswith('<p><math display="block"')
+    assert content["equations"]["71"].startswith('<p><math display="block"')
 
 
 def test_an_equation_is_named_where_it_is_cited(made: dict[str, str]) -> None:
     """Without a script the link of a citation says in words what the equation says."""
-    (link,) = reader.fromstring(made["index.html"]).xpath("//main//a[@href='index.html#eq-mf76']")
+    (link,) = reader.fromstring(made["index.html"]).xpath("//main//a[@href='index.html#eq-71']")
     assert "hyperbola" in link.get("title").lower()
 
 

@@ -39,7 +39,7 @@ def values(data: Data) -> dict[str, Number]:
 
 
 def test_the_digits_of_the_quadric_are_true() -> None:
-    """Angle and semi-axes at I = 3/2, B' = (0, 1, 2), by mf60 and mf61b in 40 digits."""
+    """Angle and semi-axes at I = 3/2, B' = (0, 1, 2), by (54) and (55) in 40 digits."""
     with mpmath.workdps(40):
         beta = mpmath.atan2(2, mpmath.mpf(3) / 2)
         sine = mpmath.sin(beta)
@@ -57,7 +57,7 @@ def test_the_digits_of_the_quadric_are_true() -> None:
 
 
 def test_a_long_time_costs_no_digit() -> None:
-    """R_33 at t = 10^6 is that of mf89 in 40 digits."""
+    """R_33 at t = 10^6 is that of (84) in 40 digits."""
     row = table("samples", omega2=0.5, times=[1e6]).rows[0]
     with mpmath.workdps(40):
         true = mpmath.mpf(4) / 5 + mpmath.cos(mpmath.mpf(10) ** 6 * mpmath.sqrt(5) / 2) / 5
@@ -226,7 +226,7 @@ def test_a_path_beside_its_axis_of_a_micrometre_is_tabled() -> None:
 
 
 def test_scaled_columns_lose_no_digit() -> None:
-    """60 digits of a length of nanometres are those of mf10 in 80 digits: the power of ten is not taken in doubles."""
+    """60 digits of a length of nanometres are those of (98) in 80 digits: the power of ten is not taken in doubles."""
     magnet = Field(title="magnet", B=(0.0, 0.0, 1.0), charge_to_mass=2.0)
     data = table("particle", 60, field=magnet, times=[1.0], velocity=[3e-9, 0.0, 0.0])
     (number,) = (cell for cell in data.rows[0][1:2] if isinstance(cell, Number))

@@ -86,7 +86,7 @@ def test_dropping_a_word_of_the_frequencies_spoils_the_matrix(word: int) -> None
 
 @pytest.mark.parametrize("t", [0.0, -0.0, 0])
 def test_rotation_is_the_identity_at_zero(t: float) -> None:
-    """R(0) = 1 exactly, in mf30 and mf21, whatever the axis, and -0.0 is 0."""
+    """R(0) = 1 exactly, in (20) and (12), whatever the axis, and -0.0 is 0."""
     for I, B2, B3, omega2 in REGIMES.values():
         assert np.array_equal(ElementaryMotion(I, (B2, B3), omega2).rotation(t), np.eye(3))
     assert np.array_equal(FreeMotion(0.4, (0.3, -0.7, 0.2)).rotation(t), np.eye(3))

@@ -55,7 +55,7 @@ def test_a_tighter_tolerance_gives_more_digits() -> None:
 
 @pytest.mark.parametrize(("I", "omega2"), [(1.5, 0.7), (0.5, -0.4), (2.0, 1.1)])
 def test_it_follows_the_elementary_motion(I: float, omega2: float) -> None:
-    """Started on the hyperbola mf76, the simulated body moves as mf78 and mf89 say."""
+    """Started on the hyperbola (71), the simulated body moves as (73) and (84) say."""
     B2, B3, times = 1.0, 2.0, np.linspace(0, 5, 6)
     start = [float(w) for w in closed_form.elementary_angular_velocity(1, I, B2, B3, omega2, 0)]
     got = atlas.simulate(I, (B2, B3), start, times, rtol=1e-11, atol=1e-13)

@@ -1,4 +1,4 @@
-"""The functions of time in which R(t) = R_n(k t) R_z(phi t), mf90, is linear, and the matrices that go with them.
+"""The functions of time in which R(t) = R_n(k t) R_z(phi t), (85), is linear, and the matrices that go with them.
 
 By Rodrigues R_n(x) = n n^T + cos x (1 - n n^T) + sin x [n, .], and R_z(x) = cos x E + sin x J + e3 e3^T. So
 

@@ -1,4 +1,4 @@
-"""Two turns in a row, R = R_n(k t) R_z(phi t), mf90: the matrix of every motion in elementary functions."""
+"""Two turns in a row, R = R_n(k t) R_z(phi t), (85): the matrix of every motion in elementary functions."""
 
 import reprlib
 from collections.abc import Mapping
@@ -27,10 +27,10 @@ PARTS = slice(None), slice(1), slice(1, None)
 
 
 class DoubleRotation:
-    """Rotation matrix R(t) = R_n(k t) R_z(phi t), mf90, of a body that precesses about n and turns about its axis.
+    """Rotation matrix R(t) = R_n(k t) R_z(phi t), (85), of a body that precesses about n and turns about its axis.
 
     `axis` n is a unit vector, `precession` k and `proper` phi are frequencies, all exact. If `inverse`, the matrix is
-    the transposed one, as for the ball, mf38. Each entry is a constant linear combination of functions of time, see
+    the transposed one, as for the ball, (28). Each entry is a constant linear combination of functions of time, see
     `basis`: one small matrix product makes all of them.
     """
 
@@ -63,7 +63,7 @@ class DoubleRotation:
         return large * scale, small * scale
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return R(t), mf89, shape (..., 3, 3)."""
+        """Return R(t), (84), shape (..., 3, 3)."""
         return evaluate(self.phases, self.entries, t, (3, 3), out)
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Rotation matrices of many motions R = R_n(k t) R_z(phi t), mf90, each at a few times: no motion is made alone.
+"""Rotation matrices of many motions R = R_n(k t) R_z(phi t), (85), each at a few times: no motion is made alone.
 
 What `rotation` makes once for one motion, and then evaluates as a matrix product, is here an array over motions: the
 axis, products of its components, both frequencies in two words. The entries are those of Rodrigues' formula,
@@ -33,7 +33,7 @@ class Turnings:
     """Motions in a row, `count` of them in `groups`; the inputs `unit` of each formula are frequencies.
 
     `vectors` returns constant vectors of each motion by name, three components (m,). `inverse` transposes the matrices,
-    mf38.
+    (28).
     """
 
     def __init__(
@@ -87,7 +87,7 @@ class Turnings:
         return np.flatnonzero(~((size == 0) | ((size > 1 / REACH) & (size < REACH))).all(axis=0))
 
     def rotation(self, t: FloatArray, out: FloatArray) -> None:
-        """Write R(t), mf89, at one time each, (m,), into (m, 3, 3)."""
+        """Write R(t), (84), at one time each, (m,), into (m, 3, 3)."""
         for j, column in enumerate(self._columns(t)):
             for i, entry in enumerate(column):
                 out[:, i, j] = entry

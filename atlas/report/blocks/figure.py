@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
 
-from atlas.paper import LABEL
+from atlas.paper import EQUATIONS
+from atlas.paper.citation import marked
 from atlas.report.pictures import Picture
 from atlas.report.schema import Id, StrictStruct
 
@@ -60,7 +61,7 @@ def view(block: Figure, composer: "Composer") -> FigureView:
     composer.figures += 1
     pictures = composer.pictures(block)
     first = pictures[0]
-    caption = LABEL.sub(r"@\g<0>", block.caption or first.caption or f"The recipe {first.called} failed.")
+    caption = block.caption or marked(first.caption, EQUATIONS) or f"The recipe {first.called} failed."
     width, height = first.size
     shown = block.width or width
     anchor = composer.anchor("fig", block.id, "Figure", composer.figures)

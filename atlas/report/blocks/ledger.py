@@ -41,9 +41,9 @@ class ErrataView:
 
 def view_ledger(block: Ledger, composer: "Composer") -> LedgerView:
     """Set out the entries of one section, each theorem with a number."""
-    for label, entry in EQUATIONS.items():
+    for name, entry in EQUATIONS.items():
         if entry.section == block.section and entry.kind == "theorem":
-            composer.number(label)
+            composer.number(name)
     return LedgerView(
         entries(
             lambda entry, _: entry.section == block.section, composer.recorded.findings, composer.text, composer.uses
@@ -68,5 +68,5 @@ def pages_of(report: "Report") -> dict[str, str]:
                     raise AtlasError(
                         f"page {page.slug!r}: {unknown('section', block.section, SECTIONS, 'in the ledger')}"
                     )
-                found |= {label: page.slug for label, entry in EQUATIONS.items() if entry.section == block.section}
+                found |= {name: page.slug for name, entry in EQUATIONS.items() if entry.section == block.section}
     return found

@@ -1,4 +1,4 @@
-"""The charged ball: the two frequencies of its general motion and the axis of the faster turn, mf36 to mf39."""
+"""The charged ball: the two frequencies of its general motion and the axis of the faster turn, (26) to (29)."""
 
 from atlas.errors import AtlasError
 from atlas.report.schema import StrictStruct
@@ -25,13 +25,13 @@ def ball(request: Request) -> Data:
     rows = (
         ("initial angular velocity", r"$m_2/I_0$", made.m2, RATE),
         ("", r"$m_3/I_0$", made.m3, RATE),
-        ("Larmor's frequency @mf37", r"$\alpha$", made.larmor, RATE),
-        ("frequency of the turn about $\\hat{\\mathbf{k}}$, @mf39", r"$\gamma$", gamma, RATE),
-        ("axis of that turn, @mf39", r"$\hat k_2$", k_hat[0], "1"),
+        ("Larmor's frequency @(27)", r"$\alpha$", made.larmor, RATE),
+        ("frequency of the turn about $\\hat{\\mathbf{k}}$, @(29)", r"$\gamma$", gamma, RATE),
+        ("axis of that turn, @(29)", r"$\hat k_2$", k_hat[0], "1"),
         ("", r"$\hat k_3$", k_hat[1], "1"),
     )
     return Data(
         (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
         tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
-        r"The general motion of the ball, @mf38, in a field along $\mathbf{e}_3$.",
+        r"The general motion of the ball, @(28), in a field along $\mathbf{e}_3$.",
     )

@@ -5,7 +5,7 @@ from atlas.report.tables.model import RATE, Column, Data, Request, certified, co
 
 
 def bodies(request: Request) -> Data:
-    """Ratio I, kind of the quadric, angle beta and semi-axes of several bodies, mf41.1, mf60 to mf63."""
+    """Ratio I, kind of the quadric, angle beta and semi-axes of several bodies, (33), (54) to (57)."""
     from atlas.exact.quadric import Quadric
 
     request.take(StrictStruct)
@@ -22,5 +22,5 @@ def bodies(request: Request) -> Data:
             *(Column(f"$C_{j}$", RATE) for j in (1, 2, 3)),
         ),
         tuple((name, ratio, q.kind, *rest) for name, q, ratio, *rest in zip(names, made, *columns, strict=True)),
-        "The bodies in one field: ratio of the moments @mf41.1, kind, angle and semi-axes of the quadric.",
+        "The bodies in one field: ratio of the moments @(33), kind, angle and semi-axes of the quadric.",
     )

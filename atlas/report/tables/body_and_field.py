@@ -21,7 +21,7 @@ _WORDS = {
 
 
 def body_and_field(request: Request) -> Data:
-    """Dimensions, mass and charge, fields, and from them I, the moments, mu and B', mf41 and mf41.1."""
+    """Dimensions, mass and charge, fields, and from them I, the moments, mu and B', (32) and (33)."""
     request.take(StrictStruct)
     one = request.case
     body, field = one.body_record, one.field_record
@@ -35,7 +35,7 @@ def body_and_field(request: Request) -> Data:
     return Data(
         (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit"), Column("")),
         tuple(rows),
-        f"The {body.title} in the {field.title}, and what follows from them by @mf41 and @mf41.1.",
+        f"The {body.title} in the {field.title}, and what follows from them by @(32) and @(33).",
         (
             "The moments and $I$ are proven to the last digit printed.",
             r"$\mu$ and $\mathbf{B}'$ are rounded once, to the nearest double.",

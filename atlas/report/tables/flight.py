@@ -35,5 +35,5 @@ def flight(request: Request) -> Data:
             *(Column(f"$y_{{N,{j}}}$", unit) for j in (1, 2, 3)),
         ),
         tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
-        r"The flight of the centre of mass $\mathbf{y}_0$, @mf10.2, and of the point $\mathbf{y}_N$ of the body.",
+        r"The flight of the centre of mass $\mathbf{y}_0$, @(101), and of the point $\mathbf{y}_N$ of the body.",
     )

@@ -21,7 +21,7 @@ class Samples(StrictStruct, frozen=True):
 
 
 def motion(request: Request) -> Data:
-    """List initial data, frequencies and integrals mf44 to mf49, mf93 of the motion that starts with `omega2`."""
+    """List initial data, frequencies and integrals (36) to (41), (88) of the motion that starts with `omega2`."""
     from atlas.exact.elementary import ElementaryMotion
 
     asked = request.take(Motion)
@@ -33,11 +33,11 @@ def motion(request: Request) -> Data:
         ("", r"$\omega_3$", made.omega3, RATE),
         ("frequency of precession", "$k$", k, RATE),
         ("frequency of proper rotation", r"$\phi$", made.phi, RATE),
-        ("energy @mf44", "$E'=2E/I_2$", invariants["E'"], squared),
-        ("field in the body @mf45", r"$\mathbf{K}^2$", invariants["K^2"], squared),
-        ("integral @mf48", "$c_3$", invariants["c3"], RATE),
-        ("integral @mf49", "$c_5$", invariants["c5"], squared),
-        ("momentum along the field @mf93", r"$(\mathbf{m},\mathbf{B}')/I_2$", invariants["(m,B')"], squared),
+        ("energy @(36)", "$E'=2E/I_2$", invariants["E'"], squared),
+        ("field in the body @(37)", r"$\mathbf{K}^2$", invariants["K^2"], squared),
+        ("integral @(40)", "$c_3$", invariants["c3"], RATE),
+        ("integral @(41)", "$c_5$", invariants["c5"], squared),
+        ("momentum along the field @(88)", r"$(\mathbf{m},\mathbf{B}')/I_2$", invariants["(m,B')"], squared),
     )
     return Data(
         (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
@@ -47,7 +47,7 @@ def motion(request: Request) -> Data:
 
 
 def samples(request: Request) -> Data:
-    """Omega(t), mf78, and the third axis of the body R_3(t), mf89, at some `times`."""
+    """Omega(t), (73), and the third axis of the body R_3(t), (84), at some `times`."""
     from atlas.exact.elementary import ElementaryMotion
 
     asked = request.take(Samples)
@@ -62,5 +62,5 @@ def samples(request: Request) -> Data:
         ),
         tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
         rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$ at some times: angular velocity in the body, "
-        r"@mf78, and the body's axis in the laboratory, the third column of @mf89.",
+        r"@(73), and the body's axis in the laboratory, the third column of @(84).",
     )

@@ -12,7 +12,7 @@ from atlas.report.tables.model import Column, Data, Request, certified, column, 
 
 
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
-    """Return the centre of mass of a body in a field that was given as B and E, as a certified motion, mf10.2."""
+    """Return the centre of mass of a body in a field that was given as B and E, as a certified motion, (101)."""
     from atlas.exact.particle import ParticleMotion
 
     if case.physical is None:
@@ -32,7 +32,7 @@ class Parameters(StrictStruct, frozen=True):
 
 
 def particle(request: Request) -> Data:
-    """Position at some `times` of a particle with this `position` and `velocity` at t = 0, mf5 and mf10."""
+    """Position at some `times` of a particle with this `position` and `velocity` at t = 0, (93) and (98)."""
     asked, case = request.take(Parameters), request.case
     made = exact_particle(case, asked.position, asked.velocity)
     unit = speed = case.units.length_unit if case.units else ""
@@ -44,7 +44,7 @@ def particle(request: Request) -> Data:
     return Data(
         (Column("$t$", "s"), *(Column(f"$y_{j}$", unit) for j in (1, 2, 3))),
         tuple(zip(map(Number.given, asked.times), *columns, strict=True)),
-        "The path of the particle, @mf10.2, in the laboratory frame.",
+        "The path of the particle, @(101), in the laboratory frame.",
         (
             (
                 rf"Cyclotron frequency $\omega={frequency}$ s$^{{-1}}$, drift "

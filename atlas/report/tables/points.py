@@ -16,7 +16,7 @@ class Parameters(StrictStruct, frozen=True):
 
 
 def points(request: Request) -> Data:
-    """Points (omega2, omega3) of mf72 with k, phi of mf77 and the nutation frequency squared; `omega2` adds more."""
+    """Points (omega2, omega3) of (67) with k, phi of (72) and the nutation frequency squared; `omega2` adds more."""
     from atlas.exact.hyperbola import Hyperbola
 
     more = request.take(Parameters).omega2
@@ -62,7 +62,7 @@ def points(request: Request) -> Data:
             Column("Nutation"),
         ),
         rows,
-        r"Points of the hyperbola @mf72, frequencies of precession $k$ and of proper rotation $\phi$, @mf77, and the "
+        r"Points of the hyperbola @(67), frequencies of precession $k$ and of proper rotation $\phi$, @(72), and the "
         r"square of the frequency of nutation $\nu_n$, @theorem-stability.",
     )
 

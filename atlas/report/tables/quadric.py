@@ -1,11 +1,11 @@
-"""One body's quadric of initial data: its kind and its canonical form, mf58 to mf63."""
+"""One body's quadric of initial data: its kind and its canonical form, (51) to (57)."""
 
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
 
 
 def quadric(request: Request) -> Data:
-    """Angle beta, coefficients a2, a3, semi-axes and centre of the quadric, mf58 to mf63."""
+    """Angle beta, coefficients a2, a3, semi-axes and centre of the quadric, (51) to (57)."""
     from flint import arb
 
     from atlas.exact.quadric import Quadric
@@ -23,8 +23,8 @@ def quadric(request: Request) -> Data:
             ("ratio of the moments", "$I=I_3/I_2$", I, ""),
             (r"angle from $\mathbf{e}_2$ to $\mathbb{I}^{-1}\mathbf{B}'$", r"$\beta$", beta, "rad"),
             (r"angle from $\mathbf{e}_2$ to the axis of $\omega'_2$", r"$\beta/2+\pi/4$", turn, "rad"),
-            ("coefficient of @mf60", "$a_2$", a2, ""),
-            ("coefficient of @mf60", "$a_3$", a3, ""),
+            ("coefficient of @(54)", "$a_2$", a2, ""),
+            ("coefficient of @(54)", "$a_3$", a3, ""),
         ]
         if q.I != 1:
             rows += [("semi-axis", f"$C_{j}$", axes[j - 1], RATE) for j in (1, 2, 3)]
@@ -40,7 +40,7 @@ def quadric(request: Request) -> Data:
             )
             for name, symbol, value, unit in rows
         ),
-        f"The quadric of initial data of the {_title(request)}, @mf58, in canonical form.",
+        f"The quadric of initial data of the {_title(request)}, @(51), in canonical form.",
     )
 
 

@@ -86,7 +86,7 @@ def radiation(request: Request) -> Data:
 
 
 def off_the_field(b: float) -> float:
-    """Angle between m and B in the elementary motion with k = 2 pi 1/s, from mf72 and m/I2 = (0, omega2, I omega3)."""
+    """Angle between m and B in the elementary motion with k = 2 pi 1/s, from (67) and m/I2 = (0, omega2, I omega3)."""
     unit = b / hypot(1.0, TILT)
     B2, B3 = unit, TILT * unit
     omega2 = 2 * pi * B2 / b

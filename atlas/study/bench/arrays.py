@@ -160,7 +160,7 @@ def _curve(w2: FloatArray) -> FloatArray:
 
 
 def _plain_curve(w2: FloatArray) -> FloatArray:
-    """Evaluate mf76, mf84 and mf77 as anyone would write them."""
+    """Evaluate (71), (79) and (72) as anyone would write them."""
     I, (B2, B3) = CURVE
     omega3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
     phi = B3 * w2 * (1 - I) * (w2 + 2 * B2) / (I * B2 * (w2 + B2))
@@ -173,7 +173,7 @@ def _quadric(I: FloatArray, B2: FloatArray, B3: FloatArray) -> FloatArray:
 
 
 def _plain_quadric(I: FloatArray, B2: FloatArray, B3: FloatArray) -> FloatArray:
-    """Evaluate mf60 to mf61b as anyone would write them."""
+    """Evaluate (54) to (55) as anyone would write them."""
     beta = np.arctan2(B3, I * B2)
     a2, a3 = (2 * np.sin(beta) / (1 + sign * np.sin(beta)) for sign in (-1, 1))
     square = abs(1 - I) * B2**2
@@ -184,7 +184,7 @@ def _plain_quadric(I: FloatArray, B2: FloatArray, B3: FloatArray) -> FloatArray:
 
 
 def _plain_matrix(I: FloatArray, B2: FloatArray, B3: FloatArray, w2: FloatArray, t: FloatArray) -> FloatArray:
-    """Evaluate mf84, mf77 and mf89 as anyone would write them."""
+    """Evaluate (79), (72) and (84) as anyone would write them."""
     b = np.hypot(B2, B3)
     phi = B3 * w2 * (1 - I) * (w2 + 2 * B2) / (I * B2 * (w2 + B2))
     constants: Any = B2 / b, B3 / b, w2 * b / B2, phi

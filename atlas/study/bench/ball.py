@@ -1,6 +1,6 @@
 """The charged ball by every road there is.
 
-The question: what does R(t), mf38, cost, and how true is it?
+The question: what does R(t), (28), cost, and how true is it?
 
 Inertia 0.5, Larmor frequency 1.3, m(0) = (0, 0.45, 0.65): the turn about k_hat has the frequency 2.75.
 """
@@ -20,7 +20,7 @@ PARAMETERS: Parameters = {"inertia": 0.5, "larmor": 1.3, "momentum": (0.45, 0.65
 
 
 def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
-    """Rates of the columns of R, mf34, and of m, mf35, with the field along e3."""
+    """Rates of the columns of R, (24), and of m, (25), with the field along e3."""
     alpha, m = p["larmor"], state[9:12]
     omega = [x / p["inertia"] for x in m]
     columns = [cross(omega, [state[j], state[3 + j], state[6 + j]]) for j in range(3)]
@@ -28,14 +28,14 @@ def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
 
 
 def frequencies() -> tuple[float, float, float, float]:
-    """Return k2hat, k3hat, gamma (mf39) and alpha as anyone would compute them."""
+    """Return k2hat, k3hat, gamma (29) and alpha as anyone would compute them."""
     I0, alpha, (m2, m3) = PARAMETERS["inertia"], PARAMETERS["larmor"], PARAMETERS["momentum"]
     size = math.hypot(m2, m3 + alpha * I0)
     return -m2 / size, -(m3 + alpha * I0) / size, size / I0, alpha
 
 
 def formula(constants: Sequence[float], t: FloatArray) -> FloatArray:
-    """Evaluate mf38 in NumPy as anyone would write it, from k2hat, k3hat, gamma and alpha."""
+    """Evaluate (28) in NumPy as anyone would write it, from k2hat, k3hat, gamma and alpha."""
     k2, k3, gamma, alpha = constants
     c, s, C, S = np.cos(gamma * t), np.sin(gamma * t), np.cos(alpha * t), np.sin(alpha * t)
     R = np.empty((*t.shape, 3, 3))
@@ -54,7 +54,7 @@ def formula(constants: Sequence[float], t: FloatArray) -> FloatArray:
 
 
 def turns() -> tuple[Turn, Turn]:
-    """Return the two turns of mf38: by -alpha t about the field, by -gamma t about k_hat."""
+    """Return the two turns of (28): by -alpha t about the field, by -gamma t about k_hat."""
     k2, k3, gamma, alpha = frequencies()
     return ((0.0, 0.0, 1.0), -alpha), ((0.0, k2, k3), -gamma)
 

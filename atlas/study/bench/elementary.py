@@ -1,6 +1,6 @@
 """The elementary motion by every road there is.
 
-The question: what does R(t), mf89, cost, and how true is it?
+The question: what does R(t), (84), cost, and how true is it?
 
 A short solenoid, I = 1.5, in an oblique field B' = (1, 2), launched with omega2 = 0.7; frequencies 1.565 and -0.741.
 """
@@ -20,7 +20,7 @@ PARAMETERS: Parameters = {"I": 1.5, "B": (1.0, 2.0), "omega2": 0.7}
 
 
 def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
-    """Rates of the rows of R, mf21, and of Omega, mf46, with K = R^T B'."""
+    """Rates of the rows of R, (12), and of Omega, (38), with K = R^T B'."""
     I, (B2, B3) = p["I"], p["B"]
     rows, Omega = (state[0:3], state[3:6], state[6:9]), state[9:12]
     K = [B2 * rows[1][j] + B3 * rows[2][j] for j in range(3)]
@@ -34,7 +34,7 @@ def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
 
 
 def frequencies() -> tuple[float, float, float, float]:
-    """Return B2hat, B3hat, k and phi, mf84 and mf77, as anyone would compute them."""
+    """Return B2hat, B3hat, k and phi, (79) and (72), as anyone would compute them."""
     I, (B2, B3), omega2 = PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"]
     b = math.hypot(B2, B3)
     phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
@@ -42,7 +42,7 @@ def frequencies() -> tuple[float, float, float, float]:
 
 
 def formula(constants: Sequence[float], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
-    """Evaluate mf89 in NumPy as anyone would write it, from B2hat, B3hat, k and phi."""
+    """Evaluate (84) in NumPy as anyone would write it, from B2hat, B3hat, k and phi."""
     h2, h3, k, phi = constants
     c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)
     R = np.empty((*t.shape, 3, 3)) if out is None else out
@@ -61,7 +61,7 @@ def formula(constants: Sequence[float], t: FloatArray, out: FloatArray | None = 
 
 
 def turns() -> tuple[Turn, Turn]:
-    """Return the two turns of mf90."""
+    """Return the two turns of (85)."""
     h2, h3, k, phi = frequencies()
     return ((0.0, h2, h3), k), ((0.0, 0.0, 1.0), phi)
 

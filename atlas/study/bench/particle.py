@@ -1,6 +1,6 @@
 """The charged particle by every road there is.
 
-The question: what do y(t) and v(t), mf10, cost, and how true are they?
+The question: what do y(t) and v(t), (98), cost, and how true are they?
 
 E is orthogonal to B, so that the particle drifts but is not accelerated without end, and nothing hides the turning.
 The error of the position is compared to its distance from the origin (at least one radius of the turning), that of
@@ -26,7 +26,7 @@ PARAMETERS: Parameters = {
 
 
 def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
-    """Rates of y and v: the Lorentz force, mf1, with c = 1."""
+    """Rates of y and v: the Lorentz force, (89), with c = 1."""
     force = cross(state[3:6], p["B"])
     return [*state[3:6], *(p["mu"] * (p["E"][i] + force[i]) for i in range(3))]
 
@@ -41,7 +41,7 @@ def constants() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, float]:
 
 
 def plain() -> Solve:
-    """Evaluate the trochoid, mf10, in NumPy as anyone would write it."""
+    """Evaluate the trochoid, (98), in NumPy as anyone would write it."""
     start, steady, u, across, omega = constants()
 
     def solve(grid: Grid) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Closed forms as other libraries have them: a product of turns about fixed axes, mf90 and mf38."""
+"""Closed forms as other libraries have them: a product of turns about fixed axes, (85) and (28)."""
 
 from collections.abc import Sequence
 from functools import reduce

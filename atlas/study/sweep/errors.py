@@ -1,4 +1,4 @@
-"""Errors of R in a table: those of the atlas and of the plain formula mf89, row by row against balls."""
+"""Errors of R in a table: those of the atlas and of the plain formula (84), row by row against balls."""
 
 from functools import lru_cache, partial
 from itertools import chain
@@ -20,7 +20,7 @@ BITS = 110
 
 
 def error(made: ElementaryMotion, p: Any) -> FloatArray:
-    """Largest error in any entry of R(t), mf89, at most 1, which is no digit; NaN for phases beyond 2^50."""
+    """Largest error in any entry of R(t), (84), at most 1, which is no digit; NaN for phases beyond 2^50."""
     rows, near = _rows(made, p)
     ratio, B2, B3, omega2, t, *omega3 = rows
     return _against_balls(ElementaryMotion(ratio, (B2, B3), omega2, *omega3).rotation(t), rows, near)
@@ -29,13 +29,13 @@ def error(made: ElementaryMotion, p: Any) -> FloatArray:
 def plain_error(made: ElementaryMotion, p: Any) -> FloatArray:
     """Return the same of the formula as anyone would write it. DomainError for B2 = 0."""
     if np.any(p["B2"] == 0):
-        raise DomainError("The error of the plain formula needs B2 different from zero: mf76 and mf77 divide by it.")
+        raise DomainError("The error of the plain formula needs B2 different from zero: (71) and (72) divide by it.")
     rows, near = _rows(made, p)
     return _against_balls(plain_rotation(*rows[:5]), rows, near)
 
 
 def plain_rotation(ratio: Any, B2: Any, B3: Any, omega2: Any, t: FloatArray) -> FloatArray:
-    """Evaluate mf89 with k and phi of mf84 and mf77 as anyone would write it; arrays (m,), shape (m, 3, 3)."""
+    """Evaluate (84) with k and phi of (79) and (72) as anyone would write it; arrays (m,), shape (m, 3, 3)."""
     b = np.hypot(B2, B3)
     phi = B3 * omega2 * (1 - ratio) * (omega2 + 2 * B2) / (ratio * B2 * (omega2 + B2))
     return formula((B2 / b, B3 / b, omega2 * b / B2, phi), t)

@@ -1,0 +1,20 @@
+"""Where a text cites an entry of the ledger: "(72)", or a name such as theorem-pair.
+
+A number in brackets is a citation unless it stands in a formula or in code, or follows a letter, a digit, a prime or
+a closing bracket, as in f(3).
+"""
+
+import re
+from collections.abc import Container
+
+_CITED = re.compile(r"\$[^$]*\$|`[^`\n]*`|(?<![\w@)\]}'-])(\(\d{1,3}\)|(?:text|theorem)(?:-[a-z0-9]+)+\b)")
+
+
+def cited(text: str) -> list[str]:
+    """Return the names that a docstring, a message or a caption cites, in their order, each once."""
+    return list(dict.fromkeys(name for name in _CITED.findall(text) if name))
+
+
+def marked(text: str, known: Container[str]) -> str:
+    """Put the sign of a citation before each known name that a caption cites: what @ marks in a report is a link."""
+    return _CITED.sub(lambda match: f"@{match[1]}" if match[1] in known else match[0], text)
