@@ -4,7 +4,6 @@ import io
 import re
 import runpy
 import tokenize
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -69,13 +68,11 @@ def test_every_citation_of_the_sources_is_in_the_ledger() -> None:
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "reports").glob("*.toml")), ids=lambda path: path.stem)
-def test_every_citation_of_a_report_is_in_the_ledger(path: Path) -> None:
-    """What stands after the sign of citation and is no figure, table, page, or equation of the report's own."""
-    report = tomllib.loads(path.read_text("utf-8"))
-    blocks = [block for page in report["pages"] for block in page["blocks"]]
-    own = {block["name"] for block in blocks if "tex" in block}
-    names = {name for name in citations(path.read_text("utf-8")) if ":" not in name}
-    assert names - own <= set(EQUATIONS)
+def test_every_equation_that_a_report_cites_is_in_the_ledger(path: Path) -> None:
+    """What stands after the sign of citation and begins as the names of the ledger do."""
+    names = {name for name in citations(path.read_text("utf-8")) if name.startswith(("(", "text-", "theorem-"))}
+    assert names
+    assert names <= set(EQUATIONS)
 
 
 def test_no_label_of_the_source_stands_outside_the_ledger() -> None:
