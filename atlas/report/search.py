@@ -47,7 +47,7 @@ def _sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, 
 
 
 def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
-    """Return the formulas by the names in their anchors: those of the ledger, those displayed, others that are cited."""
+    """Return the formulas by the names in their anchors: of the ledger, of the displays, and others that are cited."""
     found = {slug(name): texts[number] for name, number in document.formulas.items()}
     for page in document.pages:
         for block in page.blocks:
