@@ -93,13 +93,14 @@ def periods(
 ) -> Plane:
     """Panel (b): the period over the push."""
     decades = np.arange(-12.0, 0.0)
-    found = np.array([GeneralMotion(ratio, field, (10.0**d, *start)).period for d in decades])
+    push = abs(field[0]) * 10.0**decades
+    found = np.array([GeneralMotion(ratio, field, (one, *start)).period for one in push])
     law = found[0] - 4 / growth * np.log(10.0) * (decades - decades[0])
-    view = ((10.0 ** decades[0], 10.0 ** decades[-1]), (0.0, 1.1 * float(found.max())))
+    view = ((float(push[0]), float(push[-1])), (0.0, 1.1 * float(found.max())))
     marked = np.array([[push, GeneralMotion(ratio, field, (push, *start)).period] for push in pushes])
     layers: list[Layer] = [
-        Curve(np.stack([10.0**decades, law], axis=1), "reference", r"$(4/\sqrt{-\nu_n^2})\ln(1/\omega_1)+$const"),
-        Curve(np.stack([10.0**decades, found], axis=1), "main", "$T$"),
+        Curve(np.stack([push, law], axis=1), "reference", r"$(4/\sqrt{-\nu_n^2})\ln(1/\omega_1)+$const"),
+        Curve(np.stack([push, found], axis=1), "main", "$T$"),
         Points(marked, "special"),
     ]
     return Plane(

@@ -167,8 +167,8 @@ def quotients(
         if ends[0] < motion.omega2 < ends[1]:
             x = 1 + motion.omega2 / B2
             scale = np.array([(WIDTH - MARGIN) / (ends[1] - ends[0]), (HEIGHT / 2 - MARGIN) / (2 * top)])  # mm
-            across = np.array([free / (x * x * B2), 1.0]) / scale  # to the side, as drawn
-            away = across / np.hypot(*(across * scale)) * BESIDE * np.copysign(1.0, free * x)
+            across = np.array([scale[1] * free / (x * x * B2), scale[0]])  # upright to the curve, as drawn
+            away = across / np.hypot(*across) / scale * BESIDE * np.copysign(1.0, free * x)
             layers += [Points(at[None], "point"), Label(at - away, f"${r}$", "label", (0.0, 0.0))]
     layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))
     layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))

@@ -1,0 +1,120 @@
+"""What holds of every figure: another unit scales its axes and changes nothing else; labels stand where things are."""
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from atlas.scene import Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, recipes
+
+FloatArray = NDArray[np.float64]
+NAMES = [name for name in recipes.names() if not recipes.load(name).records]
+FREQUENCIES = (
+    "field",
+    "omega",
+    "omega1",
+    "omega2",
+    "omega3",
+    "larmor",
+    "momentum",
+    "m3",
+    "b",
+    "B3",
+    "M3",
+    "push",
+    "pushes",
+)
+TIME: Mapping[str, int] = {
+    **dict.fromkeys(FREQUENCIES, 1),
+    "velocity": 1,
+    "speed": 1,
+    "c": 1,
+    "E": 2,
+    "B": 2,
+    "stop": -1,
+}
+"""Powers of a unit of frequency in the parameters: velocities, with c, have one, E and B two, for a fixed mu."""
+LENGTH: Mapping[str, int] = {"velocity": 1, "c": 1, "E": 1, "B": 1, "point": 1, "size": 1, "speed": 1}
+"""Powers of a unit of length; that of c E/B is that of a velocity, that of mu B/c none."""
+CHARGE: Mapping[str, int] = {"mu": 1, "E": -1, "B": -1}
+NOISE = {"error_maps", "invariants"}
+"""Figures of rounding errors, which a power of two leaves alone, but not the times in a table of powers of ten."""
+UNITS = [
+    (name, unit)
+    for name in NAMES
+    for unit, weights in {"time": TIME, "length": LENGTH, "charge": CHARGE}.items()
+    if name not in NOISE and set(weights) & set(recipes.load(name).parameters)
+]
+WEIGHTS = {"time": TIME, "length": LENGTH, "charge": CHARGE}
+
+
+def scaled(value: Any, factor: float) -> Any:
+    """Return a parameter in another unit; none stays none."""
+    if isinstance(value, tuple):
+        return tuple(scaled(part, factor) for part in value)
+    return None if value is None else value * factor
+
+
+def places(layer: Layer) -> Iterator[FloatArray]:
+    """Yield the places of a layer, arrays (N, 2) or (N, 3)."""
+    match layer:
+        case Curve() | Points() | Region():
+            yield np.atleast_2d(layer.points)
+        case Label():
+            yield np.atleast_2d(layer.at)
+        case Surface():
+            yield from (grid.reshape(-1, 3) for grid in layer.grids)
+            yield from (*layer.wires, *layer.rims)
+        case Image():
+            yield from (np.stack([x, y], axis=1) for x in layer.x[[[0, -1]]] for y in layer.y[[[0, -1]]])
+        case _:
+            yield np.stack([layer.tail, layer.tip])
+
+
+def coordinates(panel: Panel) -> list[list[FloatArray]]:
+    """Return the coordinates along each axis of a panel, array by array, its limits first; in space all are of one."""
+    arrays = [array for layer in panel.layers for array in places(layer)]
+    if not isinstance(panel, Plane):
+        return [[array.ravel() for array in arrays]]
+    columns = [[array[:, axis] for array in arrays] for axis in (0, 1)]
+    for column, limits in zip(columns, (panel.x_limits, panel.y_limits), strict=True):
+        column[:0] = [] if limits is None else [np.array(limits)]
+    return columns
+
+
+@pytest.mark.parametrize(("name", "unit"), UNITS)
+def test_another_unit_scales_each_axis_and_changes_nothing_else(name: str, unit: str) -> None:
+    """In a unit twice as small every coordinate of an axis is multiplied by one power of two, within 1e-9 of it.
+
+    So each layer stands where it stood on paper: no number of a recipe has a unit that is not said.
+    """
+    recipe, weights = recipes.load(name), WEIGHTS[unit]
+    given = {key: scaled(value, 2.0 ** weights[key]) for key, value in recipe.parameters.items() if key in weights}
+    one, other = recipe.scene(), recipe.scene(**given)
+    for panel, after in zip(one.panels, other.panels, strict=True):
+        for axis, turned in zip(coordinates(panel), coordinates(after), strict=True):
+            size, grown = (max(np.nanmax(np.abs(array), initial=0.0) for array in arrays) for arrays in (axis, turned))
+            power = 2.0 ** round(float(np.log2(grown / size))) if size else 1.0
+            for k, (x, y) in enumerate(zip(axis, turned, strict=True)):
+                assert x.shape == y.shape, (k, panel.title)
+                assert np.nanmax(np.abs(y - power * x), initial=0.0) <= 1e-9 * power * size, (k, panel.title)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_stand_among_what_they_name(name: str) -> None:
+    """The place of every label lies in the limits of its panel, or among the drawn things, and says something."""
+    for panel in recipes.load(name).scene().panels:
+        drawn = [array for layer in panel.layers if not isinstance(layer, Label) for array in places(layer)]
+        low, high = np.nanmin(np.concatenate(drawn), axis=0), np.nanmax(np.concatenate(drawn), axis=0)
+        if isinstance(panel, Plane):
+            for axis, limits in enumerate((panel.x_limits, panel.y_limits)):
+                low[axis], high[axis] = limits or (low[axis], high[axis])
+        room = 0.15 * (high - low).max() if not isinstance(panel, Plane) else 0.0
+        for label in (layer for layer in panel.layers if isinstance(layer, Label)):
+            first = np.atleast_2d(label.at)[0]
+            assert (first >= low - room).all(), label.text
+            assert (first <= high + room).all(), label.text
+            assert re.search(r"\w", label.text)
