@@ -30,6 +30,9 @@ NAME = "U28"
 ORTHOGONAL = 1e-9
 """An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
 
+VECTOR = entries(np.eye(3), np.eye(3))[:, 6:]
+"""Weights of the products in the vector of length 1 that a pair (alpha, beta) stands for."""
+
 
 class General:
     """One general motion: its constants in balls, and what turns times into matrices.
@@ -39,13 +42,26 @@ class General:
 
     def __init__(self, exact: Balls, attitude: FloatArray) -> None:
         self.exact = exact
-        self.parts = CayleyKlein(exact)
+        self.parts = CayleyKlein(lambda: exact.solution)
+        if self.parts.lost:
+            raise DomainError(
+                "The body's axis passes the line of the field at an angle too small for a float: give a larger "
+                "angular velocity across the axis, or none."
+            )
         c, s, C, S = enclosed(lambda: [arb(x) for x in exact.tilt()], 2 * BITS)
         cos, sin, C, S, b = (float(x.mid()) for x in (c * c - s * s, 2 * c * s, C, S, arb(exact.b)))
         self.right = np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
         tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
         self.entries = entries(attitude @ self.right.T @ tilt, self.right)
-        self.field = b * entries(np.eye(3), self.right)[:, 6:]
+        self.field = b * VECTOR @ self.right
+
+    @cached_property
+    def velocity(self) -> tuple[CayleyKlein, FloatArray]:
+        """The pair (alpha, beta) of (Omega2, Omega1, -sqrt(I) Omega3), and the weights of its products in Omega."""
+        parts = CayleyKlein(lambda: self.exact.velocity)
+        found = enclosed(lambda: [arb(x) for x in self.exact.velocity_sizes()], 2 * BITS)
+        C, S, across, along = (float(x.mid()) for x in found)
+        return parts, VECTOR @ np.array([[-S * across, C * across, 0], [C * across, S * across, 0], [0, 0, -along]])
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
@@ -60,26 +76,9 @@ class General:
         return self._linear(self.field, t, (3,), out)
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t), shape (..., 3): twice the vector part of the quaternion's logarithmic derivative."""
-
-        def prepare(size: int) -> Any:
-            """Return what fills a block."""
-            evaluation = Evaluation(self.parts, size, slopes=True)
-
-            def fill(times: FloatArray, rows: FloatArray) -> None:
-                q = evaluation.parts(times)
-                (w, x, z, y), (dw, dx, dz, dy) = q[:4], q[4:]
-                half = (w * w + x * x + y * y + z * z) / 2
-                turn = (
-                    w * dx - x * dw - y * dz + z * dy,
-                    w * dy - y * dw - z * dx + x * dz,
-                    w * dz - z * dw - x * dy + y * dx,
-                )
-                np.matmul((np.array(turn) / half).T, self.right, out=rows)
-
-            return fill
-
-        return evaluate(t, (3,), out, prepare)
+        """Return Omega(t), shape (..., 3)."""
+        parts, weights = self.velocity
+        return self._linear(weights, t, (3,), out, parts)
 
     @cached_property
     def exponentials(self) -> "tuple[Exponentials, Exponentials] | None":
@@ -88,12 +87,19 @@ class General:
 
         return exponentials(self.exact, self.parts.precision)
 
-    def _linear(self, weights: FloatArray, t: Any, shape: tuple[int, ...], out: FloatArray | None) -> FloatArray:
-        """Return linear combinations of the products of alpha and beta."""
+    def _linear(
+        self,
+        weights: FloatArray,
+        t: Any,
+        shape: tuple[int, ...],
+        out: FloatArray | None,
+        parts: CayleyKlein | None = None,
+    ) -> FloatArray:
+        """Return linear combinations of the products of alpha and beta, or of another pair."""
 
         def prepare(size: int) -> Any:
             """Return what fills a block."""
-            evaluation = Evaluation(self.parts, size)
+            evaluation = Evaluation(parts or self.parts, size)
             return lambda times, rows: combined(evaluation.at(times), weights, rows)
 
         return evaluate(t, shape, out, prepare)

@@ -23,6 +23,7 @@ from atlas.exact.free import FreeMotion
 from atlas.exact.inputs import Real, rational, rationals, root
 from atlas.exact.nutation import Nutation
 from atlas.exact.quartic import Quartic
+from atlas.exact.spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
 from atlas.exact.theta import Lattice, Sum, constant, infinite
 
 
@@ -50,7 +51,7 @@ class GeneralMotion:
         self.I, self.omega, self.field = I, Omega, K
         self.quartic = Quartic(I, Omega, K)
         self.kind = self._kind()
-        self._known: tuple[int, Solution] | None = None
+        self._known: dict[str, tuple[int, Solution]] = {}
 
     def _kind(self) -> str:
         q = self.quartic
@@ -102,22 +103,34 @@ class GeneralMotion:
 
     @property
     def solution(self) -> Solution:
-        """The constants at the precision of the moment."""
-        if self._known is None or self._known[0] != ctx.prec:
-            self._known = ctx.prec, self._solved()
-        return self._known[1]
+        """The constants of alpha and beta, from which R and K follow, at the precision of the moment."""
+        return self._solution("field")
+
+    @property
+    def velocity(self) -> Solution:
+        """The constants of the pair from which Omega follows, see `atlas.exact.spheres`."""
+        return self._solution("velocity")
+
+    def _solution(self, name: str) -> Solution:
+        if name not in self._known or self._known[name][0] != ctx.prec:
+            self._known[name] = ctx.prec, self._solved(name)
+        return self._known[name][1]
 
     def trigonometric(self) -> Solution:
         """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
-        is_elliptic = self.kind.startswith("nutation")
-        return Nutation(self).solution(trigonometric=True) if is_elliptic else self.solution
+        if not self.kind.startswith("nutation"):
+            return self.solution
+        return Nutation(self.quartic, self.sphere("field")).solution(trigonometric=True)
 
-    def _solved(self) -> Solution:
+    def sphere(self, name: str) -> Sphere:
+        """Return the sphere of the "field" or of the "velocity" at the precision of the moment."""
+        return sphere_of_field(self.quartic, self._axis) if name == "field" else sphere_of_velocity(self.quartic)
+
+    def _solved(self, name: str) -> Solution:
+        sphere = self.sphere(name)
         if self.is_steady:
-            return self._steady()
-        if self.kind == "ball":
-            return self._ball()
-        return Nutation(self).solution()
+            return self._steady(sphere, *(self._steady_rates() if name == "field" else (fmpq(0), self._steady_turn())))
+        return self._ball(sphere) if self.kind == "ball" else Nutation(self.quartic, sphere).solution()
 
     @cached_property
     def _axis(self) -> tuple[fmpq, fmpq, fmpq]:
@@ -131,25 +144,31 @@ class GeneralMotion:
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
         """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
-        x, y, z = self._axis
-        across, size = root(x * x + y * y), root(x * x + y * y + z * z)
-        if x == 0 and y == 0:
-            return (fmpq(1), fmpq(0), fmpq(1), fmpq(0)) if z > 0 else (fmpq(0), fmpq(1), fmpq(1), fmpq(0))
-        # of the two halves the one that does not cancel first
-        longer = arb((1 + abs(arb(z) / size)) / 2).sqrt()
-        shorter = arb(across) / (2 * longer * size)
-        return (longer, shorter, y / across, x / across) if z >= 0 else (shorter, longer, y / across, x / across)
+        return self.sphere("field").tilt
 
-    def _steady(self) -> Solution:
-        q, (c, s, _, _) = self.quartic, self.tilt()
-        w1, w2, w3 = self.omega
+    def velocity_sizes(self) -> tuple[Real, Real, Real, Real]:
+        """Return cos and sin of the azimuth of Omega(0), and the largest Omega across and along the axis."""
+        sphere = self.sphere("velocity")
+        return sphere.tilt[2], sphere.tilt[3], sphere.length, abs(sphere.poles[1])
+
+    def _steady_rates(self) -> tuple[Real, Real]:
+        """Return k and phi where Omega3 is constant."""
+        q, (w1, w2, w3) = self.quartic, self.omega
         if self.kind == "free body":
-            k: Real = root(w1**2 + w2**2 + (self.I * w3) ** 2)
-            phi: Real = (1 - self.I) * w3
-        elif q.across == 0:
-            k, phi = fmpq(0), w3
-        else:
-            k, phi = q.along * self.b / q.across, w3 - self.field[2] * q.along / q.across
+            return root(w1**2 + w2**2 + (self.I * w3) ** 2), (1 - self.I) * w3
+        if q.across == 0:
+            return fmpq(0), w3
+        return q.along * self.b / q.across, w3 - self.field[2] * q.along / q.across
+
+    def _steady_turn(self) -> fmpq:
+        """Return the rate at which (Omega1, Omega2) turns in the body where Omega3 is constant."""
+        q, (w1, w2, w3) = self.quartic, self.omega
+        across = w1**2 + w2**2
+        return w3 - (2 - self.I) * q.c3 + (self.I * w3 * q.along / across if across != 0 else 0)
+
+    def _steady(self, sphere: Sphere, k: Real, phi: Real) -> Solution:
+        q, (c, s, _, _) = self.quartic, sphere.tilt
+        w3 = self.omega[2]
         square = arb(0) if q.K2 == 0 else -arb(q.polynomial.derivative().derivative()(w3)) / 2
         half = arb.pi() / square.sqrt() if square > 0 else arb("inf")
         if self.kind == "free body" and k != 0:
@@ -161,20 +180,21 @@ class GeneralMotion:
         )
         return Solution(lattice, arb(0), alpha, beta, k, phi)
 
-    def _ball(self) -> Solution:
-        q, (c, s, C, S) = self.quartic, self.tilt()
-        M = [w + k for w, k in zip(self.omega, self.field, strict=True)]
+    def _ball(self, sphere: Sphere) -> Solution:
+        """Return the turn of the vector about M, which stands in the body."""
+        (c, s, C, S), M = sphere.tilt, [fmpq(x) for x in sphere.momentum]
         size = root(M[0] ** 2 + M[1] ** 2 + M[2] ** 2)
         m1, m2, m3 = (M[0] * C - M[1] * S) / size, (M[0] * S + M[1] * C) / size, M[2] / size
         lattice = Lattice("trigonometric", arb.pi() / size, arb("inf"), oblique=False, rate=arb(size) / 2)
-        larmor = -arb(self.b) / 2
         sums = (
             Sum(lattice, (acb(-arb(s) * m1, arb(c) * m3 + arb(s) * m2),), (acb(c),), arb(0)),
             Sum(lattice, (acb(arb(c) * m1, arb(c) * m2 - arb(s) * m3),), (acb(s),), arb(0)),
         )
-        turns = (q.sign_beside(-1), q.sign_beside(1))
-        alpha, beta = (Parameter(acb(1), arb(0), larmor, arb(0), x, turn) for x, turn in zip(sums, turns, strict=True))
-        return Solution(lattice, arb(0), alpha, beta, -self.b, fmpq(0))
+        alpha, beta = (
+            Parameter(acb(1), arb(0), arb(sphere.frames[pole]), arb(0), x, sphere.signs[pole])
+            for pole, x in zip(POLES, sums, strict=True)
+        )
+        return Solution(lattice, arb(0), alpha, beta, sphere.precession, sphere.spin)
 
     @property
     def period(self) -> arb:

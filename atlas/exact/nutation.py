@@ -1,23 +1,20 @@
 """The constants of a nutation: periods, zeros of alpha and beta, rates of precession and spin, from the roots of Q.
 
 From a turning point e, u(s) = e + Q'(e)/(4 w(s)) with w = wp(s) - Q''(e)/24, which at a root r is Q'(e)/(4 (r - e)).
-So the time between two values of u is Carlson's R_F, and no cubic has to be solved. Times to the poles nu = ±1 of the
-sphere are imaginary; of the two zeros ± i y of 1 + nu (of 1 - nu) alpha (beta) has the one where its residue is one,
-and which that is, the sign of p + M3 (p - M3) says.
+So the time between two values of u is Carlson's R_F, and no cubic has to be solved. Times to the poles of
+a sphere are imaginary; of the two zeros ± i y at a pole alpha (beta) has the one where its residue is one, and which
+that is, the sign of the torque says.
 """
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from flint import acb, arb, fmpq
 
 from atlas.exact.cayley_klein import Parameter, Solution
 from atlas.exact.quartic import Quartic, Root
+from atlas.exact.spheres import Sphere
 from atlas.exact.theta import Lattice, Sum, constant, infinite, vanishing_at
-
-if TYPE_CHECKING:
-    from atlas.exact.general import GeneralMotion
 
 
 @dataclass(frozen=True)
@@ -71,11 +68,9 @@ class Turning:
 class Nutation:
     """Makes the constants of a motion whose Omega3 is not constant, at the precision of the moment."""
 
-    def __init__(self, motion: "GeneralMotion") -> None:
-        self.motion, self.quartic = motion, motion.quartic
-        self.roots = tuple(self.quartic.roots())
-        self.b = arb(self.quartic.K2).sqrt()
-        self.poles = {nu: self.quartic.c3 - nu * self.b for nu in (1, -1)}
+    def __init__(self, quartic: Quartic, sphere: Sphere) -> None:
+        self.quartic, self.sphere = quartic, sphere
+        self.roots = tuple(quartic.roots())
 
     def solution(self, *, trigonometric: bool = False) -> Solution:
         """Return all constants, with trigonometric sums if that is asked for and there is a period."""
@@ -87,12 +82,9 @@ class Nutation:
         if trigonometric and not infinite(self.lattice.half):
             self.lattice = self.lattice.as_trigonometric()
         origin = self._origin()
-        c, s, _, _ = self.motion.tilt()
-        Omega1, Omega2, _ = self.motion.omega
-        # where the axis starts at a pole, the parameter that is zero there grows as Omega says
-        alpha = self._parameter(-1, origin, acb(c), acb(-Omega1, Omega2) / 2)
-        beta = self._parameter(1, origin, acb(s), acb(Omega1, Omega2) / 2)
-        return Solution(self.lattice, origin, alpha, beta, -self.b, (1 - self.motion.I) * self.quartic.c3)
+        c, s, _, _ = self.sphere.tilt
+        alpha, beta = (self._parameter(pole, origin, acb(x)) for pole, x in ((-1, c), (1, s)))
+        return Solution(self.lattice, origin, alpha, beta, self.sphere.precession, self.sphere.spin)
 
     def _turning(self, place: int) -> Turning:
         return Turning(self.quartic, self.roots, place)
@@ -105,7 +97,7 @@ class Nutation:
         if self.roots[high].multiplicity > 1:
             return self._turning(low)
         real = [root.value.real for root in self.roots if root.is_real]
-        if self.motion.I < 1:
+        if self.quartic.I < 1:
             if len(real) > 2:
                 return self._turning(high if high == len(real) - 1 else low)
             upper = self._turning(high)
@@ -146,32 +138,33 @@ class Nutation:
         time = self.start.real_time(arb(q.u))
         return time if away else -time
 
-    def _parameter(self, nu: int, origin: arb, initial: acb, slope: acb) -> Parameter:
-        """Return alpha (nu = -1) or beta (nu = 1)."""
-        q, function, y, turn = self.quartic, *self._function(nu)
+    def _parameter(self, pole: int, origin: arb, initial: acb) -> Parameter:
+        """Return alpha (pole -1) or beta (pole 1)."""
+        sphere, function, y, turn = self.sphere, *self._function(pole)
         twist = self.lattice.twist * y
         rate = arb(0)
         if turn:
             # what alpha'/alpha, or beta'/beta, is at the turning point
-            angular = (arb(q.momentum) / self.b - nu * q.I * q.c3) / 2 * self.b / (nu * (self.start.u - self.poles[nu]))
+            angular = sphere.torques[pole] / (2 * pole * (self.start.u - sphere.poles[pole]))
             rate = angular - twist - function.logarithmic_slope.imag
         value, tangent = function.at(origin)
-        factor = (initial / value if initial != 0 else slope / tangent) * acb(0, -twist * origin).exp()
-        frame = (-self.b - nu * (1 - q.I) * q.c3) / 2
-        return Parameter(factor, rate, frame, twist, function, turn)
+        # where the vector starts at a pole, the parameter that is zero there has a slope
+        factor = initial / value if initial != 0 else sphere.slopes[pole] / tangent
+        factor *= acb(0, -twist * origin).exp()
+        return Parameter(factor, rate, arb(sphere.frames[pole]), twist, function, turn)
 
-    def _function(self, nu: int) -> tuple[Sum, arb, int]:
+    def _function(self, which: int) -> tuple[Sum, arb, int]:
         """Return the function with the zero of a pole, its imaginary part y, and the sense in which it turns.
 
-        Where the axis meets the pole the function is real, up to a phase: then the sense is 0.
+        Where the vector meets the pole the function is real, up to a phase: then the sense is 0.
         """
-        q, pole, sense = self.quartic, self.poles[nu], self.quartic.sign_beside(nu)
-        # Omega3 is highest where nu is lowest: the pole nu lies next to the turning point that is high for nu = -1
-        next_to = q.high if nu == -1 else q.low
-        beyond = self.motion.I > 1 and next_to != self.start.place
+        q, pole, sense = self.quartic, self.sphere.poles[which], self.sphere.signs[which]
+        # the pole -1 is where Omega3 is highest
+        next_to = q.high if which == -1 else q.low
+        beyond = self.quartic.I > 1 and next_to != self.start.place
         if sense:
             y = (self._turning(next_to) if beyond else self.start).imaginary_time(pole)
-            if self.motion.I < 1 and next_to != self.start.place:
+            if self.quartic.I < 1 and next_to != self.start.place:
                 sense = -sense
         else:
             place = next(i for i, r in enumerate(self.roots) if r.is_real and r.value.real.overlaps(pole))
@@ -187,17 +180,21 @@ class Nutation:
         return function, y, -sense if function.shifted else sense
 
     def _heteroclinic(self) -> Solution:
-        """Return the motion between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, and no phase but Larmor's."""
-        rate = arb(self.motion.I - 1).sqrt() * self.b
-        sense = -1 if self.quartic.rate > 0 else 1
+        """Return the motion between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, and no phase but the frame's.
+
+        There c3 = 0 and E' = I b^2, so that field and angular velocity have the same poles, ± b.
+        """
+        q, frame = self.quartic, arb(self.sphere.frames[1])
+        rate = arb((q.I - 1) * q.K2).sqrt()
+        sense = -1 if q.rate > 0 else 1
         lattice = Lattice("hyperbolic", arb("inf"), arb.pi() / rate, oblique=False, rate=rate / 2)
-        c, s, _, _ = (arb(x) for x in self.motion.tilt())
+        c, s, _, _ = (arb(x) for x in self.sphere.tilt)
         size, origin = (c * s).sqrt(), sense * (c / s).log() / rate
         alpha, beta = (
-            Parameter(acb(size), arb(0), -self.b / 2, arb(0), Sum(lattice, (acb(sign),), (acb(1),), arb(0)), 0)
+            Parameter(acb(size), arb(0), frame, arb(0), Sum(lattice, (acb(sign),), (acb(1),), arb(0)), 0)
             for sign in (sense, -sense)
         )
-        return Solution(lattice, origin, alpha, beta, -self.b, fmpq(0))
+        return Solution(lattice, origin, alpha, beta, self.sphere.precession, fmpq(0))
 
 
 def _balanced(half: arb, imaginary: arb, *, oblique: bool) -> Lattice:

@@ -40,7 +40,7 @@ class Quartic:
 
     def __init__(self, I: fmpq, Omega: Vector, K: Vector) -> None:
         (w1, w2, w3), (K1, K2, K3) = Omega, K
-        self.I, self.u = I, w3
+        self.I, self.u, self.Omega, self.K = I, w3, Omega, K
         self.c3 = w3 + K3
         self.across = K1**2 + K2**2
         self.K2 = self.across + K3**2
@@ -60,10 +60,7 @@ class Quartic:
 
     def sign_beside(self, pole: int) -> int:
         """Return the sign of p + M3 for ``pole`` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
-        M3 = -pole * self.I * self.c3
-        if self.momentum * M3 >= 0:
-            return _sign(self.momentum + M3)
-        return _sign(self.momentum) * _sign(self.momentum**2 - self.K2 * M3**2)
+        return sign_of_sum(self.momentum, -pole * self.I * self.c3, self.K2)
 
     def roots(self) -> list[Root]:
         """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair."""
@@ -113,6 +110,14 @@ class Quartic:
     def high(self) -> int:
         """Place of the upper end."""
         return self._interval[1]
+
+
+def sign_of_sum(x: fmpq, y: fmpq, square: fmpq) -> int:
+    """Return the sign of x + y sqrt(square), exactly."""
+    first, second = _sign(x), _sign(y) * _sign(square)
+    if first * second >= 0:
+        return _sign(fmpq(first + second))
+    return first * _sign(x * x - y * y * square)
 
 
 def _sign(x: fmpq) -> int:

@@ -17,8 +17,7 @@ from atlas.core.arithmetic.threads import shared
 from atlas.core.arithmetic.wide import Wide
 from atlas.core.inputs import FloatArray, real
 from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric, wide
-from atlas.errors import DomainError
-from atlas.exact.general import GeneralMotion
+from atlas.exact.cayley_klein import Solution
 from atlas.exact.theta import infinite
 
 FIRST = 256
@@ -51,15 +50,15 @@ KINDS: Mapping[str, Callable[..., Functions]] = {
 class CayleyKlein:
     """alpha and beta of one motion: constants made at rising precision until each is known, then rounded."""
 
-    def __init__(self, exact: GeneralMotion) -> None:
+    def __init__(self, solution: Callable[[], Solution]) -> None:
         self.precision = FIRST
-        while not self._made(exact, self.precision):
+        while not self._made(solution, self.precision):
             self.precision *= 2
 
-    def _made(self, exact: GeneralMotion, precision: int) -> bool:
+    def _made(self, solution: Callable[[], Solution], precision: int) -> bool:
         """Take the constants at one precision; return whether it suffices."""
         with ctx.workprec(precision):
-            found = exact.solution
+            found = solution()
             lattice, pair = found.lattice, (found.alpha, found.beta)
             periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
             rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
@@ -76,10 +75,6 @@ class CayleyKlein:
             kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
             functions = kind(found, [x.sum for x in pair])
             values = [[x.factor * w for w in functions.weights(x.sum)] for x in pair]
-            slopes = [
-                [x.factor * (acb(0, x.rate + x.twist) * v + w) for v, w in zip(a, b, strict=True)]
-                for x, a, b in ((x, functions.weights(x.sum), functions.weights(x.sum.derivative)) for x in pair)
-            ]
             largest = max(abs(x).mid() for row in values for x in row)
             if not all(_known(x, largest) for row in values for x in row):
                 return False
@@ -87,20 +82,16 @@ class CayleyKlein:
             self.frequencies = [wide(x) for x in turns]
             self.origins = [Wide(0), Wide(0), wide(origin)] if periodic else None
             self.phases = self._phases()
-            self.values, self.slopes = (_real_parts(x, largest) for x in (values, slopes))
-            self._check(values)
+            self.values = _real_parts(values, largest)
+            self.lost = self._lost(values)
             least = np.abs(self.values).min(where=self.values != 0, initial=1.0)
             self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
         return True
 
-    def _check(self, values: list[list[acb]]) -> None:
-        """Refuse a motion of which alpha or beta is lost beside the other."""
-        for exact, found in zip(values, self.values.reshape(2, 2, -1).swapaxes(0, 1), strict=True):
-            if not found.any() and not all(x.is_zero() for x in exact):
-                raise DomainError(
-                    "The body's axis passes the line of the field at an angle too small for a float: give a larger "
-                    "angular velocity across the axis, or none."
-                )
+    def _lost(self, values: list[list[acb]]) -> bool:
+        """Return whether alpha or beta is too small for a float beside the other, but not zero."""
+        pairs = zip(values, self.values.reshape(2, 2, -1).swapaxes(0, 1), strict=True)
+        return any(not found.any() and not all(x.is_zero() for x in exact) for exact, found in pairs)
 
     def _phases(self) -> Phases:
         """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter.
@@ -115,19 +106,19 @@ class CayleyKlein:
 
 
 class Evaluation:
-    """alpha and beta at up to `size` times at once, with the memory that this takes; with their slopes if asked for."""
+    """alpha and beta at up to `size` times at once, with the memory that this takes."""
 
-    def __init__(self, parameters: CayleyKlein, size: int, *, slopes: bool = False) -> None:
+    def __init__(self, parameters: CayleyKlein, size: int) -> None:
         self.of = parameters
         count = parameters.phases.words.shape[1]
-        self.table = np.concatenate([parameters.values, parameters.slopes]) if slopes else parameters.values
+        self.table = parameters.values
         self.work = np.empty((8, count, size))
         self.rows = np.empty((parameters.functions.count, size))
         self.sums = np.empty((2, len(self.table), size))
         self.circles, self.products = np.empty((2, 2, size)), Products(size)
 
     def parts(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
-        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m).
+        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m).
 
         `low` (m,) is what the times t lack, None for nothing.
         """
@@ -163,7 +154,7 @@ class Evaluation:
         turned[:, 0] -= pairs[:, 1]
         turned[:, 1] += pairs[:, 0]
         if self.of.faint:
-            result /= np.abs(result[:4]).max(axis=0)
+            result /= np.abs(result).max(axis=0)
         return np.asarray(result)
 
     def at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
