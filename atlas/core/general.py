@@ -1,7 +1,7 @@
 """The general motion of a charged symmetric body, from any initial angular velocity (not in the paper)."""
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -12,7 +12,8 @@ from atlas.core.inputs import FloatArray, finite, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import Motion, components
 from atlas.core.nutation.cayley_klein import FIRST, CayleyKlein, Evaluation, combined, entries, evaluate
-from atlas.core.nutation.rows import KINDS, GeneralRows, Scalars
+from atlas.core.nutation.rows import GeneralRows
+from atlas.core.nutation.scalars import KINDS, Scalars
 from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
 from atlas.exact.digits import enclosed
@@ -27,6 +28,9 @@ BITS = 60
 NAME = "U28"
 """Names of kinds, none of which is longer."""
 
+NEAR = 1.5
+"""By how much the largest value that Omega3 could have may exceed the largest component of Omega at a time."""
+
 ORTHOGONAL = 1e-9
 """An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
 
@@ -37,11 +41,12 @@ VECTOR = entries(np.eye(3), np.eye(3))[:, 6:]
 class General:
     """One general motion: its constants in balls, and what turns times into matrices.
 
-    `exact` is the motion with R(0) = 1; `attitude` (3, 3) stands before its matrix.
+    `exact` is the motion with R(0) = 1; `attitude` (3, 3) stands before its matrix; `inputs` are I2, I3, B2, B3 and
+    omega where the field is (0, B2, B3).
     """
 
-    def __init__(self, exact: Balls, attitude: FloatArray) -> None:
-        self.exact = exact
+    def __init__(self, exact: Balls, attitude: FloatArray, inputs: tuple[float, ...] | None = None) -> None:
+        self.exact, self._inputs = exact, inputs
         self.parts = CayleyKlein(lambda: exact.solution)
         if self.parts.lost:
             raise DomainError(
@@ -78,7 +83,25 @@ class General:
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
         parts, weights = self.velocity
-        return self._linear(weights, t, (3,), out, parts)
+        found = self._linear(weights, t, (3,), out, parts)
+        # Omega3 loses to its largest value, as weights say, where it is small and those across the axis are smaller yet
+        times, rows = real(t, "The time"), found.reshape(-1, 3)
+        small = np.flatnonzero(np.abs(weights[:, 2]).max() > NEAR * np.abs(rows).max(axis=1))
+        if small.size:
+            rows[small, 2] = self._third(np.broadcast_to(times, found.shape[:-1]).reshape(-1)[small])
+        return found
+
+    def _third(self, t: FloatArray) -> FloatArray:
+        """Return Omega3 at times (m,): from two words, and where these do not suffice, from balls."""
+        out, left = np.empty((t.size, 3)), np.arange(t.size)
+        if self._inputs:
+            rows = GeneralRows(self._inputs, (1,)).at(np.zeros(t.size, dtype=int), t)
+            rows.angular_velocity(t, out)
+            left = rows.extreme
+        for i in left.tolist():
+            third = partial(lambda time: self.exact.angular_velocity(time)[2], float(t[i]))
+            out[i, 2] = float(arb(enclosed(third, BITS)).mid())
+        return out[:, 2]
 
     @cached_property
     def exponentials(self) -> "tuple[Exponentials, Exponentials] | None":
@@ -107,7 +130,7 @@ class General:
 
 def standing(I2: float, I3: float, B2: float, B3: float, *omega: float) -> General:
     """Return the motion with R(0) = 1 in the field (0, B2, B3)."""
-    return General(_balls(I2, I3, B2, B3, *omega), np.eye(3))
+    return General(_balls(I2, I3, B2, B3, *omega), np.eye(3), (I2, I3, B2, B3, *omega))
 
 
 def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:

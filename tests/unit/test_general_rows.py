@@ -12,8 +12,8 @@ from flint import arb, ctx
 from atlas.core import general
 from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.general import GeneralMotion
+from atlas.core.nutation import pair as nutation_pair
 from atlas.core.nutation import roots as nutation_roots
-from atlas.core.nutation import rows as general_rows
 from atlas.core.nutation.rows import GeneralRows
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
@@ -107,7 +107,7 @@ def test_matrices_of_many_motions_are_true_to_the_promise(inputs: Any) -> None:
 def test_each_frequency_keeps_its_bound(inputs: Any) -> None:
     """The frequencies of alpha, beta and nutation in two words are within their own bounds of the balls."""
     found = GeneralMotion(*inputs)
-    constants = GeneralRows(found._inputs, found.shape).constants
+    constants = GeneralRows(found._inputs, found.shape).field
     assert constants.sure.mean() > 0.3
     for i in np.flatnonzero(constants.sure).tolist():
         with ctx.workprec(400):
@@ -206,7 +206,7 @@ def test_stress_of_arrays_keeps_the_promises_and_finds_a_slip(monkeypatch: pytes
 
     assert {w.regime for w in judge_general_rows(3, 0).worst.values()} == {REGIME}
     assert not broken()
-    monkeypatch.setattr(general_rows, "NEGLIGIBLE", 1.0)
+    monkeypatch.setattr(nutation_pair, "NEGLIGIBLE", 1.0)
     assert {"general R", "general integrals"} <= broken()
 
 

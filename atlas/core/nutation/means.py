@@ -1,24 +1,19 @@
 """Constants of many general motions in two words, by Gauss's means alone: roots of numbers, and no other function.
 
 With the turning points and the other factor f of Q, let N = sqrt(f(low) f(high))/4 and S = -[f0 + f1 (low + high)/2
-+ f2 low high]/2. The means of sqrt(S + 2N)/2 and sqrt(N) tend to M = pi/T, whether two or four roots of Q are real. The
-same steps make, of the distances p^2 = |f(far)| near/(4 far), complete integrals of the third kind (Gauss), and, of
-p = M coth y, the depth y of the zeros of alpha and beta: p' = (p^2 + a g)/(2 p) = M coth 2y.
++ f2 low high]/2. The means of sqrt(S + 2N)/2 and sqrt(N) tend to M = pi/T, whether two or four roots of Q are real.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
 
 import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
-from atlas.core.inputs import FloatArray
-from atlas.core.nutation.roots import Roots, better, constant, part, stacked, taken
+from atlas.core.nutation.roots import Roots, constant, part
 
-MEANS, STEPS = 12, 60
-"""Steps of the means, and of what is made along with them, in two words."""
+MEANS = 12
+"""Steps of the means in two words."""
 
 ENOUGH = 2.0**-107
 """Difference of the means, in parts of them, below which they are one."""
@@ -38,19 +33,8 @@ class Level:
     sum: DoubleDouble
 
 
-class Zeros(NamedTuple):
-    """Zeros of alpha and beta, at M s = i y or pi/2 + i y, s the time since Omega3 was `low`; (2, m).
-
-    `beside` is where it is the former, `sense` the sign of y, `growth` is exp y.
-    """
-
-    beside: Any
-    sense: FloatArray
-    growth: DoubleDouble
-
-
 class Means:
-    """Gauss's means of motions with these roots: rate M = pi/T, moduli and nome; angles a period; depths of zeros."""
+    """Gauss's means of motions with these roots: rate M = pi/T, moduli and nome; the start."""
 
     def __init__(self, roots: Roots) -> None:
         self.roots = roots
@@ -112,47 +96,6 @@ class Means:
         return abs(self.minus).sqrt().scaled(-3) / self.levels[0].sum.scaled(-1) * product
 
     @cached_property
-    def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
-        """p^2, and after the first step p and p - a, (2, m)."""
-        r, first = self.roots, self.levels[0]
-        square = stacked(part(r.ends, 0), part(r.ends, 1)).scaled(-2) * abs(r.near) / r.far
-        p = square.sqrt()
-        after = (square + self.N) / p.scaled(1)
-        both = (after + chosen(self.four, first.a, first.g)) * abs(r.near) * r.far
-        by_torque = r.torques * r.width / both.scaled(2)
-        root = (square - self.N) / (p + self.N.sqrt())
-        beyond = chosen(self.four, by_torque * by_torque * (after + first.a), root * root / p.scaled(1))
-        return square, after, beyond
-
-    @cached_property
-    def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """The sum of Gauss's complete integrals of the third kind, and exp of the depths of zeros, (2, m)."""
-        square, p, d = self._starts
-        Q = ((square - self.N) / (square + self.N)).scaled(-1)
-        first = self.levels[0]
-        x = chosen(first.difference.hi == 0, constant(0.0, d), first.difference / d)
-        levels = [self.level(n) for n in range(STEPS + 1)]
-        total, product = _steps(levels, p, d, x, Q)
-        return Q + total + ONE, ((p + first.a) / d * product).sqrt().sqrt()
-
-    @cached_property
-    def zeros(self) -> Zeros:
-        """Zeros of alpha and beta."""
-        inside, meets = self._starts[0].hi > self.N.hi, self.roots.meets
-        # where the axis starts at a pole, nu = 1 belongs to `low` and nu = -1 to `high`
-        beside = np.where(meets, [[False], [True]], [inside[0], ~inside[1]])
-        sense = np.where(beside, -1.0, 1.0) * np.sign(self.roots.torques.hi) * np.array([[1.0], [-1.0]])
-        depth = chosen(meets, constant(1.0, self.roots.torques), self._third[1])
-        return Zeros(beside, sense, chosen(sense > 0, depth, ONE / depth))
-
-    @cached_property
-    def angles(self) -> DoubleDouble:
-        """What alpha and beta turn by, on the average, twice, seen from their frame: (2, m), in 1/time."""
-        r = self.roots
-        found = r.torques / r.far * (r.width / abs(r.near).scaled(1) * self._third[0] + ONE)
-        return chosen(r.torques.hi == 0, r.torques, found)
-
-    @cached_property
     def start(self) -> Circle:
         """Cosine and sine of M t, t the time since Omega3 was `low`, at the start: cot of twice it is (c - a g/c)/2."""
         r = self.roots
@@ -198,37 +141,3 @@ def _half(angle: Circle) -> Circle:
     smaller = sin / larger.scaled(1)
     sharp = cos.hi >= 0
     return chosen(sharp, larger, abs(smaller)), chosen(sharp, smaller, larger)
-
-
-def _steps(
-    levels: Sequence[Level], p: DoubleDouble, d: DoubleDouble, x: DoubleDouble, Q: DoubleDouble
-) -> tuple[DoubleDouble, DoubleDouble]:
-    """Return what the steps from p = a + d on add to the sum after Q, and make of the depth, x = (a - g)/d."""
-    m, after = levels[0], levels[1]
-    whole, above, more = p * p + m.product, p + m.a, x + ONE
-    Q = (Q * (d * above + m.a * m.difference) / whole).scaled(-1)
-    term = (p + m.g) / (above * more)
-    x = x * x / more * p / after.sum.scaled(1)
-    # of p and of d = p - a each the form that loses less: the bounds of one grow where p is large, of the other near a
-    by_product = d * (d + m.difference) / p.scaled(1)
-    half = (p + m.product / p).scaled(-1)
-    p, d = better(after.a + by_product, half), better(half - after.a, by_product)
-    going = (np.maximum(abs(Q.hi), x.hi) > ENOUGH).any(axis=0)
-    if not going.any() or len(levels) == 2:
-        return DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
-    rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
-    rest = [Level(*(taken(y, rows) for y in vars(level).values())) for level in levels[1:]]
-    total, product = _steps(rest, *(taken(y, rows) for y in (p, d, x, Q)))
-    if not isinstance(rows, slice):
-        total, product = (
-            _spread(y, rows, like) for y, like in ((total, constant(0.0, Q)), (product, constant(1.0, Q)))
-        )
-    return Q + total, (term * product).sqrt()
-
-
-def _spread(x: DoubleDouble, rows: Any, like: DoubleDouble) -> DoubleDouble:
-    """Return an array that has x in some columns."""
-    words = [np.array(np.broadcast_to(y, like.hi.shape)) for y in (like.hi, like.low, like.rel)]
-    for word, y in zip(words, (x.hi, x.low, x.rel), strict=True):
-        word[:, rows] = y
-    return DoubleDouble(*words)

@@ -28,8 +28,8 @@ ROUNDING = 2.0**-98
 class Roots:
     """Turning points `low` <= 0 <= `high`, where `exact`, and the other factor of Q, f0, f1, f2; f < 0 between them.
 
-    `poles` (2, m) are where nu = K3/b is -1 and 1, and `torques` (M, K) - b nu M3 there: -Q is its square. `moving` and
-    `steady` are where Omega3 is certain to vary, or to be constant.
+    `poles` (2, m) are where nu = K3/b is -1 and 1. `moving` and `steady` are where Omega3 is certain to vary, or to be
+    constant.
     """
 
     I: DoubleDouble
@@ -44,7 +44,6 @@ class Roots:
     high: DoubleDouble
     f: tuple[DoubleDouble, DoubleDouble, DoubleDouble]
     poles: DoubleDouble
-    torques: DoubleDouble
     steady: Any
     moving: Any
 
@@ -64,24 +63,9 @@ class Roots:
         return self.B2.hi == 0
 
     @cached_property
-    def meets(self) -> Any:
-        """Where the axis starts at a pole, so that alpha or beta is zero at the start, (2, m)."""
-        there = self.along & (self.torques.hi == 0) & (self.torques.rel < 0.5)
-        return there & np.array([self.B3.hi < 0, self.B3.hi > 0])
-
-    @cached_property
     def still(self) -> Any:
         """Where the body starts at rest."""
         return np.logical_and.reduce([w.hi == 0 for w in self.omega])
-
-    @cached_property
-    def amplitudes(self) -> DoubleDouble:
-        """Cosine and sine of half the angle theta between axis and field at the start, (2, m)."""
-        one = DoubleDouble(np.float64(1.0))
-        longer = ((abs(self.B3) / self.b + one).scaled(-1)).sqrt()
-        shorter = abs(self.B2) / (longer * self.b).scaled(1)
-        up = self.B3.hi >= 0
-        return stacked(chosen(up, longer, shorter), chosen(up, shorter, longer))
 
     @cached_property
     def exact(self) -> Any:
@@ -110,23 +94,6 @@ class Roots:
         f0, f1, f2 = self.f
         v = stacked(self.low, self.high)
         return -((f2 * v + f1) * v + f0)
-
-    @cached_property
-    def far(self) -> DoubleDouble:
-        """Distances of the poles from the turning point that is farther away, (2, m)."""
-        return stacked(part(self.poles, 0) - self.low, self.high - part(self.poles, 1))
-
-    @cached_property
-    def near(self) -> DoubleDouble:
-        """Distances of the poles from the turning point that is nearer, (2, m), with their sign.
-
-        Where that cancels, since the axis all but meets the field, they are the square of the torque over -f far.
-        """
-        f0, f1, f2 = self.f
-        plain = stacked(part(self.poles, 0) - self.high, self.low - part(self.poles, 1))
-        beyond = -((f2 * self.poles + f1) * self.poles + f0)
-        by_torque = self.torques * self.torques / (beyond * self.far)
-        return better(plain, by_torque)
 
     @cached_property
     def others(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
@@ -165,7 +132,6 @@ def roots_of(
     longer = b + abs(B3)
     shorter = -across / longer
     poles = stacked(chosen(B3.hi > 0, longer, -shorter), chosen(B3.hi > 0, shorter, -longer))
-    torques = B2 * X + inertial * poles
     still = q[0].hi == 0
     known = np.broadcast_to(q1.rel, q1.hi.shape) < 0.5
     words = np.array([x.hi for x in q])
@@ -180,7 +146,7 @@ def roots_of(
     f1 = better(f1, chosen(still, (f0 - q[2]) / s, (q[1] + s * f0) / t))
     f = f0, f1, f2
     steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
-    return Roots(I, less, B2, B3, (w1, w2, w3), c3, b, rate, low, high, f, poles, torques, steady, moving)
+    return Roots(I, less, B2, B3, (w1, w2, w3), c3, b, rate, low, high, f, poles, steady, moving)
 
 
 ALTERNATING = np.array([1.0, -1.0, 1.0, -1.0, 1.0])[:, None]

@@ -1,0 +1,246 @@
+"""A pair alpha, beta of many motions in two words: the zeros of each, by Gauss's means, and the sums that vanish there.
+
+The steps of the means make, of the distances p^2 = |f(far)| near/(4 far) of a pole, complete integrals of the third
+kind (Gauss), and, of p = M coth y, the depth y of the zero: p' = (p^2 + a g)/(2 p) = M coth 2y.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.inputs import FloatArray
+from atlas.core.nutation.means import ENOUGH, ONE, Circle, Level, Means
+from atlas.core.nutation.roots import better, constant, joined, part, signed, stacked, taken
+from atlas.core.nutation.spheres import Sphere
+
+STEPS = 60
+"""Steps of what is made along with the means."""
+
+TERMS = 9
+"""Most terms of a sum."""
+
+NEGLIGIBLE = 2.0**-58
+"""Part of the first term below which a term is left out."""
+
+
+class Zeros(NamedTuple):
+    """Zeros of alpha and beta, at M s = i y or pi/2 + i y, s the time since Omega3 was `low`; (2, m).
+
+    `beside` is where it is the former, `sense` the sign of y, `growth` is exp y.
+    """
+
+    beside: Any
+    sense: FloatArray
+    growth: DoubleDouble
+
+
+class Sums(NamedTuple):
+    """Weights of cos k y and i sin k y, (TERMS, 2, m), how many matter, and the sums at the start.
+
+    `ends` are the sums where Omega3 is `low` and `high`, without i: those of `even`, and of `odd` with signs by turns.
+    """
+
+    even: FloatArray
+    odd: FloatArray
+    terms: Any
+    start: Circle
+    ends: Circle
+
+
+class Change(NamedTuple):
+    """Omega3 - omega3 is size S(M t) S(M t + 2 y0)/(|alpha|^2 + |beta|^2), S the sum of weights (TERMS, m) sin k y.
+
+    Both zeros are real: so the change keeps its digits where Omega3 is small beside its largest values.
+    """
+
+    size: DoubleDouble
+    weights: FloatArray
+
+
+@dataclass(frozen=True)
+class Pair:
+    """alpha and beta of a sphere."""
+
+    means: Means
+    sphere: Sphere
+
+    @cached_property
+    def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
+        """p^2, and after the first step p and p - a, (2, m)."""
+        m, k = self.means, self.sphere
+        r, first = m.roots, m.levels[0]
+        square = stacked(part(r.ends, 0), part(r.ends, 1)).scaled(-2) * abs(k.near) / k.far
+        p = square.sqrt()
+        after = (square + m.N) / p.scaled(1)
+        both = (after + chosen(m.four, first.a, first.g)) * abs(k.near) * k.far
+        by_torque = k.torques * r.width / both.scaled(2)
+        root = (square - m.N) / (p + m.N.sqrt())
+        beyond = chosen(m.four, by_torque * by_torque * (after + first.a), root * root / p.scaled(1))
+        return square, after, beyond
+
+    @cached_property
+    def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
+        """The sum of Gauss's complete integrals of the third kind, and exp of the depths of zeros, (2, m)."""
+        m, (square, p, d) = self.means, self._starts
+        Q = ((square - m.N) / (square + m.N)).scaled(-1)
+        first = m.levels[0]
+        x = chosen(first.difference.hi == 0, constant(0.0, d), first.difference / d)
+        levels = [m.level(n) for n in range(STEPS + 1)]
+        total, product = _steps(levels, p, d, x, Q)
+        return Q + total + ONE, ((p + first.a) / d * product).sqrt().sqrt()
+
+    @cached_property
+    def zeros(self) -> Zeros:
+        """Zeros of alpha and beta."""
+        inside, k = self._starts[0].hi > self.means.N.hi, self.sphere
+        # where the vector starts at a pole, that of beta belongs to `low` and that of alpha to `high`
+        beside = np.where(k.meets, [[False], [True]], [inside[0], ~inside[1]])
+        sense = np.where(beside, -1.0, 1.0) * np.sign(k.torques.hi) * np.array([[1.0], [-1.0]])
+        depth = chosen(k.meets, constant(1.0, k.torques), self._third[1])
+        return Zeros(beside, sense, chosen(sense > 0, depth, ONE / depth))
+
+    @cached_property
+    def angles(self) -> DoubleDouble:
+        """What alpha and beta turn by, on the average, twice, seen from their frame: (2, m), in 1/time."""
+        k, width = self.sphere, self.means.roots.width
+        found = k.torques / k.far * (width / abs(k.near).scaled(1) * self._third[0] + ONE)
+        return chosen(k.torques.hi == 0, k.torques, found)
+
+    @cached_property
+    def rates(self) -> DoubleDouble:
+        """The frequencies l of alpha and beta, and M, (3, m).
+
+        Of a ball that starts at a turning point angle and M cancel, and a sum that is zero has no relative error.
+        """
+        M, own = self.means.rate, self.angles.scaled(-1)
+        return joined(self.sphere.frames + own - signed(M, self.zeros.sense), M)
+
+    @cached_property
+    def sums(self) -> Sums:
+        """The sums, of exp(i k y) times the depth's exponential to the power k, and of its inverse."""
+        zeros, circle, square = self.zeros, self.means.start, self.means.nome * self.means.nome
+        up, sign = zeros.growth, np.where(zeros.beside, -1.0, 1.0)
+        down, weight, power = ONE / up, constant(1.0, self.means.nome), constant(1.0, self.means.nome)
+        more, less, before = up * up, down * down, (circle[0], -circle[1])
+        twice = (circle[0] * circle[0] - circle[1] * circle[1]).scaled(1)
+        even, odd = np.zeros((2, TERMS, *up.hi.shape))
+        terms, zero = np.ones(weight.hi.shape, dtype=int), constant(0.0, up)
+        sums, ends = (zero, zero), (zero, zero)
+        for n in range(TERMS):
+            flip = self._signs[n] * np.where(zeros.beside, (-1.0) ** n, 1.0)
+            weights, lower = signed(weight, flip), signed(down, sign)
+            a, b = weights * (up + lower), weights * (up - lower)
+            even[n], odd[n] = a.hi, b.hi
+            sums = sums[0] + a * circle[0], sums[1] + b * circle[1]
+            ends = ends[0] + a, ends[1] + signed(b, (-1.0) ** n)
+            power = power * square
+            up, down, weight = up * more, down * less, weight * power
+            first, second = circle
+            circle, before = (twice * first - before[0], twice * second - before[1]), circle
+            size = weight.hi * np.maximum(up.hi, down.hi)
+            matters = (size > NEGLIGIBLE * np.maximum(abs(even[0]), abs(odd[0]))).any(axis=0)
+            terms[matters] = n + 2
+            if not matters.any():
+                break
+        return Sums(even, odd, terms, sums, ends)
+
+    @cached_property
+    def _signs(self) -> list[Any]:
+        """Signs of the powers of the nome."""
+        return [np.where(self.means.four, 1.0, (-1.0) ** (n * (n + 1) // 2)) for n in range(TERMS)]
+
+    @cached_property
+    def change(self) -> Change:
+        """What Omega3 changes by."""
+        r, square = self.means.roots, self.means.nome * self.means.nome
+        circle = self.means.start
+        before, twice = (circle[0], -circle[1]), (circle[0] * circle[0] - circle[1] * circle[1]).scaled(1)
+        weight, power = constant(1.0, square), constant(1.0, square)
+        weights, at_low, at_high = np.zeros((TERMS, *square.hi.shape)), constant(0.0, square), constant(0.0, square)
+        for n in range(int(self.sums.terms.max(initial=1))):
+            if n == TERMS:
+                break
+            cos, sin = circle
+            signs = self._signs[n]
+            weights[n] = weight.hi * signs * (-1.0) ** n
+            at_low, at_high = at_low + signed(weight, signs * (-1.0) ** n) * sin, at_high + signed(weight, signs) * cos
+            power = power * square
+            weight = weight * power
+            circle, before = (twice * cos - before[0], twice * sin - before[1]), circle
+        by_low, by_high = (self._length(x) for x in self.sums.ends)
+        return Change(better(-r.low * by_low / (at_low * at_low), r.high * by_high / (at_high * at_high)), weights)
+
+    def _length(self, sums: DoubleDouble) -> DoubleDouble:
+        """Return |alpha|^2 + |beta|^2 where the sums are these."""
+        x, y = self.sums.start
+        factors = chosen(
+            self.sphere.meets,
+            DoubleDouble(abs(self.factors[0]) ** 2, None, 2.0**-50),
+            self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y),
+        )
+        both = sums * sums * factors
+        return part(both, 0) + part(both, 1)
+
+    @cached_property
+    def factors(self) -> tuple[Any, FloatArray]:
+        """What the sums are multiplied by, (2, m), complex, and its relative error."""
+        k, (x, y) = self.sphere, self.sums.start
+        size = x * x + y * y
+        lost = (abs(x.hi) * x.rel + abs(y.hi) * y.rel) / np.sqrt(size.hi)
+        found = (k.amplitudes * x / size).hi - 1j * (k.amplitudes * y / size).hi
+        return np.where(k.meets, self._by_slopes, found) if k.meets.any() else found, np.where(k.meets, 0.0, lost)
+
+    @property
+    def _by_slopes(self) -> Any:
+        """The same where alpha or beta is zero at the start: by its derivative."""
+        cos, sin = (x.hi for x in self.means.start)
+        terms = zip(range(1, 2 * TERMS, 2), self.sums.even, self.sums.odd, multiples(cos, sin, TERMS), strict=True)
+        slopes = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
+        return self.sphere.slopes / (2 * self.means.rate.hi * slopes)
+
+
+def multiples(cos: FloatArray, sin: FloatArray, count: int) -> list[tuple[FloatArray, FloatArray]]:
+    """Return cosines and sines of an angle times 1, 3, 5 ..."""
+    twice, found = 2 * (cos * cos - sin * sin), [(cos, -sin), (cos, sin)]
+    while len(found) <= count:
+        (x, y), (u, v) = found[-2:]
+        found.append((twice * u - x, twice * v - y))
+    return found[1:]
+
+
+def _steps(
+    levels: Sequence[Level], p: DoubleDouble, d: DoubleDouble, x: DoubleDouble, Q: DoubleDouble
+) -> tuple[DoubleDouble, DoubleDouble]:
+    """Return what the steps from p = a + d on add to the sum after Q, and make of the depth, x = (a - g)/d."""
+    m, after = levels[0], levels[1]
+    whole, above, more = p * p + m.product, p + m.a, x + ONE
+    Q = (Q * (d * above + m.a * m.difference) / whole).scaled(-1)
+    term = (p + m.g) / (above * more)
+    x = x * x / more * p / after.sum.scaled(1)
+    # of p and of d = p - a each the form that loses less: the bounds of one grow where p is large, of the other near a
+    by_product = d * (d + m.difference) / p.scaled(1)
+    half = (p + m.product / p).scaled(-1)
+    p, d = better(after.a + by_product, half), better(half - after.a, by_product)
+    going = (np.maximum(abs(Q.hi), x.hi) > ENOUGH).any(axis=0)
+    if not going.any() or len(levels) == 2:
+        return DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
+    rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
+    rest = [Level(*(taken(y, rows) for y in vars(level).values())) for level in levels[1:]]
+    total, product = _steps(rest, *(taken(y, rows) for y in (p, d, x, Q)))
+    if not isinstance(rows, slice):
+        total, product = (
+            _spread(y, rows, like) for y, like in ((total, constant(0.0, Q)), (product, constant(1.0, Q)))
+        )
+    return Q + total, (term * product).sqrt()
+
+
+def _spread(x: DoubleDouble, rows: Any, like: DoubleDouble) -> DoubleDouble:
+    """Return an array that has x in some columns."""
+    words = [np.array(np.broadcast_to(y, like.hi.shape)) for y in (like.hi, like.low, like.rel)]
+    for word, y in zip(words, (x.hi, x.low, x.rel), strict=True):
+        word[:, rows] = y
+    return DoubleDouble(*words)

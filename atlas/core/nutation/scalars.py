@@ -1,0 +1,132 @@
+"""The scalars of many general motions in arrays: kind, turning points, roots, period, moduli, nome, angles a period.
+
+What two words do not hold for certain is not `sure`, and is left to the motion made alone: next to a separatrix or a
+triple root, where Omega3 is all but constant, where the inputs are of very different sizes.
+"""
+
+from collections.abc import Sequence
+from math import prod
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.nutation.means import Means
+from atlas.core.nutation.pair import Pair
+from atlas.core.nutation.roots import part
+from atlas.core.nutation.rows import Block, each_block
+from atlas.core.nutation.spheres import sphere_of_field
+
+KINDS = (
+    "nutation, two real roots",
+    "nutation, four real roots",
+    "ball",
+    "at rest",
+    "precession",
+    "spin along the field",
+    "free body",
+)
+"""Kinds that are decided in arrays; what is nearer to a border than the error is none of them."""
+
+HALF_TURN = DoubleDouble(np.float64(np.pi), np.float64(1.2246467991473532e-16), 2.0**-106)
+
+
+class Found(NamedTuple):
+    """Values in one row (..., m), and where they are the nearest doubles for certain."""
+
+    values: Any
+    sure: Any
+
+
+class Scalars:
+    """Scalars of many motions: each is `Found`, evaluated with others that share its steps."""
+
+    def __init__(self, inputs: Sequence[Any], shape: tuple[int, ...]) -> None:
+        self.inputs, self.shape, self.count = inputs, shape, prod(shape)
+        self._known: dict[str, Found] = {}
+
+    def __getitem__(self, name: str) -> Found:
+        """Return a scalar by its name."""
+        if name not in self._known:
+            angles = name.endswith("per_period")
+            self._fill(_angles if angles else _scalars)
+        return self._known[name]
+
+    def _fill(self, values: Any) -> None:
+        """Evaluate some scalars."""
+        parts: dict[str, list[Found]] = {}
+        inputs, shape = (self.inputs, self.shape) if self.count else ((1.0,) * 7, (1,))
+        for block in each_block(inputs, shape):
+            for name, found in values(block).items():
+                parts.setdefault(name, []).append(found)
+        for name, all_of_it in parts.items():
+            columns = (np.concatenate(x, axis=-1)[..., : self.count] for x in zip(*all_of_it, strict=True))
+            self._known[name] = Found(*columns)
+
+
+def _rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Found:
+    """Return numbers of a block, homogeneous of a degree in the frequencies, rounded once."""
+    values, sure = x.nearest()
+    values = np.ldexp(values, degree * block.exponents)
+    return Found(values, sure & block.fine & ((values == 0) | ((abs(values) > 2.0**-1000) & (abs(values) < np.inf))))
+
+
+def _scalars(block: Block) -> dict[str, Found]:
+    """Return kind, turning points, roots, period, moduli and nome of a block."""
+    with np.errstate(all="ignore"):
+        r = block.roots
+        means, known = Means(r), r.exact & ~r.free
+        period, nome = HALF_TURN / means.rate, means.nome
+        one_by_one = {
+            "period": _rounded(period, block, -1),
+            "modulus": _rounded(means.moduli[0], block),
+            "complementary_modulus": _rounded(means.moduli[1], block),
+            "nome": _rounded(chosen(means.four, nome, nome * nome), block),
+        }
+        found = {name: Found(x.values, x.sure & known) for name, x in one_by_one.items()}
+        return found | _kinds(block) | _all_roots(block)
+
+
+def _kinds(block: Block) -> dict[str, Found]:
+    """Return the kind as its place in KINDS."""
+    r = block.roots
+    steady = np.select([r.still, r.along], [3, 5], 4)
+    codes = np.select([r.free, r.steady, r.ball], [6, steady, 2], np.where(r.discriminant.hi > 0, 1, 0))
+    apart = r.exact & (r.discriminant.rel < 0.5)
+    return {"kind": Found(codes, block.fine & (r.free | r.steady | (r.moving & (r.ball | apart))))}
+
+
+def _all_roots(block: Block) -> dict[str, Found]:
+    """Return the turning points, (2, m), and the roots of Q, (4, m)."""
+    r = block.roots
+    first, second, imaginary = r.others
+    low, high = (_rounded(r.omega[2] + x, block, 1) for x in (r.low, r.high))
+    ends = Found(np.array([low.values, high.values]), low.sure & high.sure & r.exact)
+    parts = [_rounded(x, block, 1) for x in (r.omega[2] + first, r.omega[2] + second, imaginary)]
+    x, y, z = (part.values for part in parts)
+    two = (r.discriminant.hi <= 0) & ~r.ball
+    gone = r.ball | two
+    roots = np.sort([*ends.values, np.where(gone, np.inf, x), np.where(gone, np.inf, y)], axis=0).astype(complex)
+    roots[2:, two] = np.array([x - 1j * z, x + 1j * z])[:, two]
+    others = np.logical_and.reduce([part.sure for part in parts]) & (r.discriminant.rel < 0.5)
+    return {"turning_points": ends, "roots": Found(roots, ends.sure & (r.ball | others) & ~r.free)}
+
+
+def _angles(block: Block) -> dict[str, Found]:
+    """Return the angles of precession and of spin in one period."""
+    with np.errstate(all="ignore"):
+        r = block.roots
+        means, sphere = Means(r), sphere_of_field(r)
+        angles = Pair(means, sphere).angles
+        first, second = part(angles, 0), part(angles, 1)
+        half = (HALF_TURN / means.rate).scaled(-1)
+        spin = half * (first - second + (r.less * r.c3).scaled(1))
+        # the two angles of a ball are half a turn each, or none, and must not cancel
+        whole = HALF_TURN * DoubleDouble(np.sign(sphere.torques.hi[0]) - np.sign(sphere.torques.hi[1]))
+        both = {
+            "precession_per_period": half * (first + second - r.b.scaled(1)),
+            "spin_per_period": chosen(r.ball & (sphere.torques.rel < 0.5).all(axis=0), whole, spin),
+        }
+        known = r.exact & ~r.free & ~(r.steady & r.along)
+        found = {name: _rounded(x, block) for name, x in both.items()}
+        return {name: Found(x.values, x.sure & known) for name, x in found.items()}

@@ -1,0 +1,108 @@
+"""The two vectors of constant length that move with Omega3, in two words: see `atlas.exact.spheres`.
+
+Their poles are two values of v = Omega3 - omega3 beyond the turning points, one on each side: alpha is zero at
+the upper, beta at the lower.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.inputs import FloatArray
+from atlas.core.nutation.roots import Roots, better, constant, part, stacked
+
+ONE = DoubleDouble(np.float64(1.0))
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """Poles of alpha and beta and the torques there, (2, m): -Q is the square of a torque.
+
+    `amplitudes` are cosine and sine of half the polar angle at the start, `slopes` twice the derivatives of alpha and
+    beta there, for the one that is zero, `frames` the rates of the frame that both are seen from. `meets` tells where
+    the vector starts at a pole. `azimuth` are cosine and sine of that at the start, from the second axis to the first,
+    and `sizes` what one stands for across the axis and along it, with its sign.
+    """
+
+    roots: Roots
+    poles: DoubleDouble
+    torques: DoubleDouble
+    amplitudes: DoubleDouble
+    meets: Any
+    slopes: Any
+    frames: DoubleDouble
+    azimuth: tuple[FloatArray, FloatArray]
+    sizes: tuple[FloatArray, FloatArray]
+
+    @cached_property
+    def far(self) -> DoubleDouble:
+        """Distances of the poles from the turning point that is farther away, (2, m)."""
+        return stacked(part(self.poles, 0) - self.roots.low, self.roots.high - part(self.poles, 1))
+
+    @cached_property
+    def near(self) -> DoubleDouble:
+        """Distances of the poles from the turning point that is nearer, (2, m), with their sign.
+
+        Where that cancels, since the vector all but meets the pole, they are the square of the torque over -f far.
+        """
+        f0, f1, f2 = self.roots.f
+        plain = stacked(part(self.poles, 0) - self.roots.high, self.roots.low - part(self.poles, 1))
+        beyond = -((f2 * self.poles + f1) * self.poles + f0)
+        by_torque = self.torques * self.torques / (beyond * self.far)
+        return better(plain, by_torque)
+
+
+def sphere_of_field(r: Roots) -> Sphere:
+    """Return the sphere of K, and of the axis: the poles are where nu = K3/b is -1 and 1, the torques (M, K) - b nu M3.
+
+    The frame is Larmor's, with the turn (1-I) c3 about the axis.
+    """
+    torques = r.B2 * (r.omega[1] + r.B2) + r.I * r.c3 * r.poles
+    longer = ((abs(r.B3) / r.b + ONE).scaled(-1)).sqrt()
+    shorter = abs(r.B2) / (longer * r.b).scaled(1)
+    up, spin = r.B3.hi >= 0, r.less * r.c3
+    (w1, w2, _), there = (w.hi for w in r.omega), r.along & (torques.hi == 0) & (torques.rel < 0.5)
+    return Sphere(
+        roots=r,
+        poles=r.poles,
+        torques=torques,
+        amplitudes=stacked(chosen(up, longer, shorter), chosen(up, shorter, longer)),
+        meets=there & np.array([~up, up]),
+        slopes=np.array([1j * w2 - w1, 1j * w2 + w1]),
+        frames=stacked(spin - r.b, -(spin + r.b)).scaled(-1),
+        azimuth=(np.where(r.B2.hi < 0, -1.0, 1.0), np.zeros_like(w1)),
+        sizes=(r.b.hi, r.b.hi),
+    )
+
+
+def sphere_of_velocity(r: Roots) -> Sphere:
+    """Return the sphere of (Omega2, Omega1, -sqrt(I) Omega3), of the length sqrt(E'): the poles are Omega3 = ± `end`.
+
+    The torques are P(u) = u^2 - (2-I) c3 u + c5, which starts as omega2 B2; there is no frame.
+    """
+    w1, w2, w3 = r.omega
+    short, up = r.I.sqrt(), w3.hi <= 0
+    square = w1 * w1 + w2 * w2
+    end = (square / r.I + w3 * w3).sqrt()
+    longer = end + abs(w3)
+    shorter = square / (r.I * longer)
+    poles = stacked(chosen(up, longer, shorter), -chosen(up, shorter, longer))
+    torques = w2 * r.B2 + poles * (r.I * w3 - (r.less + ONE) * r.B3 + poles)
+    twice, across = end.scaled(1), square.sqrt()
+    larger, smaller = (longer / twice).sqrt(), (shorter / twice).sqrt()
+    there = (square.hi == 0) & (torques.hi == 0) & (torques.rel < 0.5)
+    turn = short.hi * r.B2.hi
+    return Sphere(
+        roots=r,
+        poles=poles,
+        torques=torques,
+        amplitudes=stacked(chosen(up, larger, smaller), chosen(up, smaller, larger)),
+        meets=there & np.array([~up, up]),
+        slopes=np.array([-turn, turn]) + 0j,
+        frames=constant(0.0, poles),
+        azimuth=(np.where(across.hi == 0, 1.0, (w1 / across).hi), np.where(across.hi == 0, 0.0, (w2 / across).hi)),
+        sizes=((short * end).hi, -end.hi),
+    )
