@@ -102,3 +102,9 @@ def common_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
 def plain(array: Any) -> Any:
     """Return a Python float for an array without dimensions, any other array as it is."""
     return array if np.ndim(array) else float(array)
+
+
+def largest(vectors: FloatArray) -> FloatArray:
+    """Return the size of the largest component of each vector (m, 3), by columns, which NumPy does faster."""
+    x, y, z = np.abs(vectors).T
+    return np.asarray(np.maximum(np.maximum(x, y), z))

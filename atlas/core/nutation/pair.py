@@ -172,7 +172,8 @@ class Pair:
             weight = weight * power
             circle, before = (twice * cos - before[0], twice * sin - before[1]), circle
         by_low, by_high = (self._length(x) for x in self.sums.ends)
-        return Change(better(-r.low * by_low / (at_low * at_low), r.high * by_high / (at_high * at_high)), weights)
+        below, above = -r.low * by_low / (at_low * at_low), r.high * by_high / (at_high * at_high)
+        return Change(chosen(abs(at_low.hi) > abs(at_high.hi), below, above), weights)
 
     def _length(self, sums: DoubleDouble) -> DoubleDouble:
         """Return |alpha|^2 + |beta|^2 where the sums are these."""

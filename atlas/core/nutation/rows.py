@@ -17,7 +17,7 @@ from atlas.core.arithmetic.double_double import blocks
 from atlas.core.arithmetic.frequencies import LOST, PER_RADIAN
 from atlas.core.arithmetic.phase import LIMIT, Phases
 from atlas.core.arithmetic.turnings import REACH
-from atlas.core.inputs import FloatArray
+from atlas.core.inputs import FloatArray, largest
 from atlas.core.nutation.means import Means
 from atlas.core.nutation.pair import TERMS, Pair, multiples
 from atlas.core.nutation.roots import Roots, roots_of
@@ -33,7 +33,7 @@ CANCELLING = 6.0
 """By how much the weights may exceed alpha and beta: each entry of R is within 1e-14 then, as bounded in `At`."""
 
 SMALL = 3.0
-"""By how much what Omega3 is the sum of may exceed the largest component of Omega: that is within 16 ulp then."""
+"""By how much Omega3 may change, in parts of the largest component of Omega: that is within 16 ulp then."""
 
 
 class Block(NamedTuple):
@@ -85,7 +85,7 @@ class Constants(NamedTuple):
 class Third(NamedTuple):
     """The third component of Omega at t = 0, and what it changes by, see `Change`; `start` are cos and sin of 2 y0.
 
-    `reach` bounds both: the sum has an error of some u of it.
+    `reach` bounds what it changes by, of which it has an error of some u.
     """
 
     value: FloatArray
@@ -103,7 +103,7 @@ def _velocity(block: Block) -> tuple[Any, ...]:
         found, change, (cos, sin) = _constants(pair, block), pair.change, pair.means.start
         return *found._replace(sure=found.sure & (change.size.rel < KNOWN)), *Third(
             np.ldexp(r.omega[2].hi, block.exponents),
-            np.ldexp(abs(r.omega[2].hi) + np.maximum(-r.low.hi, r.high.hi), block.exponents),
+            np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
             np.ldexp(change.size.hi, block.exponents),
             change.weights,
             np.array([(cos * cos - sin * sin).hi, (cos * sin).scaled(1).hi]),
@@ -198,7 +198,7 @@ class At:
         pair, third = self._pair(constants), Third(*(x[..., self._index] for x in third))
         pair.vector(out, first=1)
         out[:, 2] = pair.third(third)
-        self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > SMALL * abs(out).max(axis=1)))
+        self.extreme = np.union1d(self.extreme, np.flatnonzero(third.reach > SMALL * largest(out)))
 
     def _pair(self, constants: Constants) -> "PairAt":
         """Return a pair, and keep which motions it does not hold."""
