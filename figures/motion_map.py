@@ -11,7 +11,7 @@ import numpy as np
 from contourpy import contour_generator
 
 from atlas.core.inputs import FloatArray
-from atlas.core.kind_map import trace_map
+from atlas.core.trace_map import trace_map
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Layer, Plane, Points, Scene
 from atlas.scene.hyperbola_plane import Window, branches, places

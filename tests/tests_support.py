@@ -1,7 +1,12 @@
 """Small things that several test files need."""
 
 import math
+from collections.abc import Mapping
 from fractions import Fraction
+
+from atlas.paper import EQUATIONS
+from atlas.proof import recorded
+from atlas.proof.verdict import Sensitivity, Verdict
 
 
 def ulps_apart(found: float, certified: str, size: float) -> float:
@@ -9,3 +14,13 @@ def ulps_apart(found: float, certified: str, size: float) -> float:
     if size == 0:
         return 0.0 if found == 0 else math.inf
     return abs(float(Fraction(found) - Fraction(certified))) / math.ulp(size)
+
+
+def stale(records: Mapping[str, Verdict] | Mapping[str, Sensitivity]) -> list[str]:
+    """Return the names of the ledger without a record, or whose proof has changed since it was recorded."""
+    changes = any(isinstance(entry, Sensitivity) for entry in records.values())
+    return [
+        name
+        for name in EQUATIONS
+        if name not in records or records[name].source != recorded.source(name, changes=changes)
+    ]

@@ -88,16 +88,6 @@ def axis_spin(ratio: Any, b: Any, M3: Any, end: int = 1) -> tuple[Conserved, Any
     return Conserved(plain(M3), plain(end * M3), plain(M3 * M3 / I + I * b * b)), plain(M3 * M3 - 4 * A)
 
 
-def equator_spin(ratio: Any, b: Any, M3: Any) -> tuple[Conserved, Any]:
-    """Return (M3, p, h) of the free spin across the field, theorem-equatorial-field, and M3^2 + A.
-
-    The latter is its nutation frequency squared: the spin is unstable where it is negative, which needs I < 1.
-    """
-    I, A, b = _constants(ratio, b)
-    M3 = real(M3, "M3")
-    return Conserved(plain(M3), plain(0 * M3), plain(M3 * M3 / I + b * b)), plain(M3 * M3 + A)
-
-
 def section(ratio: Any, b: Any, M3: Any, *, reach: float = 3.0, points: int = 400) -> tuple[Branch, ...]:
     """Return the curves p(w), h(w) of critical values at one M3, theorem-steady: the bifurcation diagram.
 

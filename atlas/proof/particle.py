@@ -19,11 +19,6 @@ ALONG_Z, PARALLEL, ACROSS = sympy.Matrix([0, 0, b]), sympy.Matrix([0, 0, E3]), s
 e1, e2 = sympy.Matrix([1, 0, 0]), sympy.Matrix([0, 1, 0])
 
 
-def lorentz(spin: Value = v) -> Value:
-    """Acceleration of (89)."""
-    return mu * E + mu / c * cross(spin, B)
-
-
 def euler(lagrangian: Value) -> Value:
     """Acceleration that a Lagrangian gives: d/dt dL/dv = dL/dy, solved."""
     momentum = sympy.Matrix([lagrangian.diff(s) for s in v])

@@ -22,8 +22,6 @@ excess = sympy.Symbol("e", positive=True)
 
 LETTERS = {"omega1": omega1, "omega2": omega2, "omega3": omega3, "I": I, "B2": B2, "B3": B3}
 
-RESTING = sympy.Symbol("omega3_of_cubic", real=True)
-
 
 def at_start(u: Value) -> Value:
     """Return the cubic of (47), (48) as corrected, at Omega3 = u and with its integrals at t = 0."""

@@ -93,13 +93,6 @@ def save(found: Iterable[Verdict | Sensitivity], path: Path = VERDICTS) -> None:
     files.write(path, json.dumps(ordered, indent=1, ensure_ascii=False) + "\n")
 
 
-def stale(recorded: Mapping[str, Verdict] | Mapping[str, Sensitivity] | None = None) -> list[str]:
-    """Return the names of the ledger without a verdict, or whose proof has changed since its verdict was recorded."""
-    records = load() if recorded is None else recorded
-    changes = any(isinstance(entry, Sensitivity) for entry in records.values())
-    return [name for name in EQUATIONS if name not in records or records[name].source != source(name, changes=changes)]
-
-
 def differs(found: Iterable[Verdict], recorded: Mapping[str, Verdict] | None = None) -> list[tuple[str, str, str]]:
     """Return (name, recorded, found) wherever a verdict, or that on its corrected form, isn't the recorded one."""
     records = load() if recorded is None else recorded

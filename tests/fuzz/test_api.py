@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from values import answered, arrays, no_numbers, numbers, ratios, share
 
 import atlas
-from atlas.core import integrals, quadratures, units
+from atlas.core import integrals, units
 from atlas.core.pseudo_oscillator import PseudoOscillator
 
 pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")  # NumPy's, of a float that overflows to inf
@@ -152,8 +152,6 @@ def test_integrals_and_the_cubic(I: Any, field: Any, omega: Any, K: Any, u: Any)
             "acceleration": lambda p: p.acceleration(u),
             "stiffness": lambda p: p.stiffness(u),
             "quartic": lambda p: p.quartic(u),
-            "field_in_body": lambda p: quadratures.field_in_body(I, p.integrals, omega, u),
-            "frequency": lambda p: quadratures.frequency(I, p.integrals, u),
         },
     )
 

@@ -1,12 +1,12 @@
-"""Integrals, pseudo-oscillator and quadratures: core and exact say what the ledger's (36) to (49) say."""
+"""Integrals and pseudo-oscillator: core and exact say what the ledger's (36) to (49) say."""
 
 from typing import Any
 
 import pytest
 import sympy
-from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, length, letters, power
+from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, letters, power
 
-from atlas.core import pseudo_oscillator, quadratures
+from atlas.core import pseudo_oscillator
 from atlas.core.integrals import Integrals
 
 POINTS = bodies(55, 8)
@@ -211,57 +211,12 @@ TIES = (
         ulps=16,
         floors=("core",),
     ),
-    Tie(
-        "quadratures.transverse_square",
-        "(36)",
-        lambda f, p: f.quadratures.transverse_square(p.body, conserved(p), p.u),
-        across,
-        POINTS,
-        size=power(2),
-        floors=("core",),
-    ),
-    Tie(
-        "quadratures.field_projection",
-        "(41)",
-        lambda f, p: f.quadratures.field_projection(p.body, conserved(p), p.u),
-        projection,
-        POINTS,
-        size=power(2),
-        floors=("core",),
-    ),
-    Tie(
-        "quadratures.field_in_body",
-        "(36) (42)",
-        lambda f, p: f.quadratures.field_in_body(p.body, conserved(p), p.omega, p.t),
-        field,
-        MOVING,
-        size=lambda _true, p: 4 * p.scale**2 * max(p.scale, abs(p.t)) / (p.omega1**2 + p.omega2**2),
-        floors=("core",),
-    ),
-    Tie(
-        "quadratures.frequency",
-        "(44)",
-        lambda f, p: f.quadratures.frequency(p.body, conserved(p), p.u),
-        lambda say, p: say("(44)", "phi", **same(p)),
-        POINTS,
-        size=lambda _true, p: 4 * p.scale**3 / (p.u**2 + p.omega1**2),
-        floors=("core",),
-    ),
-    Tie(
-        "quadratures.angular_velocity",
-        "(45)",
-        lambda f, p: f.quadratures.angular_velocity(p.body, conserved(p), p.u, p.t),
-        spin,
-        POINTS,
-        size=length,
-        floors=("core",),
-    ),
 )
 
 
 @each(TIES)
 def test_the_motion_of_omega3_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
-    """Its integrals, its cubic and its quartic, and the rest of the motion by quadrature."""
+    """Its integrals, its cubic and its quartic."""
     agree(tie, floor)
 
 
@@ -288,10 +243,3 @@ def test_the_paper_s_slip_in_equation_48_is_noticed(monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(pseudo_oscillator, "cubic", printed)
     disagree(TIES, "PseudoOscillator.coefficients", "PseudoOscillator.stiffness", "pseudo_oscillator.cubic")
-
-
-def test_a_wrong_sign_in_the_quadratures_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """2 + I for 2 - I in (41), (42) and (44)."""
-    right = quadratures.shape_factors
-    monkeypatch.setattr(quadratures, "shape_factors", lambda ratio: (*right(ratio)[:2], 2 + right(ratio)[0]))
-    disagree(TIES, *(f"quadratures.{name}" for name in ("field_projection", "field_in_body", "frequency")))

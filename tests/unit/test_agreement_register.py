@@ -17,14 +17,14 @@ TOPICS = [path for path in sorted(Path(__file__).parent.glob("test_agreement_*.p
 TIES: list[Tie] = [tie for path in TOPICS for tie in runpy.run_path(str(path))["TIES"]]
 
 FORMULAS = {
-    "core": {"body", "euler_poisson", "inertia", "integrals", "pseudo_oscillator", "quadratures", "units"},
+    "core": {"body", "euler_poisson", "inertia", "integrals", "pseudo_oscillator", "units"},
     "exact": {"body"},
 }
 """Modules whose functions are public quantities; of the others the classes are."""
 
 MACHINERY = {
     "core": {"charge", "charges", "inputs", "motion"},
-    "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "taylor", "theta", "two_turns"},
+    "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "theta", "two_turns"},
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""
 
@@ -34,10 +34,10 @@ ELSEWHERE = {
         "clebsch": "test_clebsch.py",
         "closed": "test_closed.py",
         "invariants": "test_elementary.py",
-        "kind_map": "test_momentum_map.py",
         "laboratory": "test_laboratory.py",
         "momentum_map": "test_momentum_map.py",
         "separatrix": "test_separatrix.py",
+        "trace_map": "test_momentum_map.py",
     },
     "exact": {},
 }

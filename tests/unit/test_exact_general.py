@@ -7,6 +7,7 @@ from typing import Any
 import mpmath
 import pytest
 from flint import arb, ctx, fmpq
+from oracles.balls import taylor
 from oracles.taylor import taylor as integrated
 
 from atlas.errors import DomainError
@@ -15,7 +16,6 @@ from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.free import FreeMotion
 from atlas.exact.general import GeneralMotion
-from atlas.exact.taylor import taylor
 
 KINDS: dict[str, tuple[float, tuple[float, float], tuple[float, float, float]]] = {
     "at rest": (1.5, (1, 2), (0, 0, 0)),

@@ -1,6 +1,7 @@
 """Mutants: each claim changed in one place at a time is noticed, or the reason why not is given."""
 
 import pytest
+from tests_support import stale
 
 from atlas.paper import EQUATIONS
 from atlas.proof import recorded
@@ -19,7 +20,7 @@ def test_all_mutants_of_every_claim_are_recorded() -> None:
     """At least five for each entry of the ledger, all that the grammar yields, by the present proofs."""
     assert list(RECORDED) == list(EQUATIONS)
     assert [name for name, found in RECORDED.items() if found.tried < 5 and name not in SHORT] == []
-    assert recorded.stale(RECORDED) == []
+    assert stale(RECORDED) == []
     every = sum(
         len(changes(part.line, frozenset(letters(part)) | set(part.defines)))
         for name in AGAIN

@@ -1,4 +1,4 @@
-"""Kinds of the general motion over a plane of initial data, in plain floats: for maps, not certified."""
+"""Shapes of the axis's trace over a plane of initial data, in plain floats: for maps, not certified."""
 
 from typing import Any
 
@@ -11,9 +11,6 @@ from atlas.core.motion import components
 from atlas.errors import DomainError
 
 IntArray = NDArray[np.int64]
-
-KINDS = ("equilibrium", "one range", "upper of two ranges", "lower of two ranges")
-"""What `kind_map` tells: nu = K3/b rests, or swings in the only range that its integrals allow, or in one of two."""
 
 TRACES = ("steady", "waving", "looping")
 """What `trace_map` tells of the axis: its precession about the field is steady, keeps its sense, or turns back."""
@@ -57,20 +54,6 @@ def turning_points(ratio: Any, field: Any, omega: Any) -> tuple[FloatArray, Floa
     low = np.where(start & (slope > -TOLERANCE * size), nu, below)
     high = np.where(start & (slope < TOLERANCE * size), nu, above)
     return np.clip(low, -1.0, 1.0), np.clip(high, -1.0, 1.0), found
-
-
-def kind_map(ratio: Any, field: Any, omega: Any) -> IntArray:
-    """Kind of the motion from each initial angular velocity, an index of KINDS; arguments as for `quartic`.
-
-    Two ranges are there only for I < 1, where q has four real roots within [-1, 1]; the separatrix is their border.
-    """
-    low, high, roots = turning_points(ratio, field, omega)
-    inside = (np.abs(roots) <= 1 + TOLERANCE).sum(axis=-1)
-    upper = (roots <= low[..., None] + TOLERANCE).sum(axis=-1) > 2
-    kinds = np.where(inside < 4, 1, np.where(upper, 2, 3))
-    if shape_factors(ratio)[0] >= 1:
-        kinds = np.ones_like(kinds)
-    return np.where(high - low <= TOLERANCE, 0, kinds)
 
 
 def trace_map(ratio: Any, field: Any, omega: Any) -> IntArray:
