@@ -21,7 +21,7 @@ help:
 	@echo 'make figures   every figure as SVG, PDF and PNG in build/figures'
 	@echo 'make build/figures/NAME.svg|pdf|png   one figure;   make picture   the picture of the README'
 	@echo 'make verify    the proofs about the paper'"'"'s equations'
-	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 hostile calls'
+	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 calls with extreme inputs'
 	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
 	@echo 'make accessibility   the linter axe-core on every page, in Chromium: needs node and npm'
 	@echo 'make newest    the unit tests with the newest libraries that the ranges allow;   make lowest   with the oldest'

@@ -6,6 +6,7 @@ They are read, never made anew: `atlas verify --record`, `atlas bench` and `atla
 import math
 import re
 from collections import Counter, defaultdict
+from itertools import groupby
 
 from atlas.build.reference import described
 from atlas.paper import EQUATIONS
@@ -22,6 +23,9 @@ _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 _POWER = re.compile(r"1e\+?(-?)0*(\d+)")
 BEST, HUGE, SMALL = 0.5, 1e3, 1e-2
 """Half an ulp is as good as a rounded number can be; beyond the other two a power of ten is written."""
+_LETTERS = re.compile(r"(k_hat|Omega|omega|gamma|beta|phi|a(?=\d)|[RIBKkmtyvn])(\d*)|1e(-?\d+)")
+_FORMULA = re.compile(rf"(?:{_LETTERS.pattern}|[-\d()|/^=<])+")
+_NAMED = {"k_hat": r"\hat{\mathbf{k}}", "Omega": r"\boldsymbol{\Omega}"} | {x: rf"\mathbf{{{x}}}" for x in "Kmyv"}
 _SECTIONS = {"VII": "Appendix", "Atlas": "Atlas"}
 
 
@@ -149,11 +153,10 @@ def _bench() -> dict[str, Data]:
 
 def _stress() -> dict[str, Data]:
     """Return the worst error of each quantity on record, and the regime in which it was met."""
-    from atlas.study.stress import LIMITS, LONG, SHORT, read_ratchet
-    from atlas.study.titles import title
+    from atlas.study.stress import LIMITS, LONG, SHORT, read_record
 
     worst: dict[str, tuple[float, str]] = {}
-    for name, ulps in read_ratchet().items():
+    for name, ulps in read_record().items():
         quantity, _, regime = name.partition(" | ")
         worst[quantity] = max(worst.get(quantity, (-1.0, "")), (ulps, regime))
     order = [*(name for name in LIMITS if name in worst), *(name for name in worst if name not in LIMITS)]
@@ -177,10 +180,32 @@ def _stress() -> dict[str, Data]:
 def _met(quantity: str, ulps: float, regime: str) -> str:
     """Say where the worst error was met, if it is one, and whether it breaks a promise."""
     from atlas.study.stress import LIMITS
-    from atlas.study.titles import title
 
     broken = "**limit exceeded:** " if ulps > LIMITS.get(quantity, math.inf) else ""
     return broken + title(regime) if ulps > BEST else ""
+
+
+def title(name: str) -> str:
+    """Return the Markdown of a quantity or a regime of the stress runs: what is letters and numbers in it as TeX."""
+    pieces = re.split(r"(, | )", name)
+    formulas = [bool(_FORMULA.fullmatch(piece)) for piece in pieces]
+    found = ""
+    for formula, group in groupby(zip(pieces, formulas, strict=True), lambda pair: pair[1] or pair[0] == " "):
+        text = "".join(piece for piece, _ in group)
+        core = text.strip()
+        if formula and core and not core.isdecimal():
+            tex = _LETTERS.sub(lambda match: _tex(*match.groups()), core)
+            text = text.replace(core, f"${tex}$")
+        found += text
+    return found
+
+
+def _tex(letter: str, index: str, power: str) -> str:
+    """Return a letter with its index, or a power of ten."""
+    if power:
+        return f"10^{{{power}}}"
+    shown = _NAMED.get(letter, f"\\{letter}" if len(letter) > 1 else letter)
+    return f"{shown}_{{{index}}}" if len(index) > 1 else f"{shown}_{index}" if index else shown
 
 
 def _ulps(worst: float) -> Number:

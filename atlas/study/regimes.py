@@ -1,4 +1,4 @@
-"""Regimes: the ways to hurt the formulas of an elementary motion, each a draw of I, B2, B3 and omega2."""
+"""Regimes: the ways to hurt the formulas, each a draw of a motion; of the general one every border from both sides."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -140,3 +140,106 @@ REGIMES: Mapping[str, Callable[[Random], Draw]] = {
     "k and phi resonant": _resonant,
 }
 """Regimes of the elementary motion, the quadric and the hyperbola."""
+
+Vector: TypeAlias = tuple[float, ...]
+General: TypeAlias = tuple[float, Vector, Vector]
+"""I, (B2, B3), (omega1, omega2, omega3)."""
+
+
+def _number(random: Random) -> float:
+    return sign(random) * size(random)
+
+
+def _faint(random: Random) -> float:
+    """Return zero, or a number from 1e-300 to 0.1."""
+    return random.choice((0.0, sign(random) * size(random, -20, -1), sign(random) * size(random, -300, -20)))
+
+
+def _general_ordinary(random: Random) -> General:
+    return ratio(random), (_number(random), _number(random)), (_number(random), _number(random), _number(random))
+
+
+def _general_near_the_ball(random: Random) -> General:
+    _, B, omega = _general_ordinary(random)
+    return near(1.0, random), B, omega
+
+
+def _general_near_the_loop(random: Random) -> General:
+    _, B, omega = _general_ordinary(random)
+    return min(near(2.0, random), 2.0), B, omega
+
+
+def _general_along_the_field(random: Random) -> General:
+    I, (_, B3), omega = _general_ordinary(random)
+    return I, (_faint(random), B3), random.choice((omega, (_faint(random), _faint(random), omega[2])))
+
+
+def _general_across_the_field(random: Random) -> General:
+    I, (B2, _), omega = _general_ordinary(random)
+    return I, (B2, _faint(random)), random.choice((omega, (_faint(random), near(-B2, random), omega[2])))
+
+
+def _general_small_nutation(random: Random) -> General:
+    I, (B2, B3), (_, w2, _) = _general_ordinary(random)
+    w3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
+    return I, (B2, B3), (_faint(random), w2, near(w3, random))
+
+
+def _general_zero_spin(random: Random) -> General:
+    I, B, (w1, w2, _) = _general_ordinary(random)
+    return I, B, random.choice(((w1, w2, 0.0), (w1, w2, -B[1]), (0.0, w2, 0.0), (w1, 0.0, 0.0)))
+
+
+def _general_huge_spin(random: Random) -> General:
+    I, B, (w1, w2, w3) = _general_ordinary(random)
+    return I, B, (w1, w2, w3 * size(random, 0, 6))
+
+
+def _general_separatrix(random: Random) -> General:
+    """General next to a state on a separatrix whose numbers are small integers, or on it."""
+    I, B, omega = random.choice(
+        (
+            (0.75, (20.0, 15.0), (6.0, -24.5, -7.0)),
+            (0.75, (2.0, 4.0), (2.0, -2.0, -4.0)),
+            (2.0, (20.0, 15.0), (12.0, -4.0, 1.0)),
+            (2.0, (1.0, 0.5), (1.0, -1.0, -0.5)),
+        )
+    )
+    if random.random() < 0.2:
+        return I, B, omega
+    x, y, z = (near(w, random) if random.random() < 0.5 else w for w in omega)
+    return I, B, (sign(random) * x, y, z)
+
+
+def _general_triple_root(random: Random) -> General:
+    if random.random() < 0.5:
+        return 0.5, (3.0, 1.0), (_faint(random), near(-1.5, random), near(-2.0, random))
+    return 0.5, (1.0, -3.0), (_faint(random), near(1.5, random), near(2.0, random))
+
+
+def _general_tipping_disk(random: Random) -> General:
+    B3 = _number(random)
+    return random.choice((2.0, 1.5)), (_faint(random), B3), (_faint(random), _faint(random), near(-B3, random))
+
+
+def _general_scales(random: Random) -> General:
+    I, B, omega = _general_ordinary(random)
+    unit = 10.0 ** random.choice((-139, 139, random.uniform(-139, 139)))
+    return I, tuple(x * unit for x in B), tuple(x * unit for x in omega)
+
+
+GENERAL: Mapping[str, Callable[[Random], General]] = {
+    "general, ordinary": _general_ordinary,
+    "general, I near 1": _general_near_the_ball,
+    "general, I near 2": _general_near_the_loop,
+    "general, axis along the field": _general_along_the_field,
+    "general, axis across the field": _general_across_the_field,
+    "general, small nutation": _general_small_nutation,
+    "general, zero spin": _general_zero_spin,
+    "general, huge spin": _general_huge_spin,
+    "general, separatrix": _general_separatrix,
+    "general, triple root": _general_triple_root,
+    "general, tipping disk": _general_tipping_disk,
+    "general, scales 1e-140 to 1e140": _general_scales,
+}
+"""Regimes of the general motion."""

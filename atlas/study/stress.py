@@ -1,4 +1,4 @@
-"""Stress: every public quantity of the kernels against its ball, on hostile inputs; the worst errors in ulps.
+"""Stress: every public quantity of the kernels against its ball, on extreme inputs; the worst errors in ulps.
 
 An error is |found - true| over a unit in the last place: of 1 for the entries of a rotation matrix, of the vector's
 length for a vector, of the value itself for the rest; the truth is a ball some 2^-27 ulp wide. Inputs are exact
@@ -18,36 +18,35 @@ from typing import Any
 from atlas import files, processes
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
-from atlas.study import hostile
-from atlas.study.judges import (
-    judge_ball,
-    judge_free,
-    judge_general,
-    judge_hyperbola,
-    judge_motion,
-    judge_particle,
-    judge_quadric,
+from atlas.study import extreme
+from atlas.study.checks import (
+    check_ball,
+    check_free,
+    check_general,
+    check_hyperbola,
+    check_motion,
+    check_particle,
+    check_quadric,
 )
-from atlas.study.regimes import REGIMES
-from atlas.study.regimes_general import GENERAL
-from atlas.study.ulps import Refusal, Tally, Worst
+from atlas.study.regimes import GENERAL, REGIMES
+from atlas.study.ulps import Refusal, Worst, WorstErrors
 
-RATCHET = Path(__file__).with_name("ratchet.json")
+RECORD = Path(__file__).with_name("worst_errors.json")
 """The worst errors on record: they may not grow."""
 
 LONG, SHORT = (3_000_000, 0), (60_000, 1)
-"""Samples and seed of the run that the ratchet records, and of the short run that has to stay within it."""
+"""Samples and seed of the run that is on record, and of the short run that has to stay within that."""
 
 Progress = Callable[[int, int], None]
 
 STRESSED = ("elementary", "quadric", "hyperbola", "ball", "free", "general", "particle")
-"""The families that a run judges, in the order of its table."""
+"""The families that a run checks, in the order of its table."""
 
 LIMITS: Mapping[str, float] = {name: ulps for one in STRESSED for name, ulps in FAMILIES[one].promises.items()}
 """What the kernels promise, in ulps, for each quantity that has a promise."""
 
 ARRAYS = {"general determinant": 12, "general integrals": 64, "general scalars": 0.51, "general kind": 0}
-"""The same for what is judged in arrays only; half the trace of R^T R - 1 is what the determinant is off by."""
+"""The same for what is checked in arrays only; half the trace of R^T R - 1 is what the determinant is off by."""
 
 PROMISES: Mapping[str, float] = {**LIMITS, **ARRAYS}
 
@@ -76,9 +75,9 @@ class Result:
         """Return what exceeds the promise of its quantity."""
         return [w for w in self.worst if w.ulps > PROMISES.get(w.quantity, math.inf)]
 
-    def grown(self, ratchet: Mapping[str, float]) -> list[Worst]:
+    def grown(self, known_errors: Mapping[str, float]) -> list[Worst]:
         """Return what exceeds the worst error on record; what has no record yet exceeds it."""
-        return [w for w in self.worst if w.ulps > ratchet.get(record_name(w), -1.0)]
+        return [w for w in self.worst if w.ulps > known_errors.get(record_name(w), -1.0)]
 
     def record(self) -> dict[str, Any]:
         """Return the run as plain data for JSON."""
@@ -108,7 +107,7 @@ class Result:
 
 
 def stress(samples: int = 1_000_000, seed: int = 0, jobs: int = 1, progress: Progress | None = None) -> Result:
-    """Judge at least ``samples`` values drawn from ``seed`` on ``jobs`` processes, which do not change the result.
+    """Check at least ``samples`` values drawn from ``seed`` on ``jobs`` processes, which do not change the result.
 
     ``progress(samples so far, samples asked for)`` is called after each round of all regimes.
     """
@@ -117,60 +116,60 @@ def stress(samples: int = 1_000_000, seed: int = 0, jobs: int = 1, progress: Pro
     return finished(seed, _rounds(seed, jobs), samples, progress)
 
 
-def finished(seed: int, parts: Iterable[Tally], samples: int, progress: Progress | None) -> Result:
+def finished(seed: int, parts: Iterable[WorstErrors], samples: int, progress: Progress | None) -> Result:
     """Return the result of rounds, as many as are needed for so many values."""
-    started, tally, rounds, count = time.perf_counter(), Tally(), 0, 0
+    started, found, rounds, count = time.perf_counter(), WorstErrors(), 0, 0
     for part in parts:
-        tally.merge(part)
+        found.merge(part)
         rounds += 1
         count += sum(w.samples for w in part.worst.values())
         if progress is not None:
             progress(count, samples)
         if count >= samples:
             break
-    worst = tuple(tally.worst[key] for key in sorted(tally.worst))
-    return Result(seed, rounds, count, time.perf_counter() - started, worst, tuple(tally.refusals))
+    worst = tuple(found.worst[key] for key in sorted(found.worst))
+    return Result(seed, rounds, count, time.perf_counter() - started, worst, tuple(found.refusals))
 
 
-def one_round(seed: int, index: int) -> Tally:
-    """Judge one motion of every regime with its quadric and hyperbola, special ones, and general ones."""
-    tally = Tally()
+def one_round(seed: int, index: int) -> WorstErrors:
+    """Check one motion of every regime with its quadric and hyperbola, special ones, and general ones."""
+    found = WorstErrors()
     random = Random(f"{seed} {index}")  # noqa: S311  reproducible, not secret
     for regime in REGIMES:
-        motion = hostile.motion(regime, random)
-        for judge in (judge_motion, judge_hyperbola, judge_quadric):
-            judge(motion, regime, tally)
-    judge_motion(hostile.special_motion(random), "B2 = 0", tally)
-    judge_free(hostile.free_motion(random), tally)
-    judge_ball(hostile.ball_motion(random), tally)
-    judge_particle(hostile.particle_motion(random), tally)
+        motion = extreme.motion(regime, random)
+        for check in (check_motion, check_hyperbola, check_quadric):
+            check(motion, regime, found)
+    check_motion(extreme.special_motion(random), "B2 = 0", found)
+    check_free(extreme.free_motion(random), found)
+    check_ball(extreme.ball_motion(random), found)
+    check_particle(extreme.particle_motion(random), found)
     other = Random(f"general {seed} {index}")  # noqa: S311  the same
     for regime, draw in GENERAL.items():
-        judge_general(draw(other), regime, other, tally)
-    return tally
+        check_general(draw(other), regime, other, found)
+    return found
 
 
-def renew(jobs: int = 1, path: Path = RATCHET) -> list[Result]:
+def renew(jobs: int = 1, path: Path = RECORD) -> list[Result]:
     """Record the worst errors of the long and of the short seeded run anew, after a change that is meant to be kept.
 
-    The difference to the ratchet under version control shows what grew. Returns the two runs.
+    The difference to the record under version control shows what grew. Returns the two runs.
     """
     results = [stress(*LONG, jobs=jobs), stress(*SHORT)]
-    write_ratchet(results, path)
+    write_record(results, path)
     return results
 
 
 def record_name(worst: Worst) -> str:
-    """Return the name under which the ratchet keeps a quantity in a regime."""
+    """Return the name under which the record keeps a quantity in a regime."""
     return f"{worst.quantity} | {worst.regime}"
 
 
-def read_ratchet(path: Path = RATCHET) -> dict[str, float]:
+def read_record(path: Path = RECORD) -> dict[str, float]:
     """Return the worst errors on record, in ulps."""
     return {name: float(value) for name, value in json.loads(path.read_text(encoding="utf-8")).items()}
 
 
-def write_ratchet(results: Iterable[Result], path: Path = RATCHET) -> None:
+def write_record(results: Iterable[Result], path: Path = RECORD) -> None:
     """Record the worst errors of some runs, rounded up to a thousandth of an ulp.
 
     Half an ulp is on record where less was found: a correctly rounded number is as good as it gets. What must hold to
@@ -184,8 +183,8 @@ def write_ratchet(results: Iterable[Result], path: Path = RATCHET) -> None:
     files.write(path, json.dumps(dict(sorted(record.items())), indent=1) + "\n")
 
 
-def _rounds(seed: int, jobs: int) -> Iterator[Tally]:
-    """Judge one round after the other, endlessly, in the order of their index."""
+def _rounds(seed: int, jobs: int) -> Iterator[WorstErrors]:
+    """Check one round after the other, endlessly, in the order of their index."""
     batch = 4 * jobs
     executor = processes.pool(jobs) if jobs > 1 else None
     if executor is None:

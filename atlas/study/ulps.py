@@ -1,21 +1,28 @@
-"""Errors of floats against balls, in units in the last place, and the tally of the worst."""
+"""Errors of floats against balls, in units in the last place, and the worst of them."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from flint import arb, fmpq
+import numpy as np
+from flint import arb, ctx, fmpq
 
+from atlas.core.inputs import FloatArray
+from atlas.errors import AtlasError
 from atlas.exact.inputs import Real
 
 ONE = 2.0**-52
 """A unit in the last place of 1."""
 
+BITS = 80
+"""Relative accuracy of the truth: a 2^-27th of a double's."""
+
 
 @dataclass(frozen=True)
 class Worst:
-    """The largest error of a quantity in a regime, the exact input that gives it, and how many values were judged."""
+    """The largest error of a quantity in a regime, the exact input that gives it, and how many values were checked."""
 
     quantity: str
     regime: str
@@ -35,7 +42,7 @@ class Refusal:
 
 
 @dataclass
-class Tally:
+class WorstErrors:
     """The worst errors found so far, by quantity and regime, and the refusals."""
 
     worst: dict[tuple[str, str], Worst] = field(default_factory=dict)
@@ -47,8 +54,17 @@ class Tally:
             index = max(range(len(errors)), key=errors.__getitem__)
             self._take(Worst(quantity, regime, errors[index], describe(index), len(errors)))
 
-    def merge(self, other: "Tally") -> None:
-        """Take over what another tally found."""
+    @contextmanager
+    def checking(self, quantity: str, regime: str, inputs: Any) -> Iterator[None]:
+        """Check at the precision of the truth, and keep what a kernel says when it will not answer."""
+        try:
+            with ctx.workprec(BITS + 16):
+                yield
+        except AtlasError as reason:
+            self.refusals.append(Refusal(quantity, regime, str(reason), inputs))
+
+    def merge(self, other: "WorstErrors") -> None:
+        """Take over what others found."""
         for worst in other.worst.values():
             self._take(worst)
         self.refusals.extend(other.refusals)
@@ -103,3 +119,16 @@ def of_length(found: Iterable[float], true: Sequence[Real]) -> float:
     square = sum((x * x for x in true), fmpq(0))
     unit = ulp(arb(square).sqrt())
     return max(error(x, y, unit) for x, y in zip(found, true, strict=True))
+
+
+def rigidity(R: FloatArray) -> tuple[list[float], list[float]]:
+    """Return by how much R^T R and det R of matrices (m, 3, 3) differ from 1, in ulps of 1, in extended precision."""
+    long = R.astype(np.longdouble)
+    defect = np.abs(np.swapaxes(long, 1, 2) @ long - np.eye(3, dtype=np.longdouble)).max(axis=(1, 2))
+    determinant = np.abs(np.einsum("ni,ni->n", long[:, 0], np.cross(long[:, 1], long[:, 2])) - 1)
+    return (defect / ONE).astype(float).tolist(), (determinant / ONE).astype(float).tolist()
+
+
+def with_more(inputs: dict[str, Any], **more: Any) -> Callable[[int], dict[str, Any]]:
+    """Return the description of an input with more of it, whichever of the values was the worst."""
+    return lambda _: inputs | more

@@ -21,9 +21,8 @@ from atlas.errors import AtlasError
 from atlas.exact import elementary as exact
 from atlas.exact.digits import enclosed
 from atlas.scene import Curve, Plane
-from atlas.study import grades, hostile, trajectory, truth
+from atlas.study import extreme, grades, trajectory, truth
 from atlas.study.check import Check, check
-from atlas.study.judging import exact_ratio
 from atlas.study.regimes import REGIMES
 from atlas.study.trajectory import MATRIX, OMEGA
 
@@ -291,9 +290,9 @@ def test_a_curve_keeps_the_largest_errors_of_its_rows() -> None:
 @settings(max_examples=60)
 @given(st.sampled_from(sorted(REGIMES)), st.integers(0, 10**6))
 def test_the_truth_of_blocks_is_certain_to_1e_18(regime: str, seed: int) -> None:
-    """R, Omega in units of its length, and the quaternion are within UNCERTAINTY of the balls, on hostile inputs."""
-    drawn = hostile.motion(regime, Random(seed))  # noqa: S311  reproducible, not secret
-    motion = exact.ElementaryMotion(exact_ratio(drawn), (drawn.B2, drawn.B3), drawn.omega2, drawn.omega3)
+    """R, Omega in units of its length, and the quaternion are within UNCERTAINTY of the balls, on extreme inputs."""
+    drawn = extreme.motion(regime, Random(seed))  # noqa: S311  reproducible, not secret
+    motion = exact.ElementaryMotion(drawn.exact_ratio, (drawn.B2, drawn.B3), drawn.omega2, drawn.omega3)
     found = truth.Truth(motion)
     t = np.array(drawn.times)
     t = t[found.within(t)]

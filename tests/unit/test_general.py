@@ -1,5 +1,6 @@
 """The general motion in NumPy: true to a few ulp anywhere, its laws, and no gap where one kind becomes another."""
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
 from itertools import chain
@@ -17,11 +18,29 @@ from atlas.core.hyperbola import Hyperbola
 from atlas.core.nutation import grid as general_grid
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.general import GeneralMotion as Balls
-from atlas.study.borders import BORDERS
-from atlas.study.judges import narrow
+from atlas.study.checks import narrow
 from atlas.study.ulps import absolute
 
+Inputs = tuple[float, tuple[float, float], tuple[float, float, float]]
 ULP1 = 2.0**-52
+
+BORDERS: dict[str, tuple[Callable[[float], Inputs], float]] = {
+    "I = 1": (lambda x: (x, (1, 2), (0.3, 0.7, 0.2)), 1.0),
+    "equilibrium, triple root": (lambda x: (0.5, (3, 1), (x, -1.5, -2)), 0.0),
+    "separatrix, I < 1": (lambda x: (0.75, (20, 15), (x, -24.5, -7)), 6.0),
+    "separatrix through both poles": (lambda x: (0.75, (2, 4), (x, -2, -4)), 2.0),
+    "separatrix of the spin along B, I > 1": (lambda x: (2, (20, 15), (12, x, 1)), -4.0),
+    "separatrix between B and -B": (lambda x: (2, (1, 0.5), (1, x, -0.5)), -1.0),
+    "separatrix, triple root": (lambda x: (0.5, (1, -3), (0, 1.5, x)), 2.0),
+    "axis along B": (lambda x: (1.5, (x, 1), (0.3, 0.2, 0.1)), 0.0),
+    "axis along -B": (lambda x: (0.5, (x, -1), (0.3, 0.2, 0.1)), 0.0),
+    "spin along B": (lambda x: (1.5, (0, 1), (x, 0, 0.4)), 0.0),
+    "B3 = 0": (lambda x: (0.5, (1, x), (0.2, 0.3, 0.1)), 0.0),
+    "rest": (lambda x: (0.5, (1, 2), (0, x, 0)), 0.0),
+    "zero spin": (lambda x: (0.5, (1, 2), (0.2, 0.3, x)), 0.0),
+    "no field": (lambda x: (0.5, (x, x), (0.2, 0.3, 0.1)), 0.0),
+}
+"""Motions by one of their parameters, and its value on the border."""
 
 ORDINARY: list[Any] = [
     (1.5, (1, 2), (0.3, 0.7, 0.2)),

@@ -17,9 +17,9 @@ from atlas.core.nutation import roots as nutation_roots
 from atlas.core.nutation.rows import GeneralRows
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
-from atlas.study.judges import narrow
-from atlas.study.many_general import REGIME, judge_general_rows, state
-from atlas.study.regimes_general import GENERAL
+from atlas.study.arrays import GENERAL_REGIME, check_general_rows, state
+from atlas.study.checks import narrow
+from atlas.study.regimes import GENERAL
 from atlas.study.stress import PROMISES
 from atlas.study.ulps import ONE, absolute, error
 
@@ -202,9 +202,9 @@ def test_stress_of_arrays_keeps_the_promises_and_finds_a_slip(monkeypatch: pytes
     """An array of hostile and ordinary rows is within every promise; were the sums cut short, R would not be."""
 
     def broken() -> set[str]:
-        return {w.quantity for w in judge_general_rows(3, 0).worst.values() if w.ulps > PROMISES[w.quantity]}
+        return {w.quantity for w in check_general_rows(3, 0).worst.values() if w.ulps > PROMISES[w.quantity]}
 
-    assert {w.regime for w in judge_general_rows(3, 0).worst.values()} == {REGIME}
+    assert {w.regime for w in check_general_rows(3, 0).worst.values()} == {GENERAL_REGIME}
     assert not broken()
     monkeypatch.setattr(nutation_pair, "NEGLIGIBLE", 1.0)
     assert {"general R", "general integrals"} <= broken()

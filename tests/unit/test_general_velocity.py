@@ -13,7 +13,7 @@ from flint import arb, ctx
 from atlas.core import general
 from atlas.core.general import GeneralMotion
 from atlas.exact.general import GeneralMotion as Balls
-from atlas.study.regimes_general import GENERAL
+from atlas.study.regimes import GENERAL
 from tests.oracles.taylor import taylor
 
 WANTED = 16

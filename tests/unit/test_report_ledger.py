@@ -254,7 +254,7 @@ def test_totals_are_those_of_the_record(pages: dict[str, reader.HtmlElement]) ->
 def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatch, toml: Path) -> None:
     """An error on record that breaks a promise says so in its row; one that keeps it does not."""
     found = {"R | ordinary": 5.0, "beta | I near 1": 1.25, "k | ordinary": 0.5}
-    monkeypatch.setattr(stress, "read_ratchet", lambda: found)
+    monkeypatch.setattr(stress, "read_record", lambda: found)
     data = gather(load(toml)).tables["stress: worst errors"]
     assert isinstance(data, Data)
     met = {str(row[0]): str(row[3]) for row in data.rows}

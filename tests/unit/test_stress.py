@@ -1,4 +1,4 @@
-"""The worst errors on hostile inputs stay within the promises and do not grow; a planted error is found."""
+"""The worst errors on extreme inputs stay within the promises and do not grow; a planted error is found."""
 
 import json
 import math
@@ -16,12 +16,11 @@ from hypothesis import strategies as st
 from atlas.core.arithmetic import phase
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
-from atlas.study import hostile
-from atlas.study.judges import judge_motion
-from atlas.study.regimes import REGIMES
-from atlas.study.regimes_general import GENERAL
-from atlas.study.stress import LIMITS, SHORT, Result, read_ratchet, record_name, stress, write_ratchet
-from atlas.study.ulps import UNDERFLOW, Tally, error, of_length, own, ulp
+from atlas.study import extreme
+from atlas.study.checks import check_motion
+from atlas.study.regimes import GENERAL, REGIMES
+from atlas.study.stress import LIMITS, SHORT, Result, read_record, record_name, stress, write_record
+from atlas.study.ulps import UNDERFLOW, WorstErrors, error, of_length, own, ulp
 
 
 @pytest.fixture(scope="module")
@@ -39,12 +38,12 @@ def test_the_short_run_keeps_every_promise(short_run: Result) -> None:
 
 def test_the_worst_errors_do_not_grow(short_run: Result) -> None:
     """Every worst error of the short run is on record as at least so large."""
-    assert [(record_name(w), w.ulps) for w in short_run.grown(read_ratchet())] == []
+    assert [(record_name(w), w.ulps) for w in short_run.grown(read_record())] == []
 
 
 def test_no_recorded_error_exceeds_its_limit() -> None:
     """Each error on record is finite and within the promise for its quantity."""
-    for name, ulps in read_ratchet().items():
+    for name, ulps in read_record().items():
         assert 0.0 <= ulps <= LIMITS.get(name.partition(" | ")[0], math.inf), name
 
 
@@ -55,7 +54,7 @@ def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
     assert regimes == {*REGIMES, "B2 = 0"}
     assert {w.regime for w in short_run.worst if w.quantity == "general R"} == set(GENERAL)
     clocks = {w.regime.rpartition(", ")[2] for w in short_run.worst if w.quantity == "R"}
-    assert clocks == set(hostile.CLOCKS)
+    assert clocks == set(extreme.CLOCKS)
 
 
 def test_the_same_seed_gives_the_same_errors() -> None:
@@ -69,9 +68,9 @@ def test_a_record_can_be_reproduced_from_its_hexadecimal_input(short_run: Result
     """The input of the worst R gives that error again, to the bit."""
     worst = max((w for w in short_run.worst if w.quantity == "R"), key=lambda w: w.ulps)
     x = {name: float.fromhex(value) for name, value in worst.input.items()}
-    motion = hostile.Motion(x["I2"], x["I3"], x["B2"], x["B3"], x["omega2"], x.get("omega3"), (x["t"],) * 6)
-    tally = Tally()
-    judge_motion(motion, "again", tally)
+    motion = extreme.Motion(x["I2"], x["I3"], x["B2"], x["B3"], x["omega2"], x.get("omega3"), (x["t"],) * 6)
+    tally = WorstErrors()
+    check_motion(motion, "again", tally)
     again = max(w.ulps for w in tally.worst.values() if w.quantity == "R")
     assert again == pytest.approx(worst.ulps, abs=0.6)  # a lone time may take another path through a matrix product
 
@@ -85,8 +84,8 @@ def test_a_phase_that_loses_its_second_word_is_found(monkeypatch: pytest.MonkeyP
         self.words[1:] = 0.0
 
     monkeypatch.setattr(phase.Phases, "__init__", without_second_word)
-    tally = Tally()
-    judge_motion(hostile.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
+    tally = WorstErrors()
+    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
     assert tally.worst["R", "ordinary, long times"].ulps > 1e3
 
 
@@ -94,8 +93,8 @@ def test_a_planted_slip_in_a_scalar_is_found(monkeypatch: pytest.MonkeyPatch) ->
     """A phi that is six ulps off is reported as six ulps off."""
     true = ElementaryMotion.phi.func
     monkeypatch.setattr(ElementaryMotion, "phi", property(lambda self: true(self) * (1 + 6 * 2.0**-52)))
-    tally = Tally()
-    judge_motion(hostile.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
+    tally = WorstErrors()
+    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
     assert 3 <= tally.worst["phi", "ordinary"].ulps <= 13
 
 
@@ -106,17 +105,17 @@ def test_a_refusal_is_kept_with_its_input(monkeypatch: pytest.MonkeyPatch) -> No
         raise AtlasError("not today")
 
     monkeypatch.setattr(ElementaryMotion, "rotation", refuse)
-    tally = Tally()
-    judge_motion(hostile.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
+    tally = WorstErrors()
+    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", tally)  # noqa: S311  reproducible, not secret
     assert [r.reason for r in tally.refusals] == ["not today"]
     assert "B2" in tally.refusals[0].input
 
 
-def test_a_ratchet_holds_the_worst_of_several_runs(tmp_path: Any, short_run: Result) -> None:
+def test_a_record_holds_the_worst_of_several_runs(tmp_path: Any, short_run: Result) -> None:
     """What is written covers each run that it was made from, and nothing worse."""
-    path = tmp_path / "ratchet.json"
-    write_ratchet([short_run, stress(1, 3)], path)
-    ratchet = read_ratchet(path)
+    path = tmp_path / "worst_errors.json"
+    write_record([short_run, stress(1, 3)], path)
+    ratchet = read_record(path)
     assert not short_run.grown(ratchet)
     largest = max(short_run.worst, key=lambda w: w.ulps)
     ratchet[record_name(largest)] = 0.5
@@ -139,24 +138,24 @@ def test_no_samples_are_refused() -> None:
         stress(0)
 
 
-def draws() -> Iterator[hostile.Motion]:
+def draws() -> Iterator[extreme.Motion]:
     """Draw motions of every regime."""
     random = Random(5)  # noqa: S311  reproducible, not secret
     for _ in range(40):
         for regime in REGIMES:
-            yield hostile.motion(regime, random)
+            yield extreme.motion(regime, random)
 
 
-def test_hostile_motions_are_inside_the_domain() -> None:
+def test_extreme_motions_are_inside_the_domain() -> None:
     """Every draw is a body in a field, off the pole or with its free omega3, with phases below 2^50."""
     for motion in draws():
         assert 0 < motion.I3 <= 2 * motion.I2
         assert (motion.omega2 != -motion.B2) or motion.omega3 is not None
-        assert len(motion.times) == hostile.TIMES
+        assert len(motion.times) == extreme.TIMES
         assert all(map(math.isfinite, motion.times))
 
 
-def test_hostile_motions_come_within_an_ulp_of_the_special_values() -> None:
+def test_extreme_motions_come_within_an_ulp_of_the_special_values() -> None:
     """Among the draws are neighbours of I = 1, of the pole, of -2 B2 and of -(2-I) B2, on both sides."""
     offsets: dict[str, set[float]] = {"I": set(), "pole": set(), "twice": set()}
     for m in draws():

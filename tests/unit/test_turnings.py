@@ -13,31 +13,31 @@ from atlas.core.particle import ParticleMotion
 from atlas.core.quadric import Quadric
 from atlas.errors import AtlasError, DomainError
 from atlas.exact import elementary as exact_elementary
-from atlas.study import hostile
+from atlas.study import extreme
 from atlas.study.regimes import REGIMES
 
 ULP1 = 2.0**-52
 
 
-def motions(count: int, seed: int = 1) -> list[hostile.Motion]:
+def motions(count: int, seed: int = 1) -> list[extreme.Motion]:
     """Draw motions of every regime, on the curve and of a body whose I2 is 1."""
     random = Random(seed)  # noqa: S311  reproducible, not secret
-    drawn = [hostile.motion(regime, random) for _ in range(count) for regime in REGIMES]
+    drawn = [extreme.motion(regime, random) for _ in range(count) for regime in REGIMES]
     return [m for m in drawn if m.omega3 is None and m.I2 == 1.0]
 
 
-def inputs(drawn: list[hostile.Motion]) -> tuple[Any, tuple[Any, Any], Any]:
+def inputs(drawn: list[extreme.Motion]) -> tuple[Any, tuple[Any, Any], Any]:
     """Return ratio, field and omega2 as arrays."""
     I, B2, B3, w2 = (np.array([getattr(m, name) for m in drawn]) for name in ("I3", "B2", "B3", "omega2"))
     return I, (B2, B3), w2
 
 
-def alone(drawn: list[hostile.Motion]) -> list[ElementaryMotion]:
+def alone(drawn: list[extreme.Motion]) -> list[ElementaryMotion]:
     """Make each motion by itself."""
     return [ElementaryMotion(m.I3, (m.B2, m.B3), m.omega2) for m in drawn]
 
 
-def moments(drawn: list[hostile.Motion]) -> Any:
+def moments(drawn: list[extreme.Motion]) -> Any:
     """Return one time of each motion, of every clock in turn."""
     return np.array([m.times[i % len(m.times)] for i, m in enumerate(drawn)])
 
@@ -118,9 +118,9 @@ def test_many_matrices_are_orthogonal(seed: int) -> None:
 def test_free_bodies_and_balls_in_arrays_agree_with_one_by_one() -> None:
     """Frequencies to the bit, matrices to 8 ulp(1), each being within 4 of the truth; hostile inputs."""
     random = Random(6)  # noqa: S311  reproducible, not secret
-    bodies = [hostile.free_motion(random) for _ in range(150)]
+    bodies = [extreme.free_motion(random) for _ in range(150)]
     many = FreeMotion([x.I for x in bodies], np.transpose([x.omega for x in bodies]))
-    balls = [hostile.ball_motion(random) for _ in range(150)]
+    balls = [extreme.ball_motion(random) for _ in range(150)]
     turning = BallMotion(
         [x.inertia for x in balls], [x.larmor for x in balls], np.transpose([(x.m2, x.m3) for x in balls])
     )
@@ -219,7 +219,7 @@ def test_quadrics_and_hyperbolas_in_arrays_have_the_bits_of_one_by_one() -> None
 def test_particles_in_arrays_agree_with_one_by_one() -> None:
     """Names and constants to the bit, positions and velocities to 4 ulp of their length; hostile inputs."""
     random = Random(8)  # noqa: S311  reproducible, not secret
-    drawn = [hostile.particle_motion(random) for _ in range(300)]
+    drawn = [extreme.particle_motion(random) for _ in range(300)]
     mu, c, E, B, y, v = (
         np.array([getattr(p, name) for p in drawn]) for name in ("mu", "c", "E", "B", "position", "velocity")
     )

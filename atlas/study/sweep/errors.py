@@ -13,7 +13,7 @@ from atlas.errors import DomainError
 from atlas.exact import elementary as exact
 from atlas.exact.digits import enclosed
 from atlas.study.bench.elementary import formula
-from atlas.study.hostile import PHASE_LIMIT
+from atlas.study.extreme import PHASE_LIMIT
 
 BITS = 110
 """Relative accuracy of the true matrices, which are kept in two words."""

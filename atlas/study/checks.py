@@ -1,6 +1,6 @@
-"""Judges: what the register of families promises, and what holds beside, asked of kernels and compared with balls.
+"""Checks: what the register of families promises, and what holds beside, asked of kernels and compared with balls.
 
-`judge` goes through the quantities of any family; what only one has, as grids and structure, is judged beside.
+`check` goes through the quantities of any family; what only one has, as grids and structure, is checked beside.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -18,10 +18,10 @@ from atlas.core.inputs import FloatArray
 from atlas.exact.digits import enclosed, numbers
 from atlas.exact.inputs import Real
 from atlas.families import FAMILIES
-from atlas.study import hostile
-from atlas.study.judging import BITS, described, exact_ratio, judging, ratio_of, rigidity, with_more
-from atlas.study.regimes_general import Draw
-from atlas.study.ulps import ONE, Tally, absolute, approximate, error, of_length, own
+from atlas.study import extreme
+from atlas.study.extreme import described
+from atlas.study.regimes import General
+from atlas.study.ulps import BITS, ONE, WorstErrors, absolute, approximate, error, of_length, own, rigidity, with_more
 
 Inputs = dict[str, Any]
 Truth = Callable[[Callable[[], Any]], Any]
@@ -45,11 +45,11 @@ def close(function: Callable[[], Any]) -> Any:
     return enclosed(function, BITS)
 
 
-def judge(
+def check(
     name: str,
     regime: str,
     values: Sequence[Any],
-    tally: Tally,
+    worst: WorstErrors,
     inputs: Inputs,
     *,
     exactly: Sequence[Any] | None = None,
@@ -59,18 +59,18 @@ def judge(
     truth: Truth = close,
     more: Callable[[Any, Any, Where], None] | None = None,
 ) -> None:
-    """Judge an object of a family made of `values`, by balls made of `exactly` where that differs.
+    """Check an object of a family made of `values`, by balls made of `exactly` where that differs.
 
     Numbers are judged in ulps of themselves, matrices in ulps of 1, vectors in ulps of their length, or of
     `unit(name, t)`. `where` makes of the balls what names the regime of a time; `more` judges what else there is.
     """
     family = FAMILIES[name]
-    with judging(tally, name, regime, inputs):
+    with worst.checking(name, regime, inputs):
         exact, found = family.balls()(*(exactly or values)), family.kernels()(*values)
         for q in family.quantities:
             if q.judged:
                 true = enclosed(lambda q=q: list(_flat(q.of(exact, exact=True))), BITS)  # type: ignore[misc]
-                tally.add(q.judged, regime, own(np.ravel(q.of(found)), true), with_more(inputs))
+                worst.add(q.judged, regime, own(np.ravel(q.of(found)), true), with_more(inputs))
         place = where(exact) if where else lambda _: regime
         for s in family.sampled:
             for t, value in zip(times, s.at(found)(np.array(times)) if s.judged else (), strict=bool(s.judged)):
@@ -81,7 +81,7 @@ def judge(
                     errors = [error(x, y, unit(s.name, t)) for x, y in zip(value, true, strict=True)]
                 else:
                     errors = [of_length(value, true)]
-                tally.add(s.judged, place(t), errors, with_more(inputs, t=t.hex()))
+                worst.add(s.judged, place(t), errors, with_more(inputs, t=t.hex()))
         if more:
             more(found, exact, place)
 
@@ -92,13 +92,13 @@ def by_clock(regime: str, *rates: str | float) -> Callable[[Any], Where]:
     def where(exact: Any) -> Where:
         sizes = (x if isinstance(x, float) else approximate(enclosed(partial(getattr, exact, x), BITS)) for x in rates)
         fastest = max(map(abs, sizes))
-        return lambda t: f"{regime}, {hostile.clock(fastest, t)}"
+        return lambda t: f"{regime}, {extreme.clock(fastest, t)}"
 
     return where
 
 
-def judge_motion(motion: hostile.Motion, regime: str, tally: Tally) -> None:
-    """Judge an elementary motion: beside the register, columns, small entries, structure and grids."""
+def check_motion(motion: extreme.Motion, regime: str, worst: WorstErrors) -> None:
+    """Check an elementary motion: beside the register, columns, small entries, structure and grids."""
     inputs, times = described(motion), motion.times
     rest = (motion.B2, motion.B3), motion.omega2, motion.omega3
 
@@ -118,25 +118,25 @@ def judge_motion(motion: hostile.Motion, regime: str, tally: Tally) -> None:
             if abs(slow * t) < 1:
                 errors["R13, R23 for |kt| < 1"] = own([*R[i, :2, 2], *axis[i, :2]], third[:2] * 2)
             for name, values in errors.items():
-                tally.add(name, where(t), values, with_more(inputs, t=t.hex()))
+                worst.add(name, where(t), values, with_more(inputs, t=t.hex()))
         start = np.abs(found.rotation(np.array([0.0, -0.0])) - np.eye(3)).max() / ONE
-        tally.add("R(0) = 1", regime, [float(start)], with_more(inputs))
-        _scaling(motion, found, regime, tally, inputs)
+        worst.add("R(0) = 1", regime, [float(start)], with_more(inputs))
+        _scaling(motion, found, regime, worst, inputs)
         for name, defects in zip(("R orthogonality", "R determinant"), rigidity(R), strict=True):
-            tally.add(name, regime, defects, lambda i: inputs | {"t": times[i].hex()})
+            worst.add(name, regime, defects, lambda i: inputs | {"t": times[i].hex()})
         for count in GRIDS:
             step = (times[5] - times[4]) / count
             if step and times[4] + count * step != times[4]:
                 places = (0, 1, 63, 64, count // 3, count - 33, count - 32, count - 1)
-                _grid("R grid", found, exact, (times[4], step, count), places, regime, tally, inputs)
+                _grid("R grid", found, exact, (times[4], step, count), places, regime, worst, inputs)
 
     clock = by_clock(regime, "k", "phi")
-    values, exactly = (ratio_of(motion), *rest), (exact_ratio(motion), *rest)
-    judge("elementary", regime, values, tally, inputs, exactly=exactly, times=times, where=clock, more=more)
+    values, exactly = (motion.ratio, *rest), (motion.exact_ratio, *rest)
+    check("elementary", regime, values, worst, inputs, exactly=exactly, times=times, where=clock, more=more)
 
 
-def _scaling(motion: hostile.Motion, found: Any, regime: str, tally: Tally, inputs: Inputs) -> None:
-    """Judge that R does not change when all frequencies are scaled by a power of two."""
+def _scaling(motion: extreme.Motion, found: Any, regime: str, worst: WorstErrors, inputs: Inputs) -> None:
+    """Check that R does not change when all frequencies are scaled by a power of two."""
     times, make = np.array(motion.times), FAMILIES["elementary"].kernels()
     parts = (motion.B2, motion.B3, motion.omega2, motion.omega3 or 0.0)
     for shift in SHIFTS:
@@ -145,29 +145,29 @@ def _scaling(motion: hostile.Motion, found: Any, regime: str, tally: Tally, inpu
         if any(np.ldexp(x, -shift) != y for x, y in zip((B2, B3, omega2, omega3), parts, strict=True)):
             continue  # a part would leave the range of doubles
         exactly = np.ldexp(slow, shift) == times
-        other = make(ratio_of(motion), (B2, B3), omega2, None if motion.omega3 is None else omega3)
+        other = make(motion.ratio, (B2, B3), omega2, None if motion.omega3 is None else omega3)
         # the same number of times in both: a matrix product may round its last rows in another way
         before, after = found.rotation(times[exactly]), other.rotation(slow[exactly])
         normal = np.abs(before) >= np.finfo(float).tiny  # smaller entries have lost bits to underflow
         changed = np.abs(after - before).max(initial=0.0, where=normal) / ONE
-        tally.add("R under scaling by 2^n", regime, [float(changed)], with_more(inputs, n=shift))
+        worst.add("R under scaling by 2^n", regime, [float(changed)], with_more(inputs, n=shift))
 
 
 def _grid(
-    name: str, found: Any, exact: Any, grid: tuple[float, float, int], places: Iterable[int], regime: str, tally: Tally,
-    inputs: Inputs, truth: Truth = close,
+    name: str, found: Any, exact: Any, grid: tuple[float, float, int], places: Iterable[int], regime: str,
+    worst: WorstErrors, inputs: Inputs, truth: Truth = close,
 ) -> None:  # fmt: skip
-    """Judge a uniform grid (start, step, count) at a few of its exact times start + i step."""
+    """Check a uniform grid (start, step, count) at a few of its exact times start + i step."""
     start, step, count = grid
     R = found.rotation_grid(start, step, count)
     for i in places:
         true = truth(partial(exact.rotation, Fraction(start) + i * Fraction(step)))
         at = ({"start": start.hex()} if start else {}) | {"step": step.hex(), "count": count, "index": i}
-        tally.add(name, regime, absolute(R[i].flat, chain(*true)), with_more(inputs, **at))
+        worst.add(name, regime, absolute(R[i].flat, chain(*true)), with_more(inputs, **at))
 
 
-def judge_hyperbola(motion: hostile.Motion, regime: str, tally: Tally) -> None:
-    """Judge the hyperbola at the motion's omega2: ordinate, frequencies, stability; and points of it."""
+def check_hyperbola(motion: extreme.Motion, regime: str, worst: WorstErrors) -> None:
+    """Check the hyperbola at the motion's omega2: ordinate, frequencies, stability; and points of it."""
     inputs, w2, field = described(motion), motion.omega2, (motion.B2, motion.B3)
     if w2 == -motion.B2 or motion.B2 == 0:
         return
@@ -182,37 +182,37 @@ def judge_hyperbola(motion: hostile.Motion, regime: str, tally: Tally) -> None:
             ("stability", found.stability(w2), exact.stability(w2)),
         )
         for name, value, true in pairs:
-            tally.add(name, regime, own([value], [true]), with_more(inputs))
+            worst.add(name, regime, own([value], [true]), with_more(inputs))
         if motion.B3:
             points = [(x, y) for x, y in zip(*found.sample(POINTS), strict=True) if np.isfinite(y)]
             errors = own((y for _, y in points), (exact.omega3(x) for x, _ in points))
-            tally.add("points of the hyperbola", regime, errors, lambda i: inputs | {"at": float(points[i][0]).hex()})
+            worst.add("points of the hyperbola", regime, errors, lambda i: inputs | {"at": float(points[i][0]).hex()})
 
-    exactly = exact_ratio(motion), field
-    judge("hyperbola", regime, (ratio_of(motion), field), tally, inputs, exactly=exactly, more=more)
+    exactly = motion.exact_ratio, field
+    check("hyperbola", regime, (motion.ratio, field), worst, inputs, exactly=exactly, more=more)
 
 
-def judge_quadric(motion: hostile.Motion, regime: str, tally: Tally) -> None:
-    """Judge the quadric of the motion's body and field."""
+def check_quadric(motion: extreme.Motion, regime: str, worst: WorstErrors) -> None:
+    """Check the quadric of the motion's body and field."""
     field = motion.B2, motion.B3
-    exactly = exact_ratio(motion), field
-    judge("quadric", regime, (ratio_of(motion), field), tally, described(motion), exactly=exactly)
+    exactly = motion.exact_ratio, field
+    check("quadric", regime, (motion.ratio, field), worst, described(motion), exactly=exactly)
 
 
-def judge_free(motion: hostile.Free, tally: Tally) -> None:
-    """Judge a free body with any initial angular velocity."""
+def check_free(motion: extreme.Free, worst: WorstErrors) -> None:
+    """Check a free body with any initial angular velocity."""
     clock = by_clock("free body", "k", "phi")
-    judge("free", "free body", (motion.I, motion.omega), tally, described(motion), times=motion.times, where=clock)
+    check("free", "free body", (motion.I, motion.omega), worst, described(motion), times=motion.times, where=clock)
 
 
-def judge_ball(ball: hostile.Ball, tally: Tally) -> None:
-    """Judge a charged ball: axis, frequency, matrix, momentum."""
+def check_ball(ball: extreme.Ball, worst: WorstErrors) -> None:
+    """Check a charged ball: axis, frequency, matrix, momentum."""
     values, clock = (ball.inertia, ball.larmor, (ball.m2, ball.m3)), by_clock("ball", "gamma", "larmor")
-    judge("ball", "ball", values, tally, described(ball), times=ball.times, where=clock)
+    check("ball", "ball", values, worst, described(ball), times=ball.times, where=clock)
 
 
-def judge_particle(particle: hostile.Particle, tally: Tally) -> None:
-    """Judge a point charge, in ulps of the largest length (speed) that its start and its forces make by that time."""
+def check_particle(particle: extreme.Particle, worst: WorstErrors) -> None:
+    """Check a point charge, in ulps of the largest length (speed) that its start and its forces make by that time."""
     p = particle
     pull, speed = (float(np.linalg.norm(x)) for x in (np.multiply(p.mu, p.E), p.velocity))
 
@@ -222,13 +222,13 @@ def judge_particle(particle: hostile.Particle, tally: Tally) -> None:
         return float(np.spacing(reach if name == "position" else fast))
 
     values, clock = (p.mu, p.E, p.B, p.position, p.velocity, p.c), abs(p.mu) * float(np.linalg.norm(p.B))
-    judge(
-        "particle", "particle", values, tally, described(p), times=p.times, where=by_clock("particle", clock), unit=unit
+    check(
+        "particle", "particle", values, worst, described(p), times=p.times, where=by_clock("particle", clock), unit=unit
     )
 
 
-def judge_general(draw: Draw, regime: str, random: Random, tally: Tally) -> None:
-    """Judge a general motion, in ulps of its largest rate: beside the register, structure and a grid."""
+def check_general(draw: General, regime: str, random: Random, worst: WorstErrors) -> None:
+    """Check a general motion, in ulps of its largest rate: beside the register, structure and a grid."""
     I, field, omega = draw
     inputs = {"I": I.hex(), "field": [x.hex() for x in field], "omega": [x.hex() for x in omega]}
     size = max(map(abs, (*field, *omega))) or 1.0
@@ -237,17 +237,17 @@ def judge_general(draw: Draw, regime: str, random: Random, tally: Tally) -> None
     def more(found: Any, exact: Any, _: Where) -> None:
         R = found.rotation(np.array(times))
         defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
-        tally.add("general orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
+        worst.add("general orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
         start = np.abs(found.rotation(0.0) - np.eye(3)).max() / ONE
-        tally.add("general R(0) = 1", regime, [float(start)], lambda _: inputs)
+        worst.add("general R(0) = 1", regime, [float(start)], lambda _: inputs)
         # long enough for polynomials; at ends of their windows too
         grid, places = (0.0, times[-1] / GRID, GRID), (0, 255, 511, 4099, GRID - 1)
-        _grid("general R grid", found, exact, grid, places, regime, tally, inputs, truth)
+        _grid("general R grid", found, exact, grid, places, regime, worst, inputs, truth)
 
     times: list[float] = []
-    with judging(tally, "general", regime, inputs):
+    with worst.checking("general", regime, inputs):
         times += _times(FAMILIES["general"].kernels()(*draw).period, size, random).tolist()
-        judge("general", regime, draw, tally, inputs, times=times, unit=lambda *_: size * ONE, truth=truth, more=more)
+        check("general", regime, draw, worst, inputs, times=times, unit=lambda *_: size * ONE, truth=truth, more=more)
 
 
 def narrow(function: Callable[[], Any], size: float) -> Any:

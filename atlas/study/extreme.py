@@ -1,4 +1,4 @@
-"""Hostile inputs, seeded: every special value from both sides down to one ulp, all scales, long and tiny times.
+"""Extreme inputs, seeded: every special value from both sides down to one ulp, all scales, long and tiny times.
 
 `atlas.study.regimes` names the ways to hurt the formulas. `motion(regime, random)` draws the exact input of one
 elementary motion, `ball_motion` and `particle_motion` those of the ball and the particle. Nothing here computes a
@@ -9,7 +9,11 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
+from typing import Any
 
+from flint import fmpq
+
+from atlas.core.body import SymmetricBody
 from atlas.errors import AtlasError
 from atlas.study.regimes import REGIMES, near, ratio, sign, size
 
@@ -34,6 +38,16 @@ class Motion:
     omega2: float
     omega3: float | None
     times: tuple[float, ...]
+
+    @property
+    def ratio(self) -> Any:
+        """The float I where I2 = 1, and a body otherwise."""
+        return self.I3 if self.I2 == 1.0 else SymmetricBody(self.I2, self.I3)
+
+    @property
+    def exact_ratio(self) -> fmpq:
+        """I3/I2 as the rational number that it is."""
+        return fmpq(*self.I3.as_integer_ratio()) / fmpq(*self.I2.as_integer_ratio())
 
 
 @dataclass(frozen=True)
@@ -192,3 +206,12 @@ def _log10(x: Fraction) -> float:
     """Return the decimal logarithm of a fraction of any size."""
     shift = x.numerator.bit_length() - x.denominator.bit_length()
     return math.log10(x / Fraction(2) ** shift) + shift * math.log10(2)
+
+
+def described(record: Any) -> dict[str, Any]:
+    """Return an input without its times, as hexadecimal text."""
+    return {
+        name: [x.hex() for x in value] if isinstance(value, tuple) else value.hex()
+        for name, value in vars(record).items()
+        if name != "times" and value is not None
+    }
