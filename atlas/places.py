@@ -10,6 +10,7 @@ import shutil
 import sys
 import tempfile
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import Literal
 
@@ -26,15 +27,40 @@ def folder(kind: Literal["figures", "templates", "reports"]) -> Path:
 
 def own_folder() -> Path | None:
     """Return a folder of ours that can be written, in the user's cache or in the environment; None if there is none."""
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")  # noqa: PTH111  Path.home raises without HOME
-    for place in (Path(home), Path(sys.prefix)):
-        folder = place / "atlas"
-        if place.is_absolute():
-            with suppress(OSError):
-                folder.mkdir(parents=True, exist_ok=True)
-                if os.access(folder, os.W_OK):
-                    return folder
+    from platformdirs import user_cache_path
+
+    places = [Path(sys.prefix) / "atlas"]
+    with suppress(RuntimeError):  # there is no home
+        places.insert(0, user_cache_path("atlas", appauthor=False))
+    for folder in filter(Path.is_absolute, places):
+        with suppress(OSError):
+            folder.mkdir(parents=True, exist_ok=True)
+            if os.access(folder, os.W_OK):
+                return folder
     return None
+
+
+def cache_folder(out: Path) -> Path:
+    """Return where to keep for the next time what goes into building what is in `out`.
+
+    That is the folder of the variable ATLAS_CACHE; ``build/.cache`` of the checkout for what is built in its ``build``;
+    else the user's cache folder. Nothing is kept where none can be written.
+    """
+    chosen, build = os.environ.get("ATLAS_CACHE"), _PACKAGE.parent / "build"
+    if chosen:
+        return Path(chosen)
+    if (build.parent / "pyproject.toml").is_file() and out.resolve().is_relative_to(build):
+        return build / ".cache"
+    own = own_folder()
+    return _passing() if own is None else own / "built"
+
+
+@cache
+def _passing() -> Path:
+    """Return a folder that goes with this process."""
+    folder = Path(tempfile.mkdtemp(prefix="atlas-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
 
 
 def settle_matplotlib() -> None:
@@ -43,10 +69,6 @@ def settle_matplotlib() -> None:
     Its list of fonts is kept there, and nothing is said of its being made. To be called before it is loaded.
     """
     logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
-    if "MPLCONFIGDIR" in os.environ or os.access(os.path.expanduser("~"), os.W_OK):  # noqa: PTH111
+    if "MPLCONFIGDIR" in os.environ or os.access(os.path.expanduser("~"), os.W_OK):  # noqa: PTH111  Path.home raises without HOME
         return
-    own = own_folder()
-    if own is None:
-        own = Path(tempfile.mkdtemp(prefix="atlas-"))
-        atexit.register(shutil.rmtree, own, ignore_errors=True)
-    os.environ["MPLCONFIGDIR"] = str(own / "matplotlib")
+    os.environ["MPLCONFIGDIR"] = str((own_folder() or _passing()) / "matplotlib")

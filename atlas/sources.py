@@ -13,11 +13,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, Protocol
 
-import atlas
 from atlas import _HOMES
 from atlas.places import folder
 
-PACKAGE = Path(atlas.__file__).resolve().parent
+PACKAGE = Path(__file__).resolve().parent
 OURS = {"atlas", "figures"}
 """The names that imports of ours begin with."""
 MANY = 3000

@@ -1,9 +1,27 @@
-"""How property tests run: the same examples each time and no clock, or, for a hunt, other examples each time."""
+"""How property tests run: the same examples each time and no clock, or, for a hunt, other examples each time.
+
+And where tests keep what they build: none finds what another has left.
+"""
 
 import os
 
+import pytest
 from hypothesis import settings
 
 settings.register_profile("test", deadline=None, derandomize=True)
 settings.register_profile("hunt", deadline=None, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "test"))
+
+CACHE = "ATLAS_CACHE"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _cache_of_all(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Give what several tests share a cache of its own."""
+    os.environ[CACHE] = str(tmp_path_factory.mktemp("cache"))
+
+
+@pytest.fixture(autouse=True)
+def _cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give each test an empty cache."""
+    monkeypatch.setenv(CACHE, str(tmp_path_factory.getbasetemp() / "caches" / os.urandom(8).hex()))

@@ -22,8 +22,6 @@ from typing import Any
 from atlas import files
 from atlas.sources import digest
 
-NAME = ".cache"
-"""The folder beside what is built."""
 DAY = 24 * 3600.0
 UNUSED = 90 * DAY
 """Seconds after which an entry that nobody has read is removed; what a killed build left goes after a day."""

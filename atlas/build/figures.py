@@ -9,13 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from atlas import files, processes
-from atlas.build import cache as caches
 from atlas.build import worker
 from atlas.build.cache import Cache
 from atlas.core.arithmetic.threads import processors
 from atlas.errors import AtlasError
 from atlas.libraries import versions
-from atlas.places import folder, settle_matplotlib
+from atlas.places import cache_folder, folder, settle_matplotlib
 from atlas.sources import PACKAGE, Sources, digest
 
 OUT = Path("build/figures")
@@ -202,7 +201,7 @@ def build_figures(
 
     A name with the ending .py is that of a recipe's file, wherever it is.
     `style` is a style sheet of Matplotlib, a file or a name, applied on top of the package's own. `jobs` of them are
-    drawn at once, one a core when it is not given. What the cache in `out` has is not drawn again. The format csv is
+    drawn at once, one a core when it is not given. What the cache has is not drawn again. The format csv is
     the data of the figure, see `atlas.scene.data`. A figure that fails does not stop the others. Raises AtlasError for
     a shaded figure that is neither PNG nor CSV.
     """
@@ -211,7 +210,7 @@ def build_figures(
         raise AtlasError(f"a shaded figure is a PNG; {other[0]!r} is drawn by the vector renderer")
     from atlas.draw import gl
 
-    cache = Cache(out / caches.NAME)
+    cache = Cache(cache_folder(out))
     cache.prune()
     places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names]
     figures = [FigureBuild(place, parameters or {}, renderer, tuple(formats), style) for place in places]

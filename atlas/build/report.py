@@ -7,19 +7,20 @@ pages and the PDF; write them beside their places, and rename them.
 import fcntl
 import hashlib
 import os
+import shutil
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import mkdtemp
 from typing import TYPE_CHECKING, Any
 
-from atlas.build import cache as caches
 from atlas.build.cache import Cache
 from atlas.errors import AtlasError
 from atlas.libraries import versions
-from atlas.places import folder
+from atlas.places import cache_folder, folder
 from atlas.report.find import find, related_to
 from atlas.report.manifest import MANIFEST, manifest_of
 from atlas.sources import PACKAGE, Sources, digest
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
 
 OUT = Path("build/report")
 FORMATS = ("html", "pdf")
+UNFINISHED = ".atlas-"
+"""How the folder begins that files stand in until all of them are written, on the disk that they are for."""
 LANGUAGES: Mapping[str, "Target"] = {"html": "html", "pdf": "typst"}
 """In which language the texts of each format are set."""
 Progress = Callable[[int, int, str], None]
@@ -76,7 +79,7 @@ def build_report(
     something can't be written; then the last report stays.
     """
     file, formats = find(str(name)), [one for one in FORMATS if one in formats]
-    cache = Cache(out / caches.NAME)
+    cache = Cache(cache_folder(out))
     try:
         key = key_of(file, Sources(cache), style)
         found = _found(file.stem, out, formats, cache, key)
@@ -102,13 +105,18 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
 
 def _found(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
     """Return the report that is there, if it was made from the same and its files are as they were written."""
-    last = cache.load(f"report {name}")
+    last = cache.load(_noted(name, out))
     for one in formats:
         made = last.get(one, {"key": None})
         if made["key"] != key or any(_hash(out / file) != there for file, there in made["files"].items()):
             return None
     reasons = (("report", name, "taken: nothing it depends on has changed"),)
     return Built(name, *_places(out, name), last["pages"], last["figures"], reasons=reasons)
+
+
+def _noted(name: str, out: Path) -> str:
+    """Return the name under which the cache notes what was built in a folder."""
+    return f"report {name} in {out.resolve()}"
 
 
 def _build(
@@ -151,15 +159,15 @@ def _build(
     times["texts"] = time.perf_counter()
     progress(steps - 1, steps, "pages")
     made = {one: _MAKERS[one](document, wanted, cache, sources) for one in formats}
-    _publish(made, out, report.name, cache)
+    _publish(made, out, report.name)
     times["pages"] = time.perf_counter()
     progress(steps, steps, "done")
     failures = [figure for figure in wanted if figure.failure]
-    last: dict[str, Any] = cache.load(f"report {report.name}")
+    last: dict[str, Any] = cache.load(_noted(report.name, out))
     for one, files in made.items():
         digests = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
         last[one] = {"key": None if failures else key, "files": digests}
-    cache.save(f"report {report.name}", last | {"pages": len(document.pages), "figures": len(wanted) - len(failures)})
+    cache.save(_noted(report.name, out), last | {"pages": len(document.pages), "figures": len(wanted) - len(failures)})
     return Built(
         report.name,
         *_places(out, report.name),
@@ -194,7 +202,7 @@ def _check(name: str, file: Path, out: Path, cache: Cache) -> None:
     if name.startswith("."):
         raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
     pages = out / name
-    known = (pages / MANIFEST).exists() or cache.load(f"report {name}")
+    known = (pages / MANIFEST).exists() or cache.load(_noted(name, out))
     if pages.is_dir() and any(pages.iterdir()) and not known:
         raise AtlasError(f"{pages} holds files that are of no report; move them, or choose another --out.")
 
@@ -291,23 +299,30 @@ def _pdf(
 _MAKERS = {"html": _pages, "pdf": _pdf}
 
 
-def _publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str, cache: Cache) -> None:
+def _publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str) -> None:
     """Write the files of each format, all of them beside their places before the first is renamed.
 
-    What is stale in the folder of the pages is removed. Two builds at once take turns.
+    What is stale in the folder of the pages is removed, and what a killed build left. Two builds at once take turns.
     """
     files = {path: content for contents in made.values() for path, content in contents.items()}
-    with cache.temporary() as work, _turn(out):
-        for number, content in enumerate(files.values()):
-            (work / str(number)).write_bytes(content)
-        for number, path in enumerate(files):
-            (out / path).parent.mkdir(parents=True, exist_ok=True)
-            (work / str(number)).replace(out / path)
-        for old in sorted((out / name).rglob("*"), reverse=True) if "html" in made else ():
-            if old.is_dir() and not any(old.iterdir()):
-                old.rmdir()
-            elif not old.is_dir() and old.relative_to(out).as_posix() not in files:
-                old.unlink()
+    out.mkdir(parents=True, exist_ok=True)
+    with _turn(out):
+        for left in out.glob(f"{UNFINISHED}*"):
+            shutil.rmtree(left, ignore_errors=True)
+        work = Path(mkdtemp(dir=out, prefix=UNFINISHED))
+        try:
+            for number, content in enumerate(files.values()):
+                (work / str(number)).write_bytes(content)
+            for number, path in enumerate(files):
+                (out / path).parent.mkdir(parents=True, exist_ok=True)
+                (work / str(number)).replace(out / path)
+            for old in sorted((out / name).rglob("*"), reverse=True) if "html" in made else ():
+                if old.is_dir() and not any(old.iterdir()):
+                    old.rmdir()
+                elif not old.is_dir() and old.relative_to(out).as_posix() not in files:
+                    old.unlink()
+        finally:
+            shutil.rmtree(work, ignore_errors=True)
 
 
 @contextmanager

@@ -62,7 +62,8 @@ def command(folder: Path, *words: str) -> list[str]:
     """Write the report's file into a folder and return the command that builds it there."""
     folder.mkdir(exist_ok=True)
     (folder / "small.toml").write_text(REPORT)
-    return [sys.executable, "-m", "atlas", "report", str(folder / "small.toml"), "--out", str(folder / "out"), *words]
+    program = ["env", f"ATLAS_CACHE={folder / 'cache'}", sys.executable, "-m", "atlas"]
+    return [*program, "report", str(folder / "small.toml"), "--out", str(folder / "out"), *words]
 
 
 def run(words: list[str], **more: object) -> subprocess.CompletedProcess[str]:
@@ -161,7 +162,7 @@ def test_damaged_entries_of_the_cache_are_made_again(undisturbed: dict[str, str]
     words, chance = command(tmp_path), random.Random(3)  # noqa: S311  reproducible, not secret
     assert run(words).returncode == 0
     for _ in range(3):
-        for entry in sorted((tmp_path / "out" / ".cache").glob("??/*")):
+        for entry in sorted((tmp_path / "cache").glob("??/*")):
             damaged = bytearray(entry.read_bytes())
             damaged[chance.randrange(len(damaged))] ^= 1 << chance.randrange(8)
             match chance.randrange(4):

@@ -160,14 +160,14 @@ class Room:
         self.first.mkdir()
         (self.first / "sitecustomize.py").write_text(WATCH, encoding="utf-8")
 
-    def run(self, words: str, status: int) -> set[str]:
+    def run(self, words: str, status: int, cache: str = "cache") -> set[str]:
         """Run a command line and return the heavy modules that were loaded in any process."""
         self.log.write_text("", encoding="utf-8")
         path = os.pathsep.join([str(self.first), str(CHECKOUT)])
         result = subprocess.run(
             [sys.executable, "-m", "atlas", *words.split()],
             cwd=self.folder,
-            env={**os.environ, "PYTHONPATH": path, "LOADED": str(self.log)},
+            env={**os.environ, "PYTHONPATH": path, "LOADED": str(self.log), "ATLAS_CACHE": str(self.folder / cache)},
             capture_output=True,
             text=True,
             check=False,
@@ -225,7 +225,7 @@ def test_a_report_loads_what_its_change_needs(room: Room) -> None:
         assert step.old in text
         text = text.replace(step.old, step.new, 1)
         (room.folder / "mixed.toml").write_text(text, encoding="utf-8")
-        assert room.run("report mixed.toml --jobs 2", 0) == set(step.loads.split()), step.what
+        assert room.run("report mixed.toml --jobs 2", 0, "cache of the report") == set(step.loads.split()), step.what
 
 
 @pytest.mark.parametrize("name", ["", *command_line.commands])

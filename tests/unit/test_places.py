@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,34 @@ def test_without_a_home_it_lies_in_the_environment(tmp_path: Path, monkeypatch: 
     assert places.own_folder() == tmp_path / "venv" / "atlas"
     monkeypatch.setattr(sys, "prefix", str(tmp_path / "file"))
     assert places.own_folder() is None
+
+
+def test_what_is_built_is_kept_in_the_checkouts_build_or_in_the_users_cache(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Never in a paper's folder; the variable ATLAS_CACHE comes first, and where nothing can be written it goes."""
+    assert places.cache_folder(tmp_path) == Path(os.environ["ATLAS_CACHE"])
+    monkeypatch.delenv("ATLAS_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    assert places.cache_folder(ROOT / "build" / "figures") == ROOT / "build" / ".cache"
+    monkeypatch.chdir(ROOT)
+    assert places.cache_folder(Path("build/report")) == ROOT / "build" / ".cache"
+    monkeypatch.chdir(tmp_path)
+    assert places.cache_folder(Path("build/report")) == tmp_path / "cache" / "atlas" / "built"
+    monkeypatch.setattr(places, "own_folder", lambda: None)
+    assert places.cache_folder(tmp_path).parent == Path(tempfile.gettempdir())
+
+
+def test_a_papers_folder_gets_the_figure_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """`atlas figure --out .` leaves no folder of ours behind, and draws nothing a second time."""
+    from atlas.build.figures import build_figures
+
+    monkeypatch.chdir(tmp_path)
+    (first,) = build_figures(["magn"], ("svg",), Path())
+    (again,) = build_figures(["magn"], ("svg",), Path("elsewhere"))
+    assert first.reason.startswith("drawn")
+    assert again.reason.startswith("taken")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["elsewhere", "magn.svg"]
 
 
 def test_matplotlib_has_a_folder_where_home_cannot_be_written(tmp_path: Path) -> None:
