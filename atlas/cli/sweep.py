@@ -1,8 +1,11 @@
 """``atlas sweep``: quantities over a grid or a list of parameters, as a table in a file."""
 
 import csv
+import re
+from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import click
 
@@ -16,8 +19,29 @@ HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, o
 FAMILY is {NAMES}; a wrong name of a parameter or quantity is answered with the right ones. A row takes microseconds, of
 the family general some tens of them. A CSV file has units in its heading, as in k [1/time]. Where a quantity has no
 value its cell is empty, and the column missing says why. What is done is kept in the folder OUT.parts: a sweep that was
-stopped goes on when it is called again.
+stopped goes on when it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of
+fsspec for it), takes a Parquet data set: files that pandas and Dask read as one table.
 """
+
+MOST = 10**7
+"""Values of one parameter that a range may have."""
+
+
+class Out(click.ParamType[str]):
+    """Where a table goes: a file; a folder, if the name ends in /; or an address."""
+
+    name = "path"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the place as it was written, if something can be written there."""
+        text = str(value)
+        if "://" not in text:
+            folder = text.endswith("/") or Path(text).is_dir()
+            Place(file_okay=not folder, dir_okay=folder).convert(text, param, ctx)
+        return text
+
+
+OUT = Out()
 
 
 @click.command(
@@ -28,7 +52,7 @@ stopped goes on when it is called again.
         "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "
         "--quantity stability --out map.npz",
         "atlas sweep ball --list launches.csv --quantity gamma --digits 30 --out gamma.csv",
-        "atlas sweep --file sweep.toml",
+        "atlas sweep --file sweep.toml --out table.parquet/",
     ),
 )
 @click.argument("family", required=False)
@@ -42,9 +66,9 @@ stopped goes on when it is called again.
 @click.option("--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading.")
 @click.option("--quantity", "quantities", multiple=True, metavar="NAME", help="What to compute; may be repeated.")
 @click.option("--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file.")
-@click.option("--out", type=Place(dir_okay=False, path_type=Path), help="The table: .csv, .npz or .parquet.")
+@click.option("--out", type=OUT, help="The table: .csv, .npz, .parquet; a folder table.parquet/ or an address.")
 @click.option("--digits", type=click.IntRange(1, 1000), help="So many certified significant digits, as text.")
-@click.option("--rows", type=click.IntRange(1), default=None, help="Rows a part, kept until the table is whole.")
+@click.option("--rows", type=click.IntRange(1), default=None, help="Rows a part; else some seconds' worth.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=None, help="Processes; else one a core.")
 def command(
     family: str | None,
@@ -52,7 +76,7 @@ def command(
     listing: Path | None,
     quantities: tuple[str, ...],
     toml: Path | None,
-    out: Path | None,
+    out: str | None,
     digits: int | None,
     rows: int | None,
     jobs: int | None,
@@ -65,17 +89,21 @@ def command(
         if family or settings or listing or quantities or digits or rows:
             raise click.UsageError("with --file only --out and --jobs are left to say.")
         recipe = read(toml)
-        family, quantities, out = recipe.family, tuple(recipe.quantities), out or _beside(toml, recipe.out)
-        listing = _beside(toml, recipe.list)
+        family, quantities = recipe.family, tuple(recipe.quantities)
+        out = out or (None if recipe.out is None else OUT.convert(_beside(toml, recipe.out), None, None))
+        listing = None if recipe.listing is None else Path(_beside(toml, recipe.listing))
         settings_read = {name: _values(name, value) for name, value in recipe.parameters.items()}
         wanted = {"digits": recipe.digits, "rows": recipe.rows}
     else:
-        settings_read = dict(_setting(text) for text in settings)
+        pairs = [_setting(text) for text in settings]
+        settings_read = dict(pairs)
+        _once([name for name, _ in pairs], "--set")
     if family is None:
         raise click.UsageError(f"name the family to sweep: {NAMES}.")
     if out is None:
         raise click.UsageError("--out says which file the table goes to.")
     columns = _rows(listing) if listing else {}
+    _once([*columns, *settings_read], f"{listing} and elsewhere")
     with bar("sweep") as tell:
         path = sweep(
             family,
@@ -100,10 +128,11 @@ def read(path: Path) -> Any:
         family: str
         quantities: list[str]
         parameters: dict[str, float | int | str | list[float | int]] = {}
-        list: str | None = None
+        # not called list itself, which from Python 3.14 on would be what the annotations above mean
+        listing: str | None = msgspec.field(default=None, name="list")
         out: str | None = None
-        digits: int | None = None
-        rows: int | None = None
+        digits: Annotated[int, msgspec.Meta(ge=1, le=1000)] | None = None
+        rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
 
     try:
         return msgspec.toml.decode(path.read_bytes(), type=Recipe)
@@ -111,11 +140,22 @@ def read(path: Path) -> Any:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise click.UsageError(f"{path}: {error}.") from error
+    except RecursionError as error:
+        raise click.UsageError(f"{path} is nested too deeply.") from error
 
 
-def _beside(toml: Path, name: str | None) -> Path | None:
-    """Return a file that a TOML file names, beside it."""
-    return None if name is None else toml.parent / name
+def _beside(toml: Path, name: str) -> str:
+    """Return a file or a folder that a TOML file names, beside it; an address as it is."""
+    if "\0" in name or not name:
+        raise click.UsageError(f"{toml}: {name!r} is no name of a file.")
+    return name if "://" in name else str(toml.parent / name) + "/" * name.endswith("/")
+
+
+def _once(names: Sequence[str], where: str) -> None:
+    """Raise click.UsageError for a parameter that is given twice."""
+    for name, count in Counter(names).items():
+        if count > 1:
+            raise click.UsageError(f"{name} is given {count} times, by {where}: give it once.")
 
 
 def _setting(text: str) -> tuple[str, Any]:
@@ -135,12 +175,16 @@ def _values(name: str, given: Any) -> Any:
     if ":" not in given:
         return [float(REAL.convert(x.strip(), None, None)) for x in given.split(",")]
     start, stop, *rest = given.split(":")
-    if not rest or rest[1:] not in ([], ["log"]) or not rest[0].strip().isdigit():
+    if not rest or rest[1:] not in ([], ["log"]) or not re.fullmatch(r"\s*\d+\s*", rest[0], re.ASCII):
         raise click.UsageError(f"the values of {name} are START:STOP:COUNT, or with :log at the end, not {given!r}.")
     first, last = (float(REAL.convert(x.strip(), None, None)) for x in (start, stop))
     if len(rest) == 2 and first * last <= 0:
         raise click.UsageError(f"even steps of the logarithm need ends of one sign that are not zero, not {given!r}.")
-    return Range(first, last, int(rest[0]), log=len(rest) == 2).values
+    # no more digits are read than a count can have
+    count = int(rest[0]) if len(rest[0].strip().lstrip("0")) < 9 else MOST + 1
+    if count > MOST:
+        raise click.UsageError(f"a range of {name} has at most {MOST} values, not {rest[0].strip()}.")
+    return Range(first, last, count, log=len(rest) == 2).values
 
 
 def _rows(path: Path) -> dict[str, list[float]]:
@@ -150,6 +194,10 @@ def _rows(path: Path) -> dict[str, list[float]]:
             heading, *lines = [line for line in csv.reader(file) if line] or [[]]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
+    except UnicodeDecodeError as error:
+        raise click.UsageError(f"{path} is not UTF-8: byte {error.object[error.start]:#04x}.") from error
+    except csv.Error as error:
+        raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
     names = [name.partition("[")[0].strip() for name in heading]  # k [1/time] is k
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")

@@ -1,9 +1,5 @@
 import csv
 import gc
-import signal
-import subprocess
-import sys
-import time
 import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -18,9 +14,7 @@ from atlas.cli.app import atlas as program
 from atlas.cli.app import main
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
-from atlas.study.sweep import run
 from atlas.study.sweep.families import FAMILIES, NAME
-from atlas.study.sweep.plan import Plan
 from atlas.study.sweep.tables import csv_part
 
 GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
@@ -116,47 +110,6 @@ def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
             assert list(text if values.dtype.kind == "U" else map(float, text)) == values.tolist()
 
 
-def test_a_sweep_that_fails_in_the_middle_goes_on_from_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Parts that were kept are not computed again, and no row is lost or doubled."""
-    whole, part, done = sweep(tmp_path / "a.csv", jobs=1), run.part, []
-
-    def until_three(plan: Plan, start: int, suffix: str) -> bytes:
-        if len(done) == 3:
-            raise KeyboardInterrupt
-        done.append(start)
-        return part(plan, start, suffix)
-
-    monkeypatch.setattr(run, "part", until_three)
-    with pytest.raises(KeyboardInterrupt):
-        sweep(tmp_path / "b.csv", jobs=1)
-    assert not (tmp_path / "b.csv").exists()
-    assert done == [0, 20, 40]
-    monkeypatch.setattr(run, "part", lambda plan, start, suffix: done.append(start) or part(plan, start, suffix))
-    assert sweep(tmp_path / "b.csv", jobs=1) == whole
-    assert done == list(range(0, 154, 20))
-    assert not (tmp_path / "b.csv.parts").exists()
-
-
-def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
-    """After SIGKILL the same command ends with the table of a sweep that nobody disturbed."""
-    arguments = [
-        "sweep", "elementary", "--set", "ratio=0.1:2:40", "--set", "B2=1", "--set", "B3=0.2", "--set",
-        "omega2=-0.9:3:50", "--quantity", "k", "--digits", "20", "--rows", "50", "-j", "1", "--out",
-    ]  # fmt: skip
-    start = [sys.executable, "-m", "atlas", *arguments]
-    killed = subprocess.Popen([*start, tmp_path / "k.csv"])
-    parts = tmp_path / "k.csv.parts"
-    while not list(parts.glob("*.part")) and killed.poll() is None:
-        time.sleep(0.01)
-    killed.send_signal(signal.SIGKILL)
-    killed.wait()
-    assert list(parts.glob("*.part"))
-    assert not (tmp_path / "k.csv").exists()
-    for name in ("k.csv", "a.csv"):
-        assert subprocess.run([*start, tmp_path / name], check=False, capture_output=True).returncode == 0
-    assert (tmp_path / "k.csv").read_bytes() == (tmp_path / "a.csv").read_bytes()
-
-
 def test_memory_does_not_grow_with_the_parts(tmp_path: Path) -> None:
     """What a part needed is given back after it, also where the collector of garbage would wait."""
     given = {"ratio": 0.5, "B2": 1.0, "B3": 0.3, "omega2": np.linspace(0.1, 2, 12_000), "t": 7.0}
@@ -243,44 +196,6 @@ def test_a_row_without_a_number_says_why_and_the_table_goes_on(tmp_path: Path, d
     assert found["missing"].to_pylist() == [reason or None for reason in REASONS]
 
 
-def test_a_sweep_stopped_after_a_separatrix_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Parts with rows without a number are kept and taken up as others are, and give the table of one go."""
-    rows, part = separatrices(), run.part
-
-    def until_four(plan: Plan, start: int, suffix: str) -> bytes:
-        if start == 4:
-            raise KeyboardInterrupt
-        return part(plan, start, suffix)
-
-    for suffix in (".csv", ".npz"):
-        whole = atlas.sweep("general", rows, ANGLES, tmp_path / f"a{suffix}", listed=True, rows=2, jobs=1)
-        again = tmp_path / f"b{suffix}"
-        monkeypatch.setattr(run, "part", until_four)
-        with pytest.raises(KeyboardInterrupt):
-            atlas.sweep("general", rows, ANGLES, again, listed=True, rows=2, jobs=1)
-        monkeypatch.setattr(run, "part", part)
-        assert len(list((tmp_path / f"b{suffix}.parts").glob("*.part"))) == 2
-        atlas.sweep("general", rows, ANGLES, again, listed=True, rows=2, jobs=2)
-        assert isinstance(whole, Path)
-        assert again.read_bytes() == whole.read_bytes()
-
-
-def test_parts_of_another_sweep_are_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Other parameters, other parts; and a folder of the user's own is left alone."""
-    monkeypatch.setattr(run, "shutil", type("Kept", (), {"rmtree": staticmethod(lambda _: None)}))
-    sweep(tmp_path / "a.csv", jobs=1)
-    monkeypatch.undo()
-    other = GRID | {"B2": 2.0}
-    atlas.sweep("elementary", other, NAMES, tmp_path / "a.csv", rows=20, jobs=1)
-    atlas.sweep("elementary", other, NAMES, tmp_path / "b.csv", rows=20, jobs=1)
-    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
-    (tmp_path / "c.csv.parts").mkdir()
-    (tmp_path / "c.csv.parts" / "mine").touch()
-    with pytest.raises(AtlasError, match="other files"):
-        sweep(tmp_path / "c.csv", jobs=1)
-    assert (tmp_path / "c.csv.parts" / "mine").exists()
-
-
 def test_rows_outside_the_domain_are_named(tmp_path: Path) -> None:
     """The error says in which rows it is, and leaves no folder behind."""
     with pytest.raises(AtlasError, match=r"rows 0 to 2: .*pole"):
@@ -331,6 +246,16 @@ def test_certified_digits_round_to_the_floats(family: str, names: list[str]) -> 
         ("ball --set inertia=-1:2:5:log --quantity gamma --out x.csv", "one sign"),
         ("ball --set inertia=a --quantity gamma --out x.csv", "not a finite number"),
         ("ball --list nowhere.csv --quantity gamma --out x.csv", "cannot be read"),
+        ("ball --set inertia=1:2:² --quantity gamma --out x.csv", "START:STOP:COUNT"),
+        ("ball --set inertia=1:2:٣ --quantity gamma --out x.csv", "START:STOP:COUNT"),
+        ("ball --set inertia=1:2:10000000000000 --quantity gamma --out x.csv", "at most 10000000 values"),
+        ("ball --set inertia=1:2:100000000000000000000 --quantity gamma --out x.csv", "at most 10000000 values"),
+        ("ball --set inertia=0.1:1:5 --set inertia=1 --quantity gamma --out x.csv", "inertia is given 2 times"),
+        ("ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1 --quantity gamma --out x.csv/", "of Parquet"),
+        (
+            "ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1 --quantity gamma --out no://x/",
+            "cannot be reached",
+        ),
         ("--out x.csv", "name the family"),
         ("ball --file a.toml", "with --file"),
     ],

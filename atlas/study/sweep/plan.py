@@ -1,10 +1,9 @@
-"""A sweep as data: the family, its parameters by name, the quantities; and any part of its table."""
+"""A sweep as data: the family, its parameters by name, the quantities; and any rows of its table."""
 
-import hashlib
-import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import prod
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -16,13 +15,18 @@ from atlas.study.sweep.families import FAMILIES, MISSING
 
 Columns = dict[str, NDArray[Any]]
 
+LARGEST = 10**11
+"""Rows of a table: some 10 TB of them."""
+SAMPLE = 0.1
+"""Seconds that a sample of rows should take, to tell how long a row takes."""
+
 
 @dataclass(frozen=True)
 class Plan:
     """Rows of parameters of a family, and the quantities that each is to have.
 
     `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row.
-    With `digits` the quantities are text with so many certified digits. A part of the table has `rows` rows.
+    With `digits` the quantities are text with so many certified digits.
     """
 
     family: str
@@ -30,7 +34,6 @@ class Plan:
     quantities: tuple[str, ...]
     listed: bool = False
     digits: int | None = None
-    rows: int = 50_000
 
     @classmethod
     def of(
@@ -41,7 +44,6 @@ class Plan:
         *,
         listed: bool = False,
         digits: int | None = None,
-        rows: int = 50_000,
     ) -> "Plan":
         """Check what a user gave. Raises AtlasError for what is unknown, missing, not a number or not of one length."""
         if family not in FAMILIES:
@@ -57,32 +59,18 @@ class Plan:
                 if array.size not in {1, count}:
                     raise AtlasError(f"{name} has {array.size} values, but the list has {count} rows.")
             arrays = {name: np.broadcast_to(array, count) for name, array in arrays.items()}
-        if rows < 1 or (digits is not None and digits < 1):
-            raise AtlasError(f"A part has at least one row, and a number one digit, not {rows} and {digits}.")
-        return cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, rows)
+        if digits is not None and digits < 1:
+            raise AtlasError(f"A number has at least one digit, not {digits}.")
+        plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits)
+        if not 0 < plan.count <= LARGEST:
+            raise AtlasError(f"A table has from one row to {LARGEST:.0e}, not {plan.count}.")
+        return plan
 
     @property
     def count(self) -> int:
         """How many rows the table has."""
         sizes = [array.size for array in self.parameters.values()]
         return max(sizes) if self.listed else prod(sizes)
-
-    @property
-    def parts(self) -> int:
-        """How many parts the table has."""
-        return -(-self.count // self.rows)
-
-    @property
-    def key(self) -> str:
-        """Digest of all that the table depends on, the version of the package included."""
-        from atlas import __version__
-
-        told = [__version__, self.family, self.quantities, self.listed, self.digits, self.rows, list(self.parameters)]
-        digest = hashlib.sha256(json.dumps(told).encode())
-        for array in self.parameters.values():
-            digest.update(np.ascontiguousarray(array).tobytes())
-            digest.update(b"|")
-        return digest.hexdigest()
 
     @property
     def names(self) -> list[str]:
@@ -97,27 +85,80 @@ class Plan:
         units = FAMILIES[self.family].units
         return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
 
-    def part(self, index: int) -> "Plan":
-        """Return the plan of one part: a list of its rows."""
-        rows = np.arange(index * self.rows, min((index + 1) * self.rows, self.count))
-        places = [rows] * len(self.parameters)
-        if not self.listed:
-            places = list(np.unravel_index(rows, [array.size for array in self.parameters.values()]))
-        given = {name: array[i] for (name, array), i in zip(self.parameters.items(), places, strict=True)}
-        return Plan(self.family, given, self.quantities, True, self.digits, self.rows)
+    def span(self, start: int, stop: int) -> "Span":
+        """Return some rows of the table, with no more of the parameters than they need: they go to other machines."""
+        first, arrays, rest = start, {}, self.count
+        for name, array in self.parameters.items():
+            if self.listed:
+                arrays[name] = array[first : first + stop - start]
+                continue
+            # of the outer parameters only those values that occur, as long as there is one
+            rest //= array.size
+            low, high = start // rest, (stop - 1) // rest
+            arrays[name] = array[low : high + 1]
+            start, stop = start - low * rest, stop - low * rest
+            if high > low:
+                arrays |= {other: self.parameters[other] for other in self.parameters if other not in arrays}
+                break
+        if self.listed:
+            start, stop = 0, stop - start
+        return Span(Plan(self.family, arrays, self.quantities, self.listed, self.digits), start, stop, first)
 
-    def whole(self) -> "Plan":
-        """Return the plan of the table in one part."""
-        return replace(self, rows=self.count).part(0)
+    def sample(self, size: int) -> "Plan":
+        """Return a list of so many rows at most, spread over the table."""
+        rows = np.linspace(0, self.count - 1, min(size, self.count)).astype(np.int64)
+        return Plan(self.family, self._given(rows), self.quantities, True, self.digits)
+
+    def seconds(self) -> float:
+        """Return how long a row takes here: as many rows are computed as tell it."""
+        size = 8
+        while True:
+            rows = self.sample(size)
+            begin = perf_counter()
+            rows.columns()
+            took = perf_counter() - begin
+            if took > SAMPLE or rows.count == self.count:
+                return took / rows.count
+            size *= 8
 
     def columns(self) -> Columns:
         """Return the table."""
+        return self.at(np.arange(self.count))
+
+    def at(self, rows: NDArray[np.int64]) -> Columns:
+        """Return some rows of the table, by number."""
+        given = self._given(rows)
         family = FAMILIES[self.family]
         defaults = {name: value for name, value in family.optional.items() if value is not None}
-        rows: Columns = {name: np.full(self.count, value) for name, value in defaults.items()} | dict(self.parameters)
+        full: Columns = {name: np.full(rows.size, value) for name, value in defaults.items()} | given
         found = (
-            family.columns(rows, self.quantities)
+            family.columns(full, self.quantities)
             if self.digits is None
-            else family.digits(rows, self.quantities, self.digits)
+            else family.digits(full, self.quantities, self.digits)
         )
-        return {name: found[name] if name in found else self.parameters[name] for name in self.names}
+        return {name: found[name] if name in found else given[name] for name in self.names}
+
+    def _given(self, rows: NDArray[np.int64]) -> Columns:
+        """Return the parameters of some rows."""
+        places = [rows] * len(self.parameters)
+        if not self.listed:
+            places = list(np.unravel_index(rows, [array.size for array in self.parameters.values()]))
+        return {name: array[i] for (name, array), i in zip(self.parameters.items(), places, strict=True)}
+
+
+@dataclass(frozen=True)
+class Span:
+    """Rows of a table, of which the first has the number `first`: `start` to `stop` of a plan."""
+
+    plan: Plan
+    start: int
+    stop: int
+    first: int
+
+    def columns(self) -> Columns:
+        """Return the rows. An AtlasError says in which they are."""
+        try:
+            return self.plan.at(np.arange(self.start, self.stop))
+        except AtlasError as error:
+            last = self.first + self.stop - self.start - 1
+            raise type(error)(f"In the rows {self.first} to {last}: {error}") from error

@@ -51,7 +51,7 @@ class Table:
         given = {name: x.values if isinstance(x, Range) else x for name, x in self.settings.items()}
         plan = Plan.of(self.family, given, self.quantities)
         sizes = [x.size for x in plan.parameters.values() if x.size > 1]
-        return {name: column.reshape(sizes) for name, column in plan.whole().columns().items()}
+        return {name: column.reshape(sizes) for name, column in plan.columns().items()}
 
     def command(self, out: str) -> str:
         """Return the command that writes the table into a file."""

@@ -1,24 +1,22 @@
 """The sweep itself: parts of the table computed anywhere, kept as files until the table is whole."""
 
-import gc
 import os
-import shutil
-from collections import deque
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+from uuid import uuid4
 
-from atlas.core.arithmetic.threads import processors
 from atlas.errors import AtlasError
+from atlas.study.sweep.lock import held
+from atlas.study.sweep.parts import Parts
 from atlas.study.sweep.plan import Columns, Plan
-from atlas.study.sweep.tables import FORMATS, check_format
+from atlas.study.sweep.targets import DataSet, Table, target
+from atlas.study.sweep.workers import ahead, workers
 
-if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
-AHEAD = 4
-"""Parts asked for at a time, for each process: what is computed but not yet kept stays small."""
+SECONDS, MOST = 2.0, 2**18
+"""How long a part should take, and the most rows that it has, which a worker keeps in memory."""
+FEW = 4096
+"""Rows that are one part in any case, unless they have certified digits."""
 
 Progress = Callable[[int, int], None]
 
@@ -31,109 +29,107 @@ def sweep(
     *,
     listed: bool = False,
     digits: int | None = None,
-    rows: int = 50_000,
+    rows: int | None = None,
     executor: Any = None,
     jobs: int | None = None,
     progress: Progress | None = None,
-) -> Columns | Path:
+) -> Columns | Path | str:
     """Compute quantities of a family for all combinations of parameters, or, if `listed`, for lists of them by row.
 
     `family` is a name in `atlas.study.sweep.families.FAMILIES`; `parameters` numbers or sequences by name, the last
-    varying fastest. Without `out` returns the columns, parameters first. With `out`, a file .csv, .npz or .parquet,
-    returns its path: parts of `rows` rows are computed on `jobs` processes, or on an `executor`, any of
-    `concurrent.futures` or a Dask client, and kept in the folder `out`.parts until the table is written; a sweep that
-    was stopped goes on from there. The bytes do not depend on where the parts were computed. With `digits` the
-    quantities are text with so many certified digits. `progress(rows done, rows)` is called after each part.
+    varying fastest. Without `out` returns the columns, parameters first. With `out` writes a table and returns where it
+    is: a file .csv, .npz or .parquet; or, if `out` ends in / or is an address that fsspec knows, as
+    s3://bucket/table.parquet, a Parquet data set, a folder that pandas and Dask read as one table.
+
+    The table is computed in parts of `rows` rows, or of some seconds each, on `jobs` processes, or on an `executor`,
+    any of `concurrent.futures` or a Dask client. They are kept beside it, in a folder whose name ends in .parts, until
+    the table is whole; a sweep that was stopped goes on from there, and makes damaged parts again. The workers write
+    the parts where they see the folder; on Dask a data set is written by Dask. The bytes of a file do not depend on the
+    parts or on who computed them. With `digits` the quantities are text with so many certified digits.
+    `progress(rows done, rows)` is called after each part.
 
     Where a quantity has no value, as an angle a period on a separatrix, its cell is empty (NaN in the columns and .npz,
     null in .parquet, no text), and the column `missing` says why.
 
-    Raises AtlasError for what is unknown, missing or outside the domain of the family, with the rows that it is in.
+    Raises AtlasError for what is unknown, missing or outside the domain of the family, with the rows that it is in; for
+    a table that another sweep is writing, with who that is; and for a folder that is not of a sweep.
     """
-    plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits, rows=rows)
-    if not plan.count:
-        raise AtlasError("A sweep needs at least one row.")
+    if rows is not None and rows < 1:
+        raise AtlasError(f"A part has at least one row, not {rows}.")
+    plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits)
     if out is None:
-        return plan.whole().columns()
-    target = Path(out)
-    check_format(target)
-    parts = _folder(target, plan)
-    try:
-        _compute(plan, parts, target.suffix, executor, jobs, progress)
-    except AtlasError:
-        if not any(parts.glob("*.part")):
-            shutil.rmtree(parts)
-        raise
-    whole = parts / f"whole{target.suffix}"
-    heads = plan.headings if target.suffix == ".csv" else plan.names
-    FORMATS[target.suffix][1](whole, heads, plan.count, [_kept(parts, i) for i in range(plan.parts)])
-    whole.replace(target)
-    shutil.rmtree(parts)
-    return target
-
-
-def part(plan: Plan, start: int, suffix: str) -> bytes:
-    """Return one part of a table, whose first row has the number `start`, as it is kept in a file."""
-    try:
-        return FORMATS[suffix][0](plan.columns())
-    except AtlasError as error:
-        raise type(error)(f"In the rows {start} to {start + plan.count - 1}: {error}") from error
-    finally:
-        gc.collect()  # an array of motions refers to itself: few objects, but megabytes, which would wait for many more
-
-
-def _compute(plan: Plan, parts: Path, suffix: str, executor: Any, jobs: int | None, progress: Progress | None) -> None:
-    """Compute the parts that are not there yet, and keep each as soon as it is done."""
-    missing = [i for i in range(plan.parts) if not _kept(parts, i).exists()]
-    done = plan.parts - len(missing)
-
-    def keep(i: int, data: bytes) -> None:
-        nonlocal done
-        new = parts / f"{i:08d}.new"
-        new.write_bytes(data)
-        new.replace(_kept(parts, i))
-        done += 1
-        if progress is not None:
-            progress(min(done * plan.rows, plan.count), plan.count)
-
-    jobs = min(jobs or processors(), len(missing))
-    if executor is None and jobs <= 1:
-        for i in missing:
-            keep(i, part(plan.part(i), i * plan.rows, suffix))
-        return
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
-
-    with ExitStack() as stack:
-        if executor is None:
-            executor = stack.enter_context(ProcessPoolExecutor(jobs, mp_context=get_context("spawn")))
-        engine: Executor = executor.get_executor() if hasattr(executor, "get_executor") else executor
-        waiting: deque[tuple[int, Any]] = deque()
+        return plan.columns()
+    table = target(out)
+    with held(table.lock, str(table)):
+        table.check()
+        parts = Parts(table.parts)
+        _begin(plan, parts, rows, executor)
         try:
-            for i in missing:
-                waiting.append((i, engine.submit(part, plan.part(i), i * plan.rows, suffix)))
-                if len(waiting) >= AHEAD * max(jobs, 1):
-                    first, future = waiting.popleft()
-                    keep(first, future.result())
-            for first, future in waiting:
-                keep(first, future.result())
-        finally:
-            for _, future in waiting:
-                future.cancel()
+            _compute(plan, table, parts, executor, jobs, progress)
+        except AtlasError:
+            if not any(parts.files.values()):
+                parts.clear()
+            raise
+        table.finish(plan, parts, _names(plan, table, parts))
+    return table.place
 
 
-def _kept(parts: Path, i: int) -> Path:
-    return parts / f"{i:08d}.part"
+def _begin(plan: Plan, parts: Parts, rows: int | None, executor: Any) -> None:
+    """Say how many rows a part has: as many as asked for, as the parts have that are there, or by the time of a row."""
+    from atlas.study.sweep.keys import key  # which reads the code
+
+    if rows is None and parts.header and parts.header["key"] == key(plan):
+        rows = parts.header["rows"]
+    if rows is None and plan.count <= FEW and plan.digits is None:
+        rows = plan.count
+    if rows is None:
+        rows = max(1, min(MOST, int(SECONDS / _pace(plan, executor))))
+    # a table of one part is made again: its key need not be known, which takes half a second
+    parts.begin(key(plan) if parts.header or rows < plan.count else uuid4().hex, rows)
 
 
-def _folder(target: Path, plan: Plan) -> Path:
-    """Return the folder of the parts, empty if what it holds belongs to another sweep."""
-    parts = target.with_name(f"{target.name}.parts")
-    key = parts / "key"
-    if parts.exists() and not (key.is_file() and key.read_text(encoding="utf-8") == plan.key):
-        if not key.is_file() and any(parts.iterdir()):
-            raise AtlasError(f"{parts} is needed for the parts of the table, but holds other files.")
-        shutil.rmtree(parts)
-    parts.mkdir(parents=True, exist_ok=True)
-    key.write_text(plan.key, encoding="utf-8")
-    return parts
+def _pace(plan: Plan, executor: Any) -> float:
+    """Return the seconds of a row where the rows will be computed; of a plan that has rows out of its domain, any."""
+    try:
+        with workers(executor, 1, 1) as (engine, _):
+            return engine.submit(plan.sample(32_768).seconds).result()
+    except AtlasError:
+        return SECONDS / FEW  # the part that has them will say so
+
+
+def _names(plan: Plan, table: Table | DataSet, parts: Parts) -> list[str]:
+    """Return the names of the files of all parts."""
+    return [f"part-{i:08d}.{table.ending}" for i in range(-(-plan.count // parts.header["rows"]))]
+
+
+def _compute(
+    plan: Plan, table: Table | DataSet, parts: Parts, executor: Any, jobs: int | None, progress: Progress | None
+) -> None:
+    """Compute the parts that are not there yet, and keep each as soon as it is done."""
+    rows, names = parts.header["rows"], _names(plan, table, parts)
+    missing = [i for i, name in enumerate(names) if parts.files.get(name) is None]
+    done = len(names) - len(missing)
+
+    def tell(count: int) -> None:
+        nonlocal done
+        done += count
+        if progress is not None:
+            progress(min(done * rows, plan.count), plan.count)
+
+    spans = ((names[i], plan.span(i * rows, min((i + 1) * rows, plan.count))) for i in missing)
+    if isinstance(table, DataSet) and hasattr(executor, "get_executor"):
+        from atlas.study.sweep.on_dask import write
+
+        for written in write(executor, spans, parts):
+            tell(len(written))
+        return
+
+    def calls() -> Iterator[tuple[str, tuple[Any, ...]]]:
+        for name, span in spans:
+            parts.announce(name)
+            yield name, (span, table.ending, parts.folder, name, parts.mark)
+
+    with workers(executor, jobs, len(missing)) as (engine, count):
+        for name, made in ahead(engine, count, calls()):
+            parts.keep(name, made)
+            tell(1)

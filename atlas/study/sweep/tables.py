@@ -1,11 +1,11 @@
-"""A table from its parts: CSV, NPZ or Parquet, written a part at a time, the same bytes each time."""
+"""A table from its parts: CSV, NPZ or Parquet, written a part at a time, the same bytes whatever the parts are."""
 
 import io
 import zipfile
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import isnan
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from atlas.study.sweep.families import empty
 
 Columns = Mapping[str, NDArray[Any]]
 Parts = Sequence[Path]
+
+GROUP = 2**17
+"""Rows of a row group of Parquet."""
 
 
 def csv_part(columns: Columns) -> bytes:
@@ -71,20 +74,43 @@ def write_npz(out: Path, names: list[str], count: int, parts: Parts) -> None:
 
 
 def write_parquet(out: Path, _: list[str], _count: int, parts: Parts) -> None:
-    """Write one row group a part."""
-    arrow, parquet = _pyarrow()
+    """Write row groups of GROUP rows."""
+    _, parquet = _pyarrow()
     writer = None
     try:
-        for part in parts:
-            with np.load(part) as columns:
-                table = arrow.table(
-                    {name: arrow.array(columns[name], mask=empty(columns[name])) for name in columns.files}
-                )
+        for table in _grouped(parts):
             writer = writer or parquet.ParquetWriter(out, table.schema)
             writer.write_table(table)
     finally:
         if writer:
             writer.close()
+
+
+def _grouped(parts: Parts) -> Iterator[Any]:
+    """Yield the rows of all parts in tables of GROUP rows, the last of fewer."""
+    arrow, _ = _pyarrow()
+    rows: Any = None
+    for part in parts:
+        with np.load(part) as columns:
+            more = arrow_table(columns)
+        rows = more if rows is None else arrow.concat_tables([rows, more])
+        while rows.num_rows > GROUP:
+            yield rows.slice(0, GROUP).combine_chunks()
+            rows = rows.slice(GROUP)
+    yield rows.combine_chunks()
+
+
+def arrow_table(columns: Columns) -> Any:
+    """Return columns as a table of pyarrow, null where they have no value."""
+    arrow, _ = _pyarrow()
+    return arrow.table({name: arrow.array(columns[name], mask=empty(columns[name])) for name in columns})
+
+
+def parquet_part(columns: Columns) -> bytes:
+    """Return rows as a Parquet file."""
+    buffer = io.BytesIO()
+    _pyarrow()[1].write_table(arrow_table(columns), buffer)
+    return buffer.getvalue()
 
 
 def _pyarrow() -> tuple[Any, Any]:
@@ -96,11 +122,20 @@ def _pyarrow() -> tuple[Any, Any]:
     return pa, parquet
 
 
-FORMATS: Mapping[str, tuple[Callable[[Columns], bytes], Callable[[Path, list[str], int, Parts], None]]] = {
-    ".csv": (csv_part, write_csv),
-    ".npz": (array_part, write_npz),
-    ".parquet": (array_part, write_parquet),
+class Format(NamedTuple):
+    """Under which ending the parts of a table are kept, and how it is written from them."""
+
+    ending: str
+    write: Callable[[Path, list[str], int, Parts], None]
+
+
+FORMATS: Mapping[str, Format] = {
+    ".csv": Format("csv", write_csv),
+    ".npz": Format("npz", write_npz),
+    ".parquet": Format("npz", write_parquet),
 }
+PARTS: Mapping[str, Callable[[Columns], bytes]] = {"csv": csv_part, "npz": array_part, "parquet": parquet_part}
+"""How the rows of a part are kept, by the ending of its file."""
 
 
 def check_format(out: Path) -> None:

@@ -1,0 +1,104 @@
+"""Tables of a sweep as Parquet data sets, here, at an address, and on Dask."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import atlas
+from atlas.errors import AtlasError
+from atlas.study.sweep.parts import MANIFEST
+
+pytest.importorskip("pyarrow")
+
+GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
+NAMES = ("omega3", "k", "phi", "case", "R12")
+
+
+def same(found: Any) -> None:
+    """Check a data frame against the table."""
+    table = atlas.sweep("elementary", GRID, NAMES)
+    assert isinstance(table, dict)
+    assert list(found) == list(table)
+    for name, column in table.items():
+        assert np.array_equal(found[name].to_numpy(), column), name
+
+
+def test_a_data_set_is_read_as_one_table(tmp_path: Path) -> None:
+    """Pandas and pyarrow read the files of all parts as the rows of the sweep, in their order."""
+    pandas = pytest.importorskip("pandas")
+    for jobs, name in ((1, "a.parquet/"), (2, "b.parquet/")):
+        out = atlas.sweep("elementary", GRID, NAMES, f"{tmp_path}/{name}", rows=20, jobs=jobs)
+        assert len(list(Path(str(out)).glob("part-*.parquet"))) == 8
+        same(pandas.read_parquet(out))
+    assert {path.name for path in tmp_path.iterdir()} == {"a.parquet", "b.parquet"}
+    parts = [sorted((tmp_path / name).glob("part-*")) for name in ("a.parquet", "b.parquet")]
+    assert [path.read_bytes() for path in parts[0]] == [path.read_bytes() for path in parts[1]]
+
+
+def test_a_new_data_set_takes_the_place_of_an_old_one_and_of_nothing_else(tmp_path: Path) -> None:
+    """Of an old table no file is left; a folder with other files is refused."""
+    pandas = pytest.importorskip("pandas")
+    out = tmp_path / "t.parquet"
+    atlas.sweep("elementary", GRID | {"B2": 2.0}, NAMES, f"{out}/", rows=10, jobs=1)
+    atlas.sweep("elementary", GRID, NAMES, out, rows=20, jobs=1)
+    same(pandas.read_parquet(out))
+    assert len(list(out.iterdir())) == 9
+    (out / "mine.parquet").touch()
+    with pytest.raises(AtlasError, match=r"mine\.parquet, which is of no sweep"):
+        atlas.sweep("elementary", GRID, NAMES, out, rows=20, jobs=1)
+    (out / "mine.parquet").unlink()
+    (out / MANIFEST).unlink()
+    with pytest.raises(AtlasError, match="is of no sweep"):
+        atlas.sweep("elementary", GRID, NAMES, out, rows=20, jobs=1)
+    assert len(list(out.iterdir())) == 8
+
+
+def test_a_data_set_at_an_address_is_read_from_there() -> None:
+    """What fsspec knows is written and read as a folder is, and nothing is left beside it."""
+    fsspec, pandas = pytest.importorskip("fsspec"), pytest.importorskip("pandas")
+    memory = fsspec.filesystem("memory")
+    for B2 in (2.0, 1.0):
+        address = atlas.sweep("elementary", GRID | {"B2": B2}, NAMES, "memory://sweeps/t.parquet", rows=20, jobs=1)
+    assert address == "memory://sweeps/t.parquet"
+    same(
+        pandas.concat(
+            pandas.read_parquet(f"memory:/{name}") for name in sorted(memory.glob("/sweeps/t.parquet/*.parquet"))
+        )
+    )
+    assert [name.rsplit("/", 1)[-1] for name in memory.ls("/sweeps", detail=False)] == ["t.parquet"]
+    memory.rm("/sweeps", recursive=True)
+
+
+@pytest.mark.filterwarnings("ignore:The inplace keyword")  # Dask calls pandas so
+def test_dask_writes_the_data_set_itself_and_goes_on_where_it_was_stopped(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two workers write the rows, no part that is there is made again, and Dask reads the folder as one table."""
+    distributed, frames = pytest.importorskip("distributed"), pytest.importorskip("dask.dataframe")
+    from atlas.study.sweep import on_dask
+
+    out, seen, kept = tmp_path / "t.parquet", on_dask._seen, {}
+
+    def until_two(folder: Any, digests: Any) -> Any:
+        if len(kept) == 4:
+            raise KeyboardInterrupt
+        kept.update({name: (folder.path / name).stat().st_mtime_ns for name in digests})
+        return seen(folder, digests)
+
+    monkeypatch.setattr(on_dask, "BATCH", 1)
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        with monkeypatch.context() as patch:
+            patch.setattr(on_dask, "_seen", until_two)
+            with pytest.raises(KeyboardInterrupt):
+                atlas.sweep("elementary", GRID, NAMES, f"{out}/", rows=20, executor=client)
+        assert sorted(kept) == [f"part-{i:08d}.parquet" for i in range(4)]
+        assert not out.exists()
+        atlas.sweep("elementary", GRID, NAMES, f"{out}/", rows=20, executor=client)
+        same(frames.read_parquet(out).compute(scheduler="synchronous"))
+    assert {name: (out / name).stat().st_mtime_ns for name in kept} == kept
+    assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]

@@ -1,0 +1,343 @@
+"""The parts of a sweep: kept, taken up, made again where they are damaged, and never anybody else's."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import atlas
+from atlas.cli.app import atlas as program
+from atlas.errors import AtlasError
+from atlas.study.sweep import keys, run, storage, workers
+from atlas.study.sweep.lock import held
+from atlas.study.sweep.parts import MANIFEST
+from atlas.study.sweep.plan import LARGEST, Plan, Span
+
+GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
+NAMES = ("omega3", "k", "phi", "case", "R12")
+STARTS = list(range(0, 154, 20))
+KEEP = workers.make
+
+
+class Stopped(BaseException):
+    """What ends a sweep in the middle, as a signal would."""
+
+
+def sweep(out: Path | str, **more: Any) -> Any:
+    """Sweep the grid in parts of 20 rows."""
+    return atlas.sweep("elementary", GRID, NAMES, out, **({"rows": 20, "jobs": 1} | more))
+
+
+def made(monkeypatch: pytest.MonkeyPatch, stop: int | None = None) -> list[int]:
+    """Return a list that gets the first rows of the parts that are made from now on; `stop` of them are."""
+    starts: list[int] = []
+
+    def make(span: Span, *more: Any) -> Any:
+        if len(starts) == stop:
+            raise Stopped
+        starts.append(span.first)
+        return KEEP(span, *more)
+
+    monkeypatch.setattr(workers, "make", make)
+    return starts
+
+
+def stopped(out: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Sweep until three parts are kept, and return their folder."""
+    starts = made(monkeypatch, 3)
+    with pytest.raises(Stopped):
+        sweep(f"{out}/" if out.suffix == ".parquet" else out)
+    assert starts == STARTS[:3]
+    assert not out.exists()
+    return out.with_name(f"{out.name}.parts")
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """Return the table of one go."""
+    out = tmp_path_factory.mktemp("whole") / "t.csv"
+    sweep(out)
+    return out.read_bytes()
+
+
+def test_a_sweep_that_was_stopped_goes_on_from_there(
+    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Parts that were kept are not computed again, no row is lost or doubled, and nothing is left beside the table."""
+    stopped(tmp_path / "t.csv", monkeypatch)
+    starts = made(monkeypatch)
+    sweep(tmp_path / "t.csv")
+    assert starts == STARTS[3:]
+    assert (tmp_path / "t.csv").read_bytes() == whole
+    assert list(tmp_path.iterdir()) == [tmp_path / "t.csv"]
+
+
+def test_any_rows_are_those_of_the_table() -> None:
+    """A span carries the parameters that it needs and no more, and gives the rows of the whole."""
+    for listed in (False, True):
+        given = GRID if not listed else {name: np.resize(x, 154) for name, x in GRID.items()}
+        plan = Plan.of("elementary", given, ["k"], listed=listed)
+        table = plan.columns()
+        for start, stop in [(0, 154), (0, 1), (153, 154), (21, 23), (22, 44), (5, 90), (11, 12), (100, 120)]:
+            span = plan.span(start, stop)
+            assert span.first == start
+            for name, column in span.columns().items():
+                assert np.array_equal(column, table[name][start:stop])
+    assert {name: x.size for name, x in Plan.of("elementary", GRID, ["k"]).span(23, 30).plan.parameters.items()} == {
+        "ratio": 1,
+        "B2": 1,
+        "B3": 1,
+        "omega2": 7,
+    }
+
+
+@pytest.mark.parametrize("kind", ["csv", "npz", "parquet"])
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda file: file.write_bytes(file.read_bytes()[:-7]),
+        lambda file: file.write_bytes(b""),
+        lambda file: file.write_bytes(file.read_bytes().replace(b"1", b"2", 1)),
+        lambda file: file.unlink(),
+    ],
+    ids=["cut", "emptied", "altered", "gone"],
+)
+def test_a_damaged_part_is_made_again(
+    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch, damage: Any, kind: str
+) -> None:
+    """A part that is not what its digest says is no part: the table is that of a sweep that nobody disturbed."""
+    if kind == "parquet":
+        pytest.importorskip("pyarrow")
+    out = tmp_path / f"t.{kind}"
+    damage(stopped(out, monkeypatch) / f"part-00000001.{kind}")
+    starts = made(monkeypatch)
+    sweep(f"{out}/" if kind == "parquet" else out)
+    assert starts == [STARTS[1], *STARTS[3:]]
+    if kind == "csv":
+        assert out.read_bytes() == whole
+
+
+def test_a_line_of_the_manifest_that_was_cut_off_says_nothing(
+    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The part that it was to enter is made again, and what is entered after it is read."""
+    manifest = stopped(tmp_path / "t.csv", monkeypatch) / MANIFEST
+    lines = manifest.read_bytes().splitlines(keepends=True)
+    for kept in range(1, len(lines)):
+        manifest.write_bytes(b"".join(lines[:kept]) + lines[kept][:-9])
+        made(monkeypatch, 1)
+        with pytest.raises((Stopped, AtlasError)):
+            sweep(tmp_path / "t.csv")
+        if b"part-00000002" in manifest.read_bytes():
+            break
+    made(monkeypatch)
+    sweep(tmp_path / "t.csv")
+    assert (tmp_path / "t.csv").read_bytes() == whole
+
+
+def test_parts_of_another_sweep_or_another_program_are_not_taken(
+    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Other parameters, another size of the parts or other code: all parts are made."""
+    other = GRID | {"B2": 2.0}
+    stopped(tmp_path / "t.csv", monkeypatch)
+    made(monkeypatch)
+    atlas.sweep("elementary", other, NAMES, tmp_path / "t.csv", rows=20, jobs=1)
+    atlas.sweep("elementary", other, NAMES, tmp_path / "o.csv", rows=20, jobs=1)
+    assert (tmp_path / "t.csv").read_bytes() == (tmp_path / "o.csv").read_bytes() != whole
+    (tmp_path / "t.csv").unlink()
+    stopped(tmp_path / "t.csv", monkeypatch)
+    monkeypatch.setattr(keys, "code", lambda: "another")
+    starts = made(monkeypatch)
+    sweep(tmp_path / "t.csv")
+    assert starts == STARTS
+    assert (tmp_path / "t.csv").read_bytes() == whole
+
+
+def test_the_key_is_that_of_the_code_that_computes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A changed kernel changes it, the drawing of a figure does not."""
+    from atlas import sources
+
+    reached = {path.relative_to(sources.PACKAGE).as_posix() for path in sources.Sources().reached(
+        [sources.PACKAGE / "study" / "sweep" / "plan.py"]
+    )}  # fmt: skip
+    assert {"core/elementary.py", "core/arithmetic/double_double.py", "exact/general.py"} <= reached
+    assert not any(path.startswith(("draw/", "report/", "cli/")) for path in reached)
+    before = keys.code.__wrapped__()
+    facts = sources.Sources._facts
+
+    def changed(self: Any, path: Path) -> Any:
+        found = facts(self, path)
+        return found | {"digest": "another"} if path.name == "double_double.py" else found
+
+    monkeypatch.setattr(sources.Sources, "_facts", changed)
+    assert keys.code.__wrapped__() != before
+
+
+def foreign_key(parts: Path) -> None:
+    """Make a folder as sweeps had it once, with more in it."""
+    parts.mkdir()
+    (parts / "key").write_text("mine")
+    (parts / "precious").write_text("mine")
+
+
+def link(parts: Path) -> None:
+    """Make a link to a folder."""
+    (parts.parent / "elsewhere").mkdir()
+    parts.symlink_to(parts.parent / "elsewhere")
+
+
+def planted(parts: Path) -> None:
+    """Make a part that leads to another file."""
+    parts.mkdir()
+    (parts.parent / "precious").write_text("mine")
+    (parts / "part-00000000.csv").symlink_to(parts.parent / "precious")
+
+
+@pytest.mark.parametrize("foreign", [foreign_key, link, planted, lambda parts: parts.write_text("mine")])
+def test_what_is_not_of_a_sweep_is_refused_and_stays(tmp_path: Path, foreign: Any) -> None:
+    """A folder of the user's own, a symbolic link, a file: one line, status 2, and everything as it was."""
+    foreign(tmp_path / "t.csv.parts")
+    before = {path: path.read_bytes() if path.is_file() else b"" for path in tmp_path.rglob("*")}
+    with pytest.raises(AtlasError, match=r"is of no sweep|folder of its own"):
+        sweep(tmp_path / "t.csv")
+    assert {path: path.read_bytes() if path.is_file() else b"" for path in tmp_path.rglob("*")} == before
+
+
+def test_a_file_of_the_users_own_among_the_parts_stays(
+    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Only what the manifest lists is deleted; a name outside the folder that was written into it is no part."""
+    parts = stopped(tmp_path / "t.csv", monkeypatch)
+    (parts / "notes.txt").write_text("mine")
+    (tmp_path / "precious.csv").write_text("mine")
+    with (parts / MANIFEST).open("a") as file:
+        file.write(json.dumps({"file": "../precious.csv", "sha256": "0"}) + "\n")
+    made(monkeypatch)
+    sweep(tmp_path / "t.csv")
+    assert (tmp_path / "t.csv").read_bytes() == whole
+    assert [path.read_text() for path in (parts / "notes.txt", tmp_path / "precious.csv")] == ["mine", "mine"]
+    assert list(parts.iterdir()) == [parts / "notes.txt"]
+
+
+@pytest.mark.parametrize("name", ["t.csv", "t.parquet/"])
+def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stopped before any file is deleted or moved, the next sweep, the same or another, ends with its table."""
+    if name.endswith("/"):
+        pytest.importorskip("pyarrow")
+    done = []
+    steps = ("delete", "move", "remove", "append")
+    for step in steps:
+        real = getattr(storage.Local, step)
+
+        def counted(self: Any, *more: Any, real: Any = real) -> None:
+            if len(done) == limit:
+                raise Stopped
+            done.append(real)
+            real(self, *more)
+
+        monkeypatch.setattr(storage.Local, step, counted)
+    limit, other = 0, GRID | {"B2": 2.0}
+    while True:
+        done.clear()
+        try:
+            sweep(f"{tmp_path}/{name}", rows=60)
+            break
+        except Stopped:
+            limit, before = 10**9, limit
+            given, rows = [(GRID, 60), (other, 60), (GRID, 40)][before % 3]
+            atlas.sweep("elementary", given, NAMES, f"{tmp_path}/{name}", rows=rows, jobs=1)
+            assert {path.name for path in tmp_path.iterdir()} == {name.rstrip("/")}
+            limit = before + 1
+    assert limit > 10
+
+
+def test_the_second_sweep_says_who_holds_the_table(tmp_path: Path) -> None:
+    """While one sweep writes a table another one ends with status 2, names its process, and leaves all as it is."""
+    out = tmp_path / "t.csv"
+    words = f"sweep ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1 --quantity gamma --out {out}"
+    with held(tmp_path / ".t.csv.lock", str(out)):
+        run_two = subprocess.run(
+            [sys.executable, "-m", "atlas", *words.split()], capture_output=True, text=True, check=False
+        )
+        assert run_two.returncode == 2
+        assert f"(process {os.getpid()} on " in run_two.stderr
+        assert run_two.stderr.count("\n") == 1
+        with pytest.raises(AtlasError, match="another sweep"):
+            sweep(out)
+        assert (tmp_path / ".t.csv.lock").exists()
+    assert not list(tmp_path.iterdir())
+    assert CliRunner().invoke(program, words.split()).exit_code == 0
+
+
+def test_the_lock_of_a_killed_sweep_is_no_hindrance_and_no_other_file_is_taken_for_one(tmp_path: Path) -> None:
+    """What a killed process left behind counts for nothing; a file of the user's own is not written over."""
+    lock = tmp_path / ".t.csv.lock"
+    kill = "import os, signal; from pathlib import Path; from atlas.study.sweep.lock import held\n"
+    kill += f"with held(Path({str(lock)!r}), 't'): os.kill(os.getpid(), signal.SIGKILL)"
+    assert subprocess.run([sys.executable, "-c", kill], check=False).returncode == -signal.SIGKILL
+    assert lock.exists()
+    sweep(tmp_path / "t.csv")
+    assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
+    lock.write_text("mine")
+    with pytest.raises(AtlasError, match="something else"):
+        sweep(tmp_path / "t.csv")
+    assert lock.read_text() == "mine"
+
+
+def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
+    """After SIGKILL the same command ends with the table of a sweep that nobody disturbed."""
+    arguments = [
+        "sweep", "elementary", "--set", "ratio=0.1:2:40", "--set", "B2=1", "--set", "B3=0.2", "--set",
+        "omega2=-0.9:3:50", "--quantity", "k", "--digits", "20", "--rows", "50", "-j", "1", "--out",
+    ]  # fmt: skip
+    start = [sys.executable, "-m", "atlas", *arguments]
+    killed = subprocess.Popen([*start, tmp_path / "k.csv"])
+    parts = tmp_path / "k.csv.parts"
+    while not list(parts.glob("part-*")) and killed.poll() is None:
+        time.sleep(0.01)
+    killed.send_signal(signal.SIGKILL)
+    killed.wait()
+    assert list(parts.glob("part-*"))
+    assert not (tmp_path / "k.csv").exists()
+    for name in ("k.csv", "a.csv"):
+        assert subprocess.run([*start, tmp_path / name], check=False, capture_output=True).returncode == 0
+    assert (tmp_path / "k.csv").read_bytes() == (tmp_path / "a.csv").read_bytes()
+
+
+def test_a_part_takes_some_seconds_and_no_more_rows_than_fit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its rows follow from the time of one; a table of few rows is one part; a sweep goes on with the parts it has."""
+    sizes = []
+    for pace, few in ((0.05, 0), (1e-9, 0), (5.0, 0), (0.05, run.FEW)):
+        monkeypatch.setattr(run, "_pace", lambda *_, pace=pace: pace)
+        monkeypatch.setattr(run, "FEW", few)
+        starts = made(monkeypatch, 2)
+        try:
+            sweep(tmp_path / "t.csv", rows=None)
+        except Stopped:
+            sizes.append(starts[1])
+            monkeypatch.setattr(run, "_pace", lambda *_: 1e-3)
+            starts = made(monkeypatch)
+            sweep(tmp_path / "t.csv", rows=None)
+            assert starts[0] == 2 * sizes[-1]
+        else:
+            sizes.append(154)
+            assert starts == [0]
+    assert sizes == [40, 154, 1, 154]
+    assert 0 < Plan.of("elementary", GRID, ["k"]).seconds() < 0.1
+
+
+def test_a_table_beyond_all_disks_is_refused() -> None:
+    """Ranges whose combinations nobody can keep end before any work is done."""
+    many = np.linspace(1.0, 2.0, 10**5)
+    with pytest.raises(AtlasError, match="1e\\+11"):
+        Plan.of("elementary", GRID | {"B2": many, "omega2": many}, ["k"])
+    assert LARGEST == 10**11
