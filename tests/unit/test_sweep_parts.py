@@ -249,11 +249,11 @@ def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monk
     while True:
         done.clear()
         try:
-            sweep(f"{tmp_path}/{name}", rows=60)
+            sweep(f"{tmp_path}/{name}", rows=80)
             break
         except Stopped:
             limit, before = 10**9, limit
-            given, rows = [(GRID, 60), (other, 60), (GRID, 40)][before % 3]
+            given, rows = [(GRID, 80), (other, 80), (GRID, 154)][before % 3]
             atlas.sweep("elementary", given, NAMES, f"{tmp_path}/{name}", rows=rows, jobs=1)
             assert {path.name for path in tmp_path.iterdir()} == {name.rstrip("/")}
             limit = before + 1
@@ -325,9 +325,13 @@ def test_a_part_takes_some_seconds_and_no_more_rows_than_fit(tmp_path: Path, mon
         except Stopped:
             sizes.append(starts[1])
             monkeypatch.setattr(run, "_pace", lambda *_: 1e-3)
-            starts = made(monkeypatch)
-            sweep(tmp_path / "t.csv", rows=None)
+            starts = made(monkeypatch, 1)
+            with pytest.raises(Stopped):
+                sweep(tmp_path / "t.csv", rows=None)
             assert starts[0] == 2 * sizes[-1]
+            (tmp_path / "t.csv.parts" / MANIFEST).unlink()
+            for part in (tmp_path / "t.csv.parts").iterdir():
+                part.unlink()
         else:
             sizes.append(154)
             assert starts == [0]
