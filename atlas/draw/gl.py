@@ -146,15 +146,16 @@ def _may_install() -> bool:
 
 
 def _install() -> bool:
-    """Install the GL libraries where we may; return whether that was done."""
+    """Install the GL libraries where we may; return whether that was done, and say why it was not."""
     if not _may_install():
         return False
     environment = dict(os.environ, DEBIAN_FRONTEND="noninteractive")
-    done = False
     for words in (["update", "-qq"], ["install", "-y", "-qq", "--no-install-recommends", *PACKAGES]):
-        apt = subprocess.run([_APT, *words], env=environment, capture_output=True, check=False)  # noqa: S603  fixed words
-        done = apt.returncode == 0
-    return done
+        apt = subprocess.run([_APT, *words], env=environment, capture_output=True, text=True, check=False)  # noqa: S603  fixed words
+    if apt.returncode:
+        reason = (apt.stderr.strip() or "it does not say why").splitlines()[-1]
+        print(f"atlas: apt-get could not install {' '.join(PACKAGES)}: {reason}", file=sys.stderr)  # noqa: T201  the one line
+    return apt.returncode == 0
 
 
 def main(arguments: list[str]) -> int:

@@ -149,13 +149,15 @@ def test_without_vtk_the_line_names_what_is_missing(
     assert "pip install pyvista vtk" in line
 
 
-def installing(monkeypatch: pytest.MonkeyPatch, answers: Callable[[list[Any]], bool]) -> list[list[str]]:
-    """Pretend to be root on Debian; what apt-get is told is returned."""
+def installing(
+    monkeypatch: pytest.MonkeyPatch, answers: Callable[[list[Any]], bool], complaint: str = ""
+) -> list[list[str]]:
+    """Pretend to be root on Debian; what apt-get is told is returned; it fails if it has a complaint."""
     told = []
 
     def apt(command: list[str], **_options: Any) -> subprocess.CompletedProcess[str]:
         told.append(command[1:])
-        return subprocess.CompletedProcess(command, 0)
+        return subprocess.CompletedProcess(command, 100 if complaint else 0, "", complaint)
 
     monkeypatch.setattr(gl, "_may_install", lambda: True)
     monkeypatch.setattr(gl, "_draws", lambda _name: answers(told))
@@ -184,3 +186,12 @@ def test_an_installation_that_does_not_help_is_no_failure(
     assert gl.main(["--install"]) == 0
     assert capsys.readouterr().out == ""
     assert gl.library() is None
+
+
+@pytest.mark.usefixtures("fresh")
+def test_why_apt_get_failed_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """One line with its last word; the set-up goes on without GL."""
+    installing(monkeypatch, answers=lambda _told: False, complaint="W: a warning\nE: no network today\n")
+    assert gl.main(["--install"]) == 0
+    told = "atlas: apt-get could not install libegl1 libgl1-mesa-dri: E: no network today\n"
+    assert capsys.readouterr().err == told
