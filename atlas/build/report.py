@@ -27,10 +27,10 @@ from atlas.sources import PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild
-    from atlas.report.compose import Document
     from atlas.report.definition import Report
+    from atlas.report.document import Document
     from atlas.report.pandoc import Target
-    from atlas.report.pictures import Picture
+    from atlas.report.picture import Picture
 
 OUT = Path("build/report")
 FORMATS = ("html", "pdf")

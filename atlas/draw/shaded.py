@@ -15,8 +15,8 @@ import pyvista as pv
 from numpy.typing import NDArray
 
 from atlas.draw import gl
+from atlas.draw.arrow import HEAD_WIDTH, head_base
 from atlas.draw.glass import AMBIENT, distinct, glass, lattice
-from atlas.draw.space import HEAD_WIDTH, head_base
 from atlas.draw.style import style_of
 from atlas.draw.text import typeset
 from atlas.draw.view import View, fit, named

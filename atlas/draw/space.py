@@ -12,6 +12,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 
+from atlas.draw.arrow import HEAD_WIDTH, head_base
 from atlas.draw.hidden import hidden, split
 from atlas.draw.labels import along, place, write
 from atlas.draw.outline import Edge, areas, facing, shadows
@@ -31,7 +32,6 @@ _LIGHT = np.array([-0.45, 0.62, 0.64])
 _LEVELS = np.linspace(0.02, 0.92, 14)
 _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
 """Layers of shade, by turns: a browser blends in whole parts of 255, and at five of them keeps fifths of a colour."""
-HEAD_LENGTH, HEAD_WIDTH = 5.0, 0.30
 
 
 def draw_space(axes: Axes, panel: Space) -> None:
@@ -152,14 +152,6 @@ class _Drawing:
         if len(points):
             path = Path(self.view.on_paper(points), codes)
             self.axes.add_artist(PathPatch(path, fc=colour, alpha=opacity, lw=0, zorder=height + self.rise))
-
-
-def head_base(tail: FloatArray, tip: FloatArray, look: Style, scale: float) -> FloatArray:
-    """Where the head of an arrow begins; it has one length on paper, but never more than half of the arrow."""
-    step = tip - tail
-    length = float(np.linalg.norm(step))
-    head = min((HEAD_LENGTH + 2.2 * look.width) / scale, 0.5 * length)
-    return tip - step * (head / length) if length else tip
 
 
 def silhouette(surface: Surface, view: View) -> list[FloatArray]:

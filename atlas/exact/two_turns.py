@@ -5,19 +5,40 @@ frame like a pendulum, and R(t) = R_B(-b t) R_n(delta), n across the plane. The 
 """
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from flint import acb, arb, fmpq
 
 from atlas.exact.inputs import Real, root, sin_cos
-
-if TYPE_CHECKING:
-    from atlas.exact.general import GeneralMotion
+from atlas.exact.quartic import Quartic
 
 Matrix = list[list[Any]]
 
 
-def rotation(motion: "GeneralMotion", t: fmpq) -> Matrix | None:
+class Motion(Protocol):
+    """What is asked of a general motion."""
+
+    kind: str
+    quartic: Quartic
+    omega: Sequence[fmpq]
+    field: Sequence[fmpq]
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether theta is constant."""
+
+    @property
+    def b(self) -> Real:
+        """Length of the field."""
+
+    def parameters(self, t: Any) -> tuple[acb, acb, acb, acb]:
+        """Return alpha and beta up to a common factor, and their derivatives by time."""
+
+    def from_frame(self, a: acb, b: acb) -> list[arb]:
+        """Return the quaternion of the motion with these two."""
+
+
+def rotation(motion: Motion, t: fmpq) -> Matrix | None:
     """Return R(t) as the product of two turns, None for a motion that is no such product."""
     q = motion.quartic
     if motion.is_steady or (motion.kind != "ball" and not q.c3 == q.momentum == 0):

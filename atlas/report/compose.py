@@ -1,9 +1,7 @@
 """From a report file to what the templates see: blocks numbered, tables computed, texts and citations collected."""
 
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from itertools import count, product
 from string import ascii_uppercase
 from typing import Any
@@ -11,159 +9,17 @@ from typing import Any
 from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
 from atlas.paper.equation import slug
-from atlas.plain import plain
 from atlas.report.appendices import Appendices
 from atlas.report.bibliography import Bibliography
-from atlas.report.blocks import KINDS, Block, kind_of
-from atlas.report.blocks.figure import Figure
-from atlas.report.blocks.ledger import pages_of
+from atlas.report.blocks import KINDS, Block, Ledger, kind_of
+from atlas.report.blocks.composer import Composer
 from atlas.report.definition import Page, Report
-from atlas.report.pandoc import Target
-from atlas.report.pictures import Picture, keys
-from atlas.report.texts import Link, Texts, citations
-from atlas.report.trial import Use
+from atlas.report.document import THEOREMS, Document, PageView
+from atlas.report.picture import Picture
+from atlas.report.pictures import keys
+from atlas.report.texts import citations
+from atlas.report.trial import SECTIONS, Use
 from atlas.report.versions import parameters
-
-THEOREMS = {
-    name: f"(T{number})"
-    for number, name in enumerate((name for name, one in EQUATIONS.items() if one.kind == "theorem"), 1)
-}
-"""The numbers of what the paper does not have, in the order of the ledger."""
-
-
-@dataclass(frozen=True)
-class PageView:
-    """A page: its place in the contents, the views of its blocks and the names of their templates.
-
-    `number` is that of the chapter, or the letter of the appendix.
-    """
-
-    number: str
-    slug: str
-    title: str
-    summary: str
-    blocks: tuple[Any, ...]
-    templates: tuple[str, ...]
-    part: str = ""
-    appendix: bool = False
-
-    @property
-    def file(self) -> str:
-        """The name of its file."""
-        return f"{self.slug}.html"
-
-
-@dataclass
-class Document:
-    """A report ready to be set: its pages, pictures, texts, and where each citation leads.
-
-    `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations
-    that have none in the paper, those of the theorems the same in every report; `ledger` the page of each entry of the
-    ledger; `errata` the page of the errata; `abstract`, `given`, `symbols` and `formulas`, the equations that are cited
-    here and stand in no page of this report, are numbers of texts. `related` holds the reports beside this one, in
-    outline; a citation of what is not here leads there. `bibliography` holds the works that can be cited, `listed_on`
-    is the page of their list.
-    """
-
-    report: Report
-    pictures: Mapping[str, Picture]
-    texts: Texts = field(default_factory=Texts)
-    pages: list[PageView] = field(default_factory=list)
-    targets: dict[str, tuple[str, str, str]] = field(default_factory=dict)
-    abstract: int = 0
-    given: list[int] = field(default_factory=list)
-    symbols: list[tuple[int, list[str]]] = field(default_factory=list)
-    equations: dict[str, str] = field(default_factory=dict)
-    ledger: dict[str, str] = field(default_factory=dict)
-    errata: str = ""
-    bibliography: Bibliography = field(default_factory=Bibliography)
-    listed_on: str = ""
-    written: dict[Target, list[str]] = field(default_factory=dict)
-    related: "Mapping[str, Document]" = field(default_factory=dict)
-    uses: defaultdict[str, list[Use]] = field(default_factory=lambda: defaultdict(list))
-    formulas: dict[str, int] = field(default_factory=dict)
-
-    def set(self, *targets: Target) -> None:
-        """Set all texts for each of the targets, side by side, for pandoc is a program of its own."""
-        self.texts.read()
-        with ThreadPoolExecutor(len(targets)) as threads:
-            made = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
-            self.written = dict(zip(targets, made, strict=True))
-
-    def cite(self, target: Target) -> Callable[[str, str], Link]:
-        """Return the function that finds what a citation says and where it leads, given its name and place."""
-
-        def link(name: str, where: str) -> Link:
-            says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
-            if name in self.ledger:
-                page = f"{self.ledger[name]}.html" if target == "html" else ""
-                return Link(self.number(name), page, f"ledger-{slug(name)}", says)
-            if name in self.targets:
-                file, anchor, words = self.targets[name]
-                return Link(words, file if target == "html" else "", anchor, says)
-            beside = next(filter(None, (one.from_beside(name) for one in self.related.values())), None)
-            if beside:
-                return beside._replace(says=says) if target == "html" else Link(beside.words)
-            if name in EQUATIONS:
-                return Link(self.number(name))
-            if name in self.bibliography.named:
-                if not self.listed_on:
-                    raise AtlasError(f"{where}: @{name} is cited, but no block of the kind 'bibliography' lists it.")
-                page = f"{self.listed_on}.html" if target == "html" else ""
-                return Link(self.bibliography.named[name], page, f"work-{name}", "", self.bibliography.bracketed[name])
-            raise AtlasError(f"{where}: {unknown('equation, figure, table, page or work', f'@{name}', self.citable)}")
-
-        return link
-
-    def from_beside(self, name: str) -> Link | None:
-        """Return what a citation in a report beside this one says and where it leads, None if the name is not here."""
-        folder, title = f"../{self.report.name}", self.report.title
-        if name == f"report:{self.report.name}":
-            return Link(title, f"{folder}/index.html", "page-index")
-        if name in self.ledger:
-            return Link(self.number(name), f"{folder}/{self.ledger[name]}.html", f"ledger-{slug(name)}")
-        if name in self.targets:
-            file, anchor, words = self.targets[name]
-            counted = name.startswith(("fig:", "tab:"))
-            return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
-        return None
-
-    def entry(self, name: str) -> str:
-        """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
-        beside = ((folder, one.ledger) for folder, one in self.related.items())
-        there = next((f"../{folder}/{ledger[name]}" for folder, ledger in beside if name in ledger), "")
-        return self.ledger.get(name, there)
-
-    def number(self, name: str) -> str:
-        """Return an equation as it is cited: by its number in print, one of our own, or else its name."""
-        return name if name.startswith("(") else self.equations.get(name, f"({name})")
-
-    @property
-    def cover(self) -> Picture | None:
-        """The picture of the cover."""
-        blocks = (block for page in self.report.pages for block in page.blocks if isinstance(block, Figure))
-        chosen = next((block for block in blocks if block.id and block.id == self.report.cover), None)
-        return self.pictures[keys(chosen, self.report)[0]] if chosen else None
-
-    def listed(self, template: str) -> list[Any]:
-        """Return the figures or the tables, by the name of their template, in their order."""
-        return [
-            block
-            for page in self.pages
-            for name, block in zip(page.templates, page.blocks, strict=True)
-            if name == template
-        ]
-
-    @property
-    def citable(self) -> list[str]:
-        """All names that can be cited."""
-        return [f"@{name}" for name in (*self.targets, *EQUATIONS, *self.bibliography.named)]
-
-    @property
-    def works(self) -> dict[str, str]:
-        """The entries of the works that are cited, by key, in the order of the list."""
-        names = {name for text in self.texts.texts for name in citations(text.markdown)}
-        return {key: entry for key, entry in self.bibliography.entries.items() if key in names}
 
 
 def compose(
@@ -186,7 +42,7 @@ def compose(
     document = Document(
         report,
         pictures,
-        ledger=pages_of(report),
+        ledger=_pages_of(report),
         equations=dict(THEOREMS),
         bibliography=bibliography or Bibliography(),
         related=related or {},
@@ -196,7 +52,7 @@ def compose(
             document.uses[used] += [replace(use, file=f"../{name}/{use.file}") for use in uses]
     document.abstract = document.texts.add(report.abstract, "the abstract")
     document.given = [document.texts.add(line, "the parameters", inline=True) for line in parameters(report.parameters)]
-    composer = Composer(document, recorded or Appendices(), outline=outline)
+    composer = _Composer(document, recorded or Appendices(), outline=outline)
     chapters = map(str, count(1))
     appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
     for page in report.pages:
@@ -232,19 +88,34 @@ def compose(
     return document
 
 
-class Composer:
+def _pages_of(report: Report) -> dict[str, str]:
+    """Return the slug of the page that holds each entry, for the sections whose ledger the report has."""
+    found: dict[str, str] = {}
+    for page in report.pages:
+        for block in page.blocks:
+            if isinstance(block, Ledger):
+                if block.section not in SECTIONS:
+                    raise AtlasError(
+                        f"page {page.slug!r}: {unknown('section', block.section, SECTIONS, 'in the ledger')}"
+                    )
+                found |= {name: page.slug for name, entry in EQUATIONS.items() if entry.section == block.section}
+    return found
+
+
+class _Composer(Composer):
     """What the blocks of a report share while they are gone through in order: counts, texts, names, uses."""
 
     def __init__(self, document: Document, recorded: Appendices, *, outline: bool = False) -> None:
-        self.document, self.report, self.recorded, self.outline = document, document.report, recorded, outline
+        self.document, self.report, self.outline = document, document.report, outline
         self.where = ""
         self.figures = self.tables = 0
-        self.uses = document.uses
+        self.recorded, self.uses, self.ledger = recorded, document.uses, document.ledger
+        self.parameters = document.report.parameters
         self.begin(document.report.pages[0])
 
     def begin(self, page: Page) -> None:
         """Go on to a page."""
-        self.page = page
+        self.page, self.slug = page, page.slug
         self.cited: set[str] = set()
         self.said: set[str] = set()
 
@@ -276,7 +147,7 @@ class Composer:
 
     def short(self, words: str, body: str | None) -> int:
         """Take in what a list of figures or tables shows of one: some words, and its body where they do not name it."""
-        title = self.report.parameters.bodies[body].title if body else ""
+        title = self.parameters.bodies[body].title if body else ""
         return self.text(f"{words}: {title}" if title not in words else words, inline=True)
 
     def once(self, sentence: str) -> str:
@@ -317,6 +188,22 @@ class Composer:
             self.document.equations.setdefault(name, f"(A{own})")
         return self.document.number(name)
 
-    def pictures(self, block: Figure) -> tuple[Picture, ...]:
+    def pictures(self, block: Any) -> tuple[Picture, ...]:
         """Return the pictures of a figure block."""
         return tuple(self.document.pictures[key] for key in keys(block, self.report))
+
+    def entry(self, name: str) -> str:
+        """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
+        return self.document.entry(name)
+
+    def hold_errata(self) -> None:
+        """Let this page be that of the errata."""
+        self.document.errata = self.slug
+
+    def list_works(self) -> None:
+        """Let citations of works lead to this page. AtlasError where there are none, or another page lists them."""
+        if not self.report.bibliography:
+            raise AtlasError('there is no BibTeX file: name one at the top, bibliography = "references.bib".')
+        if self.document.listed_on:
+            raise AtlasError("the works are listed already: a report has one list.")
+        self.document.listed_on = self.slug

@@ -12,7 +12,7 @@ from atlas.errors import AtlasError, unknown
 from atlas.places import folder
 from atlas.plain import plain
 from atlas.report.blocks.figure import FigureView
-from atlas.report.compose import Document, PageView
+from atlas.report.document import Document, PageView
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
 from atlas.report.search import index
 from atlas.report.templates import templates

@@ -13,7 +13,7 @@ from atlas.errors import AtlasError
 
 if TYPE_CHECKING:
     from atlas.report.blocks.table import Cell, TableView
-    from atlas.report.compose import Document
+    from atlas.report.document import Document
 
 FORMAT = 2
 MANIFEST = "manifest.json"

@@ -11,7 +11,7 @@ from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.report import fonts
 from atlas.report.blocks.table import Cell
-from atlas.report.compose import Document
+from atlas.report.document import Document
 from atlas.report.versions import versions
 
 TEXT_FONT = "STIXGeneral"

@@ -1,76 +1,23 @@
 """The pictures that a report wants: each figure block's recipe, renderer and parameters, each picture once."""
 
 import re
-import shlex
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from atlas.errors import AtlasError, unknown
+from atlas.report.blocks.figure import Figure
 from atlas.report.body_and_field import chosen
-
-if TYPE_CHECKING:
-    from atlas.report.blocks.figure import Figure
-    from atlas.report.definition import Report
+from atlas.report.definition import Report
+from atlas.report.picture import Picture
 
 
-@dataclass
-class Picture:
-    """A picture that is drawn once for all the blocks that show it: what is wanted, and what became of it.
-
-    stem        its name among the files of the report
-    recipe, renderer, parameters    what to draw: a name in figures/ or a file; `title` is that of the recipe
-    caption, alt, size    what the scene says of itself, and its size in millimetres
-    given       all parameters of the scene as text
-    file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
-    narrow      the place of an SVG with its panels below one another, if it has several beside each other
-    failure     why there is none, or nothing; `remark` what the reader should know of how it was drawn
-    """
-
-    stem: str
-    recipe: str
-    renderer: str
-    parameters: Mapping[str, Any]
-    title: str = ""
-    caption: str = ""
-    alt: str = ""
-    size: tuple[float, float] = (120.0, 30.0)
-    given: Mapping[str, str] = field(default_factory=dict)
-    file: str = ""
-    files: Mapping[str, str] = field(default_factory=dict)
-    narrow: str = ""
-    failure: str = ""
-    remark: str = ""
-
-    @property
-    def called(self) -> str:
-        """The recipe as it stands in the report: its name, or that of its file beside the report."""
-        return Path(self.recipe).name
-
-    @property
-    def printed(self) -> str:
-        """The file that the PDF shows: PDF in the place of SVG."""
-        return self.file.replace(".svg", ".pdf")
-
-    @property
-    def command(self) -> str:
-        """The command that draws it."""
-        from atlas.scene.parameters import typed
-
-        settings = [f"{name}={typed(value)}" for name, value in self.parameters.items() if value is not None]
-        words = ["atlas", "figure", self.called, *(["--set", *settings] if settings else [])]
-        return shlex.join([*words, *(["--renderer", "shaded"] if self.renderer == "shaded" else [])])
-
-
-def pictures(report: "Report") -> dict[str, Picture]:
+def pictures(report: Report) -> dict[str, Picture]:
     """Return the pictures that the figures of a report show, by `key`, in the order of their first showing.
 
     Nothing is drawn. A recipe that can't be loaded leaves the reason in its pictures; a misspelt recipe or parameter
     raises AtlasError.
     """
-    from atlas.report.blocks.figure import Figure
-
     found: dict[str, Picture] = {}
     for page in report.pages:
         for place, block in enumerate(page.blocks, 1):
@@ -86,12 +33,12 @@ def pictures(report: "Report") -> dict[str, Picture]:
     return found
 
 
-def keys(block: "Figure", report: "Report") -> list[str]:
+def keys(block: Figure, report: Report) -> list[str]:
     """Return the keys of the pictures of a figure block: the same for the same recipe, parameters and renderer."""
     return [name for name, _ in _wanted(block, report)]
 
 
-def _wanted(block: "Figure", report: "Report") -> Iterator[tuple[str, Picture]]:
+def _wanted(block: Figure, report: Report) -> Iterator[tuple[str, Picture]]:
     """Go through the pictures of a figure block with their keys; a misspelt parameter is an error."""
     recipe, failure = _recipe(block.recipe)
     parameters = _parameters(block, recipe, report)
@@ -104,7 +51,7 @@ def _wanted(block: "Figure", report: "Report") -> Iterator[tuple[str, Picture]]:
         yield key, Picture("", block.recipe, renderer, parameters, title, failure=failure)
 
 
-def _parameters(block: "Figure", recipe: Any, report: "Report") -> Mapping[str, Any]:
+def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]:
     """Turn the bodies and the field that a figure names into those parameters that its recipe takes."""
     cases = chosen(block, report.parameters)
     offered: dict[str, Any] = {}

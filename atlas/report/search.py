@@ -9,7 +9,7 @@ from itertools import pairwise
 from atlas.paper.equation import slug
 from atlas.report.blocks.equation import EquationView
 from atlas.report.blocks.ledger import LedgerView
-from atlas.report.compose import Document
+from atlas.report.document import Document
 
 _START = re.compile(
     r'<(?:h[23]|figure|section)\b[^>]*? id="([^"]+)"[^>]*>|<div class="equation" id="([^"]+)">'

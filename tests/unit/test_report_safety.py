@@ -12,8 +12,9 @@ from pypdf import PdfReader
 
 from atlas.errors import AtlasError
 from atlas.report import html, pdf
-from atlas.report.compose import Document, compose
+from atlas.report.compose import compose
 from atlas.report.definition import Report
+from atlas.report.document import Document
 from atlas.report.load import load
 from atlas.report.schema import Id, Slug, convert
 from atlas.report.texts import Link, Texts, citations

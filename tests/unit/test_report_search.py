@@ -14,7 +14,8 @@ from atlas.errors import AtlasError
 from atlas.report import html
 from atlas.report.compose import compose
 from atlas.report.load import load
-from atlas.report.pictures import Picture, pictures
+from atlas.report.picture import Picture
+from atlas.report.pictures import pictures
 
 REPORT = """
 name = "mine"

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 import pytest
 
 from atlas.paper import EQUATIONS
-from atlas.report.compose import THEOREMS, Document, compose
+from atlas.report.compose import compose
+from atlas.report.document import THEOREMS, Document
 from atlas.report.find import find, related_to
 from atlas.report.load import load
 from atlas.report.pictures import pictures

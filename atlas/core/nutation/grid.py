@@ -12,44 +12,29 @@ is evaluated time by time.
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from math import ceil, frexp, inf
+from math import ceil, frexp
 
 import numpy as np
-from flint import acb, arb, ctx
 
 from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.arithmetic.grid import HUGE
 from atlas.core.arithmetic.phase import Phases
 from atlas.core.arithmetic.threads import shared
 from atlas.core.arithmetic.wide import Wide
-from atlas.core.general import General
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import BLOCK, Evaluation, Products, combined
-from atlas.core.nutation.functions import wide
+from atlas.core.nutation.exponentials import FINE, Exponentials
+from atlas.core.nutation.single import SingleMotion
 from atlas.errors import AtlasError
-from atlas.exact.cayley_klein import Parameter
-from atlas.exact.general import GeneralMotion
-from atlas.exact.theta import infinite
 
-FINE, COARSE = 128, 34
-"""Times in the fine table, and coarse times in one product."""
+COARSE = 34
+"""Coarse times in one product."""
 
 GROUP = 16 * COARSE
 """Coarse times whose exponentials are made at once."""
 
 FEW = 100_000
 """Shorter grids do without: their tables would cost more."""
-
-CANCELLING = 8.0
-"""The sums are used where the weights exceed what they leave at any time by no more than this factor."""
-
-STEEP = 6.0
-"""Ratio of the real to the imaginary period from which on the sums are not even tried."""
-
-TERMS = 24
-"""Exponentials beyond which the product would cost more than it saves."""
-
-NEGLIGIBLE = 2.0**-60
 
 NODES, LENGTHS = 16, (512, 384, 256, 192, 128, 96, 64)
 """Times at which polynomials are made, and numbers of times that they may serve."""
@@ -71,65 +56,7 @@ TINY = 2.0**-900
 """Last digit of the times from which on none of their products is lost."""
 
 
-class Exponentials:
-    """alpha or beta as a sum of z_m exp(i f_m t), frequencies in turns."""
-
-    def __init__(self, parameter: Parameter, origin: arb, unit: arb) -> None:
-        sum_, rate = parameter.sum, parameter.sum.lattice.rate
-        terms: list[tuple[arb, acb]] = []
-        for n, (a, b) in enumerate(zip(sum_.odd, sum_.even, strict=True)):
-            k = sum_.frequency(n) * rate
-            pairs = [(k, (b - acb(0, 1) * a) / 2), (-k, (b + acb(0, 1) * a) / 2)] if k != 0 else [(k, b)]
-            terms += [(f, parameter.factor / unit * z * acb(0, f * origin).exp()) for f, z in pairs]
-        largest = max(float(abs(z).mid()) for _, z in terms)
-        terms = [(f, z) for f, z in terms if float(abs(z).mid()) >= NEGLIGIBLE * largest]
-        self.turns = [wide((parameter.rate + f) / (2 * arb.pi())) for f, _ in terms]
-        self.weights = np.array([complex(float(z.real.mid()), float(z.imag.mid())) for _, z in terms])
-
-    def coarse(self, start: Wide, step: Wide) -> Phases:
-        """Return the phases at start + i step as functions of i."""
-        return Phases([(f * step).turn() for f in self.turns], [(f * start).turn() for f in self.turns])
-
-    def fine(self, step: Wide) -> FloatArray:
-        """Return z_m exp(i f_m j step), j < FINE, as rows for cos and for sin of the coarse phase, (2 M, 2, FINE)."""
-        phases, work = Phases([(f * step).turn() for f in self.turns]), np.empty((8, len(self.turns), FINE))
-        half, rest, sign, _ = phases.angles(np.arange(float(FINE)), work)
-        angle = 2 * (half.astype(np.longdouble) + rest)
-        z = 2 * self.weights[:, None] * (sign * np.cos(angle) + 1j * (sign * np.sin(angle))).astype(complex)
-        return np.concatenate([np.stack([z.real, z.imag], 1), np.stack([-z.imag, z.real], 1)])
-
-
-def exponentials(exact: GeneralMotion, precision: int) -> tuple[Exponentials, Exponentials] | None:
-    """Return alpha and beta as sums of exponentials, None where there is no period or where they cancel or are many."""
-    with ctx.workprec(precision):
-        found = exact.trigonometric()
-        if found.lattice.form != "trigonometric":
-            return None
-        if (
-            not (infinite(found.lattice.half) or infinite(found.lattice.imaginary))
-            and float(found.lattice.half / found.lattice.imaginary) > STEEP
-        ):
-            return None
-        parts = (found.alpha, found.beta)
-        unit = max(abs(x.factor * w) for x in parts for w in (*x.sum.odd, *x.sum.even))
-        pair = Exponentials(found.alpha, found.origin, unit), Exponentials(found.beta, found.origin, unit)
-    return pair if all(len(x.turns) <= TERMS for x in pair) and cancelling(*pair) <= CANCELLING else None
-
-
-def cancelling(alpha: Exponentials, beta: Exponentials) -> float:
-    """Return the largest ratio of the sum of the weights to what is left of it at any of many times."""
-    phases = np.linspace(0, 1, 257)
-    square = np.zeros(len(phases))
-    for x in (alpha, beta):
-        relative = [float(f - x.turns[0]) for f in x.turns]
-        unit = min((abs(f) for f in relative if f), default=1.0)
-        turns = np.round(np.array(relative) / unit)
-        square = square + np.abs(x.weights @ np.exp(2j * np.pi * np.outer(turns, phases))) ** 2
-    least = np.sqrt(square.min())
-    return float(max(np.abs(x.weights).sum() for x in (alpha, beta)) / least) if least else inf
-
-
-def fill_grid(one: General, start: float, step: float, out: FloatArray) -> None:
+def fill_grid(one: SingleMotion, start: float, step: float, out: FloatArray) -> None:
     """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
     count, reach = len(out), one.parts.phases.reach
     if not count:
@@ -159,7 +86,7 @@ def fill_grid(one: General, start: float, step: float, out: FloatArray) -> None:
 class Grid:
     """A motion at the times start + i step."""
 
-    one: General
+    one: SingleMotion
     start: float
     step: float
 
@@ -275,7 +202,7 @@ def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
 
 
 def fill_products(
-    one: General, sums: tuple[Exponentials, Exponentials], start: Wide, step: Wide, out: FloatArray
+    one: SingleMotion, sums: tuple[Exponentials, Exponentials], start: Wide, step: Wide, out: FloatArray
 ) -> None:
     """Fill the matrices by products of coarse and fine tables; len(out) is a multiple of FINE."""
     phases = [x.coarse(start, step * Wide(FINE)) for x in sums]

@@ -1,16 +1,14 @@
 """A displayed equation, of the paper or of the report's own."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import msgspec
 
 from atlas.paper import EQUATIONS, equation
 from atlas.paper.equation import slug
+from atlas.report.blocks.composer import Composer
 from atlas.report.schema import EquationName, StrictStruct
-
-if TYPE_CHECKING:
-    from atlas.report.compose import Composer
 
 
 class Equation(StrictStruct, frozen=True, tag_field="kind", tag="equation"):
@@ -42,15 +40,15 @@ class EquationView:
         return slug(self.name)
 
 
-def view(block: Equation, composer: "Composer") -> EquationView:
+def view(block: Equation, composer: Composer) -> EquationView:
     """Take an equation from the ledger, or number one of the report's own."""
     name, tex = (block.name, block.tex) if block.tex is not None else _entry(block.name)
     number = composer.number(name)
     first = composer.target(name, f"eq-{slug(name)}", number)
     if name in EQUATIONS:
-        composer.use(name, f"eq-{slug(name)}" if first else f"page-{composer.page.slug}", "display")
-    within, text = name in composer.document.ledger, composer.text(f"$${tex.strip()}$$")
-    return EquationView(name, number, text, block.scale, first, composer.document.entry(name), within)
+        composer.use(name, f"eq-{slug(name)}" if first else f"page-{composer.slug}", "display")
+    within, text = name in composer.ledger, composer.text(f"$${tex.strip()}$$")
+    return EquationView(name, number, text, block.scale, first, composer.entry(name), within)
 
 
 def _entry(name: str) -> tuple[str, str]:

@@ -1,17 +1,15 @@
 """A numbered figure: one picture, or two beside each other."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 
 from atlas.paper import EQUATIONS
 from atlas.paper.citation import marked
-from atlas.report.pictures import Picture
+from atlas.report.blocks.composer import Composer
+from atlas.report.picture import Picture
 from atlas.report.schema import Id, StrictStruct
-
-if TYPE_CHECKING:
-    from atlas.report.compose import Composer
 
 
 class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
@@ -56,7 +54,7 @@ class FigureView:
         return next((one.remark for one in self.pictures if one.remark), "")
 
 
-def view(block: Figure, composer: "Composer") -> FigureView:
+def view(block: Figure, composer: Composer) -> FigureView:
     """Give a figure its number and take in its caption; where it could not be drawn, the view says why."""
     composer.figures += 1
     pictures = composer.pictures(block)

@@ -2,16 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from atlas.errors import AtlasError, unknown
 from atlas.paper import EQUATIONS
+from atlas.report.blocks.composer import Composer
 from atlas.report.schema import StrictStruct
-from atlas.report.trial import SECTIONS, EntryView, by_grade, entries
-
-if TYPE_CHECKING:
-    from atlas.report.compose import Composer
-    from atlas.report.definition import Report
+from atlas.report.trial import EntryView, by_grade, entries
 
 
 class Ledger(StrictStruct, frozen=True, tag_field="kind", tag="ledger"):
@@ -39,7 +34,7 @@ class ErrataView:
     ledger: Mapping[str, str]
 
 
-def view_ledger(block: Ledger, composer: "Composer") -> LedgerView:
+def view_ledger(block: Ledger, composer: Composer) -> LedgerView:
     """Set out the entries of one section, each theorem with a number."""
     for name, entry in EQUATIONS.items():
         if entry.section == block.section and entry.kind == "theorem":
@@ -51,22 +46,8 @@ def view_ledger(block: Ledger, composer: "Composer") -> LedgerView:
     )
 
 
-def view_errata(_block: Errata, composer: "Composer") -> ErrataView:
+def view_errata(_block: Errata, composer: Composer) -> ErrataView:
     """Set out the entries with a slip, the grave ones first."""
-    composer.document.errata = composer.page.slug
+    composer.hold_errata()
     found = entries(lambda _, one: bool(one.grade), composer.recorded.findings, composer.text, composer.uses)
-    return ErrataView(by_grade(found), composer.document.ledger)
-
-
-def pages_of(report: "Report") -> dict[str, str]:
-    """Return the slug of the page that holds each entry, for the sections whose ledger the report has."""
-    found: dict[str, str] = {}
-    for page in report.pages:
-        for block in page.blocks:
-            if isinstance(block, Ledger):
-                if block.section not in SECTIONS:
-                    raise AtlasError(
-                        f"page {page.slug!r}: {unknown('section', block.section, SECTIONS, 'in the ledger')}"
-                    )
-                found |= {name: page.slug for name, entry in EQUATIONS.items() if entry.section == block.section}
-    return found
+    return ErrataView(by_grade(found), composer.ledger)

@@ -1,12 +1,9 @@
 """Paragraphs, and a remark set apart from them."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from atlas.report.blocks.composer import Composer
 from atlas.report.schema import StrictStruct
-
-if TYPE_CHECKING:
-    from atlas.report.compose import Composer
 
 
 class Prose(StrictStruct, frozen=True, tag_field="kind", tag="prose"):
@@ -40,11 +37,11 @@ class NoteView:
     text: int
 
 
-def view_prose(block: Prose, composer: "Composer") -> ProseView:
+def view_prose(block: Prose, composer: Composer) -> ProseView:
     """Take in the text."""
     return ProseView(composer.paragraphs(block.text))
 
 
-def view_note(block: Note, composer: "Composer") -> NoteView:
+def view_note(block: Note, composer: Composer) -> NoteView:
     """Take in the heading and the text."""
     return NoteView(composer.text(block.title, inline=True), composer.paragraphs(block.text))

@@ -2,14 +2,11 @@
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from atlas.errors import unknown
 from atlas.report.appendices import Described
+from atlas.report.blocks.composer import Composer
 from atlas.report.schema import StrictStruct
-
-if TYPE_CHECKING:
-    from atlas.report.compose import Composer
 
 _CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
 _SIGN = re.compile(r"([!-/:-@\[-_{-~])")
@@ -43,7 +40,7 @@ class ReferenceView:
         return [one.text for entry in self.entries for one in (entry, *entry.members)]
 
 
-def view(block: Reference, composer: "Composer") -> ReferenceView:
+def view(block: Reference, composer: Composer) -> ReferenceView:
     """Take in the docstrings of the names that a block lists."""
     known = composer.recorded.reference
 
@@ -57,7 +54,7 @@ def view(block: Reference, composer: "Composer") -> ReferenceView:
     return ReferenceView(tuple(described(name, known[name]) for name in block.names))
 
 
-def outline(_block: Reference, _composer: "Composer") -> None:
+def outline(_block: Reference, _composer: Composer) -> None:
     """Leave out the names, which nothing leads to."""
 
 

@@ -1,20 +1,18 @@
 """A numbered table: of computed numbers, of recorded results, or written out in the report."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
 
 from atlas.errors import AtlasError, unknown
+from atlas.report.blocks.composer import Composer
 from atlas.report.body_and_field import chosen
 from atlas.report.numbers import Number, room
 from atlas.report.schema import Id, StrictStruct
 from atlas.report.tables import compute
 from atlas.report.tables.model import Column, Data, Request
 from atlas.report.texts import beginning
-
-if TYPE_CHECKING:
-    from atlas.report.compose import Composer
 
 MOST = 1000
 """As many digits of a number as a table may ask for."""
@@ -111,13 +109,13 @@ class TableView:
         return len(self.rows) > MANY
 
 
-def view_computed(block: Table, composer: "Composer") -> TableView:
+def view_computed(block: Table, composer: Composer) -> TableView:
     """Compute a table."""
-    request = Request(chosen(block, composer.report.parameters), block.parameters, block.digits)
+    request = Request(chosen(block, composer.parameters), block.parameters, block.digits)
     return _view(block, composer, compute(block.table, request), name=block.table)
 
 
-def view_listing(block: Listing, composer: "Composer") -> TableView:
+def view_listing(block: Listing, composer: Composer) -> TableView:
     """Set out a table of words."""
     for row in block.rows:
         if len(row) != len(block.columns):
@@ -125,7 +123,7 @@ def view_listing(block: Listing, composer: "Composer") -> TableView:
     return _view(block, composer, Data(tuple(map(Column, block.columns)), block.rows, block.caption))
 
 
-def view_recorded(block: Recorded, composer: "Composer") -> TableView:
+def view_recorded(block: Recorded, composer: Composer) -> TableView:
     """Set out a table of recorded results."""
     tables, name = composer.recorded.tables, f"{block.source}: {block.table}"
     if name not in tables:
@@ -133,14 +131,14 @@ def view_recorded(block: Recorded, composer: "Composer") -> TableView:
     return _view(block, composer, tables[name], command=COMMANDS[block.source])
 
 
-def outline(block: Table | Recorded, composer: "Composer") -> None:
+def outline(block: Table | Recorded, composer: Composer) -> None:
     """Give a table its number, and let citations lead to it."""
     composer.tables += 1
     composer.anchor("tab", block.id, "Table", composer.tables)
 
 
 def _view(
-    block: Table | Listing | Recorded, composer: "Composer", data: Data, *, name: str = "", command: str = ""
+    block: Table | Listing | Recorded, composer: Composer, data: Data, *, name: str = "", command: str = ""
 ) -> TableView:
     """Set a table out in columns, aligned on the decimal point."""
     composer.tables += 1
@@ -180,7 +178,7 @@ def _view(
     )
 
 
-def _cell(value: str | Number, composer: "Composer") -> Cell:
+def _cell(value: str | Number, composer: Composer) -> Cell:
     """Cut a number at its point, or take in the words."""
     if isinstance(value, Number):
         return Cell(None, *value.parts(), value.proven)

@@ -1,0 +1,161 @@
+"""A report ready to be set: its pages, pictures and texts, and where each citation leads."""
+
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import Any
+
+from atlas.errors import AtlasError, unknown
+from atlas.paper import EQUATIONS
+from atlas.paper.equation import slug
+from atlas.plain import plain
+from atlas.report.bibliography import Bibliography
+from atlas.report.blocks.figure import Figure
+from atlas.report.definition import Report
+from atlas.report.pandoc import Target
+from atlas.report.picture import Picture
+from atlas.report.pictures import keys
+from atlas.report.texts import Link, Texts, citations
+from atlas.report.trial import Use
+
+THEOREMS = {
+    name: f"(T{number})"
+    for number, name in enumerate((name for name, one in EQUATIONS.items() if one.kind == "theorem"), 1)
+}
+"""The numbers of what the paper does not have, in the order of the ledger."""
+
+
+@dataclass(frozen=True)
+class PageView:
+    """A page: its place in the contents, the views of its blocks and the names of their templates.
+
+    `number` is that of the chapter, or the letter of the appendix.
+    """
+
+    number: str
+    slug: str
+    title: str
+    summary: str
+    blocks: tuple[Any, ...]
+    templates: tuple[str, ...]
+    part: str = ""
+    appendix: bool = False
+
+    @property
+    def file(self) -> str:
+        """The name of its file."""
+        return f"{self.slug}.html"
+
+
+@dataclass
+class Document:
+    """A report ready to be set: its pages, pictures, texts, and where each citation leads.
+
+    `targets` holds for each name that can be cited its page, anchor and words; `equations` the numbers of equations
+    that have none in the paper, those of the theorems the same in every report; `ledger` the page of each entry of the
+    ledger; `errata` the page of the errata; `abstract`, `given`, `symbols` and `formulas`, the equations that are cited
+    here and stand in no page of this report, are numbers of texts. `related` holds the reports beside this one, in
+    outline; a citation of what is not here leads there. `bibliography` holds the works that can be cited, `listed_on`
+    is the page of their list.
+    """
+
+    report: Report
+    pictures: Mapping[str, Picture]
+    texts: Texts = field(default_factory=Texts)
+    pages: list[PageView] = field(default_factory=list)
+    targets: dict[str, tuple[str, str, str]] = field(default_factory=dict)
+    abstract: int = 0
+    given: list[int] = field(default_factory=list)
+    symbols: list[tuple[int, list[str]]] = field(default_factory=list)
+    equations: dict[str, str] = field(default_factory=dict)
+    ledger: dict[str, str] = field(default_factory=dict)
+    errata: str = ""
+    bibliography: Bibliography = field(default_factory=Bibliography)
+    listed_on: str = ""
+    written: dict[Target, list[str]] = field(default_factory=dict)
+    related: "Mapping[str, Document]" = field(default_factory=dict)
+    uses: defaultdict[str, list[Use]] = field(default_factory=lambda: defaultdict(list))
+    formulas: dict[str, int] = field(default_factory=dict)
+
+    def set(self, *targets: Target) -> None:
+        """Set all texts for each of the targets, side by side, for pandoc is a program of its own."""
+        self.texts.read()
+        with ThreadPoolExecutor(len(targets)) as threads:
+            made = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
+            self.written = dict(zip(targets, made, strict=True))
+
+    def cite(self, target: Target) -> Callable[[str, str], Link]:
+        """Return the function that finds what a citation says and where it leads, given its name and place."""
+
+        def link(name: str, where: str) -> Link:
+            says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
+            if name in self.ledger:
+                page = f"{self.ledger[name]}.html" if target == "html" else ""
+                return Link(self.number(name), page, f"ledger-{slug(name)}", says)
+            if name in self.targets:
+                file, anchor, words = self.targets[name]
+                return Link(words, file if target == "html" else "", anchor, says)
+            beside = next(filter(None, (one.from_beside(name) for one in self.related.values())), None)
+            if beside:
+                return beside._replace(says=says) if target == "html" else Link(beside.words)
+            if name in EQUATIONS:
+                return Link(self.number(name))
+            if name in self.bibliography.named:
+                if not self.listed_on:
+                    raise AtlasError(f"{where}: @{name} is cited, but no block of the kind 'bibliography' lists it.")
+                page = f"{self.listed_on}.html" if target == "html" else ""
+                return Link(self.bibliography.named[name], page, f"work-{name}", "", self.bibliography.bracketed[name])
+            raise AtlasError(f"{where}: {unknown('equation, figure, table, page or work', f'@{name}', self.citable)}")
+
+        return link
+
+    def from_beside(self, name: str) -> Link | None:
+        """Return what a citation in a report beside this one says and where it leads, None if the name is not here."""
+        folder, title = f"../{self.report.name}", self.report.title
+        if name == f"report:{self.report.name}":
+            return Link(title, f"{folder}/index.html", "page-index")
+        if name in self.ledger:
+            return Link(self.number(name), f"{folder}/{self.ledger[name]}.html", f"ledger-{slug(name)}")
+        if name in self.targets:
+            file, anchor, words = self.targets[name]
+            counted = name.startswith(("fig:", "tab:"))
+            return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
+        return None
+
+    def entry(self, name: str) -> str:
+        """Return the page, without its suffix, of an equation's entry in the ledger, here or beside this report."""
+        beside = ((folder, one.ledger) for folder, one in self.related.items())
+        there = next((f"../{folder}/{ledger[name]}" for folder, ledger in beside if name in ledger), "")
+        return self.ledger.get(name, there)
+
+    def number(self, name: str) -> str:
+        """Return an equation as it is cited: by its number in print, one of our own, or else its name."""
+        return name if name.startswith("(") else self.equations.get(name, f"({name})")
+
+    @property
+    def cover(self) -> Picture | None:
+        """The picture of the cover."""
+        blocks = (block for page in self.report.pages for block in page.blocks if isinstance(block, Figure))
+        chosen = next((block for block in blocks if block.id and block.id == self.report.cover), None)
+        return self.pictures[keys(chosen, self.report)[0]] if chosen else None
+
+    def listed(self, template: str) -> list[Any]:
+        """Return the figures or the tables, by the name of their template, in their order."""
+        return [
+            block
+            for page in self.pages
+            for name, block in zip(page.templates, page.blocks, strict=True)
+            if name == template
+        ]
+
+    @property
+    def citable(self) -> list[str]:
+        """All names that can be cited."""
+        return [f"@{name}" for name in (*self.targets, *EQUATIONS, *self.bibliography.named)]
+
+    @property
+    def works(self) -> dict[str, str]:
+        """The entries of the works that are cited, by key, in the order of the list."""
+        names = {name for text in self.texts.texts for name in citations(text.markdown)}
+        return {key: entry for key, entry in self.bibliography.entries.items() if key in names}
