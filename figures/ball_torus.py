@@ -34,10 +34,17 @@ def scene(
     """Draw balls (I0 = 1) with gamma/alpha in ``ratios`` for ``turns`` of alpha = ``larmor``; m3 is that of m."""
     larmor = positive(larmor, "larmor")
     least = abs(1.0 + m3 / larmor)
-    if not (0 < len(ratios) == len(turns) <= 4 and all(r >= least for r in ratios) and all(turns)):
+    if not 0 < len(ratios) == len(turns) <= 4:
         raise DomainError(
-            f"figure ball_torus takes one to four ratios and as many turns, not 0; gamma/alpha is at least "
-            f"|1 + m3/alpha| = {least:g}, not {ratios}."
+            f"figure ball_torus takes one to four ratios and as many turns, not {len(ratios)} ratios and "
+            f"{len(turns)} turns."
+        )
+    if not all(turns):
+        raise DomainError(f"turns of figure ball_torus are not 0, as in {turns}: in no time nothing moves.")
+    if min(ratios) < least:
+        raise DomainError(
+            f"gamma/alpha = {min(ratios):g} is below |1 + m3/alpha| = {least:g}, the least of a ball with m3 = {m3:g} "
+            f"and alpha = {larmor:g} can have; give larger ratios, or m3 nearer to {-larmor:g}."
         )
     if max(abs(r * n) for r, n in zip(ratios, turns, strict=True)) > MOST:
         raise DomainError(f"figure ball_torus draws at most {MOST:g} turns.")

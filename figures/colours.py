@@ -21,9 +21,9 @@ CURVES = (
     ("hyperbola", "elementary motions"),
     ("trace", r"path of $\mathbf{R}_3$"),
     ("second_trace", r"path of $\mathbf{R}_1$"),
+    ("trajectory", "path of a point"),
     ("unstable", "unstable motions"),
-    ("asymptote", "asymptote"),
-    ("pole", r"pole, $\omega_2=-B'_2$"),
+    ("asymptote", "asymptote, law"),
 )
 COMPONENTS = (("main", "first component"), ("second", "second component"), ("third", "third component"))
 BODIES = (
@@ -57,11 +57,12 @@ def scene() -> Scene:
         title(__doc__),
         "The colours of the figures: in each of them a colour means one thing. They differ in lightness too, so that "
         "they stay apart in grey print, and to those who do not see all of them. A name has the colour of its thing, "
-        "darker where it could not be read on white. The colours of bodies are for figures in which they are compared.",
+        "darker where it could not be read on white. The colours of bodies are for figures in which they are compared. "
+        "Elementary motions are initial angular velocities, and have their hue.",
         "Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image under "
-        "the inverse inertia tensor pink, E blue, m green, angular velocities plum, the body's axis and the elementary "
-        "motions navy, the unstable ones vermilion, a loop magenta, a short solenoid petrol, a ball olive, a long "
-        "solenoid dark brown.",
+        "the inverse inertia tensor pink, E blue, m green, angular velocities plum, the elementary motions violet, the "
+        "body's axis and its path navy, the path of a point teal, the unstable motions vermilion, a loop magenta, a short "
+        "solenoid petrol, a ball olive, a long solenoid dark brown.",
         (Space(tuple(layers), azimuth=0.0, elevation=0.0),),
         size=(178.0, 46.0),
     )

@@ -51,7 +51,8 @@ def scene(*, ratio: float = 1.5, field: tuple[float, float] = (1.0, 2.0), omega2
 def panel(
     errors: ErrorMap, values: np.ndarray, x_label: str, name: str, x_scale: Literal["linear", "log"] = "linear"
 ) -> Plane:
-    """Draw one map, all on the same scale of colours."""
-    image = Image(errors.x, errors.t, np.maximum(values, LIMITS[0]), "error", "log", LIMITS)
+    """Draw one map; all have one scale of colours, which stands beside (b)."""
+    label = "error" if name.startswith("(b)") else ""
+    image = Image(errors.x, errors.t, np.maximum(values, LIMITS[0]), label, "log", LIMITS)
     ends = (float(errors.x[0]), float(errors.x[-1])), (float(errors.t[0]), float(errors.t[-1]))
     return Plane((image,), x_label, TIME, *ends, x_scale=x_scale, y_scale="log", title=name)

@@ -10,7 +10,7 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray, number, positive, vector, whole
 from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Scene, Space, quadric_panel
+from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space, quadric_panel
 from atlas.scene.bodies import proportions, solenoid
 from atlas.scene.camera import frame
 from atlas.scene.sample import curve, quarter_pixel
@@ -19,6 +19,8 @@ from atlas.scene.words import plain, plain_setting, plain_vector, quotient, tex,
 WIDTH, HEIGHT = 150.0, 200.0
 AXIS, CORNER = 1.7, 0.22
 """How far an axis is drawn in units of the body, and the length of the fields' arrows as a part of the height."""
+HEADS = (3.5, 7.6, 10.5)
+"""Where on the path an arrowhead shows its sense, in steps of time: where no body covers it."""
 
 
 def scene(
@@ -53,6 +55,10 @@ def scene(
     fine = quarter_pixel(float(np.ptp(centres, axis=0).max()), HEIGHT)
     end = 0.5 * size * proportions(I)[1]
     layers: list[Layer] = [Curve(curve(particle.position, 0.0, stop, fine, pieces=64), "flight_path")]
+    for between in HEADS:  # the sense of the flight
+        tail, tip = particle.position(stop / (count - 1) * np.array([between - 0.1, between + 0.1]))
+        layers.append(Arrow(tail, tip, "flight_path"))
+    layers.append(Label(centres[0] - size * quadric_panel.E3, "start", "label", (0.0, -6.0)))
     near = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
     for i in np.argsort(centres @ near):  # from the farthest to the nearest, as they cover one another
         centre, R = centres[i], attitudes[i]

@@ -8,12 +8,13 @@ import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.integrals import shape_factors
-from atlas.scene import Curve, Layer, Plane, Scene
+from atlas.scene import Curve, Label, Layer, Plane, Scene
 from atlas.scene.sample import quarter_pixel
-from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
+from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 110.0, 70.0, 12.0
 FIRST, LAST = 1e-2, 1e9
+ULP = 2.0**-52 / 1e-16
 NAMES = ("$E'$", r"$\mathbf{K}^2$", "$c_3$", "$c_5$", r"$(\mathbf{m},\mathbf{B}')$")
 ROLES = ("main", "second", "third", "fourth", "sixth")
 
@@ -30,22 +31,28 @@ def scene(
     rate = max(abs(motion.k), abs(motion.phi)) or 1.0
     times = 2 * np.pi / rate * np.geomspace(FIRST, LAST, round(1 / quarter_pixel(1.0, WIDTH - MARGIN)) + 1)
     first, later, sizes = motion.invariants(), motion.invariants(times), term_sizes(motion)
-    layers: list[Layer] = []
-    top = 1.0
+    layers: list[Layer] = [
+        Curve(np.array([[times[0], ULP], [times[-1], ULP]]), "limit"),
+        Label(np.array([times[0], ULP]), "$2^{-52}$", "limit", (16.0, 6.0)),
+    ]
+    top, never = ULP, []
     for (name, value), role, text in zip(first.items(), ROLES, NAMES, strict=True):
         change = np.maximum.accumulate(np.abs(later[name] - value)) / (sizes[name] or 1.0) / 1e-16
         corner = np.flatnonzero(np.diff(change, prepend=np.nan))
         steps = np.repeat(corner, 2)
         line = np.stack([np.append(times[steps], times[-1])[1:], change[steps]], axis=1)
-        layers.append(Curve(line, role, text))
+        if change[-1] == 0.0:
+            never.append(text)
+        else:
+            layers.append(Curve(line, role, text))
         top = max(top, float(change[-1]))
     return Scene(
         title=title(__doc__),
         caption=(
             rf"The largest change so far of each invariant for {tex_setting(ratio, field)}, $\omega_2={tex(omega2)}$, "
-            r"as a part of the sum of the sizes of its terms; $2^{-52}=2.2\times10^{-16}$. The changes do not grow "
-            r"with time, as those of a method that steps would: each time is evaluated by itself, with the phases "
-            r"$kt$ and $\phi t$ exact."
+            r"as a part of the sum of the sizes of its terms; dotted, $2^{-52}=2.2\times10^{-16}$."
+            + (f" {listed(never)} never change." if len(never) > 1 else f" {never[0]} never changes." if never else "")
+            + r" Nothing grows with time, as it would in a method that steps: each time is evaluated by itself."
         ),
         alt=(
             f"Five lines over the logarithm of time for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: "
@@ -58,7 +65,7 @@ def scene(
                 f"$t$ ({unit})",
                 r"largest change so far ($10^{-16}$)",
                 (float(times[0]), float(times[-1])),
-                (-0.06 * top, 1.35 * top),
+                (0.0, 1.25 * top),
                 x_scale="log",
             ),
         ),

@@ -27,8 +27,8 @@ def scene(
     ratio: Any = 1.5,
     field: tuple[float, float] = (0.8, 1.2),
     omega: tuple[float, float, float] = (0.6, 0.3, 1.0),
-    nutations: float = 3.0,
-    elevation: float = 50.0,
+    nutations: float = 1.0,
+    elevation: float = 40.0,
 ) -> Scene:
     """Draw R_3(t) of both launches over ``nutations`` periods, in both frames; B is upright."""
     if not all(field):

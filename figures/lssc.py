@@ -1,7 +1,7 @@
 """Laboratory system of a symmetric body.
 
 The paper's Figure Lssc: e3 points along the third inertia axis R_3(0), and B lies in the plane of e2 and e3, so that
-B = (0, B2, B3). The body drawn is the cylindrical shell (radius 1) whose moments of inertia have the ratio I.
+B' = (0, B2, B3). The body drawn is the cylindrical shell whose moments of inertia have the ratio I.
 """
 
 from typing import Any
@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.bodies import proportions
 from atlas.scene.words import plain_setting, quotient, tex_setting, title
 
-LONGEST, TURNS_PER_RADIUS = 3.0, 7.0
+SIZE, WINDINGS = 1.5, 7.0
+"""How far the farthest point of the body is from its centre, and windings on a piece as high as that."""
 
 
 def scene(
@@ -19,27 +21,29 @@ def scene(
 ) -> Scene:
     """Show a solenoid with I = I3/I2 = ``ratio`` and the field B with the components ``field`` = (B2, B3)."""
     I = quotient(ratio)
-    height = min(LONGEST, float(np.sqrt(max(0.0, 12.0 / I - 6.0))))  # I3/I2 of a shell is 1/(1/2 + h^2/(12 R^2))
+    radius, height = (SIZE * length for length in proportions(I))
     fine = quadric_panel.tolerance(2.5)
     reach = 0.5 * height
     b = float(np.hypot(*field)) or 1.0
-    tip = quadric_panel.in_plane(*field) * (max(2.3, reach + 1.2) / b)
+    tip = quadric_panel.in_plane(*field) * (max(1.75 * SIZE, reach + 1.0) / b)
     second, third = tip[1] * quadric_panel.E2, tip[2] * quadric_panel.E3
     layers: list[Layer] = []
     if height > 0.0:
-        shell = solids.cylinder(quadric_panel.O, quadric_panel.E3, 1.0, height, fine, role="body")
-        count = max(2, round(TURNS_PER_RADIUS * height))
+        shell = solids.cylinder(quadric_panel.O, quadric_panel.E3, radius, height, fine, role="body")
+        count = max(2, round(WINDINGS * height))
         coils = [
-            solids.circle(h * quadric_panel.E3, quadric_panel.E3, 1.0, fine)
+            solids.circle(h * quadric_panel.E3, quadric_panel.E3, radius, fine)
             for h in np.linspace(-reach, reach, count + 1)[1:-1]
         ]
         layers.append(shell)
         layers += [Curve(coil, "coil") for coil in coils]
     else:
-        layers.append(Curve(solids.circle(quadric_panel.O, quadric_panel.E3, 1.0, fine), "loop"))
+        layers.append(Curve(solids.circle(quadric_panel.O, quadric_panel.E3, radius, fine), "loop"))
     layers += [
-        Arrow(quadric_panel.O, 2.0 * quadric_panel.E1, "basis", r"$\mathbf{e}_1$"),
-        Arrow(quadric_panel.O, max(2.0, 1.15 * float(tip[1])) * quadric_panel.E2, "basis", r"$\mathbf{e}_2$"),
+        Arrow(quadric_panel.O, max(2.0, 1.4 * radius) * quadric_panel.E1, "basis", r"$\mathbf{e}_1$"),
+        Arrow(
+            quadric_panel.O, max(2.0, 1.4 * radius, 1.15 * float(tip[1])) * quadric_panel.E2, "basis", r"$\mathbf{e}_2$"
+        ),
         Arrow(
             quadric_panel.O,
             max(reach + 1.0, 1.15 * float(tip[2])) * quadric_panel.E3,
@@ -50,18 +54,19 @@ def scene(
     ]
     if any(field):
         layers += [
-            Arrow(quadric_panel.O, tip, "field", r"$\mathbf{B}$"),
+            Arrow(quadric_panel.O, tip, "field", r"$\mathbf{B}'$"),
             Curve(np.stack([tip, second]), "construction"),
             Curve(np.stack([tip, third]), "construction"),
         ]
     if field[0]:
-        layers.append(Label(second, r"$B_2$", offset=(0.0, -5.0)))
+        layers.append(Label(second, r"$B'_2$", offset=(0.0, -5.0)))
     if field[1]:
-        layers.append(Label(third, r"$B_3$", offset=(-5.0, 0.0)))
+        layers.append(Label(third, r"$B'_3$", offset=(-5.0, 0.0)))
     return Scene(
         title(__doc__),
         f"Laboratory system for {tex_setting(ratio, field)}: $\\mathbf{{e}}_3$ is the third inertia axis "
-        r"$\mathbf{R}_3(0)$, and $\mathbf{B}$ lies in the plane of $\mathbf{e}_2$ and $\mathbf{e}_3$.",
+        r"$\mathbf{R}_3(0)$, and $\mathbf{B}'$, along the field, lies in the plane of $\mathbf{e}_2$ and "
+        r"$\mathbf{e}_3$. The cylindrical shell drawn has this ratio of its moments.",
         f"A body with a vertical axis e3, and the laboratory axes e1 towards the reader and e2 to the right, for "
         f"{plain_setting(ratio, field)}; the field leans from e3 towards e2.",
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),

@@ -44,22 +44,23 @@ def scene(
         points = np.stack([np.zeros_like(omega2), omega2, omega3], axis=1)
         axis = np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)]
         inside = np.abs((points - quadric.centre) @ axis) <= REACH * b
-        nutation = np.sqrt(np.asarray(hyperbola.stability(omega2)))
+        squared = np.asarray(hyperbola.stability(omega2))
+        nutation = np.where(squared > 0.0, np.sqrt(np.maximum(squared, 0.0)), np.nan)
         layers += classed(points[inside], nutation[inside], levels)
     for sheet in quadrics.pieces(ratio, field, REACH * b, quadric_panel.tolerance(REACH * b)):
         layers += [Curve(rim, "rim") for rim in sheet.rims]
     layers += bodies(ratio, field, b)
     first, *_, last = levels / b
+    unstable = any(isinstance(layer, Curve) and layer.role == "unstable" for layer in layers)
+    band = " Vermilion: the unstable motions." if unstable else ""
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The surface (51) for {tex_setting(ratio, field)}, in {BANDS} colours from pale to dark by the rate "
-            rf"$\lvert\omega_1B'_2\rvert$ at which $\Omega_3$ departs from each of its points, in equal steps up to "
-            rf"${tex(round(widest * field[0], 2))}$ at the rim. Only from the heavy line it does not depart. That line "
-            r"is the darker and wider the faster a small nutation about the motion is, in four classes by $\nu_n/b$ "
-            rf"from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$: the least near the bends. Small "
-            r"bodies stand beside the motions at rest, at $-2\mathbf{B}'$ and with $\omega_3=0$, with an arrow along "
-            r"$\boldsymbol{\omega}$."
+            rf"The surface (51) for {tex_setting(ratio, field)}, pale to dark by the rate $\lvert\omega_1B'_2\rvert$ at "
+            rf"which $\Omega_3$ departs from each point, in {BANDS} equal steps up to ${tex(round(widest * field[0], 2))}$. "
+            r"From the heavy line it does not depart; that is the wider the faster a small nutation is, in four "
+            rf"classes by $\nu_n/b$ from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$.{band} "
+            r"Arrows at the bodies: $\boldsymbol{\omega}$."
         ),
         alt=(
             f"The quadric of {plain_setting(ratio, field)} in five colours, palest in a band along the hyperbola, with "
@@ -127,22 +128,19 @@ def bands(
 
 
 def thresholds(hyperbola: Hyperbola) -> FloatArray:
-    """Return the frequencies of nutation that divide the classes, in 1/time: quarters of what is drawn of them."""
+    """Return the frequencies of nutation that divide the classes, in 1/time: quarters of what is drawn and stable."""
     omega2 = np.concatenate([branch[0] for branch in hyperbola.branches(801, reach=REACH)])
     values = np.asarray(hyperbola.stability(omega2))
-    if values.min() <= 0.0:
-        raise DomainError(
-            "figure ribbon needs a field in which all elementary motions are stable; see figure stability."
-        )
-    return np.quantile(np.sqrt(values), np.arange(1, CLASSES) / CLASSES)
+    return np.quantile(np.sqrt(values[values > 0.0]), np.arange(1, CLASSES) / CLASSES)
 
 
 def classed(points: FloatArray, values: FloatArray, levels: FloatArray) -> list[Layer]:
-    """Return a line in pieces, each with the role of the class of its values."""
-    found = np.digitize(values, levels)
+    """Return a line in pieces, each with the role of the class of its values; where there is none it is unstable."""
+    found = np.where(np.isnan(values), -1, np.digitize(values, levels))
     starts = np.append(0, np.flatnonzero(np.diff(found)) + 1)
     ends = np.append(starts[1:], len(points) - 1)
-    return [Curve(points[i : j + 1], f"nutation_{found[i]}") for i, j in zip(starts, ends, strict=True) if j > i]
+    roles = {-1: "unstable"} | {k: f"nutation_{k}" for k in range(CLASSES)}
+    return [Curve(points[i : j + 1], roles[int(found[i])]) for i, j in zip(starts, ends, strict=True) if j > i]
 
 
 def bodies(ratio: float, field: tuple[float, float], b: float) -> list[Layer]:

@@ -13,7 +13,7 @@ import numpy as np
 from atlas.core.elementary import ElementaryMotion, FreeMotion
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 
@@ -35,19 +35,16 @@ def scene(
     free = motion.beside
     axis = quadric_panel.in_plane(*field) / np.hypot(*field)
     panels = (
-        cones("(a) in the field", motion, axis, r"$\mathbf{B}$", "field", (azimuth, elevation)),
-        cones("(b) free", free, axis, r"$\mathbf{m}$", "momentum", (azimuth, elevation)),
+        cones("(a) in the field", motion, axis, (azimuth, elevation)),
+        cones("(b) free", free, axis, (azimuth, elevation)),
     )
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"(a) {tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$: the body cone about "
-            r"$\mathbf{R}_3$ (amber) rolls on the space cone about $\mathbf{B}$ (green); they touch along the "
-            r"instantaneous axis $\boldsymbol{\omega}=k\hat{\mathbf{B}}+\phi\mathbf{R}_3$, whose tip draws the polhode "
-            rf"in the body and the herpolhode in space. Here $k={tex(motion.k)}$ and $\phi={tex(motion.phi)}$. (b) The "
-            r"free body with the same axis of precession and the same $k$, (87): its space cone is about the angular "
-            rf"momentum, and $\phi={tex(free.phi)}$. The body cone {contact(motion, axis)} in (a) and "
-            f"{contact(free, axis)} in (b)."
+            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$: the body cone about $\mathbf{{R}}_3$ "
+            rf"(amber) rolls on the space cone (green). Here $k={tex(motion.k)}$. (a) In the field the space cone is "
+            rf"about $\mathbf{{B}}$, and $\phi={tex(motion.phi)}$; (b) in the free body, (87), about $\mathbf{{m}}$, and "
+            rf"$\phi={tex(free.phi)}$. The body cone {contact(motion, axis)} in (a) and {contact(free, axis)} in (b)."
         ),
         alt=(
             f"Two pairs of cones that touch along a line, for {plain_setting(ratio, field)} with omega 2 = "
@@ -56,8 +53,15 @@ def scene(
         ),
         panels=panels,
         columns=2,
-        size=(160.0, 88.0),
+        size=(160.0, 92.0),
     )
+
+
+def angles(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> tuple[float, float]:
+    """Return the half-angles of the space cone and of the body cone, in radians: of omega to the field and to R_3."""
+    omega = np.asarray(motion.angular_velocity(0.0))
+    space, body = (float(np.arccos(abs(n @ omega) / np.linalg.norm(omega))) for n in (axis, quadric_panel.E3))
+    return space, body
 
 
 def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
@@ -70,27 +74,41 @@ def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
     return "encloses the space cone and rolls on it" if wider else "rolls inside the space cone"
 
 
-def cones(
-    name: str,
-    motion: ElementaryMotion | FreeMotion,
-    axis: FloatArray,
-    label: str,
-    role: str,
-    view: tuple[float, float],
-) -> Space:
-    """Return both cones at t = 0, touching along the unit vector of the angular velocity."""
+def reach(line: FloatArray, omega: FloatArray) -> float:
+    """Return how long an arrow along a line is: out of the cones where it runs in them, else short."""
+    return 1.35 if line @ omega > 0.0 else 0.6
+
+
+def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, view: tuple[float, float]) -> Space:
+    """Return both cones at t = 0, touching along the angular velocity, with their angles and what their tips draw.
+
+    The angular momentum of a free body is on the side of its angular velocity: (m, omega) is twice the energy.
+    """
     fine = quadric_panel.tolerance(1.8)
     omega = np.asarray(motion.angular_velocity(0.0))
     omega /= np.linalg.norm(omega)
     layers: list[Layer] = []
-    for centre, part in ((axis, "cone"), (quadric_panel.E3, "body")):
-        angle = float(np.arctan2(np.linalg.norm(np.cross(centre, omega)), centre @ omega))
-        layers.append(replace(solids.cone(quadric_panel.O, centre, angle, 1.0, fine), role=part))
+    sides = (
+        (axis, angles(motion, axis)[0], "cone", "space"),
+        (quadric_panel.E3, angles(motion, axis)[1], "body", "body"),
+    )
+    for line, angle, part, word in sides:
+        towards = line * np.sign(line @ omega)
+        cone = solids.cone(quadric_panel.O, towards, angle, 1.0, fine)
+        layers += [
+            replace(cone, role=part),
+            Curve(np.stack([quadric_panel.O, 1.12 * np.cos(angle) * towards]), "construction"),
+        ]
+        far = cone.rims[0][[0, len(cone.rims[0]) // 4, len(cone.rims[0]) // 2, 3 * len(cone.rims[0]) // 4]]
+        far = far[np.argsort(-np.linalg.norm(far - omega, axis=1))]
+        layers.append(Label(1.05 * far, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", (0.0, -6.0)))
+    free = isinstance(motion, FreeMotion)
+    role, letter = ("momentum", r"$\mathbf{m}$") if free else ("field", r"$\mathbf{B}$")
+    along = axis * (np.sign(axis @ omega) if free else 1.0)  # m = I2 omega + (I3 - I2) Omega_3 R_3 is along the axis
     layers += [
-        Arrow(quadric_panel.O, 1.5 * axis, role, label),
-        Arrow(quadric_panel.O, 1.4 * quadric_panel.E3, "body_axis", r"$\mathbf{R}_3$"),
-        Arrow(quadric_panel.O, 1.3 * omega, "velocity", r"$\boldsymbol{\omega}$"),
-        Curve(np.stack([quadric_panel.O, omega]), "velocity"),
+        Arrow(quadric_panel.O, reach(along, omega) * along, role, letter),
+        Arrow(quadric_panel.O, reach(quadric_panel.E3, omega) * quadric_panel.E3, "body_axis", r"$\mathbf{R}_3$"),
+        Arrow(quadric_panel.O, 1.35 * omega, "velocity", r"$\boldsymbol{\omega}$"),
         Points(quadric_panel.O[None], "origin"),
     ]
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=name)

@@ -98,6 +98,9 @@ def course(motions: list[Companion], last: float, unit: str) -> Plane:
         def point(t: FloatArray, motion: Companion = motion) -> FloatArray:
             return np.stack([t, motion.c3 - motion.b * motion.cosine(t)], axis=-1)
 
-        layers.append(Curve(flat(point, -last, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=48), role))
+        line = flat(point, -last, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=48)
+        shown = ", shown in (a)" if motion is motions[0] else ""
+        name = ("upper" if motion.c3 - motion.b * motion.turning > rest else "lower") + shown
+        layers += [Curve(line, role), Label(line[[len(line) // 2]], name, role, (30.0, 0.0))]
     layers.append(Label(np.array([0.85 * last, rest]), "unstable precession", "unstable", (-10.0, 6.0)))
     return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title=r"(b) $\Omega_3$")

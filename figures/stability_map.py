@@ -38,11 +38,11 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     layers += [Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2]
     for rate in rates:
         growing = level(-(rate**2), -1)
-        layers += [Curve(growing, "main"), Label(growing[0], f"${rate:g}$", "main", (-6.0, 6.0))]
+        layers += [Curve(growing, "main"), Label(growing[len(growing) // 2], f"${rate:g}$", "main")]
         for side in (-1, 1):
             line = level(rate**2, side)
             if len(line):
-                layers += [Curve(line, "second"), Label(line[len(line) // 2], f"${rate:g}$", "second", (5.0, 0.0))]
+                layers += [Curve(line, "second"), Label(on(line, rate), f"${rate:g}$", "second")]
     layers += [Points(np.array([[I, 0.0]]), "point") for I, _ in BODIES]
     layers += [Label(np.array([I, TOP]), name, body_role(I) if I else "note", (0.0, -8.0)) for I, name in BODIES]
     layers.append(Label(np.array([0.0, EDGE]), r"$\tau=1/(2\sqrt{2})$", "unstable", (4.0, 6.0)))
@@ -66,6 +66,12 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
         panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP)),),
         size=(WIDTH, HEIGHT),
     )
+
+
+def on(line: FloatArray, rate: float) -> FloatArray:
+    """Return the place of a number on its line: as high on each side as the number, so that none is beside another."""
+    low, high = line[:, 1].min(), line[:, 1].max()
+    return line[int(np.argmin(np.abs(line[:, 1] - low - (0.15 + 0.6 * rate) * (high - low))))]
 
 
 def level(value: float, side: int) -> FloatArray:

@@ -24,7 +24,7 @@ def scene(
     ratio: Any = 0.5,
     field: tuple[float, float] = (1.0, 1.2),
     omega2: float = 0.8,
-    part: float = 0.17,
+    part: float = 0.28,
     azimuth: float = 25.0,
     elevation: float = 14.0,
 ) -> Scene:
@@ -56,6 +56,7 @@ def scene(
                 centre + 1.25 * quadric_panel.E3, quadric_panel.E3, 0.45 * quadric_panel.E1, proper, r"$\phi t$", fine
             )
         if i == 2:
+            layers.append(Curve(np.stack([centre, centre + REACH * quadric_panel.E3]), "construction"))
             along = float(quadric_panel.E3 @ axis)
             layers += sweep(
                 centre + REACH * along * axis,
@@ -69,7 +70,8 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, in its first attitude; turned by "
-            rf"$\phi t={tex(round(proper, 3))}$ about its axis; and then by $kt={tex(round(precession, 3))}$ about "
+            rf"$\phi t={tex(round(proper, 3))}$ about its axis; and then, from the dashed line, by "
+            rf"$kt={tex(round(precession, 3))}$ about "
             r"$\mathbf{B}$: this is the attitude $R(t)=R_\mathbf{B}(kt)R_z(\phi t)$, (85)."
         ),
         alt=(

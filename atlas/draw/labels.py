@@ -21,7 +21,7 @@ _AIR, _APART = 1.2, 4.0
 _FAR, _SIGHT = 5.0, 30.0
 _KEPT = 100
 _HEIGHT = 20.0
-_HALO = 2.2
+_HALO, _BOX = 2.2, 0.85
 
 
 @dataclass(frozen=True)
@@ -156,10 +156,10 @@ def along(points: FloatArray, step: float = 2.0) -> FloatArray:
     return np.stack([np.interp(s, length, finite[:, k]) for k in range(2)], axis=1)
 
 
-def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray]) -> None:
+def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray], *, boxed: bool = False) -> None:
     """Write the texts about their centres (points from the lower left corner), as annotations of their anchors.
 
-    Below each lies its white outline, which is no text.
+    Below each lies its white outline, which is no text, or a white box, where the ground is coloured.
     """
     from matplotlib.patheffects import Stroke
 
@@ -169,7 +169,8 @@ def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray]) -> N
     for tag, anchor, centre in zip(tags, anchors, centres, strict=True):
         _, ascent, descent = line(tag.text, tag.size)
         offset = centre - tag.anchor - (0.0, 0.5 * (ascent - descent))
-        for height, effects in ((_HEIGHT, [Stroke(linewidth=_HALO, foreground="#ffffff")]), (_HEIGHT + 1.0, [])):
+        outline = [] if boxed else [(_HEIGHT, [Stroke(linewidth=_HALO, foreground="#ffffff")])]
+        for height, effects in (*outline, (_HEIGHT + 1.0, [])):
             axes.annotate(
                 typeset(tag.text),
                 anchor,
@@ -182,4 +183,5 @@ def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray]) -> N
                 zorder=height,
                 path_effects=effects,
                 annotation_clip=False,
+                bbox={"fc": "#ffffff", "alpha": _BOX, "lw": 0.0, "pad": 0.8} if boxed else None,
             )

@@ -47,7 +47,8 @@ def write(axes: "Axes", panel: Plane) -> None:
     if tags:
         ink, weights, owners = _ink(size, panel, places)
         window = (_FRAME, _FRAME, size[0] - _FRAME, size[1] - _FRAME)
-        write_tags(axes, tags, place(tags, ink, weights, window, owners))
+        boxed = any(isinstance(layer, Image) for layer in panel.layers)
+        write_tags(axes, tags, place(tags, ink, weights, window, owners), boxed=boxed)
 
 
 def _requests(

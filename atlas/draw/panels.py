@@ -1,7 +1,9 @@
 """A scene as a Matplotlib figure: one axes a panel, row by row."""
 
+from collections.abc import Mapping
 from typing import Any
 
+import matplotlib as mpl
 from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
@@ -15,6 +17,21 @@ from atlas.draw.text import typeset
 from atlas.scene.layers import Plane, Scene
 
 _INCH = 25.4
+_FONTS = ("pdf.fonttype", "ps.fonttype")
+
+
+class SceneFigure(Figure):
+    """A figure of Matplotlib that is saved with the kind of fonts it was made for, whatever the settings are then.
+
+    `fonts` holds ``pdf.fonttype`` and ``ps.fonttype``: 42, TrueType, which journals take, unless its style says other.
+    """
+
+    fonts: Mapping[str, Any] = {}
+
+    def savefig(self, *args: Any, **options: Any) -> None:
+        """Save as any figure is saved."""
+        with mpl.rc_context(dict(self.fonts)):
+            super().savefig(*args, **options)
 
 
 def to_figure(scene: Scene, style: Any = None, *, shaded: bool = False) -> Figure:
@@ -22,19 +39,22 @@ def to_figure(scene: Scene, style: Any = None, *, shaded: bool = False) -> Figur
 
     A panel with two axes has lines, markers, patches, a colorbar and a legend as Matplotlib makes them; a panel in
     space is drawn with exact hidden lines on axes whose unit is the printer's point, or, if ``shaded``, is a picture by
-    VTK with its names over it. Names are annotations. ``style`` is as for `atlas.draw.figure`. Raises AtlasError where
-    a panel cannot hold one of its layers.
+    VTK with its names over it. Names are annotations. The group id of what is drawn for a layer, ``artist.get_gid()``,
+    is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
+    picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for `atlas.draw.figure`.
+    Raises AtlasError where a panel cannot hold one of its layers.
     """
     with context(style):
-        figure = Figure([length / _INCH for length in scene.size])
+        figure = SceneFigure([length / _INCH for length in scene.size])
+        figure.fonts = {name: mpl.rcParams[name] for name in _FONTS}
         framed = any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
         rows = -(-len(scene.panels) // scene.columns)
         edges = {} if framed else {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
         grid = figure.add_gridspec(rows, scene.columns, **edges)
         panels = [(figure.add_subplot(grid[divmod(k, scene.columns)]), panel) for k, panel in enumerate(scene.panels)]
-        for axes, panel in panels:
+        for number, (axes, panel) in enumerate(panels, 1):
             if isinstance(panel, Plane):
-                draw_plane(axes, panel)
+                draw_plane(axes, panel, number)
             else:
                 axes.set_title(typeset(panel.title), y=1.0)
                 axes.set_axis_off()
@@ -42,11 +62,11 @@ def to_figure(scene: Scene, style: Any = None, *, shaded: bool = False) -> Figur
             FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once
             ConstrainedLayoutEngine().execute(figure)
             FigureCanvasBase(figure)
-        for axes, panel in panels:
+        for number, (axes, panel) in enumerate(panels, 1):
             if isinstance(panel, Plane):
                 names.write(axes, panel)
             elif shaded:
                 draw_shaded(axes, panel)
             else:
-                draw_space(axes, panel)
+                draw_space(axes, panel, number)
     return figure

@@ -20,8 +20,8 @@ _DECADES = 6
 _BAR = (1.03, 0.0, 1.0 / 30.0, 1.0)
 
 
-def draw_plane(axes: Axes, panel: Plane) -> None:
-    """Draw the layers of a panel, its scales, title, labels, legend and colorbar; names come after the layout.
+def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
+    """Draw the layers of the panel of that number, its scales, title, labels, legend and colorbar, but for the names.
 
     Raises AtlasError for a layer that belongs into a panel in space.
     """
@@ -30,7 +30,9 @@ def draw_plane(axes: Axes, panel: Plane) -> None:
     entries = []
     for order, layer in enumerate(panel.layers):
         artist = _draw(axes, layer, 1e-3 * order)
-        if artist is not None and layer.label:
+        if artist is not None:
+            artist.set_gid(gid(layer, number, order + 1))
+        if artist is not None and layer.label and not isinstance(layer, Arrow | Image):
             artist.set_label(typeset(layer.label))
             entries.append(artist)
     axes.set(xlabel=typeset(panel.x_label), ylabel=typeset(panel.y_label))
@@ -64,8 +66,7 @@ def _draw(axes: Axes, layer: Layer, rise: float) -> Any:
     if isinstance(layer, Label):
         return None
     if isinstance(layer, Image):
-        _map(axes, layer)
-        return None
+        return _map(axes, layer)
     look = style_of(layer.role)
     if isinstance(layer, Curve):
         dashes = (0, look.dash) if look.dash else "-"
@@ -78,9 +79,14 @@ def _draw(axes: Axes, layer: Layer, rise: float) -> Any:
     if isinstance(layer, Arrow):
         axes.update_datalim([layer.tail, layer.tip])
         arrow = {"arrowstyle": "-|>,head_length=0.42,head_width=0.16", "mutation_scale": 10, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", layer.tip, layer.tail, arrowprops={**arrow, "color": look.colour, "lw": look.width})
-        return None
+        return axes.annotate("", layer.tip, layer.tail, arrowprops={**arrow, "color": look.colour, "lw": look.width})
     raise AtlasError(f"a plane panel cannot hold a {type(layer).__name__}; put it in a Space")
+
+
+def gid(layer: Layer, panel: int, place: int, part: int = 1) -> str:
+    """Return the group id of what is drawn for a layer: ROLE-PANEL-LAYER, and the number of a further part of it."""
+    name = f"{getattr(layer, 'role', 'map')}-{panel}-{place}"
+    return name if part == 1 else f"{name}-{part}"
 
 
 def marker(role: str) -> dict[str, Any]:
@@ -91,8 +97,8 @@ def marker(role: str) -> dict[str, Any]:
     return {"marker": shape, "ms": size, "mfc": look.colour, "mec": edge, "mew": 0.7}
 
 
-def _map(axes: Axes, image: Image) -> None:
-    """Draw a map of values as pixels, with its colorbar beside it."""
+def _map(axes: Axes, image: Image) -> Any:
+    """Draw a map of values as pixels, with its colorbar beside it if it has a label."""
     low, high = image.limits or (np.nanmin(image.values), np.nanmax(image.values))
     norm = (mpl.colors.LogNorm if image.scale == "log" else mpl.colors.Normalize)(low, high)
     ends = [(edges[0], edges[-1]) for edges in (image.x, image.y)]
@@ -100,8 +106,10 @@ def _map(axes: Axes, image: Image) -> None:
     (left, bottom), (right, top) = axes.transScale.transform(np.transpose(ends))
     place = {"extent": (left, right, bottom, top), "transform": axes.transLimits + axes.transAxes}
     mesh = axes.imshow(image.values, norm=norm, origin="lower", aspect="auto", interpolation="none", **place)
-    bar = axes.figure.colorbar(mesh, cax=axes.inset_axes(_BAR), label=typeset(image.label))
-    bar.minorticks_off()
+    if image.label:
+        bar = axes.figure.colorbar(mesh, cax=axes.inset_axes(_BAR), label=typeset(image.label))
+        bar.minorticks_off()
+    return mesh
 
 
 class _Formatter(ScalarFormatter):

@@ -32,6 +32,8 @@ _LIGHTS = (
 )
 _SOLID = {"ambient": 0.30, "diffuse": 0.72, "specular": 0.35, "specular_power": 30.0}
 _GLASS = {"ambient": AMBIENT, "diffuse": 0.46, "specular": 0.28, "specular_power": 40.0}
+_MATT = _GLASS | {"specular": 0.0, "ambient": 0.72, "diffuse": 0.34}
+"""Of surfaces whose colours are classes of a value, which a glare would falsify."""
 _SHINE = (1.0, 1.0, 1.0)
 _SAMPLES, _PEELS, _SIDES = 4, 10, 20
 _SHARP = float(np.cos(np.radians(25.0)))
@@ -73,11 +75,12 @@ def still(view: View, width: int, height: int) -> NDArray[np.uint8]:
     plotter.renderer.SetUseOIT(False)  # translucent faces are blended one by one, as they come
     _add_solids(plotter, view)
     if view.surfaces:
+        look = _MATT if any(surface.role.startswith("rate_") for surface in view.surfaces) else _GLASS
         points, normals, colours = glass(view, view.window[1] / (height * view.scale))
         mesh = pv.PolyData.from_regular_faces(points.astype(np.float32), np.arange(len(points)).reshape(-1, 3))
         mesh["colours"] = colours
         mesh.point_data.active_normals = normals.astype(np.float32)
-        _add(plotter, mesh, view, scalars="colours", rgba=True, **_GLASS).ForceTranslucentOn()
+        _add(plotter, mesh, view, scalars="colours", rgba=True, **look).ForceTranslucentOn()
     _set_up(plotter, view)
     pixels = plotter.screenshot(return_img=True)
     plotter.close()

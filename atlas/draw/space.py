@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import cycle
+from itertools import count, cycle
 from typing import Any
 
 import numpy as np
@@ -16,11 +16,11 @@ from atlas.draw.arrow import HEAD_WIDTH, head_base
 from atlas.draw.hidden import hidden, split
 from atlas.draw.labels import along, place, write
 from atlas.draw.outline import Edge, areas, facing, shadows
-from atlas.draw.plane import marker
+from atlas.draw.plane import gid, marker
 from atlas.draw.style import style_of
 from atlas.draw.view import View, fit
 from atlas.scene import conics
-from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Space, Surface
+from atlas.scene.layers import Arrow, Curve, FloatArray, Layer, Points, Space, Surface
 from atlas.scene.style import Style
 
 _INSIDE, _TINT, _WIRE, _HIDDEN, _VISIBLE, _HEAD, _MARK = 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 6.0
@@ -34,13 +34,14 @@ _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
 """Layers of shade, by turns: a browser blends in whole parts of 255, and at five of them keeps fifths of a colour."""
 
 
-def draw_space(axes: Axes, panel: Space) -> None:
-    """Draw a panel with hidden lines, and its names. The axes must have their place in the figure."""
+def draw_space(axes: Axes, panel: Space, number: int = 1) -> None:
+    """Draw the panel of that number with hidden lines, and its names. The axes must have their place in the figure."""
     view = fit(panel, window(axes))
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
     drawing = _Drawing(axes, view)
     for order, layer in enumerate(view.panel.layers):
         drawing.rise = 1e-3 * order
+        drawing.begin(layer, number, order + 1)
         if isinstance(layer, Surface):
             drawing.surface(layer)
         elif isinstance(layer, Curve):
@@ -74,13 +75,20 @@ class _Drawing:
         self.axes, self.view = axes, view
         self.ink: list[tuple[FloatArray, float]] = []
         self.rise = 0.0
+        self._names: Iterator[str] = iter(())
+        self._name: dict[tuple[Any, ...], str] = {}
         self._lines: defaultdict[tuple[Any, ...], list[FloatArray]] = defaultdict(list)
 
+    def begin(self, layer: Layer, panel: int, place: int) -> None:
+        """Go on to a layer: its parts are named after it."""
+        self._names = (gid(layer, panel, place, part) for part in count(1))
+
     def finish(self) -> None:
-        """Put the lines into the axes, those of one look together."""
+        """Put the lines into the axes, those of one layer and look together."""
         for (colour, width, dash, height), lines in self._lines.items():
             cap = "butt" if dash else "round"
             look = {"colors": colour, "linewidths": width, "linestyles": [(0, dash or None)], "zorder": height}
+            look["gid"] = self._name[colour, width, dash, height]
             self.axes.add_collection(LineCollection(lines, capstyle=cap, joinstyle="round", **look), autolim=False)
 
     def surface(self, surface: Surface) -> None:
@@ -114,6 +122,8 @@ class _Drawing:
             flat = self.view.on_paper(piece)
             hidden_width = max(0.4, 0.6 * look.width)
             key = (look.width, look.dash, height + self.rise) if seen else (hidden_width, _DASH, _HIDDEN + self.rise)
+            if (look.colour, *key) not in self._name:
+                self._name[look.colour, *key] = next(self._names)
             self._lines[look.colour, *key].append(flat)
             self.ink.append((along(flat), weight if seen else 0.4 * weight))
 
@@ -132,6 +142,7 @@ class _Drawing:
         seen = not hidden(tip[None], view.surfaces, view.towards)[0]
         face, width = (look.colour, 0.3) if seen else ("#ffffff", 0.5)
         head = {"fc": face, "ec": look.colour, "lw": width, "joinstyle": "miter", "clip_on": False}
+        head["gid"] = next(self._names)
         self.axes.add_artist(Polygon(corners, zorder=_HEAD + self.rise, **head))
 
     def marks(self, points: Points) -> None:
@@ -141,7 +152,7 @@ class _Drawing:
         flat, look = self.view.on_paper(places), marker(points.role)
         for group, face in ((flat[~gone], look["mfc"]), (flat[gone], "#ffffff")):
             if len(group):
-                mark = {**look, "mfc": face, "zorder": _MARK + self.rise, "clip_on": False}
+                mark = {**look, "mfc": face, "zorder": _MARK + self.rise, "clip_on": False, "gid": next(self._names)}
                 self.axes.plot(*group.T, ls="", **mark)
         around = flat[:, None] + np.array([[0, 0], [1, 1], [-1, 1], [1, -1], [-1, -1]])
         self.ink.append((around.reshape(-1, 2), 4.0))
@@ -151,7 +162,8 @@ class _Drawing:
         points, codes = edge
         if len(points):
             path = Path(self.view.on_paper(points), codes)
-            self.axes.add_artist(PathPatch(path, fc=colour, alpha=opacity, lw=0, zorder=height + self.rise))
+            look = {"fc": colour, "alpha": opacity, "lw": 0, "zorder": height + self.rise, "gid": next(self._names)}
+            self.axes.add_artist(PathPatch(path, **look))
 
 
 def silhouette(surface: Surface, view: View) -> list[FloatArray]:

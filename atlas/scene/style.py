@@ -1,8 +1,10 @@
 """How each role looks: one palette, one set of widths, read by both renderers.
 
-A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, plum an angular velocity, navy
-what moves (the body's axis R_3, a path, the hyperbola of the motions), pale blue R_1, vermilion instability, brown the
-body; where bodies are compared, the loop is magenta, the short solenoid petrol, the ball olive, the long one umber.
+A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, plum an angular velocity and
+all that is made of such (the hyperbola of the motions, the canonical axes), navy the body's axis R_3 and what it draws,
+pale blue R_1, teal the path of a particle or of a point, vermilion instability, brown the body, charcoal the first of
+several plotted lines; where bodies are compared, the loop is magenta, the short solenoid petrol, the ball olive, the
+long one umber.
 Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one
 panel, their dashes or widths differ too. Widths, marker sizes and tubes are in printer's points.
 """
@@ -16,6 +18,7 @@ from atlas.errors import AtlasError, nearest
 WHITE = "#ffffff"
 INK = "#1a1a1a"
 NAVY = "#16325c"
+TEAL = "#12808c"
 BLUE = "#3d85c6"
 SKY = "#7fb3dc"
 PINK = "#c96a78"
@@ -23,6 +26,7 @@ CRIMSON = "#b01c2e"
 VERMILION = "#d4552b"
 GREEN = "#1f8a62"
 PLUM = "#75459a"
+VIOLET = "#4b1f78"
 SLATE = "#5c6670"
 GREY = "#8b929a"
 PALE = "#c3c9d0"
@@ -73,12 +77,12 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "component": Style(SLATE, 0.8, tube=1.8),
         "turn": Style(PLUM, 1.1, tube=2.4),
         # curves of the paper
-        "hyperbola": Style(NAVY, 1.5, tube=2.6),
-        "asymptote": Style(GREY, 0.6, (5.0, 2.5), tube=1.0),
-        "pole": Style(GREY, 0.6, (1.2, 1.8), tube=1.0),
-        "trajectory": Style(NAVY, 1.1, tube=2.6),
-        "flight_path": Style(NAVY, 1.1, hidden=False, tube=2.4),
-        "trace": Style(NAVY, 1.2, tube=2.8),
+        "hyperbola": Style(VIOLET, 1.6, tube=2.8),
+        "asymptote": Style(SLATE, 0.7, (5.0, 2.5), tube=1.2),
+        "pole": Style(SLATE, 0.7, (1.2, 1.8), tube=1.2),
+        "trajectory": Style(TEAL, 1.2, tube=2.6),
+        "flight_path": Style(TEAL, 1.2, hidden=False, tube=2.4),
+        "trace": Style("#2a57a5", 1.2, tube=2.6),
         "second_trace": Style("#6b8fc9", 0.7, tube=1.4),
         "coil": Style("#8a5a1f", 0.5, hidden=False, tube=1.0),
         "loop": Style("#8a5a1f", 2.0, tube=5.0),
@@ -101,7 +105,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "long_body": Style("#5e2f00", 1.2, (5.0, 1.5, 1.2, 1.5)),
         # plotted lines, in order of importance: the style sheet of atlas.draw has their colours, widths and dashes
         **dict.fromkeys(LINES, Style(INK)),
-        "reference": Style(GREY, 0.7, (3.0, 2.0)),
+        "reference": Style(SLATE, 0.8, (3.0, 2.0)),
         "limit": Style(INK, 0.7, (1.0, 1.5)),
         # marked points
         "point": Style(INK, marker="o", size=3.6, tube=4.4),
@@ -109,7 +113,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "centre": Style(CRIMSON, marker="o", size=3.4, tube=4.4),
         "special": Style(CRIMSON, marker="D", size=3.8, tube=4.6),
         "rest": Style(WHITE, marker="o", size=4.2, tube=4.8),
-        "start": Style(NAVY, marker="o", size=3.8, tube=4.6),
+        "start": Style(INK, marker="o", size=3.8, tube=4.6),
         "sample": Style(SLATE, marker=".", size=2.6, tube=2.6),
         # areas and surfaces
         "surface": Style("#4f8fd0", fill=0.30, back="#f0b25c", glass=0.40),
