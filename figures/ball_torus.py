@@ -39,8 +39,6 @@ def scene(
             f"figure ball_torus takes one to four ratios and as many turns, not {len(ratios)} ratios and "
             f"{len(turns)} turns."
         )
-    if not all(turns):
-        raise DomainError(f"turns of figure ball_torus are not 0, as in {turns}: in no time nothing moves.")
     if min(ratios) < least:
         raise DomainError(
             f"gamma/alpha = {min(ratios):g} is below |1 + m3/alpha| = {least:g}, the least of a ball with m3 = {m3:g} "

@@ -61,8 +61,8 @@ def scene() -> Scene:
         "Elementary motions are initial angular velocities, and have their hue.",
         "Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image under "
         "the inverse inertia tensor pink, E blue, m green, angular velocities plum, the elementary motions violet, the "
-        "body's axis and its path navy, the path of a point teal, the unstable motions vermilion, a loop magenta, a short "
-        "solenoid petrol, a ball olive, a long solenoid dark brown.",
+        "body's axis and its path navy, the path of a point teal, the unstable motions vermilion, a loop magenta, a "
+        "short solenoid petrol, a ball olive, a long solenoid dark brown.",
         (Space(tuple(layers), azimuth=0.0, elevation=0.0),),
         size=(178.0, 46.0),
     )

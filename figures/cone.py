@@ -25,5 +25,6 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, ele
         f"A double cone with its apex at −B' for {plain_setting(1.0, field)}; the plane e2, e3 cuts it in two straight "
         "lines, one of which passes through the origin.",
         (panel,),
+        named={"heavy": "hyperbola"},
         size=quadric_panel.figure_size(panel),
     )

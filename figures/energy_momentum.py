@@ -47,6 +47,7 @@ def scene(
         ),
         panels=panels,
         columns=len(panels),
+        named={"solid": "main", "dashed": "unstable_line", "dots": "special"},
         size=(WIDTH, HEIGHT),
     )
 

@@ -58,6 +58,7 @@ def scene(
             periods(ratio, field, (omega2, omega3), pushes, growth, unit),
         ),
         columns=2,
+        named={"dashed": "reference"},
         size=(WIDTH, HEIGHT),
     )
 

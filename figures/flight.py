@@ -78,6 +78,7 @@ def scene(
         ),
         panels=(space(flight, B, view, drawn), projection(flight, axes, drawn, unit)),
         columns=2,
+        named={"Thin lines": "guide"},
         size=(WIDTH, HEIGHT),
     )
 

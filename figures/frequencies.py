@@ -50,8 +50,12 @@ def scene(
     proper = (
         r"the proper rotation $\phi$, (72), which is zero at rest and at $\omega_2=-2B'_2$ and has its pole, dotted, "
         r"at $\omega_2=-B'_2$. (b) Their quotient, (86): the motion repeats itself where it is rational. Dashed: the "
-        rf"free body that precesses as fast about the same axis, (87), with $\phi/k{tex_equals(free)}$. Dots: the "
-        rf"motions that repeat themselves after {counted(order)} of the precession, with their $\phi/k=p/q$."
+        rf"free body that precesses as fast about the same axis, (87), with $\phi/k{tex_equals(free)}$."
+        + (
+            rf" Dots: the motions that repeat themselves after {counted(order)} of the precession, with $\phi/k=p/q$."
+            if found
+            else ""
+        )
         if free
         else r"the proper rotation $\phi$, (72), which is zero on the whole curve. (b) Their quotient, (86)."
     )
@@ -75,6 +79,7 @@ def scene(
             frequencies(hyperbola, (B2, B3), ends, found, unit),
             quotients((B2, B3), ends, free, found, unit),
         ),
+        named={"dotted": "pole", "Dashed": "reference", **({"Dots": "point"} if found else {})} if free else {},
         size=(WIDTH, HEIGHT),
     )
 

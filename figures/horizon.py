@@ -37,6 +37,7 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
         ),
         panels=panels(record, cases),
         columns=columns,
+        named={"dotted": "limit"},
         size=(columns * 140.0, -(-len(cases) // columns) * 66.0),
     )
 

@@ -30,5 +30,6 @@ def scene(
         f"A hyperboloid of one sheet for {plain_setting(ratio, field)}, around the inclined canonical axis through "
         "−B'; both branches of the hyperbola in the plane e2, e3 run along it, and the origin lies on one of them.",
         (panel,),
+        named={"heavy": "hyperbola"},
         size=quadric_panel.figure_size(panel),
     )

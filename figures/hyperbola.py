@@ -66,6 +66,7 @@ def scene(
                 equal=True,
             ),
         ),
+        named={"Dashed": "asymptote", "dotted": "pole"},
         size=(WIDTH, HEIGHT),
     )
 

@@ -81,5 +81,6 @@ def scene(
                 y_limits=view.y,
             ),
         ),
+        named={"dotted": "pole", "dashed": "asymptote"},
         size=(WIDTH, HEIGHT),
     )

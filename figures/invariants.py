@@ -69,6 +69,7 @@ def scene(
                 x_scale="log",
             ),
         ),
+        named={"dotted": "limit"},
         size=(WIDTH, HEIGHT),
     )
 

@@ -68,6 +68,7 @@ def scene(
         ),
         panels=tuple(panel(name, [frame(one) for one in motions], time, elevation) for name, frame in frames),
         columns=2,
+        named={"heavy": "trace", "light": "second_trace", "dot": "start"},
         size=(2 * SIZE, SIZE + 6.0),
     )
 

@@ -74,6 +74,7 @@ def scene(
             momentum(motion, slow, unit),
         ),
         columns=COLUMNS,
+        named={"dashed": "reference"},
         size=(WIDTH, HEIGHT),
     )
 

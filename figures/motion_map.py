@@ -63,6 +63,7 @@ def scene(
         ),
         panels=panels,
         columns=2,
+        named={"white": "map_curve", "dotted": "map_border", "open dot": "rest", "diamond": "special"},
         size=(WIDTH, HEIGHT),
     )
 

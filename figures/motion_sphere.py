@@ -77,6 +77,7 @@ def scene(
         f"precesses on a circular cone around {'B' if any(field) else 'm'}, starting from e3"
         + ("; the first axis traces a rosette." if drawn else "."),
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        named={"heavy line": "trace", "thin line": "second_trace"},
         size=(100.0, 100.0),
     )
 

@@ -79,6 +79,7 @@ def scene(
                 *view,
             ),
         ),
+        named={"heavy": "unstable"},
         size=(WIDTH, HEIGHT),
     )
 

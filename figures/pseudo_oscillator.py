@@ -59,6 +59,7 @@ def scene(
             course(libration, turns, view, unit),
         ),
         columns=3,
+        named={"shaded": "region"},
         size=(WIDTH, HEIGHT),
     )
 

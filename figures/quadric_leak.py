@@ -65,6 +65,7 @@ def scene(
             departures((ratio, field, omega2), librations, omega1, nu2, unit),
         ),
         columns=2,
+        named={"dashed": "reference"},
         size=(WIDTH, HEIGHT),
     )
 

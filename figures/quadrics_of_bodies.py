@@ -56,5 +56,6 @@ def scene(
             "double cone, then tubes that widen."
         ),
         panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        named={"Heavy": "hyperbola"},
         size=(WIDTH, HEIGHT),
     )

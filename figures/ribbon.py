@@ -56,8 +56,8 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The surface (51) for {tex_setting(ratio, field)}, pale to dark by the rate $\lvert\omega_1B'_2\rvert$ at "
-            rf"which $\Omega_3$ departs from each point, in {BANDS} equal steps up to ${tex(round(widest * field[0], 2))}$. "
+            rf"The surface (51) for {tex_setting(ratio, field)}, pale to dark by the rate $\lvert\omega_1B'_2\rvert$ "
+            rf"at which $\Omega_3$ departs there, in {BANDS} steps up to ${tex(round(widest * field[0], 2))}$. "
             r"From the heavy line it does not depart; that is the wider the faster a small nutation is, in four "
             rf"classes by $\nu_n/b$ from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$.{band} "
             r"Arrows at the bodies: $\boldsymbol{\omega}$."
@@ -68,6 +68,7 @@ def scene(
             "wide and dark away from them."
         ),
         panels=(Space(tuple(layers), azimuth, elevation),),
+        named={"heavy": "nutation_3"},
         size=(WIDTH, HEIGHT),
     )
 

@@ -57,6 +57,7 @@ def scene(
             course(motions, last, unit),
         ),
         columns=2,
+        named={"dashed": "reference"},
         size=(WIDTH, HEIGHT),
     )
 

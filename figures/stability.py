@@ -71,6 +71,7 @@ def scene(
         ),
         panels=(course(ratio, (B2, B3), bands, reach, unit), chart(ratio, (B2, B3), levels)),
         columns=2,
+        named={"dotted": "limit", "shaded": "unstable_region"},
         size=(WIDTH, HEIGHT),
     )
 

@@ -64,6 +64,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
             "frequency fill the rest. Five bodies are marked."
         ),
         panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP)),),
+        named={"solid lines": "main", "dashed lines": "second"},
         size=(WIDTH, HEIGHT),
     )
 

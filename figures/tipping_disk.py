@@ -72,6 +72,7 @@ def scene(
             strip(motion, I, times, (azimuth, elevation)),
             course(motion, times, unit),
         ),
+        named={"dots": "start"},
         size=(WIDTH, HEIGHT),
     )
 

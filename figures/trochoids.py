@@ -83,6 +83,7 @@ def scene(
             + ". Each path runs to the right along a dashed straight line, the path of its guiding centre."
         ),
         panels=panels,
+        named={"dashed": "reference", "dots": "sample"},
         size=(WIDTH, len(speeds) * ((WIDTH - MARGIN) * 2.5 * height / (limits[1] - limits[0]) + 9.0) + 8.0),
     )
 

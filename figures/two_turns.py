@@ -79,6 +79,7 @@ def scene(
             "front; upright with the seam turned about its axis; tilted, its axis carried round the field on a cone."
         ),
         panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        named={"dashed line": "construction"},
         size=(160.0, 72.0),
     )
 

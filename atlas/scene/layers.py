@@ -147,7 +147,8 @@ class Scene:
     """One figure: its panels row by row, its size in millimetres, and the words that go with it.
 
     ``caption`` and ``alt`` are complete sentences; ``alt`` has no TeX. ``parameters`` are those that the figure was
-    made with, in the order of the recipe.
+    made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
+    {"dashed": "asymptote"}: a line that a caption names is one that can be seen.
     """
 
     title: str
@@ -157,3 +158,4 @@ class Scene:
     columns: int = 1
     size: tuple[float, float] = (120.0, 100.0)
     parameters: Mapping[str, Any] = field(default_factory=dict)
+    named: Mapping[str, str] = field(default_factory=dict)

@@ -30,7 +30,7 @@ def lines(count: int = 1) -> Scene:
 def test_a_figure_by_name_is_an_ordinary_figure() -> None:
     """Its axes are Matplotlib's own, with the limits and the lines of the scene."""
     figure = atlas.figure("hyperbola", ratio=0.5, field=[1.0, 0.2])
-    assert type(figure) is Figure
+    assert isinstance(figure, Figure)
     (axes,) = figure.axes
     assert isinstance(axes, Axes)
     (panel,) = recipes.load("hyperbola").scene(ratio=0.5, field=(1.0, 0.2)).panels

@@ -128,10 +128,11 @@ def test_the_trace_lies_on_the_sphere_and_on_the_cone() -> None:
 
 
 def test_the_shell_of_the_laboratory_system_has_the_ratio() -> None:
-    """The height of the drawn shell of radius 1 is that of the body with this I."""
-    (shell,) = layers("lssc", Surface, ratio=1.2)
-    height = np.ptp(shell.grids[0][..., 2])
-    assert SymmetricBody.cylindrical_shell(1.0, 1.0, height).ratio == pytest.approx(1.2, rel=1e-14)
+    """Radius and height of the drawn shell are those of a body with this I, a needle's and a hoop's too."""
+    for ratio in (1e-3, 0.02, 0.5, 1.2, 1.99):
+        (shell,) = layers("lssc", Surface, ratio=ratio)
+        height, radius = np.ptp(shell.grids[0][..., 2]), np.hypot(*np.moveaxis(shell.grids[0][..., :2], -1, 0)).max()
+        assert SymmetricBody.cylindrical_shell(1.0, radius, height).ratio == pytest.approx(ratio, rel=1e-12)
 
 
 @pytest.mark.parametrize("E", [(0.3, 0.5), (-0.3, 0.5), (0.1, -0.4), (0.0, 0.2), (0.5, 0.1), (-0.5, -0.1), (0.4, 0.0)])

@@ -189,11 +189,31 @@ def test_the_solenoid_flies_as_a_charge_does_and_its_axis_keeps_its_angle() -> N
         ("frequencies", {"order": 50}),
         ("flight_poster", {"ratio": 2.0}),
         ("ribbon", {"ratio": 1.0}),
-        ("ribbon", {"ratio": 0.5, "field": (1.0, 0.1)}),
-        ("ball_torus", {"ratios": (0.1,), "turns": (1.0,)}),
+        ("ball_torus", {"ratios": (2.5,)}),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:
     """Each figure says in one line what it needs."""
     with pytest.raises(DomainError, match=f"figure {name}"):
         panels(name, **parameters)
+
+
+def test_a_ball_is_refused_a_ratio_that_none_has() -> None:
+    """gamma/alpha is at least |1 + m3/alpha|; the sentence has the one asked for, the least, and the way out."""
+    with pytest.raises(DomainError, match=r"gamma/alpha = 0\.1 is below .* = 1\.625, .* nearer to -0\.8"):
+        panels("ball_torus", ratios=(0.1,), turns=(1.0,))
+
+
+def test_the_unstable_motions_are_drawn_on_the_ribbon() -> None:
+    """In a field near the equator the line of a long body is vermilion where, and only where, it is unstable."""
+    hyperbola = Hyperbola(0.5, (1.0, 0.1))
+    (panel,) = panels("ribbon", ratio=0.5, field=(1.0, 0.1))
+    lines = [layer for layer in panel.layers if isinstance(layer, Curve)]
+    unstable = [line for line in lines if line.role == "unstable"]
+    assert unstable
+    for line in lines:
+        if line.role.startswith("nutation") or line.role == "unstable":
+            middle = line.points[len(line.points) // 2]
+            assert (hyperbola.stability(middle[1]) < 0) == (line.role == "unstable")
+    assert "Vermilion" in recipes.load("ribbon").scene(ratio=0.5, field=(1.0, 0.1)).caption
+    assert "Vermilion" not in recipes.load("ribbon").scene().caption

@@ -1,0 +1,87 @@
+"""Every line that a caption names is one that a reader finds in the figure."""
+
+import re
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from atlas.draw.panels import to_figure
+from atlas.scene import Curve, Plane, Points, Region, Scene, recipes
+
+DOTS, LEAST, SEEN = 100, 40, 12
+"""Pixels an inch, how many must differ where a layer is taken away, and by how much of 255."""
+LOOKS = re.compile(r"\b([Dd]ashed|[Dd]otted|[Tt]hin|[Hh]eavy)\b")
+CASES: list[tuple[str, dict[str, Any]]] = [
+    *((name, {}) for name in recipes.names() if name not in {"error_maps", "motion_map"}),
+    ("motion_map", {"cells": 40}),
+    ("frequencies", {"ratio": 0.5}),
+    ("frequencies", {"ratio": 2.0, "field": (1.0, 0.05)}),
+    ("hyperbola", {"ratio": 0.02}),
+    ("hyperbola", {"ratio": 0.5, "field": (1.0, 0.05)}),
+    ("hyp_b", {"field": (1.0, 0.7)}),
+    ("hyp_b", {"ratio": 0.02}),
+    ("escape", {"field": (1.0, 0.3)}),
+    ("motion", {"omega2": 0.7}),
+    ("trochoids", {"mu": 1.0, "E": (0.0, 2.0, 0.0), "B": (0.0, 0.0, 4.0)}),
+]
+
+
+def pixels(scene: Scene) -> np.ndarray:
+    """Return a picture of a scene."""
+    figure = to_figure(scene)
+    figure.set_dpi(DOTS)
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
+
+
+def without(scene: Scene, role: str) -> Scene:
+    """Return a scene in which the lines, points and areas of a role have shrunk to nothing in their first point."""
+
+    def gone(layer: Any) -> Any:
+        if getattr(layer, "role", "") != role or not isinstance(layer, Curve | Points | Region):
+            return layer
+        return (
+            replace(layer, points=layer.points[[0, 0, 0]])
+            if isinstance(layer, Region)
+            else Curve(layer.points[:1], role)
+        )
+
+    return replace(scene, panels=tuple(replace(panel, layers=tuple(map(gone, panel.layers))) for panel in scene.panels))
+
+
+def fixed(scene: Scene) -> Scene:
+    """Return a scene whose panels do not depend on their layers for their limits."""
+    axes = [(panel, axis) for panel, axis in zip(scene.panels, to_figure(scene).axes, strict=False)]
+    return replace(
+        scene,
+        panels=tuple(
+            replace(panel, x_limits=axis.get_xlim(), y_limits=axis.get_ylim()) if isinstance(panel, Plane) else panel
+            for panel, axis in axes
+        ),
+    )
+
+
+@pytest.mark.parametrize(("name", "parameters"), CASES, ids=lambda value: str(value)[:40])
+def test_what_a_caption_names_can_be_seen(name: str, parameters: dict[str, Any]) -> None:
+    """Each named look stands in the caption, has layers, and its picture changes where they are taken away."""
+    scene = recipes.load(name).scene(**parameters)
+    words = re.sub(r"\$[^$]*\$", "", scene.caption)
+    looks = set(LOOKS.findall(words))
+    if "that the surface hides are dashed" in words:
+        looks -= {"dashed", "heavy"}
+    unnamed = {look for look in looks if not any(look.lower() in word.lower() for word in scene.named)}
+    assert not unnamed, f"{name}: the caption says {unnamed}, and the scene does not say of which role"
+    if not scene.named:
+        return
+    scene = fixed(scene)
+    whole = pixels(scene)
+    for word, role in scene.named.items():
+        assert word in words, f"{name}: {word!r} is not in the caption"
+        assert any(getattr(layer, "role", "") == role for panel in scene.panels for layer in panel.layers), role
+        changed = np.abs(whole - pixels(without(scene, role))).max(axis=2) > SEEN
+        assert changed.sum() >= LEAST, f"{name}: {word} ({role}) cannot be seen"
