@@ -32,7 +32,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     table = Table("hyperbola", {"ratio": Range.middles(x), "B2": 1.0, "B3": Range.middles(y)}, ("least_stability",))
     least = table.columns()["least_stability"].T
     layers: list[Layer] = [
-        Image(x, y, -np.sign(least) * np.sqrt(abs(least)), r"$\gamma/|B'_2|$; below 0 the frequency"),
+        Image(x, y, -np.sign(least) * np.sqrt(abs(least)), r"rate of growth over $|B'_2|$; below 0 the frequency"),
         Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
     ]
     layers += [Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2]

@@ -65,6 +65,7 @@ def _findings() -> dict[str, Finding]:
             modules.get(name, ()),
             verdict.grade,
             verdict.slip,
+            verdict.false if verdict.false_verdict == "refuted" else "",
         )
     return findings
 

@@ -27,6 +27,15 @@ EQUATIONS = (
         tex=r"I_1=I_2=I_3\equiv I_0",
     ),
     Equation(
+        name="text-ball-centre",
+        section="III",
+        kind="claim",
+        says="The centre of the ball moves as @(101) says",
+        tex=r"\mathbf{y}_0(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t)",
+        assumptions=("$I_1 = I_2 = I_3$", "@(93) for the part along the field, @(99) for that across it"),
+        quote="Then its center moves according to Eq. (101)",
+    ),
+    Equation(
         name="text-ball-axis",
         section="III",
         kind="claim",
@@ -112,7 +121,7 @@ EQUATIONS = (
             "linear ones"
         ),
         tex=r"-\frac{1}{I_0}\epsilon_{jab}(R^T\mathbf{m})_aR_{ib}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj}",
-        assumptions=("$I_1 = I_2 = I_3$", "$R(t)$ is a rotation"),
+        assumptions=("$I_1 = I_2 = I_3$",),
         quote="have the same solutions in the set of orthogonal matrices",
     ),
     Equation(

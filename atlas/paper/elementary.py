@@ -334,7 +334,7 @@ EQUATIONS = (
         assumptions=(
             r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",
             r"$\omega_2$ differs from $-B'_2$",
-            "$I$ differs from 1, $\\omega_2$ from 0 (the paper excepts neither)",
+            "$I$ differs from 1, $\\omega_2$ from 0",
         ),
         quote=(
             r"Components of angular momentum $\mathbf{m}(t)$ for our solutions in elementary functions are not "

@@ -36,7 +36,6 @@ EQUATIONS = (
         kind="claim",
         says="The mass matrix of the body is not degenerate",
         tex=r"""\det g=g_1g_2g_3\ne0""",
-        assumptions=("the bodies of Section IV, the plane one with $I=2$ among them",),
         quote="as before, $g_{kj}$ is a numerical symmetric non-degenerate matrix",
     ),
     Equation(
@@ -215,7 +214,7 @@ EQUATIONS = (
         name="text-grioli",
         section="II",
         kind="claim",
-        says=r"With $\mathbf{e}_3$ along $\mathbf{B}$ the magnetic torque holds the third row of $R$: the form "
+        says=r"With $\mathbf{e}_3$ along $\mathbf{B}$ the magnetic torque holds the third row of $R$, the form "
         "deduced by Grioli",
         tex=(
             r"I'\dot{\boldsymbol{\Omega}}=[I'\boldsymbol{\Omega},\boldsymbol{\Omega}]-\frac{\mu\lvert\mathbf{B}"

@@ -33,7 +33,10 @@ EQUATIONS = (
         tex=r"\begin{aligned} u&=e+\frac{Q'(e)/4}{\wp(t)-Q''(e)/24},\\ g_2&=a_0a_4-4a_1a_3+3a_2^2,\qquad "
         r"g_3=a_0a_2a_4+2a_1"
         r"a_2a_3-a_2^3-a_0a_3^2-a_1^2a_4 \end{aligned}",
-        assumptions=("$Q = a_0 u^4 + 4 a_1 u^3 + 6 a_2 u^2 + 4 a_3 u + a_4$", "$Q(e) = 0$, $u = e$ at $t = 0$"),
+        assumptions=(
+            "$Q = a_0 u^4 + 4 a_1 u^3 + 6 a_2 u^2 + 4 a_3 u + a_4$",
+            "$Q(e) = 0$, $Q'(e)$ differs from 0, $u = e$ at $t = 0$",
+        ),
     ),
     Equation(
         name="theorem-lame",
@@ -53,7 +56,7 @@ EQUATIONS = (
         tex=r"q(\mp1)=-(p\pm M_3)^2,\qquad\operatorname{res}_{\nu=-1}\frac{\dot\xi}{\xi}=\frac{\dot\nu+i(p-M_3"
         r"\nu)}{2"
         r"\dot\nu}=\frac{1\pm1}{2}\quad\text{where}\quad\dot\nu=\pm i(p+M_3)",
-        assumptions=(_BODY, _LETTERS, _CURVE),
+        assumptions=(_BODY, _LETTERS, _CURVE, r"$p$ differs from $M_3$ and from $-M_3$"),
     ),
     Equation(
         name="theorem-sigma",

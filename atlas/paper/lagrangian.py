@@ -92,18 +92,6 @@ EQUATIONS = (
         quote="guarantee that distances and angles among the particles do not change with time",
     ),
     Equation(
-        name="text-rigid-plane",
-        section="II",
-        kind="claim",
-        says="The constraints keep the distances in a plane body too, such as the loop of Section IV",
-        tex=(
-            r"(\mathbf{y}_A-\mathbf{y}_1,\mathbf{y}_\beta-\mathbf{y}_1)=a_{A\beta}\quad(A=2,3,4)\implies"
-            r"\lvert\mathbf{y}_\beta-\mathbf{y}_1\rvert=\text{const}"
-        ),
-        assumptions=("particles 1 to 4 in one plane",),
-        quote="guarantee that distances and angles among the particles do not change with time",
-    ),
-    Equation(
         name="(5)",
         alias="mf18",
         section="II",
@@ -178,11 +166,9 @@ EQUATIONS = (
         name="text-electric-field",
         section="II",
         kind="claim",
-        says=(
-            "The electric field drops out of the rotation: the second term of @(6) vanishes about the centre of mass"
-        ),
-        tex=r"\mu E_i\sum m_Nx_N^j=0",
-        assumptions=(r"the sum of $m_N \mathbf{x}_N$ is zero",),
+        says="The electric field does not affect the rotation: in another one no relative acceleration changes",
+        tex=r"\ddot{\mathbf{x}}_N\ \text{does not depend on}\ \mathbf{E}",
+        assumptions=(r"all particles have the same charge-to-mass ratio $\mu$",),
         quote="the electric field do not affect the motion of rotational degrees of freedom",
     ),
     Equation(

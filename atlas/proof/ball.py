@@ -7,7 +7,8 @@ import sympy
 from atlas.proof import euler_poisson as general
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, hat, rotation_symbols, turn, vector
-from atlas.proof.trial import Part, Trial
+from atlas.proof.particle import TRAJECTORY, trajectory_model
+from atlas.proof.trial import Falsehood, Part, Trial
 
 (R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
 I0, mu, c = sympy.symbols("I0 mu c", positive=True)
@@ -212,8 +213,15 @@ def along_model() -> Model:
 
 @cache
 def frame_model() -> Model:
-    """Any other axes of the laboratory."""
-    return Model({"R": R, "I0": I0}, ROTATION)
+    """Any other axes of the laboratory, and the tensor J of a body that is symmetric only."""
+    I2, I3 = sympy.symbols("I2 I3", positive=True)
+    return Model({"R": R, "I0": I0, "J": sympy.diag(I2, I2, I3)}, ROTATION)
+
+
+@cache
+def orthogonal_model(sign: int = 1) -> Model:
+    """Model an orthogonal matrix of the determinant `sign`, and any m."""
+    return Model({"R": sign * R, "m": vector("m"), "I0": I0}, ROTATION)
 
 
 TRIALS = (
@@ -222,6 +230,11 @@ TRIALS = (
         printed="m = g1*cross(R1,dR1) + g2*cross(R2,dR2) + g3*cross(R3,dR3) = R*I*T(R)*omega = R*I*Omega",
         model=kinematic_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the principal axes",
+        false=Falsehood(
+            "The angular momentum has the same components in the laboratory and in the body",
+            "R*I*Omega",
+            "I*Omega",
+        ),
     ),
     Trial(
         name="(19)",
@@ -230,11 +243,34 @@ TRIALS = (
         follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$",
     ),
     Trial(
+        name="text-ball-centre",
+        printed="y = ypar + yperp",
+        model=lambda: trajectory_model(signed=False),
+        follows="@(4) by substitution, for either sign of the charge",
+        defines=("y",),
+        solves=TRAJECTORY,
+        corrected="y = ypar + yperp",
+        corrected_model=trajectory_model,
+        corrected_tex=r"\mathbf{y}_0(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t),\qquad\omega=\boxed{\frac{\mu\lvert"
+        r"\mathbf{B}\rvert}{c}}",
+        grade="sign of the charge",
+        slip="(97)",
+        note="The centre of any body with one charge-to-mass ratio does, not only that of a ball; for a negative "
+        "charge it "
+        "takes the sign that @(99) takes.",
+    ),
+    Trial(
         name="text-ball-axis",
         printed="m = I0*omega = I0*R*Omega; cross(omega,m) = 0",
         model=round_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the "
         "principal axes with equal moments",
+        false=Falsehood(
+            "The angular momentum of every body lies along its axis of rotation",
+            "m = I0*omega = I0*R*Omega; ",
+            "",
+            model=kinematic_model,
+        ),
     ),
     Trial(
         name="(20)",
@@ -282,12 +318,35 @@ TRIALS = (
         model=any_momentum_model,
         follows=r"$\boldsymbol{\Omega} = R^T \mathbf{m}/I_0$ differentiated by @(20), for any rate of $\mathbf{m}$",
         note="The left side vanishes if and only if the right one does.",
+        false=Falsehood(
+            r"The angular momentum turns about $\mathbf{B}$ in the other sense",
+            "dm + mu/(2*c)*cross(Bf,m)",
+            "dm - mu/(2*c)*cross(Bf,m)",
+        ),
     ),
     Trial(
         name="text-linear-poisson",
         printed="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
-        model=ball_model,
+        model=orthogonal_model,
         follows=r"$\det R = 1$",
+        grade="missing case",
+        slip="text-affirmation",
+        corrected="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
+        corrected_also=(
+            Part(
+                line="1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
+                model=lambda: orthogonal_model(-1),
+            ),
+        ),
+        corrected_tex=(
+            r"-\frac{\boxed{\det R}}{I_0}\epsilon_{jab}(R^T\mathbf{m})_aR_{ib}=\frac{1}{I_0}\epsilon_{iab}m_aR_{bj}"
+        ),
+        note="Said of all orthogonal matrices, it holds for the rotations; for the determinant $-1$ the sign "
+        "changes. With "
+        "$R(0) = 1$ no such matrix occurs.",
+        false=Falsehood(
+            "It holds for orthogonal matrices of the determinant $-1$ as well", model=lambda: orthogonal_model(-1)
+        ),
     ),
     Trial(
         name="(24)",
@@ -306,6 +365,11 @@ TRIALS = (
         printed="R*(I0*one)*T(R) = I0*one",
         model=frame_model,
         follows="$R R^T = 1$",
+        false=Falsehood(
+            "The inertia tensor of a symmetric body stays diagonal too",
+            "R*(I0*one)*T(R) = I0*one",
+            "R*J*T(R) = J",
+        ),
     ),
     Trial(
         name="(26)",
@@ -326,6 +390,19 @@ TRIALS = (
         printed="k2 = -m2/(gamma*I0); k3 = -(alpha*I0 + m3)/(gamma*I0); I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
         model=start_model,
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$",
+        grade="missing case",
+        slip="(29)",
+        corrected="gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0; I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
+        corrected_tex=(
+            r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\qquad\gamma\hat{k}_3=-\frac{\alpha I_0+m_3}{I_0}},\qquad I_0^2"
+            r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2"
+        ),
+        note=r"Where $\gamma = 0$ the quotients have no value.",
+        false=Falsehood(
+            r"$\hat{\mathbf{k}}$ points along $\mathbf{m}$ and $\mathbf{B}$, not against them",
+            "k2 = -m2",
+            "k2 = m2",
+        ),
     ),
     Trial(
         name="(28)",
@@ -339,8 +416,8 @@ TRIALS = (
         name="(29)",
         printed="k2 = -m2/sqrt(m2^2 + (alpha*I0 + m3)^2); k3 = -(m3 + alpha*I0)/sqrt(m2^2 + (alpha*I0 + m3)^2);"
         " gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2)",
-        model=constants_model,
-        follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$, for all initial data",
+        model=lambda: constants_model()[0],
+        follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$, for all initial data but one point",
         defines=("k2", "k3", "gamma"),
         solves="k2^2 + k3^2 = 1; gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0",
         corrected="gamma*k2 = -m2/I0; gamma*k3 = -(m3 + alpha*I0)/I0; gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2);"
@@ -362,6 +439,11 @@ TRIALS = (
         f" k3],cos(gamma*t),-sin(gamma*t))",
         model=motion_model,
         follows="Rodrigues' formula for a rotation about a unit vector",
+        false=Falsehood(
+            r"The turn about $\mathbf{B}$ comes first, then the one about $\hat{\mathbf{k}}$",
+            "rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, k2, k3],cos(gamma*t),-sin(gamma*t))",
+            "rod([0, k2, k3],cos(gamma*t),-sin(gamma*t))*rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))",
+        ),
     ),
     Trial(
         name="text-ball-parallel",
@@ -377,6 +459,11 @@ TRIALS = (
         note=r"In the same sense as $\mathbf{B}$, or against it with $m_3 > -\alpha I_0$. For $m_3 < -\alpha I_0$ "
         r"both signs turn round, $\hat k_3 = 1$ and $\gamma = -(\alpha + m_3/I_0)$, since $\gamma$ is a root and "
         "never negative. The product, and so @(30), is the same.",
+        false=Falsehood(
+            "The frequency is the spin alone",
+            "gamma = alpha + m3/I0",
+            "gamma = m3/I0",
+        ),
     ),
     Trial(
         name="(30)",

@@ -7,7 +7,7 @@ import sympy
 
 from atlas.proof.model import Model, Value, cross, dot, hat, rotation_symbols, symmetric, turn, vector
 from atlas.proof.pseudo_oscillator import state_model
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Falsehood, Trial
 
 Omega, K, M = vector("Omega"), vector("K"), vector("M")
 J = symmetric("J")
@@ -119,6 +119,11 @@ TRIALS = (
         follows="@(12), with $P = R_B(bt)$ and $P_2 = R_B(2bt)$",
         defines=("S", "S2"),
         note="The last equation, in the reversed time, is what @theorem-pair needs.",
+        false=Falsehood(
+            r"The frame turns with $+\mathbf{B}'$",
+            "(Omega[a] + K[a])*S",
+            "(Omega[a] - K[a])*S",
+        ),
     ),
     Trial(
         name="theorem-larmor",
@@ -127,6 +132,11 @@ TRIALS = (
         follows="@(16) and @(35)",
         note=r"Larmor's theorem, exact in the field and for every inertia tensor. The torque $[\mathbf{K}, J "
         r"\mathbf{K}]$ is that of the potential $(\mathbf{K}, J \mathbf{K})/2$, quadratic in the field.",
+        false=Falsehood(
+            "In Larmor's frame every body is free",
+            " + cross(K,J*K)",
+            "",
+        ),
     ),
     Trial(
         name="theorem-momentum-canonical",
@@ -136,6 +146,11 @@ TRIALS = (
         follows="@(16), with the Lagrangian @(104) summed over the body",
         defines=("L",),
         note=r"The last equation is that of Euler and Poincaré for $L$, in which $\mathbf{K}$ moves with the body.",
+        false=Falsehood(
+            r"The kinetic momentum $J\boldsymbol{\Omega}$ is the canonical one",
+            "M = gradOmega(L)",
+            "J*Omega = gradOmega(L)",
+        ),
     ),
     Trial(
         name="theorem-lie-poisson",
@@ -144,6 +159,11 @@ TRIALS = (
         model=poisson_model,
         follows=r"@(16) and @(35) with $\boldsymbol{\Omega} = J^{-1} \mathbf{M} - \mathbf{K}$",
         defines=("H",),
+        false=Falsehood(
+            r"$\mathbf{M}^2$ is conserved",
+            "d(dot(M,K)) = 0",
+            "d(dot(M,M)) = 0",
+        ),
     ),
     Trial(
         name="theorem-bracket",
@@ -155,6 +175,11 @@ TRIALS = (
         follows="the bracket with which $H$ generates the equations of @theorem-lie-poisson",
         note=r"Jacobi's identity, here contracted with $\varepsilon$, which loses nothing since the bracket is "
         "antisymmetric, for the coordinates is that for all functions, since a bracket is a derivation.",
+        false=Falsehood(
+            r"$\mathbf{M}^2$ commutes with everything",
+            "br(K[i],dot(M,K)) = 0",
+            "br(K[i],dot(M,M)) = 0",
+        ),
     ),
     Trial(
         name="theorem-kinetic-energy",
@@ -162,6 +187,11 @@ TRIALS = (
         model=tensor_model,
         follows=r"$\mathbf{M} = J \mathbf{W}$, $\mathbf{W} = \boldsymbol{\Omega} + \mathbf{K}$, @(16) and @(35)",
         note="$F$ is not needed. The two Hamiltonians differ by a Casimir, which generates the turn of Larmor's frame.",
+        false=Falsehood(
+            "The kinetic energy is $H$",
+            " - dot(M,K)",
+            "",
+        ),
     ),
     Trial(
         name="theorem-clebsch",
@@ -172,6 +202,11 @@ TRIALS = (
         defines=("F",),
         note=r"The last identity is why: $(J \mathbf{W}, [\mathbf{K}, J \mathbf{K}]) = (\mathbf{K}, \det J J^{-1} "
         r"[\mathbf{K}, \mathbf{W}])$.",
+        false=Falsehood(
+            r"$\mathbf{M}^2$ is the further integral",
+            " - dot(K,adj(J)*K)",
+            "",
+        ),
     ),
     Trial(
         name="theorem-involution",
@@ -180,6 +215,11 @@ TRIALS = (
         follows="the bracket of @theorem-bracket; the gradients at one point, moments 2, 3, 4",
         defines=("F",),
         note="Independent at one point, so at all but those of a set of measure zero.",
+        false=Falsehood(
+            "$F$ follows from $H$ and the Casimirs",
+            "dot(K,K)) = 4",
+            "dot(K,K)) = 3",
+        ),
     ),
     Trial(
         name="theorem-clebsch-symmetric",
@@ -187,6 +227,11 @@ TRIALS = (
         " c5 = dot(M,K)/I2 - dot(K,K) + (1 - I)*c3^2; E = 2/I2*(H - dot(M,K))",
         model=symmetric_model,
         follows="@(36), @(40) and @(41) at any state",
+        false=Falsehood(
+            r"$F$ is made of $H$ and $\mathbf{K}^2$ alone",
+            " + (1 - I2/I3)*M3^2",
+            "",
+        ),
     ),
     Trial(
         name="theorem-pair",
@@ -196,5 +241,10 @@ TRIALS = (
         "along the motion, time reversed",
         note="$R$ follows: by @theorem-larmor-frame $S$ is one motion for both, and $R(t)$ of the other is $R_B(-bt) "
         "S(-t) = R_B(-2bt) R(-t)$, the $S_2$ of @theorem-larmor-frame at $-t$.",
+        false=Falsehood(
+            "The two motions run in the same sense",
+            "Krate = -d(K)",
+            "Krate = d(K)",
+        ),
     ),
 )

@@ -5,7 +5,7 @@ from functools import cache
 import sympy
 
 from atlas.proof.model import Model, Value, turn
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Falsehood, Trial
 
 I, b = sympy.symbols("I b", positive=True)
 omega2, r, k = sympy.symbols("omega2 r k", real=True)
@@ -33,11 +33,21 @@ TRIALS = (
         defines=("kr",),
         note="The first relation is linear in $k$: one root, none where the coefficient of $k$ is 0. By the last one "
         r"$b + k_\varrho$ is not 0 if $I$ differs from 1; $k_\varrho$ is 0 for the second $\varrho$ that is left out.",
+        false=Falsehood(
+            "The sense of precession is the other one",
+            "kr = -b*(2*(1 - I)*hB3",
+            "kr = b*(2*(1 - I)*hB3",
+        ),
     ),
     Trial(
         name="theorem-closed-free",
         printed="phi/free = (2*b + k)/(b + k)",
         model=closed_model,
         follows="@(72), @(79) and @(87)",
+        false=Falsehood(
+            "The field does not change the proper rotation",
+            "(2*b + k)/(b + k)",
+            "1",
+        ),
     ),
 )

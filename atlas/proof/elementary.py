@@ -8,7 +8,7 @@ from atlas.proof import units
 from atlas.proof.ball import rodrigues
 from atlas.proof.model import Model, Value, cross, hat, turn, vector
 from atlas.proof.quadric import I, constant_omega3, omega1, omega2, omega3
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Falsehood, Part, Trial
 
 b, I2 = sympy.symbols("b I2", positive=True)
 B2, B3 = sympy.symbols("B2 B3", positive=True)
@@ -114,7 +114,7 @@ def solution_model() -> Model:
     """Model the row of (78) and (80), for any constants."""
     row = _row(c, amplitude, (c0, s0))
     rates = cross(row, SPIN)
-    letters = {"gamma3": row[2], "rate3": rates[2], "Omega1": SPIN[0], "Omega2": SPIN[1]}
+    letters = {f"gamma{n + 1}": row[n] for n in range(3)} | {"rate3": rates[2], "Omega1": SPIN[0], "Omega2": SPIN[1]}
     letters |= {f"start{n + 1}": row.subs(START)[n] for n in range(3)}
 
     def begin(constant: Value, size: Value, angle: Value) -> Value:
@@ -139,6 +139,25 @@ def matrix_model() -> Model:
     letters["m"] = precession() * PROPER * TENSOR * SPIN
     letters["dm"] = -2 * cross(letters["R"] * MASS * letters["R"].T * letters["Bp"], letters["R"] * SPIN)
     return _model(letters, [*ON_HYPERBOLA, PHI, K_OF_OMEGA2, *ANGLES, *FIELD])
+
+
+@cache
+def steady_momentum_model() -> tuple[Model, Model]:
+    """Model the same for a ball, and at rest."""
+    whole = matrix_model()
+    first, second = (
+        Model(whole.letters, [*whole.where, known], whole.flow, whole.start, whole.phases, whole.domains)
+        for known in ((I, sympy.Integer(1)), (omega2, sympy.Integer(0)))
+    )
+    return first, second
+
+
+@cache
+def resting_row_model() -> Model:
+    """Model A row of the matrix of a body at rest."""
+    whole = row_model()
+    rest = dict.fromkeys(whole.letters["Omega"], sympy.Integer(0))
+    return Model({f"dgamma{n}": whole.letters[f"dgamma{n}"].xreplace(rest) for n in (1, 2, 3)})
 
 
 @cache
@@ -200,7 +219,9 @@ _LEFT = (
 _RIGHT = "[[cos(phi*t), -sin(phi*t), 0], [sin(phi*t), cos(phi*t), 0], [0, 0, 1]]"
 _POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
 _EULER = "J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
-_BRACKET = "1/omega2*(c - amp*hB3*omega2/hB2*cos(k*t + k0) - c*hB3^2)"
+_NUMERATOR = "(c - amp*hB3*omega2/hB2*cos(k*t + k0) - c*hB3^2)"
+_BRACKET = f"1/omega2*{_NUMERATOR}"
+_AT_REST = r"At $\omega_2 = 0$ it reads $0/0$: the body is at rest, and @(84) says so."
 
 
 @cache
@@ -257,6 +278,11 @@ TRIALS = (
         model=matrix_model,
         follows="@(73)",
         note=r"Clockwise for $\phi > 0$.",
+        false=Falsehood(
+            r"It precesses counter-clockwise for $\phi > 0$",
+            "-phi*cross(e3,Omega)",
+            "phi*cross(e3,Omega)",
+        ),
     ),
     Trial(name="(74)", printed="dgamma = cross(gamma,Omega)", model=row_model, follows="@(12) for one row"),
     Trial(
@@ -278,6 +304,11 @@ TRIALS = (
         printed="c_1 = 0; c_2 = omega2; c_3 = hB3*omega2/hB2",
         model=rows_model,
         follows="@(76) at $t = 0$ for the rows of $R(0) = 1$",
+        false=Falsehood(
+            r"The constant of the second row is the spin $\omega_3$",
+            "c_2 = omega2",
+            "c_2 = omega3",
+        ),
     ),
     Trial(
         name="(78)",
@@ -285,6 +316,19 @@ TRIALS = (
         " gamma2 = 1/omega2^2*(Omega2*(c - hB3*omega2/hB2*gamma3) - Omega1*d(gamma3))",
         model=integral_model,
         follows="@(75) and @(76)",
+        grade="missing case",
+        corrected="omega2^2*gamma1 = Omega1*(c - hB3*omega2/hB2*gamma3) + Omega2*d(gamma3);"
+        " omega2^2*gamma2 = Omega2*(c - hB3*omega2/hB2*gamma3) - Omega1*d(gamma3)",
+        corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
+        corrected_tex=(
+            r"\begin{aligned} \boxed{\omega_2^2}\gamma_1&=\Omega_1(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3)+"
+            r"\Omega_2"
+            r"\dot\gamma_3,\\ \boxed{\omega_2^2}\gamma_2&=\Omega_2(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3)-"
+            r"\Omega_1"
+            r"\dot\gamma_3,\\ &\boxed{\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0} "
+            r"\end{aligned}"
+        ),
+        note=_AT_REST,
     ),
     Trial(
         name="(79)",
@@ -299,6 +343,13 @@ TRIALS = (
         follows="@(79) by substitution, with two constants",
         defines=("gamma3",),
         solves="d2(gamma3) + k^2*gamma3 = c*hB3*omega2/hB2",
+        grade="missing case",
+        slip="(78)",
+        corrected="k^2*gamma3 = amp*k^2*cos(k*t + k0) + c*hB3*omega2/hB2",
+        corrected_defines=(),
+        corrected_solves="",
+        corrected_tex=r"\boxed{k^2}\gamma_3(t)=bk^2\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
+        note=_AT_REST,
     ),
     Trial(
         name="(81)",
@@ -309,6 +360,21 @@ TRIALS = (
         defines=("gamma1", "gamma2"),
         solves="d(gamma1) = gamma2*omega3 - gamma3*Omega2; d(gamma2) = gamma3*Omega1 - gamma1*omega3;"
         " d(gamma3) = gamma1*Omega2 - gamma2*Omega1",
+        grade="missing case",
+        slip="(78)",
+        corrected=f"omega2*gamma1 = {_NUMERATOR}*sin(phi*t) - omega2*amp/hB2*sin(k*t + k0)*cos(phi*t);"
+        f" omega2*gamma2 = {_NUMERATOR}*cos(phi*t) + omega2*amp/hB2*sin(k*t + k0)*sin(phi*t)",
+        corrected_defines=(),
+        corrected_solves="",
+        corrected_tex=(
+            r"\begin{aligned} \boxed{\omega_2}\gamma_1&=[c-b\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c"
+            r"\hat{B}_3^2]"
+            r"\sin\phi t-\boxed{\omega_2}\frac{b}{\hat{B}_2}\sin(kt+k_0)\cos\phi t,\\ \boxed{\omega_2}\gamma_2&=[c-b"
+            r"\frac{\hat{B}_3\omega_2}{\hat{B}_2}\cos(kt+k_0)-c\hat{B}_3^2]\cos\phi "
+            r"t+\boxed{\omega_2}\frac{b}{\hat{B}_2}"
+            r"\sin(kt+k_0)\sin\phi t \end{aligned}"
+        ),
+        note=_AT_REST,
     ),
     Trial(
         name="(82)",
@@ -316,6 +382,16 @@ TRIALS = (
         " start3 = amp*cos(k0) + c*hB2*hB3/omega2",
         model=solution_model,
         follows="@(80) and @(81) at $t = 0$",
+        grade="missing case",
+        slip="(78)",
+        corrected="start1 = -amp/hB2*sin(k0); omega2*start2 = c - amp*hB3*omega2/hB2*cos(k0) - c*hB3^2;"
+        " omega2*start3 = omega2*amp*cos(k0) + c*hB2*hB3",
+        corrected_tex=(
+            r"\gamma_1(0)=-\frac{b}{\hat{B}_2}\sin k_0,\quad\boxed{\omega_2}\gamma_2(0)=c-b\frac{\hat{B}_3\omega_2}{"
+            r"\hat{B}_2}"
+            r"\cos k_0-c\hat{B}_3^2,\quad\boxed{\omega_2}\gamma_3(0)=\omega_2b\cos k_0+c\hat{B}_2\hat{B}_3"
+        ),
+        note=_AT_REST,
     ),
     Trial(
         name="(83)",
@@ -324,6 +400,20 @@ TRIALS = (
         model=solution_model,
         follows=r"@(82): the three rows of $R(0) = 1$; $\text{row}(c, b, k_0)$ is the row at $t = 0$ "
         "with these constants",
+        grade="missing case",
+        slip="(78)",
+        corrected="row(0,-hB2,pi/2) = [1, 0, 0]; row(omega2,-hB2*hB3,0) = [0, 1, 0];"
+        " row(hB3*omega2/hB2,1 - hB3^2,0) = [0, 0, 1]; 1 - hB3^2 = hB2^2",
+        corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
+        corrected_tex=(
+            r"\begin{aligned} c&=0,&b&=-\hat{B}_2,&k_0&=\tfrac{\pi}{2};\\ "
+            r"c&=\omega_2,&b&=-\hat{B}_2\hat{B}_3,&k_0&=0;\\ "
+            r"c&=\frac{\hat{B}_3\omega_2}{\hat{B}_2},&b&=\hat{B}_2^2,&k_0&=0\qquad\boxed{\text{if}\quad\omega_2\ne0} "
+            r"\end{aligned}"
+        ),
+        note=r"At $\omega_2 = 0$ all three constants $c$ are 0, and @(80) and @(81) do not reach the second and the "
+        r"third row: the "
+        "body is at rest, and @(84) says so.",
     ),
     Trial(
         name="(84)",
@@ -338,6 +428,11 @@ TRIALS = (
         printed="k = omega2*Bl/Bl2",
         model=hidden_model,
         follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
+        false=Falsehood(
+            "$k$ depends on the strength of the field",
+            "omega2*Bl/Bl2",
+            "omega2*Bl2/Bl",
+        ),
     ),
     Trial(
         name="(85)",
@@ -353,18 +448,32 @@ TRIALS = (
         " rod(e3,cos(phi*t),sin(phi*t))",
         model=matrix_model,
         follows="Rodrigues' formula",
+        false=Falsehood(
+            r"The second factor turns by $-\phi t$",
+            "rod(e3,cos(phi*t),sin(phi*t))",
+            "rod(e3,cos(phi*t),-sin(phi*t))",
+        ),
     ),
     Trial(
         name="text-axis-precesses",
         printed="d(R*e3) = k*cross(hat_B,R*e3)",
         model=matrix_model,
         follows="@(84)",
+        false=Falsehood(
+            r"The third inertia axis precesses about $\mathbf{e}_3$",
+            "k*cross(hat_B,R*e3)",
+            "k*cross(e3,R*e3)",
+        ),
     ),
     Trial(
         name="text-ball-limit",
         printed="omega3 - B3/B2*omega2 = 0",
         model=ball_limit_model,
         follows="@(71), @(72) with $I = 1$",
+        false=Falsehood(
+            "There is no proper rotation, whatever the moments",
+            model=velocity_model,
+        ),
     ),
     Trial(
         name="(86)",
@@ -378,6 +487,11 @@ TRIALS = (
         model=free_body_model,
         follows=r"$\dot{\mathbf{a}} = [\boldsymbol{\omega}, \mathbf{a}]$ for the third axis $\mathbf{a}$,"
         r" $\mathbf{m}$ constant, $\boldsymbol{\omega}= \mathbf{m}/I_2+(1/I_3-1/I_2)(\mathbf{a},\mathbf{m})\mathbf{a}$",
+        false=Falsehood(
+            r"The axis turns with the frequency $|\mathbf{m}|/I_3$",
+            "1/I2*cross(m,a)",
+            "1/I3*cross(m,a)",
+        ),
     ),
     Trial(
         name="(87)",
@@ -392,12 +506,19 @@ TRIALS = (
         printed="Omega0 = [0, omega2, I2*omega2*B3/(I3*B2)]; J*Omega0 = I2*omega2/B2*Bp",
         model=free_model,
         follows="the launch of the free body",
+        false=Falsehood(
+            r"The free body is launched with an angular velocity along $\mathbf{B}$",
+            "I2*omega2*B3/(I3*B2)]",
+            "omega2*B3/B2]",
+        ),
     ),
     Trial(
         name="text-free-frequency",
         printed="size/I2 = omega2/hB2 = k",
-        model=free_frequency_model,
-        follows=r"$\mathbf{m} = (I_2 \omega_2/B_2) \mathbf{B}'$, its length for either sign of $\omega_2$",
+        model=lambda: free_frequency_model()[0],
+        follows=r"$\mathbf{m} = (I_2 \omega_2/B_2) \mathbf{B}'$, its length for positive $\omega_2$",
+        corrected_model=free_frequency_model,
+        false=Falsehood(r"It holds for negative $\omega_2$ as it stands", "abs(omega2)", "omega2"),
         corrected="size/I2 = abs(omega2)/hB2; k = omega2/hB2",
         corrected_tex=(
             r"\boxed{\lvert k\rvert}=\frac{\lvert\mathbf{m}\rvert}{I_2},\qquad k=\frac{\omega_2}{\hat{B}_2}=k_B"
@@ -410,12 +531,27 @@ TRIALS = (
         printed="phi = (I2 - I3)/(I2*I3)*m3 = (I2 - I3)/I3*hB3*omega2/hB2 = (I2 - I3)/I3*hB3*kB",
         model=free_proper_model,
         follows=r"@text-free-general: what is left of $\Omega_3$ when the precession is taken away",
+        false=Falsehood(
+            "A body longer than a ball turns back about its axis",
+            "(I2 - I3)/(I2*I3)*m3",
+            "(I3 - I2)/(I2*I3)*m3",
+        ),
     ),
     Trial(
         name="text-momentum-moves",
         printed="dot(dm,dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2",
         model=matrix_model,
-        follows=r"@(17): the length of $d\mathbf{m}/dt$, zero only for $I = 1$ or $\omega_2 = 0$",
+        follows=r"@(17): the length of $d\mathbf{m}/dt$",
+        grade="missing case",
+        corrected="dot(dm,dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2",
+        corrected_also=(Part(line="dm = 0", model=steady_momentum_model),),
+        corrected_tex=r"\dot{\mathbf{m}}\ne0\quad\boxed{\text{if}\quad I\ne1,\ \omega_2\ne0}",
+        note="For a ball, whose elementary motion is a steady turn about the field, and at rest it is conserved.",
+        false=Falsehood(
+            "The angular momentum is conserved",
+            "(I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2",
+            "0",
+        ),
     ),
     Trial(
         name="text-constant-omega3",

@@ -6,7 +6,7 @@ import sympy
 
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, hat, matrix, rotation, rotation_symbols, symmetric, vector
-from atlas.proof.trial import Part, Trial
+from atlas.proof.trial import Falsehood, Part, Trial
 
 (R, ROTATION), Omega, Bf = rotation_symbols(), vector("Omega"), vector("B")
 mu, c = sympy.symbols("mu c", positive=True)
@@ -37,6 +37,17 @@ def multiplier_model() -> Model:
         ROTATION,
         units=units.BODY,
     )
+
+
+@cache
+def mirrored_model() -> Model:
+    """Model the same for minus a rotation: every orthogonal matrix of the determinant -1."""
+    whole = multiplier_model()
+    minus = {entry: -entry for entry in R}
+    letters = {
+        name: value.xreplace(minus) for name, value in whole.letters.items() if isinstance(value, sympy.MatrixBase)
+    }
+    return Model({**whole.letters, **letters}, ROTATION, units=units.BODY)
 
 
 @cache
@@ -173,9 +184,10 @@ def moments_model() -> tuple[Model, Model]:
 
 
 @cache
-def covariance_model() -> Model:
-    """Model another rotation S of the laboratory: vectors and tensors of Section II as they are seen from there."""
-    other, where = rotation_symbols("S")
+def covariance_model(sign: int = 1) -> Model:
+    """Model another rotation S of the laboratory, or minus one: what vectors and tensors of Section II are there."""
+    symbols, where = rotation_symbols("S")
+    other = sign * symbols
     inertia, mass, K = symmetric("I"), symmetric("g"), vector("K")
     letters = {"S": other, "I": inertia, "g": mass, "K": K, "Omega": Omega, "mu": mu, "c": c}
     letters["seen"] = lambda tensor: other * tensor * other.T
@@ -204,6 +216,7 @@ TRIALS = (
         model=multiplier_model,
         follows="@(6) about the centre of mass, solved for the multipliers",
         definition=True,
+        note="It leaves out the $R(0) = 1$ of @(6), see @text-affirmation.",
     ),
     Trial(
         name="text-affirmation",
@@ -212,7 +225,18 @@ TRIALS = (
         follows=r"@(10) with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
         note="The multipliers are symmetric if and only if @(11) holds: one identity proves both directions, for "
         "every rotation, every symmetric mass matrix and every matrix $A$. That $g$ be non-degenerate is not "
-        "needed, only $I$.",
+        "needed, only $I$. But @(10) says nothing of $R(0)$, where @(12) has 1: it admits any other orthogonal "
+        "matrix at the "
+        "start, one of the determinant $-1$ among them, for which the identity holds too.",
+        grade="missing case",
+        corrected=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_MF22})",
+        corrected_also=(Part(line=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_MF22})", model=mirrored_model),),
+        corrected_tex=r"\text{(10)},\ \boxed{R_{ij}(0)=\delta_{ij}}\iff\text{(11), (12)}",
+        false=Falsehood(
+            "The Euler equations hold without their last term",
+            " - 1/2*I[k,a]*eps[a,i,j]*A[b,i]*R[b,j]",
+            "",
+        ),
     ),
     Trial(
         name="text-multipliers-algebraic",
@@ -221,16 +245,23 @@ TRIALS = (
         follows=r"@(10) with the rate of $\boldsymbol{\Omega}$ of @(11), for any matrix $A$",
         defines=("lam",),
         solves="R*(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega))*g = -R*lam - A*g",
+        false=Falsehood(
+            "The multipliers do not hold the centrifugal force: they are made of the angular acceleration and $A$",
+            "hat(Omega)*hat(Omega) + ",
+            "",
+        ),
     ),
     Trial(
         name="text-nondegenerate",
         printed="g1*g2*g3 != 0",
-        model=moments_model,
-        follows="the moments of mass of any body and of a plane one",
+        model=lambda: moments_model()[0],
+        follows="the moments of mass of a body that is not plane",
         corrected="I1*I2*I3 > 0",
+        corrected_model=moments_model,
         corrected_tex=r"\boxed{\det I=I_1I_2I_3}\ne0",
         grade="missing case",
-        slip="text-rigid-plane",
+        slip="text-rigid",
+        false=Falsehood("The mass matrix of a plane body is not degenerate", "I1*I2*I3 > 0", "g1*g2*g3 != 0"),
         note="For a plane body, the loop of Section IV, $g_3 = 0$. The Affirmation needs only that the inertia "
         "tensor be non-degenerate, which it is for every body that is no rod.",
     ),
@@ -251,12 +282,22 @@ TRIALS = (
         printed="I[i,j] = g[a,a]*delta[i,j] - g[i,j]",
         model=inertia_model,
         follows=r"the kinetic energy of four particles that turn with $\boldsymbol{\Omega}$",
+        false=Falsehood(
+            "The inertia tensor is the mass matrix",
+            "g[a,a]*delta[i,j] - g[i,j]",
+            "g[i,j]",
+        ),
     ),
     Trial(
         name="text-mass-moments",
         printed="2*g1 = I2 + I3 - I1; 2*g2 = I3 + I1 - I2; 2*g3 = I1 + I2 - I3",
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$",
+        false=Falsehood(
+            "A moment of mass is half the sum of all moments of inertia",
+            "I2 + I3 - I1",
+            "I2 + I3 + I1",
+        ),
     ),
     Trial(
         name="text-inertia-axes",
@@ -264,12 +305,22 @@ TRIALS = (
         " at0(R1) = e1; at0(R2) = e2; at0(R3) = e3",
         model=axes_model,
         follows="the inertia tensor of three masses on the principal axes that are turned by $R$, and $R(0) = 1$",
+        false=Falsehood(
+            "The rows of $R$ are the axes of inertia",
+            "turned = R*I*T(R)",
+            "turned = T(R)*I*R",
+        ),
     ),
     Trial(
         name="text-orthogonal",
         printed="d(R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]) = 0",
         model=matrix_flow_model,
         follows="@(12) for any matrix $R$",
+        false=Falsehood(
+            "$R^T R$ stays what it is as well, for any matrix $R(0)$",
+            "R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]",
+            "R[1,i]*R[1,j] + R[2,i]*R[2,j] + R[3,i]*R[3,j]",
+        ),
     ),
     Trial(
         name="text-covariance",
@@ -277,6 +328,10 @@ TRIALS = (
         model=covariance_model,
         follows="the right side of @(16) and that of @(12), for any rotation $S$",
         note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
+        false=Falsehood(
+            "The system is covariant under reflections as well",
+            model=lambda: covariance_model(-1),
+        ),
     ),
     Trial(
         name="text-force-matrix",
@@ -320,6 +375,11 @@ TRIALS = (
         printed="I*cross(K,Omega) - cross(I*K,Omega) + cross(K,I*Omega) = 2*cross(g*K,Omega)",
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$, all three components",
+        false=Falsehood(
+            "The mass matrix may act on the angular velocity instead",
+            "2*cross(g*K,Omega)",
+            "2*cross(K,g*Omega)",
+        ),
     ),
     Trial(
         name="(16)",
@@ -344,6 +404,12 @@ TRIALS = (
         printed="IdOmega = cross(I*Omega,Omega) - mu*b/c*cross(g*G3,Omega)",
         model=grioli_model,
         follows=r"@(16) with $\mathbf{B} = (0, 0, b)$",
+        note="What is tried is the form. That Grioli deduced these equations is history, and not tried.",
+        false=Falsehood(
+            "The torque holds the third column of $R$",
+            "cross(g*G3,Omega)",
+            "cross(g*[R[1,3], R[2,3], R[3,3]],Omega)",
+        ),
     ),
     Trial(
         name="text-flight",
@@ -362,5 +428,10 @@ TRIALS = (
         note=r"Both vanish if @(4) holds and the rate $w$ of $\boldsymbol{\Omega}$ is that of @(16), and only then. "
         "A force that is for all particles in proportion to their masses has no torque about the centre of "
         "mass, and is left out of it.",
+        false=Falsehood(
+            "The magnetic force has no torque about the centre of mass",
+            " - mu/c*cross(R*hat(Omega)*x[N],Bf)",
+            "",
+        ),
     ),
 )

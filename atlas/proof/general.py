@@ -6,7 +6,7 @@ import sympy
 
 from atlas.proof.clebsch import symmetric_model
 from atlas.proof.model import Model, Value, dot
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Falsehood, Trial
 
 I, b = sympy.symbols("I b", positive=True)
 nu, c3, h, p, M3, e, A, g, u = sympy.symbols("nu c3 h p M3 e A g u", real=True)
@@ -87,12 +87,22 @@ TRIALS = (
         " u - nu*P/b/(1 - nu^2) = c3 - nu*(p - M3*nu)/(1 - nu^2); d(M3) = 0; d(p) = 0; d(h) = 0; M3 = I*c3",
         model=top_model,
         follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
+        false=Falsehood(
+            "The potential is linear, as that of the heavy top",
+            "(I - 1)*b^2*nu^2",
+            "(I - 1)*b^2*nu",
+        ),
     ),
     Trial(
         name="theorem-top-quartic",
         printed=f"{_Q} = b^2*({_q})",
         model=letters_model,
         follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$, $\nu = (c_3 - u)/b$",
+        false=Falsehood(
+            "The two quartics are equal",
+            "= b^2*(",
+            "= (",
+        ),
     ),
     Trial(
         name="theorem-weierstrass",
@@ -103,6 +113,11 @@ TRIALS = (
         defines=("Q", "x", "g2", "g3"),
         solves="d(x) = -slope(Q)/4*P1/(P - bend(Q)/24)^2;"
         " (slope(Q)/4)^2*(4*P^3 - g2*P - g3)/(P - bend(Q)/24)^4 = at(Q,x)",
+        false=Falsehood(
+            "The function of Weierstrass is shifted the other way",
+            "(P - bend(Q)/24)",
+            "(P + bend(Q)/24)",
+        ),
     ),
     Trial(
         name="theorem-lame",
@@ -116,6 +131,11 @@ TRIALS = (
         defines=("C", "x", "y", "x2", "y2"),
         note=r"The potentials have no pole where $\nu = -1$ or 1. So $\xi$ and $\eta$ are regular there, and their "
         "zeros are simple.",
+        false=Falsehood(
+            "Both parameters obey the same equation",
+            "d(x2) + x2^2 - y2^2 = 3/4*A*nu^2 + 1/2*A*nu - C",
+            "d(x2) + x2^2 - y2^2 = 3/4*A*nu^2 - 1/2*A*nu - C",
+        ),
     ),
     Trial(
         name="theorem-residues",
@@ -126,6 +146,11 @@ TRIALS = (
         defines=("q",),
         note=r"At $\nu = -1$, with $w_0 = i s (p + M_3)$ the rate of $\nu$ and $s = \pm 1$, the logarithmic rate of "
         r"$\xi$ is $[w_0 + i(p + M_3)]/(2 w_0 (t - z))$: residue 1 or 0.",
+        false=Falsehood(
+            r"The rate of $\nu$ is real there",
+            "at(q,-1) = -(p + M3)^2",
+            "at(q,-1) = (p + M3)^2",
+        ),
     ),
     Trial(
         name="theorem-sigma",
@@ -136,5 +161,10 @@ TRIALS = (
         note="By the addition theorem, which is taken from the textbooks, the four zeta functions sum to $(P_1 + "
         "Z_1)/(2(P - Z)) - P_1/(2(P - P(z_0)))$. Here $Z_1 = i Y$ is the rate at the zero $z$. Tried for "
         r"$\alpha$; $\beta$ is its mirror image: $\nu$, $e$, $M_3$, $c_3$ with the opposite signs.",
+        false=Falsehood(
+            "The zero lies on the opposite half period",
+            "Y = -(p + M3)",
+            "Y = (p + M3)",
+        ),
     ),
 )

@@ -157,6 +157,11 @@ _MF72 = "B3*omega2^2 - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3
 _MF75 = "w2/a2 = sign*w3/a3; a2 = sqrt(2*sin(beta)/(1 - sin(beta))); a3 = sqrt(2*sin(beta)/(1 + sin(beta)))"
 
 
+_PHIP = "(((1 - I)*omega3 + (2 - I)*B3)*(omega1^2 + omega2^2) - I*B2*omega2*omega3)"
+_PHI = "(B2*omega2*omega3 - B3*(omega1^2 + omega2^2))"
+_REST = r"At $\omega_1 = \omega_2 = 0$ it reads $0/0$. Of these launches only rest has a constant $\Omega_3$."
+
+
 def _plane_axes(factor: str) -> str:
     return axes_line(factor).split("; ", 1)[1]
 
@@ -195,6 +200,15 @@ TRIALS = (
         printed="K1 = omega2*B2/(omega1^2 + omega2^2)*Omega1; K2 = omega2*B2/(omega1^2 + omega2^2)*Omega2",
         model=circle_model,
         follows="@(61) and the last equation of @(59)",
+        grade="missing case",
+        slip="(78)",
+        corrected="(omega1^2 + omega2^2)*K1 = omega2*B2*Omega1; (omega1^2 + omega2^2)*K2 = omega2*B2*Omega2",
+        corrected_tex=(
+            r"\boxed{(\omega_1^2+\omega_2^2)}K_1=\omega_2B'_2\Omega_1,\qquad\boxed{(\omega_1^2+\omega_2^2)}K_2="
+            r"\omega_2B'_2"
+            r"\Omega_2"
+        ),
+        note=_REST,
     ),
     Trial(
         name="(63)",
@@ -203,6 +217,15 @@ TRIALS = (
         model=precession_model,
         follows="@(59) and @(62)",
         defines=("phip",),
+        grade="missing case",
+        slip="(78)",
+        corrected=f"(omega1^2 + omega2^2)*dOmega1 = {_PHIP}*Omega2; (omega1^2 + omega2^2)*dOmega2 = -{_PHIP}*Omega1",
+        corrected_defines=(),
+        corrected_tex=(
+            r"\boxed{(\omega_1^2+\omega_2^2)}\phi'=[(1-I)\omega_3+(2-I)B'_3](\omega_1^2+\omega_2^2)-IB'_2\omega_2"
+            r"\omega_3"
+        ),
+        note=_REST,
     ),
     Trial(
         name="(64)",
@@ -210,6 +233,12 @@ TRIALS = (
         model=precession_model,
         follows=r"@(60) and @(62); $\nu$ is the rate of $\boldsymbol{\Omega}$ that they give",
         defines=("phi",),
+        grade="missing case",
+        slip="(78)",
+        corrected=f"B2*omega2*nu1 = {_PHI}*Omega2; B2*omega2*nu2 = -{_PHI}*Omega1",
+        corrected_defines=(),
+        corrected_tex=r"\boxed{B'_2\omega_2}\phi=B'_2\omega_2\omega_3-B'_3(\omega_1^2+\omega_2^2)",
+        note=_REST,
     ),
     Trial(
         name="(65)",
@@ -217,6 +246,15 @@ TRIALS = (
         " - I*B2^2*omega2^2*omega3/(omega1^2 + omega2^2) = 0",
         model=agreement_model,
         follows=r"$\phi' = \phi$ in @(63), @(64), solved for $\omega_3$",
+        grade="missing case",
+        slip="(78)",
+        corrected="(B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2)*(omega1^2 + omega2^2)"
+        " - I*B2^2*omega2^2*omega3 = 0",
+        corrected_tex=(
+            r"[B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2]\boxed{(\omega_1^2+\omega_2^2)}"
+            r"-I{B'_2}^2\omega_2^2\omega_3=0"
+        ),
+        note=_REST,
     ),
     Trial(name="(66)", printed=_MF711, model=condition_model, follows="@(50)"),
     Trial(

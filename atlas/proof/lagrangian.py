@@ -11,7 +11,7 @@ import sympy
 
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, matrix, vector
-from atlas.proof.trial import Part, Trial
+from atlas.proof.trial import Falsehood, Part, Trial
 
 ALL, FRAME, REST = (1, 2, 3, 4, 5, 6), (2, 3, 4), (5, 6)
 RANGES = {"N": ALL, "M": ALL, "A": FRAME, "C": FRAME, "al": REST}
@@ -27,9 +27,15 @@ mu, c = sympy.symbols("mu c", positive=True)
 COMMON = {"m": m, "lam": lam, "mu": mu, "c": c, "E": E, "Bf": Bf, "a": held}
 
 
-def potential_energy() -> Value:
+def ratios(*, equal: bool = True) -> dict[int, Value]:
+    """Return the charge-to-mass ratio of each particle: the same for all, as the paper supposes, or one for each."""
+    return {N: mu if equal else sympy.Symbol(f"mu{N}", real=True) for N in ALL}
+
+
+def potential_energy(*, equal: bool = True) -> Value:
     """Minus U of (2): for each particle e A0(y) + (e/c) (A(y), v), A0 = (y, E), A = [B, y]/2, e = mu m."""
-    return sum(mu * m[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
+    charges = {N: ratio * m[N] for N, ratio in ratios(equal=equal).items()}
+    return sum(charges[N] * (dot(y[N], E) + dot(cross(Bf, y[N]), dy[N]) / (2 * c)) for N in ALL)
 
 
 def free_action() -> Value:
@@ -40,9 +46,9 @@ def free_action() -> Value:
 
 
 @cache
-def forces() -> dict[int, Value]:
+def forces(*, equal: bool = True) -> dict[int, Value]:
     """Return m times acceleration of each particle: the variation of the action, d/dt dL/dv = dL/dy."""
-    L = sympy.expand(free_action() + potential_energy())
+    L = sympy.expand(free_action() + potential_energy(equal=equal))
     found = {}
     for N in ALL:
         momentum = sympy.Matrix([L.diff(v) for v in dy[N]])
@@ -69,12 +75,13 @@ def potential_model() -> Model:
 
 
 @cache
-def particles_model() -> Model:
-    """Model the particles with accelerations from the action."""
-    ddy = {N: forces()[N] / m[N] for N in ALL}
+def particles_model(*, equal: bool = True) -> Model:
+    """Model the particles with accelerations from the action, with equal charge-to-mass ratios or any."""
+    found = forces(equal=equal)
+    ddy = {N: found[N] / m[N] for N in ALL}
     mass = sum(m.values())
     centre = {"dy0": sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass, "mu0": mass}
-    centre["ddy0"] = sum(forces().values(), sympy.zeros(3, 1)) / mass
+    centre["ddy0"] = sum(found.values(), sympy.zeros(3, 1)) / mass
     centre["stirred"] = stirred
     return Model({**COMMON, "y": y, "dy": dy, "ddy": ddy, **centre}, ranges=RANGES, units=units.PARTICLES)
 
@@ -97,24 +104,32 @@ def carried(value: Value) -> Value:
     return value.xreplace(swap)
 
 
+def other_field(value: Value) -> Value:
+    """Put the particles into another electric field."""
+    return value.xreplace(dict(zip(E, vector("E_"), strict=True)))
+
+
 @cache
-def relative_model() -> Model:
-    """Model the particles seen from the centre of mass, whose acceleration is that of (4)."""
-    mass = sum(m.values())
+def relative_model(*, equal: bool = True) -> Model:
+    """Model the particles seen from the centre of mass, whose acceleration is that of (4).
+
+    Where each has a charge-to-mass ratio of its own, that acceleration is the mean of theirs.
+    """
+    found, mass = forces(equal=equal), sum(m.values())
     y0 = sum((m[N] * y[N] for N in ALL), sympy.zeros(3, 1)) / mass
     v0 = sum((m[N] * dy[N] for N in ALL), sympy.zeros(3, 1)) / mass
-    a0 = mu * E + mu / c * cross(v0, Bf)
-    total = sum(forces().values(), sympy.zeros(3, 1)) - mass * a0
+    whole = sum(found.values(), sympy.zeros(3, 1))
+    a0 = mu * E + mu / c * cross(v0, Bf) if equal else whole / mass
+    total = whole - mass * a0
     push = mu * mass * E + mu / c * cross(sum((m[N] * (dy[N] - v0) for N in ALL), sympy.zeros(3, 1)), Bf)
     letters = {
         "x": {N: y[N] - y0 for N in ALL},
         "dx": {N: dy[N] - v0 for N in ALL},
-        "ddx": {N: forces()[N] / m[N] - a0 for N in ALL},
+        "ddx": {N: found[N] / m[N] - a0 for N in ALL},
         "carried": carried,
+        "other_field": other_field,
         # what keeps the sum of m_N x_N zero in (5): the sum of its equations, in which the other multipliers cancel
         "lami": ((total - push) / mass).applyfunc(sympy.cancel),
-        "y": y,
-        "mu0": mass,
     }
     return Model({**COMMON, **letters}, ranges=RANGES, units=units.PARTICLES)
 
@@ -176,7 +191,7 @@ def plane_model() -> Model:
     """Model a frame whose vectors X lie in one plane, a particle x0 in it, and x, lifted out of it by a height."""
     X = sympy.Matrix([[1, 0, sympy.Symbol("p3", real=True)], [0, 1, sympy.Symbol("p4", real=True)], [0, 0, 0]])
     x0, height = sympy.Matrix([*sympy.symbols("p1:3", real=True), 0]), sympy.Symbol("height", positive=True)
-    return Model({"X": X, "x0": x0, "x": x0 + sympy.Matrix([0, 0, height])})
+    return Model({"X": X, "x0": x0, "x": x0 + sympy.Matrix([0, 0, height]), "height": height})
 
 
 @cache
@@ -201,6 +216,11 @@ TRIALS = (
         " (1 + delta[A,C])*dL[A,C] = dot(y[A] - y[1], y[C] - y[1]) - a[A,C]",
         model=action_model,
         follows="the action @(1) for six particles, differentiated",
+        false=Falsehood(
+            "The constraints fix how far the further particles are from particle 1",
+            "dot(y[A] - y[1], y[be] - y[1])",
+            "dot(y[be] - y[1], y[be] - y[1])",
+        ),
     ),
     Trial(
         name="(2)",
@@ -229,28 +249,34 @@ TRIALS = (
         printed="stirred(ddy0) = ddy0",
         model=particles_model,
         follows="@(3) summed over six particles, at two states with the same centre of mass",
+        false=Falsehood(
+            "The flight does not depend on the rotation, whatever the charges of the particles",
+            model=lambda: particles_model(equal=False),
+        ),
     ),
     Trial(
         name="text-rigid",
         printed="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
         model=rigid_model,
         follows="the constraints keep the products $X^T X$ of the frame, so that $R = X X_0^{-1}$ is orthogonal",
-        note="Three fixed products with an independent frame fix every further particle in it.",
-    ),
-    Trial(
-        name="text-rigid-plane",
-        printed="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)",
-        model=plane_model,
-        follows="the products with three vectors of one plane, which are all that @(1) fixes of a further particle",
-        corrected="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)",
-        corrected_model=spatial_model,
+        grade="missing case",
+        corrected="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
+        corrected_also=(
+            Part(line="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)", model=spatial_model),
+            Part(line="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0) + height^2", model=plane_model),
+        ),
         corrected_tex=(
             r"\boxed{\det(\mathbf{y}_2-\mathbf{y}_1,\mathbf{y}_3-\mathbf{y}_1,\mathbf{y}_4-\mathbf{y}_1)\ne0}\implies"
-            r"\lvert\mathbf{y}_\beta-\mathbf{y}_1\rvert=\text{const}"
+            r"\mathbf{x}_N(t)=R(t)\,\mathbf{x}_N(0)"
         ),
-        grade="missing case",
-        note="Particles 1 to 4 must not lie in one plane. In a plane body they do, and then @(1) leaves every "
-        "further particle free to rise out of the plane. One particle beside the plane, however light, mends it.",
+        note="Three fixed products with an independent frame fix every further particle in it. Particles 1 to 4 must "
+        "not lie in one plane, as they do in the loop of Section IV: there @(1) leaves every further particle free to "
+        "rise out of the plane, by any height. One particle beside the plane, however light, mends it.",
+        false=Falsehood(
+            "The matrix that carries the frame along is orthogonal, constraints or not",
+            "T(R)*R = T(inverse)*(T(X)*X)*inverse",
+            "T(R)*R = one",
+        ),
     ),
     Trial(
         name="(5)",
@@ -273,7 +299,7 @@ TRIALS = (
         grade="wording",
         note=r"The letter $\lambda^i$ is defined nowhere. As the multiplier that keeps the sum of $m_N \mathbf{x}_N$ "
         r"zero it is $-\mu \mathbf{E}^i$, and then the printed form is right: the two terms cancel, and the "
-        "electric field is gone already here.",
+        "electric field is gone already here. The vectors of the last two terms lack the index that the others have.",
     ),
     Trial(
         name="(6)",
@@ -309,7 +335,8 @@ TRIALS = (
         corrected_tex=(
             r"\begin{aligned}"
             r" \lambda_{jk}=&-\sum_{AB}\lambda_{AB}\left[x_1^jx_1^k+x_A^jx_B^k-x_B^{(j}x_1^{k)}\right]\\ "
-            r"&-\frac12\sum_{A\alpha}\lambda_{A\alpha}\left[x_\alpha^{(j}x_A^{k)}-x_\alpha^{(j}x_1^{k)}-x_A^{(j}x_1^{k)}"
+            r"&-\frac12\sum_{A\alpha}\lambda_{A\alpha}\left[x_\alpha^{(j}x_A^{k)}-x_"
+            r"\alpha^{(j}x_1^{k)}-x_A^{(j}x_1^{k)}"
             r"\boxed{+}2x_1^{j}x_1^{k}\right] \end{aligned}"
         ),
         grade="misprint",
@@ -320,17 +347,30 @@ TRIALS = (
         printed="lamM[j,k] = lamM[k,j]",
         model=rotation_model,
         follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
+        false=Falsehood(
+            "With the magnetic force added the matrix is symmetric as well",
+            "lamM[j,k] = lamM[k,j]",
+            "lamM[j,k] + (T(R)*A*g)[j,k] = lamM[k,j] + (T(R)*A*g)[k,j]",
+        ),
     ),
     Trial(
         name="text-electric-field",
-        printed="0 = m[N]*(y[N] - m[M]*y[M]/mu0)",
+        printed="other_field(ddx[N]) = ddx[N]",
         model=relative_model,
-        follows="the definition of the centre of mass",
+        follows="@(3) less @(4) for six particles, in two electric fields",
+        false=Falsehood(
+            "The electric field does not affect the rotation, whatever the charges of the particles",
+            model=lambda: relative_model(equal=False),
+        ),
     ),
     Trial(
         name="text-rotation-apart",
         printed="carried(ddx[N]) = ddx[N]",
         model=relative_model,
         follows="@(3) less @(4) for six particles, at two states that differ by a shift and a velocity",
+        false=Falsehood(
+            "The rotation does not depend on the flight, whatever the charges of the particles",
+            model=lambda: relative_model(equal=False),
+        ),
     ),
 )

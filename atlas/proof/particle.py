@@ -6,7 +6,7 @@ import sympy
 
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, turn, vector
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Falsehood, Trial
 
 E, B, y, v = vector("E"), vector("B"), vector("y"), vector("v")
 m, c, b, E2 = sympy.symbols("m c b E2", positive=True)
@@ -114,6 +114,27 @@ def helix_model() -> Model:
 
 
 @cache
+def along_field_model() -> tuple[Model, Model]:
+    """B = 0, the motion of text-no-magnetic-field along E, for a charge of either sign."""
+    C, y0, field = vector("C"), vector("yo"), sympy.Matrix([0, 0, sympy.Symbol("E0", positive=True)])
+    first, second = (
+        Model(
+            {"mu": sign * strength, "E": field, "y": y0 + C * t + sign * strength * field * t**2 / 2},
+            flow={t: sympy.Integer(1)},
+            units=units.PARTICLE,
+        )
+        for sign in (1, -1)
+    )
+    return first, second
+
+
+@cache
+def any_vector_model() -> Model:
+    """Any vector beside B."""
+    return Model({"Eperp": vector("w"), "Bf": B})
+
+
+@cache
 def orthogonal_model() -> Model:
     """Any vector orthogonal to B: a product of B with another."""
     return Model({"Eperp": cross(B, vector("w")), "Bf": B})
@@ -207,13 +228,28 @@ _SENSE = (
 
 
 @cache
-def later_model() -> tuple[Model, Model]:
+def trajectory_model(*, signed: bool = True) -> tuple[Model, Model]:
+    """Model the parts of (93) and (99), with the frequency (97) or with one that has the sign of the charge."""
+    cases = []
+    for model in signed_model("origin") if signed else charges_model("origin"):
+        mu_ = model.letters["mu"]
+        along = (
+            sympy.Matrix([0, 0, sympy.Symbol("z0", real=True)]) + model.letters["Cpar"] * t + mu_ * PARALLEL * t**2 / 2
+        )
+        across = mu_ * E2 / omega * t * e1 + a * (e1 * sw + e2 * cw)
+        letters = {**model.letters, "ypar": along, "yperp": across, "E": PARALLEL + ACROSS}
+        cases.append(Model(letters, model.where, model.flow, model.start, model.phases, units=units.PARTICLE))
+    return cases[0], cases[1]
+
+
+@cache
+def later_model(*, kept: bool = False) -> tuple[Model, Model]:
     """Model (98) as corrected with omega0 at t, and with omega0 = 0 and another C_perp at t + omega0/omega."""
     cases = []
     for model in signed_model():
         mu_, C = model.letters["mu"], model.letters["Cperp"]
         late = t + omega0 / omega
-        other = C - mu_ * ACROSS * omega0 / omega
+        other = C if kept else C - mu_ * ACROSS * omega0 / omega
         first = (cross(C, ALONG_Z) + c * ACROSS) / (omega * b) + mu_ * E2 / omega * t * e1
         then = (cross(other, ALONG_Z) + c * ACROSS) / (omega * b) + mu_ * E2 / omega * late * e1
         turned = a * (e1 * (sw * c0 + cw * s0) + e2 * (cw * c0 - sw * s0))
@@ -234,6 +270,9 @@ def rolling_model() -> tuple[Model, Model]:
         cases.append(Model(letters, model.where, phases=model.phases))
     return cases[0], cases[1]
 
+
+TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
+"""What the place of a charged particle obeys, (89)."""
 
 TRIALS = (
     Trial(
@@ -257,12 +296,33 @@ TRIALS = (
         follows=r"@(89) with $\mathbf{B} = 0$ by substitution",
         defines=("y",),
         solves="d2(y) = mu*E; at0(y) = y0; at0(d(y)) = C",
+        false=Falsehood(
+            r"The particle falls with the acceleration $2\mu\mathbf{E}$",
+            "1/2*mu*E*t^2",
+            "mu*E*t^2",
+        ),
+    ),
+    Trial(
+        name="text-along-field",
+        printed="dot(d2(y),E) > 0",
+        model=along_field_model,
+        follows="@text-no-magnetic-field, for either sign of the charge",
+        corrected="d2(y) = mu*E",
+        corrected_tex=r"\ddot{\mathbf{y}}=\boxed{\mu\mathbf{E}}",
+        grade="sign of the charge",
+        slip="(97)",
+        note=r"A negative charge is accelerated against $\mathbf{E}$.",
     ),
     Trial(
         name="text-helix",
         printed="d(y2[1]^2 + y2[2]^2) = 0; d2(y2) = -(mu*b/c)^2*y2; d2(ypar) = 0",
         model=helix_model,
         follows=r"@(90) with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
+        false=Falsehood(
+            "It turns with Larmor's frequency",
+            "-(mu*b/c)^2*y2",
+            "-(mu*b/(2*c))^2*y2",
+        ),
     ),
     Trial(
         name="(91)", printed="dypar = Cpar + mu*Epar*t", model=split_model, follows=r"@(90) projected on $\mathbf{B}$"
@@ -296,6 +356,10 @@ TRIALS = (
         printed="Eperp = -cross(cross(Eperp,Bf),Bf)/dot(Bf,Bf)",
         model=orthogonal_model,
         follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
+        false=Falsehood(
+            "The identity holds for any vector",
+            model=any_vector_model,
+        ),
     ),
     Trial(
         name="(94)",
@@ -336,6 +400,11 @@ TRIALS = (
         printed="cross(Eperp,Bf) = E2*b*e1",
         model=charges_model,
         follows=r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}_\bot$ along $\mathbf{e}_2$",
+        false=Falsehood(
+            r"$[\mathbf{E}_\bot, \mathbf{B}]$ points along $\mathbf{E}_\bot$",
+            "E2*b*e1",
+            "E2*b*e2",
+        ),
     ),
     Trial(
         name="(98)",
@@ -347,7 +416,8 @@ TRIALS = (
         corrected=_MF10 + "; omega = mu*b/c",
         corrected_model=signed_model,
         corrected_tex=(
-            r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}"
+            r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}"
+            r"\rvert}"
             r"+\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
             r"+a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}" + _SIGNED
         ),
@@ -362,6 +432,10 @@ TRIALS = (
         follows=r"@(98) as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
         r"\mathbf{E}_\bot \omega_0/\omega$",
         note=r"$\mathbf{C}_\bot$ changes with it, since @(90) names the time.",
+        false=Falsehood(
+            r"$\mathbf{C}_\bot$ stays what it is",
+            model=lambda: later_model(kept=True),
+        ),
     ),
     Trial(
         name="text-first-two-terms",
@@ -381,6 +455,11 @@ TRIALS = (
         printed="at0(yperp) = a*e2",
         model=start_model,
         follows=r"@(98) as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
+        false=Falsehood(
+            r"The particle starts at $a\mathbf{e}_1$",
+            "a*e2",
+            "a*e1",
+        ),
     ),
     Trial(
         name="(99)",
@@ -416,14 +495,12 @@ TRIALS = (
         printed="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2*e1",
         model=lambda: signed_model("trochoid"),
         follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
-        corrected="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2/omega*e1",
-        corrected_tex=(
-            r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}"
-            r"-\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\boxed{\omega}}\mathbf{e}_1"
-        ),
+        corrected="Cperp = 0; Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2/omega*e1",
+        corrected_tex=r"\mathbf{C}_{\bot}=\boxed{0}",
         grade="misprint",
         slip="(100)",
-        note="An acceleration is taken from a velocity. With the factor put right the constant is zero.",
+        note=r"An acceleration is taken from a velocity. What is meant is $\mathbf{C}_\bot = 0$: the acceleration over "
+        r"$\omega$ is the drift, and nothing is left.",
     ),
     Trial(
         name="(100)",
@@ -450,13 +527,26 @@ TRIALS = (
             "@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
             "turns by one radian"
         ),
+        false=Falsehood(
+            "The circle rolls along the line through its middle",
+            "y = r + a*cos",
+            "y = a*cos",
+        ),
     ),
     Trial(
         name="(101)",
         printed="y = ypar + yperp",
-        model=split_model,
-        follows=r"the projections on $\mathbf{B}$ and across it",
-        definition=True,
+        model=lambda: trajectory_model(signed=False),
+        follows="@(89) by substitution, the parts of @(93) and @(99), for either sign of the charge",
+        defines=("y",),
+        solves=TRAJECTORY,
+        corrected="y = ypar + yperp",
+        corrected_model=trajectory_model,
+        corrected_tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t),\qquad\omega=\boxed{\frac{\mu\lvert"
+        r"\mathbf{B}\rvert}{c}}",
+        grade="sign of the charge",
+        slip="(97)",
+        note="The sum is right; @(99), which it sends to, holds for a positive charge.",
     ),
     Trial(
         name="(102)",
@@ -476,6 +566,14 @@ TRIALS = (
         printed="E = grad(A0) - 1/c*partial_t(A); Bf = curl(A)",
         model=lagrangian_model,
         follows="the potentials @(102)",
+        note=r"With $\mathbf{E} = +\nabla A_0$ the paper has the opposite of the sign that is customary; $A_0$ is "
+        r"minus the "
+        "usual potential, and @(103) agrees with it.",
+        false=Falsehood(
+            r"With the sign of the textbooks, $\mathbf{E} = -\nabla A_0$",
+            "grad(A0) - 1/c",
+            "-grad(A0) - 1/c",
+        ),
     ),
     Trial(
         name="(103)",

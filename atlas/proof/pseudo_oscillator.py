@@ -7,7 +7,7 @@ import sympy
 from atlas.proof import euler_poisson as general
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, hat, rotation_symbols, turn, vector
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Falsehood, Part, Trial
 
 Omega, K = vector("Omega"), vector("K")
 I2, I3 = sympy.symbols("I2 I3", positive=True)
@@ -75,6 +75,14 @@ def bare_model() -> Model:
 
 
 @cache
+def launch_model() -> Model:
+    """Model the same at the start, in the fields of the paper: K = B' = (0, B'2, B'3), both positive."""
+    whole = bare_model()
+    start = [(K[0], sympy.Integer(0)), (K[1], B2), (K[2], B3)]
+    return Model(whole.letters, start, flow=FLOW, start=START, units=units.OSCILLATOR)
+
+
+@cache
 def field_model() -> Model:
     """(16) and (12) with K = mu/(2c) R^T B and a symmetric body."""
     (R, where), B = rotation_symbols(), vector("B")
@@ -117,6 +125,18 @@ def symmetric_body_model() -> Model:
     """I1 = I2 and I = tr(g) - g."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
     return Model({"g1": g1, "g2": g1, "g3": g3, "I2": g1 + g3, "I3": 2 * g1})
+
+
+@cache
+def passing_model() -> Model:
+    """Model the same with a root rho of either sign, whose rate is -I u w/rho; f is its logarithm."""
+    whole = quadrature_model()
+    rho, u, I, E = sympy.Symbol("rho", real=True), *(whole.letters[name] for name in ("u", "I", "E"))
+    where = [(E, rho**2 + I * u**2), *whole.where[1:]]
+    flow = {**whole.flow, rho: -I * u * whole.flow[u] / rho}
+    return Model(
+        {**whole.letters, "rho": rho, "f": sympy.log(rho)}, where, flow, phases=whole.phases, units=whole.units
+    )
 
 
 @cache
@@ -166,16 +186,17 @@ def laboratory_model() -> Model:
 
 
 @cache
-def degree_model() -> tuple[Model, Model]:
-    """I below and above 1."""
+def degree_model() -> tuple[Model, Model, Model]:
+    """I below and above 1, and I = 1."""
     more, u = sympy.Symbol("e", positive=True), sympy.Symbol("Omega3", real=True)
     cases = []
-    for scale in (1 + more, 1 / (1 + more)):
+    for scale in (1 + more, 1 / (1 + more), sympy.Integer(1)):
         field = sympy.Matrix([0, B2, B3])
         a = cubic(integrals(omega, field, scale), dot(field, field), scale)
         whole = sympy.Poly(a["a0"] + a["a1"] * u + a["a2"] * u**2 + a["a3"] * u**3, u)
-        cases.append(Model({"leading": whole.coeff_monomial(u**3), "I": scale}))
-    return cases[0], cases[1]
+        degrees = {"leading": whole.coeff_monomial(u**3), "square": whole.coeff_monomial(u**2)}
+        cases.append(Model({**degrees, "slope": whole.coeff_monomial(u), "I": scale}))
+    return cases[0], cases[1], cases[2]
 
 
 TRIALS = (
@@ -184,6 +205,11 @@ TRIALS = (
         printed="g1 = 1/2*I3; g2 = 1/2*I3; g3 = 1/2*(2*I2 - I3)",
         model=symmetric_body_model,
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
+        false=Falsehood(
+            "The third moment of mass of a ball is zero",
+            "1/2*(2*I2 - I3)",
+            "1/2*(I2 - I3)",
+        ),
     ),
     Trial(
         name="text-laboratory",
@@ -193,6 +219,11 @@ TRIALS = (
         r"across $\mathbf{e}_3$",
         note=r"$B_3 > 0$ is a choice of the sense of $\mathbf{e}_3$. What the choice $B_2 > 0$, $B_3 > 0$ leaves out "
         "are a field along the axis of the body and one across it.",
+        false=Falsehood(
+            r"The same turn puts the field into the plane of $\mathbf{e}_1$ and $\mathbf{e}_3$",
+            "S*B = [0, B2, B3]",
+            "S*B = [B2, 0, B3]",
+        ),
     ),
     Trial(
         name="(31)",
@@ -269,6 +300,11 @@ TRIALS = (
         r"$\mathbf{K} = (4, 5, "
         "6)$",
         note="Independent at one point, so at all but those of a set of measure zero.",
+        false=Falsehood(
+            "The component of the angular velocity along the field is conserved",
+            "Omega1^2 + Omega2^2 + I*Omega3^2,",
+            "Omega1*K1 + Omega2*K2 + Omega3*K3,",
+        ),
     ),
     Trial(
         name="(42)",
@@ -276,12 +312,35 @@ TRIALS = (
         f" K2 = (Omega2*{_P} + Omega1*d(Omega3))/(E - I*Omega3^2); K3 = -Omega3 + c3",
         model=state_model,
         follows="@(38), @(40) and @(41)",
+        grade="missing case",
+        corrected=f"(E - I*Omega3^2)*K1 = Omega1*{_P} - Omega2*d(Omega3);"
+        f" (E - I*Omega3^2)*K2 = Omega2*{_P} + Omega1*d(Omega3); K3 = -Omega3 + c3",
+        corrected_tex=(
+            r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}K_1&=\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot"
+            r"\Omega_3,\\ "
+            r"\boxed{(E'-I\Omega_3^2)}K_2&=\Omega_2(\Omega_3^2-(2-I)c_3\Omega_3+c_5)+\Omega_1\dot\Omega_3,\qquad"
+            r" K_3=-\Omega_3+c_3 \end{aligned}"
+        ),
+        note=r"Where $\Omega_1 = \Omega_2 = 0$ it reads $0/0$. That happens at the start of every launch $(0, 0, "
+        r"\omega_3)$, "
+        r"and again whenever $\Omega_3$ comes back: for $I = 3/2$, $\mathbf{B}' = (0, 1, 1)$, $\omega_3 = 1$ at $t = "
+        r"2.347$.",
     ),
     Trial(
         name="(43)",
         printed=_MF51,
         model=state_model,
         follows=r"@(38) with $\mathbf{K}$ of @(42), $\phi$ and $f$ of @(44)",
+        grade="missing case",
+        slip="(42)",
+        corrected="(E - I*Omega3^2)*d(Omega1) = ((2 - I)*c3*E - (E + I*c5)*Omega3)*Omega2 - I*Omega3*d(Omega3)*Omega1;"
+        " (E - I*Omega3^2)*d(Omega2) = -((2 - I)*c3*E - (E + I*c5)*Omega3)*Omega1 - I*Omega3*d(Omega3)*Omega2",
+        corrected_tex=(
+            r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}\dot\Omega_1&=[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_2-I\Omega_3"
+            r"\dot\Omega_3\Omega_1,\\ \boxed{(E'-I\Omega_3^2)}\dot\Omega_2&=-[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_1"
+            r"-I\Omega_3\dot\Omega_3\Omega_2 \end{aligned}"
+        ),
+        note=r"Where $\Omega_1 = \Omega_2 = 0$ neither $\phi$ nor $\dot f$ of @(44) has a value.",
     ),
     Trial(
         name="(44)",
@@ -290,7 +349,18 @@ TRIALS = (
         follows="@(43) by substitution",
         defines=("phi", "f"),
         solves=_MF51,
-        note="$f$ counts up to a constant: the logarithm of a quantity with a dimension.",
+        grade="missing case",
+        slip="(42)",
+        corrected="(E - I*Omega3^2)*phi = (2 - I)*c3*E - (E + I*c5)*Omega3; (E - I*Omega3^2)*d(f) = "
+        "-I*Omega3*d(Omega3)",
+        corrected_defines=(),
+        corrected_solves="",
+        corrected_tex=(
+            r"\boxed{(E'-I\Omega_3^2)}\phi=(2-I)c_3E'-(E'+Ic_5)\Omega_3,\qquad\boxed{(E'-I\Omega_3^2)}\dot f=-I\Omega_3"
+            r"\dot\Omega_3"
+        ),
+        note=r"Where $\Omega_1 = \Omega_2 = 0$ the quotient reads $0/0$ and the logarithm has no value. "
+        "$f$ counts up to a constant: the logarithm of a quantity with a dimension.",
     ),
     Trial(
         name="(45)",
@@ -299,7 +369,19 @@ TRIALS = (
         follows="@(43) by substitution, with two constants",
         defines=("Omega1", "Omega2"),
         solves=_MF51,
-        note="General for @(43) alone; @(36) then leaves $f_0^2 = 1$.",
+        grade="missing case",
+        slip="(42)",
+        corrected="Omega1 = f0*rho*sin(Phi + phi0); Omega2 = f0*rho*cos(Phi + phi0); rho^2 = E - I*u^2",
+        corrected_model=passing_model,
+        corrected_tex=(
+            r"\Omega_1=f_0\,\boxed{\rho}\sin(\Phi+\phi_0),\qquad\Omega_2=f_0\,\boxed{\rho}\cos(\Phi+\phi_0),\qquad"
+            r"\boxed{\rho^2=E'-I\Omega_3^2}"
+        ),
+        note=r"Where $\Omega_1 = \Omega_2 = 0$ the vector passes through zero, but the root does not change its "
+        r"sign: with it "
+        r"the angle would have to jump by $\pi$. With a $\rho$ of either sign, which passes through zero too, all is "
+        r"smooth. "
+        "General for @(43) alone; @(36) then leaves $f_0^2 = 1$.",
     ),
     Trial(
         name="(46)",
@@ -320,8 +402,9 @@ TRIALS = (
     Trial(
         name="(48)",
         printed=_MF56.format(x="1"),
-        model=bare_model,
+        model=launch_model,
         follows="@(46) and the four integrals",
+        corrected_model=bare_model,
         defines=("a0", "a1", "a2", "a3"),
         solves=_MF55,
         corrected=_MF56.format(x="I"),
@@ -335,9 +418,19 @@ TRIALS = (
     Trial(
         name="text-cubic-degree",
         printed="leading = -2*(1 - I); leading^2 > 0",
-        model=degree_model,
+        model=lambda: degree_model()[:2],
         follows="@(47) with @(48) as corrected",
+        grade="missing case",
+        corrected="leading = -2*(1 - I); leading^2 > 0",
+        corrected_also=(Part(line="leading = 0; square = 0", model=lambda: degree_model()[2]),),
+        corrected_tex=r"a_3=-2(1-I)\ne0\quad\boxed{\text{if}\quad I\ne1}",
         note="For the ball, $I = 1$, both $a_2$ and $a_3$ vanish, and @(47) is a harmonic oscillator.",
+        false=Falsehood(
+            "The degree is three for the ball too",
+            "leading^2 > 0",
+            "leading^2 > 0",
+            model=lambda: degree_model()[2],
+        ),
     ),
     Trial(
         name="(49)",

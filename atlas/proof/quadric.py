@@ -11,7 +11,7 @@ from atlas.proof.decide import Outcome
 from atlas.proof.model import Model, Value, certain, turn, vector
 from atlas.proof.notation import Reader
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
-from atlas.proof.trial import Part, Trial
+from atlas.proof.trial import Falsehood, Part, Trial
 
 omega1, omega2, omega3 = vector("omega")
 I, B2, B3 = sympy.symbols("I B2 B3", positive=True)
@@ -81,6 +81,12 @@ def pole_model() -> Model:
 def no_lines_model() -> Model:
     """I > 1."""
     return Model({**LETTERS, "I": 1 + excess})
+
+
+@cache
+def centre_model() -> Model:
+    """Model the centre -B'."""
+    return Model({**LETTERS, "omega1": sympy.Integer(0), "omega2": -B2, "omega3": -B3}, units=units.QUADRIC)
 
 
 @cache
@@ -267,7 +273,16 @@ TRIALS = (
             ),
         ),
     ),
-    Trial(name="text-quadric-origin", printed=_MF58, model=origin_model, follows=r"@(51) at $\boldsymbol{\omega} = 0$"),
+    Trial(
+        name="text-quadric-origin",
+        printed=_MF58,
+        model=origin_model,
+        follows=r"@(51) at $\boldsymbol{\omega} = 0$",
+        false=Falsehood(
+            r"The surface passes through its centre $-\mathbf{B}'$",
+            model=centre_model,
+        ),
+    ),
     Trial(
         name="(52)",
         printed=f"omega3 = {_MF59}",
@@ -306,12 +321,22 @@ TRIALS = (
         " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
         model=turned_model,
         follows="components along the turned axes, against @(53)",
+        false=Falsehood(
+            "The axes are turned clockwise",
+            "w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3",
+            "w2 = (omega2 + B2)*cos(beta/2 + pi/4) - (omega3",
+        ),
     ),
     Trial(
         name="text-beta",
         printed="tan(beta) = B3/(I*B2)",
         model=angle_model,
         follows=r"$I^{-1} \mathbf{B}' = r (0, \cos \beta, \sin \beta)$",
+        false=Falsehood(
+            r"$\beta$ is the angle between $\mathbf{e}_2$ and $\mathbf{B}'$",
+            "B3/(I*B2)",
+            "B3/B2",
+        ),
     ),
     Trial(
         name="text-beta-range",
@@ -319,6 +344,11 @@ TRIALS = (
         model=range_model,
         follows=r"$\tan\beta > 0$",
         check=decide_linear,
+        false=Falsehood(
+            r"They are turned by less than $\pi/3$",
+            "< pi/2",
+            "< pi/3",
+        ),
     ),
     Trial(
         name="(54)",
@@ -339,18 +369,32 @@ TRIALS = (
         printed="C1s = (I - 1)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
         model=lambda: axes_model(above=True),
         follows=r"@(55), $0 < \sin\beta < 1$ and $I > 1$",
+        false=Falsehood(
+            "The surface has two sheets for $I < 1$ too",
+            model=lambda: axes_model(above=False),
+        ),
     ),
     Trial(
         name="text-short-cylinder",
         printed="I = 12*r^2/(6*r^2 + h^2); I - 1 = (6*r^2 - h^2)/(6*r^2 + h^2)",
         model=shell_model,
         follows="the moments of the surface, integrated",
+        false=Falsehood(
+            "A cylindrical surface is short if it is wider than high",
+            "(6*r^2 - h^2)",
+            "(4*r^2 - h^2)",
+        ),
     ),
     Trial(
         name="text-plane-body",
         printed="2 - I = 2*g3/I2",
         model=plane_body_model,
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
+        false=Falsehood(
+            "A plane body has $I = 1$",
+            "2 - I =",
+            "1 - I =",
+        ),
     ),
     Trial(
         name="text-tangent-planes",
@@ -360,6 +404,11 @@ TRIALS = (
         follows="@(50) with $I = 2$",
         note=r"Never negative, and zero only at $\boldsymbol{\omega} = 0$ and at $\boldsymbol{\omega} = -2 "
         r"\mathbf{B}'$: there the sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$.",
+        false=Falsehood(
+            r"The second plane is $\omega_3 = -B'_3$",
+            "(omega3 + B3)^2 - B3^2",
+            "(omega3 + B3/2)^2 - (B3/2)^2",
+        ),
     ),
     Trial(
         name="(56)",
@@ -373,7 +422,8 @@ TRIALS = (
         model=lambda: canonical_model("one"),
         follows="@(54) with $I = 1$",
         corrected="w1^2 + w3^2/a3 = w2^2/a2",
-        corrected_tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{\boxed{(\sqrt{a_3})^2}}=\frac{{\omega'_2}^2}{\boxed{(\sqrt{a_2})^2}}",
+        corrected_tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{\boxed{(\sqrt{a_3})^2}}=\frac{{\omega'_2}^2}{\boxed{("
+        r"\sqrt{a_2})^2}}",
         grade="wording",
         note="The semi-axes are the roots of $a_2$ and $a_3$, as @(70) has them under the same letters.",
     ),
@@ -389,6 +439,10 @@ TRIALS = (
         printed="C1s = (1 - I)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
         model=lambda: axes_model(above=False),
         follows=r"@(57), $0 < \sin\beta < 1$ and $I < 1$",
+        false=Falsehood(
+            "The surface has one sheet for $I > 1$ too",
+            model=lambda: axes_model(above=True),
+        ),
     ),
     Trial(
         name="text-not-all",
@@ -400,5 +454,10 @@ TRIALS = (
         ),
         note=r"By the last equation of @(38) at $t = 0$, where $\mathbf{K} = \mathbf{B}'$. The other half of the "
         "quadric is its mirror image.",
+        false=Falsehood(
+            r"At every point of the quadric $\Omega_3$ starts with the rate zero",
+            "omega1*B2 > 0",
+            "omega1*B2 = 0",
+        ),
     ),
 )

@@ -78,6 +78,7 @@ def try_one(name: str) -> Verdict:
     start = time.perf_counter()
     outcome = _within_time(lambda: case.of_printed(shrink=True))
     corrected = _within_time(case.of_corrected).decision if case.corrected else ""
+    false = case.false_part if case.false else None
     return Verdict(
         name=name,
         number=entry.number,
@@ -94,6 +95,9 @@ def try_one(name: str) -> Verdict:
         corrected_verdict=corrected,
         counterexample=outcome.counterexample,
         note=case.note,
+        false=case.false.says if case.false else "",
+        false_line=false.line if false else "",
+        false_verdict=_within_time(false.outcome).decision if false else "",
         seconds=round(time.perf_counter() - start, 2),
         source=recorded.source(name),
     )

@@ -6,7 +6,7 @@ import sympy
 
 from atlas.proof.general import top_model
 from atlas.proof.model import Model, Value
-from atlas.proof.trial import Trial
+from atlas.proof.trial import Falsehood, Trial
 
 b, z = sympy.symbols("b z", positive=True)
 nu, r, e, A, w, M3, c3, p, c, g, s, t = sympy.symbols("nu r e A w M3 c3 p c g s t", real=True)
@@ -144,6 +144,11 @@ TRIALS = (
         defines=("q",),
         note=r"With $|\nu_0| < 1$ the slope vanishes exactly if $M_3 w = \nu_0 (w^2 + A)$. See @theorem-nutation for "
         r"$k$ and $\hat{B}_3$.",
+        false=Falsehood(
+            "The condition is that of the free top",
+            "r*(w^2 + A)",
+            "r*w^2",
+        ),
     ),
     Trial(
         name="theorem-nutation",
@@ -157,12 +162,22 @@ TRIALS = (
         note=r"For $I > 1$ take the upper sign with $|\nu_0|$: the bound $A (1 - \nu_0)(1 + 3\nu_0)$ is met at "
         r"$w^2 = A |\nu_0|$. For $I < 1$ take the sign that makes the last term $-|A|(1 + |\nu_0|)(1 - 3 |\nu_0|)$: "
         r"stable if $|\nu_0| > 1/3$.",
+        false=Falsehood(
+            "The term linear in $A$ has one sign, whatever the inclination",
+            "A*(3*r^2 - 1)",
+            "A*(3*r^2 + 1)",
+        ),
     ),
     Trial(
         name="theorem-companion-range",
         printed=f"{_q} = A*(nu - r)^2*((nu + r)^2 - (1 - z)*(z - r^2)/z); z = -w^2/A",
         model=range_model,
         follows="@theorem-steady with $A = -w^2/z$, $z = w^2/((1-I) b^2)$",
+        false=Falsehood(
+            "The other roots are real for every $z < 1$",
+            "(z - r^2)/z",
+            "(z + r^2)/z",
+        ),
     ),
     Trial(
         name="theorem-companion-roots",
@@ -173,6 +188,11 @@ TRIALS = (
         r"\kappa)/\cos\kappa$",
         note=r"In @theorem-companion-range $(e + \nu_0)^2 = (1-z)(z-\nu_0^2)/z$ is $(e + \nu_0/z)^2 z = (1-z)(1-e^2)$, "
         "met by any two angles.",
+        false=Falsehood(
+            r"The exponent vanishes where $e = 3\nu_0$",
+            "(3*r + e)",
+            "(3*r - e)",
+        ),
     ),
     Trial(
         name="theorem-companion",
@@ -183,6 +203,11 @@ TRIALS = (
         solves=_TURNED,
         note=r"$x$ is $\nu=(|\xi|^2-|\eta|^2)/(|\xi|^2+|\eta|^2)$. Both turn in the laboratory by $-b t/2$ more. The "
         "formula holds for $c$ of either sign and 0; $c > 0$ is the separatrix of an unstable elementary motion.",
+        false=Falsehood(
+            "Both vectors are turned by the same angle",
+            "bi = L*(s - g)*T",
+            "bi = L*(s + g)*T",
+        ),
     ),
     Trial(
         name="theorem-companion-nutation",
@@ -192,6 +217,11 @@ TRIALS = (
         follows="$T' = (1 - c T^2)/2$, $T = S/C$, $S_2 = S^2$",
         defines=("S2", "x"),
         solves="d(x)^2 = (x - r)^2*(c + d1*(x - r) + A*(x - r)^2); c + d1*(e - r) + A*(e - r)^2 = 0",
+        false=Falsehood(
+            "The nutation does not depend on the strength of the potential",
+            "(c - A*(e - r)^2)*S2",
+            "c*S2",
+        ),
     ),
     Trial(
         name="theorem-companion-triple",
@@ -200,6 +230,11 @@ TRIALS = (
         follows=r"@theorem-companion-nutation with $c = 0$, $e = -3\nu_0$",
         defines=("x",),
         solves="d(x)^2 = -a*(x - r)^3*(x + 3*r)",
+        false=Falsehood(
+            "It reaches half as far",
+            "4*r/(1 + 4*a",
+            "2*r/(1 + 4*a",
+        ),
     ),
     Trial(
         name="theorem-axis-stable",
@@ -210,6 +245,11 @@ TRIALS = (
         follows=r"@theorem-top; $p - M_3 = M_1 n_1 + M_2 n_2 - M_3 (1 - \nu)$",
         defines=("D",),
         note=r"Every term is positive away from $\nu = 1$, $M_1 = M_2 = 0$, so a small push stays small for all times.",
+        false=Falsehood(
+            "The spin is stable whatever the sign of $D$: its coefficient is $M_3^2$",
+            "1/4*D*(1 - nu^2)",
+            "1/4*M3^2*(1 - nu^2)",
+        ),
     ),
     Trial(
         name="theorem-axis-escape",
@@ -222,6 +262,11 @@ TRIALS = (
         " d(ai)/N1 + 1/2*c3 = 1/2*(c3 + (p - M3*x)/(1 + x)); (p - M3*x)/(1 - x) = M3",
         note=r"As $t$ grows $1 - x$ tends to 0 as $\exp (-\sqrt{c} t)$: so the motion starts as near to the axis as "
         "one likes, and leaves it.",
+        false=Falsehood(
+            r"It turns where $\nu = 1 - |M_3|/(b\sqrt{I-1})$",
+            "e = abs3/a - 1",
+            "e = 1 - abs3/a",
+        ),
     ),
     Trial(
         name="theorem-axis-pushed",
@@ -229,6 +274,11 @@ TRIALS = (
         " (1 - nu^2)*(G - A*nu^2) - (p - M3*nu)^2 = 4*x*(s1^2*(1 + x)^2 + x*(4*A - M3^2*(1 + x)^2))/(1 + x)^4",
         model=pushed_model,
         follows="@theorem-top with $p = M_3$ and $2 H - M_3^2/I - b^2 = s_1^2 + A$ at $t = 0$",
+        false=Falsehood(
+            "The momentum along the axis keeps it from tipping at every angle alike",
+            "M3^2*(1 + x)^2",
+            "M3^2",
+        ),
     ),
     Trial(
         name="theorem-axis-pendulum",
@@ -237,5 +287,10 @@ TRIALS = (
         follows=r"@theorem-top by substitution, $T = \tanh(\sqrt{A} t)$",
         defines=("x",),
         solves=f"d(x)^2 = {_qx}",
+        false=Falsehood(
+            "It comes back to the end from which it started",
+            "x = -T",
+            "x = T^2",
+        ),
     ),
 )

@@ -9,7 +9,7 @@ from atlas.proof.model import Model, Value, cross, turn
 from atlas.proof.particle import drift_model
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
 from atlas.proof.quadric import B2, B3, LETTERS, I, at_start, constant_omega3, lines_case, omega1, omega2, omega3
-from atlas.proof.trial import Part, Trial
+from atlas.proof.trial import Falsehood, Part, Trial
 
 tau, x = sympy.symbols("tau x", real=True)
 r, z, excess, T2 = sympy.symbols("r z e T2", positive=True)
@@ -257,6 +257,11 @@ TRIALS = (
         follows="@(38) to @(41), for any state",
         defines=("Q",),
         solves="here(Q) = udot^2; slope(Q) = 2*p; leading(Q) = I - 1",
+        false=Falsehood(
+            "The quartic is that of the ball for every body",
+            "E - I*u^2",
+            "E - u^2",
+        ),
     ),
     Trial(
         name="theorem-points",
@@ -271,6 +276,11 @@ TRIALS = (
         r"motion: that of the first is the second, that of the second the first times the slope of the cubic @(47). "
         "So if both are zero at the start, they stay zero. With $B'_2 > 0$ these points are the hyperbola @(67) and, "
         "for $I = 1$, the line of @theorem-ball-line.",
+        false=Falsehood(
+            r"$\Omega_3$ starts with the rate $\omega_1 B'_3$",
+            "at0(d(Omega3)) = omega1*B2",
+            "at0(d(Omega3)) = omega1*B3",
+        ),
     ),
     Trial(
         name="theorem-stability",
@@ -280,6 +290,11 @@ TRIALS = (
         follows="@(48) as corrected, on the hyperbola @(71)",
         note=r"$\Omega_3 = \omega_3 + \varepsilon$ obeys $\ddot\varepsilon = -\nu_n^2 \varepsilon$ to first order. By "
         "@theorem-quartic the second derivative of $Q$ is twice the slope of the cubic @(47).",
+        false=Falsehood(
+            "The square of the nutation frequency is a sum of positive terms for every $I < 1$",
+            "(2*tau^2 - 1)",
+            "(2*tau^2 + 1)",
+        ),
     ),
     Trial(
         name="theorem-root",
@@ -289,6 +304,11 @@ TRIALS = (
         follows=r"@theorem-quartic at $\omega_3 + v$, for every elementary motion",
         note=r"Where $\nu_n^2 > 0$ there is no other real $v$ near 0 with $Q \ge 0$: the motion is stable. Where "
         r"$\nu_n^2 < 0$ it is not. Where $\nu_n = 0$ the sign of the next term decides.",
+        false=Falsehood(
+            "At an end of the band the motion leaves by $2B'_3$",
+            "(4*B3 - v)",
+            "(2*B3 - v)",
+        ),
     ),
     Trial(
         name="theorem-stable-short",
@@ -297,6 +317,11 @@ TRIALS = (
         follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
         defines=("S",),
         also=(Part(line="X^2 > 0; (I - 1)*B2^2 >= 0", model=short_model),),
+        false=Falsehood(
+            "The bound holds from above",
+            "= X^2 + S^2",
+            "= X^2 - S^2",
+        ),
     ),
     Trial(
         name="theorem-band",
@@ -319,6 +344,11 @@ TRIALS = (
         note=r"Positive below and above the two roots, not positive between them and at them; for $8 \tau^2 > 1$ "
         "positive everywhere. Inside the band the motion is unstable by @theorem-root, at its ends by "
         "@theorem-band-ends.",
+        false=Falsehood(
+            "Inside the band the motions are stable",
+            "minus_slope_within <= 0",
+            "minus_slope_within > 0",
+        ),
     ),
     Trial(
         name="theorem-band-ends",
@@ -331,6 +361,11 @@ TRIALS = (
         note="This motion has the constants of the elementary one, comes as near to it as one likes for $t$ to minus "
         r"infinity, and yet leaves it by $4 B'_3$. At the ends $E' - I \omega_3^2 = \omega_2^2 > 0$, so that "
         r"@(42) brings $\mathbf{K}$ near as well.",
+        false=Falsehood(
+            "It leaves to infinity in a finite time",
+            "(1 + 4*(1 - I)",
+            "(1 - 4*(1 - I)",
+        ),
     ),
     Trial(
         name="theorem-equatorial-stability",
@@ -340,6 +375,11 @@ TRIALS = (
         also=(Part(line="minus_slope = X^2 - (1 - I)*B2^2", model=lambda: equatorial_model("level")),),
         note=r"With $B'_3 = 0$ the root of $Q$ that @theorem-root has where $\nu_n = 0$ is fourfold, and for "
         "$I < 1$ the quartic $Q$ is negative beside it: there the ends belong to the stable motions.",
+        false=Falsehood(
+            r"With $\omega_2 = -B'_2$ every spin is stable",
+            "I^2*omega3^2 - (1 - I)*B2^2",
+            "I^2*omega3^2 + (1 - I)*B2^2",
+        ),
     ),
     Trial(
         name="theorem-ball-nutation",
@@ -349,6 +389,11 @@ TRIALS = (
         note=r"So every motion of the ball is stable but the one with $\boldsymbol{\omega} = -\mathbf{B}'$. There the "
         r"ball rests in Larmor's frame, and pushed by $\delta$ it turns in that frame with the angular velocity "
         r"$\delta$, however small.",
+        false=Falsehood(
+            "The ball nutates with its angular velocity in the laboratory",
+            "omega1^2 + (omega2 + B2)^2 + (omega3 + B3)^2",
+            "omega1^2 + omega2^2 + omega3^2",
+        ),
     ),
     Trial(
         name="theorem-ball-line",
@@ -357,6 +402,11 @@ TRIALS = (
         follows=r"@(12) and @(16) by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
         defines=("R",),
         solves=_MOTION,
+        false=Falsehood(
+            r"The proper rotation is the spin $\omega_3$",
+            "phi = omega3 + B3",
+            "phi = omega3",
+        ),
     ),
     Trial(
         name="theorem-equatorial-field",
@@ -365,6 +415,11 @@ TRIALS = (
         follows=r"@(12) and @(16) by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
         defines=("R",),
         solves=_MOTION,
+        false=Falsehood(
+            "The proper rotation is counted from Larmor's frame",
+            "phi = omega3",
+            "phi = omega3 + B2",
+        ),
     ),
     Trial(
         name="theorem-quadric-lines",
@@ -372,18 +427,33 @@ TRIALS = (
         " omega1^2 = (1 - I)*B2^2; omega2 = -B2",
         model=lines_model,
         follows=r"@(50) by substitution, any $\omega_3$",
+        false=Falsehood(
+            r"The lines lie in the plane $\omega_1 = 0$",
+            "omega1^2 = (1 - I)*B2^2",
+            "omega1 = 0",
+        ),
     ),
     Trial(
         name="theorem-momentum",
         printed="dm = k*cross(hat_B,m)",
         model=elementary.matrix_model,
         follows=r"@(17) with $R$ of @(84) and $\boldsymbol{\Omega}$ of @(73)",
+        false=Falsehood(
+            "The angular momentum precesses against the axis",
+            "k*cross(hat_B,m)",
+            "k*cross(m,hat_B)",
+        ),
     ),
     Trial(
         name="theorem-moment",
         printed="dm = mu/(2*c)*(cross(m,Bf) - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf)",
         model=torque_model,
         follows="@(17) and @(12), any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
+        false=Falsehood(
+            "The equation of the magnetic moment holds for every body",
+            " - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf",
+            "",
+        ),
     ),
     Trial(
         name="theorem-drift",
@@ -391,6 +461,11 @@ TRIALS = (
         model=drift_model,
         follows="@(89) solved for the velocity that does not change, for either sign of the charge",
         note=r"The rest of the velocity turns about $\mathbf{B}$ by @(96) and is zero in the mean.",
+        false=Falsehood(
+            "A negative charge drifts the other way",
+            "c*cross(Eperp,Bf)/b^2",
+            "mu/abs(mu)*c*cross(Eperp,Bf)/b^2",
+        ),
     ),
     Trial(
         name="theorem-ball-rest",
@@ -399,12 +474,22 @@ TRIALS = (
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
         defines=("R",),
         solves="d(R[i,j]) = 1/I0*eps[i,a,b]*m[a]*R[b,j]; at0(R) = one",
+        false=Falsehood(
+            r"The ball turns by $+\alpha t$",
+            "sin(alpha*t), 0], [-sin(alpha*t)",
+            "-sin(alpha*t), 0], [sin(alpha*t)",
+        ),
     ),
     Trial(
         name="theorem-angles",
         printed="psi1 = P/b/(1 - nu^2); chi1 = u - nu*psi1",
         model=angles_model,
         follows=r"$R = R_z(\psi) R_x(\theta) R_z(\chi)$ with any rates",
+        false=Falsehood(
+            "The proper rotation is the component of the angular velocity along the axis",
+            "chi1 = u - nu*psi1",
+            "chi1 = u",
+        ),
     ),
     Trial(
         name="theorem-cayley-klein",
@@ -413,5 +498,10 @@ TRIALS = (
         model=angles_model,
         follows=r"$\xi = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\eta = \sin (\theta/2) \exp (i (\psi - "
         r"\chi)/2)$: moduli and arguments",
+        false=Falsehood(
+            "The spin enters both arguments with the same sign",
+            "1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) - u)",
+            "1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) + u)",
+        ),
     ),
 )

@@ -1,7 +1,7 @@
 """A trial: what the paper prints, what stands before it, and what the verdict rests on."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from atlas.proof.decide import Outcome, decide
 from atlas.proof.model import Model
@@ -33,6 +33,22 @@ class Part:
         )
 
 
+@dataclass(frozen=True)
+class Falsehood:
+    """A false sentence near a claim, which its trial must refute: else the trial would let the claim pass unread.
+
+    says    the sentence
+    right   what it changes in the true form of the claim, in the first line that holds it; empty if it changes nothing
+    wrong   what it has in that place
+    model   of what it says this, if not of what the claim is about
+    """
+
+    says: str
+    right: str = ""
+    wrong: str = ""
+    model: Callable[[], Cases] | None = None
+
+
 @dataclass(frozen=True, kw_only=True)
 class Trial:
     r"""The trial of one entry of the ledger.
@@ -50,6 +66,7 @@ class Trial:
                `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from those of the printed
                form, and `corrected_also`
     note       what the verdict means, where it needs a word
+    false      a false sentence near it; a claim in words must have one, unless it is refuted itself
     check      how the lines are decided, if not by `decide`
     """
 
@@ -70,6 +87,7 @@ class Trial:
     corrected_solves: str | None = None
     corrected_also: tuple[Part, ...] = ()
     note: str = ""
+    false: Falsehood | None = None
     check: Check = decide
 
     @property
@@ -96,6 +114,17 @@ class Trial:
     def true_parts(self) -> tuple[Part, ...]:
         """The lines of the form that is proved: the corrected one where there is one."""
         return self.corrected_parts or self.parts
+
+    @property
+    def false_part(self) -> Part:
+        """The part of the true form that the false sentence changes. Raises ValueError if there is none."""
+        if self.false is None or not (self.false.right or self.false.model):
+            raise ValueError(f"{self.name} has no false sentence beside it")
+        for part in self.true_parts:
+            if self.false.right in part.line:
+                line = part.line.replace(self.false.right, self.false.wrong, 1) if self.false.right else part.line
+                return replace(part, line=line, model=self.false.model or part.model)
+        raise ValueError(f"{self.name}: the false sentence changes {self.false.right!r}, which is not there")
 
     def of_printed(self, *, shrink: bool = False) -> Outcome:
         """Try the printed form; a definition that holds is called one."""

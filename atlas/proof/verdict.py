@@ -29,6 +29,8 @@ class Verdict:
                     `corrected_verdict` says so
     counterexample  values of the letters that break the printed form, and what its two sides then are
     note            what the verdict means, where it needs a word
+    false           a false sentence near a claim in words, `false_line` in plain letters, `false_verdict` on it, which
+                    must be refuted
     seconds         what the trial took
     source          fingerprint of the proof's source
     """
@@ -48,6 +50,9 @@ class Verdict:
     corrected_verdict: str = ""
     counterexample: dict[str, str] = field(default_factory=dict)
     note: str = ""
+    false: str = ""
+    false_line: str = ""
+    false_verdict: str = ""
     seconds: float = 0.0
     source: str = ""
 
@@ -64,6 +69,16 @@ class Verdict:
         reason = shown.pop("reason", "")
         letters = ", ".join(f"{name} = {value}" for name, value in shown.items())
         return "; ".join(part for part in (reason, letters, relation, *sides) if part)
+
+    @property
+    def sound(self) -> bool:
+        """Whether it stands: proved or a definition, or refuted and graded; a corrected form must be proved."""
+        settled = self.verdict in {"proved", "definition"} or (self.verdict == "refuted" and bool(self.grade))
+        return (
+            settled
+            and (not self.grade or self.corrected_verdict == "proved")
+            and (not self.false or self.false_verdict == "refuted")
+        )
 
 
 def slips(verdicts: Iterable[Verdict]) -> dict[Grade, list[str]]:

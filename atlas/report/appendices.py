@@ -22,6 +22,7 @@ class Finding:
     survivors       why the others survive
     modules         the modules that cite the entry, such as ``core/hyperbola.py``
     grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
+    false           a false sentence near a claim in words, which the trial refutes
     """
 
     verdict: str
@@ -37,6 +38,7 @@ class Finding:
     modules: tuple[str, ...] = ()
     grade: str = ""
     slip: str = ""
+    false: str = ""
 
 
 @dataclass(frozen=True)

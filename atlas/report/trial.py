@@ -61,6 +61,7 @@ class EntryView:
     grade: str = ""
     slip: str = ""
     quote: int | None = None
+    false: int | None = None
 
     @property
     def slug(self) -> str:
@@ -77,7 +78,7 @@ class EntryView:
         """The places in the manuscript of all its texts."""
         every = (
             *(self.says, self.quote, self.formula, self.assumptions),
-            *(self.how, self.corrected, self.note, self.survivors),
+            *(self.how, self.corrected, self.note, self.survivors, self.false),
         )
         return [number for number in every if number is not None]
 
@@ -123,6 +124,7 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         grade=found.grade,
         slip=found.slip,
         quote=keep(f"“{entry.quote}”", inline=True) if entry.quote else None,
+        false=keep(f"“{found.false}.”", inline=True) if found.false else None,
     )
 
 

@@ -36,10 +36,11 @@ def diamagnetism(request: Request) -> Data:
         (
             Column("Body"),
             Column(r"by the charge, $(I_3-I_2)b^2/2$", "J"),
-            Column(r"by the magnetisation, $-\chi^2VB^2\,\Delta N/2\mu_0$", "J"),
+            Column(r"by the magnetisation, $-\chi_m^2m_0B^2\,\Delta N/2\mu_0\rho$", "J"),
         ),
         tuple(rows),
-        r"The factors of $\nu^2$ in the energy of the bodies: by their charge, and by their own magnetisation with a "
-        rf"susceptibility $\chi$ of {Number(f'{asked.susceptibility:.1e}').tex()} and {asked.density:g} kg m$^{{-3}}$.",
-        (r"Two digits: $\chi$ is known no better, and $\Delta N$ is that of a thin wall.",),
+        r"The factors of $\nu^2$ in the energy of the bodies: by their charge, and by their own magnetisation with "
+        rf"a susceptibility $\chi_m$ of {Number(f'{asked.susceptibility:.1e}').tex()} and {asked.density:g} "
+        "kg m$^{-3}$.",
+        (r"Two digits: $\chi_m$ is known no better, and $\Delta N$ is that of a thin wall.",),
     )
