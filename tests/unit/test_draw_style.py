@@ -18,7 +18,7 @@ from atlas import AtlasError
 from atlas.draw import context, gl, save, to_figure, to_plotter
 from atlas.draw.style import style_of
 from atlas.scene import Curve, Image, Plane, Scene, recipes
-from atlas.scene.style import LINES, STYLES, readable
+from atlas.scene.style import LINES, STYLES, Style, readable
 
 
 def lines(count: int = 1) -> Scene:
@@ -215,3 +215,15 @@ def test_lines_that_are_components_keep_apart_in_grey() -> None:
     light = [lab(((np.array(mpl.colors.to_rgb(look.colour)) + 0.055) / 1.055) ** 2.4)[0] for look in looks]
     for (a, one), (b, other) in combinations(zip(light, looks, strict=True), 2):
         assert abs(a - b) > 15.0 or one.dash != other.dash
+
+
+def test_tubes_are_as_wide_as_lines_and_marks_on_paper() -> None:
+    """In shaded pictures a line is one to three times as wide as on paper, a mark up to 1.2 points wider; all print."""
+    for role, look in STYLES.items():
+        assert look.width >= 0.25, role  # what journals print
+        if look.marker:
+            assert look.size <= look.tube <= look.size + 1.2, role
+        elif role != "silhouette" and not look.fill and look.tube != Style(look.colour).tube:
+            assert look.width <= look.tube <= 3.0 * look.width, role
+        assert 0.0 <= look.fill <= 1.0, role
+        assert 0.0 < look.glass <= 1.0, role

@@ -3,6 +3,7 @@
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -145,25 +146,43 @@ def test_the_line_on_the_torus_is_straight_and_closes_with_the_trace() -> None:
     assert np.abs(np.linalg.norm(dense.points, axis=1) - 1).max() <= 8 * EPS
 
 
+def depth(points: FloatArray, azimuth: float, elevation: float) -> FloatArray:
+    """Return how far, squared, the ray of each point to the eye goes into the tube of radius 0.42 round the circle."""
+    turn, rise = np.radians([azimuth, elevation])
+    eye = np.array([np.cos(rise) * np.cos(turn), np.cos(rise) * np.sin(turn), np.sin(rise)])
+    ray = points[:, None] + np.linspace(0.01, 3.0, 1500)[:, None] * eye
+    return np.asarray((0.42**2 - (np.hypot(ray[..., 0], ray[..., 1]) - 1.0) ** 2 - ray[..., 2] ** 2).max(axis=1))
+
+
+def on_torus(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return points of the torus by their angles round its axis and round its tube."""
+    far = 1.0 + 0.42 * np.cos(second)
+    return np.stack([far * np.cos(first), far * np.sin(first), 0.42 * np.sin(second)], axis=1)
+
+
 def test_of_a_line_on_the_torus_is_drawn_what_no_part_of_it_hides() -> None:
     """By steps along the rays to the eye: drawn points are seen, and their share is that of the points seen, 1 %."""
-    azimuth, elevation = np.radians([25.0, 52.0])
-    eye = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
-
-    def depth(points: FloatArray) -> FloatArray:
-        """Return how far, squared, the ray of each point goes into the tube of radius 0.42 round the unit circle."""
-        ray = points[:, None] + np.linspace(0.01, 3.0, 1500)[:, None] * eye
-        return np.asarray((0.42**2 - (np.hypot(ray[..., 0], ray[..., 1]) - 1.0) ** 2 - ray[..., 2] ** 2).max(axis=1))
-
     panel = panels("ball_torus")[0]
     first = np.linspace(0.0, 4.0 * np.pi, 3000)
-    whole = np.stack([np.cos(first), np.sin(first), 0.0 * first], axis=1) * (1.0 + 0.42 * np.cos(2.5 * first))[:, None]
-    whole[:, 2] = 0.42 * np.sin(2.5 * first)
+    whole = on_torus(first, 2.5 * first)
     drawn = [layer.points for layer in layers(panel, Curve, "trajectory")]
-    assert all(depth(line[1:-1]).max() <= 2e-3 for line in drawn)
+    assert all(depth(line[1:-1], 25.0, 52.0).max() <= 2e-3 for line in drawn)
     length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in drawn)
     steps = np.linalg.norm(np.diff(whole, axis=0), axis=1)
-    assert abs(length / steps[depth(whole[1:]) <= 0.0].sum() - 1.0) <= 0.01
+    assert abs(length / steps[depth(whole[1:], 25.0, 52.0) <= 0.0].sum() - 1.0) <= 0.01
+
+
+@pytest.mark.parametrize("elevation", [52.0, 12.0, -30.0])
+def test_a_point_of_the_torus_is_hidden_where_its_ray_meets_the_tube(elevation: float) -> None:
+    """From any height of the eye; points that all but graze the tube are left out."""
+    names = recipes._function(recipes.load("ball_torus").source)[0].__globals__
+    points = on_torus(*np.random.default_rng(4).uniform(0.0, 2.0 * np.pi, (2, 2000)))
+    with patch.dict(names, {"VIEW": (25.0, elevation)}):
+        hidden = names["hidden"](points)
+    behind = depth(points, 25.0, elevation)
+    clear = np.abs(behind) > 1e-2
+    assert (hidden == (behind > 0.0))[clear].all()
+    assert clear.sum() > 500
 
 
 def test_the_solenoid_flies_as_a_charge_does_and_its_axis_keeps_its_angle() -> None:

@@ -43,7 +43,9 @@ def test_points_of_a_section_satisfy_both_equations(seed: int) -> None:
         ((1.0, -1.0, 1.0), (0.0, 0.0, 0.0), 1.0, 2),  # hyperbola about the other axis
         ((1.0, -1.0, 1.0), (0.0, 0.0, 0.0), 0.0, 2),  # two lines that cross
         ((1.0, 0.0, 1.0), (0.0, 1.0, 0.0), 0.0, 1),  # parabola
+        ((2.0, 0.0, 1.0), (0.6, -0.7, 0.0), 0.3, 1),  # parabola off the axis
         ((1.0, 0.0, 1.0), (0.0, 0.0, 0.0), -1.0, 2),  # two parallel lines
+        ((2.0, 0.0, 1.0), (0.6, 0.0, 0.0), -0.9, 2),  # two parallel lines off the axis
         ((1.0, 0.0, 1.0), (0.0, 0.0, 0.0), 0.0, 1),  # one line, twice
         ((0.0, 0.0, 0.0), (1.0, 2.0, 0.0), -1.0, 1),  # one line
         ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), 1.0, 0),  # nothing
