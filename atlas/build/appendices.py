@@ -45,7 +45,7 @@ def gather(report: Report) -> Appendices:
 def _findings() -> dict[str, Finding]:
     """Return what the trial recorded on each entry."""
     from atlas.proof import recorded
-    from atlas.proof.survivors import reason
+    from atlas.proof.unrefuted import reason
 
     mutants, modules = recorded.load_mutants(), _modules()
     findings = {}
@@ -61,7 +61,7 @@ def _findings() -> dict[str, Finding]:
             verdict.note,
             changed.tried if changed else 0,
             changed.noticed if changed else 0,
-            " ".join(dict.fromkeys(reason(name, line) for _, line, _ in changed.survivors)) if changed else "",
+            " ".join(dict.fromkeys(reason(name, line) for _, line, _ in changed.unrefuted)) if changed else "",
             modules.get(name, ()),
             verdict.grade,
             verdict.slip,
@@ -82,9 +82,9 @@ def _modules() -> dict[str, tuple[str, ...]]:
 
 
 def _trial() -> dict[str, Data]:
-    """Return the verdicts in numbers, section by section, and what survived the changes."""
+    """Return the verdicts in numbers, section by section, and which changes were not refuted."""
     from atlas.proof import recorded
-    from atlas.proof.survivors import reason
+    from atlas.proof.unrefuted import reason
     from atlas.proof.verdict import slips
 
     verdicts, mutants = recorded.load(), recorded.load_mutants()
@@ -98,7 +98,7 @@ def _trial() -> dict[str, Data]:
             totals[key]["tried"] += changed.tried if changed else 0
             totals[key]["noticed"] += changed.noticed if changed else 0
     totals["All"] = totals.pop("all")
-    heads = ("Section", "Entries", *(kind.capitalize() for kind in kinds), "Changes tried", "Noticed", "Survivors")
+    heads = ("Section", "Entries", *(kind.capitalize() for kind in kinds), "Changes tried", "Noticed", "Not refuted")
     rows: list[tuple[str | Number, ...]] = []
     for key, count in totals.items():
         count["left"] = count["tried"] - count["noticed"]
@@ -106,12 +106,12 @@ def _trial() -> dict[str, Data]:
         rows.append((_SECTIONS.get(key, key), *numbers))
     reasons: defaultdict[str, Counter[str]] = defaultdict(Counter)
     for name, changed in mutants.items():
-        for _, line, _ in changed.survivors:
+        for _, line, _ in changed.unrefuted:
             reasons[reason(name, line) or "Not explained."][name] += 1
     return {
         "totals": Data(tuple(map(Column, heads)), tuple(rows), "The trial in numbers."),
-        "survivors": Data(
-            (Column("Why they survive"), Column("Entries, with the number of survivors")),
+        "unrefuted": Data(
+            (Column("Why they are not refuted"), Column("Entries, with the number of changes")),
             tuple(
                 (why, ", ".join(f"@{name} ({count})" for name, count in counts.items()))
                 for why, counts in reasons.items()

@@ -35,7 +35,7 @@ OUT = Path("build/bench.json")
 def command(
     cases: tuple[str, ...], quick: bool, read: Path | None, out: Path | None, store: bool, as_json: bool
 ) -> None:
-    """Measure error and time together, against references that share nothing with what they judge.
+    """Measure error and time together, against references that share nothing with what they measure.
 
     The record holds machine, versions and command. Figures and report pages are drawn from the stored record.
     """

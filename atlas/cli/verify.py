@@ -48,7 +48,7 @@ def command(
 
     A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided,
     supported, or definition where there is nothing to prove. Slips are graded. The exit
-    status is 1 if a verdict differs from the recorded one, or a mutant survives without a reason.
+    status is 1 if a verdict differs from the recorded one, or a mutant is not refuted and has no reason on record.
     """
     if record and names:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
@@ -117,38 +117,38 @@ def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
 
 def _mutants(found: Any, as_json: bool) -> int:
     """Show what became of the mutants; return the exit status."""
-    from atlas.proof.survivors import reason
+    from atlas.proof.unrefuted import reason
 
-    why = {(one.name, line): plain(reason(one.name, line)) for one in found for _, line, _ in one.survivors}
+    why = {(one.name, line): plain(reason(one.name, line)) for one in found for _, line, _ in one.unrefuted}
     unexplained = [(name, line) for (name, line), text in why.items() if not text]
     if as_json:
-        dump({"mutants": [one.as_dict() | {"survivors": _explained(one, why)} for one in found]})
+        dump({"mutants": [one.as_dict() | {"unrefuted": _explained(one, why)} for one in found]})
     else:
         rows = [
             [
                 one.name,
                 str(one.tried),
                 str(one.noticed),
-                str(len(one.survivors)),
-                " ".join(dict.fromkeys(why[one.name, line] for _, line, _ in one.survivors)),
+                str(len(one.unrefuted)),
+                " ".join(dict.fromkeys(why[one.name, line] for _, line, _ in one.unrefuted)),
             ]
             for one in found
         ]
-        heading = ("equation", "mutants", "noticed", "survive", "because")
+        heading = ("equation", "mutants", "noticed", "not refuted", "because")
         show(Printout("forms changed in one place", heading=heading, rows=rows, justify="left"))
         for one in found:
-            for what, line, decision in one.survivors:
-                click.echo(f"{one.name} survives {what}: {line} ({decision})")
+            for what, line, decision in one.unrefuted:
+                click.echo(f"{one.name}, {what}, is not refuted: {line} ({decision})")
         tried, noticed = sum(one.tried for one in found), sum(one.noticed for one in found)
-        click.echo(f"{tried} mutants, {noticed} noticed, {tried - noticed} survive")
+        click.echo(f"{tried} mutants, {noticed} noticed, {tried - noticed} not refuted")
     for name, line in unexplained:
-        click.echo(f"atlas: a mutant of {name} survives and no reason is on record: {line}", err=True)
+        click.echo(f"atlas: a mutant of {name} is not refuted and no reason is on record: {line}", err=True)
     return int(bool(unexplained))
 
 
 def _explained(one: Any, why: dict[tuple[str, str], str]) -> list[dict[str, str]]:
-    """Return the survivors of an entry for JSON, each with its reason."""
+    """Return the changes of an entry that were not refuted, for JSON, each with its reason."""
     return [
         {"change": what, "line": line, "verdict": full, "reason": why[one.name, line]}
-        for what, line, full in one.survivors
+        for what, line, full in one.unrefuted
     ]

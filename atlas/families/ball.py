@@ -34,16 +34,16 @@ FAMILY = Family(
         ),
     ),
     (
-        Quantity("gamma", "frequency of the turn about k_hat", RATE, "(29)", judged="ball gamma", certified=True),
+        Quantity("gamma", "frequency of the turn about k_hat", RATE, "(29)", checked="ball gamma", certified=True),
         Quantity(
             "k_hat", "its axis", "", "(29)", columns=("k2", "k3"), text=lambda parts: in_brackets(("0", *parts)),
-            judged="ball k_hat", certified=True,
+            checked="ball k_hat", certified=True,
         ),
     ),
     (
         rotation("(28)", "ball R"),
-        Sampled("m", "angular_momentum", "angular momentum", MOMENT, "(26)", judged="ball m"),
-        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, judged="ball Omega", printed=False),
+        Sampled("m", "angular_momentum", "angular momentum", MOMENT, "(26)", checked="ball m"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="ball Omega", printed=False),
     ),
     {"ball R": 4, "ball gamma": 4, "ball k_hat": 4, "ball m": 8, "ball Omega": 8},
     Command(

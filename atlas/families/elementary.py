@@ -69,16 +69,16 @@ FAMILY = Family(
         Quantity("case", "name of the case"),
         Quantity(
             "omega3", OMEGA3, RATE, "(71)", dict.fromkeys(("free body", *FREE_SPIN), (OMEGA3, "given")),
-            judged="omega3", certified=True,
+            checked="omega3", certified=True,
         ),
         Quantity(
             "k", PRECESSION, RATE, "(79)",
             {"free body": (PRECESSION.replace("B", "m"), "(87)")} | dict.fromkeys(FREE_SPIN, (PRECESSION, "")),
-            judged="k", certified=True,
+            checked="k", certified=True,
         ),
         Quantity(
             "phi", PROPER, RATE, "(72)", {"free body": (PROPER, "(87)")} | dict.fromkeys(FREE_SPIN, (PROPER, "")),
-            judged="phi", certified=True,
+            checked="phi", certified=True,
         ),
         Quantity(
             "period", "period of precession, 2 pi/|k|", TIME, get=_period, exact=_exact_period, certified=True,
@@ -91,9 +91,9 @@ FAMILY = Family(
     ),
     (
         rotation("(84)", "R"),
-        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "(73)", judged="Omega"),
-        Sampled("K", "field_in_body", "field B' in the body", RATE, "(32)", judged="K", printed=False),
-        Sampled("m", "angular_momentum", "angular momentum over I2", RATE, "(88)", "m_i/I2", judged="m"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "(73)", checked="Omega"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, "(32)", checked="K", printed=False),
+        Sampled("m", "angular_momentum", "angular momentum over I2", RATE, "(88)", "m_i/I2", checked="m"),
     ),
     {
         "R": 4, "R at one time": 4, "R grid": 4, "R orthogonality": 4, "R determinant": 4, "R(0) = 1": 0,

@@ -25,12 +25,12 @@ FAMILY = Family(
     _balls,
     (RATIO, OMEGA),
     (
-        Quantity("k", "frequency of precession about m", RATE, "(87)", judged="free k", certified=True),
-        Quantity("phi", "frequency of proper rotation", RATE, "(87)", judged="free phi", certified=True),
+        Quantity("k", "frequency of precession about m", RATE, "(87)", checked="free k", certified=True),
+        Quantity("phi", "frequency of proper rotation", RATE, "(87)", checked="free phi", certified=True),
     ),
     (
         rotation("(87)", "free R"),
-        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, judged="free Omega"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="free Omega"),
     ),
     {"free R": 4, "free k": 4, "free phi": 4, "free Omega": 8},
 )

@@ -51,8 +51,8 @@ FAMILY = Family(
     ),
     (
         rotation("", "general R"),
-        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, judged="general Omega"),
-        Sampled("K", "field_in_body", "field B' in the body", RATE, judged="general K", printed=False),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="general Omega"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, checked="general K", printed=False),
         Sampled("m", "angular_momentum", "angular momentum over I2", RATE, symbol="m_i/I2"),
     ),
     {

@@ -50,7 +50,7 @@ class Quantity:
     get        how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls
     text       how the texts of its digits become one text
     missing    why there may be none: an empty cell then, which this explains; "" where that is an error
-    judged     its name in a stress run, if it has a promise or is judged without one
+    checked     its name in a stress run, if it has a promise or is checked without one
     certified  whether a sweep gives it in certified digits; `printed`, `tabled`, whether a command prints it and a
                table has it
     """
@@ -67,7 +67,7 @@ class Quantity:
     exact: Callable[[Any], Any] | None = None
     text: Callable[[Any], str] = str
     missing: str = ""
-    judged: str = ""
+    checked: str = ""
     certified: bool = False
     printed: bool = True
     tabled: bool = True
@@ -93,7 +93,7 @@ class Sampled:
     equation: str = ""
     symbol: str = ""
     matrix: bool = False
-    judged: str = ""
+    checked: str = ""
     printed: bool = True
 
     def at(self, made: Any) -> Callable[[Any], Any]:
@@ -147,8 +147,8 @@ class Family:
     """A family: parameters in the order that both classes take them in, quantities, and what it has at a time.
 
     `kernels` and `balls` import and return the class of `atlas.core` and that of `atlas.exact`. `promises` holds the
-    largest errors, in ulps, by the names of a stress run: of quantities and of what else is judged. Tables make so many
-    motions `at_once`.
+    largest errors, in ulps, by the names of a stress run: of quantities and of what else is checked. Tables make so
+    many motions `at_once`.
     """
 
     name: str

@@ -61,8 +61,8 @@ FAMILY = Family(
         Quantity("drift", "c [E, B]/B^2", SPEED, "(94)", get=_drift, text=in_brackets, tabled=False),
     ),
     (
-        Sampled("position", "position", "position", "length", "(101)", "y_i", judged="particle y"),
-        Sampled("velocity", "velocity", "velocity", SPEED, "(90)", "v_i", judged="particle v"),
+        Sampled("position", "position", "position", "length", "(101)", "y_i", checked="particle y"),
+        Sampled("velocity", "velocity", "velocity", SPEED, "(90)", "v_i", checked="particle v"),
     ),
     command=Command(
         "particle",

@@ -26,18 +26,18 @@ FAMILY = Family(
     (RATIO, FIELD),
     (
         Quantity("kind", "name of the surface"),
-        Quantity("beta", "angle from e2 to I^-1 B'", "rad", "(53)", judged="beta", certified=True),
-        Quantity("a2", "2 sin(beta)/(1 - sin(beta))", "", "(54)", judged="a2", certified=True),
-        Quantity("a3", "2 sin(beta)/(1 + sin(beta))", "", "(54)", judged="a3", certified=True),
+        Quantity("beta", "angle from e2 to I^-1 B'", "rad", "(53)", checked="beta", certified=True),
+        Quantity("a2", "2 sin(beta)/(1 - sin(beta))", "", "(54)", checked="a2", certified=True),
+        Quantity("a3", "2 sin(beta)/(1 + sin(beta))", "", "(54)", checked="a3", certified=True),
         Quantity(
             "semi_axes", "semi-axes along omega'_1..3", RATE, "(55), (57)", columns=("C1", "C2", "C3"),
-            lines=tuple((f"C{i}", f"semi-axis along omega'_{i}") for i in (1, 2, 3)), judged="semi-axes",
+            lines=tuple((f"C{i}", f"semi-axis along omega'_{i}") for i in (1, 2, 3)), checked="semi-axes",
             certified=True,
         ),
         Quantity("centre", "-B', the centre", RATE, "(51)", text=in_brackets, tabled=False),
         Quantity(
             "axes", "canonical axes", "", "(53)", text=in_brackets,
-            lines=tuple((f"e'_{i}", "canonical axis") for i in (1, 2, 3)), judged="canonical axes", tabled=False,
+            lines=tuple((f"e'_{i}", "canonical axis") for i in (1, 2, 3)), checked="canonical axes", tabled=False,
         ),
     ),
     promises={"beta": 4, "a2": 4, "a3": 4, "semi-axes": 4, "canonical axes": 4},

@@ -19,9 +19,9 @@ OMEGA = Parameter(
 )
 
 
-def rotation(equation: str, judged: str) -> Sampled:
+def rotation(equation: str, checked: str) -> Sampled:
     """Return the rotation matrix of a family."""
-    return Sampled("R", "rotation", "rotation matrix", equation=equation, matrix=True, judged=judged)
+    return Sampled("R", "rotation", "rotation matrix", equation=equation, matrix=True, checked=checked)
 
 
 def in_brackets(parts: Any) -> str:

@@ -63,9 +63,9 @@ def load_mutants(path: Path = MUTANTS) -> dict[str, Sensitivity]:
     return {name: recorded[name] for name in EQUATIONS if name in recorded}
 
 
-def sensitivity(survivors: Iterable[Iterable[str]], **entry: Any) -> Sensitivity:
+def sensitivity(unrefuted: Iterable[Iterable[str]], **entry: Any) -> Sensitivity:
     """Return the record of mutants that JSON holds."""
-    return Sensitivity(survivors=tuple((what, line, found) for what, line, found in survivors), **entry)
+    return Sensitivity(unrefuted=tuple((what, line, found) for what, line, found in unrefuted), **entry)
 
 
 def _read(path: Path) -> list[dict[str, Any]]:

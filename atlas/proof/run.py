@@ -122,7 +122,7 @@ def try_mutants(name: str, *, every: bool = False) -> Sensitivity:
     """
     case = trial(name)
     start = time.perf_counter()
-    tried, survivors = 0, []
+    tried, unrefuted = 0, []
     for part in case.true_parts:
         cases = part.model()
         first = cases if isinstance(cases, Model) else cases[0]
@@ -134,12 +134,12 @@ def try_mutants(name: str, *, every: bool = False) -> Sensitivity:
                 continue
             if _within_time(lambda part=part, line=line: part.outcome(line, sample_only=True)).decision != "refuted":  # type: ignore[misc]
                 full = _within_time(lambda part=part, line=line: part.outcome(line)).decision  # type: ignore[misc]
-                survivors.append((what, line, full))
+                unrefuted.append((what, line, full))
     return Sensitivity(
         name=name,
         tried=tried,
-        noticed=tried - len(survivors),
-        survivors=tuple(survivors),
+        noticed=tried - len(unrefuted),
+        unrefuted=tuple(unrefuted),
         seconds=round(time.perf_counter() - start, 2),
         source=recorded.source(name, changes=True),
     )

@@ -96,14 +96,14 @@ class Sensitivity:
 
     tried       how many there were
     noticed     how many the trial refuted
-    survivors   those that it didn't: what was changed, the line, what the full trial says of it; why, says
-                `survivors.reason`
+    unrefuted   those that it didn't: what was changed, the line, what the full trial says of it; why, says
+                `unrefuted.reason`
     """
 
     name: str
     tried: int
     noticed: int
-    survivors: tuple[tuple[str, str, str], ...] = ()
+    unrefuted: tuple[tuple[str, str, str], ...] = ()
     seconds: float = 0.0
     source: str = ""
 

@@ -19,7 +19,7 @@ class Finding:
     counterexample  values of the letters that break the printed form, and what its two sides then are
     note            what the verdict means, where it needs a word
     tried, noticed  forms changed in one place that were tried as well, and those that the trial refuted
-    survivors       why the others survive
+    unrefuted       why the others are not
     modules         the modules that cite the entry, such as ``core/hyperbola.py``
     grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
     false           a false sentence near a claim in words, which the trial refutes
@@ -34,7 +34,7 @@ class Finding:
     note: str = ""
     tried: int = 0
     noticed: int = 0
-    survivors: str = ""
+    unrefuted: str = ""
     modules: tuple[str, ...] = ()
     grade: str = ""
     slip: str = ""

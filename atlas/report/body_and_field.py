@@ -10,7 +10,7 @@ from atlas.core.field import Field as PhysicalField
 from atlas.core.field import LaboratoryFrame
 from atlas.core.units import System, charge_to_mass, system
 from atlas.errors import AtlasError, unknown
-from atlas.report.parameters import Body, Field, Parameters
+from atlas.report.parameters import BodiesAndFields, Body, Field
 
 
 class Moments(NamedTuple):
@@ -94,7 +94,7 @@ def dimensions(record: Body) -> dict[str, float]:
     return {key: getattr(record, key) for key in keys if getattr(record, key) is not None}
 
 
-def chosen(block: Any, known: Parameters) -> tuple[BodyAndField, ...]:
+def chosen(block: Any, known: BodiesAndFields) -> tuple[BodyAndField, ...]:
     """Return the bodies that a block names, each in the field that it names; either may be missing."""
     field = known.fields[block.field] if block.field else None
     bodies = block.bodies or ((block.body,) if block.body else (None,))

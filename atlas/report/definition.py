@@ -3,7 +3,7 @@
 import msgspec
 
 from atlas.report.blocks import Block
-from atlas.report.parameters import Parameters
+from atlas.report.parameters import BodiesAndFields
 from atlas.report.schema import Id, Slug, StrictStruct
 
 
@@ -52,5 +52,5 @@ class Report(StrictStruct, frozen=True):
     cover: Id | None = None
     related: dict[str, str] = msgspec.field(default_factory=dict)
     bibliography: str = ""
-    parameters: Parameters = Parameters()
+    parameters: BodiesAndFields = BodiesAndFields()
     index: Index = Index()

@@ -35,7 +35,7 @@ class Field(StrictStruct, frozen=True):
     system: Literal["SI", "Gaussian"] = "SI"
 
 
-class Parameters(StrictStruct, frozen=True):
+class BodiesAndFields(StrictStruct, frozen=True):
     """The bodies and fields that the blocks call by name."""
 
     bodies: dict[str, Body] = msgspec.field(default_factory=dict)

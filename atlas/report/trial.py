@@ -55,7 +55,7 @@ class EntryView:
     counterexample: Counterexample | None
     tried: int
     noticed: int
-    survivors: int | None
+    unrefuted: int | None
     modules: tuple[str, ...]
     uses: list[Use]
     grade: str = ""
@@ -78,7 +78,7 @@ class EntryView:
         """The places in the manuscript of all its texts."""
         every = (
             *(self.says, self.quote, self.formula, self.assumptions),
-            *(self.how, self.corrected, self.note, self.survivors, self.false),
+            *(self.how, self.corrected, self.note, self.unrefuted, self.false),
         )
         return [number for number in every if number is not None]
 
@@ -118,7 +118,7 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         counterexample=_counterexample(found.counterexample) if found.counterexample else None,
         tried=found.tried,
         noticed=found.noticed,
-        survivors=words(found.survivors),
+        unrefuted=words(found.unrefuted),
         modules=found.modules,
         uses=uses,
         grade=found.grade,

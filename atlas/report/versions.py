@@ -3,7 +3,7 @@
 import atlas
 from atlas import libraries
 from atlas.report.numbers import shown
-from atlas.report.parameters import Body, Field, Parameters
+from atlas.report.parameters import BodiesAndFields, Body, Field
 
 
 def versions() -> dict[str, str]:
@@ -11,7 +11,7 @@ def versions() -> dict[str, str]:
     return {"atlas": atlas.__version__} | libraries.versions()
 
 
-def parameters(known: Parameters) -> list[str]:
+def parameters(known: BodiesAndFields) -> list[str]:
     """Return each body and field in a line of Markdown."""
     given: list[Body | Field] = [*known.bodies.values(), *known.fields.values()]
     return [f"{record.title}: {_given(record)}" for record in given]

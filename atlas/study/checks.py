@@ -31,7 +31,7 @@ SHIFTS = (1, -7, 60)
 """Powers of two by which all frequencies are scaled, and times the other way: no bit of R may change."""
 
 GRIDS, GRID = (1500, 12_000), 8200
-"""Matrices on uniform grids, too few and enough for tables; and enough for polynomials. A few of them are judged."""
+"""Matrices on uniform grids, too few and enough for tables; and enough for polynomials. A few of them are checked."""
 
 POINTS, TIMES = 8, 5
 """Points of each hyperbola, times of each general motion."""
@@ -61,19 +61,19 @@ def check(
 ) -> None:
     """Check an object of a family made of `values`, by balls made of `exactly` where that differs.
 
-    Numbers are judged in ulps of themselves, matrices in ulps of 1, vectors in ulps of their length, or of
-    `unit(name, t)`. `where` makes of the balls what names the regime of a time; `more` judges what else there is.
+    Numbers are checked in ulps of themselves, matrices in ulps of 1, vectors in ulps of their length, or of
+    `unit(name, t)`. `where` makes of the balls what names the regime of a time; `more` checks what else there is.
     """
     family = FAMILIES[name]
     with worst.checking(name, regime, inputs):
         exact, found = family.balls()(*(exactly or values)), family.kernels()(*values)
         for q in family.quantities:
-            if q.judged:
+            if q.checked:
                 true = enclosed(lambda q=q: list(_flat(q.of(exact, exact=True))), BITS)  # type: ignore[misc]
-                worst.add(q.judged, regime, own(np.ravel(q.of(found)), true), with_more(inputs))
+                worst.add(q.checked, regime, own(np.ravel(q.of(found)), true), with_more(inputs))
         place = where(exact) if where else lambda _: regime
         for s in family.sampled:
-            for t, value in zip(times, s.at(found)(np.array(times)) if s.judged else (), strict=bool(s.judged)):
+            for t, value in zip(times, s.at(found)(np.array(times)) if s.checked else (), strict=bool(s.checked)):
                 true = truth(partial(s.at(exact), t))
                 if s.matrix:
                     errors = absolute(value.flat, chain(*true))
@@ -81,7 +81,7 @@ def check(
                     errors = [error(x, y, unit(s.name, t)) for x, y in zip(value, true, strict=True)]
                 else:
                     errors = [of_length(value, true)]
-                worst.add(s.judged, place(t), errors, with_more(inputs, t=t.hex()))
+                worst.add(s.checked, place(t), errors, with_more(inputs, t=t.hex()))
         if more:
             more(found, exact, place)
 

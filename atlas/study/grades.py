@@ -28,7 +28,7 @@ BITS = 80
 GROUPS: Mapping[str, tuple[str, ...]] = {"R": MATRIX, "Omega": OMEGA, "quaternion": QUATERNION}
 
 PART = 100
-"""An error below so many uncertainties of a kernel is judged by balls, at a thousandth of a second a row."""
+"""An error below so many uncertainties of a kernel is found by balls, at a thousandth of a second a row."""
 
 POINTS = 2048
 """Half of the largest number of points that an `Envelope` keeps."""
@@ -70,7 +70,7 @@ class Errors:
         for names, values in zip(GROUPS.values(), (R, Omega, q), strict=True):
             true |= dict(zip(names, values.T, strict=True))
         found = {name: self._difference(name, values, true[name]) for name, values in block.items() if name != "t"}
-        # next to the truth, where a kernel is no judge, balls are
+        # next to the truth, where a kernel is not near enough, balls are
         least = np.min(list(found.values()), axis=0)
         for i in np.flatnonzero(~near | (least < PART * self.uncertainty) & (self.uncertainty > UNCERTAINTY)):
             for name, error in self.certified(block, int(i)).items():

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.errors import DomainError
 from atlas.scene.layers import FloatArray
-from atlas.study.sweep.ranges import Range, Table
+from atlas.study.sweep.ranges import Range, Tabulation
 
 Field: TypeAlias = tuple[float, float]
 CLOCK = (1e-3, 1e12)
@@ -29,7 +29,7 @@ class ErrorMap:
     t: FloatArray
     plain: FloatArray
     ours: FloatArray
-    table: Table
+    table: Tabulation
 
 
 def over_omega2(ratio: float, field: Field, cells: tuple[int, int] = (80, 54)) -> ErrorMap:
@@ -51,6 +51,6 @@ def _mapped(x: FloatArray, ratio: float | Range, field: Field, omega2: float | R
     b = math.hypot(*field)
     t = np.geomspace(*CLOCK, rows + 1)
     settings = {"ratio": ratio, "B2": field[0], "B3": field[1], "omega2": omega2, "t": Range.middles(t / b, log=True)}
-    table = Table("elementary", settings, QUANTITIES)
+    table = Tabulation("elementary", settings, QUANTITIES)
     found = table.columns()
     return ErrorMap(x, t, found["plain_error"].T, found["error"].T, table)

@@ -1,4 +1,4 @@
-"""Every public quantity on hostile arguments: a number, inf where it is beyond the floats, or one line; never NaN."""
+"""Every public quantity on extreme arguments: a number, inf where it is beyond the floats, or one line; never NaN."""
 
 from typing import Any
 

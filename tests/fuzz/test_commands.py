@@ -108,7 +108,7 @@ def test_a_command_that_never_ends_is_noticed(monkeypatch: pytest.MonkeyPatch) -
         ran(["list"])
 
 
-def judged(words: list[str]) -> None:
+def checked(words: list[str]) -> None:
     """Hold an answer against what every answer is."""
     status, out, err = ran(words)
     told = (words, out[-300:], err)
@@ -131,7 +131,7 @@ def judged(words: list[str]) -> None:
 @given(lines())
 def test_any_words_get_an_answer_or_one_line(words: list[str]) -> None:
     """Numbers, their absence, and options in any order."""
-    judged([word.replace("FILE", "nosuch.csv") for word in words])
+    checked([word.replace("FILE", "nosuch.csv") for word in words])
 
 
 cells = st.one_of(number, st.sampled_from(["0", "1", "0.5", "-1", "1."]))
@@ -191,7 +191,7 @@ def test_any_file_is_graded_or_told(folder: Path, content: bytes, *, given_too: 
     file = folder / "mine.csv"
     file.write_bytes(content)
     options = "--ratio 1.5 --field 1 2 --omega2 0.7".split() if given_too else []
-    judged(["check", str(file), *options, *(["--json"] if as_json else [])])
+    checked(["check", str(file), *options, *(["--json"] if as_json else [])])
 
 
 @share(0.1, 15)
@@ -206,4 +206,4 @@ def test_any_file_is_graded_or_told(folder: Path, content: bytes, *, given_too: 
 )
 def test_any_command_line_has_an_answer(words: list[str]) -> None:
     """Commands that are none, help anywhere, nothing at all."""
-    judged(words)
+    checked(words)

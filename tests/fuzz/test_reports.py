@@ -152,7 +152,7 @@ def test_the_report_that_is_changed_is_a_good_one(folder: Path, table: str) -> N
 @share(0.05, 8)
 @given(report=reports())
 def test_any_report_becomes_pages_or_a_line(folder: Path, report: dict[str, Any]) -> None:
-    """Wrong types, missing and foreign keys, hostile numbers, markup: nothing runs, nothing is half written."""
+    """Wrong types, missing and foreign keys, extreme numbers, markup: nothing runs, nothing is half written."""
     file, out = folder / "mine.toml", folder / "out"
     file.write_text(written(report), encoding="utf-8")
     shutil.rmtree(out / "mine", ignore_errors=True)

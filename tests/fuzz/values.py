@@ -1,4 +1,4 @@
-"""Hostile values, and what every answer must be: numbers, or one line that says why not."""
+"""Extreme values, and what every answer must be: numbers, or one line that says why not."""
 
 import math
 import os

@@ -1,1 +1,1 @@
-"""Independent references: they share no code with what they judge."""
+"""Independent references: they share no code with what they check."""

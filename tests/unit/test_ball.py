@@ -13,7 +13,7 @@ from atlas.errors import AtlasError
 
 ULP1 = 2.0**-52
 
-HOSTILE = [
+EXTREME = [
     (2.0, 0.5, 0.3, 0.4),
     (2.0, -0.5, 0.3, 0.4),
     (1.0, 0.5, 1e-12, float(np.nextafter(-0.5, 0))),
@@ -24,7 +24,7 @@ HOSTILE = [
 ]
 
 
-@pytest.mark.parametrize("inputs", HOSTILE)
+@pytest.mark.parametrize("inputs", EXTREME)
 def test_gamma_and_k_hat_are_rounded_once(inputs: tuple[float, float, float, float]) -> None:
     """The frequency and the axis of (29) are within an ulp of their own size."""
     ball, true = BallMotion(*inputs[:2], inputs[2:]), closed_form.ball(*inputs, digits=40)
@@ -32,7 +32,7 @@ def test_gamma_and_k_hat_are_rounded_once(inputs: tuple[float, float, float, flo
         assert abs(mpf(ours) - exact) <= 0.51 * float(np.spacing(abs(float(exact)) or 5e-324))
 
 
-@pytest.mark.parametrize("inputs", HOSTILE)
+@pytest.mark.parametrize("inputs", EXTREME)
 def test_every_entry_is_true_to_4_ulp(inputs: tuple[float, float, float, float]) -> None:
     """R of (28) and R^T R are within 4 ulp(1), for phases up to 2^50; and the identity at zero."""
     ball = BallMotion(*inputs[:2], inputs[2:])

@@ -1,4 +1,4 @@
-"""Every peer of the benchmark, and the reference that judges them."""
+"""Every peer of the benchmark, and the reference that measures them."""
 
 from dataclasses import replace
 from fractions import Fraction

@@ -26,7 +26,7 @@ CASES: dict[str, tuple[float, tuple[float, float], float, float | None]] = {
     "ball, free spin": (1.0, (1.0, 2.0), -1.0, 0.4),
 }
 
-HOSTILE = [
+EXTREME = [
     (0.7, 1.1, 0.6, 1.3),
     (1.0 + 2.0**-52, 1.0, 2.0, 0.7),
     (1.0 - 2.0**-53, 1.0, 2.0, 0.7),
@@ -49,9 +49,9 @@ def ulps(ours: Any, true: mpf) -> float:
     return float(abs(mpf(ours) - true) / mpf(float(np.spacing(abs(float(true)))))) if true else float(ours != 0)
 
 
-@pytest.mark.parametrize("inputs", HOSTILE)
+@pytest.mark.parametrize("inputs", EXTREME)
 def test_the_scalars_are_rounded_once(inputs: tuple[float, float, float, float]) -> None:
-    """omega3, (71), k, (79), and phi, (72), are within one ulp of their own size on hostile inputs."""
+    """omega3, (71), k, (79), and phi, (72), are within one ulp of their own size on extreme inputs."""
     I, B2, B3, omega2 = inputs
     motion, true = ElementaryMotion(I, (B2, B3), omega2), closed_form.elementary(1.0, I, B2, B3, omega2, digits=40)
     assert max(ulps(motion.omega3, true.omega3), ulps(motion.k, true.k), ulps(motion.phi, true.phi)) <= 0.51
@@ -100,9 +100,9 @@ def test_momentum_is_that_of_omega_turned_into_the_laboratory(case: str) -> None
     assert np.abs(motion.field_in_body(t) - np.matvec(motion.rotation(t).mT, [0, *field])).max() <= 8 * ULP1
 
 
-@pytest.mark.parametrize("inputs", HOSTILE)
+@pytest.mark.parametrize("inputs", EXTREME)
 def test_vectors_are_true_to_8_ulp_of_their_length(inputs: tuple[float, float, float, float]) -> None:
-    """Omega, K and m are within 8 ulp of their length on hostile inputs and at long times."""
+    """Omega, K and m are within 8 ulp of their length on extreme inputs and at long times."""
     I, B2, B3, omega2 = inputs
     motion, true = ElementaryMotion(I, (B2, B3), omega2), closed_form.elementary(1.0, I, B2, B3, omega2, digits=60)
     with mp.workdps(60):

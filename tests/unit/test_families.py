@@ -48,12 +48,12 @@ def test_a_family_that_there_is_not_is_an_error_with_those_that_there_are() -> N
 
 @EVERY
 def test_names_are_told_apart(one: Family) -> None:
-    """No two columns of a table have one name, and no two judged things."""
+    """No two columns of a table have one name, and no two checked things."""
     columns = [name for q in one.quantities for name in q.names]
     columns += [name for s in one.sampled for name in s.columns]
     assert len(set(columns)) == len(columns)
-    judged = [x.judged for x in (*one.quantities, *one.sampled) if x.judged]
-    assert len(set(judged)) == len(judged)
+    checked = [x.checked for x in (*one.quantities, *one.sampled) if x.checked]
+    assert len(set(checked)) == len(checked)
 
 
 @EVERY
@@ -73,7 +73,7 @@ def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
     """At the defaults each number is within its promise of the ball, or within two ulp; names are the same."""
     found, exact = one.kernels()(*values(one)), one.balls()(*values(one))
     for q in one.quantities:
-        if not (q.certified or q.printed or q.judged):
+        if not (q.certified or q.printed or q.checked):
             continue  # of kernels alone
         if not numeric(q, found) or q.name == "unstable_band":
             assert q.of(found) == q.of(exact, exact=True)
@@ -81,7 +81,7 @@ def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
         true = enclosed(lambda q=q: flat(q.of(exact, exact=True)), 100)  # type: ignore[misc]
         numbers = np.ravel(np.array(q.of(found), dtype=float)).tolist()
         with ctx.workprec(128):
-            assert max(own(numbers, true)) <= one.promises.get(q.judged, 2), q.name
+            assert max(own(numbers, true)) <= one.promises.get(q.checked, 2), q.name
 
 
 @EVERY
@@ -93,7 +93,7 @@ def test_kernels_and_balls_agree_on_what_there_is_at_a_time(one: Family) -> None
             with ctx.workprec(192):
                 true = s.at(exact)(t)
                 errors = absolute(value.flat, flat(true)) if s.matrix else [of_length(value, true)]
-            assert max(errors) <= one.promises.get(s.judged, 16), (s.name, t)
+            assert max(errors) <= one.promises.get(s.checked, 16), (s.name, t)
 
 
 @EVERY
@@ -108,9 +108,9 @@ def test_sliders_end_inside_the_domain(one: Family, at: int) -> None:
 
 @EVERY
 def test_every_promise_is_of_something_that_is_judged(one: Family) -> None:
-    """What a quantity is judged by is promised, but of the particle; and the stress run takes each promise over."""
-    judged = [x.judged for x in (*one.quantities, *one.sampled) if x.judged]
-    assert one.name == "particle" or set(judged) <= set(one.promises)
+    """What a quantity is checked by is promised, but of the particle; and the stress run takes each promise over."""
+    checked = [x.checked for x in (*one.quantities, *one.sampled) if x.checked]
+    assert one.name == "particle" or set(checked) <= set(one.promises)
     assert one.promises.items() <= stress.LIMITS.items()
 
 
@@ -119,7 +119,7 @@ def test_a_quantity_that_may_be_missing_is_so_with_a_reason(one: Family) -> None
     """The column beside it can hold the reason, and no other error is hidden by it."""
     for q in one.quantities:
         assert len(q.missing) <= 28
-        assert not (q.missing and q.judged)
+        assert not (q.missing and q.checked)
 
 
 def test_every_equation_of_the_register_is_in_the_ledger() -> None:

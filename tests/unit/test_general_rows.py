@@ -39,7 +39,7 @@ def along(count: int, tilt: float = 0.0) -> Any:
     return I, B * [[tilt], [1.0]], omega
 
 
-def hostile(seed: int = 0) -> Any:
+def extreme(seed: int = 0) -> Any:
     """Return inputs of motions of every regime, side by side in one array, those without a period left out."""
     random = Random(seed)  # noqa: S311  draws of test inputs
     draws = [draw(random) for draw in GENERAL.values() for _ in range(PER_REGIME)]
@@ -68,7 +68,7 @@ def times(inputs: Any, seed: int) -> Any:
     return r.choice([-1.0, 1.0], size.size) * 10.0 ** r.uniform(-3, 6, size.size) / size
 
 
-@pytest.mark.parametrize("inputs", [ordinary(60), planar(60), hostile()], ids=["ordinary", "planar", "hostile"])
+@pytest.mark.parametrize("inputs", [ordinary(60), planar(60), extreme()], ids=["ordinary", "planar", "extreme"])
 def test_scalars_of_many_motions_have_the_bits_of_one_by_one(inputs: Any) -> None:
     """Kind, turning points, roots, period, moduli, nome and angles are those of each motion made alone, to the bit."""
     found = GeneralMotion(*inputs)
@@ -87,8 +87,8 @@ def test_scalars_of_many_motions_have_the_bits_of_one_by_one(inputs: Any) -> Non
 
 @pytest.mark.parametrize(
     "inputs",
-    [ordinary(200, 1), along(40), along(40, 1e-6), hostile(1)],
-    ids=["ordinary", "along B", "near B", "hostile"],
+    [ordinary(200, 1), along(40), along(40, 1e-6), extreme(1)],
+    ids=["ordinary", "along B", "near B", "extreme"],
 )
 def test_matrices_of_many_motions_are_true_to_the_promise(inputs: Any) -> None:
     """R, K and Omega at one time each are within 6 ulp of 1, and 12 ulp of the largest rate, of the balls."""
@@ -103,7 +103,7 @@ def test_matrices_of_many_motions_are_true_to_the_promise(inputs: Any) -> None:
             assert max(error(x, y, size * ONE) for x, y in zip(values, balls, strict=True)) <= 12
 
 
-@pytest.mark.parametrize("inputs", [ordinary(60, 2), planar(60, 7), hostile(2)], ids=["ordinary", "planar", "hostile"])
+@pytest.mark.parametrize("inputs", [ordinary(60, 2), planar(60, 7), extreme(2)], ids=["ordinary", "planar", "extreme"])
 def test_each_frequency_keeps_its_bound(inputs: Any) -> None:
     """The frequencies of alpha, beta and nutation in two words are within their own bounds of the balls."""
     found = GeneralMotion(*inputs)
@@ -199,7 +199,7 @@ def test_no_motions_have_no_scalars() -> None:
 
 
 def test_stress_of_arrays_keeps_the_promises_and_finds_a_slip(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An array of hostile and ordinary rows is within every promise; were the sums cut short, R would not be."""
+    """An array of extreme and ordinary rows is within every promise; were the sums cut short, R would not be."""
 
     def broken() -> set[str]:
         return {w.quantity for w in check_general_rows(3, 0).worst.values() if w.ulps > PROMISES[w.quantity]}

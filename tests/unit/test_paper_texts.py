@@ -9,7 +9,7 @@ from atlas.paper import EQUATIONS
 from atlas.paper.citation import cited
 from atlas.plain import plain
 from atlas.proof import recorded
-from atlas.proof.survivors import REASONS
+from atlas.proof.unrefuted import REASONS
 from atlas.study.stress import LIMITS, read_record
 
 TEXTS = [

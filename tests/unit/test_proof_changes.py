@@ -8,7 +8,7 @@ from atlas.proof import recorded
 from atlas.proof.changes import changes
 from atlas.proof.quick import Numbers
 from atlas.proof.run import trial, try_mutants
-from atlas.proof.survivors import REASONS, reason
+from atlas.proof.unrefuted import REASONS, reason
 
 RECORDED = recorded.load_mutants()
 # statements of invariance and symmetry, in which there is little to change
@@ -38,14 +38,14 @@ def letters(part: object) -> set[str]:
 def test_survivors_are_true_statements_and_explained() -> None:
     """A mutant that isn't refuted is proved to be true as well, and there is a reason for each."""
     for name, found in RECORDED.items():
-        assert found.noticed + len(found.survivors) == found.tried
-        assert all(decision == "proved" for _, _, decision in found.survivors), name
-        assert [line for _, line, _ in found.survivors if not reason(name, line)] == [], name
+        assert found.noticed + len(found.unrefuted) == found.tried
+        assert all(decision == "proved" for _, _, decision in found.unrefuted), name
+        assert [line for _, line, _ in found.unrefuted if not reason(name, line)] == [], name
 
 
 def test_reasons_are_given_only_where_something_survives() -> None:
-    """No reason outlives its survivors."""
-    used = {(name, reason(name, line)) for name, found in RECORDED.items() for _, line, _ in found.survivors}
+    """No reason stands for a change that is refuted."""
+    used = {(name, reason(name, line)) for name, found in RECORDED.items() for _, line, _ in found.unrefuted}
     assert {(name, why) for name, cases in REASONS.items() for _, why in cases} == used
 
 
@@ -53,10 +53,10 @@ def test_reasons_are_given_only_where_something_survives() -> None:
 def test_recorded_mutants_are_noticed_again(name: str) -> None:
     """The trial of the mutants, held now, ends as recorded."""
     found = try_mutants(name, every=True)
-    assert (found.tried, found.noticed, found.survivors) == (
+    assert (found.tried, found.noticed, found.unrefuted) == (
         RECORDED[name].tried,
         RECORDED[name].noticed,
-        RECORDED[name].survivors,
+        RECORDED[name].unrefuted,
     )
 
 

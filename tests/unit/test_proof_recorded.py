@@ -15,7 +15,7 @@ VERDICT = recorded.load()["(72)"]
 
 
 def test_what_is_saved_is_read_back(tmp_path: Path) -> None:
-    """A record survives the way through the file, and others of the file stay."""
+    """A record is the same after the way through the file, and others of the file stay."""
     path = tmp_path / "verdicts.json"
     recorded.save([VERDICT, recorded.load()["(48)"]], path)
     assert recorded.load(path) == {"(48)": recorded.load()["(48)"], "(72)": VERDICT}

@@ -87,7 +87,7 @@ title = "Records"
     f'[[pages.blocks]]\nkind = "recorded"\nsource = "{source}"\ntable = "{table}"\n'
     for source, table in (
         ("trial", "totals"),
-        ("trial", "survivors"),
+        ("trial", "unrefuted"),
         ("bench", "Limits of speed"),
         ("stress", "worst errors"),
     )
@@ -307,5 +307,5 @@ def test_pages_of_recorded_results_load_no_algebra(toml: Path, tmp_path: Path) -
 
 def _with(finding: Finding) -> Appendices:
     """Return appendices with one finding and empty tables."""
-    names = ("trial: totals", "trial: survivors", "bench: Limits of speed", "stress: worst errors")
+    names = ("trial: totals", "trial: unrefuted", "bench: Limits of speed", "stress: worst errors")
     return Appendices({"(72)": finding}, {name: Data((), (), name) for name in names})

@@ -100,6 +100,6 @@ def test_the_volumes_are_built_from_one_another() -> None:
 
 
 def test_the_atlas_is_about_physics() -> None:
-    """What judges the paper and the program stands in the second volume; no sources of records in the first."""
+    """What tries the paper and the program stands in the second volume; no sources of records in the first."""
     text = find("atlas").read_text(encoding="utf-8")
     assert not re.search(r'kind = "(recorded|errata)"', text)

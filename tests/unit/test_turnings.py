@@ -43,7 +43,7 @@ def moments(drawn: list[extreme.Motion]) -> Any:
 
 
 def test_scalars_of_many_motions_have_the_bits_of_one_by_one() -> None:
-    """In every hostile regime omega3, k, phi and the case are those of the motion made alone, to the bit."""
+    """In every extreme regime omega3, k, phi and the case are those of the motion made alone, to the bit."""
     drawn = motions(12)
     many, each = ElementaryMotion(*inputs(drawn)), alone(drawn)
     for name in ("omega3", "k", "phi", "case", "omega2"):
@@ -116,7 +116,7 @@ def test_many_matrices_are_orthogonal(seed: int) -> None:
 
 
 def test_free_bodies_and_balls_in_arrays_agree_with_one_by_one() -> None:
-    """Frequencies to the bit, matrices to 8 ulp(1), each being within 4 of the truth; hostile inputs."""
+    """Frequencies to the bit, matrices to 8 ulp(1), each being within 4 of the truth; extreme inputs."""
     random = Random(6)  # noqa: S311  reproducible, not secret
     bodies = [extreme.free_motion(random) for _ in range(150)]
     many = FreeMotion([x.I for x in bodies], np.transpose([x.omega for x in bodies]))
@@ -201,7 +201,7 @@ def test_no_motion_is_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_quadrics_and_hyperbolas_in_arrays_have_the_bits_of_one_by_one() -> None:
-    """Every scalar of both, in all hostile regimes, to the bit."""
+    """Every scalar of both, in all extreme regimes, to the bit."""
     drawn = [m for m in motions(5, seed=7) if m.B3]
     I, field, w2 = inputs(drawn)
     quadric, curve = Quadric(I, field), Hyperbola(I, field)
@@ -217,7 +217,7 @@ def test_quadrics_and_hyperbolas_in_arrays_have_the_bits_of_one_by_one() -> None
 
 
 def test_particles_in_arrays_agree_with_one_by_one() -> None:
-    """Names and constants to the bit, positions and velocities to 4 ulp of their length; hostile inputs."""
+    """Names and constants to the bit, positions and velocities to 4 ulp of their length; extreme inputs."""
     random = Random(8)  # noqa: S311  reproducible, not secret
     drawn = [extreme.particle_motion(random) for _ in range(300)]
     mu, c, E, B, y, v = (

@@ -174,7 +174,7 @@ class Windows:
 
 
 def window(grid: Grid, count: int) -> int:
-    """Return how many times a polynomial may serve, judged by the first windows; zero if too few to be worth it."""
+    """Return how many times a polynomial may serve, by what the first windows show; zero if too few to be worth it."""
     angle = 2 * np.pi * abs(grid.step) * sum(abs(float(f)) for f in grid.one.parts.frequencies)
     for length in LENGTHS:
         size = min(count // length, TRIED)

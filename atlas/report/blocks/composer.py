@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from atlas.report.appendices import Appendices
-from atlas.report.parameters import Parameters
+from atlas.report.parameters import BodiesAndFields
 from atlas.report.picture import Picture
 from atlas.report.trial import Use
 
@@ -23,7 +23,7 @@ class Composer(Protocol):
     slug: str
     figures: int
     tables: int
-    parameters: Parameters
+    parameters: BodiesAndFields
     recorded: Appendices
     ledger: Mapping[str, str]
     uses: Mapping[str, list[Use]]

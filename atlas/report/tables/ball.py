@@ -5,7 +5,7 @@ from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
 
 
-class Parameters(StrictStruct, frozen=True):
+class BallParameters(StrictStruct, frozen=True):
     """Initial angular velocity (0, omega2, omega3) and Larmor's frequency, in 1/s."""
 
     omega2: float
@@ -17,7 +17,7 @@ def ball(request: Request) -> Data:
     """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
     from atlas.exact.ball import BallMotion
 
-    asked = request.take(Parameters)
+    asked = request.take(BallParameters)
     if asked.larmor == 0:
         raise AtlasError("the ball's table is about a ball in a field: larmor must not be zero.")
     made = BallMotion(1, asked.larmor, (asked.omega2, asked.omega3))

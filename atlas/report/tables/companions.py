@@ -8,7 +8,7 @@ from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
 
 
-class Parameters(StrictStruct, frozen=True):
+class CompanionParameters(StrictStruct, frozen=True):
     """I3/I2 below 1, and (B2, B3, omega2) of some elementary motions, in 1/s."""
 
     ratio: float
@@ -17,7 +17,7 @@ class Parameters(StrictStruct, frozen=True):
 
 def companions(request: Request) -> Data:
     """Return the angles between axis and field of the steady precessions and where their companions turn back."""
-    asked = request.take(Parameters)
+    asked = request.take(CompanionParameters)
     found = certified(lambda: [angles(asked.ratio, *motion) for motion in asked.motions], request.digits)
     columns = [column(values, request.digits) for values in zip(*found, strict=True)]
     given = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.given(omega2)) for B2, B3, omega2 in asked.motions]

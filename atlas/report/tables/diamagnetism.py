@@ -9,7 +9,7 @@ from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import Column, Data, Request
 
 
-class Parameters(StrictStruct, frozen=True):
+class DiamagnetismParameters(StrictStruct, frozen=True):
     """The susceptibility of the material, and its density in kg/m^3."""
 
     susceptibility: float
@@ -18,7 +18,7 @@ class Parameters(StrictStruct, frozen=True):
 
 def diamagnetism(request: Request) -> Data:
     """Return the factors of nu^2 in the energy of several bodies: by their charge, and by their own magnetism."""
-    asked = request.take(Parameters)
+    asked = request.take(DiamagnetismParameters)
     if asked.density <= 0:
         raise AtlasError("this table takes a positive density.")
     rows: list[tuple[str | Number, ...]] = []

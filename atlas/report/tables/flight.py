@@ -6,7 +6,7 @@ from atlas.report.tables.model import Column, Data, Request, certified, scaled
 from atlas.report.tables.particle import exact_particle
 
 
-class Parameters(StrictStruct, frozen=True):
+class FlightParameters(StrictStruct, frozen=True):
     """The elementary motion by its omega2, times in s, the point at t = 0, the start of the centre of mass."""
 
     omega2: float
@@ -21,7 +21,7 @@ def flight(request: Request) -> Data:
     from atlas.exact.elementary import ElementaryMotion
     from atlas.exact.flight import Flight
 
-    asked, case = request.take(Parameters), request.case
+    asked, case = request.take(FlightParameters), request.case
     made = exact_particle(case, asked.position, asked.velocity)
     turning = ElementaryMotion(case.exact, case.components, asked.omega2)
     whole = Flight(made, turning, asked.point)

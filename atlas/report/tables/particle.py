@@ -23,7 +23,7 @@ def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
     return ParticleMotion(p.mu, tuple(p.E), tuple(p.B), position, velocity, p.c)
 
 
-class Parameters(StrictStruct, frozen=True):
+class ParticleParameters(StrictStruct, frozen=True):
     """Times in s, position and velocity at t = 0."""
 
     times: tuple[float, ...]
@@ -33,7 +33,7 @@ class Parameters(StrictStruct, frozen=True):
 
 def particle(request: Request) -> Data:
     """Position at some `times` of a particle with this `position` and `velocity` at t = 0, (93) and (98)."""
-    asked, case = request.take(Parameters), request.case
+    asked, case = request.take(ParticleParameters), request.case
     made = exact_particle(case, asked.position, asked.velocity)
     unit = speed = case.units.length_unit if case.units else ""
     values = certified(lambda: [made.position(t) for t in asked.times], request.digits)

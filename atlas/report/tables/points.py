@@ -9,7 +9,7 @@ from atlas.report.schema import StrictStruct
 from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
 
 
-class Parameters(StrictStruct, frozen=True):
+class PointsParameters(StrictStruct, frozen=True):
     """Further values of omega2, in 1/s."""
 
     omega2: tuple[float, ...] = ()
@@ -19,7 +19,7 @@ def points(request: Request) -> Data:
     """Points (omega2, omega3) of (67) with k, phi of (72) and the nutation frequency squared; `omega2` adds more."""
     from atlas.exact.hyperbola import Hyperbola
 
-    more = request.take(Parameters).omega2
+    more = request.take(PointsParameters).omega2
     h = Hyperbola(request.case.exact, request.case.components)
     B2 = Fraction(request.case.components[0])
     I = Fraction(int(h.I.p), int(h.I.q))

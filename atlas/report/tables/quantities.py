@@ -44,10 +44,10 @@ def _rows(one: Family) -> Iterator[Row]:
     for p in one.parameters:
         yield _names(p.names), p.says.rstrip("."), p.unit, "", "given"
     for q in one.quantities:
-        yield _names(q.names or (q.name,)), q.says, q.unit, _cited(q.equation), _promise(one, q.judged)
+        yield _names(q.names or (q.name,)), q.says, q.unit, _cited(q.equation), _promise(one, q.checked)
     for s in one.sampled:
         first, *_, last = s.columns
-        yield f"`{first}` ... `{last}`", f"{s.says} at `t`", s.unit, _cited(s.equation), _promise(one, s.judged)
+        yield f"`{first}` ... `{last}`", f"{s.says} at `t`", s.unit, _cited(s.equation), _promise(one, s.checked)
 
 
 def _names(names: tuple[str, ...]) -> str:
@@ -58,5 +58,5 @@ def _cited(equations: str) -> str:
     return ", ".join(f"@{label}" for label in equations.split(", ") if label in EQUATIONS)
 
 
-def _promise(one: Family, judged: str) -> str | Number:
-    return Number(f"{one.promises[judged]:g}") if judged in one.promises else ""
+def _promise(one: Family, checked: str) -> str | Number:
+    return Number(f"{one.promises[checked]:g}") if checked in one.promises else ""

@@ -15,7 +15,7 @@ RATIO, TILT = 1.5, 2.0
 YEAR = 31_557_600.0
 
 
-class Parameters(StrictStruct, frozen=True):
+class SizeParameters(StrictStruct, frozen=True):
     """Radii in m, density in kg/m^3, the field that the surface bears in V/m, the magnet's field in T."""
 
     radii: tuple[float, ...]
@@ -94,9 +94,9 @@ def off_the_field(b: float) -> float:
     return abs(atan2(omega2 * B3 - third * B2, omega2 * B2 + third * B3))
 
 
-def taken(request: Request) -> Parameters:
+def taken(request: Request) -> SizeParameters:
     """Return the parameters, which are all positive."""
-    asked = request.take(Parameters)
+    asked = request.take(SizeParameters)
     if not (asked.radii and min(*asked.radii, asked.density, asked.surface_field, asked.magnet) > 0):
         raise AtlasError("this table takes radii, density, surface_field and magnet, all of them positive.")
     return asked

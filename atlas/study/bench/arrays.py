@@ -31,7 +31,7 @@ from atlas.study.bench.methods import MATRIX, NUTATION, SCALARS, SURFACE, TURNED
 from atlas.study.bench.results import Rows
 from atlas.study.ulps import absolute, own
 
-SEED, JUDGED, BITS = 7, 40, 80
+SEED, CHECKED, BITS = 7, 40, 80
 GENERAL, ALONE = 10, 20
 """One general motion to so many elementary ones, and how many are made one by one."""
 CURVE = (1.5, (1.0, 2.0))
@@ -61,7 +61,7 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
             times = interleave(jobs, rounds)
         for method in ("ours", "alone" if task.alone else "plain"):
             values = jobs[method]()
-            chosen = np.unique(np.linspace(0, len(values) - 1, JUDGED).astype(int)).tolist()
+            chosen = np.unique(np.linspace(0, len(values) - 1, CHECKED).astype(int)).tolist()
             with ctx.workprec(BITS + 16):
                 worst = max(max(task.errors(values[i].flat, task.true(i))) for i in chosen)
             yield Rows(

@@ -26,7 +26,7 @@ from atlas.study.bench.methods import ANY, EVEN
 from atlas.study.bench.results import Rows
 from atlas.study.ulps import absolute
 
-STEP, SEED, JUDGED, BITS = 2.0**-10, 5, 40, 80
+STEP, SEED, CHECKED, BITS = 2.0**-10, 5, 40, 80
 TOLERANCE = 1e-16
 
 
@@ -52,7 +52,7 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
         times = interleave({"plain": partial(plain, anywhere)} | jobs, rounds)
     for (what, method), (evaluate, at) in solve.items():
         values = evaluate(at)
-        chosen = np.unique(np.linspace(0, count - 1, JUDGED).astype(int)).tolist()
+        chosen = np.unique(np.linspace(0, count - 1, CHECKED).astype(int)).tolist()
         with ctx.workprec(BITS + 16):
             true = [list(chain(*enclosed(partial(exact.rotation, float(at.times[i])), BITS))) for i in chosen]
             worst = max(max(absolute(values[i].flat, balls)) for i, balls in zip(chosen, true, strict=True))

@@ -1,6 +1,6 @@
 """The true values as balls from the exact inputs, and a Taylor integration that checks them.
 
-The question: is the reference right, and far beyond what it has to judge?
+The question: is the reference right, and far beyond what it has to measure?
 
 The values are those of `atlas.exact`, which shares no code with the kernels, rounded to two words each (32 digits), so
 that errors far below one ulp can be measured. `check` integrates the equations of motion themselves.

@@ -11,7 +11,7 @@ NONE = "–"
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """A table as text, ready to be shown by any presenter."""
 
     title: str
@@ -20,7 +20,7 @@ class Table:
     notes: tuple[str, ...] = ()
 
 
-def tables(record: Results) -> list[Table]:
+def tables(record: Results) -> list[TextTable]:
     """Return all tables of a record, the most important first; those that would be empty are left out."""
     every = [
         _targets(record),
@@ -43,12 +43,12 @@ def machine_line(record: Results) -> str:
     return f"{machine}; {found}; {record.command}, {record.date}"
 
 
-def _targets(record: Results) -> Table:
+def _targets(record: Results) -> TextTable:
     rows = [(item.says, item.wanted, number(item.found), item.verdict) for item in targets(record)]
-    return Table("Limits of speed", ("what", "wanted", "found", "verdict"), tuple(rows))
+    return TextTable("Limits of speed", ("what", "wanted", "found", "verdict"), tuple(rows))
 
 
-def _horizons(record: Results) -> Iterable[Table]:
+def _horizons(record: Results) -> Iterable[TextTable]:
     """Error by method and horizon; of an integrator the smallest over its tolerances."""
     for case in _cases(record):
         runs = [run for run in record.runs if run.case == case]
@@ -59,10 +59,10 @@ def _horizons(record: Results) -> Iterable[Table]:
             rows.append((title(method), *(number(run.error) if run else NONE for run in best)))
         heading = ("largest error to t =", *(f"{T:.0e}" for T in horizons))
         note = "Of an integrator the best tolerance that came through in time."
-        yield Table(f"Error against horizon: {case}", heading, tuple(rows), (note,))
+        yield TextTable(f"Error against horizon: {case}", heading, tuple(rows), (note,))
 
 
-def _precision(record: Results) -> Iterable[Table]:
+def _precision(record: Results) -> Iterable[TextTable]:
     """Error and time of every method at every tolerance, to the first horizon."""
     for case in _cases(record):
         runs = [run for run in record.runs if run.case == case]
@@ -80,10 +80,10 @@ def _precision(record: Results) -> Iterable[Table]:
             if run.horizon == first
         ]
         heading = ("method", "tolerance", "largest error", "time (us a sample)", "over plain NumPy", "remark")
-        yield Table(f"Error and time to t = {first:.0e}: {case}", heading, tuple(rows))
+        yield TextTable(f"Error and time to t = {first:.0e}: {case}", heading, tuple(rows))
 
 
-def _setups(record: Results) -> Table:
+def _setups(record: Results) -> TextTable:
     """Show set-up by method and case; of an integrator at its tightest tolerance."""
     rows = {
         (item.case, item.method): (
@@ -95,10 +95,10 @@ def _setups(record: Results) -> Table:
         )
         for item in record.setups
     }
-    return Table("Set-up", ("case", "method", "first (ms)", "again (ms)", "remark"), tuple(rows.values()))
+    return TextTable("Set-up", ("case", "method", "first (ms)", "again (ms)", "remark"), tuple(rows.values()))
 
 
-def _costs(record: Results) -> Iterable[Table]:
+def _costs(record: Results) -> Iterable[TextTable]:
     """Nanoseconds a matrix, and its multiples of what it is compared with, by count; rows without a number left out."""
     counts = sorted({cost.count for cost in record.costs})
     heading = ("method", "threads", *(f"{count:.0e}" for count in counts))
@@ -114,10 +114,10 @@ def _costs(record: Results) -> Iterable[Table]:
             row = rows.setdefault((cost.method, cost.threads), [NONE] * len(counts))
             row[counts.index(cost.count)] = number(getattr(cost, field))
         shown = tuple((title(name), str(threads), *row) for (name, threads), row in rows.items() if set(row) != {NONE})
-        yield Table(f"{what}, against their number", heading, shown)
+        yield TextTable(f"{what}, against their number", heading, shown)
 
 
-def _rows(record: Results) -> Table:
+def _rows(record: Results) -> TextTable:
     """Show error and time a row of many motions at once, ours beside the plain formula."""
     rows = [
         (
@@ -129,10 +129,10 @@ def _rows(record: Results) -> Table:
         for item in record.rows
     ]
     heading = ("quantity", "method", "rows", "largest error (ulp)", "ns a row", "over plain NumPy")
-    return Table("Many motions at once, one core", heading, tuple(rows))
+    return TextTable("Many motions at once, one core", heading, tuple(rows))
 
 
-def _failures(record: Results) -> Table:
+def _failures(record: Results) -> TextTable:
     """Show what has no number, with the reason; of several tolerances at one place the loosest one's."""
     items: list[Run | Setup | Cost] = [*record.runs, *record.setups, *record.costs]
     rows: dict[tuple[str, str, str, str], list[Run | Setup | Cost]] = {}
@@ -141,7 +141,7 @@ def _failures(record: Results) -> Table:
             case = "cost" if isinstance(item, Cost) else item.case
             rows.setdefault((case, title(item.method), _where(item), item.status), []).append(item)
     shown = tuple((*key, _tolerances(group), group[0].note) for key, group in rows.items())
-    return Table("Not measured", ("case", "method", "where", "status", "tolerances", "reason"), shown)
+    return TextTable("Not measured", ("case", "method", "where", "status", "tolerances", "reason"), shown)
 
 
 def number(value: float | None) -> str:

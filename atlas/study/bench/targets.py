@@ -79,7 +79,7 @@ def _latency(record: Results) -> Iterator[Target]:
 
 
 def _many(record: Results) -> Iterator[Target]:
-    """Judge a row of many motions, and a matrix of the general motion: nanoseconds, and heyoka's time over ours."""
+    """Measure a row of many motions, and a matrix of the general motion: nanoseconds, and heyoka's time over ours."""
     found = {(row.quantity, row.method): row.nanoseconds for row in record.rows}
     for quantity, method, limit in LIMITS:
         if (quantity, method) in found:

@@ -39,7 +39,7 @@ class Range:
 
 
 @dataclass(frozen=True)
-class Table:
+class Tabulation:
     """Quantities of a family over all combinations of settings, the last one varying fastest."""
 
     family: str

@@ -10,7 +10,7 @@ from atlas.errors import AtlasError
 from atlas.study.sweep.lock import held
 from atlas.study.sweep.parts import Parts
 from atlas.study.sweep.plan import Columns, Plan
-from atlas.study.sweep.targets import DataSet, Table, target
+from atlas.study.sweep.targets import DataSet, TableFile, target
 from atlas.study.sweep.workers import ahead, workers
 
 SECONDS, MOST = 2.0, 2**18
@@ -97,13 +97,13 @@ def _pace(plan: Plan, executor: Any) -> float:
         return SECONDS / FEW  # the part that has them will say so
 
 
-def _names(plan: Plan, table: Table | DataSet, parts: Parts) -> list[str]:
+def _names(plan: Plan, table: TableFile | DataSet, parts: Parts) -> list[str]:
     """Return the names of the files of all parts."""
     return [f"part-{i:08d}.{table.ending}" for i in range(-(-plan.count // parts.header["rows"]))]
 
 
 def _compute(
-    plan: Plan, table: Table | DataSet, parts: Parts, executor: Any, jobs: int | None, progress: Progress | None
+    plan: Plan, table: TableFile | DataSet, parts: Parts, executor: Any, jobs: int | None, progress: Progress | None
 ) -> None:
     """Compute the parts that are not there yet, and keep each as soon as it is done."""
     rows, names = parts.header["rows"], _names(plan, table, parts)

@@ -15,7 +15,7 @@ from atlas.study.sweep.tables import FORMATS, check_format
 
 
 @dataclass(frozen=True)
-class Table:
+class TableFile:
     """A file .csv, .npz or .parquet."""
 
     place: Path
@@ -95,13 +95,13 @@ class DataSet:
         parts.clear()
 
 
-def target(out: str | os.PathLike[str]) -> Table | DataSet:
+def target(out: str | os.PathLike[str]) -> TableFile | DataSet:
     """Return where a table goes, from what a user wrote. AtlasError for a format that there is not."""
     text = os.fspath(out)
     path = Path(text)
     if "://" not in text and not text.endswith(("/", os.sep)) and not path.is_dir():
         check_format(path)
-        return Table(path)
+        return TableFile(path)
     if path.suffix not in {"", ".parquet"}:
         raise AtlasError(f"A table in a folder is of Parquet, as table.parquet/, not {text}.")
     return DataSet(Remote(text) if "://" in text else Local(path))

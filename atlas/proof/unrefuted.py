@@ -1,4 +1,4 @@
-"""Why some mutants survive: what they say is true as well, or it cannot be told apart from what is meant."""
+"""Why some mutants are not refuted: what they say is true as well, or cannot be told apart from what is meant."""
 
 import re
 
