@@ -256,14 +256,23 @@ def test_a_name_has_letters_digits_and_hyphens_between_them(kind: Any) -> None:
         assert convert("Points", kind) == "Points"
 
 
-def test_a_recipe_is_a_name_and_no_path() -> None:
-    """A figure can't run a file of its own."""
+def test_a_recipe_is_a_name_or_a_file_beside_the_report(tmp_path: Path) -> None:
+    """A figure can't run a file from elsewhere."""
+    from atlas.report.load import load
     from atlas.report.pictures import pictures
 
-    for recipe in ("../evil", "/tmp/evil", "evil.py"):  # noqa: S108  a name that is refused
+    for recipe in ("../evil", "/tmp/evil", "evil"):  # noqa: S108  a name that is refused
         page = {"slug": "index", "title": "", "blocks": [{"kind": "figure", "recipe": recipe}]}
         with pytest.raises(AtlasError, match="there is no recipe"):
             pictures(convert({"name": "mine", "title": "", "pages": [page]}, Report))
+    (tmp_path / "evil.py").write_text("", encoding="utf-8")
+    file = tmp_path / "paper" / "mine.toml"
+    file.parent.mkdir()
+    for recipe in ("../evil.py", str(tmp_path / "evil.py"), "evil.py"):
+        block = f"[[pages]]\nslug = 'index'\ntitle = ''\n[[pages.blocks]]\nkind = 'figure'\nrecipe = '{recipe}'\n"
+        file.write_text(f"name = 'mine'\ntitle = ''\n{block}", encoding="utf-8")
+        with pytest.raises(AtlasError, match="is no file beside the report"):
+            load(file)
 
 
 WRONG = {
