@@ -19,6 +19,7 @@ _HOMES = {
     "ElementaryMotion": "atlas.core.elementary",
     "FreeMotion": "atlas.core.elementary",
     "GeneralMotion": "atlas.core.general",
+    "TopMotion": "atlas.core.top",
     "BallMotion": "atlas.core.ball",
     "ParticleMotion": "atlas.core.particle",
     "Flight": "atlas.core.flight",

@@ -5,34 +5,30 @@ from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
-from flint import arb, ctx, fmpq
+from flint import ctx, fmpq
 
 from atlas.core.body import SymmetricBody, moments
 from atlas.core.inputs import FloatArray, finite, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
-from atlas.core.motion import Motion, components
+from atlas.core.motion import components
+from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
 from atlas.core.nutation.cayley_klein import FIRST
 from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.scalars import KINDS, Scalars
-from atlas.core.nutation.single import SingleMotion
+from atlas.core.nutation.single import BITS
+from atlas.core.nutation.single_general import SingleGeneral
 from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
 
-BITS = 60
-"""Relative accuracy of a scalar before it is rounded, once."""
-
-NAME = "U28"
-"""Names of kinds, none of which is longer."""
-
 ORTHOGONAL = 1e-9
 """An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
 
 
-def standing(I2: float, I3: float, B2: float, B3: float, *omega: float) -> SingleMotion:
+def standing(I2: float, I3: float, B2: float, B3: float, *omega: float) -> SingleGeneral:
     """Return the motion with R(0) = 1 in the field (0, B2, B3)."""
-    return SingleMotion(_balls(I2, I3, B2, B3, *omega), np.eye(3), (I2, I3, B2, B3, *omega))
+    return SingleGeneral(_balls(I2, I3, B2, B3, *omega), np.eye(3), (I2, I3, B2, B3, *omega))
 
 
 def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:
@@ -40,7 +36,7 @@ def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:
         return Balls(ratio_of(SymmetricBody(I2, I3)), (B2, B3), omega)
 
 
-class GeneralMotion(Motion[SingleMotion]):
+class GeneralMotion(NutatingMotion[SingleGeneral]):
     """Motion R(t), R(0) = 1, of a charged symmetric body from any initial angular velocity (not in the paper).
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c), as in (32); `omega` =
@@ -88,7 +84,7 @@ class GeneralMotion(Motion[SingleMotion]):
         motion.ratio, motion.shape = ratio, ()
         body = ratio_of(SymmetricBody(I2, float(I3)))
         matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
-        motion._turning = SingleMotion(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class
+        motion._turning = SingleGeneral(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class
         motion.field, motion.omega = tuple(vector(field, "The field").tolist()), tuple(int(x.p) / int(x.q) for x in w)
         return motion
 
@@ -103,66 +99,13 @@ class GeneralMotion(Motion[SingleMotion]):
 
         Those that have gone to infinity (two for I = 1, all for B = 0) are inf.
         """
-        return self._each("roots", lambda exact: _padded(enclosed(lambda: exact.roots, BITS)))
+        return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
 
     @cached_property
     def turning_points(self) -> tuple[Any, Any]:
         """Least and largest Omega3; one of them is approached and never reached on a separatrix."""
-        ends = self._each("turning_points", _ends)
+        ends = self._each("turning_points", ends_of)
         return ends[..., 0] if self.shape else ends[0], ends[..., 1] if self.shape else ends[1]
-
-    @cached_property
-    def period(self) -> Any:
-        """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation."""
-        return self._scalar("period")
-
-    @cached_property
-    def precession_per_period(self) -> Any:
-        """Angle by which the body precesses about B in one period; a passage through a pole counts as half a turn less.
-
-        It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b.
-        Where the period is infinite there is none: DomainError for one motion, NaN for one of an array.
-        """
-        return self._scalar("precession_per_period")
-
-    @cached_property
-    def spin_per_period(self) -> Any:
-        """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt.
-
-        Where the period is infinite there is none, as for `precession_per_period`.
-        """
-        return self._scalar("spin_per_period")
-
-    @cached_property
-    def modulus(self) -> Any:
-        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix.
-
-        At a triple root it has no limit, nor has the nome: DomainError for one motion, NaN for one of an array.
-        """
-        return self._scalar("modulus")
-
-    @cached_property
-    def complementary_modulus(self) -> Any:
-        """Complementary modulus sqrt(1 - k^2), which keeps its digits next to a separatrix."""
-        return self._scalar("complementary_modulus")
-
-    @cached_property
-    def nome(self) -> Any:
-        """Nome q = exp(-pi K'/K) of the elliptic functions."""
-        return self._scalar("nome")
-
-    def _scalar(self, name: str) -> Any:
-        """Return a number for each motion, in an array NaN for a motion that has none."""
-
-        def value(exact: Balls) -> float:
-            try:
-                return float(arb(enclosed(lambda: getattr(exact, name), BITS)).mid())
-            except DomainError:
-                if self._turning:
-                    raise
-                return np.nan
-
-        return self._each(name, value)
 
     def _each(self, name: str, value: Callable[[Balls], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
         """Return one value for each motion: plain for one motion, else an array; what is not sure is made of balls."""
@@ -183,12 +126,6 @@ class GeneralMotion(Motion[SingleMotion]):
     def _rows(self) -> GeneralRows:
         """All motions in arrays, for a few times each."""
         return GeneralRows(self._inputs, self.shape)
-
-    def _fill_grid(self, one: SingleMotion, start: float, step: float, out: FloatArray) -> None:
-        """Fill the matrices of one motion on a grid."""
-        from atlas.core.nutation.grid import fill_grid
-
-        fill_grid(one, start, step, out)
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body; shape (..., 3); within 16 ulp of its largest component."""
@@ -249,14 +186,3 @@ def _transposed(R: list[list[fmpq]], v: FloatArray) -> list[fmpq]:
     """Return R^T v, exactly."""
     exact = [fmpq(*x.as_integer_ratio()) for x in v.tolist()]
     return [sum((R[i][j] * exact[i] for i in range(3)), fmpq(0)) for j in range(3)]
-
-
-def _ends(exact: Balls) -> list[float]:
-    """Return the turning points as floats."""
-    return [float(arb(x).mid()) for x in enclosed(lambda: exact.turning_points, BITS)]
-
-
-def _padded(roots: list[Any]) -> Any:
-    """Return four roots as complex floats."""
-    found = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
-    return np.array(found + [complex("inf")] * (4 - len(found)))

@@ -50,6 +50,7 @@ class Solution:
     beta: Parameter
     precession: Real
     spin: Real
+    swing: Any = None
 
     @property
     def period(self) -> arb:

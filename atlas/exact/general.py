@@ -21,13 +21,14 @@ from atlas.exact.cayley_klein import Parameter, Solution, matrix
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.free import FreeMotion
 from atlas.exact.inputs import Real, rational, rationals, root
+from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.quartic import Quartic
 from atlas.exact.spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
-from atlas.exact.theta import Lattice, Sum, constant, infinite
+from atlas.exact.theta import Lattice, Sum, constant
 
 
-class GeneralMotion:
+class GeneralMotion(Nutating):
     """The motion R(t), R(0) = 1, that starts with Omega(0) = ``omega`` in the field B' = (0, B2, B3).
 
     `at_state` takes a field in any direction. Every value is computed anew at the precision of the moment, see
@@ -197,21 +198,6 @@ class GeneralMotion:
         return Solution(lattice, arb(0), alpha, beta, sphere.precession, sphere.spin)
 
     @property
-    def period(self) -> arb:
-        """Period of nutation T; of an infinitesimal one where Omega3 is constant, infinite where that is unstable."""
-        return self.solution.period
-
-    @property
-    def precession_per_period(self) -> arb:
-        """Angle by which the body precesses about B in one period, the integral of psi'."""
-        return self._angles()[0]
-
-    @property
-    def spin_per_period(self) -> arb:
-        """Angle by which the body turns about its axis in one period, the integral of chi'."""
-        return self._angles()[1]
-
-    @property
     def roots(self) -> list[acb]:
         """Roots of Q, each as often as it counts: the real ones ascending, then the complex pair; none for B = 0."""
         if self.kind == "free body":
@@ -228,82 +214,20 @@ class GeneralMotion:
         return roots[q.low].value.real, roots[q.high].value.real
 
     @property
-    def nome(self) -> arb:
-        """Nome q = exp(-pi K'/K) of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
-        half, imaginary = self._periods()
-        if infinite(half):
-            return arb(1)
-        return arb(0) if infinite(imaginary) else (-arb.pi() * imaginary / half).exp()
+    def is_plane(self) -> bool:
+        """Whether M is along neither the field nor the axis, p = M3 = 0."""
+        return not self.is_steady and bool(self.quartic.c3 == self.quartic.momentum == 0)
 
     @property
-    def modulus(self) -> arb:
-        """Modulus k of the elliptic functions."""
-        return self._moduli()[0]
+    def precession(self) -> Real:
+        """Rate of Larmor's frame about the field."""
+        return -self.b
 
     @property
-    def complementary_modulus(self) -> arb:
-        """Complementary modulus k' = sqrt(1 - k^2), which keeps its digits next to a separatrix."""
-        return self._moduli()[1]
-
-    def _periods(self) -> tuple[arb, arb]:
-        """Return half the real and half the imaginary period; DomainError at a triple root, where both are infinite."""
-        found = self.solution.lattice
-        if infinite(found.half) and infinite(found.imaginary) and not self.is_steady:
-            raise DomainError("At a triple root of Q both periods are infinite: modulus and nome have no limit.")
-        return found.half, found.imaginary
-
-    def _moduli(self) -> tuple[arb, arb]:
-        half, imaginary = self._periods()
-        if infinite(half) or infinite(imaginary):
-            return (arb(1), arb(0)) if infinite(half) else (arb(0), arb(1))
-        _, second, third, fourth = (x.real for x in acb(0).modular_theta(acb(0, imaginary / half)))
-        return (second / third) ** 2, (fourth / third) ** 2
-
-    def _angles(self) -> tuple[arb, arb]:
-        found = self.solution
-        T, pi = found.period, arb.pi()
-        if infinite(T):
-            raise DomainError(f"A motion of the kind {self.kind!r} has no period: no angle belongs to one.")
+    def swings_evenly(self) -> bool:
+        """Whether nu swings evenly about zero, and chi' = -p nu/(1 - nu^2) with it."""
         q = self.quartic
-        # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
-        first, second = (
-            T * x.own + pi * x.turn if self.is_steady or q.sign_beside(pole) else arb(0)
-            for x, pole in ((found.alpha, -1), (found.beta, 1))
-        )
-        if q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1:
-            # nu swings evenly about zero, and chi' = -p nu/(1 - nu^2) with it
-            return T * found.precession + first + second, arb(0)
-        return T * found.precession + first + second, T * found.spin + first - second
-
-    def parameters(self, t: Any) -> tuple[acb, acb, acb, acb]:
-        """Return alpha and beta up to a common factor, and their derivatives by time."""
-        found, t = self.solution, rational(t, "the time")
-        s = self.in_cell(arb(t) + found.origin)
-        a, da = found.alpha.at(t, s)
-        b, db = found.beta.at(t, s)
-        return a, b, da, db
-
-    def in_cell(self, s: arb) -> arb:
-        """Return the time since the turning point, less whole periods where the sums are for one period only."""
-        found = self.solution
-        if found.lattice.form != "hyperbolic" or infinite(found.lattice.half):
-            return s
-        whole = ((s / found.period).mid() + 0.5).floor().unique_fmpz()
-        return arb("nan") if whole is None else s - found.period * whole
-
-    def quaternion(self, t: Any) -> list[arb]:
-        """Return a unit quaternion of R(t), scalar first."""
-        a, b, _, _ = self.parameters(t)
-        q = self.from_frame(a, b)
-        size = sum((x * x for x in q), arb(0)).sqrt()
-        return [x / size for x in q]
-
-    def from_frame(self, a: acb, b: acb) -> list[arb]:
-        """Return the quaternion R_z(-chi0) R_x(-theta0) (alpha, beta) R_z(chi0), not normalised."""
-        c, s, C, S = self.tilt()
-        w, x, y, z = a.real, b.real, b.imag, a.imag
-        w, x, y, z = w * c + x * s, x * c - w * s, y * c + z * s, z * c - y * s
-        return [w, x * C + y * S, y * C - x * S, z]
+        return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
@@ -317,30 +241,13 @@ class GeneralMotion:
         a, b, _, _ = self.parameters(t)
         return matrix(self.from_frame(a, b))
 
-    def column(self, j: int, t: Any) -> list[Real]:
-        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
-        return [row[j - 1] for row in self.rotation(t)]
-
-    def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t)."""
-        return self.column(3, t)
-
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
         if rational(t, "the time") == 0:
             return list(self.omega)
         if self._elementary is not None:
             return self._elementary.angular_velocity(t)
-        a, b, da, db = self.parameters(t)
-        q, dq = self.from_frame(a, b), self.from_frame(da, db)
-        w, x, y, z = q
-        dw, dx, dy, dz = dq
-        square = (w * w + x * x + y * y + z * z) / 2
-        return [
-            (w * dx - x * dw - y * dz + z * dy) / square,
-            (w * dy - y * dw - z * dx + x * dz) / square,
-            (w * dz - z * dw - x * dy + y * dx) / square,
-        ]
+        return self.turning_rate(t)
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return K(t) = R^T B', (32)."""

@@ -1,5 +1,6 @@
 """The constants of a nutation: periods, zeros of alpha and beta, rates of precession and spin, from the roots of Q.
 
+u is Omega3, or minus the cosine nu of a top, and Q a quartic, cubic or quadratic in it, whose other roots are infinite.
 From a turning point e, u(s) = e + Q'(e)/(4 w(s)) with w = wp(s) - Q''(e)/24, which at a root r is Q'(e)/(4 (r - e)).
 So the time between two values of u is Carlson's R_F, and no cubic has to be solved. Times to the poles of
 a sphere are imaginary; of the two zeros ± i y at a pole alpha (beta) has the one where its residue is one, and which
@@ -33,14 +34,15 @@ class Turning:
     @cached_property
     def quarter_slope(self) -> arb:
         """Q'(e)/4, as a product over the other roots."""
-        product = acb(arb(self.quartic.I - 1) / 4)
+        product = acb(arb(self.quartic.leading) / 4)
         for i in self.others:
-            product *= self.u - self.roots[i].value
+            if not self.roots[i].is_infinite:
+                product *= self.u - self.roots[i].value
         return product.real
 
     def w(self, place: int) -> acb:
         """Return w at another root."""
-        return self.quarter_slope / (self.roots[place].value - self.u)
+        return acb(0) if self.roots[place].is_infinite else self.quarter_slope / (self.roots[place].value - self.u)
 
     @property
     def others(self) -> list[int]:
@@ -59,8 +61,14 @@ class Turning:
         """Return y > 0 where u(i y) is infinite."""
         return acb.elliptic_rf(*(self.w(i) for i in self.others)).real
 
+    def real_time_to_infinity(self) -> arb:
+        """Return x > 0 where u(x) is infinite, from an outermost root beyond which Q is positive."""
+        return acb.elliptic_rf(*(-self.w(i) for i in self.others)).real
+
     def _above(self, u: arb, place: int) -> acb:
         """Return wp(u) - wp(r) for another root r, formed without cancellation."""
+        if self.roots[place].is_infinite:
+            return acb(self.quarter_slope / (u - self.u))
         r = self.roots[place].value
         return self.quarter_slope * (r - u) / ((u - self.u) * (r - self.u))
 
@@ -71,6 +79,7 @@ class Nutation:
     def __init__(self, quartic: Quartic, sphere: Sphere) -> None:
         self.quartic, self.sphere = quartic, sphere
         self.roots = tuple(quartic.roots())
+        self.real = [root.value.real for root in self.roots if root.is_real]
 
     def solution(self, *, trigonometric: bool = False) -> Solution:
         """Return all constants, with trigonometric sums if that is asked for and there is a period."""
@@ -86,24 +95,27 @@ class Nutation:
         alpha, beta = (self._parameter(pole, origin, acb(x)) for pole, x in ((-1, c), (1, s)))
         return Solution(self.lattice, origin, alpha, beta, self.sphere.precession, self.sphere.spin)
 
-    def _turning(self, place: int) -> Turning:
+    def turning(self, place: int) -> Turning:
+        """Return a simple real root as a turning point."""
         return Turning(self.quartic, self.roots, place)
 
     def _start(self) -> Turning:
         """Return the turning point next to which the motion is fast: near a separatrix, the one it comes back from."""
         low, high = self.quartic.low, self.quartic.high
         if self.roots[low].multiplicity > 1:
-            return self._turning(high)
+            return self.turning(high)
         if self.roots[high].multiplicity > 1:
-            return self._turning(low)
-        real = [root.value.real for root in self.roots if root.is_real]
-        if self.quartic.I < 1:
+            return self.turning(low)
+        real = self.real
+        if self.quartic.bend < 0:
             if len(real) > 2:
-                return self._turning(high if high == len(real) - 1 else low)
-            upper = self._turning(high)
+                return self.turning(high if high == len(real) - 1 else low)
+            upper = self.turning(high)
             imaginary = self._lattice(upper).imaginary
-            return upper if 2 * upper.imaginary_time_to_infinity().mid() <= imaginary.mid() else self._turning(low)
-        return self._turning(high if (real[-1] - real[high]).mid() >= (real[low] - real[0]).mid() else low)
+            return upper if 2 * upper.imaginary_time_to_infinity().mid() <= imaginary.mid() else self.turning(low)
+        if self.quartic.bend == 0:  # no other root lies between the turning point and infinity
+            return self.turning(low if high < len(real) - 1 else high)
+        return self.turning(high if (real[-1] - real[high]).mid() >= (real[low] - real[0]).mid() else low)
 
     def _lattice(self, start: Turning) -> Lattice:
         """Return the lattice of Omega3, decided by the multiple roots there are."""
@@ -117,7 +129,7 @@ class Nutation:
             return Lattice("hyperbolic", arb("inf"), arb.pi() / (2 * rate), oblique=False, rate=rate)
         first = start.w(other)
         second, third = (start.w(i) for i in start.others if i != other)
-        if self.roots[-1].is_real:
+        if not any(root.is_complex for root in self.roots):
             ends = sorted((second.real, third.real), key=lambda x: -x.mid())
             longer, shorter = (first.real - ends[1]).sqrt(), (first.real - ends[0]).sqrt()
             half = arb.pi() / (2 * longer.agm(shorter))
@@ -132,9 +144,9 @@ class Nutation:
     def _origin(self) -> arb:
         """Return the time since the turning point, positive where Omega3 moves away from it."""
         q = self.quartic
-        if q.rate == 0:
+        if q.sense == 0:
             return arb(0) if self.start.u.overlaps(arb(q.u)) else self.lattice.half
-        away = (q.rate > 0) == (self.start.place == q.low)
+        away = (q.sense > 0) == (self.start.place == q.low)
         time = self.start.real_time(arb(q.u))
         return time if away else -time
 
@@ -161,10 +173,10 @@ class Nutation:
         q, pole, sense = self.quartic, self.sphere.poles[which], self.sphere.signs[which]
         # the pole -1 is where Omega3 is highest
         next_to = q.high if which == -1 else q.low
-        beyond = self.quartic.I > 1 and next_to != self.start.place
+        beyond = next_to != self.start.place and not self._through_infinity(which)
         if sense:
-            y = (self._turning(next_to) if beyond else self.start).imaginary_time(pole)
-            if self.quartic.I < 1 and next_to != self.start.place:
+            y = (self.turning(next_to) if beyond else self.start).imaginary_time(pole)
+            if not beyond and next_to != self.start.place:
                 sense = -sense
         else:
             place = next(i for i, r in enumerate(self.roots) if r.is_real and r.value.real.overlaps(pole))
@@ -179,14 +191,25 @@ class Nutation:
         function = vanishing_at(self.lattice, y, beyond=beyond)
         return function, y, -sense if function.shifted else sense
 
+    def _through_infinity(self, which: int) -> bool:
+        """Whether u moves from the turning point where it starts, in imaginary time, by infinity to a pole."""
+        if self.quartic.bend >= 0:
+            return False
+        if len(self.real) <= 2:
+            return True
+        # the other two roots must not lie between
+        pole = self.sphere.poles[which]
+        beyond = pole - self.real[-1] if which == -1 else self.real[0] - pole
+        return bool(beyond > 0) or (self.sphere.signs[which] == 0 and bool(beyond.overlaps(arb(0))))
+
     def _heteroclinic(self) -> Solution:
         """Return the motion between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, and no phase but the frame's.
 
         There c3 = 0 and E' = I b^2, so that field and angular velocity have the same poles, ± b.
         """
         q, frame = self.quartic, arb(self.sphere.frames[1])
-        rate = arb((q.I - 1) * q.K2).sqrt()
-        sense = -1 if q.rate > 0 else 1
+        rate = arb(q.leading).sqrt() * abs(self.sphere.poles[1])
+        sense = -q.sense
         lattice = Lattice("hyperbolic", arb("inf"), arb.pi() / rate, oblique=False, rate=rate / 2)
         c, s, _, _ = (arb(x) for x in self.sphere.tilt)
         size, origin = (c * s).sqrt(), sense * (c / s).log() / rate

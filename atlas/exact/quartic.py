@@ -27,8 +27,18 @@ class Root:
 
     @property
     def is_real(self) -> bool:
-        """Whether the root is proven to be real."""
-        return bool(self.value.imag.is_zero())
+        """Whether the root is proven to be real, and finite."""
+        return bool(self.value.imag.is_zero()) and not self.is_infinite
+
+    @property
+    def is_complex(self) -> bool:
+        """Whether the root is one of a complex pair."""
+        return not (self.is_real or self.is_infinite)
+
+    @property
+    def is_infinite(self) -> bool:
+        """Whether the root has gone to infinity, where the leading coefficient is zero."""
+        return bool(self.value.real > 0) and not self.value.real.is_finite()
 
 
 class Quartic:
@@ -53,6 +63,26 @@ class Quartic:
         self.polynomial -= fmpq_poly([self.c5, -(2 - I) * self.c3, 1]) ** 2
         self._known: dict[int, list[Root]] = {}
 
+    @property
+    def leading(self) -> fmpq:
+        """Leading coefficient of Q."""
+        return self.I - 1
+
+    @property
+    def bend(self) -> int:
+        """Sign of the leading coefficient: where in the plane of time Omega3 is infinite depends on it."""
+        return _sign(self.leading)
+
+    @property
+    def sense(self) -> int:
+        """Sign of dOmega3/dt at t = 0."""
+        return _sign(self.rate)
+
+    @property
+    def bias(self) -> int:
+        """Sign of the second derivative of Omega3 at t = 0."""
+        return _sign(self.polynomial.derivative()(self.u))
+
     @cached_property
     def is_constant(self) -> bool:
         """Whether Omega3 is constant: Q and its derivative vanish where it starts, or Q is zero throughout."""
@@ -65,11 +95,13 @@ class Quartic:
     def roots(self) -> list[Root]:
         """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair."""
         if ctx.prec not in self._known:
-            self._known[ctx.prec] = self._isolated() if self.polynomial.degree() > 0 else []
+            self._known[ctx.prec] = self._isolated()
         return self._known[ctx.prec]
 
     def _isolated(self) -> list[Root]:
         """Isolate the roots."""
+        if self.polynomial.degree() <= 0:
+            return []
         if self.polynomial.degree() == 4 and self.polynomial.gcd(self.polynomial.derivative()).degree() == 0:
             found = [Root(value, 1) for value in quartic_roots(self.polynomial)]
         else:
@@ -87,19 +119,13 @@ class Quartic:
                 u = arb(self.u)
                 real = [root.value.real for root in self.roots() if root.is_real]
                 hits = [i for i, x in enumerate(real) if x.overlaps(u)]
-                if self.rate != 0 and not hits:
+                if self.sense and not hits:
                     high = next(i for i, x in enumerate(real) if x > u)
                     return high - 1, high
-                if self.rate == 0 and len(hits) == 1:
-                    return self._from(hits[0])
+                if not self.sense and len(hits) == 1:
+                    first, second = hits[0], hits[0] + self.bias
+                    return min(first, second), max(first, second)
             precision *= 2
-
-    def _from(self, place: int) -> tuple[int, int]:
-        """Return the interval that starts at a root."""
-        slope = self.polynomial.derivative()(self.u)
-        if slope == 0:
-            return place, place
-        return (place, place + 1) if slope > 0 else (place - 1, place)
 
     @property
     def low(self) -> int:

@@ -48,7 +48,7 @@ class Sphere:
         x, y, z = self.start
         if x == 0 and y == 0:
             return (fmpq(1), fmpq(0), fmpq(1), fmpq(0)) if z >= 0 else (fmpq(0), fmpq(1), fmpq(1), fmpq(0))
-        across = root(x * x + y * y)
+        across = abs(y) if x == 0 else root(x * x + y * y)
         # of the two halves the one that does not cancel first
         longer = arb((1 + abs(arb(z) / self.length)) / 2).sqrt()
         shorter = arb(across) / (2 * longer * self.length)

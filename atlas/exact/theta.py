@@ -93,6 +93,16 @@ class Sum:
         return _widened(value, left), _widened(slope, 2 * k * left) * self.lattice.rate
 
     @property
+    def derivative(self) -> "Sum":
+        """The derivative by s, as a sum of the same form; its bound is not kept."""
+        rate, sign = self.lattice.rate, -1 if self.lattice.form == "trigonometric" else 1
+        if self.lattice.form == "linear":
+            return Sum(self.lattice, (acb(0),), (self.odd[0] * rate,), arb(0), self.doubled)
+        odd = tuple(sign * rate * self.frequency(n) * b for n, b in enumerate(self.even))
+        even = tuple(rate * self.frequency(n) * a for n, a in enumerate(self.odd))
+        return Sum(self.lattice, odd, even, self.bound, self.doubled)
+
+    @property
     def logarithmic_slope(self) -> acb:
         """Derivative of the logarithm at s = 0."""
         value, slope = self.at(arb(0))

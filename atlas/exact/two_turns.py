@@ -5,55 +5,32 @@ frame like a pendulum, and R(t) = R_B(-b t) R_n(delta), n across the plane. The 
 """
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from flint import acb, arb, fmpq
 
 from atlas.exact.inputs import Real, root, sin_cos
-from atlas.exact.quartic import Quartic
+from atlas.exact.nutating import Nutating
 
 Matrix = list[list[Any]]
 
 
-class Motion(Protocol):
-    """What is asked of a general motion."""
-
-    kind: str
-    quartic: Quartic
-    omega: Sequence[fmpq]
-    field: Sequence[fmpq]
-
-    @property
-    def is_steady(self) -> bool:
-        """Whether theta is constant."""
-
-    @property
-    def b(self) -> Real:
-        """Length of the field."""
-
-    def parameters(self, t: Any) -> tuple[acb, acb, acb, acb]:
-        """Return alpha and beta up to a common factor, and their derivatives by time."""
-
-    def from_frame(self, a: acb, b: acb) -> list[arb]:
-        """Return the quaternion of the motion with these two."""
-
-
-def rotation(motion: Motion, t: fmpq) -> Matrix | None:
+def rotation(motion: Nutating, t: fmpq) -> Matrix | None:
     """Return R(t) as the product of two turns, None for a motion that is no such product."""
-    q = motion.quartic
-    if motion.is_steady or (motion.kind != "ball" and not q.c3 == q.momentum == 0):
+    if motion.kind != "ball" and not motion.is_plane:
         return None
-    s, c = sin_cos(-motion.b * t)
+    s, c = sin_cos(motion.precession * t)
     larmor = turn(motion.field, c, s)
     if motion.kind == "ball":
         M = [w + k for w, k in zip(motion.omega, motion.field, strict=True)]
         s, c = sin_cos(root(sum((x * x for x in M), fmpq(0))) * t)
         return product(larmor, turn(M, c, s))
     # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
-    phase = acb(0, motion.b * t / 2).exp()
+    phase = acb(0, -motion.precession * t / 2).exp()
     a, b, _, _ = motion.parameters(t)
     w, x, y, _ = motion.from_frame(a * phase, b * phase)
-    n = (motion.field[1], -motion.field[0]) if q.across != 0 else (motion.omega[0], motion.omega[1])
+    vertical = motion.field[0] == motion.field[1] == 0
+    n = (motion.omega[0], motion.omega[1]) if vertical else (motion.field[1], -motion.field[0])
     along = arb(x * n[0] + y * n[1]) / root(n[0] ** 2 + n[1] ** 2)
     square = w * w + along * along
     return product(larmor, turn((*n, fmpq(0)), (w * w - along * along) / square, 2 * w * along / square))

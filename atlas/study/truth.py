@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from atlas.core.arithmetic.phase import Phases
 from atlas.core.arithmetic.wide import BITS, TURN, Wide
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.single import SingleMotion
+from atlas.core.nutation.single_general import SingleGeneral
 from atlas.exact.digits import enclosed
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.general import GeneralMotion
@@ -75,7 +75,7 @@ class GeneralTruth:
     """Bound on the error of an entry of R, of a quaternion, and of Omega in units of the largest rate."""
 
     def __init__(self, motion: GeneralMotion) -> None:
-        self._motion = SingleMotion(motion, np.eye(3))
+        self._motion = SingleGeneral(motion, np.eye(3))
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
         """Tell at which times there is a value, shape (m,)."""

@@ -17,6 +17,7 @@ from atlas.core.arithmetic.threads import shared
 from atlas.core.arithmetic.wide import Wide
 from atlas.core.inputs import FloatArray, real
 from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric, wide
+from atlas.core.nutation.swing import Swing
 from atlas.exact.cayley_klein import Solution
 from atlas.exact.theta import infinite
 
@@ -48,10 +49,14 @@ KINDS: Mapping[str, Callable[..., Functions]] = {
 
 
 class CayleyKlein:
-    """alpha and beta of one motion: constants made at rising precision until each is known, then rounded."""
+    """alpha and beta of one motion: constants made at rising precision until each is known, then rounded.
 
-    def __init__(self, solution: Callable[[], Solution]) -> None:
-        self.precision = FIRST
+    `values` (4, rows) are the weights of their real, then of their imaginary parts; `slopes` adds those of their
+    derivatives by time, but for the further turn of a top.
+    """
+
+    def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
+        self.precision, self.sloping = FIRST, slopes
         while not self._made(solution, self.precision):
             self.precision *= 2
 
@@ -61,7 +66,11 @@ class CayleyKlein:
             found = solution()
             lattice, pair = found.lattice, (found.alpha, found.beta)
             periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
+            swing, start = found.swing, acb(1)
             rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
+            if swing:
+                rates[1] += swing.kappa * swing.rate
+                start = acb(0, -swing.at(arb(0), found.origin) / 2).exp()
             # the phase is 2v where only sin v / cos v is wanted, else v
             odd = lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
             whole = (2 if odd else 4) * lattice.half
@@ -74,23 +83,37 @@ class CayleyKlein:
                 return False
             kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
             functions = kind(found, [x.sum for x in pair])
-            values = [[x.factor * w for w in functions.weights(x.sum)] for x in pair]
-            largest = max(abs(x).mid() for row in values for x in row)
+            factors = pair[0].factor * start, pair[1].factor / start
+            values = [[f * w for w in functions.weights(x.sum)] for x, f in zip(pair, factors, strict=True)]
+            self.swing = Swing(swing) if swing else None
+            if swing and periodic:
+                self.swing_twist = float((2 * swing.kappa * swing.twist * lattice.half / arb.pi()).mid())
+            if self.swing and not self.swing.is_known:
+                return False
+            if self.sloping:
+                values += [
+                    [f * (acb(0, x.rate + x.twist) * v + w) for v, w in zip(a, b, strict=True)]
+                    for f, x, a, b in (
+                        (f, x, functions.weights(x.sum), functions.weights(x.sum.derivative))
+                        for x, f in zip(pair, factors, strict=True)
+                    )
+                ]
+            largest = max(abs(x).mid() for row in values[:2] for x in row)
             if not all(_known(x, largest) for row in values for x in row):
                 return False
             self.functions, self.periodic = functions, periodic
             self.frequencies = [wide(x) for x in turns]
             self.origins = [Wide(0), Wide(0), wide(origin)] if periodic else None
             self.phases = self._phases()
-            self.values = _real_parts(values, largest)
-            self.lost = self._lost(values)
-            least = np.abs(self.values).min(where=self.values != 0, initial=1.0)
+            self.values = np.concatenate([_real_parts(x, largest) for x in (values[:2], values[2:]) if x])
+            self.lost = self._lost(values[:2])
+            least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
             self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
         return True
 
     def _lost(self, values: list[list[acb]]) -> bool:
         """Return whether alpha or beta is too small for a float beside the other, but not zero."""
-        pairs = zip(values, self.values.reshape(2, 2, -1).swapaxes(0, 1), strict=True)
+        pairs = zip(values, self.values[:4].reshape(2, 2, -1).swapaxes(0, 1), strict=True)
         return any(not found.any() and not all(x.is_zero() for x in exact) for exact, found in pairs)
 
     def _phases(self) -> Phases:
@@ -118,27 +141,37 @@ class Evaluation:
         self.circles, self.products = np.empty((2, 2, size)), Products(size)
 
     def parts(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
-        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m).
+        """Return Re alpha, Re beta, Im alpha, Im beta up to a common factor, (4, m), and their slopes, (8, m).
 
         `low` (m,) is what the times t lack, None for nothing.
         """
-        m, functions = t.size, self.of.functions
+        m, functions, swing = t.size, self.of.functions, self.of.swing
         rows, phases = self.rows[:, :m], self.of.phases
         if isinstance(functions, Hyperbolic) and functions.periodic:
             u, e, *_ = phases.reduced(t, self.work[..., :m], low)
-            functions.fill(rows, *functions.line.at(u[2], e[2]))
+            x, rest = functions.line.at(u[2], e[2])
+            functions.fill(rows, x, rest)
             u, v = u[:2], u[2]
             u += functions.twist * v
+            if swing:
+                u[1] += swing.of_line(x + rest) + self.of.swing_twist * v
         else:
             u = phases.halves_of(t, self.work, low)
-        np.tan(u, out=u)
         if isinstance(functions, Trigonometric):
-            functions.fill(rows, u[2])
+            u, v = u[:2], u[2]
+            np.tan(v, out=v)
+            functions.fill(rows, v)
+            if swing:
+                u[1] += swing.of_circle(*functions.doubled(v))
         elif isinstance(functions, Steady):
             functions.fill(rows, t)
         elif not functions.periodic:
             near = np.clip(t, -functions.line.longest, functions.line.longest)
-            functions.fill(rows, *functions.line.at(near, 0.0 if low is None else low))
+            x, rest = functions.line.at(near, 0.0 if low is None else low)
+            functions.fill(rows, x, rest)
+            if swing:
+                u[1] += swing.of_line(x + rest)
+        np.tan(u, out=u)
         # phases of alpha and beta, half the sum and half the difference of the two; all have a common factor
         cos, sin = self.circles[..., :m]
         np.multiply(u[0], u[1], out=sin[0])
@@ -154,7 +187,7 @@ class Evaluation:
         turned[:, 0] -= pairs[:, 1]
         turned[:, 1] += pairs[:, 0]
         if self.of.faint:
-            result /= np.abs(result).max(axis=0)
+            result /= np.abs(result[:4]).max(axis=0)
         return np.asarray(result)
 
     def at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:

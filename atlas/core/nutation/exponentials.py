@@ -10,7 +10,7 @@ from atlas.core.arithmetic.wide import Wide
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.functions import wide
 from atlas.exact.cayley_klein import Parameter
-from atlas.exact.general import GeneralMotion
+from atlas.exact.nutating import Nutating
 from atlas.exact.theta import infinite
 
 FINE = 128
@@ -56,11 +56,11 @@ class Exponentials:
         return np.concatenate([np.stack([z.real, z.imag], 1), np.stack([-z.imag, z.real], 1)])
 
 
-def exponentials(exact: GeneralMotion, precision: int) -> tuple[Exponentials, Exponentials] | None:
+def exponentials(exact: Nutating, precision: int) -> tuple[Exponentials, Exponentials] | None:
     """Return alpha and beta as sums of exponentials, None where there is no period or where they cancel or are many."""
     with ctx.workprec(precision):
         found = exact.trigonometric()
-        if found.lattice.form != "trigonometric":
+        if found.lattice.form != "trigonometric" or found.swing:
             return None
         if (
             not (infinite(found.lattice.half) or infinite(found.lattice.imaginary))

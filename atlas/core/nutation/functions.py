@@ -86,6 +86,14 @@ class Trigonometric:
         for n in range(1, self.terms):
             np.multiply(pairs[n - 1], factor, out=pairs[n])
 
+    def doubled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return cos 2v and sin 2v from what `fill` takes."""
+        if self.constant:
+            u = 2 * u / (1.0 - u * u)
+        square = u * u
+        over = WHOLE / (WHOLE + square)
+        return (WHOLE - square) * over, 2 * u * over
+
 
 class Hyperbolic:
     """tanh x and 1 times powers of W = cosh 2x/cosh 2X, X the largest x; and the same times sech x.

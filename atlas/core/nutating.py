@@ -1,0 +1,103 @@
+"""What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any, TypeVar
+
+import numpy as np
+from flint import arb
+
+from atlas.core.inputs import FloatArray
+from atlas.core.motion import Motion
+from atlas.core.nutation.single import BITS, SingleMotion
+from atlas.errors import DomainError
+from atlas.exact.digits import enclosed
+from atlas.exact.nutating import Nutating
+
+NAME = "U28"
+"""Names of kinds, none of which is longer."""
+
+Nutation = TypeVar("Nutation", bound=SingleMotion)
+
+
+class NutatingMotion(Motion[Nutation]):
+    """Motions R(t) whose axis nutates, with the numbers of a period."""
+
+    @cached_property
+    def period(self) -> Any:
+        """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation."""
+        return self._scalar("period")
+
+    @cached_property
+    def precession_per_period(self) -> Any:
+        """Angle of precession about the field in one period; a passage through a pole counts as half a turn less.
+
+        It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b;
+        for a top n stands for the field, and k2/I2 for b.
+        Where the period is infinite there is none: DomainError for one motion, NaN for one of an array.
+        """
+        return self._scalar("precession_per_period")
+
+    @cached_property
+    def spin_per_period(self) -> Any:
+        """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt.
+
+        Where the period is infinite there is none, as for `precession_per_period`.
+        """
+        return self._scalar("spin_per_period")
+
+    @cached_property
+    def modulus(self) -> Any:
+        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix.
+
+        At a triple root it has no limit, nor has the nome: DomainError for one motion, NaN for one of an array.
+        """
+        return self._scalar("modulus")
+
+    @cached_property
+    def complementary_modulus(self) -> Any:
+        """Complementary modulus sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        return self._scalar("complementary_modulus")
+
+    @cached_property
+    def nome(self) -> Any:
+        """Nome q = exp(-pi K'/K) of the elliptic functions."""
+        return self._scalar("nome")
+
+    def _scalar(self, name: str) -> Any:
+        """Return a number for each motion, in an array NaN for a motion that has none."""
+
+        def value(exact: Nutating) -> float:
+            try:
+                return float(arb(enclosed(lambda: getattr(exact, name), BITS)).mid())
+            except DomainError:
+                if self._turning:
+                    raise
+                return np.nan
+
+        return self._each(name, value)
+
+    def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
+        """Return one value for each motion: plain for one motion, else an array; by default motion by motion."""
+        del name, shown
+        if self._turning:
+            return value(self._turning.exact)
+        found = np.array([value(one.exact) for one in self._turnings])
+        return found.reshape(self.shape + found.shape[1:])
+
+    def _fill_grid(self, one: Nutation, start: float, step: float, out: FloatArray) -> None:
+        """Fill the matrices of one motion on a grid."""
+        from atlas.core.nutation.grid import fill_grid
+
+        fill_grid(one, start, step, out)
+
+
+def ends_of(exact: Any) -> list[float]:
+    """Return the turning points as floats."""
+    return [float(arb(x).mid()) for x in enclosed(lambda: exact.turning_points, BITS)]
+
+
+def padded(roots: list[Any]) -> Any:
+    """Return four roots as complex floats."""
+    found = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
+    return np.array(found + [complex("inf")] * (4 - len(found)))

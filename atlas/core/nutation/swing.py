@@ -1,0 +1,93 @@
+"""The further turn of a top about its axis, kappa times the integral of nu, at many times: its part that is periodic.
+
+It is (2 kappa/sqrt(|A|)) at(sqrt(|A|) O/E), at = arctan for A < 0 and artanh for A > 0, of `atlas.exact.swing`; where A
+is zero 2 kappa O/E. So it goes through A = 0 without a gap: O/sqrt(|A|) was formed in balls before it was rounded.
+"""
+
+import numpy as np
+from flint import arb
+
+from atlas.core.inputs import FloatArray
+from atlas.exact.swing import Swing as Exact
+
+NEGLIGIBLE, ACCURATE = 2.0**-60, 2.0**-60
+"""Part of the first term below which a term is left out, and of itself to which a term is known before rounding."""
+
+MERGED = 2.0**-500
+"""Size of sqrt(|A|), of a frequency, below which the function `at` is its argument."""
+
+FAR = 18.0
+"""From there on exp(2 x) + 1 is exp(2 x)."""
+
+
+class Swing:
+    """Half of the periodic part, in radians, as a function of the time in a period."""
+
+    def __init__(self, exact: Exact) -> None:
+        lattice, size = exact.lattice, abs(exact.A).sqrt()
+        self.form, self.reach = lattice.form, lattice.reach
+        merged = not size > MERGED
+        self.sign = 0 if merged else 1 if exact.A > 0 else -1
+        self.factor = float((exact.kappa if merged else exact.kappa / size).mid())
+        odd, even = ([x.real for x in sum_] for sum_ in (exact.odd.odd, exact.even.even))
+        odd = odd if merged else [x * size for x in odd]
+        count = max(self._needed(odd), self._needed(even))
+        odd, even = odd[:count], even[:count]
+        self.is_known = all(_known(x, max(abs(y).mid() for y in sum_)) for sum_ in (odd, even) for x in sum_)
+        self.odd, self.even = (np.array([float(x.mid()) for x in weights]) for weights in (odd, even))
+        self.depth = float(exact.depth.mid())
+
+    def _needed(self, weights: list[arb]) -> int:
+        """Return how many terms matter."""
+        grown = [abs(x) * (2 * n * self.reach).exp() for n, x in enumerate(weights)]
+        largest = max(grown, key=lambda x: float(x.mid()))
+        return max((n + 1 for n, x in enumerate(grown) if not x < NEGLIGIBLE * largest), default=1)
+
+    def of_circle(self, cos: FloatArray, sin: FloatArray) -> FloatArray:
+        """Return it from cos 2v and sin 2v, v = rate s: trigonometric sums of multiples of 2v (Clenshaw)."""
+        twice = cos + cos
+        even, last_even, odd, last_odd = (np.zeros_like(cos) for _ in range(4))
+        for a, b in zip(self.even[:0:-1], self.odd[:0:-1], strict=True):
+            even, last_even = a + twice * even - last_even, even
+            odd, last_odd = b + twice * odd - last_odd, odd
+        return self._at(odd * sin, self.even[0] + cos * even - last_even)
+
+    def of_line(self, x: FloatArray) -> FloatArray:
+        """Return it from x = rate s, where the sums are hyperbolic or linear."""
+        if self.form == "linear":
+            return self._at(self.odd[0] * x, np.full_like(x, self.even[0]))
+        size = np.abs(x)
+        if self.sign > 0:
+            return np.asarray(self.factor * np.copysign(self._between(size), x * self.odd[0]))
+        odd, even = np.zeros_like(x), np.zeros_like(x)
+        for n, (a, b) in enumerate(zip(self.odd, self.even, strict=True)):
+            up, down = np.exp(2 * n * size), np.expm1(-2 * (2 * n + 1) * size)
+            odd -= a * up * down
+            even += b * up * (2.0 + down)
+        return self._at(np.copysign(1.0, x) * odd, even)
+
+    def _between(self, x: FloatArray) -> FloatArray:
+        """Return its size for A > 0 and x >= 0, as a logarithm whose terms are all positive."""
+        d, nearer = self.depth, np.minimum(x, self.depth)
+        odd, rest = np.zeros_like(x), np.zeros_like(x)
+        for n in range(self.odd.size):
+            k, fallen = 2 * n + 1, -2.0 * n * (n + 1) * float(self.reach.mid()) if n else 0.0
+            odd += np.exp(2 * n * (x + d) + fallen) * np.expm1(-2 * k * x) * np.expm1(-2 * k * d)
+            rest += np.exp(2 * n * x - (k + 1) * d + fallen + 2 * nearer)
+            rest += np.exp(2 * n * d - (k + 1) * x + fallen + 2 * nearer)
+        ratio = odd / rest
+        near = np.log1p(ratio * np.exp(2 * np.minimum(nearer, FAR)))
+        with np.errstate(divide="ignore"):
+            far = np.log(ratio) + 2 * nearer
+        return np.asarray(np.where(nearer < FAR, near, far) / 2)
+
+    def _at(self, odd: FloatArray, even: FloatArray) -> FloatArray:
+        """Return the turn of O and E."""
+        if self.sign < 0:
+            return self.factor * np.arctan2(odd, even)
+        return self.factor * (np.arctanh(odd / even) if self.sign else odd / even)
+
+
+def _known(x: arb, largest: arb) -> bool:
+    """Whether a weight is known to itself, or too small to matter."""
+    return bool(x.rad() <= ACCURATE * abs(x.mid()) or x.rad() <= ACCURATE**2 * largest)

@@ -1,0 +1,128 @@
+"""Motions of a symmetric top in a uniform field, from any start (not in the paper)."""
+
+from collections.abc import Callable
+from functools import cached_property
+from math import prod
+from typing import Any
+
+import numpy as np
+from flint import ctx
+
+from atlas.core.inputs import FloatArray, finite, plain
+from atlas.core.motion import components
+from atlas.core.nutating import NutatingMotion, ends_of, padded
+from atlas.core.nutation.cayley_klein import FIRST
+from atlas.core.nutation.single import BITS
+from atlas.core.nutation.single_top import SingleTop
+from atlas.errors import DomainError
+from atlas.exact.digits import enclosed
+from atlas.exact.top import TopMotion as Balls
+
+
+def balls(*row: float) -> Balls:
+    """Return one motion as balls: I2, I3, k2, k3, n2, n3, the three components of omega, linear, quadratic."""
+    with ctx.workprec(FIRST):
+        return Balls(row[0:2], row[2:4], row[4:6], row[6:9], *row[9:])
+
+
+class TopMotion(NutatingMotion[SingleTop]):
+    """Motion R(t), R(0) = 1, of a symmetric top in a uniform field, from any start (not in the paper).
+
+    `inertia` (I2, I3) across and along the axis; `coupling` (k2, k3), so that M = I Omega + k b, in the unit of inertia
+    by that of time; `direction` (n2, n3) of the constant vector n in the body at t = 0, of any length but zero: b =
+    R^T n/|n|, and e1 is across n; `omega` = (omega1, omega2, omega3) the initial angular velocity, in 1/time; `linear`
+    and `quadratic` give the potential U(nu) = linear nu + quadratic nu^2/2, nu = cos theta the cosine between the axis
+    and n, in the unit of inertia by that of time squared. The inputs are taken as exact and broadcast with one another
+    and with t. The equations are
+
+        dM/dt = [M, Omega] + [k Omega - U'(nu) e3, b],     db/dt = [b, Omega].
+
+    `GeneralMotion` is k2/I2 = k3/I3 = |B'| without a potential, Lagrange's heavy top k2 = k3 = 0, linear = m g l.
+    `heavy` and `charged` make a top from what a user has in hand. nu moves between two roots of a quartic, a cubic if
+    A = k3^2/I3 - k2^2/I2 + quadratic is zero; `kind` is one of
+
+    - "at rest", "vertical spin" (a sleeping top), "steady precession": theta is constant;
+    - "regular nutation": a quadratic, nu is a cosine of time; "nutation, three real roots" of a cubic, "nutation, two
+      real roots" or "four real roots" of a quartic: elliptic functions of time;
+    - "separatrix": nu tends to a double root; "separatrix, triple root"; "separatrix between n and -n".
+
+    Which it is, is decided exactly. The cost does not depend on t; arrays of tops are made one by one, some
+    milliseconds each. Entries of R are within 3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the largest rate.
+    Raises DomainError if I3 is not in (0, 2 I2], if n is zero, or at a separatrix between n and -n with kappa =
+    k2/I2 - k3/I3 not zero, where the turn about the axis has no rate; AtlasError for what is no finite number.
+    """
+
+    def __init__(
+        self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
+    ) -> None:
+        parts = [
+            *components(inertia, ("I2", "I3"), "The inertia"),
+            *components(coupling, ("k2", "k3"), "The coupling"),
+            *components(direction, ("n2", "n3"), "The direction"),
+            *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity"),
+            *components((linear, quadratic), ("linear", "quadratic"), "The potential"),
+        ]
+        I2, I3, _, _, n2, n3 = np.broadcast_arrays(*parts)[:6]
+        wrong = ~((I3 > 0) & (I2 > 0) & (I3 <= 2 * I2))
+        if wrong.any():
+            raise DomainError(
+                f"No body has I2 = {I2[wrong].flat[0]}, I3 = {I3[wrong].flat[0]}: both are positive and I3 is at most "
+                "2 I2."
+            )
+        if ((n2 == 0) & (n3 == 0)).any():
+            raise DomainError("The direction (n2, n3) must not be the zero vector.")
+        super().__init__(lambda *row: SingleTop(balls(*row), np.eye(3)), *parts)
+        self.inertia, self.coupling, self.direction, self.omega, (self.linear, self.quadratic) = (
+            tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
+        )
+
+    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
+        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), one by one."""
+        motions = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape).ravel()
+        for i, top in enumerate(self._turnings):
+            places = np.flatnonzero(motions == i)
+            out[places] = evaluate(top, times.flat[places], None)
+
+    @cached_property
+    def kind(self) -> Any:
+        """Name of the kind of motion, a string, or an array of them."""
+        return self._each("kind", lambda exact: exact.kind)
+
+    @cached_property
+    def roots(self) -> Any:
+        """Roots in nu of (dnu/dt)^2, complex, shape (..., 4): the real ones ascending, the others, and inf."""
+        return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
+
+    @cached_property
+    def turning_points(self) -> tuple[Any, Any]:
+        """Least and largest nu = cos theta; one of them is approached and never reached on a separatrix."""
+        ends = self._each("turning_points", ends_of)
+        return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body; shape (..., 3)."""
+        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Direction b(t) = R^T n in the body, a unit vector; shape (..., 3)."""
+        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "b"))
+
+    def angular_momentum(self, t: Any) -> FloatArray:
+        """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant; (..., 3)."""
+        return np.asarray(finite(np.matvec(self.rotation(t), self._momentum(t)), "M/I2"))
+
+    def invariants(self, t: Any = 0.0) -> dict[str, Any]:
+        """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction."""
+        Omega, b, M = self.angular_velocity(t), self.field_in_body(t), self._momentum(t)
+        (I2, I3), nu = self.inertia, b[..., 2]
+        spinning = Omega[..., 0] ** 2 + Omega[..., 1] ** 2 + I3 / I2 * Omega[..., 2] ** 2
+        h = spinning / 2 + (self.linear * nu + self.quadratic * nu * nu / 2) / I2
+        return {"h": finite(plain(h), "h"), "M3": plain(M[..., 2]), "p": plain(np.vecdot(M, b))}
+
+    def _momentum(self, t: Any) -> FloatArray:
+        """Return M/I2 in the body."""
+        (I2, I3), (k2, k3) = self.inertia, self.coupling
+        return np.asarray(
+            self.angular_velocity(t) * np.stack(np.broadcast_arrays(1.0, 1.0, I3 / I2), -1)
+            + self.field_in_body(t) * np.stack(np.broadcast_arrays(k2 / I2, k2 / I2, k3 / I2), -1)
+        )

@@ -1,0 +1,208 @@
+"""Motions of a symmetric top: against Taylor series of the equations, against balls, and the laws they obey."""
+
+import mpmath
+import numpy as np
+import pytest
+from flint import arb, ctx
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from oracles.top import taylor
+
+import atlas
+from atlas.exact.digits import certified
+from atlas.exact.top import TopMotion as Balls
+
+EPS = 2.0**-52
+
+CASES = {
+    "heavy top": ((1.0, 0.5), (0, 0), (0.6, 0.8), (0.1, 0.2, 5.0), 3.0, 0.0),
+    "spherical pendulum": ((1.0, 1.0), (0, 0), (0.5, -0.25), (0.5, 0.7, 0.0), 2.0, 0.0),
+    "plane pendulum": ((1.0, 1.0), (0, 0), (1.0, 0.0), (0, 0, 0), 1.0, 0.0),
+    "metal shell": ((1.0, 0.75), (0.5, 1.5), (1.0, 2.0), (0.3, 0.7, 0.2), 0.0, 0.0),
+    "magnetised ball": ((1.0, 1.0), (0.5, 0.5), (1.0, 1.0), (0.25, -0.5, 1.0), -0.5, 0.0),
+    "magnetised needle": ((1.0, 0.125), (0.25, 0.0), (2.0, 1.0), (0.5, 0.25, 1.0), 0.25, -1.0),
+    "flat, two wells": ((1.0, 1.75), (0.0, 1.0), (3.0, 4.0), (0.1, 0.2, -0.3), 0.125, -2.0),
+    "small A above zero": ((1.0, 0.5), (1.0, 0.0), (0.6, 0.8), (0.1, 0.2, 1.0), 1.0, 1.0 + 2.0**-40),
+    "small A below zero": ((1.0, 0.5), (1.0, 0.0), (0.6, 0.8), (0.1, 0.2, 1.0), 1.0, 1.0 - 2.0**-40),
+    "A = 0 with coupling": ((1.0, 0.5), (1.0, 0.0), (0.6, 0.8), (0.1, 0.2, 1.0), 1.0, 1.0),
+    "regular nutation": ((1.0, 0.5), (1.0, 0.0), (3.0, 4.0), (0.1, 0.2, 1.0), -0.5, 1.0),
+    "pushed from the vertical": ((1.0, 0.5), (0.5, 1.0), (0.0, 1.0), (0.001, 0.002, 0.5), 2.0, 0.0),
+    "axis down": ((1.0, 0.5), (0.5, 1.0), (0.0, -1.0), (0.3, 0.2, 0.5), 2.0, 0.0),
+    "steady precession": ((1.0, 0.5), (0, 0), (3.0, 4.0), (0.0, 0.6, 0.8), 0.0, 0.0),
+    "sleeping": ((1.0, 0.5), (0.5, 0.25), (0.0, 1.0), (0.0, 0.0, 3.0), 1.0, 0.0),
+}
+
+
+def middle(rows: list[list[object]]) -> np.ndarray:
+    """Return the middles of balls and rationals as floats."""
+    return np.array([[float(arb(x).mid()) for x in row] for row in rows])
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_balls_hold_what_taylor_series_of_the_equations_give(name: str) -> None:
+    """R(t) and Omega(t) as balls hold the values of an integration to 30 digits, at three times."""
+    times = [0.5, 1.75, 3.0]
+    with ctx.workprec(200):
+        motion = Balls(*CASES[name])
+        for t, (R, Omega) in zip(times, taylor(CASES[name], times), strict=True):
+            found, rate = motion.rotation(t), motion.angular_velocity(t)
+            assert all(
+                abs(arb(found[i][j]) - arb(mpmath.nstr(R[i, j], 35))) < arb("1e-28") for i in range(3) for j in range(3)
+            )
+            assert all(abs(arb(rate[i]) - arb(mpmath.nstr(Omega[i], 35))) < arb("1e-27") for i in range(3))
+            assert max(arb(x).rad() for row in found for x in row) < arb("1e-40")
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_floats_are_within_16_ulp_of_balls_at_any_time(name: str) -> None:
+    """Entries of R to 16 ulp of 1, Omega to 16 ulp of the largest rate, up to t = 1e12, backwards too."""
+    case = CASES[name]
+    times = [0.3, -7.5, 1e3, -1e9, 1e12]
+    found, exact = atlas.TopMotion(*case), Balls(*case)
+    R, Omega = found.rotation(np.array(times)), found.angular_velocity(np.array(times))
+    rate = max(np.abs(case[3]).max(), abs(case[1][0]), abs(case[1][1]) / case[0][1], 1.0)
+    for t, matrix, velocity in zip(times, R, Omega, strict=True):
+        with ctx.workprec(300):
+            true, turned = exact.rotation(t), [exact.angular_velocity(t)]
+        assert max(arb(x).rad() for row in true + turned for x in row) < 1e-20
+        assert np.abs(matrix - middle(true)).max() <= 16 * EPS
+        assert np.abs(velocity - middle(turned)[0]).max() <= 16 * EPS * rate
+
+
+number = st.floats(-4, 4, allow_subnormal=False).map(lambda x: round(x, 6))
+
+
+@given(
+    st.floats(0.02, 2).map(lambda x: round(x, 6)),
+    *(st.tuples(*[number] * n) for n in (2, 2, 3, 2)),
+    st.integers(-200, 200),
+    st.floats(-1e3, 1e3),
+)
+def test_any_top_in_any_unit_is_within_16_ulp(
+    I3: float,
+    k: tuple[float, ...],
+    n: tuple[float, ...],
+    omega: tuple[float, ...],
+    U: tuple[float, ...],
+    e: int,
+    t: float,
+) -> None:
+    """R at a random time of a random top, times counted in 2^e: 16 ulp of 1."""
+    assume(any(n))
+    s = 2.0**e
+    case = (1.0, I3), tuple(x * s for x in k), n, tuple(x * s for x in omega), U[0] * s * s, U[1] * s * s
+    try:
+        found = atlas.TopMotion(*case).rotation(t / s)
+    except atlas.DomainError as error:
+        assert "turns over from n to -n" in str(error)  # noqa: PT017  the one limit
+        return
+    with ctx.workprec(400):
+        true = Balls(*case).rotation(t / s)
+    assert max(arb(x).rad() for row in true for x in row) < 1e-20
+    assert np.abs(found - middle(true)).max() <= 16 * EPS
+
+
+def test_a_top_with_one_charge_to_mass_ratio_is_the_general_motion() -> None:
+    """K2/I2 = k3/I3 = |B'| without a potential: the same matrices and the same numbers of a period."""
+    top = atlas.TopMotion((1.0, 1.5), (5.0, 7.5), (3.0, 4.0), (0.3, 0.7, 0.2))
+    motion = atlas.GeneralMotion(1.5, (3.0, 4.0), (0.3, 0.7, 0.2))
+    times = np.linspace(-20, 1e5, 7)
+    assert np.abs(top.rotation(times) - motion.rotation(times)).max() <= 8 * EPS
+    for name in ("period", "precession_per_period", "spin_per_period", "modulus", "nome"):
+        assert getattr(top, name) == pytest.approx(getattr(motion, name), rel=4 * EPS)
+
+
+def test_what_is_conserved_stays() -> None:
+    """h, M3 and p at t = 1e6 are those of the start."""
+    motion = atlas.TopMotion(*CASES["magnetised needle"])
+    for name, values in motion.invariants([0.0, 1.0, 1e6]).items():
+        assert np.ptp(values) <= 64 * EPS, name
+
+
+def test_a_period_brings_nu_back_and_turns_the_body_by_its_angles() -> None:
+    """R(t + T) = R_n(precession) R(t) R_3(spin)."""
+    motion = atlas.TopMotion(*CASES["metal shell"])
+    T, psi, chi = motion.period, motion.precession_per_period, motion.spin_per_period
+    n = np.array([0, 1, 2]) / np.sqrt(5)
+    for t in (0.25, 3.5):
+        expected = turn(n, psi) @ motion.rotation(t) @ turn(np.array([0, 0, 1.0]), chi)
+        assert np.abs(motion.rotation(t + T) - expected).max() <= 64 * EPS
+
+
+def turn(axis: np.ndarray, angle: float) -> np.ndarray:
+    """Return the rotation about a unit vector."""
+    cross = np.cross(axis, np.eye(3)).T
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def test_the_cubic_is_the_limit_of_quartics_from_both_sides() -> None:
+    """R(50) for A = ±2^-n tends to that for A = 0 as A does."""
+    at = [
+        atlas.TopMotion(*CASES["A = 0 with coupling"][:5], 1.0 + A).rotation(50.0) for A in (0, 2.0**-30, -(2.0**-30))
+    ]
+    above, below = (R - at[0] for R in at[1:])
+    assert 0 < np.abs(above).max() < 1e-5
+    assert np.abs(above + below).max() < 1e-4 * np.abs(above).max()
+
+
+def test_a_sleeping_top_and_its_separatrix_have_names() -> None:
+    """A slow vertical spin is left along a separatrix; which case it is, is decided exactly."""
+    assert atlas.TopMotion((1, 1), (0, 0), (0, 1), (0, 0, 1), 4).kind == "vertical spin"
+    assert atlas.TopMotion((1, 1), (0, 0), (0, 1), (0, 0, 1), 4).period == np.inf
+    # p = M3 = 1 and h = 1/2 + 4: on the separatrix of the vertical spin, at nu = 3/5
+    omega1 = np.sqrt(2 * 4 * (1 - 0.6) - (1 - 0.6) / (1 + 0.6))
+    near = atlas.TopMotion((1, 1), (0, 0), (4, 3), (omega1, 0.5, 1.0), 4)
+    assert near.kind == "nutation, three real roots"
+    assert near.period > 20
+    exactly = atlas.TopMotion((1, 1), (0, 0), (1, 0), (0, 2, 0), -2, 0)
+    assert exactly.kind == "steady precession" or exactly.period > 0
+
+
+def test_a_uniform_grid_has_the_matrices_of_its_times() -> None:
+    """Grids short, long and fine: within 32 ulp of the same times one by one."""
+    motion = atlas.TopMotion(*CASES["metal shell"])
+    for count, step in ((100, 0.25), (20_000, 2.0**-9), (120_000, 0.5)):
+        times = -3.0 + step * np.arange(count)
+        assert np.abs(motion.rotation_grid(-3.0, step, count) - motion.rotation(times)).max() <= 32 * EPS
+
+
+def test_arrays_of_tops_are_the_tops_one_by_one() -> None:
+    """Parameters broadcast with one another and with the times."""
+    I3 = np.array([0.5, 1.0, 1.5])
+    tops = atlas.TopMotion((1.0, I3), (0.5, 0.25), (0.6, 0.8), (0.1, 0.2, 1.0), linear=[[1.0], [-1.0]])
+    times = np.array([0.0, 1.0, 2.5])
+    assert tops.rotation(times).shape == (2, 3, 3, 3)
+    assert tops.kind.shape == tops.period.shape == (2, 3)
+    one = atlas.TopMotion((1.0, 1.5), (0.5, 0.25), (0.6, 0.8), (0.1, 0.2, 1.0), linear=-1.0)
+    assert (tops.rotation(times)[1, 2] == one.rotation(2.5)).all()
+    assert tops.period[1, 2] == one.period
+    assert (tops.angular_velocity(1.0)[1, 2] == one.angular_velocity(1.0)).all()
+
+
+def test_digits_of_a_heavy_top_are_proven_at_any_time() -> None:
+    """Thirty digits of R33 at t = 1e12."""
+    motion = Balls(*CASES["heavy top"])
+    text = certified(lambda: motion.rotation(10**12)[2][2], 30)
+    assert len(text.lstrip("-0.")) == 30
+    assert float(text) == pytest.approx(atlas.TopMotion(*CASES["heavy top"]).rotation(1e12)[2, 2], abs=16 * EPS)
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        (((1, 3), (0, 0), (1, 0), (0, 0, 0)), "I3 is at most 2 I2"),
+        (((1, 0), (0, 0), (1, 0), (0, 0, 0)), "both are positive"),
+        (((1, 1), (0, 0), (0, 0), (0, 0, 0)), "must not be the zero vector"),
+        (((1, 1), (0, float("nan")), (0, 1), (0, 0, 0)), "k3 must be finite"),
+        (((1, 1), (0, 0), (0, 1), (0, 0)), "must have the 3 components"),
+        (((1, 1), (0, 0), (0, 1), (0, 0, 0), "up"), "linear must be a real number"),
+        (((1, 1.5), (0, 1), (1, 0), (1, 0, -0.0), 0, -2.0 / 3.0), None),
+    ],
+)
+def test_what_is_no_top_is_refused_in_one_line(case: tuple[object, ...], words: str | None) -> None:
+    """Errors say what is wrong and what would be right."""
+    if words is None:
+        atlas.TopMotion(*case)
+        return
+    with pytest.raises(atlas.AtlasError, match=words):
+        atlas.TopMotion(*case)
