@@ -24,7 +24,7 @@ FORMULAS = {
 
 MACHINERY = {
     "core": {"charge", "charges", "inputs", "motion"},
-    "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "theta", "two_turns"},
+    "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "spheres", "theta", "two_turns"},
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""
 
@@ -74,8 +74,8 @@ UNTIED = {
         for name in (
             "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body from_frame "
             "in_cell in_laboratory invariants is_steady kind modulus nome parameters period "
-            "precession_per_period quaternion roots rotation rotation_grid solution spin_per_period "
-            "third_axis tilt trigonometric turning_points"
+            "precession_per_period quaternion roots rotation rotation_grid solution sphere spin_per_period "
+            "third_axis tilt trigonometric turning_points velocity velocity_sizes"
         ).split()
     },
     "ElementaryMotion.omega": GIVEN,

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import pytest
 
 from atlas.paper import EQUATIONS
+from atlas.paper.equation import slug
 from atlas.report.compose import compose
 from atlas.report.document import THEOREMS, Document
 from atlas.report.find import find, related_to
@@ -40,7 +41,7 @@ def cited(document: Document) -> Iterator[Link]:
 def anchors(document: Document) -> set[tuple[str, str]]:
     """Return the places of a document that may be cited, as (file, anchor)."""
     places = {(file, anchor) for file, anchor, _ in document.targets.values()}
-    return places | {(f"{slug}.html", f"ledger-{label}") for label, slug in document.ledger.items()}
+    return places | {(f"{page}.html", f"ledger-{slug(name)}") for name, page in document.ledger.items()}
 
 
 def test_citations_across_the_volumes_lead_somewhere(volumes: dict[str, Document]) -> None:
