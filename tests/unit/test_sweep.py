@@ -1,3 +1,4 @@
+import ast
 import csv
 import gc
 import tracemalloc
@@ -282,6 +283,60 @@ def test_a_toml_file_a_list_and_flags_say_the_same(tmp_path: Path, monkeypatch: 
     assert Path("flags.csv").read_bytes() == Path("list.csv").read_bytes() == Path("toml.csv").read_bytes()
     (tmp_path / "s.toml").write_text('family = "ball"\nquantities = ["gamma"]\nfoo = 1\n')
     assert CliRunner().invoke(program, ["sweep", "--file", "s.toml"]).exit_code == 2
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        (b"inertia,larmor,m2,m3\n1,2,\xff,3\n", "not UTF-8"),
+        (b"inertia,larmor,m2,m3\n1,2," + b"1" * 131_073 + b",3\n", "cannot be read as CSV"),
+        (b"inertia,larmor,m2\n1,2,3\n", "m3 is given 2 times"),
+    ],
+)
+def test_a_list_that_is_none_is_one_sentence(
+    tmp_path: Path, content: bytes, says: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bytes that are no text, a cell that is too long, a parameter that is set elsewhere, too."""
+    monkeypatch.chdir(tmp_path)
+    Path("rows.csv").write_bytes(content if b"m3" in content else content.replace(b"m2", b"m3"))
+    words = "sweep ball --list rows.csv --set m3=1 --quantity gamma --out x.csv".split()
+    result = CliRunner().invoke(program, words if "2 times" in says else [*words[:4], *words[6:]])
+    assert result.exit_code == 2
+    assert says in result.output
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        ("digits = 99999", "<= 1000"),
+        ("rows = 0", ">= 1"),
+        ('out = "a\\u0000b.csv"', "no name of a file"),
+        ('list = "a\\u0000b.csv"', "no name of a file"),
+        ("[parameters]\ninertia = " + "[" * 3000 + "]" * 3000, "nested too deeply"),
+    ],
+)
+def test_a_file_that_says_what_cannot_be_is_one_sentence(
+    tmp_path: Path, lines: str, says: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Numbers out of range, names that no system has, values nobody can read."""
+    monkeypatch.chdir(tmp_path)
+    Path("s.toml").write_text(f'family = "ball"\nquantities = ["gamma"]\n{lines}\n')
+    result = CliRunner().invoke(program, ["sweep", "--file", "s.toml"])
+    assert result.exit_code == 2, result.exception
+    assert says in result.output
+    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
+
+
+def test_no_field_of_a_record_shadows_a_name_in_the_annotations_beside_it() -> None:
+    """From Python 3.14 on annotations are evaluated late, when a field `list` would be what `list` means."""
+    shadows = []
+    for path in Path(atlas.__file__).parent.rglob("*.py"):
+        for record in (node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.ClassDef)):
+            fields = [node for node in record.body if isinstance(node, ast.AnnAssign)]
+            names = {node.target.id for node in fields if isinstance(node.target, ast.Name) and node.value is not None}
+            used = {x.id for node in fields for x in ast.walk(node.annotation) if isinstance(x, ast.Name)}
+            shadows += [f"{path.name}: {record.name}.{name}" for name in names & used]
+    assert not shadows
 
 
 def test_errors_at_rest_are_zero() -> None:

@@ -1,11 +1,13 @@
 """The parts of a sweep: kept, taken up, made again where they are damaged, and never anybody else's."""
 
+import gc
 import json
 import os
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -58,6 +60,14 @@ def stopped(out: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     assert starts == STARTS[:3]
     assert not out.exists()
     return out.with_name(f"{out.name}.parts")
+
+
+@pytest.fixture(autouse=True)
+def light() -> Iterator[None]:
+    """Keep what the tests have loaded from the collector of garbage, which runs after each part."""
+    gc.freeze()
+    yield
+    gc.unfreeze()
 
 
 @pytest.fixture(scope="module")
@@ -336,7 +346,21 @@ def test_a_part_takes_some_seconds_and_no_more_rows_than_fit(tmp_path: Path, mon
             sizes.append(154)
             assert starts == [0]
     assert sizes == [40, 154, 1, 154]
-    assert 0 < Plan.of("elementary", GRID, ["k"]).seconds() < 0.1
+
+
+def test_the_time_of_a_row_is_without_what_is_loaded_for_the_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half a second of loading would make each of the first eight rows as dear as a hundred thousand others."""
+    real, calls = Plan.columns, []
+
+    def loads_first(plan: Plan) -> Any:
+        if not calls:
+            time.sleep(0.5)
+        calls.append(plan.count)
+        return real(plan)
+
+    monkeypatch.setattr(Plan, "columns", loads_first)
+    assert Plan.of("elementary", GRID, ["k"]).seconds() < 0.5 / 8
+    assert calls == [1, 8, 64, 154]
 
 
 def test_a_table_beyond_all_disks_is_refused() -> None:

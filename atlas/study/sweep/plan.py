@@ -111,6 +111,7 @@ class Plan:
 
     def seconds(self) -> float:
         """Return how long a row takes here: as many rows are computed as tell it."""
+        self.sample(1).columns()  # what is loaded for the first row is not of the rows
         size = 8
         while True:
             rows = self.sample(size)
