@@ -456,6 +456,15 @@ def test_turning_points_bound_the_allowed_interval(
     assert set(region.points[:, 0]) == {low, high}
 
 
+def test_a_free_spin_stands_in_the_middle_of_its_window() -> None:
+    """Without a field Omega3 is constant and the quartic has no extremum beside it: the window is even about it."""
+    panel = load("pseudo_oscillator").scene(field=(0.0, 0.0), omega=(0.3, 0.7, 0.2)).panels[0]
+    assert isinstance(panel, Plane)
+    assert panel.x_limits is not None
+    low, high = panel.x_limits
+    assert (low + high) / 2 == pytest.approx(0.2, rel=8 * EPS)
+
+
 def test_the_potential_is_minus_half_the_quartic() -> None:
     """V is drawn so that level - V = Q/2 at every point: the first integral of (47)."""
     omega = (0.3, 0.7, 0.2)
