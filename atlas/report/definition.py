@@ -1,16 +1,29 @@
 """A report file as typed records: what a user may write, and nothing else; the blocks are in `atlas.report.blocks`."""
 
+from typing import Annotated
+
 import msgspec
 
 from atlas.report.blocks import Block
 from atlas.report.parameters import BodiesAndFields
-from atlas.report.schema import Id, Slug, StrictStruct
+from atlas.report.schema import Id, Pair, Slug, StrictStruct
+
+
+class Thumbnail(StrictStruct, frozen=True):
+    """A cut of a figure of a page, the first if none is named: enlarged ``zoom`` times about the place ``at``.
+
+    The place is given in parts of width and height.
+    """
+
+    figure: Id = ""
+    at: Pair = (0.5, 0.5)
+    zoom: Annotated[float, msgspec.Meta(gt=0.0)] = 1.0
 
 
 class Page(StrictStruct, frozen=True):
     """One page of the HTML, one chapter of the PDF; pages of one part stand together in the contents.
 
-    An appendix is lettered and set in small type.
+    An appendix is lettered and set in small type. ``thumbnail`` stands for the page on the front page.
     """
 
     slug: Slug
@@ -19,6 +32,7 @@ class Page(StrictStruct, frozen=True):
     summary: str = ""
     part: str = ""
     appendix: bool = False
+    thumbnail: Thumbnail = Thumbnail()
 
 
 class Symbol(StrictStruct, frozen=True):

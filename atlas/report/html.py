@@ -18,12 +18,18 @@ from atlas.report.search import index
 from atlas.report.templates import templates
 from atlas.report.versions import versions
 
+SCRIPTS = ("page.js", "minisearch.js")
+"""The page's own, and the library of its search box, vendored so that a page opened from disk needs no network."""
+
 
 class Card(NamedTuple):
-    """A figure that stands for a page on the front page."""
+    """A figure that stands for a page on the front page, and how it is cut: the place (percent) and the zoom."""
 
     page: PageView
     figure: FigureView
+    across: float = 50.0
+    down: float = 50.0
+    zoom: float = 1.0
 
 
 def pages(document: Document) -> dict[str, str]:
@@ -43,15 +49,15 @@ def pages(document: Document) -> dict[str, str]:
         "versions": versions(),
         "report": document.report,
         "cover": _cover(document, figures),
-        "cards": list({card.page.slug: card for card in reversed(figures)}.values())[::-1],
+        "cards": [cut(card, document) for card in {card.page.slug: card for card in reversed(figures)}.values()][::-1],
     }
     set_pages = {
         page.file: anchored(template.render(page=page, before=before, after=after, **common))
         for before, page, after in _neighbours(document.pages)
     }
     style = environment.get_template("style.css").render(faces=FACES)
-    script = (folder("templates") / "html" / "page.js").read_text(encoding="utf-8")
-    return {"style.css": style, "page.js": script, "index.js": index(document, set_pages, texts), **set_pages}
+    scripts = {name: (folder("templates") / "html" / name).read_text(encoding="utf-8") for name in SCRIPTS}
+    return {"style.css": style, **scripts, "index.js": index(document, set_pages, texts), **set_pages}
 
 
 def fonts(set_pages: Mapping[str, str], recall: Recall = anew) -> dict[str, bytes]:
@@ -73,6 +79,16 @@ def anchored(page: str) -> str:
         return f'<h{match[1]} id="{name}">{match[2]} {link}</h{match[1]}>'
 
     return re.sub(r"<h([23])>(.*?)</h\1>", heading, page, flags=re.DOTALL)
+
+
+def cut(card: Card, document: Document) -> Card:
+    """Return the card of a page with the figure and the cut that the report asks for."""
+    wanted = next(page for page in document.report.pages if page.slug == card.page.slug).thumbnail
+    figures = (block for block in card.page.blocks if isinstance(block, FigureView) and not block.failure)
+    chosen = card.figure if not wanted.figure else next((f for f in figures if f.id == f"fig-{wanted.figure}"), None)
+    if chosen is None:
+        raise AtlasError(f"page {card.page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn on this page.")
+    return Card(card.page, chosen, 100 * wanted.at[0], 100 * wanted.at[1], wanted.zoom)
 
 
 def _cover(document: Document, figures: Sequence[Card]) -> Card | None:

@@ -3,8 +3,10 @@
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from html import unescape
+from html import escape, unescape
 from itertools import pairwise
+from unicodedata import normalize
+from xml.etree import ElementTree as ET
 
 from atlas.paper.equation import slug
 from atlas.report.blocks.equation import EquationView
@@ -16,6 +18,11 @@ _START = re.compile(
     r'|<main id="([^"]+)">|</main>'
 )
 _TITLE = re.compile(r"<h[123][^>]*>(.*?)</h[123]>|(?:<figcaption[^>]*>)<b>(.*?)</b>|^(.*?)</h[23]>", re.DOTALL)
+_MARKUP = re.compile(r"<[^>]+>")
+_INLINE = re.compile(r"</?(?:a|b|i|em|strong|span|code|sup|sub)\b[^>]*>")
+_RELATION = re.compile(r"\s*([=≤≥≈≠])\s*")
+_ACCENTS = {"′": "'", "−": "-", "\u2061": "", "\u2062": "", "⃗": ""}
+_SHORT = 2
 _TAG = re.compile(r'<div class="tag">(.*?)</div>', re.DOTALL)
 
 
@@ -23,7 +30,7 @@ def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) ->
     """Return the index of a report as a script, which a page opened from disk can load: ``atlasIndex({...})``.
 
     ``sections`` holds rows (page, anchor, title, words) of its sections, figures, tables and equations in the order of
-    the pages, ``equations`` the formula of each name as HTML. Formulas are no words that can be searched.
+    the pages, ``equations`` the formula of each name as HTML. Formulas are words on one line: Ω3=ω1B'2, I=3/2.
     """
     sections = [
         row for page in document.pages for row in _sections(page.file, f"{page.number} {page.title}", pages[page.file])
@@ -59,6 +66,37 @@ def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
 
 
 def _words(html: str) -> str:
-    """Return the words of a piece of HTML."""
-    html = re.sub(r'<math.*?</math>|<a class="anchor".*?</a>', " ", html, flags=re.DOTALL)
-    return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
+    """Return the words of a piece of HTML, its formulas on one line."""
+    html = re.sub(r'<a class="anchor".*?</a>', " ", html, flags=re.DOTALL)
+    html = re.sub(r"<math.*?</math>", lambda found: escape(linear(found[0])), html, flags=re.DOTALL)
+    return _joined(" ".join(unescape(_MARKUP.sub(" ", _INLINE.sub("", html))).split()))
+
+
+def linear(mathml: str) -> str:
+    """Return a formula on one line, in plain letters: ω'2 for an index, x^2 for a power, 3/2 for a fraction."""
+    return _joined("".join(_line(ET.fromstring(mathml)).split()))  # noqa: S314  what pandoc has written
+
+
+def _line(node: ET.Element) -> str:
+    """Return what a node of MathML says."""
+    tag = node.tag.rpartition("}")[2]
+    if tag in {"annotation", "annotation-xml", "mspace"}:
+        return ""
+    parts = [_line(child) for child in node]
+    text = "".join(_ACCENTS.get(letter, letter) for letter in normalize("NFKC", node.text or ""))
+    if tag == "mfrac":
+        return "/".join(part if len(part) < _SHORT or part.isalnum() else f"({part})" for part in parts)
+    if tag in {"msup", "mover"}:
+        base, above = parts
+        return base + above if above in {"'", "''", "˙", "^", "¨", "~", "¯", ""} else f"{base}^{above}"
+    if tag == "msubsup":
+        base, below, above = parts
+        return f"{base}'{below}" if above == "'" else f"{base}{below}^{above}"
+    if tag == "msqrt":
+        return f"sqrt({''.join(parts)})"
+    return " ".join(parts) if tag in {"mtr", "mtable"} else text + "".join(parts)
+
+
+def _joined(text: str) -> str:
+    """Take out the space around signs of a relation: I = 3/2 is I=3/2."""
+    return _RELATION.sub(r"\1", text)

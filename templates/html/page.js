@@ -33,33 +33,61 @@ const element = (tag, attributes = {}, ...children) => {
   return made;
 };
 
-// The search box.
-const box = element("input", {type: "search", id: "search", placeholder: "Search", "aria-label": "Search this report", autocomplete: "off"});
-const results = element("ul", {class: "results", "aria-live": "polite", "aria-label": "Results"});
-document.querySelector(".contents .book").after(element("search", {}, box, results));
+// The search box: in the head of the front page, else above the contents; on the first screen in both.
+const box = element("input", {type: "search", id: "search", placeholder: "Search: words, I=3/2, omega2, (72)", "aria-label": "Search this report", autocomplete: "off", role: "combobox", "aria-expanded": "false", "aria-controls": "results"});
+const results = element("ul", {class: "results", id: "results", "aria-live": "polite", "aria-label": "Results"});
+const place = document.querySelector("header.title .h") ?? document.querySelector(".contents .book");
+place.after(element("search", {}, box, results));
 results.hidden = true;
 
-const plain = text => text.normalize("NFKD").replace(/[\u0300-\u036f]/g, "").toLowerCase();
+// Letters as they are typed: Greek by name, no accents and primes, no space about the sign of a relation.
+const GREEK = {α: "alpha", β: "beta", γ: "gamma", δ: "delta", ε: "epsilon", ϵ: "epsilon", ζ: "zeta", η: "eta", θ: "theta", ϑ: "theta", κ: "kappa", λ: "lambda", μ: "mu", ν: "nu", ξ: "xi", π: "pi", ρ: "rho", σ: "sigma", τ: "tau", φ: "phi", ϕ: "phi", χ: "chi", ψ: "psi", ω: "omega"};
+const plain = text => text.normalize("NFKD").replace(/[\u0300-\u036f'′_{}$\\]/g, "").replace(/−/g, "-").toLowerCase()
+  .replace(/[α-ωϑϕϵ]/g, letter => GREEK[letter] ?? letter).replace(/\s*([=<>≤≥≈≠])\s*/g, "$1");
+// A word, and of a formula its pieces too; a number in brackets is that of an equation and stays whole.
+const pieces = text => plain(text).split(/[\s,;:!?"“”]+/).flatMap(raw => {
+  const word = raw.replace(/[.…]+$/, "");
+  if (/^\(\w{1,4}\)$/.test(word)) return [word];
+  const bare = word.replace(/^[([]+(?=[^()[\]]*$)|(?<=^[^()[\]]*)[)\]]+$/g, "");
+  return [...new Set([bare, ...bare.split(/[=<>≤≥≈≠+()[\]]/), ...(/^[a-z]+(-[a-z]+)+$/.test(bare) ? bare.split("-") : [])])];
+}).filter(Boolean);
+
+let search;
+const engine = () => (search ??= index().then(({sections}) => {
+  const made = new MiniSearch({
+    fields: ["title", "text"], storeFields: ["file", "anchor", "title", "text"], tokenize: pieces, processTerm: term => term,
+    searchOptions: {boost: {title: 3}, combineWith: "AND", prefix: term => term.length > 1 && !term.startsWith("("), fuzzy: term => /^[a-z]{4,}$/.test(term) ? 0.25 : false, tokenize: text => plain(text).split(/[\s,;]+/).filter(Boolean)},
+  });
+  made.addAll(sections.map(([file, anchor, title, text], id) => ({id, file, anchor, title, text})));
+  return made;
+}));
 const look = async () => {
-  const words = plain(box.value).split(/\s+/).filter(Boolean);
-  const {sections} = await index();
-  const hits = [];
-  for (const [file, anchor, title, text] of words.length ? sections : []) {
-    const head = plain(title), body = plain(text);
-    if (!words.every(word => head.includes(word) || body.includes(word))) continue;
-    hits.push([words.filter(word => head.includes(word)).length, file, anchor, title, text, body.indexOf(words[0])]);
-  }
-  hits.sort((a, b) => b[0] - a[0]);
-  results.replaceChildren(...hits.slice(0, 12).map(([, file, anchor, title, text, place]) => {
-    const from = Math.max(0, place - 30);
+  const asked = box.value.trim(), made = await engine();
+  if (asked !== box.value.trim()) return;
+  const hits = asked ? made.search(asked).slice(0, 12) : [];
+  results.replaceChildren(...hits.map(({file, anchor, title, text, terms}) => {
+    const at = Math.max(0, ...terms.slice(0, 1).map(term => plain(text).indexOf(term)));
+    const from = Math.max(0, Math.min(at, text.length) - 30);
     const excerpt = `${from ? "…" : ""}${text.slice(from, from + 90)}…`;
     return element("li", {}, element("a", {href: `${file}#${anchor}`}, element("b", {}, title), element("span", {}, excerpt)));
   }));
-  if (words.length && !hits.length) results.append(element("li", {}, "Nothing found."));
-  results.hidden = !words.length;
+  if (asked && !hits.length) results.append(element("li", {}, "Nothing found."));
+  results.hidden = !asked;
+  box.setAttribute("aria-expanded", String(!results.hidden));
 };
-box.addEventListener("focus", () => index());
+box.addEventListener("focus", () => engine());
 box.addEventListener("input", look);
+// Arrows go through the results, Enter opens the first of them or the one with the focus.
+const step = event => {
+  const links = [...results.querySelectorAll("a")], now = links.indexOf(document.activeElement);
+  if (event.key === "Enter" && event.currentTarget === box && links.length) { event.preventDefault(); links[0].click(); }
+  if (event.key !== "ArrowDown" && event.key !== "ArrowUp" || !links.length) return;
+  event.preventDefault();
+  const next = now + (event.key === "ArrowDown" ? 1 : -1);
+  (next < 0 ? box : links[Math.min(next, links.length - 1)]).focus();
+};
+box.addEventListener("keydown", step);
+results.addEventListener("keydown", step);
 addEventListener("keydown", event => {
   if (event.key === "/" && document.activeElement.tagName !== "INPUT") { event.preventDefault(); box.focus(); }
   if (event.key === "Escape") { hide(); results.hidden = true; }
@@ -70,13 +98,15 @@ const card = element("div", {class: "shown", role: "tooltip", id: "shown"});
 card.hidden = true;
 document.body.append(card);
 const hide = () => { card.hidden = true; };
-const show = async link => {
+const show = async (link, tapped = false) => {
   const name = decodeURIComponent(link.hash).replace(/^#(eq|ledger)-/, "");
   const {equations} = await index();
   if (!(name in equations) || !link.matches(":hover, :focus")) return;
   card.innerHTML = equations[name];
   if (link.title) { link.dataset.says = link.title; link.removeAttribute("title"); }
   if (link.dataset.says) card.append(element("p", {}, link.dataset.says));
+  if (tapped) card.append(element("p", {}, element("a", {href: link.href}, "Go there")));
+  card.dataset.of = tapped ? link.href : "";
   card.hidden = false;
   const at = link.getBoundingClientRect(), size = card.getBoundingClientRect();
   const left = Math.min(at.left, document.documentElement.clientWidth - size.width - 8);
@@ -89,6 +119,13 @@ for (const link of document.querySelectorAll('main a[href*="#eq-"], main a[href*
   if (link.closest(".labels, .tag")) continue;
   link.addEventListener("mouseenter", () => show(link));
   link.addEventListener("focus", () => show(link));
+  // Without a mouse the first tap shows the equation, and the second, or a tap on "Go there", follows the link.
+  link.addEventListener("click", event => {
+    if (!matchMedia("(hover: none)").matches || (!card.hidden && card.dataset.of === link.href)) return;
+    event.preventDefault();
+    link.focus();
+    show(link, true);
+  });
   link.addEventListener("mouseleave", hide);
-  link.addEventListener("blur", hide);
+  link.addEventListener("blur", () => setTimeout(hide, 200));
 }

@@ -66,11 +66,32 @@ text = "In the appendix @theorem-points stands, and beta is @cell:1-3-3."
 """
 
 
+SECOND = '[[pages]]\nslug = "second"'
+FIGURES = """
+[[pages.blocks]]
+kind = "figure"
+recipe = "magn"
+width = 150.0
+
+[[pages.blocks]]
+kind = "figure"
+recipe = "ball"
+width = 160.0
+
+[[pages.blocks]]
+kind = "figure"
+recipe = "magn"
+width = 155.0
+
+"""
+"""Too tall for what is left of a page."""
+
+
 @pytest.fixture(scope="module")
 def book(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     """Set the book and return the text of its pages."""
     folder = tmp_path_factory.mktemp("book")
-    (folder / "book.toml").write_text(BOOK, encoding="utf-8")
+    (folder / "book.toml").write_text(BOOK.replace(SECOND, FIGURES + SECOND), encoding="utf-8")
     built = build_report(folder / "book.toml", folder, formats=("pdf",))
     return [" ".join(page.extract_text().split()) for page in PdfReader(built.pdf).pages]
 
@@ -82,6 +103,22 @@ def test_contents_and_headings_are_numbered_alike(book: list[str]) -> None:
         assert words in contents
         assert words in body
     assert "Tables Table 1 The quadric of initial data of the charged ball" in contents
+
+
+def test_the_list_of_figures_has_the_pages_on_which_they_stand(book: list[str]) -> None:
+    """A figure floats to another page than its paragraph; the list tells that page."""
+    listed = [
+        (int(number), int(page))
+        for text in book
+        for number, page in re.findall(r"Figure (\d) [^.]*[ .]+ (\d+)\b", text[:4000])
+    ]
+    first = next(
+        place for place, text in enumerate(book) if text.startswith("Part I") or "1 The first chapter Proper" in text
+    )
+    stands = {int(number): place for place, text in enumerate(book) for number in re.findall(r"Figure (\d)\. ", text)}
+    assert len(stands) == 3
+    assert len(set(stands.values())) > 1
+    assert dict(listed) == {number: place - first + 1 for number, place in stands.items()}
 
 
 def test_a_sentence_has_the_number_of_a_cell(book: list[str]) -> None:

@@ -86,6 +86,33 @@ def test_what_is_found_is_there(made: dict[str, str]) -> None:
     assert content["equations"]["71"].startswith('<p><math display="block"')
 
 
+@pytest.mark.parametrize(
+    ("tex", "line"),
+    [
+        ("I=3/2", "I=3/2"),
+        (r"I=\\frac{3}{2}", "I=3/2"),
+        (r"\\omega_2=-B'_2", "ω2=-B'2"),
+        (r"\\dot\\Omega_3^2", "3^2"),
+        (r"\\boldsymbol{\\Omega}", "Ω"),
+        (r"\\sqrt{1-I}", "sqrt(1-I)"),
+    ],
+)
+def test_a_formula_can_be_searched(tmp_path: Path, tex: str, line: str) -> None:
+    """Formulas are in the index as one types them: letters as they are, an index behind its letter, a slash."""
+    (tmp_path / "mine.toml").write_text(REPORT.replace("A heading", f"A heading ${tex}$ of", 1))
+    report = load(tmp_path / "mine.toml")
+    document = compose(report, pictures(report))
+    document.set("html")
+    assert line in html.pages(document)["index.js"]
+
+
+def test_the_search_box_needs_no_network(made: dict[str, str]) -> None:
+    """Its library lies beside the page, with its licence, and is loaded before what uses it."""
+    assert "Permission is hereby granted" in made["minisearch.js"]
+    scripts = reader.fromstring(made["index.html"]).xpath("//script/@src")
+    assert scripts == ["minisearch.js", "page.js"]
+
+
 def test_an_equation_is_named_where_it_is_cited(made: dict[str, str]) -> None:
     """Without a script the link of a citation says in words what the equation says."""
     (link,) = reader.fromstring(made["index.html"]).xpath("//main//a[@href='index.html#eq-71']")
