@@ -41,7 +41,8 @@ class BallMotion(Motion[Ball]):
 
     `inertia` I0 > 0; `larmor` alpha = mu |B|/(2c), (27), of either sign, in 1/time; `momentum` (m2, m3) in
     inertia/time. Arrays broadcast; the inputs are taken as exact. The frame is that of Figure Ball, e3 along the field
-    and m(0) in the plane (e2, e3), not that of the symmetric body. For m2 = 0 the two turns are one, (30).
+    and m(0) in the plane (e2, e3), not that of the symmetric body. For m2 = 0 the two turns are one, (30). Raises
+    DomainError for an inertia that is not positive, AtlasError for what is no number.
     """
 
     _unit = slice(1, 4)
@@ -66,11 +67,17 @@ class BallMotion(Motion[Ball]):
         return k2, plain(np.where(self.gamma == 0, -1.0, k3))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, (26); shape (..., 3)."""
+        """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, (26); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self._spread(lambda one, t, out: one.swung(one.vector("m"), t, out), t, (3,))
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below (25); shape (..., 3)."""
+        """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below (25); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self._spread(lambda one, t, out: one.turned(one.vector("Omega"), t, out), t, (3,))
 
     def _groups(self) -> list[Group]:

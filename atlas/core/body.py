@@ -48,7 +48,8 @@ class SymmetricBody:
 
     `I2` > 0 across the symmetry axis, `I3` along it, 0 <= I3 <= 2 I2, in any one unit.
     `axes` (3, 3): its rows are the principal axes, the symmetry axis last, in the frame in which a mass matrix or
-    point masses were given; the unit matrix otherwise.
+    point masses were given; the unit matrix otherwise. Raises DomainError for moments that no body has, AtlasError for
+    what is no number.
     """
 
     I2: float
@@ -84,48 +85,72 @@ class SymmetricBody:
 
     @classmethod
     def ring(cls, mass: float, radius: float) -> Self:
-        """Thin ring (a loop): I3 = m R^2 = 2 I2."""
+        """Thin ring (a loop): I3 = m R^2 = 2 I2.
+
+        Raises AtlasError unless all are positive numbers.
+        """
         across = positive(mass, "The mass") * _square(radius, "The radius") / 2
         return cls(across, 2 * across)
 
     @classmethod
     def disk(cls, mass: float, radius: float) -> Self:
-        """Thin disk: I3 = m R^2/2 = 2 I2."""
+        """Thin disk: I3 = m R^2/2 = 2 I2.
+
+        Raises AtlasError unless all are positive numbers.
+        """
         across = positive(mass, "The mass") * _square(radius, "The radius") / 4
         return cls(across, 2 * across)
 
     @classmethod
     def cylindrical_shell(cls, mass: float, radius: float, height: float) -> Self:
-        """Open cylindrical surface (a solenoid): I3 = m R^2, I2 = m (6 R^2 + h^2)/12; I = 1 at h = R sqrt(6)."""
+        """Open cylindrical surface (a solenoid): I3 = m R^2, I2 = m (6 R^2 + h^2)/12; I = 1 at h = R sqrt(6).
+
+        Raises AtlasError unless all are positive numbers.
+        """
         m, R2, h2 = positive(mass, "The mass"), _square(radius, "The radius"), _square(height, "The height", zero=True)
         return cls(m * (R2 / 2 + h2 / 12), m * R2)
 
     @classmethod
     def solid_cylinder(cls, mass: float, radius: float, height: float) -> Self:
-        """Solid cylinder: I3 = m R^2/2, I2 = m (3 R^2 + h^2)/12; I = 1 at h = R sqrt(3)."""
+        """Solid cylinder: I3 = m R^2/2, I2 = m (3 R^2 + h^2)/12; I = 1 at h = R sqrt(3).
+
+        Raises AtlasError unless all are positive numbers.
+        """
         m, R2, h2 = positive(mass, "The mass"), _square(radius, "The radius"), _square(height, "The height", zero=True)
         return cls(m * (R2 / 4 + h2 / 12), m * (R2 / 2))
 
     @classmethod
     def thin_rod(cls, mass: float, length: float) -> Self:
-        """Rod without thickness: I2 = m l^2/12, I3 = 0. A body, but `moments` refuses it."""
+        """Rod without thickness: I2 = m l^2/12, I3 = 0. A body, but `moments` refuses it.
+
+        Raises AtlasError unless all are positive numbers.
+        """
         return cls(positive(mass, "The mass") * _square(length, "The length") / 12, 0.0)
 
     @classmethod
     def sphere(cls, mass: float, radius: float) -> Self:
-        """Solid ball: I2 = I3 = 2 m R^2/5."""
+        """Solid ball: I2 = I3 = 2 m R^2/5.
+
+        Raises AtlasError unless all are positive numbers.
+        """
         moment = 2 * positive(mass, "The mass") * _square(radius, "The radius") / 5
         return cls(moment, moment)
 
     @classmethod
     def spherical_shell(cls, mass: float, radius: float) -> Self:
-        """Hollow sphere: I2 = I3 = 2 m R^2/3."""
+        """Hollow sphere: I2 = I3 = 2 m R^2/3.
+
+        Raises AtlasError unless all are positive numbers.
+        """
         moment = 2 * positive(mass, "The mass") * _square(radius, "The radius") / 3
         return cls(moment, moment)
 
     @classmethod
     def spheroid(cls, mass: float, equatorial: float, polar: float) -> Self:
-        """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5, `equatorial` a and `polar` c."""
+        """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5, `equatorial` a and `polar` c.
+
+        Raises AtlasError unless all are positive numbers.
+        """
         m, a2, c2 = (
             positive(mass, "The mass"),
             _square(equatorial, "The equatorial radius"),
@@ -135,7 +160,10 @@ class SymmetricBody:
 
     @classmethod
     def from_point_masses(cls, masses: Any, positions: Any, *, tolerance: float = 1e-9) -> Self:
-        """Body of point masses, (8): `masses` (N,), `positions` (N, 3) from any origin; then `from_mass_matrix`."""
+        """Body of point masses, (8): `masses` (N,), `positions` (N, 3) from any origin; then `from_mass_matrix`.
+
+        Raises AtlasError for what are no positive masses at places, or no symmetric body.
+        """
         return cls.from_mass_matrix(mass_matrix_of_points(masses, positions), tolerance=tolerance)
 
     @classmethod
@@ -146,7 +174,8 @@ class SymmetricBody:
         times the largest are equal, and their mean is taken. If all three are, the body is totally symmetric and
         keeps the axes it was given in. The symmetry axis points to where its largest component is positive.
 
-        Raises DomainError if no two are equal, or one is negative beyond rounding.
+        Raises DomainError if no two are equal, or one is negative beyond rounding. AtlasError is raised for what is no
+        such matrix.
         """
         matrix, _ = diagonal_or_matrices(mass_matrix, "The mass matrix")
         if matrix.ndim > 2:

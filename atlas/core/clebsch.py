@@ -36,7 +36,7 @@ def clebsch(inertia: Any, Omega: Any, K: Any) -> Clebsch:
     `inertia` is any inertia tensor (3, 3) in the axes of the body, principal moments (3,), a SymmetricBody or a ratio
     I = I3/I2 (I2 = 1 then); `Omega`, `K` = R^T B' (..., 3) in the body and in one unit 1/time; they broadcast.
     DomainError for a tensor that no body has. The energy is formed from Omega and the rest from Omega + K, so that
-    none of the five is a difference of the others.
+    none of the five is a difference of the others. AtlasError is raised for what are no such arrays.
     """
     J, spin, field = body_tensor(inertia), vectors(Omega, "Omega"), vectors(K, "K")
     shape = common_shape(spin.shape, field.shape)

@@ -1,6 +1,7 @@
 """Closed motions of the elementary family: phi/k = p/q, so that the body comes back after q precessions."""
 
 from fractions import Fraction
+from numbers import Real
 from typing import Any
 
 from atlas.core.arithmetic.rotation import DoubleRotation
@@ -41,7 +42,7 @@ class ClosedMotion(ElementaryMotion):
     """
 
     def __init__(self, ratio: Any, field: Any, p: int, q: int) -> None:
-        if int(p) != p or int(q) != q or not q:
+        if not all(isinstance(x, Real) and x == x // 1 for x in (p, q)) or not q:
             raise AtlasError(f"phi/k = p/q takes two whole numbers, the second not 0, not {p!r} and {q!r}.")
         I2, I3 = moments(ratio)
         B2, B3 = components(field, ("B2", "B3"), "The field")

@@ -139,7 +139,7 @@ class ElementaryMotion(Motion[Elementary]):
     The last two are lost in (71). The signs of B2 and B3 are free, though the paper takes both positive.
     Raises DomainError at the pole omega2 = -B2 otherwise, for B2 = 0 with omega2 != 0, and if omega3 is not given where
     it is free or given where it is not. A frequency that overflows is inf; its motion is not lost, as long as
-    the phases stay within 2^50.
+    the phases stay within 2^50. AtlasError is raised for what is no number.
     """
 
     _unit = slice(2, 6)
@@ -231,22 +231,32 @@ class ElementaryMotion(Motion[Elementary]):
         return {"Omega": (0.0, self.omega2, omega3), "K": (0.0, *self.field), "m": (0.0, self.omega2, third)}
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) = (omega2 sin phi t, omega2 cos phi t, omega3) in the body, (73); (..., 3)."""
+        """Angular velocity Omega(t) = (omega2 sin phi t, omega2 cos phi t, omega3) in the body, (73); (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self._spread(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, (32), (62), (60); (..., 3)."""
+        """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, (32), (62), (60); (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self._spread(lambda one, t, out: one.swung(one.vector("K"), t, out), t, (3,))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88); shape (..., 3)."""
+        """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self._spread(lambda one, t, out: one.turned(one.vector("m"), t, out), t, (3,))
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
         """Constants E', K^2, c3, c5 of (36) to (41) and (m, B')/I2 of (88), by name.
 
         Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
-        check, good to a few ulp of the largest term. DomainError where a term is too large for a float.
+        check, good to a few ulp of the largest term. DomainError where a term is too large for a float. Raises
+        AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
         if t is None:
             values = invariants(self.shape, *moments(self.ratio), *self.field, self.omega2, self.omega3)
@@ -292,7 +302,8 @@ class FreeMotion(Motion[Free]):
     """Motion of a free symmetric body, R(t) = R_m(k t) R_z(phi t), above (87): precession without nutation.
 
     `ratio` I = I3/I2 or a SymmetricBody; `omega` (omega1, omega2, omega3), the initial angular velocity, 1/time; arrays
-    broadcast. The axis is that of m = (I2 omega1, I2 omega2, I3 omega3); k = |m|/I2; phi = (1 - I) omega3.
+    broadcast. The axis is that of m = (I2 omega1, I2 omega2, I3 omega3); k = |m|/I2; phi = (1 - I) omega3. Raises
+    DomainError for a ratio that no body has, AtlasError for what is no number.
     """
 
     _unit = slice(2, 5)
@@ -312,7 +323,10 @@ class FreeMotion(Motion[Free]):
         return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._unit)
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body: it turns about the third axis with frequency phi; shape (..., 3)."""
+        """Angular velocity Omega(t) in the body: it turns about the third axis with frequency phi; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self._spread(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
 
     def _groups(self) -> list[Group]:

@@ -17,7 +17,8 @@ class Field:
     """Constant fields B and E that act on matter of charge-to-mass ratio mu, in any frame of the user.
 
     `B`, `E` (3,); `mu` of either sign, or 0; `c` > 0, the speed of light where the units have it in the Lorentz force
-    (89) (Gaussian), 1 where not (SI); see `atlas.core.units`.
+    (89) (Gaussian), 1 where not (SI); see `atlas.core.units`. Raises AtlasError for what is not finite, and for c that
+    is not positive.
     """
 
     B: FloatArray
@@ -37,16 +38,25 @@ class Field:
 
     @classmethod
     def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
-        """Fields in SI: B in T, E in V/m, mu in C/kg; B' in rad/s."""
+        """Fields in SI: B in T, E in V/m, mu in C/kg; B' in rad/s.
+
+        Raises AtlasError as `Field` does.
+        """
         return cls(B, E, mu, units.SI.c)
 
     @classmethod
     def gaussian(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
-        """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' in rad/s."""
+        """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' in rad/s.
+
+        Raises AtlasError as `Field` does.
+        """
         return cls(B, E, mu, units.GAUSSIAN.c)
 
     def frame(self, axis: Any) -> "LaboratoryFrame":
-        """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0."""
+        """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0.
+
+        Raises AtlasError for an axis without a direction.
+        """
         return LaboratoryFrame(axis, self.prime)
 
 
@@ -58,7 +68,8 @@ class LaboratoryFrame:
     user's frame. Both are taken as exact, and whether they are parallel is decided exactly.
 
     `alignment` names the case: `oblique`; `perpendicular` (B3 = 0); `parallel` and `antiparallel` (B2 = 0, B3 > 0 and
-    < 0) and `no field`, where the plane is not determined and e1 is taken from the user's axis farthest from e3.
+    < 0) and `no field`, where the plane is not determined and e1 is taken from the user's axis farthest from e3. Raises
+    AtlasError for an axis or a field that is no vector.
     """
 
     axis: FloatArray
@@ -93,15 +104,24 @@ class LaboratoryFrame:
         object.__setattr__(self, "matrix", np.array([unit(across), unit(e2), unit(n)]))
 
     def to_laboratory(self, v: Any) -> FloatArray:
-        """Components (..., 3) in the laboratory of vectors given in the user's frame."""
+        """Components (..., 3) in the laboratory of vectors given in the user's frame.
+
+        Raises AtlasError for what are no vectors.
+        """
         return vectors(v, "v") @ self.matrix.T
 
     def to_user(self, v: Any) -> FloatArray:
-        """Components (..., 3) in the user's frame of vectors given in the laboratory."""
+        """Components (..., 3) in the user's frame of vectors given in the laboratory.
+
+        Raises AtlasError for what are no vectors.
+        """
         return vectors(v, "v") @ self.matrix
 
     def rotation_to_user(self, R: Any) -> FloatArray:
-        """Rotations (..., 3, 3) that act on the user's components as R does on the laboratory's."""
+        """Rotations (..., 3, 3) that act on the user's components as R does on the laboratory's.
+
+        Raises AtlasError for what are no matrices.
+        """
         rotations = real(R, "R")
         if rotations.shape[-2:] != (3, 3):
             raise AtlasError(f"R must be matrices (..., 3, 3), not of shape {rotations.shape}.")

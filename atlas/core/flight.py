@@ -45,15 +45,24 @@ class Flight:
         self._compare_fields()
 
     def arm(self, t: Any) -> FloatArray:
-        """Vector x_N(t) = R(t) x_N(0) from the centre of mass to the point, shape (..., 3)."""
+        """Vector x_N(t) = R(t) x_N(0) from the centre of mass to the point, shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return np.asarray(np.matvec(self._to_user, np.matvec(self.motion.rotation(t), self._arm)))
 
     def position(self, t: Any) -> FloatArray:
-        """Position y_N(t), shape (..., 3) for times of any shape."""
+        """Position y_N(t), shape (..., 3) for times of any shape.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self.particle.position(t) + self.arm(t)
 
     def velocity(self, t: Any) -> FloatArray:
-        """Velocity dy_N/dt = dy_0/dt + R [Omega, x_N(0)], by (12); shape (..., 3)."""
+        """Velocity dy_N/dt = dy_0/dt + R [Omega, x_N(0)], by (12); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         turning = np.matvec(self.motion.rotation(t), bracket(self.motion.angular_velocity(t), self._arm))
         return np.asarray(self.particle.velocity(t) + np.matvec(self._to_user, turning))
 

@@ -56,7 +56,8 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
     are within 1.8e-15, twice what elementary motions promise, on fine grids within 3.6e-15: so far `atlas stress` has
     found 1.1e-15 at most. K is within 1.8e-15 of |B'|, Omega within 16 ulp of its own largest component, however slowly
     the body turns beside its Larmor frame, and m within 7e-15 of its length.
-    Raises DomainError if the body's axis comes to within some 1e-600 rad of the field, but not into it.
+    Raises DomainError if the body's axis comes to within some 1e-600 rad of the field, but not into it. AtlasError is
+    raised for what is no number.
     """
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
@@ -75,7 +76,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         `attitude` (3, 3) is the initial rotation matrix, whose columns are the body's axes in the laboratory. It is
         replaced by the rotation of its quaternion, rounded, which is exact. `rotation` then takes the body to the
         laboratory, `angular_velocity` and `field_in_body` are in the body, `angular_momentum` in the laboratory.
-        Raises DomainError if the attitude is no rotation to 1e-9.
+        Raises DomainError if the attitude is no rotation to 1e-9. AtlasError is raised for what is no number.
         """
         I2, I3 = moments(ratio)
         start = exact_attitude(attitude)
@@ -128,22 +129,32 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         return GeneralRows(self._inputs, self.shape)
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body; shape (..., 3); within 16 ulp of its largest component."""
+        """Angular velocity Omega(t) in the body; shape (..., 3); within 16 ulp of its largest component.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' in the body, (32); shape (..., 3); within 1.8e-15 of |B'|."""
+        """Field K(t) = R^T B' in the body, (32); shape (..., 3); within 1.8e-15 of |B'|.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory; shape (..., 3).
 
-        Each component is within 7e-15 of the length of m.
+        Each component is within 7e-15 of the length of m. Raises AtlasError for a time that is not finite or whose
+        phases exceed 2^50.
         """
         return np.asarray(finite(np.matvec(self.rotation(t), self._momentum(self.angular_velocity(t))), "m/I2"))
 
     def invariants(self, t: Any = 0.0) -> dict[str, Any]:
-        """Constants E', K^2, c3, c5 of (36) to (41), and (M, B') with M/I2 = (Omega + K) in the body's axes."""
+        """Constants E', K^2, c3, c5 of (36) to (41), and (M, B') with M/I2 = (Omega + K) in the body's axes.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         Omega, K = self.angular_velocity(t), self.field_in_body(t)
         four = integrals(self.ratio, Omega, K)
         along = np.vecdot(self._momentum(Omega + K), K)

@@ -36,7 +36,8 @@ class Hyperbola:
 
     so that X = ± sqrt|1-I| |B2| e^s, and s is the hyperbolic parameter. The vertical asymptote X = 0 is the pole.
     Special fields: for B3 = 0 the curve is the two lines omega3 = 0 and omega2 = -B2, for B2 = 0 the line
-    omega2 = 0, and for B = 0 the whole plane; for I = 1 it is the line Y = (B3/B2) X, and the pole a second one.
+    omega2 = 0, and for B = 0 the whole plane; for I = 1 it is the line Y = (B3/B2) X, and the pole a second one. Raises
+    DomainError for a ratio that no body has, AtlasError for what is no number.
     """
 
     def __init__(self, ratio: Any, field: Any) -> None:
@@ -82,11 +83,17 @@ class Hyperbola:
         }
 
     def omega3(self, omega2: Any) -> Any:
-        """Ordinate omega3 of the curve at omega2, (71), rounded once. DomainError at the pole and for B2 = 0."""
+        """Ordinate omega3 of the curve at omega2, (71), rounded once. DomainError at the pole and for B2 = 0.
+
+        AtlasError is raised for what is no number.
+        """
         return self._over(ordinate, omega2)
 
     def frequencies(self, omega2: Any) -> tuple[Any, Any]:
-        """Frequencies k = omega2/B2hat, (79), and phi, (72), each rounded once. DomainError as for `omega3`."""
+        """Frequencies k = omega2/B2hat, (79), and phi, (72), each rounded once. DomainError as for `omega3`.
+
+        AtlasError is raised for what is no number.
+        """
         k, phi = self._over(_frequencies, omega2, degree=(1, 1))
         return k, phi
 
@@ -94,7 +101,7 @@ class Hyperbola:
         """Return the motion of the curve with phi/k = p/q exactly, theorem-closed, which closes after q precessions.
 
         There is one, and no other, for every rational but (1-I) B3hat/I and twice that; DomainError there, and for
-        I = 1, B2 = 0 or B3 = 0.
+        I = 1, B2 = 0 or B3 = 0. Raises AtlasError unless p and q are whole numbers.
         """
         return ClosedMotion(self._ratio, (self.B2, self.B3), p, q)
 
@@ -106,7 +113,7 @@ class Hyperbola:
         With x = (omega2 + B2)/B2 and tau = B3/B2 it is
         B2^2 [(1 + tau^2) x^4 + (1-I)(2 tau^2 - 1) x^2 + tau^2 (1-I)^2]/x^2
         = tau^2 [X^2 + (1-I) B2^2]^2/X^2 + X^2 - (1-I) B2^2 with X = omega2 + B2; not in the paper. DomainError as for
-        `omega3`; inf where it overflows.
+        `omega3`; inf where it overflows. AtlasError is raised for what is no number.
         """
         return self._over(_stability, omega2, degree=2, alone=_exact_stability)
 
@@ -114,7 +121,7 @@ class Hyperbola:
         """Rate, in 1/time, at which a small push away from the motion at omega2 grows: sqrt of -`stability`, or 0.
 
         It is 0 where the motion is stable, and at the ends of the unstable band, where a push grows like a power of
-        time. DomainError as for `omega3`.
+        time. DomainError as for `omega3`. AtlasError is raised for what is no number.
         """
         return plain(np.sqrt(np.maximum(-np.asarray(self.stability(omega2)), 0.0)))
 
@@ -122,7 +129,7 @@ class Hyperbola:
         """Return the motion at omega2 pushed by a small `omega1`, in full: see its `period` and `turning_points`.
 
         `omega3` is that of the curve, rounded once. In the unstable band Omega3 leaves it, however small the push, as
-        far as the next root of Q and comes back, again and again.
+        far as the next root of Q and comes back, again and again. Raises AtlasError for what is no number.
         """
         from atlas.core.general import GeneralMotion
 
@@ -159,7 +166,10 @@ class Hyperbola:
         return float(one_less * (tau2 + tau2) / sum_), float(one_less * sum_ / (ONE + tau2).scaled(1))
 
     def sample(self, points: Any = 200, *, reach: float = 4.0) -> Branch:
-        """Points (omega2, omega3) of both branches, one after the other; see `branches`."""
+        """Points (omega2, omega3) of both branches, one after the other; see `branches`.
+
+        Raises AtlasError for fewer than two points.
+        """
         first, second = zip(*self.branches(points, reach=reach), strict=True)
         return np.concatenate(first), np.concatenate(second)
 

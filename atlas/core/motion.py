@@ -106,20 +106,27 @@ class Motion(Generic[Turning]):
         return self._spread(lambda turning, t, out: turning.rotation(t, out), t, (3, 3), out)
 
     def column(self, j: int, t: Any) -> FloatArray:
-        """Column j = 1, 2, 3 of R(t): the body's axis R_j in the laboratory, shape (..., 3)."""
+        """Column j = 1, 2, 3 of R(t): the body's axis R_j in the laboratory, shape (..., 3).
+
+        Raises AtlasError for another j, and for times as `rotation` does.
+        """
         if not isinstance(j, Integral) or not 1 <= j <= 3:
             raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
         return self._spread(lambda turning, t, out: turning.column(j, t, out), t, (3,))
 
     def third_axis(self, t: Any) -> FloatArray:
-        """Third inertia axis R_3(t) in the laboratory, the third column of (84); shape (..., 3)."""
+        """Third inertia axis R_3(t) in the laboratory, the third column of (84); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self.column(3, t)
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrices on the uniform grid start + i step, i = 0 .. count - 1, shape (..., count, 3, 3).
 
         Each is that of the exact real number start + i step, which need not be a double. For a motion in elementary
-        functions never slower than `rotation`, from 10 000 times on faster, from 100 000 on three times as fast.
+        functions never slower than `rotation`, from 10 000 times on faster, from 100 000 on three times as fast. Raises
+        AtlasError for a count that is no whole number, an `out` of another shape, and times as `rotation` does.
         """
         start, step = number(start, "The start of the grid"), number(step, "The step of the grid")
         count = whole(count, "The count of the grid")

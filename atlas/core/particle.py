@@ -42,7 +42,10 @@ class ParticleMotion:
 
     @classmethod
     def in_field(cls, field: Field, position: Any, velocity: Any) -> Self:
-        """Motion in a `Field`, which holds mu, E, B and c."""
+        """Motion in a `Field`, which holds mu, E, B and c.
+
+        Raises AtlasError for a position or a velocity that is no vector.
+        """
         return cls(field.mu, field.E, field.B, position, velocity, field.c)
 
     @classmethod
@@ -51,7 +54,8 @@ class ParticleMotion:
 
         `radius` is a; omega = mu |B|/c has the sign of mu, where the paper's |mu B|/c in (97) is right for mu > 0 only.
         Then y_perp(t) = c |E_perp|/|B| t e1 + a {e1 sin(omega t) + e2 cos(omega t)}. The paper's other data, (100),
-        shift it along e2 by a constant: printed mu |E_perp|/omega, it must be a length, mu |E_perp|/omega^2.
+        shift it along e2 by a constant: printed mu |E_perp|/omega, it must be a length, mu |E_perp|/omega^2. Raises
+        AtlasError for what is no number, DomainError where B is zero.
         """
         still = cls(mu, E, B, np.zeros(3), np.zeros(3), c)
         e1, e2, _ = np.moveaxis(still.axes, -2, 0)
@@ -109,15 +113,24 @@ class ParticleMotion:
         return np.asarray(self._each("axes"))
 
     def position(self, t: Any) -> FloatArray:
-        """Position y(t), shape (..., 3) for times of any shape, (101) with (93) and (98)."""
+        """Position y(t), shape (..., 3) for times of any shape, (101) with (93) and (98).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self._spread(Path.fill_position, t)
 
     def velocity(self, t: Any) -> FloatArray:
-        """Velocity y'(t), shape (..., 3) for times of any shape, (90)."""
+        """Velocity y'(t), shape (..., 3) for times of any shape, (90).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return self._spread(Path.fill_velocity, t)
 
     def guiding_centre(self, t: Any) -> FloatArray:
-        """Point O(t) of (99) about which the particle circles, carried along B with it; shape (..., 3)."""
+        """Point O(t) of (99) about which the particle circles, carried along B with it; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite.
+        """
         return self._spread(Path.fill_centre, t)
 
     def _each(self, name: str) -> Any:

@@ -27,7 +27,8 @@ class Quadric:
     interchange their roles. The cone's semi-axes are a2 and a3, (56); its C1, C2, C3 are zero.
 
     Degenerate kinds: for B2 = 0 ("line") C1, C2, C3 are zero and the infinite one of a2, a3 raises DomainError; for
-    B = 0 ("all space") beta, a2, a3 and the axes do, since I^-1 B' has no direction.
+    B = 0 ("all space") beta, a2, a3 and the axes do, since I^-1 B' has no direction. AtlasError is raised for what is
+    no number.
     """
 
     def __init__(self, ratio: Any, field: Any) -> None:
@@ -102,7 +103,10 @@ class Quadric:
         return axes
 
     def canonical(self, omega: Any) -> FloatArray:
-        """Coordinates omega'_1..3, (53), of points `omega` (..., 3); inf where one is beyond the largest float."""
+        """Coordinates omega'_1..3, (53), of points `omega` (..., 3); inf where one is beyond the largest float.
+
+        Raises AtlasError for what are no vectors.
+        """
         omega = vectors(omega, "omega")
         common_shape(self.shape, omega.shape[:-1])
         # the difference and its turn may be larger than the coordinates: a quarter of each is not
@@ -114,7 +118,8 @@ class Quadric:
     def residual(self, omega: Any) -> Any:
         """Left-hand side of (50) at points `omega` (..., 3), in 1/time^3, rounded once: zero on the surface only.
 
-        B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3.
+        B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3. Raises AtlasError for what
+        are no vectors.
         """
         return over(residual, *self._inputs, *np.moveaxis(vectors(omega, "omega"), -1, 0), unit=slice(2, 7), degree=3)
 

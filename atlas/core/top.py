@@ -100,19 +100,31 @@ class TopMotion(NutatingMotion[SingleTop]):
         return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
 
     def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body; shape (..., 3)."""
+        """Angular velocity Omega(t) in the body; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
 
     def field_in_body(self, t: Any) -> FloatArray:
-        """Direction b(t) = R^T n in the body, a unit vector; shape (..., 3)."""
+        """Direction b(t) = R^T n in the body, a unit vector; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "b"))
 
     def angular_momentum(self, t: Any) -> FloatArray:
-        """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant; (..., 3)."""
+        """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant; (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         return np.asarray(finite(np.matvec(self.rotation(t), self._momentum(t)), "M/I2"))
 
     def invariants(self, t: Any = 0.0) -> dict[str, Any]:
-        """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction."""
+        """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
         Omega, b, M = self.angular_velocity(t), self.field_in_body(t), self._momentum(t)
         (I2, I3), nu = self.inertia, b[..., 2]
         spinning = Omega[..., 0] ** 2 + Omega[..., 1] ** 2 + I3 / I2 * Omega[..., 2] ** 2
