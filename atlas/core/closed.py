@@ -4,38 +4,55 @@ from fractions import Fraction
 from numbers import Real
 from typing import Any
 
+from flint import arb, fmpq
+
 from atlas.core.arithmetic.rotation import DoubleRotation
-from atlas.core.arithmetic.wide import TURN, ZERO, Wide, exact, length
+from atlas.core.arithmetic.wide import TURN, ZERO, Wide
 from atlas.core.body import moments
-from atlas.core.elementary import ElementaryMotion, ordinate
+from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import number
 from atlas.core.motion import components
+from atlas.core.nutation.functions import wide
 from atlas.errors import AtlasError, DomainError
+from atlas.exact.digits import enclosed
+from atlas.exact.inputs import root
+
+BITS = 300
+"""Relative accuracy of the constants: beyond what is kept of them."""
 
 
 class Closed(DoubleRotation):
-    """One closed motion: k by theorem-closed, phi = r k, the axis and the frequencies in 256 bits."""
+    """One closed motion: k by theorem-closed, phi = r k, the axis and the frequencies in 300 bits."""
 
     case = "precession"
 
-    def __init__(self, I2: float, I3: float, B2: float, B3: float, r: Fraction) -> None:
-        i2, i3, b2, b3 = exact(I2, I3, B2, B3)
-        b, p, q = length(b2, b3), Wide(r.numerator), Wide(r.denominator)
-        less, more = (i2 - i3) * b3 * q, i3 * b * p
-        k = -b * (less + less - more) / (less - more)
-        w2 = k * b2 / b
-        w3 = ordinate(i2, i3, b2, b3, w2)
+    def __init__(self, I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
+        k, w2, w3, first, second = (wide(x) for x in enclosed(lambda: _constants(I2, I3, B2, B3, r), BITS))
         self.omega2, self.omega3 = float(w2), float(w3)
-        third = float(i3 * w3 / i2)
-        self.vectors = {"Omega": (0.0, self.omega2, self.omega3), "K": (0.0, B2, B3), "m": (0.0, self.omega2, third)}
-        self.period = float(TURN * q / abs(k))
-        super().__init__((ZERO, b2 / b, b3 / b), k, k * p / q)
+        third = float(wide(enclosed(lambda: arb(I3 / I2), BITS)) * w3)
+        field = tuple(int(x.p) / int(x.q) for x in (B2, B3))
+        self.vectors = {"Omega": (0.0, self.omega2, self.omega3), "K": (0.0, *field), "m": (0.0, self.omega2, third)}
+        self.period = float(TURN * Wide(int(r.q)) / abs(k))
+        super().__init__((ZERO, first, second), k, k * Wide(int(r.p)) / Wide(int(r.q)))
+
+
+def _constants(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> list[arb]:
+    """Return k, omega2 = k B2hat, omega3 by (71), and the axis: rational but for b, at the precision of the moment.
+
+    With L = (1-I) B3 and x = I r b, k = -b (2L - x)/(L - x) and I L (L - x) omega3 = -B3 (2L - x)(I L + (1-I) x).
+    """
+    b, I = root(B2 * B2 + B3 * B3), I3 / I2
+    L, x = (1 - I) * B3, I * r * b
+    rest, infinite = 2 * L - x, L - x
+    k = -b * rest / infinite
+    omega3 = -B3 * rest * (I * L + (1 - I) * x) / (I * L * infinite)
+    return [arb(y) for y in (k, k * B2 / b, omega3, B2 / b, B3 / b)]
 
 
 class ClosedMotion(ElementaryMotion):
     """The elementary motion with phi/k = p/q, theorem-closed: R(t + period) = R(t).
 
-    Its omega2 is an algebraic number, as a rule no double. The frequencies are made from it in 256 bits, and phi is
+    Its omega2 is an algebraic number, as a rule no double. The frequencies are made from it in 300 bits, and phi is
     p/q times k there, so the motion closes as exactly as any motion is evaluated, see `rotation`, after any number of
     turns. `omega2`, `omega3`, `k` and `phi` are the nearest doubles: an ElementaryMotion made from that omega2 differs
     in its frequencies by an ulp or so, and does not close.
@@ -49,9 +66,10 @@ class ClosedMotion(ElementaryMotion):
         I3, B2, B3 = number(I3, "The ratio I"), number(B2, "B2"), number(B3, "B3")
         self.winding = Fraction(int(p), int(q))
         """phi/k = p/q in lowest terms."""
-        _check(Fraction(I2), Fraction(I3), Fraction(B2), Fraction(B3), self.winding)
+        inputs = [fmpq(*x.as_integer_ratio()) for x in (I2, I3, B2, B3, self.winding)]
+        _check(*inputs)
         self.ratio, self.field, self.shape = ratio, (B2, B3), ()
-        self._closed = Closed(I2, I3, B2, B3, self.winding)
+        self._closed = Closed(*inputs)
         self._turning = self._closed  # type: ignore[assignment]  # it has all that one elementary motion has
 
     @property
@@ -65,11 +83,11 @@ class ClosedMotion(ElementaryMotion):
         return self._closed.period
 
 
-def _check(I2: Fraction, I3: Fraction, B2: Fraction, B3: Fraction, r: Fraction) -> None:
+def _check(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
     """Raise DomainError where no motion, or more than one, has phi/k = r, see theorem-closed."""
-    if not B2:
+    if B2 == 0:
         raise DomainError("With B2 = 0 the elementary motions do not precess: k = 0, and phi/k has no value.")
-    if I2 == I3 or not B3:
+    if I2 == I3 or B3 == 0:
         why = "I = 1" if I2 == I3 else "B3 = 0"
         raise DomainError(
             f"With {why} every motion of the curve has phi = 0. The line omega2 = -B2 has the others, with k = -b for "

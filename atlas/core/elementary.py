@@ -16,7 +16,7 @@ from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.invariants import NAMES, invariants
 from atlas.core.motion import Motion, components
-from atlas.errors import DomainError
+from atlas.errors import AtlasError, DomainError
 
 CASES = (
     "free body",
@@ -146,6 +146,11 @@ class ElementaryMotion(Motion[Elementary]):
 
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
         self.ratio = ratio
+        if isinstance(omega2, tuple | list) and len(omega2) == 3 and not any(np.ndim(x) for x in omega2):
+            raise AtlasError(
+                f"omega2 is one number, or an array of them, but {tuple(omega2)} reads as a vector: "
+                "GeneralMotion(ratio, field, omega) takes all three components; for three motions write np.array."
+            )
         I2, I3 = moments(ratio)
         B2, B3 = components(field, ("B2", "B3"), "The field")
         given = np.array(None) if omega3 is None else real(omega3, "omega3")

@@ -88,3 +88,31 @@ def test_what_has_no_single_motion_is_refused() -> None:
     for p, q in ((1, 0), (0.5, 2)):
         with pytest.raises(atlas.AtlasError, match="whole numbers"):
             atlas.Hyperbola(1.5, (1.0, 2.0)).closed(p, q)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "field", "p", "q"),
+    [
+        (0.5, (1e-35, 1.0), 2, 1),
+        (0.5, (1e-40, 1.0), 2, 1),
+        (0.5, (1e-120, 1.0), 1, 1),
+        (1.5, (3.0, 8.184191806792962e42), -1, 1),
+        (1.5, (-4.110583387027991e44, 1.6257519767903314e-31), 17, 4),
+        (0.3, (1e-80, 2.0), 14, 3),
+    ],
+)
+def test_next_to_an_excluded_number_no_digit_is_lost(ratio: float, field: tuple[float, float], p: int, q: int) -> None:
+    """k, omega2 and omega3 are the nearest doubles to the root of phi - r k = 0 with 2000 digits, found by a secant."""
+    motion = atlas.Hyperbola(ratio, field).closed(p, q)
+    with mpmath.workdps(2000):
+        I, B2, B3 = mpmath.mpf(ratio), mpmath.mpf(field[0]), mpmath.mpf(field[1])
+        b = mpmath.sqrt(B2**2 + B3**2)
+
+        def excess(w: mpmath.mpf) -> mpmath.mpf:
+            """Return (phi/k - r) times the denominator of (72), which is linear in omega2."""
+            return B3 * (1 - I) * (w + 2 * B2) * B2 / b * q - p * I * B2 * (w + B2)
+
+        w = excess(mpmath.mpf(0)) / (excess(mpmath.mpf(0)) - excess(mpmath.mpf(1)))
+        true = (w * b / B2, w, B3 * w * (w + (2 - I) * B2) / (I * B2 * (w + B2)))
+        for found, value in zip((motion.k, motion.omega2, motion.omega3), true, strict=True):
+            assert found == float(value)

@@ -325,3 +325,13 @@ def test_the_domain_errors_are_domain_errors() -> None:
     """Physics outside the formula is a DomainError, a kind of AtlasError."""
     with pytest.raises(DomainError):
         ElementaryMotion(1.5, (1.0, 2.0), -1.0)
+
+
+@pytest.mark.parametrize("omega", [(0.3, 0.7, 0.2), [0.3, 0.7, 0.2], (np.float64(1.0), 2, 3.0)])
+def test_three_numbers_in_the_place_of_omega2_are_taken_for_a_vector(omega: Any) -> None:
+    """A reader of ElementaryMotion(ratio, field, omega) means GeneralMotion, which the error names."""
+    with pytest.raises(AtlasError, match="GeneralMotion"):
+        ElementaryMotion(1.5, (1.0, 2.0), omega)
+    assert ElementaryMotion(1.5, (1.0, 2.0), np.array(omega)).shape == (3,)
+    assert ElementaryMotion(1.5, (1.0, 2.0), [0.3, 0.7]).shape == (2,)
+    assert ElementaryMotion(1.5, (1.0, 2.0), [[0.3, 0.7, 0.2]]).shape == (1, 3)
