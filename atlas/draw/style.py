@@ -1,10 +1,12 @@
 """The style sheet: Matplotlib's settings while a figure is made and saved."""
 
+import logging
 import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -37,9 +39,31 @@ def context(style: Any = None) -> Iterator[None]:
             yield
         except RuntimeError as error:
             if not mpl.rcParams["text.usetex"]:
-                raise
+                if style is None:
+                    raise
+                raise AtlasError(f"the figure can't be drawn with this style: {error}") from error
             reason = next((line for line in str(error).splitlines() if line.startswith("!")), "")
             raise AtlasError(f"LaTeX cannot set the texts {reason}; {_NO_LATEX}") from error
+        except (ArithmeticError, LookupError, TypeError, ValueError, AttributeError) as error:
+            if style is None:
+                raise
+            raise AtlasError(f"the figure can't be drawn with this style: {error}") from error
+
+
+@contextmanager
+def _complaints() -> Iterator[list[str]]:
+    """Collect what Matplotlib says of a style sheet's lines that it leaves out, in place of printing it."""
+    said: list[str] = []
+    logger, handler = logging.getLogger("matplotlib"), logging.Handler(logging.WARNING)
+    handler.emit = lambda record: said.append(record.getMessage())  # type: ignore[method-assign]  # the way to a list
+    before = logger.propagate
+    logger.propagate = False
+    logger.addHandler(handler)
+    try:
+        yield said
+    finally:
+        logger.removeHandler(handler)
+        logger.propagate = before
 
 
 @cache
@@ -59,10 +83,18 @@ def _use(styles: Sequence[Any]) -> None:
         if isinstance(one, str) and one not in mpl.style.library:
             with suppress(ImportError):
                 import scienceplots  # noqa: F401  it enters its sheets into Matplotlib's library
+        if isinstance(one, str | Path) and Path(one).exists() and not Path(one).is_file():
+            raise AtlasError(f"the style {str(one)!r} cannot be used: it is no file, nor a name of Matplotlib's.")
         try:
-            mpl.style.use(one)
-        except (OSError, KeyError, ValueError, TypeError) as error:
+            with _complaints() as said:
+                mpl.style.use(one)
+        except (OSError, LookupError, ValueError, TypeError, ImportError) as error:
             raise AtlasError(f"the style {str(one)!r} cannot be used: {error}") from error
+        if said:
+            raise AtlasError(f"the style {str(one)!r} cannot be used: {' '.join(said[0].split())}")
+    for name, value in mpl.rcParams.items():
+        if isinstance(value, float) and not isfinite(value):
+            raise AtlasError(f"the style sets {name} to {value}, which is no number to draw with.")
     if mpl.rcParams["text.usetex"] and not shutil.which("latex"):
         raise AtlasError(f"there is no LaTeX; {_NO_LATEX}")
 

@@ -14,6 +14,7 @@ from functools import cached_property
 from flint import acb, arb, ctx, fmpq, fmpq_poly
 
 from atlas.exact.euler import quartic_roots
+from atlas.exact.inputs import root
 
 Vector = tuple[fmpq, fmpq, fmpq]
 
@@ -99,13 +100,19 @@ class Quartic:
         return self._known[ctx.prec]
 
     def _isolated(self) -> list[Root]:
-        """Isolate the roots."""
-        if self.polynomial.degree() <= 0:
-            return []
-        if self.polynomial.degree() == 4 and self.polynomial.gcd(self.polynomial.derivative()).degree() == 0:
-            found = [Root(value, 1) for value in quartic_roots(self.polynomial)]
+        """Isolate the roots; unless there are four simple ones, each belongs to a rational factor of degree two."""
+        p = self.polynomial
+        common = p.gcd(p.derivative())
+        triple = common.gcd(common.derivative())
+        if p.degree() < 4:
+            found = _of_quadratic(p, 1)
+        elif common.degree() == 0:
+            found = [Root(value, 1) for value in quartic_roots(p)]
+        elif triple.degree() == 0:
+            found = _of_quadratic(common, 2) + _of_quadratic(p // common**2, 1)
         else:
-            found = [Root(acb(value), count) for value, count in self.polynomial.complex_roots()]
+            line, count = triple if triple.degree() == 1 else triple.derivative(), common.degree() + 1
+            found = _of_quadratic(line, count) + _of_quadratic(p // line**count, 1)
         real = [root for root in found if root.is_real]
         real.sort(key=lambda root: root.value.real.mid())
         return real + [root for root in found if not root.is_real]
@@ -148,3 +155,19 @@ def sign_of_sum(x: fmpq, y: fmpq, square: fmpq) -> int:
 
 def _sign(x: fmpq) -> int:
     return int(x > 0) - int(x < 0)
+
+
+def _of_quadratic(p: fmpq_poly, count: int) -> list[Root]:
+    """Return the roots of a polynomial of degree two or less, `count` times each, and a double one twice as often."""
+    c, b, a = p[0], p[1], p[2]
+    if a == 0:
+        return [Root(acb(-c / b), count)] if b != 0 else []
+    square = b * b - 4 * a * c
+    if square == 0:
+        return [Root(acb(-b / (2 * a)), 2 * count)]
+    if square < 0:
+        real, imaginary = arb(-b / (2 * a)), root(-square) / (2 * abs(a))
+        return [Root(acb(real, -imaginary), count), Root(acb(real, imaginary), count)]
+    # of the two roots the one that does not cancel first
+    larger = -(b + root(square)) / 2 if b >= 0 else (root(square) - b) / 2
+    return [Root(acb(larger / a), count), Root(acb(c / larger), count)]

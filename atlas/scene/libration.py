@@ -22,21 +22,22 @@ class Libration:
 
     def __init__(self, oscillator: PseudoOscillator) -> None:
         self.start = float(oscillator.omega3)
-        *_, a2, a3 = oscillator.coefficients
         speed = float(oscillator.omega1 * oscillator.B2)
-        # Q(omega3 + v) in powers of v, from its derivatives at the start, where they are known without cancellation
+        I, one_less, _ = shape_factors(oscillator.ratio)
+        B2, B3, w1, w2 = (float(x) for x in (oscillator.B2, oscillator.B3, oscillator.omega1, oscillator.omega2))
+        M2, M3 = w2 + B2, I * (self.start + B3)
+        # Q(omega3 + v) in powers of v: its coefficients of u cancel where omega3 is large, that is where I is small
         self.powers = np.array(
             [
                 speed**2,
-                2 * oscillator.acceleration(self.start),
-                oscillator.stiffness(self.start),
-                (2 * a2 + 6 * a3 * self.start) / 3,
-                a3 / 2,
+                2 * (B3 * (w1**2 + w2 * (M2 + B2)) - B2 * (I * self.start * M2 + I * w2 * B3)),
+                one_less * (B2**2 - 4 * B3**2) - w1**2 - M2**2 - M3**2,
+                4 * one_less * B3,
+                -one_less,
             ]
         )
         self.speed = speed
         # u^2 <= E'/I and K3^2 <= K^2: outside, Q is a product of two negative numbers less a square
-        I, _, _ = shape_factors(oscillator.ratio)
         spin = _reach(self.start, float((oscillator.omega1**2 + oscillator.omega2**2) / I))
         field = _reach(float(oscillator.B3), float(oscillator.B2**2))
         self.above = self._turning(1.0, min(spin[1], field[0]))

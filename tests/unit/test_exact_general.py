@@ -6,7 +6,7 @@ from typing import Any
 
 import mpmath
 import pytest
-from flint import arb, ctx, fmpq
+from flint import acb, acb_poly, arb, ctx, fmpq
 from oracles.balls import taylor
 from oracles.taylor import taylor as integrated
 
@@ -212,3 +212,29 @@ def test_a_passage_through_both_poles_counts_alike_in_both_forms_of_the_sums(ome
     motion = GeneralMotion(0.75, (2, 4), (omega1, -2, -4))
     assert (motion.precession_per_period + motion.b * motion.period).contains(0)
     assert motion.spin_per_period == 0
+
+
+@pytest.mark.parametrize(
+    ("ratio", "field", "omega", "multiplicities"),
+    [
+        (1, (1, 2), ("0.3", "0.7", "0.2"), [1, 1]),
+        (1, (1e3, float.fromhex("0x1.fffp1023")), (1.5, 0.5, 1e308), [1, 1]),
+        ("0.75", (20, 15), (6, "-24.5", -7), [1, 1, 2]),
+        ("0.5", (1, -3), (0, "1.5", 2), [1, 3]),
+        (2, (1, "0.5"), (1, -1, "-0.5"), [2, 2]),
+        ("1.5", (1, 3), (0, 0, 0), [1, 1, 2]),
+        ("1.5", (1, 2), ("0.3", "0.7", "0.2"), [1, 1, 1, 1]),
+    ],
+)
+def test_the_roots_are_those_of_the_polynomial(ratio: Any, field: Any, omega: Any, multiplicities: list[int]) -> None:
+    """The product over all roots, each as often as it counts, has the coefficients of Q, at any scale."""
+    with ctx.workprec(4000):
+        quartic = GeneralMotion(ratio, field, omega).quartic
+        roots = quartic.roots()
+        assert sorted(root.multiplicity for root in roots) == multiplicities
+        lead = quartic.polynomial[quartic.polynomial.degree()]
+        product = acb_poly([acb(arb(lead))])
+        for root in roots:
+            product *= acb_poly([-root.value, 1]) ** root.multiplicity
+        for n in range(quartic.polynomial.degree() + 1):
+            assert product[n].contains(acb(arb(quartic.polynomial[n])))
