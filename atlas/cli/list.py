@@ -108,11 +108,10 @@ def titles(names: list[str], title: Callable[[str], str]) -> tuple[dict[str, str
 
 def report_title(name: str) -> str:
     """Return the title of a report in reports/."""
-    import tomllib
-
+    from atlas import toml
     from atlas.report.find import find
 
     try:
-        return str(tomllib.loads(find(name).read_text(encoding="utf-8")).get("title", ""))
+        return str(toml.loads(find(name).read_text(encoding="utf-8")).get("title", ""))
     except ValueError as error:  # not TOML, or not UTF-8
         raise AtlasError(f"reports/{name}.toml is not TOML: {error}") from error

@@ -15,7 +15,7 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-from atlas import files
+from atlas import files, processes
 from atlas.errors import AtlasError
 from atlas.libraries import release
 from atlas.places import own_folder
@@ -43,7 +43,7 @@ window.AddRenderer(vtkRenderer())
 window.Render()
 print(window.GetClassName())
 """
-_TIMEOUT = 60.0
+_TIMEOUT = 60
 _APT = "/usr/bin/apt-get"
 
 
@@ -115,14 +115,7 @@ def _draws(name: str) -> bool:
     if name in WINDOWS:
         environment[VARIABLE] = WINDOWS[name]
     try:
-        child = subprocess.run(  # noqa: S603  our own program, in our own interpreter
-            [sys.executable, "-P", "-c", _PROBE],
-            env=environment,
-            capture_output=True,
-            text=True,
-            timeout=_TIMEOUT,
-            check=False,
-        )
+        child = processes.run([sys.executable, "-P", "-c", _PROBE], _TIMEOUT, env=environment)
     except (OSError, subprocess.TimeoutExpired):
         return False
     return child.returncode == 0 and (name not in WINDOWS or WINDOWS[name] in child.stdout)

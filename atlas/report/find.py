@@ -1,8 +1,8 @@
 """The report files that there are; found without loading what reads them."""
 
-import tomllib
 from pathlib import Path
 
+from atlas import toml
 from atlas.errors import AtlasError, unknown
 from atlas.places import folder
 
@@ -15,7 +15,7 @@ def names() -> list[str]:
 def related_to(file: Path) -> list[str]:
     """Return the names of the reports that stand beside that of a file; none where the file can't be read."""
     try:
-        related = tomllib.loads(file.read_text(encoding="utf-8-sig")).get("related", {})
+        related = toml.loads(file.read_text(encoding="utf-8-sig")).get("related", {})
     except ValueError:
         return []
     known = names()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
+from atlas import toml
 from atlas.errors import AtlasError, unknown
 from atlas.report.blocks import Block, Figure, Listing, Recorded, Table
 from atlas.report.definition import Report
@@ -20,7 +21,7 @@ def load(path: Path) -> Report:
     except UnicodeDecodeError as error:
         raise AtlasError(f"{path} is not a text in UTF-8: {error.reason} at byte {error.start}.") from error
     try:
-        raw = tomllib.loads(text)
+        raw = toml.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise AtlasError(f"{path} is not TOML: {error}.") from error
     try:

@@ -16,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal, TypeAlias
 
-from atlas import libraries
+from atlas import libraries, processes
 from atlas.errors import AtlasError
 
 Target: TypeAlias = Literal["html", "typst"]
@@ -30,6 +30,13 @@ MARKDOWN = (
 )
 _WRITE = {"html": ["-t", "html5", "--mathml", "--syntax-highlighting=none"], "typst": ["-t", "typst"]}
 _MARK = {"html": "<!--{}-->", "typst": "//{}"}
+SECONDS, SPEED, MEMORY = 8, 50_000, "1000m"
+"""What pandoc may take: seconds of a processor, one more for so many characters, and memory. A book takes a third."""
+_HEAP = 251
+"""Exit status of a program in Haskell that would need more memory."""
+_ENDLESS = (
+    "pandoc can't set the texts of the report with {}: brackets, braces or macros stand in one another too deeply."
+)
 SHOWN, NEAR = 90, 20
 """Characters of a formula that a message shows, and of its part from the mistake on."""
 
@@ -79,17 +86,16 @@ def api() -> list[int]:
 
 
 def run(arguments: Sequence[str], source: str) -> str:
-    """Run pandoc once; turn its first warning into an error."""
+    """Run pandoc once; turn its first warning into an error, and a text that it can't finish."""
     with TemporaryDirectory() as folder:
         log = Path(folder) / "log.json"
-        run = subprocess.run(  # noqa: S603  the program is the one inside our own locked package
-            [_program(), *arguments, f"--log={log}"],
-            input=source,
-            capture_output=True,
-            text=True,
-            encoding="utf-8",
-            check=False,
-        )
+        command = [_program(), "+RTS", f"-M{MEMORY}", "-RTS", *arguments, f"--log={log}"]
+        try:
+            run = processes.run(command, SECONDS + len(source) // SPEED, source)
+        except subprocess.TimeoutExpired as error:
+            raise AtlasError(_ENDLESS.format(f"{SECONDS} seconds")) from error
+        if run.returncode == _HEAP:
+            raise AtlasError(_ENDLESS.format(f"{MEMORY[:-1]} MB"))
         if run.returncode:
             raise AtlasError(f"pandoc could not set the text of the report: {run.stderr.strip().splitlines()[-1]}.")
         warnings = [entry for entry in json.loads(log.read_text("utf-8")) if entry.get("verbosity") == "WARNING"]

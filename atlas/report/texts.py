@@ -4,6 +4,7 @@ A text is Markdown with TeX between dollars. Its links lead to http, https, mail
 holds no pictures, and a citation such as ``@(67)`` becomes a link.
 """
 
+import hashlib
 import json
 import re
 from collections.abc import Callable, Mapping
@@ -19,6 +20,8 @@ _CITED = re.compile(
     r"\$\$.+?\$\$|(?<![\\$])\$[^$]+?\$|`[^`]*`|(?<![\w\\])@(\(\d+\)|[a-z]+:[\w-]+|\w+(?:[.-]\w+)*)", re.DOTALL
 )
 """A citation, in the first group; formulas and code, in which there is none, are passed over."""
+DEEPEST = 10
+"""How deeply parts of a text may stand in one another."""
 _OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
 _INSIDE = re.compile(r"[\w-]+\.html(?:#[\w.-]+)?|#[\w.-]+")
 _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
@@ -71,7 +74,15 @@ class Texts:
         return self.texts[number]
 
     def read(self) -> None:
-        """Parse the texts that have been added."""
+        """Parse the texts that have been added. Raises AtlasError for one whose parts stand in one another too deeply.
+
+        The time that pandoc takes for such a text doubles with each level.
+        """
+        for text in self.texts:
+            if deepest(text.markdown) > DEEPEST:
+                raise AtlasError(
+                    f"{text.where}: brackets, braces or quotations stand in one another more than {DEEPEST} deep."
+                )
         keys = [json.dumps([pandoc.release(), text.markdown, text.inline]) for text in self.texts]
         new = {key: text for key, text in zip(keys, self.texts, strict=True) if key not in self.memory}
         if new:
@@ -102,6 +113,25 @@ class Texts:
         for number, piece in zip(new, pieces, strict=True):
             self.memory[keys[number]] = _finished(piece, target, self.texts[number])
         return [self.memory[key] for key in keys]
+
+
+def deepest(markdown: str) -> int:
+    """Return how deeply brackets, braces, quotations or list items stand in one another, closed or not, in code or not.
+
+    Brackets are counted by paragraph, in which alone they meet; an escaped one is none.
+    """
+    most = 0
+    for paragraph in re.split(r"\n\s*\n", re.sub(r"\\[\\\[\]{}]", "", markdown)):
+        for first, last in ("[]", "{}"):
+            depth = 0
+            for mark in re.findall(rf"[\{first}\{last}]", paragraph):
+                depth = depth + 1 if mark == first else max(0, depth - 1)
+                most = max(most, depth)
+    for quoted in re.findall(r"^[ >]*>", markdown, re.MULTILINE):
+        most = max(most, quoted.count(">"))
+    for indent in re.findall(r"^[ \t]+(?=[-*+\d])", markdown, re.MULTILINE):
+        most = max(most, len(indent.expandtabs(4)) // 4)
+    return most
 
 
 def citations(markdown: str) -> list[str]:
@@ -146,7 +176,11 @@ class _Checked:
         if kind == "Cite":
             return self.citation(content[0])
         if kind == "Math":
-            return [{"t": kind, "c": [content[0], _tex(content[1], self.target)]}]
+            formula = {"t": kind, "c": [content[0], _tex(content[1], self.target)]}
+            if self.target == "html":
+                return [formula]
+            mark = {"t": "RawInline", "c": [self.target, _mark(self.text)]}
+            return [mark, formula, mark]
         if kind == "Link":
             return [_link(self.tree(content[1]), self.address(content[2][0]))]
         if kind in _ATTRIBUTES:
@@ -218,17 +252,28 @@ def _tex(tex: str, target: Target) -> str:
     return re.sub(r"\\[td]frac\b", r"\\frac", tex) if target == "typst" else tex
 
 
-def _finished(piece: str, target: Target, text: Text) -> str:
-    r"""Mend what pandoc made of a text.
+def _mark(text: Text) -> str:
+    """Return a comment in Typst to stand before and after a formula of a text, which can't have it in itself."""
+    return f"/*{hashlib.sha256(text.markdown.encode(errors='surrogatepass')).hexdigest()}*/"
 
-    In Typst ``\;`` and ``\!`` get their widths, which pandoc rounds to whole ems, bars their role as delimiters, and
-    what ``\boxed`` marks its colour.
-    """
+
+def _finished(piece: str, target: Target, text: Text) -> str:
+    """Mend what pandoc made of the formulas of a text, in Typst of those between marks, and of nothing else."""
     if target == "html":
         return mend_all(piece)
-    if _CHAIN.search(piece):
-        raise AtlasError(f"{text.where}: a fraction below a fraction is lost in print; write it with a slash.")
-    piece = re.sub(r"#box\(stroke: black, inset: 3pt, \[\$ (.+?) \$\]\)", r"#changed[$\1$]", piece)
-    piece = piece.replace("#h(0em)", "#h(0.278em)").replace("#h(-1em)", "#h(-0.167em)")
-    piece = re.sub(r"\\\| ?(.+?) ?\\\|", r"lr(| \1 |)", piece)
+    parts = piece.split(_mark(text))
+    parts[1::2] = [_mended(formula, text) for formula in parts[1::2]]
+    piece = "".join(parts)
     return f"{piece} " if piece.endswith("\\") else piece  # else the bracket after it would be escaped
+
+
+def _mended(formula: str, text: Text) -> str:
+    r"""Mend a formula: ``\;`` and ``\!`` get their widths, which pandoc rounds to whole ems, bars are delimiters again.
+
+    What ``\boxed`` marks gets its colour.
+    """
+    if _CHAIN.search(formula):
+        raise AtlasError(f"{text.where}: a fraction below a fraction is lost in print; write it with a slash.")
+    formula = re.sub(r"#box\(stroke: black, inset: 3pt, \[\$ (.+?) \$\]\)", r"#changed[$\1$]", formula)
+    formula = formula.replace("#h(0em)", "#h(0.278em)").replace("#h(-1em)", "#h(-0.167em)")
+    return re.sub(r"\\\| ?(.+?) ?\\\|", r"lr(| \1 |)", formula)
