@@ -32,12 +32,12 @@ def _normal(stem: str) -> str:
 
 @cache
 def _reach(stem: str) -> frozenset[str]:
-    """Return the files of this folder that a topic imports, itself among them."""
+    """Return the files of this folder that a topic imports, itself among them, but for what only records a result."""
     text = _normal(stem)
     direct = set(re.findall(r"^from atlas\.proof\.(\w+) import", text, re.MULTILINE))
     for names in re.findall(r"^from atlas\.proof import (.+)$", text, re.MULTILINE):
         direct |= {name.split(" as ")[0].strip() for name in names.split(",")}
-    return frozenset({stem}).union(*(_reach(name) for name in direct))
+    return frozenset({stem}).union(*(_reach(name) for name in direct - {"verdict"}))
 
 
 @cache

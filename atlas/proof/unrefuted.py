@@ -5,6 +5,7 @@ import re
 _SYMMETRIC = "The indices of a symmetric matrix are exchanged, which changes nothing."
 _CONSTANTS = "A constant of integration is arbitrary: its sign, a factor or a shift gives another one."
 _FIRST_K = r"At $t = 0$ the first component of $\mathbf{K}$ is 0, whatever multiplies it."
+_AT_REST = "At rest the rate of every component is 0, so one may stand for another."
 
 REASONS: dict[str, tuple[tuple[str, str], ...]] = {
     "(1)": (("", _SYMMETRIC),),
@@ -48,7 +49,8 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
     "text-cubic-degree": (("", "The square of twice a number is positive as well."),),
     "(58)": (("", "Any of the initial components is a constant."),),
     "(61)": (("", _FIRST_K),),
-    "(80)": (("", _CONSTANTS),),
+    "(78)": (("", _AT_REST),),
+    "(83)": (("", _AT_REST),),
     "(88)": (("", r"The first component of $\mathbf{B}'$ is 0, whatever multiplies it."),),
     "(90)": (("", _CONSTANTS),),
     "(97)": (("", _CONSTANTS),),

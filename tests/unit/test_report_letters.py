@@ -6,13 +6,13 @@ from collections import Counter
 import pytest
 
 from atlas.paper import EQUATIONS
-from atlas.report.blocks import Equation, Listing
+from atlas.report.blocks import Equation
 from atlas.report.find import find
 from atlas.report.load import load
 
 REPORT = load(find("atlas"))
-BLOCKS = [block for page in REPORT.pages if not page.appendix for block in page.blocks]
-(TABLE,) = (block for block in BLOCKS if isinstance(block, Listing) and block.id == "letters")
+BLOCKS = [block for page in REPORT.pages if page.slug != "letters" for block in page.blocks]
+(TABLE,) = (block for page in REPORT.pages if page.slug == "letters" for block in page.blocks)
 GREEK = re.compile(
     r"(?:var)?(?:alpha|beta|gamma|delta|epsilon|zeta|eta|theta|kappa|lambda|mu|nu|xi|rho|sigma|tau|phi|chi|psi|omega|wp)"
 )
