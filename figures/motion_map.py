@@ -16,7 +16,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Layer, Plane, Points, Scene
 from atlas.scene.hyperbola_plane import Window, branches, places
 from atlas.scene.words import body_name, listed, tex, tex_vector, title
-from atlas.study.sweep.ranges import Range, Table
+from atlas.study.sweep.ranges import Range, Tabulation
 
 WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0
 
@@ -39,7 +39,7 @@ def scene(
     edges = [np.linspace(-B - half, -B + half, cells + 1) for B in field]
     omega = {f"omega{i}": Range.middles(x) for i, x in enumerate(edges, 2)}
     settings = {"ratio": tuple(ratios), "B2": field[0], "B3": field[1], "omega1": 0.0} | omega
-    table = Table("general", settings, ("kind", "least", "largest"))
+    table = Tabulation("general", settings, ("kind", "least", "largest"))
     swings = amplitudes(table.columns(), field).reshape(-1, cells, cells)
     last = "b" if len(ratios) > 1 else "a"
     panels = tuple(

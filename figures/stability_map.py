@@ -15,7 +15,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Label, Layer, Plane, Points, Scene
 from atlas.scene.sample import flat
 from atlas.scene.words import body_role, title
-from atlas.study.sweep.ranges import Range, Table
+from atlas.study.sweep.ranges import Range, Tabulation
 
 WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
@@ -29,7 +29,9 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     if not all(0.0 < rate < 1.0 for rate in rates):
         raise DomainError(f"rates of figure stability_map lie between 0 and 1, in units of |B2|, not {rates}.")
     x, y = np.linspace(0.0, 2.0, CELLS[0] + 1), np.linspace(0.0, TOP, CELLS[1] + 1)
-    table = Table("hyperbola", {"ratio": Range.middles(x), "B2": 1.0, "B3": Range.middles(y)}, ("least_stability",))
+    table = Tabulation(
+        "hyperbola", {"ratio": Range.middles(x), "B2": 1.0, "B3": Range.middles(y)}, ("least_stability",)
+    )
     least = table.columns()["least_stability"].T
     layers: list[Layer] = [
         Image(x, y, -np.sign(least) * np.sqrt(abs(least)), r"rate of growth over $|B'_2|$; below 0 the frequency"),
