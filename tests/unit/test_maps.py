@@ -103,7 +103,9 @@ def test_the_pixels_of_a_map_are_the_rows_of_the_sweep_beside_it(
         assert not result.exit_code, result.output
         with Path(result.output.strip()).open(newline="") as file:
             heading, *lines = csv.reader(file)
-        rows.append({x: list(column) for x, column in zip(heading, zip(*lines, strict=True), strict=True)})
+        rows.append(
+            {x.partition(" [")[0]: list(column) for x, column in zip(heading, zip(*lines, strict=True), strict=True)}
+        )
     pixels = {"stability_map": stability, "motion_map": swings, "error_maps": errors}[name](rows)
     assert len(pixels) == len(images)
     for values, image in zip(pixels, images, strict=True):
