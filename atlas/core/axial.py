@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.arithmetic.wide import ONE, exact
+from atlas.core.arithmetic.words import exact
 from atlas.core.body import moments
 from atlas.core.inputs import number
 from atlas.core.separatrix import Companion
 from atlas.errors import DomainError
+from atlas.formulas.numbers import nearest, root, workprec
 
 
 @dataclass(frozen=True)
@@ -42,24 +43,24 @@ def escape(ratio: Any, B3: Any, omega3: Any) -> Companion:
     i2, i3, b, w3 = exact(I2, I3, field, spin)
     I = i3 / i2
     c3 = w3 + b
-    M3, A = I * c3, (I - ONE) * b * b
-    c = A.scaled(2) - M3 * M3
-    if c.m <= 0:
+    M3, A = I * c3, (I - 1) * b * b
+    c = 4 * A - M3 * M3
+    if c <= 0:
         raise DomainError(
             f"The spin omega3 = {spin} about B3 = {field} is stable: D = I^2 (omega3 + B3)^2 + 4 (1-I) B3^2 is not "
             "negative, theorem-axis-stable, so no motion leaves it."
         )
-    half = ONE.scaled(-1)
-    rates = float(half * (c3 - b)), float(half * (M3 - c3 - b))
-    if not M3:
-        lean = float(A.sqrt())
-        weights = np.array([[1.0, -lean, 0.0], [1.0, lean, 0.0]], dtype=np.complex128)
-        return Companion(field, 0.0, 1.0, -1.0, float(c), rates, weights, slow=True)
-    e = abs(M3) / A.sqrt() - ONE
-    up, down = ((ONE + e) * half).sqrt(), ((ONE - e) * half).sqrt()
-    slope = M3 * (e - ONE) / (up.scaled(1))
-    weights = np.array([[float(up), -1j * float(slope), 0.0], [0.0, 0.0, float(down)]])
-    return Companion(field, float(c3), 1.0, float(e), float(c), rates, weights)
+    rates = nearest((c3 - b) / 2), nearest((M3 - c3 - b) / 2)
+    with workprec():
+        if M3 == 0:
+            lean = nearest(root(A))
+            weights = np.array([[1.0, -lean, 0.0], [1.0, lean, 0.0]], dtype=np.complex128)
+            return Companion(field, 0.0, 1.0, -1.0, nearest(c), rates, weights, slow=True)
+        e = abs(M3) / root(A) - 1
+        up, down = root((1 + e) / 2), root((1 - e) / 2)
+        slope = M3 * (e - 1) / (2 * up)
+        weights = np.array([[nearest(up), -1j * nearest(slope), 0.0], [0.0, 0.0, nearest(down)]])
+        return Companion(field, nearest(c3), 1.0, nearest(e), nearest(c), rates, weights)
 
 
 def pushed(ratio: Any, B3: Any, omega3: Any, push: Any) -> Nutation:
@@ -79,7 +80,7 @@ def pushed(ratio: Any, B3: Any, omega3: Any, push: Any) -> Nutation:
     if not (field and s):
         raise DomainError("The field along the axis and the push must not be zero.")
     i2, i3, b, w3 = exact(I2, number(I3, "The ratio I"), field, spin)
-    M3, A = abs(float(i3 / i2 * (w3 + b))), float((i3 - i2) / i2 * b * b)
+    M3, A = abs(nearest(i3 / i2 * (w3 + b))), nearest((i3 - i2) / i2 * b * b)
     if not M3:
         return _plane(s, A)
     c = np.array([-M3 * M3, s * s - 2 * M3 * M3, 2 * s * s + 4 * A - M3 * M3, s * s])

@@ -5,34 +5,26 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import over, wide
+from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.turnings import Group
-from atlas.core.arithmetic.wide import ONE, ZERO, Number, direction, exact, length
+from atlas.core.arithmetic.words import ONE, ZERO, exact
 from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.motion import Motion, components
 from atlas.errors import DomainError
-
-
-def ball(I0: Number, alpha: Number, m2: Number, m3: Number) -> tuple[tuple[Number, Number], Number, Number]:
-    """Return a vector along k_hat, gamma and alpha, (29)."""
-    along = m3 + alpha * I0
-    return (-m2, -along), length(m2, along) / I0, alpha
-
-
-def rates(I0: Number, m2: Number, m3: Number) -> tuple[Number, Number]:
-    """Return the components m/I0 of the initial angular velocity."""
-    return m2 / I0, m3 / I0
+from atlas.formulas.ball import rates, turning
+from atlas.formulas.numbers import alone, direction, workprec
 
 
 class Ball(DoubleRotation):
     """One ball: R = R_z(-alpha t) R_k(-gamma t), the transposed of R_k(gamma t) R_z(alpha t), (28)."""
 
     def __init__(self, inertia: float, larmor: float, m2: float, m3: float) -> None:
-        along, gamma, alpha = ball(*exact(inertia, larmor, m2, m3))
-        self.vectors = {"m": (0.0, m2, m3), "Omega": (0.0, *wide(rates, inertia, m2, m3))}
-        # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
-        axis = (ZERO, *direction(along)) if gamma else (ZERO, ZERO, -ONE)
+        with workprec():
+            along, gamma, alpha = turning(*exact(inertia, larmor, m2, m3))
+            # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
+            axis = (ZERO, *direction(along)) if gamma != 0 else (ZERO, ZERO, -ONE)
+        self.vectors = {"m": (0.0, m2, m3), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
         super().__init__(axis, gamma, alpha, inverse=True)
 
 
@@ -58,12 +50,12 @@ class BallMotion(Motion[Ball]):
     @cached_property
     def gamma(self) -> Any:
         """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, (29)."""
-        return over(lambda *inputs: ball(*inputs)[1], *self._inputs, unit=self._unit)
+        return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._unit)
 
     @cached_property
     def k_hat(self) -> tuple[Any, Any]:
         """Axis (k2, k3) of (29); (0, -1) where gamma = 0, and (29) is 0/0."""
-        k2, k3 = over(lambda *inputs: direction(ball(*inputs)[0]), *self._inputs, unit=self._unit, degree=(0, 0))
+        k2, k3 = over(lambda *inputs: direction(turning(*inputs)[0]), *self._inputs, unit=self._unit, degree=(0, 0))
         return k2, plain(np.where(self.gamma == 0, -1.0, k3))
 
     def angular_momentum(self, t: Any) -> FloatArray:
@@ -81,7 +73,7 @@ class BallMotion(Motion[Ball]):
         return self._spread(lambda one, t, out: one.turned(one.vector("Omega"), t, out), t, (3,))
 
     def _groups(self) -> list[Group]:
-        return [(ball, slice(None), self._inputs)]
+        return [(turning, slice(None), self._inputs)]
 
     def _vectors(self) -> dict[str, Any]:
         inertia, _, m2, m3 = self._inputs

@@ -1,29 +1,25 @@
-"""One charged point particle in constant E and B, (89) to (99), for any fields and any sign of mu.
+"""Charged point particles by the formulas of `atlas.formulas.particle`: one, or as many as the inputs have rows.
 
-The paper's solution divides by B and holds for mu > 0. Here, with w = -mu B/c, n its direction, x = |w| t and
-a = mu E, every vector split along B and across it, (89) reads y'' = a + [w, y'] and integrates to
-
-    y'(t) = v_par + cos x v_perp + sin x [n, v_perp] + t {a_par + s a_perp + g [n, a_perp]},
-    y(t) = y(0) + t {v_par + s v_perp + g [n, v_perp]} + t^2 {a_par/2 + f a_perp + h [n, a_perp]},
-
-    s = sin x / x,   f = (1 - cos x)/x^2,   g = (1 - cos x)/x,   h = (x - sin x)/x^2,
-
-with v = y'(0). No term is larger than the motion itself, any sign of mu is right, and B -> 0 is the parabola of (90).
+The constants of one are made of exact rationals and balls and rounded once, those of many in two words; where these
+leave the nearest double or a sign in doubt, the particle is made alone. So all bits are the same.
 """
 
-from collections.abc import Callable
-from fractions import Fraction
+from collections.abc import Callable, Sequence
+from copy import copy
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
+from atlas.core.arithmetic.double_double import over
+from atlas.core.arithmetic.frequencies import Frequencies, words_of
 from atlas.core.arithmetic.gyration import Gyration, gyration
 from atlas.core.arithmetic.phase import Phases
-from atlas.core.arithmetic.rational import Vector, cross, dot, exact, minus, plus, root, rounded, scaled, times, unit
-from atlas.core.arithmetic.wide import TURN, Wide
+from atlas.core.arithmetic.words import TURN
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
+from atlas.formulas import particle
+from atlas.formulas.numbers import Number, nearest, rational, workprec
 
 BLOCK = 4096
 """Times evaluated at once, so that what is between stays in the cache."""
@@ -34,37 +30,145 @@ CASES = (
 KINDS = (
     "parabola", "straight line", "point", "circle", "cycloid", "prolate trochoid", "curtate trochoid",
 )  # fmt: skip
+ELSEWHERE = (1.0, 0.0, 0.0, 1.0)
+"""mu and B of the particle that stands in the formulas for one without a magnetic force, which is set right after."""
+
+TOO_LARGE = {
+    "prime": "B' = mu B/(2c)", "drift": "The drift", "velocity_parts": "The velocity", "centre": "The guiding centre",
+    "acceleration_parts": "The acceleration mu E", **dict.fromkeys(("rate", "radius"), "A length or a frequency"),
+}  # fmt: skip
 
 
-class Path:
-    """Path of one particle, or of particles in a row with one time each, from what it is made of.
+class Charge:
+    """Particles: `inputs` are mu, c and the components of E, B, velocity and position, floats or arrays (m,)."""
 
-    `y0` (3,); `velocity_parts`, `acceleration_parts` (3, 3), see `Charge._split`; `rate` |w|; `phases`, of |w| t;
-    `centre` (3, 3). For m particles each has one dimension (m,) more.
-    """
+    def __init__(self, inputs: Sequence[Any]) -> None:
+        self.inputs, self.mu, self.y0 = inputs, inputs[0], np.array(inputs[11:])
+        self.force = (self.mu != 0) & _any(inputs[5:8])
+        self.driven = (self.mu != 0) & _any(inputs[2:5])
+        mu, *B = (np.where(self.force, x, y) for x, y in zip((self.mu, *inputs[5:8]), ELSEWHERE, strict=True))
+        self.safe = [mu, *inputs[1:5], *B, *inputs[8:]]
+        with np.errstate(over="ignore"):
+            _check(self.mu * np.array(inputs[2:5]), "The acceleration mu E")
 
-    def fill_position(self: Any, t: FloatArray, out: FloatArray) -> None:
+    def at(self, index: Any, t: FloatArray, *, centre: bool = False) -> Self:
+        """Return particles by their index, ready for the times t that go with them; AtlasError beyond 2^50.
+
+        Of the point O(t) of (99) alone if `centre`.
+        """
+        some = copy(self)
+        if centre:
+            some.centre = self.centre[..., index]
+            return some
+        some.y0, some.rate = self.y0[:, index], self.rate[index]
+        some.velocity_parts, some.acceleration_parts = (
+            x[..., index] for x in (self.velocity_parts, self.acceleration_parts)
+        )
+        some.phases = Phases.of_words(self._frequencies.at(index, t))
+        return some
+
+    @cached_property
+    def rate(self) -> Any:
+        """Size of the frequency omega."""
+        return np.where(self.force, self._over("rate", 1)[0], 0.0)[()]
+
+    @cached_property
+    def cyclotron_frequency(self) -> Any:
+        """Frequency omega = mu |B|/c of (97), with the sign of mu."""
+        return np.where(self.mu >= 0, self.rate, -self.rate)
+
+    @cached_property
+    def prime(self) -> FloatArray:
+        """B' = mu B/(2c), (32), (..., 3)."""
+        return np.where(self.force, self._over("prime", 3), 0.0).T
+
+    @cached_property
+    def drift(self) -> FloatArray:
+        """Velocity c [E, B]/B^2, (..., 3)."""
+        self.needs_field("drift")
+        return self._over("drift", 3).T
+
+    @cached_property
+    def radius(self) -> Any:
+        """Radius a of (97)."""
+        self.needs_field("radius")
+        return self._over("radius", 1)[0]
+
+    @cached_property
+    def centre(self) -> FloatArray:
+        """Position, velocity and acceleration of the point O(t) of (99) at t = 0, (3, 3) or (3, 3, m)."""
+        self.needs_field("guiding centre")
+        found = self._over("centre", 6)
+        return np.array([*found.reshape(2, 3, *found.shape[1:]), self.acceleration_parts[0]])
+
+    @cached_property
+    def axes(self) -> FloatArray:
+        """Frame of figure Magn, rows e1, e2, e3, (..., 3, 3)."""
+        self.needs_field("frame")
+        if not _any(self._signs("crossed", 3)).all():
+            raise DomainError("The frame of figure Magn needs an electric field across B, but E is along B or zero.")
+        found = self._over("axes", 9).T
+        return found.reshape(*found.shape[:-1], 3, 3)
+
+    @cached_property
+    def case(self) -> Any:
+        """Names of the cases, from which of mu E, mu B, (E, B) and [E, B] vanish."""
+        parallel, oblique = ~_any(self._signs("crossed", 3)), self._signs("along", 1)[0] != 0
+        chosen = [~self.force & self.driven, ~self.force, ~self.driven, parallel, oblique]
+        return np.array(CASES)[np.select(chosen, range(5), 5)]
+
+    @cached_property
+    def kind(self) -> Any:
+        """Names of the paths across B, see `ParticleMotion.kind`."""
+        moving, bent = _any(self.inputs[8:11]), (self.mu != 0) & _any(self._signs("bent", 3))
+        drifting, circling = (_any(self._signs(name, 3)) for name in ("crossed", "circling"))
+        larger, straight = self._signs("looping", 1)[0], ~drifting | ~circling
+        chosen = [
+            ~self.force & bent, ~self.force & (self.driven | moving), ~self.force,
+            straight & circling, straight & drifting, straight, larger == 0, larger > 0,
+        ]  # fmt: skip
+        return np.array(KINDS)[np.select(chosen, [0, 1, 2, 3, 1, 2, 4, 5], 6)]
+
+    def needs_field(self, what: str) -> None:
+        """Raise DomainError if one of the particles feels no magnetic force."""
+        if not np.all(self.force):
+            raise DomainError(f"Without a magnetic force (mu B = 0) the motion has no {what}.")
+
+    @cached_property
+    def velocity_parts(self) -> FloatArray:
+        """Rows v_par, v_perp and [n, v_perp], (3, 3) or (3, 3, m); without a magnetic force, v alone."""
+        return self._parts("velocity_parts", np.array(self.inputs[8:11]))
+
+    @cached_property
+    def acceleration_parts(self) -> FloatArray:
+        """The same of a = mu E."""
+        return self._parts("acceleration_parts", self.mu * np.array(self.inputs[2:5]))
+
+    @cached_property
+    def phases(self) -> Phases:
+        """The phase |w| t of one particle, with |w| in two words; without a magnetic force it is 0."""
+        with workprec():
+            return Phases([self._exact_rate(*self.inputs) / TURN])
+
+    def fill_position(self, t: FloatArray, out: FloatArray) -> None:
         """Write y(t), (101) with (93) and (98), at times (m,) into (m, 3)."""
 
         def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
             v, a = self.velocity_parts[:, i], self.acceleration_parts[:, i]
-            inner = a[0] / 2 + x.f * a[1] + x.h * a[2]
-            return np.asarray(self.y0[i] + t * (v[0] + x.s * v[1] + x.g * v[2] + t * inner))
+            return np.asarray(self.y0[i] + particle.position(v, a, t, x.s, x.f, x.g, x.h))
 
-        self._fill(component, t, out)
-        _check(out, "The position")
+        self._fill(component, t, out, "The position")
 
-    def fill_velocity(self: Any, t: FloatArray, out: FloatArray) -> None:
+    def fill_velocity(self, t: FloatArray, out: FloatArray) -> None:
         """Write y'(t), (90), at times (m,) into (m, 3)."""
 
         def component(i: int, t: FloatArray, x: Gyration) -> FloatArray:
             v, a = self.velocity_parts[:, i], self.acceleration_parts[:, i]
-            return np.asarray(v[0] + x.cos * v[1] + x.sin * v[2] + t * (a[0] + x.s * a[1] + x.g * a[2]))
+            return np.asarray(particle.velocity(v, a, t, x.cos, x.sin, x.s, x.g))
 
-        self._fill(component, t, out)
-        _check(out, "The velocity")
+        self._fill(component, t, out, "The velocity")
 
-    def fill_centre(self: Any, t: FloatArray, out: FloatArray) -> None:
+    def fill_centre(self, t: FloatArray, out: FloatArray) -> None:
         """Write O(t) of (99), carried along B with the particle, at times (m,) into (m, 3)."""
         with np.errstate(over="ignore", invalid="ignore"):
             for i, (start, velocity, acceleration) in enumerate(zip(*self.centre, strict=True)):
@@ -72,7 +176,7 @@ class Path:
         _check(out, "The guiding centre")
 
     def _fill(
-        self: Any, component: Callable[[int, FloatArray, Gyration], FloatArray], t: FloatArray, out: FloatArray
+        self, component: Callable[[int, FloatArray, Gyration], FloatArray], t: FloatArray, out: FloatArray, name: str
     ) -> None:
         """Write the three components, block by block."""
         for start in range(0, t.size, BLOCK):
@@ -83,123 +187,62 @@ class Path:
             with np.errstate(over="ignore", invalid="ignore"):
                 for i in range(3):
                     out[start : start + BLOCK, i] = component(i, piece, functions)
-
-
-class Charge(Path):
-    """A particle of finite mu, c > 0, and fields, position, velocity (3,), all checked and taken as exact.
-
-    All that follows from them but lengths is rational, and is rounded once. See `ParticleMotion` for what is public.
-    """
-
-    def __init__(
-        self, mu: float, E: FloatArray, B: FloatArray, position: FloatArray, velocity: FloatArray, c: float
-    ) -> None:
-        self.mu, self.E, self.B, self.y0 = mu, exact(E), exact(B), position
-        self._a, self._v = times(Fraction(mu), self.E), exact(velocity)
-        self._w = w = times(-Fraction(mu) / Fraction(c), self.B)
-        self._w2 = w2 = dot(w, w)
-        self.rate = root(w2)
-        self.acceleration_parts = self._split(self._a, "The acceleration mu E")
-        self.velocity_parts = self._split(self._v, "The velocity")
-
-    def _split(self, v: Vector, name: str) -> FloatArray:
-        """Return the rows v_par, v_perp and [n, v_perp]; without a magnetic force, v alone."""
-        w, w2 = self._w, self._w2
-        if not w2:
-            return np.array([rounded(v, name), np.zeros(3), np.zeros(3)])
-        along = times(dot(w, v) / w2, w)
-        return np.array([rounded(along, name), rounded(minus(v, along), name), scaled(cross(w, v), w2)])
-
-    @property
-    def case(self) -> str:
-        """Name of the case, from which of mu E, mu B, (E, B) and [E, B] vanish."""
-        if not self._w2:
-            return "electric field alone" if any(self._a) else "no force"
-        if not any(self._a):
-            return "magnetic field alone"
-        if not any(cross(self._a, self._w)):
-            return "parallel fields"
-        return "oblique fields" if dot(self._a, self._w) else "crossed fields"
-
-    @property
-    def kind(self) -> str:
-        """Name of the path across B, see `ParticleMotion.kind`."""
-        v, a = self._v, self._a
-        if not self._w2:
-            return "parabola" if any(cross(a, v)) else "straight line" if any(a) or any(v) else "point"
-        drift, circling = dot(self._drift, self._drift), dot(self._circling, self._circling)
-        if not drift or not circling:
-            return "circle" if circling else "straight line" if drift else "point"
-        return "cycloid" if circling == drift else "prolate trochoid" if circling > drift else "curtate trochoid"
-
-    @property
-    def cyclotron_frequency(self) -> float:
-        """Frequency omega = mu |B|/c of (97), with the sign of mu."""
-        return self.rate if self.mu >= 0 else -self.rate
-
-    @property
-    def prime(self) -> FloatArray:
-        """B' = mu B/(2c) = -w/2, (32)."""
-        return rounded(times(Fraction(-1, 2), self._w), "B' = mu B/(2c)")
-
-    @property
-    def drift(self) -> FloatArray:
-        """Velocity c [E, B]/B^2, shape (3,)."""
-        self.needs_field("drift")
-        return rounded(self._drift, "The drift")
-
-    @property
-    def radius(self) -> float:
-        """Radius a of (97)."""
-        self.needs_field("radius")
-        return root(dot(self._circling, self._circling) / self._w2)
-
-    @property
-    def centre(self) -> FloatArray:
-        """Rows (3, 3): position, velocity and acceleration of the point O(t) of (99), at t = 0."""
-        self.needs_field("guiding centre")
-        start = plus(exact(self.y0), times(1 / self._w2, cross(self._w, self._circling)))
-        along = times(dot(self._w, self._v) / self._w2, self._w)
-        name = "The guiding centre"
-        return np.array([rounded(start, name), rounded(plus(along, self._drift), name), self.acceleration_parts[0]])
-
-    @property
-    def axes(self) -> FloatArray:
-        """Frame of figure Magn, rows e1, e2, e3; shape (3, 3)."""
-        self.needs_field("frame")
-        e1 = cross(self.E, self.B)
-        if not any(e1):
-            raise DomainError("The frame of figure Magn needs an electric field across B, but E is along B or zero.")
-        return np.array([unit(e1), unit(cross(self.B, e1)), unit(self.B)])
-
-    def needs_field(self, what: str) -> None:
-        """Raise DomainError where there is no magnetic force."""
-        if not self.rate:
-            raise DomainError(f"Without a magnetic force (mu B = 0) the motion has no {what}.")
+        _check(out, name)
 
     @cached_property
-    def phases(self) -> Phases:
-        """The phase |w| t, with |w| in two words; without a magnetic force it is 0."""
-        return Phases([self.frequency / TURN])
+    def _frequencies(self) -> Frequencies:
+        words, lack = words_of(lambda *x: (particle.rate(*x),), self.safe, slice(0))
+        words[..., ~self.force], lack[:, ~self.force] = 0.0, 0.0
+        return Frequencies(words, lack, lambda i: [self._exact_rate(*(x[i] for x in self.inputs))])
 
-    @property
-    def frequency(self) -> Wide:
-        """The frequency |w|."""
-        return (Wide(self._w2.numerator) / Wide(self._w2.denominator)).sqrt()
+    @staticmethod
+    def _exact_rate(*inputs: float) -> Number:
+        with workprec():
+            return particle.rate(*(rational(float(x)) for x in inputs))
 
-    @property
-    def _drift(self) -> Vector:
-        """The drift [w, a]/w^2 = c [E, B]/B^2, exact."""
-        return times(1 / self._w2, cross(self._w, self._a))
+    def _parts(self, name: str, undivided: FloatArray) -> FloatArray:
+        parts = self._over(name, 9)
+        found = parts.reshape(3, 3, *parts.shape[1:])
+        without = np.zeros_like(found)
+        without[0] = undivided
+        return _check(np.where(self.force, found, without), TOO_LARGE[name])
 
-    @property
-    def _circling(self) -> Vector:
-        """Velocity across B less the drift, at t = 0, exact."""
-        across = minus(self._v, times(dot(self._w, self._v) / self._w2, self._w))
-        return minus(across, self._drift)
+    def _over(self, name: str, count: int) -> FloatArray:
+        """Return results of a formula, (count,) or (count, m), each rounded once; DomainError beyond all floats."""
+        return _check(self._results(name, count, nearest), TOO_LARGE.get(name, name))
+
+    def _signs(self, name: str, count: int) -> FloatArray:
+        """Return numbers with the signs of the results of a rational formula, (count,) or (count, m)."""
+        return self._results(name, count, lambda x: float((x > 0) - (x < 0)))
+
+    def _results(self, name: str, count: int, rounded: Callable[[Number], float]) -> FloatArray:
+        formula = getattr(particle, name)
+
+        def alone(*row: float) -> list[float]:
+            with workprec():
+                return [rounded(x) for x in _sequence(formula(*map(rational, row)))]
+
+        if not np.ndim(self.mu):
+            with workprec():
+                return np.array([rounded(x) for x in _sequence(formula(*self._row))])
+        return np.array(over(lambda *x: _sequence(formula(*x)), *self.safe, degree=(0,) * count, alone=alone))
+
+    @cached_property
+    def _row(self) -> list[Number]:
+        """What one particle is made of, as exact numbers."""
+        return [rational(float(x)) for x in self.safe]
 
 
-def _check(out: FloatArray, name: str) -> None:
-    """Raise DomainError where a float is too small for what was computed."""
+def _any(components: Any) -> Any:
+    return np.logical_or.reduce([np.asarray(x) != 0 for x in components])
+
+
+def _sequence(results: Any) -> tuple[Any, ...]:
+    return tuple(results) if isinstance(results, tuple | list) else (results,)
+
+
+def _check(out: FloatArray, name: str) -> FloatArray:
+    """Return it, or raise DomainError where a float is too small for what was computed."""
     if not np.isfinite(out).all():
         raise DomainError(f"{name} is too large for a float: choose larger units.")
+    return out

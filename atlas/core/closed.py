@@ -7,15 +7,14 @@ from typing import Any
 from flint import arb, fmpq
 
 from atlas.core.arithmetic.rotation import DoubleRotation
-from atlas.core.arithmetic.wide import TURN, ZERO, Wide
+from atlas.core.arithmetic.words import TURN, ZERO, middle
 from atlas.core.body import moments
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import number
 from atlas.core.motion import components
-from atlas.core.nutation.functions import wide
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
-from atlas.exact.inputs import root
+from atlas.formulas.numbers import nearest, root, workprec
 
 BITS = 300
 """Relative accuracy of the constants: beyond what is kept of them."""
@@ -27,13 +26,16 @@ class Closed(DoubleRotation):
     case = "precession"
 
     def __init__(self, I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> None:
-        k, w2, w3, first, second = (wide(x) for x in enclosed(lambda: _constants(I2, I3, B2, B3, r), BITS))
-        self.omega2, self.omega3 = float(w2), float(w3)
-        third = float(wide(enclosed(lambda: arb(I3 / I2), BITS)) * w3)
-        field = tuple(int(x.p) / int(x.q) for x in (B2, B3))
-        self.vectors = {"Omega": (0.0, self.omega2, self.omega3), "K": (0.0, *field), "m": (0.0, self.omega2, third)}
-        self.period = float(TURN * Wide(int(r.q)) / abs(k))
-        super().__init__((ZERO, first, second), k, k * Wide(int(r.p)) / Wide(int(r.q)))
+        k, w2, w3, first, second = map(middle, enclosed(lambda: _constants(I2, I3, B2, B3, r), BITS))
+        self.omega2, self.omega3 = nearest(w2), nearest(w3)
+        with workprec():
+            third, self.period, phi = nearest(I3 * w3 / I2), nearest(TURN * int(r.q) / abs(k)), k * r
+        self.vectors = {
+            "Omega": (0.0, self.omega2, self.omega3),
+            "K": (0.0, nearest(B2), nearest(B3)),
+            "m": (0.0, self.omega2, third),
+        }
+        super().__init__((ZERO, first, second), k, phi)
 
 
 def _constants(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> list[arb]:

@@ -10,24 +10,15 @@ from numpy.typing import NDArray
 from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.turnings import Group
-from atlas.core.arithmetic.wide import ZERO, Number, direction, exact, length
+from atlas.core.arithmetic.words import ZERO, exact
 from atlas.core.body import moments
 from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.invariants import NAMES, invariants
 from atlas.core.motion import Motion, components
 from atlas.errors import AtlasError, DomainError
-
-CASES = (
-    "free body",
-    "spin along the field",
-    "transverse field, free spin",
-    "ball, free spin",
-    "at rest",
-    "precession",
-)
-FREE = 4
-"""In the first so many cases omega3 is free and has to be given."""
+from atlas.formulas.elementary import CASES, FREE, constants, free, quotient, scalars, turning
+from atlas.formulas.numbers import direction, nearest, workprec
 
 
 def case_of(I2: float, I3: float, B2: float, B3: float, omega2: float) -> str:
@@ -52,58 +43,6 @@ def case_of(I2: float, I3: float, B2: float, B3: float, omega2: float) -> str:
     return "precession" if omega2 else "at rest"
 
 
-def ordinate(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return omega3 = B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2)), (71), for B2 != 0 and omega2 != -B2."""
-    return _common(I3, B2, B3, omega2) * (I2 * omega2 + (I2 + I2 - I3) * B2)
-
-
-def proper(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return phi = B3 w2 (1-I) (w2 + 2 B2) / (I B2 (w2 + B2)), (72), for B2 != 0 and omega2 != -B2."""
-    return _common(I3, B2, B3 * (I2 - I3), omega2) * (omega2 + (B2 + B2))
-
-
-def _common(I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return the factor that (71) and (72) share; what is often one number for many omega2 stands by itself."""
-    return omega2 / (omega2 + B2) * (B3 / (I3 * B2))
-
-
-def precession(B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return k = omega2/B2hat, (79), for B2 != 0."""
-    return omega2 * (length(B2, B3) / B2)
-
-
-def constants(
-    case: str, I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number, omega3: Number
-) -> tuple[Number, tuple[Number, Number], Number, Number]:
-    """Return omega3, which in the cases FREE is as given, a vector (x, y) along the axis, k and phi."""
-    if case == "free body":
-        along = omega2, I3 * omega3 / I2
-        return omega3, along, length(*along), (I2 - I3) * omega3 / I2
-    if case == "spin along the field":
-        return omega3, (B2, B3), omega2, omega3
-    k = precession(B2, B3, omega2)
-    if case in CASES[:FREE]:
-        return omega3, (B2, B3), k, omega3 + B3
-    curve = I2, I3, B2, B3, omega2
-    return ordinate(*curve), (B2, B3), k, proper(*curve)
-
-
-def scalars(case: str, *inputs: Number) -> tuple[Number, ...]:
-    """Return omega3, k, phi and I omega3."""
-    omega3, _, k, phi = constants(case, *inputs)
-    return omega3, k, phi, inputs[1] * omega3 / inputs[0]
-
-
-def turning(case: str, *inputs: Number) -> tuple[tuple[Number, Number], Number, Number]:
-    """Return a vector along the axis, k and phi."""
-    return constants(case, *inputs)[1:]
-
-
-def quotient(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return omega3 = I2 omega2 B3/(I3 B2) of the free body that precesses with the charged one, above (87)."""
-    return I2 * omega2 * B3 / (I3 * B2)
-
-
 class Elementary(DoubleRotation):
     """One elementary motion: its case, omega3, and the exact axis and frequencies."""
 
@@ -112,13 +51,14 @@ class Elementary(DoubleRotation):
         if self.case in CASES[:FREE] and given is None:
             raise DomainError(f"In the case '{self.case}' omega3 is free: give it.")
         inputs = exact(I2, I3, B2, B3, omega2, 0.0 if given is None else given)
-        w3, along, k, phi = constants(self.case, *inputs)
-        self.omega3 = float(w3)
+        with workprec():
+            w3, along, k, phi = constants(self.case, *inputs)
+            axis, third = (ZERO, *direction(along)), nearest(inputs[1] * w3 / inputs[0])
+        self.omega3 = nearest(w3)
         if self.case not in CASES[:FREE] and given is not None and given != self.omega3:
             raise DomainError(f"omega3 follows from omega2 by (71) and is {self.omega3}, not {given}: leave it out.")
-        third = float(inputs[1] * w3 / inputs[0])
         self.vectors = {"Omega": (0.0, omega2, self.omega3), "K": (0.0, B2, B3), "m": (0.0, omega2, third)}
-        super().__init__((ZERO, *direction(along)), k, phi)
+        super().__init__(axis, k, phi)
 
 
 class ElementaryMotion(Motion[Elementary]):
@@ -196,7 +136,7 @@ class ElementaryMotion(Motion[Elementary]):
         """Values of omega3, k, phi, and of I omega3, the third component of the momentum."""
         if self._turning:
             k, phi = self._turning.frequencies
-            return self._turning.omega3, float(k), float(phi), self._turning.vector("m")[2]
+            return self._turning.omega3, nearest(k), nearest(phi), self._turning.vector("m")[2]
         found = np.empty((4, prod(self.shape)))
         for case, index, inputs in self._cases():
             for row, value in zip(
@@ -287,20 +227,15 @@ class ElementaryMotion(Motion[Elementary]):
         return FreeMotion(self.ratio, (0.0, self.omega2, omega3))
 
 
-def free(I2: Number, I3: Number, *omega: Number) -> tuple[tuple[Number, ...], Number, Number]:
-    """Return m/I2, k and phi of a free body."""
-    w1, w2, w3 = omega
-    momentum = w1, w2, I3 * w3 / I2
-    return momentum, length(*momentum), (I2 - I3) * w3 / I2
-
-
 class Free(DoubleRotation):
     """One free body."""
 
     def __init__(self, I2: float, I3: float, *omega: float) -> None:
         self.vectors = {"Omega": omega}
-        momentum, k, phi = free(*exact(I2, I3, *omega))
-        super().__init__(direction(momentum), k, phi)
+        with workprec():
+            momentum, k, phi = free(*exact(I2, I3, *omega))
+            axis = direction(momentum)
+        super().__init__(axis, k, phi)
 
 
 class FreeMotion(Motion[Free]):

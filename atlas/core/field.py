@@ -7,9 +7,10 @@ from typing import Any, Self
 import numpy as np
 
 from atlas.core import units
-from atlas.core.arithmetic.rational import cross, dot, exact, minus, root, times, unit
-from atlas.core.inputs import FloatArray, number, positive, real, vector, vectors
+from atlas.core.arithmetic.words import exact
+from atlas.core.inputs import FloatArray, finite, number, positive, real, vector, vectors
 from atlas.errors import AtlasError, DomainError
+from atlas.formulas.numbers import cross, dot, nearest, root, unit, workprec
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,27 +82,30 @@ class LaboratoryFrame:
     """(3, 3); the rows are e1, e2, e3 in the user's frame, each component rounded once."""
 
     def __post_init__(self) -> None:
-        """Find the frame in exact fractions, where nearly parallel vectors lose no digits."""
+        """Find the frame in rational numbers, where nearly parallel vectors lose no digits."""
         axis, B = vector(self.axis, "The axis"), vector(self.B, "B")
-        n, b = exact(axis), exact(B)
+        n, b = exact(*axis), exact(*B)
         n2, b2, along, across = dot(n, n), dot(b, b), dot(n, b), cross(b, n)
-        if not n2:
+        if n2 == 0:
             raise DomainError("The axis of the body must have a direction, but is the zero vector.")
-        oblique = bool(dot(across, across))
+        oblique = dot(across, across) != 0
         if oblique:
-            alignment = "oblique" if along else "perpendicular"
-            e2 = minus(times(n2, b), times(along, n))
+            alignment = "oblique" if along != 0 else "perpendicular"
+            e2 = [n2 * y - along * x for x, y in zip(n, b, strict=True)]
         else:
-            alignment = "no field" if not b2 else "parallel" if along > 0 else "antiparallel"
-            e1 = exact(np.eye(3)[np.argmin(np.abs(axis))])
-            across, e2 = minus(times(n2, e1), times(dot(n, e1), n)), cross(n, e1)
+            alignment = "no field" if b2 == 0 else "parallel" if along > 0 else "antiparallel"
+            e1 = exact(*np.eye(3)[np.argmin(np.abs(axis))])
+            across = tuple(n2 * y - dot(n, e1) * x for x, y in zip(n, e1, strict=True))
+            e2 = list(cross(n, e1))
+        with workprec():
+            third = nearest(root(along * along / n2))
+            field = (nearest(root(dot(across, across) / n2)) if oblique else 0.0, -third if along < 0 else third)
+            matrix = np.array([[nearest(x) for x in unit(row)] for row in (across, e2, n)])
         object.__setattr__(self, "axis", axis)
         object.__setattr__(self, "B", B)
         object.__setattr__(self, "alignment", alignment)
-        object.__setattr__(
-            self, "field", (root(dot(across, across) / n2) if oblique else 0.0, root(along * along / n2, along))
-        )
-        object.__setattr__(self, "matrix", np.array([unit(across), unit(e2), unit(n)]))
+        object.__setattr__(self, "field", finite(field, "A length or a frequency"))
+        object.__setattr__(self, "matrix", matrix)
 
     def to_laboratory(self, v: Any) -> FloatArray:
         """Components (..., 3) in the laboratory of vectors given in the user's frame.

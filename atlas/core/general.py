@@ -5,7 +5,7 @@ from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
-from flint import ctx, fmpq
+from flint import fmpq
 
 from atlas.core.body import SymmetricBody, moments
 from atlas.core.inputs import FloatArray, finite, plain, real, vector
@@ -21,6 +21,7 @@ from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
+from atlas.formulas.numbers import workprec
 
 ORTHOGONAL = 1e-9
 """An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
@@ -32,7 +33,7 @@ def standing(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Singl
 
 
 def _balls(I2: float, I3: float, B2: float, B3: float, *omega: float) -> Balls:
-    with ctx.workprec(FIRST):
+    with workprec(FIRST):
         return Balls(ratio_of(SymmetricBody(I2, I3)), (B2, B3), omega)
 
 

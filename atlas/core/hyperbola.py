@@ -1,7 +1,6 @@
 """The hyperbola of elementary motions, (67) to (72), sampled by hyperbolic parameter, and its stability."""
 
 from collections.abc import Callable
-from fractions import Fraction
 from functools import cached_property
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
@@ -9,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from atlas.core.arithmetic.double_double import over
-from atlas.core.arithmetic.wide import ONE, Number, Wide, exact, length
+from atlas.core.arithmetic.words import exact
 from atlas.core.body import moments
 from atlas.core.closed import ClosedMotion
-from atlas.core.elementary import ordinate, precession, proper
 from atlas.core.inputs import FloatArray, plain, positive, real, whole
 from atlas.core.motion import components
 from atlas.errors import AtlasError, DomainError
+from atlas.formulas.hyperbola import frequencies, least_stability, ordinate, stability
+from atlas.formulas.numbers import Number, length, nearest, root, workprec
 
 if TYPE_CHECKING:
     from atlas.core.general import GeneralMotion
@@ -47,7 +47,7 @@ class Hyperbola:
         self._ratio = ratio
 
     @cached_property
-    def _exact(self) -> tuple[Wide, ...]:
+    def _exact(self) -> tuple[Number, ...]:
         """Exact I2, I3, B2, B3 of one curve."""
         if np.ndim(self.I3) or np.ndim(self.B2) or np.ndim(self.B3):
             raise AtlasError("This is asked of one curve: give the ratio and the field as numbers, not as arrays.")
@@ -67,9 +67,10 @@ class Hyperbola:
         I2, I3, B2, B3 = self._exact
         if not (B2 and B3):
             raise DomainError("The curve (67) has asymptotes only if neither B2 nor B3 is zero.")
-        x, y = I3 * B2, I2 * B3
-        h = length(x, y)
-        return np.array([0.0, 1.0]), np.array([float(x / h), float(y / h)])
+        with workprec():
+            x, y = I3 * B2, I2 * B3
+            h = length(x, y)
+            return np.array([0.0, 1.0]), np.array([nearest(x / h), nearest(y / h)])
 
     @property
     def special(self) -> dict[str, tuple[float, float]]:
@@ -79,7 +80,7 @@ class Hyperbola:
         return {
             "omega2 = 0": (0.0, 0.0),
             "omega2 = -2 B2": (-2 * self.B2, -2 * self.B3),
-            "omega2 = -(2-I) B2": (float(zero), 0.0),
+            "omega2 = -(2-I) B2": (nearest(zero), 0.0),
         }
 
     def omega3(self, omega2: Any) -> Any:
@@ -94,7 +95,7 @@ class Hyperbola:
 
         AtlasError is raised for what is no number.
         """
-        k, phi = self._over(_frequencies, omega2, degree=(1, 1))
+        k, phi = self._over(frequencies, omega2, degree=(1, 1))
         return k, phi
 
     def closed(self, p: int, q: int) -> ClosedMotion:
@@ -115,7 +116,7 @@ class Hyperbola:
         = tau^2 [X^2 + (1-I) B2^2]^2/X^2 + X^2 - (1-I) B2^2 with X = omega2 + B2; not in the paper. DomainError as for
         `omega3`; inf where it overflows. AtlasError is raised for what is no number.
         """
-        return self._over(_stability, omega2, degree=2, alone=_exact_stability)
+        return self._over(stability, omega2, degree=2)
 
     def growth_rate(self, omega2: Any) -> Any:
         """Rate, in 1/time, at which a small push away from the motion at omega2 grows: sqrt of -`stability`, or 0.
@@ -145,7 +146,7 @@ class Hyperbola:
         """
         if np.any(np.equal(self.B2, 0)):
             raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
-        return over(_least_stability, self.I2, self.I3, self.B2, self.B3, unit=slice(2, 4), degree=2) + 0.0
+        return over(least_stability, self.I2, self.I3, self.B2, self.B3, unit=slice(2, 4), degree=2) + 0.0
 
     @property
     def unstable_band(self) -> tuple[float, float] | None:
@@ -155,15 +156,14 @@ class Hyperbola:
         The ends belong to it unless B3 = 0. Equality in tau is met by no two floats but zeros.
         """
         I2, I3, B2, B3 = self._exact
-        disc = B2 * B2 - (B3 * B3).scaled(3)
-        if self.I3 >= self.I2 or disc.m <= 0:
+        disc = B2 * B2 - 8 * B3 * B3
+        if self.I3 >= self.I2 or disc <= 0:
             return None
-        tau2 = B3 * B3 / (B2 * B2)
-        root = (disc / (B2 * B2)).sqrt()
-        # y- y+ = (1-I)^2 tau^2/(1 + tau^2): y- from y+ does not cancel
-        sum_ = ONE - tau2 - tau2 + root
-        one_less = (I2 - I3) / I2
-        return float(one_less * (tau2 + tau2) / sum_), float(one_less * sum_ / (ONE + tau2).scaled(1))
+        tau2, one_less = B3 * B3 / (B2 * B2), (I2 - I3) / I2
+        with workprec():
+            # y- y+ = (1-I)^2 tau^2/(1 + tau^2): y- from y+ does not cancel
+            sum_ = 1 - 2 * tau2 + root(disc / (B2 * B2))
+            return nearest(2 * one_less * tau2 / sum_), nearest(one_less * sum_ / (2 + 2 * tau2))
 
     def sample(self, points: Any = 200, *, reach: float = 4.0) -> Branch:
         """Points (omega2, omega3) of both branches, one after the other; see `branches`.
@@ -184,7 +184,8 @@ class Hyperbola:
         points = points if isinstance(points, int) else plain(real(points, "The points"))
         if np.ndim(points) == 0 and points > MOST:
             raise AtlasError(f"The number of points must be at most {MOST}, not {points:g}.")
-        b = float(length(*self._exact[2:]))
+        with workprec():
+            b = nearest(length(*self._exact[2:]))
         extent = positive(reach, "reach") * b
         if not isfinite(extent):
             raise DomainError(f"The field must be smaller: {reach} times |B'| = {b} is beyond the largest float.")
@@ -210,7 +211,7 @@ class Hyperbola:
             s = real(points, "The parameter")
             return s, s
         I2, I3, b2, b3 = self._exact
-        B2, tangent = abs(self.B2), float(abs(I2 * b3 / (I3 * b2)))
+        B2, tangent = abs(self.B2), nearest(abs(I2 * b3 / (I3 * b2)))
         scale = self._scale()
         if not 0 < tangent * B2 / extent < inf or not 0 < extent / scale < inf:
             raise DomainError(f"B2 = {self.B2} and B3 = {self.B3} are too far apart: B3/(I B2) must be a float.")
@@ -232,7 +233,8 @@ class Hyperbola:
     def _scale(self) -> float:
         """Return |X| at s = 0: the vertical semi-axis of the curve, or |B2| for I = 1."""
         I2, I3, B2, _ = self._exact
-        return float(((abs(I2 - I3) / I2) * B2 * B2).sqrt()) or abs(self.B2)
+        with workprec():
+            return nearest(root(abs(I2 - I3) / I2 * B2 * B2)) or abs(self.B2)
 
     def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
         """Return what a formula of I2, I3, B2, B3 and omega2 gives, where (71) holds."""
@@ -244,36 +246,6 @@ class Hyperbola:
             found = np.broadcast_to(omega2, pole.shape)[pole].flat[0]
             raise DomainError(f"omega2 = -B2 = {found} is the pole of omega3(omega2), (71).")
         return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, 5), **more)
-
-
-def _frequencies(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> tuple[Number, Number]:
-    """Return k and phi."""
-    return precession(B2, B3, omega2), proper(I2, I3, B2, B3, omega2)
-
-
-def _stability(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> Number:
-    """Return the square of the nutation's frequency."""
-    X = omega2 + B2
-    X2, less = X * X, (I2 - I3) * B2 * B2 / I2
-    slope = B3 * (X2 + less) / (B2 * X)
-    return slope * slope + (X2 - less)
-
-
-def _least_stability(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
-    """Return its least value: its factors, of which only those of exact terms cancel."""
-    h, b, across, less = abs(B3), length(B2, B3), B2 * B2, (I2 - I3) / I2
-    once, thrice = b + h, b + h + h + h
-    long = once * ((B3 * B3).scaled(3) - across) / thrice
-    return less * less.select(long, -(across * thrice / once))
-
-
-def _exact_stability(*inputs: float) -> float:
-    """Return the same at one point, exact but for one rounding: its terms may cancel to any depth."""
-    value = _stability(*(Fraction(x) for x in inputs))
-    try:
-        return float(value)
-    except OverflowError:
-        return inf if value > 0 else -inf
 
 
 def _halves(points: Any) -> tuple[int, int]:

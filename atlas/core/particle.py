@@ -6,8 +6,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from atlas.core.charge import BLOCK, Charge, Path
-from atlas.core.charges import Charges
+from atlas.core.charge import BLOCK, Charge
 from atlas.core.field import Field
 from atlas.core.inputs import FloatArray, common_shape, plain, real, vectors
 from atlas.errors import DomainError
@@ -33,11 +32,7 @@ class ParticleMotion:
         )
         self.shape = common_shape(mu_.shape, c_.shape, *(x.shape[:-1] for x in (E_, B_, y, v)))
         inputs = [mu_, c_, *(x[..., i] for x in (E_, B_, v, y) for i in range(3))]
-        self._all: Charge | Charges = (
-            Charges([np.broadcast_to(x, self.shape).reshape(-1) for x in inputs])
-            if self.shape
-            else Charge(float(mu_), E_, B_, y, v, float(c_))
-        )
+        self._all = Charge([np.broadcast_to(x, self.shape).reshape(-1) if self.shape else float(x) for x in inputs])
         self.mu, self.E, self.B, self.y0, self.v0, self.c = plain(mu_), E_, B_, y, v, plain(c_)
 
     @classmethod
@@ -117,34 +112,36 @@ class ParticleMotion:
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spread(Path.fill_position, t)
+        return self._spread(Charge.fill_position, t)
 
     def velocity(self, t: Any) -> FloatArray:
         """Velocity y'(t), shape (..., 3) for times of any shape, (90).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spread(Path.fill_velocity, t)
+        return self._spread(Charge.fill_velocity, t)
 
     def guiding_centre(self, t: Any) -> FloatArray:
         """Point O(t) of (99) about which the particle circles, carried along B with it; shape (..., 3).
 
         Raises AtlasError for a time that is not finite.
         """
-        return self._spread(Path.fill_centre, t)
+        return self._spread(Charge.fill_centre, t)
 
     def _each(self, name: str) -> Any:
-        """Return an attribute of each particle, shape (..., its own); the value itself if there is but one."""
+        """Return an attribute of each particle, shape (..., its own); a number or a name if there is but one."""
         values = getattr(self._all, name)
-        return values if isinstance(self._all, Charge) else values.reshape(self.shape + values.shape[1:])
+        if self.shape:
+            return values.reshape(self.shape + values.shape[1:])
+        return values if np.ndim(values) else np.asarray(values).item()
 
-    def _spread(self, fill: Callable[[Path, FloatArray, FloatArray], None], t: Any) -> FloatArray:
+    def _spread(self, fill: Callable[[Charge, FloatArray, FloatArray], None], t: Any) -> FloatArray:
         """Return vectors (..., 3) that `fill` writes for times (m,) into an array (m, 3)."""
         times = real(t, "t")
         full = common_shape(self.shape, times.shape)
         times, out = np.broadcast_to(times, full), np.empty((*full, 3))
         rows = out.reshape(-1, 3)
-        if isinstance(self._all, Charge):
+        if not self.shape:
             fill(self._all, times.reshape(-1), rows)
             return out
         own = (1,) * (len(full) - len(self.shape)) + self.shape
@@ -152,6 +149,6 @@ class ParticleMotion:
         for start in range(0, times.size, BLOCK):
             part = slice(start, start + BLOCK)
             moment = np.asarray(times.flat[part])
-            some = self._all.at(indices.flat[part], moment, centre=fill is Path.fill_centre)
+            some = self._all.at(indices.flat[part], moment, centre=fill is Charge.fill_centre)
             fill(some, moment, rows[part])
         return out

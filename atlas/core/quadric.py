@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.double_double import BLOCK, over
-from atlas.core.arithmetic.wide import Number
 from atlas.core.body import moments
 from atlas.core.inputs import FloatArray, common_shape, plain, vectors
 from atlas.core.motion import components
 from atlas.errors import DomainError
+from atlas.formulas import quadric
 
 KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "one-sheet hyperboloid")
 
@@ -53,7 +53,7 @@ class Quadric:
         """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], (53); only its tangent is rounded before."""
         I2, I3, B2, B3 = self._directed()
         vertical = B2 == 0
-        slope = over(tangent, I2, I3, np.where(vertical, 1.0, B2), B3, unit=slice(2, 4), degree=0)
+        slope = over(quadric.tangent, I2, I3, np.where(vertical, 1.0, B2), B3, unit=slice(2, 4), degree=0)
         y = np.copysign(np.where(vertical, 1.0, abs(slope)), B3)
         return plain(np.arctan2(y, np.where(vertical, 0.0, np.copysign(1.0, B2))))
 
@@ -63,7 +63,7 @@ class Quadric:
         I2, I3, B2, B3 = self._directed()
         if np.any((B2 == 0) & (B3 > 0)):
             raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
-        return over(a2, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
+        return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
 
     @cached_property
     def a3(self) -> Any:
@@ -71,14 +71,14 @@ class Quadric:
         I2, I3, B2, B3 = self._directed()
         if np.any((B2 == 0) & (B3 < 0)):
             raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
-        return over(a3, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
+        return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
 
     @cached_property
     def semi_axes(self) -> Any:
         """Semi-axes C1, C2, C3 of (55), (57): the roots of |1-I| B2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
         along = np.asarray(B2) == 0
-        found = over(semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, 4), degree=(1, 1, 1))
+        found = over(quadric.semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, 4), degree=(1, 1, 1))
         C1, C2, C3 = (plain(np.where(along, 0.0, C)) for C in found)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
@@ -92,7 +92,7 @@ class Quadric:
     def axes(self) -> FloatArray:
         """Directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3)."""
         I2, I3, B2, B3 = self._directed()
-        cos, sin = over(half_angle, I2, I3, B2, B3, unit=slice(2, 4), degree=(0, 0))
+        cos, sin = over(quadric.half_angle, I2, I3, B2, B3, unit=slice(2, 4), degree=(0, 0))
         cos, sin = np.where((B2 < 0) & (B3 >= 0), -cos, cos), np.where((B2 < 0) & (B3 < 0), -sin, sin)
         axes = np.zeros((*cos.shape, 3, 3))
         rows, flat = axes.reshape(-1, 9), np.stack([cos, sin]).reshape(2, -1)
@@ -121,7 +121,8 @@ class Quadric:
         B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3. Raises AtlasError for what
         are no vectors.
         """
-        return over(residual, *self._inputs, *np.moveaxis(vectors(omega, "omega"), -1, 0), unit=slice(2, 7), degree=3)
+        points = np.moveaxis(vectors(omega, "omega"), -1, 0)
+        return over(quadric.residual, *self._inputs, *points, unit=slice(2, 7), degree=3)
 
     def _directed(self) -> tuple[Any, ...]:
         """Return the inputs as arrays; DomainError where I^-1 B' has no direction."""
@@ -129,50 +130,3 @@ class Quadric:
         if np.any((B2 == 0) & (B3 == 0)):
             raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
         return I2, I3, B2, B3
-
-
-def tangent(I2: Number, I3: Number, B2: Number, B3: Number) -> Number:
-    """Return tan(beta), for B2 != 0."""
-    return (I2 * B3) / (I3 * B2)
-
-
-def a2(*inputs: Number) -> Number:
-    """Return a2 of (54): with (x, y) along I^-1 B' and h its length, 2 y/(h - y)."""
-    y, _, less, _ = _direction(*inputs)
-    return (y + y) / less
-
-
-def a3(*inputs: Number) -> Number:
-    """Return a3 of (54): 2 y/(h + y)."""
-    y, _, _, more = _direction(*inputs)
-    return (y + y) / more
-
-
-def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number]:
-    """Return C1, C2, C3 of (55), (57), for B2 != 0."""
-    square = abs(I2 - I3) / I2 * B2 * B2
-    y, _, less, more = _direction(I2, I3, B2, B3)
-    twice = square * abs(y + y)
-    return square.sqrt(), (twice / less).sqrt(), (twice / more).sqrt()
-
-
-def half_angle(*inputs: Number) -> tuple[Number, Number]:
-    """Return the sizes of cos and sin of beta/2 + pi/4, (53): their squares are (1 -+ sin beta)/2."""
-    _, h, less, more = _direction(*inputs)
-    return (less / (h + h)).sqrt(), (more / (h + h)).sqrt()
-
-
-def residual(I2: Number, I3: Number, B2: Number, B3: Number, w1: Number, w2: Number, w3: Number) -> Number:
-    """Return the left-hand side of (50)."""
-    times_I2 = B3 * (w1 * w1 + w2 * w2) * I2 + ((I2 + I2 - I3) * B3 * w2 - I3 * w3 * (w2 + B2)) * B2
-    return times_I2 / I2
-
-
-def _direction(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number, Number]:
-    """Return y, h, h - y and h + y of a vector (x, y) along I^-1 B' in the plane (e2, e3), h its length."""
-    x, y = I3 * B2, I2 * B3
-    square = x * x
-    h = (square + y * y).sqrt()
-    larger = h + abs(y)
-    smaller = square / larger  # the difference would cancel
-    return y, h, y.select(smaller, larger), y.select(larger, smaller)

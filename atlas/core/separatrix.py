@@ -20,12 +20,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.core.arithmetic.wide import ONE, Wide, exact, length
+from atlas.core.arithmetic.words import exact
 from atlas.core.body import moments
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray, number, real
 from atlas.core.motion import components
 from atlas.errors import DomainError
+from atlas.formulas.numbers import Number, nearest, root, workprec
 
 ComplexArray = NDArray[np.complex128]
 
@@ -133,45 +134,47 @@ def companions(ratio: Any, field: Any, omega2: Any) -> tuple[Companion, ...]:
         raise DomainError(f"omega2 = -B2 = {w2} is the pole of omega3(omega2), (71).")
     i2, i3, b2, b3, omega = exact(I2, I3, B2, B3, w2)
     less = (i2 - i3) / i2
-    b = length(b2, b3)
-    r, w = b3 / b, (omega + b2) * b / b2
-    if less.m <= 0:
+    if less <= 0:
         return ()
-    z = w * w / (less * b * b)
-    inside = (ONE - z) * (z - r * r)
-    if inside.m < 0:
+    # (1 - z)(z - r^2) of two rational numbers, so that its sign is certain
+    square, across = b2 * b2 + b3 * b3, (omega + b2) / b2
+    z, r2 = across * across / less, b3 * b3 / square
+    inside = (1 - z) * (z - r2)
+    if inside < 0 or z == 0:
         return ()
-    reach = (inside / z).sqrt()
-    roots = [-r + reach, -r - reach] if reach else [-r]
-    c = 0.0 - Hyperbola(ratio, field).stability(w2)
-    if not c:
-        roots = [max(roots, key=lambda e: float(abs(e - r)))]
-    return tuple(_companion(i3 / i2, b, r, w, e, c) for e in roots)
+    with workprec():
+        b = root(square)
+        r, reach = b3 / b, root(inside / z)
+        roots = [-r + reach, -r - reach] if inside != 0 else [-r]
+        c = 0.0 - Hyperbola(ratio, field).stability(w2)
+        if not c:
+            roots = [max(roots, key=lambda e: nearest(abs(e - r)))]
+        return tuple(_companion(i3 / i2, b, r, across * b, e, c) for e in roots)
 
 
-def _companion(I: Wide, b: Wide, r: Wide, w: Wide, e: Wide, c: float) -> Companion:
+def _companion(I: Number, b: Number, r: Number, w: Number, e: Number, c: float) -> Companion:
     """Return the motion that starts at nu = e = cos(2 delta), beside the steady precession w at nu = r."""
-    A, half = (I - ONE) * b * b, ONE.scaled(-1)
+    A = (I - 1) * b * b
     ahead = A * r / (w * w)
-    up, down = ((ONE + e) * half).sqrt(), ((ONE - e) * half).sqrt()
-    g = (-A / (w * w) - ONE).sqrt()  # tan(gamma), of the sign of (A r/w^2 - e)/sin(2 delta)
-    if (ahead - e).m < 0:
+    up, down = root((1 + e) / 2), root((1 - e) / 2)
+    g = root(-A / (w * w) - 1)  # tan(gamma), of the sign of (A r/w^2 - e)/sin(2 delta)
+    if ahead - e < 0:
         g = -g
     step = w * (e - r)
     weights = [
-        [float(up), -1j * float(step * (up + g * down)), 0.0],
-        [float(down), 1j * float(step * (down - g * up)), 0.0],
+        [nearest(up), -1j * nearest(step * (up + g * down)), 0.0],
+        [nearest(down), 1j * nearest(step * (down - g * up)), 0.0],
     ]
     M3 = r * (w * w + A) / w
     c3 = M3 / I
-    rates = half * (c3 - M3 - b + w * (ONE + ahead)), half * (M3 - c3 - b + w * (ONE - ahead))
+    rates = (c3 - M3 - b + w * (1 + ahead)) / 2, (M3 - c3 - b + w * (1 - ahead)) / 2
     return Companion(
-        b=float(b),
-        c3=float(c3),
-        double=float(r),
-        turning=float(e),
+        b=nearest(b),
+        c3=nearest(c3),
+        double=nearest(r),
+        turning=nearest(e),
         curvature=c,
-        rates=(float(rates[0]), float(rates[1])),
+        rates=(nearest(rates[0]), nearest(rates[1])),
         weights=np.array(weights),
     )
 

@@ -6,7 +6,6 @@ from math import prod
 from typing import Any
 
 import numpy as np
-from flint import ctx
 
 from atlas.core.inputs import FloatArray, finite, plain
 from atlas.core.motion import components
@@ -17,11 +16,12 @@ from atlas.core.nutation.single_top import SingleTop
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.top import TopMotion as Balls
+from atlas.formulas.numbers import workprec
 
 
 def balls(*row: float) -> Balls:
     """Return one motion as balls: I2, I3, k2, k3, n2, n3, the three components of omega, linear, quadratic."""
-    with ctx.workprec(FIRST):
+    with workprec(FIRST):
         return Balls(row[0:2], row[2:4], row[4:6], row[6:9], *row[9:])
 
 

@@ -18,14 +18,13 @@ those with mu_0 = 4 pi 1e-7 N/A^2, which since 2019 is a measured value, right t
 
 import reprlib
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from atlas.core.arithmetic.rational import rounded
-from atlas.core.inputs import FloatArray, number, plain, positive, real
+from atlas.core.inputs import FloatArray, finite, number, plain, positive, real
 from atlas.errors import AtlasError, DomainError
+from atlas.formulas.numbers import nearest, rational
 
 SPEED_OF_LIGHT = 299_792_458.0
 """m/s, exact."""
@@ -104,8 +103,9 @@ def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:
 
 def prime(mu: float, B: FloatArray, c: float) -> FloatArray:
     """Vector B' = mu B/(2c), (32), of numbers already checked: exact, then rounded once."""
-    factor = Fraction(mu) / (2 * Fraction(c))
-    components = np.array(rounded([factor * Fraction(b) for b in B.flat], "B' = mu B/(2c)"))
+    factor = rational(mu) / (2 * rational(c))
+    components = np.array([nearest(factor * rational(b)) for b in B.ravel().tolist()])
+    finite(components, "B' = mu B/(2c)")
     if mu and ((components == 0) != (B.ravel() == 0)).any():
         raise DomainError("B' = mu B/(2c) is too small for a float: choose a larger unit of time.")
     return components.reshape(B.shape)

@@ -6,7 +6,9 @@ from flint import fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.body import float_text
-from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
+from atlas.exact.inputs import Real, rational, rationals, sin_cos
+from atlas.formulas import ball
+from atlas.formulas.numbers import direction
 
 
 class BallMotion:
@@ -22,15 +24,17 @@ class BallMotion:
     @property
     def gamma(self) -> Real:
         """The frequency of the turn about k_hat, (29)."""
-        return self._size / self.inertia
+        found: Real = ball.turning(self.inertia, self.larmor, self.m2, self.m3)[1]
+        return found
 
     @property
     def k_hat(self) -> tuple[Real, Real]:
         """The axis (k2, k3), (29); (0, -1) where gamma = 0 and the paper's form is 0/0."""
-        size = self._size
-        if size == 0:
+        along, gamma, _ = ball.turning(self.inertia, self.larmor, self.m2, self.m3)
+        if gamma == 0:
             return fmpq(0), fmpq(-1)
-        return -self.m2 / size, -(self.m3 + self.larmor * self.inertia) / size
+        k2, k3 = direction(along)
+        return k2, k3
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t), (28); for a momentum along the field (30), in which the two turns are one."""
@@ -76,4 +80,4 @@ class BallMotion:
     @property
     def _size(self) -> Real:
         """The root of m2^2 + (alpha I0 + m3)^2."""
-        return root(self.m2**2 + (self.larmor * self.inertia + self.m3) ** 2)
+        return self.gamma * self.inertia

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias
 
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from atlas.errors import AtlasError
 from atlas.exact.inputs import Real
+from atlas.formulas.numbers import workprec
 
 Layout: TypeAlias = Literal["plain", "scientific", "fixed", "tex"]
 LAYOUTS = ("plain", "scientific", "fixed", "tex")
@@ -105,7 +106,7 @@ def _refined(function: Callable[[], Any], bits: int, enough: Callable[[Any], boo
     """Raise the precision until ``enough`` holds (Ziv's strategy), or until it has become hopeless."""
     precision = bits + 64
     while True:
-        with ctx.workprec(precision):
+        with workprec(precision):
             value = function()
         if precision > 4 * bits + spare or enough(value):
             return value

@@ -7,7 +7,9 @@ from flint import fmpq
 from atlas.errors import DomainError
 from atlas.exact.body import float_text, ratio_of
 from atlas.exact.hyperbola import Hyperbola
-from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
+from atlas.exact.inputs import Real, rational, rationals, sin_cos
+from atlas.formulas import elementary
+from atlas.formulas.numbers import root
 
 
 class ElementaryMotion:
@@ -75,29 +77,27 @@ class ElementaryMotion:
     @property
     def _direction(self) -> tuple[fmpq, fmpq]:
         """Components 2 and 3 of a vector along the axis, (77): B', the angular momentum, or e3 where both are zero."""
-        if self.case != "free body":
-            return self.B2, self.B3
-        if self.omega2 == 0 and self.omega3 == 0:
+        if self.case == "free body" and self.omega2 == 0 and self.omega3 == 0:
             return fmpq(0), fmpq(1)
-        return self.omega2, self.I * self.omega3
+        x, y = self._turning[0]
+        return x, y
 
     @property
     def k(self) -> Real:
         """Frequency of precession: omega2/B2hat, (79); of the free body |m|/I2, (87)."""
-        if self.case == "free body":
-            return root(self.omega2**2 + (self.I * self.omega3) ** 2)
-        if self.B2 == 0:
-            return fmpq(0)
-        return self.omega2 / self.B2 * root(self.B2**2 + self.B3**2)
+        found: Real = self._turning[1]
+        return found
 
     @property
     def phi(self) -> fmpq:
         """Frequency of proper rotation: omega3 - B3 omega2/B2, (72); of the free body (1-I) omega3, (87)."""
-        if self.case == "free body":
-            return (1 - self.I) * self.omega3
-        if self.B2 == 0:
-            return self.omega3
-        return self.omega3 - self.B3 * self.omega2 / self.B2
+        found: fmpq = self._turning[2]
+        return found
+
+    @property
+    def _turning(self) -> tuple[Any, Real, Any]:
+        """A vector along the axis, k and phi."""
+        return elementary.turning(self.case, fmpq(1), self.I, self.B2, self.B3, self.omega2, self.omega3)
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t), (84), as rows."""

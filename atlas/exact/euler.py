@@ -12,6 +12,8 @@ from itertools import combinations, product
 
 from flint import acb, arb, ctx, fmpq, fmpq_poly
 
+from atlas.formulas.numbers import workprec
+
 
 def quartic_roots(polynomial: fmpq_poly) -> list[acb]:
     """Return the four roots of a quartic that has no double root, real ones first; the balls do not overlap.
@@ -22,7 +24,7 @@ def quartic_roots(polynomial: fmpq_poly) -> list[acb]:
     a = (c[4], c[3] / 4, c[2] / 6, c[1] / 4, c[0])
     precision = ctx.prec + 32
     while True:
-        with ctx.workprec(precision):
+        with workprec(precision):
             roots = _roots(*a)
             if all(x.is_finite() for x in roots) and not any(x.overlaps(y) for x, y in combinations(roots, 2)):
                 return roots

@@ -5,7 +5,8 @@ from typing import Any
 from flint import fmpq
 
 from atlas.exact.body import ratio_of
-from atlas.exact.inputs import Real, rational, rationals, root, sin_cos
+from atlas.exact.inputs import Real, rational, rationals, sin_cos
+from atlas.formulas import elementary
 
 
 class FreeMotion:
@@ -18,12 +19,14 @@ class FreeMotion:
     @property
     def k(self) -> Real:
         """Frequency of precession about the angular momentum: |m|/I2."""
-        return root(self._square)
+        found: Real = elementary.free(fmpq(1), self.I, *self.omega)[1]
+        return found
 
     @property
     def phi(self) -> fmpq:
         """Frequency of proper rotation (1 - I) omega3, (87)."""
-        return (1 - self.I) * self.omega[2]
+        found: fmpq = elementary.free(fmpq(1), self.I, *self.omega)[2]
+        return found
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows: the turn about m = (omega1, omega2, I omega3) times that about the third axis."""
@@ -39,8 +42,8 @@ class FreeMotion:
 
     @property
     def _momentum(self) -> tuple[fmpq, fmpq, fmpq]:
-        w1, w2, w3 = self.omega
-        return w1, w2, self.I * w3
+        x, y, z = elementary.free(fmpq(1), self.I, *self.omega)[0]
+        return x, y, z
 
     @property
     def _square(self) -> fmpq:

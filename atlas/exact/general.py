@@ -20,12 +20,13 @@ from atlas.exact.body import ratio_of
 from atlas.exact.cayley_klein import Parameter, Solution, matrix
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.free import FreeMotion
-from atlas.exact.inputs import Real, rational, rationals, root
+from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.quartic import Quartic
 from atlas.exact.spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
 from atlas.exact.theta import Lattice, Sum, constant
+from atlas.formulas.numbers import root
 
 
 class GeneralMotion(Nutating):

@@ -6,7 +6,9 @@ from flint import fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.body import float_text, ratio_of
-from atlas.exact.inputs import Real, rational, rationals, root
+from atlas.exact.inputs import Real, rational, rationals
+from atlas.formulas import hyperbola
+from atlas.formulas.numbers import root
 
 
 class Hyperbola:
@@ -42,20 +44,19 @@ class Hyperbola:
     def omega3(self, omega2: Any) -> fmpq:
         """Return the ordinate omega3 of (71): B3 w2 [w2 + (2-I) B2] / (I B2 (w2 + B2))."""
         w2 = self._off_the_pole(omega2)
-        return self.B3 * w2 * (w2 + (2 - self.I) * self.B2) / (self.I * self.B2 * (w2 + self.B2))
+        found: fmpq = hyperbola.ordinate(*self._constants, w2)
+        return found
 
     def frequencies(self, omega2: Any) -> tuple[Real, fmpq]:
         """Return k = omega2/B2hat of (84) and phi of (72)."""
         w2 = self._off_the_pole(omega2)
-        phi = self.B3 * w2 * (1 - self.I) * (w2 + 2 * self.B2) / (self.I * self.B2 * (w2 + self.B2))
-        return w2 / self.B2 * root(self.B2**2 + self.B3**2), phi
+        k, phi = hyperbola.frequencies(*self._constants, w2)
+        return k, phi
 
     def stability(self, omega2: Any) -> fmpq:
         """Return the nutation frequency squared -p'(omega3), with p the cubic of (47); see `stable`."""
-        x = self._off_the_pole(omega2) / self.B2 + 1
-        tau = self.B3 / self.B2
-        even = (1 + tau**2) * x**4 + (1 - self.I) * (2 * tau**2 - 1) * x**2 + tau**2 * (1 - self.I) ** 2
-        return self.B2**2 * even / x**2
+        found: fmpq = hyperbola.stability(*self._constants, self._off_the_pole(omega2))
+        return found
 
     def stable(self, omega2: Any) -> bool:
         """Say whether the motion is stable against nutation, theorem-band, theorem-band-ends.
@@ -78,6 +79,11 @@ class Hyperbola:
             return None
         spread, factor = root(1 - 8 * tau2), (1 - self.I) / (2 * (1 + tau2))
         return factor * (1 - 2 * tau2 - spread), factor * (1 - 2 * tau2 + spread)
+
+    @property
+    def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
+        """I2 = 1, I3 = I and the field, as formulas take them."""
+        return fmpq(1), self.I, self.B2, self.B3
 
     def _off_the_pole(self, omega2: Any) -> fmpq:
         w2 = rational(omega2, "omega2")

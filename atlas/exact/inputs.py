@@ -1,6 +1,5 @@
 """What is given, as exact rationals: nothing is rounded before the first ball."""
 
-import math
 import operator
 from fractions import Fraction
 from typing import Any, TypeAlias
@@ -40,15 +39,6 @@ def rationals(values: Any, name: str, count: int) -> tuple[fmpq, ...]:
     if len(values) != count:
         raise AtlasError(f"{name} must hold {count} numbers, not {len(values)}.")
     return tuple(rational(value, f"component {i + 1} of {name}") for i, value in enumerate(values))
-
-
-def root(square: fmpq) -> Real:
-    """Return the square root of a rational number, exactly where it is rational."""
-    numerator, denominator = int(square.p), int(square.q)
-    p, q = math.isqrt(numerator), math.isqrt(denominator)
-    if p * p == numerator and q * q == denominator:
-        return fmpq(p, q)
-    return arb(square).sqrt()
 
 
 def sin_cos(angle: Real) -> tuple[Real, Real]:

@@ -6,7 +6,9 @@ from flint import arb, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
-from atlas.exact.inputs import Real, rationals, root
+from atlas.exact.inputs import Real, rationals
+from atlas.formulas import quadric
+from atlas.formulas.numbers import root
 
 
 class Quadric:
@@ -30,15 +32,13 @@ class Quadric:
     @property
     def sin_beta(self) -> Real:
         """The sine of beta, which (54) is written in."""
-        if self.B2 == 0 and self.B3 == 0:
-            raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
+        self._needs_direction()
         return self.B3 / root(self.B3**2 + (self.I * self.B2) ** 2)
 
     @property
     def beta(self) -> Real:
         """The angle from e2 to I^-1 B', (53): tan beta = B3/(I B2)."""
-        if self.B2 == 0 and self.B3 == 0:
-            raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
+        self._needs_direction()
         if self.B3 == 0 and self.B2 > 0:
             return fmpq(0)
         return arb.atan2(arb(self.B3), arb(self.I * self.B2))
@@ -48,22 +48,26 @@ class Quadric:
         """2 sin(beta)/(1 - sin(beta)), (54)."""
         if self.B2 == 0 and self.B3 > 0:
             raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
-        return 2 * self.sin_beta / (1 - self.sin_beta)
+        self._needs_direction()
+        found: Real = quadric.a2(*self._constants)
+        return found
 
     @property
     def a3(self) -> Real:
         """2 sin(beta)/(1 + sin(beta)), (54)."""
         if self.B2 == 0 and self.B3 < 0:
             raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
-        return 2 * self.sin_beta / (1 + self.sin_beta)
+        self._needs_direction()
+        found: Real = quadric.a3(*self._constants)
+        return found
 
     @property
     def semi_axes(self) -> tuple[Real, Real, Real]:
         """C1, C2, C3 of (55) and (57): the roots of |1-I| B2^2 (1, |a2|, |a3|)."""
-        size = abs(1 - self.I) * self.B2**2
-        if size == 0:
+        if self.I == 1 or self.B2 == 0:
             return fmpq(0), fmpq(0), fmpq(0)
-        return root(size), _root(size * self.a2), _root(size * self.a3)
+        C1, C2, C3 = quadric.semi_axes(*self._constants)
+        return C1, C2, C3
 
     @property
     def centre(self) -> tuple[fmpq, fmpq, fmpq]:
@@ -78,27 +82,28 @@ class Quadric:
         return [[one, zero, zero], [zero, c, s], [zero, -s, c]]
 
     def _angle(self) -> tuple[Real, Real]:
-        """Return sine and cosine of beta/2 + pi/4, exactly where sin(beta) is rational: 2 cos^2 = 1 - sin(beta)."""
-        sine = self.sin_beta
-        if isinstance(sine, fmpq):
-            s, c = root((1 + sine) / 2), root((1 - sine) / 2)
-            return (s, -c) if self.B2 < 0 <= self.B3 else (-s, c) if self.B2 < 0 else (s, c)
-        s, c = (arb(self.beta) / 2 + arb.pi() / 4).sin_cos()
-        return s, c
+        """Return sine and cosine of beta/2 + pi/4."""
+        self._needs_direction()
+        c, s = quadric.half_angle(*self._constants)
+        return (s, -c) if self.B2 < 0 <= self.B3 else (-s, c) if self.B2 < 0 else (s, c)
+
+    @property
+    def _constants(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
+        """I2 = 1, I3 = I and the field, as formulas take them."""
+        return fmpq(1), self.I, self.B2, self.B3
+
+    def _needs_direction(self) -> None:
+        """Raise DomainError where I^-1 B' has no direction."""
+        if self.B2 == 0 and self.B3 == 0:
+            raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
 
     def residual(self, omega: Any) -> fmpq:
         """Return the left-hand side of (50) at a point."""
-        w1, w2, w3 = rationals(omega, "omega", 3)
-        I, B2, B3 = self.I, self.B2, self.B3
-        return B3 * (w1**2 + w2**2) - I * B2 * w2 * w3 + (2 - I) * B2 * B3 * w2 - I * B2**2 * w3
+        found: fmpq = quadric.residual(*self._constants, *rationals(omega, "omega", 3))
+        return found
 
     def canonical(self, omega: Any) -> list[Real]:
         """Return the coordinates omega'_1..3 of a point, (53)."""
         w1, w2, w3 = rationals(omega, "omega", 3)
         shifted = (w1, w2 + self.B2, w3 + self.B3)
         return [sum((a * x for a, x in zip(axis, shifted, strict=True)), fmpq(0)) for axis in self.axes]
-
-
-def _root(square: Real) -> Real:
-    """Return the root of the absolute value."""
-    return root(abs(square)) if isinstance(square, fmpq) else abs(square).sqrt()

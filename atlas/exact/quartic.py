@@ -14,7 +14,7 @@ from functools import cached_property
 from flint import acb, arb, ctx, fmpq, fmpq_poly
 
 from atlas.exact.euler import quartic_roots
-from atlas.exact.inputs import root
+from atlas.formulas.numbers import root, workprec
 
 Vector = tuple[fmpq, fmpq, fmpq]
 
@@ -122,7 +122,7 @@ class Quartic:
         """Places of the roots at the ends of the interval, found at rising precision."""
         precision = ctx.prec
         while True:
-            with ctx.workprec(precision):
+            with workprec(precision):
                 u = arb(self.u)
                 real = [root.value.real for root in self.roots() if root.is_real]
                 hits = [i for i, x in enumerate(real) if x.overlaps(u)]

@@ -17,8 +17,9 @@ from dataclasses import dataclass
 
 from flint import acb, arb, fmpq
 
-from atlas.exact.inputs import Real, root
+from atlas.exact.inputs import Real
 from atlas.exact.quartic import Quartic, Vector, sign_of_sum
+from atlas.formulas.numbers import root
 
 POLES = (-1, 1)
 

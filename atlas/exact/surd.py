@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 from flint import acb, acb_poly, arb, ctx, fmpq
 
-from atlas.exact.inputs import root
+from atlas.formulas.numbers import root, workprec
 
 Polynomial: TypeAlias = tuple["Surd", ...]
 """Coefficients, the constant one first; the last one is not zero."""
@@ -73,7 +73,7 @@ class Surd:
             return self.a
         precision = ctx.prec
         while True:  # where a and b sqrt(N) cancel
-            with ctx.workprec(precision):
+            with workprec(precision):
                 found = arb(self.a) + self.b * arb(self.N).sqrt()
             if found.rel_accuracy_bits() >= ctx.prec - 8 or self.is_zero:
                 return found
@@ -125,7 +125,7 @@ def roots(p: Polynomial) -> list[acb]:
         return [acb((-(p[0] / p[1])).value)]
     digits, fine = ctx.prec, ctx.prec
     while True:
-        with ctx.workprec(2 * fine + 64):
+        with workprec(2 * fine + 64):
             found = _isolated(acb_poly([acb(c.value) for c in p]), arb(2) ** -fine)
         if found and all(z.rel_accuracy_bits() >= digits for z in found):
             return found

@@ -9,8 +9,9 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from atlas.exact.inputs import Real, root, sin_cos
+from atlas.exact.inputs import Real, sin_cos
 from atlas.exact.nutating import Nutating
+from atlas.formulas.numbers import root
 
 Matrix = list[list[Any]]
 

@@ -12,7 +12,7 @@ from random import Random
 from typing import Any
 
 import numpy as np
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from atlas import processes
 from atlas.core.elementary import ElementaryMotion
@@ -21,6 +21,7 @@ from atlas.exact import elementary as exact_elementary
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.exact.inputs import Real
+from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import FloatArray
 from atlas.study.checks import narrow
 from atlas.study.regimes import GENERAL
@@ -105,7 +106,7 @@ def check_rows(seed: int, index: int) -> WorstErrors:
         worst.add(name, REGIME, values, describe)
     for name, errors in zip(("R orthogonality", "R determinant"), rigidity(R), strict=True):
         worst.add(name, REGIME, errors, describe)
-    with ctx.workprec(200):
+    with workprec(200):
         for i in range(0, len(rows), BALLS):
             true = exact_elementary.ElementaryMotion(rows[i][0], tuple(rows[i][1:3]), rows[i][3]).rotation(rows[i][4])
             worst.add("R", REGIME, [max(absolute(R[i].flat, chain(*true)))], with_more(describe(i)))
@@ -200,7 +201,7 @@ def check_general_rows(seed: int, index: int) -> WorstErrors:
     found = np.stack([getattr(some, name) for name in SCALARS], -1)
     for i, values in zip(chosen, found.tolist(), strict=True):
         true = enclosed(partial(_angles, Balls(*(x[i] for x in rows[:3]))), BITS)
-        with ctx.workprec(BITS + 16):
+        with workprec(BITS + 16):
             worst.add("general scalars", GENERAL_REGIME, own(values, true), with_more(describe(i)))
     return worst
 

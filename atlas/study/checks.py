@@ -12,12 +12,13 @@ from random import Random
 from typing import Any
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from atlas.core.inputs import FloatArray
 from atlas.exact.digits import enclosed, numbers
 from atlas.exact.inputs import Real
 from atlas.families import FAMILIES
+from atlas.formulas.numbers import workprec
 from atlas.study import extreme
 from atlas.study.extreme import described
 from atlas.study.regimes import General
@@ -257,7 +258,7 @@ def narrow(function: Callable[[], Any], size: float) -> Any:
     """
     precision = 256
     while True:
-        with ctx.workprec(precision):
+        with workprec(precision):
             value = function()
         if all(_radius(x) <= NARROW * min(1.0, size) for x in numbers(value)):
             return value

@@ -8,13 +8,14 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from atlas.core.inputs import FloatArray
 from atlas.exact.digits import numbers
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.general import GeneralMotion
 from atlas.exact.inputs import Real
+from atlas.formulas.numbers import workprec
 from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 from atlas.study.truth import UNCERTAINTY, GeneralTruth, Long, Truth, long
 
@@ -85,7 +86,7 @@ class Errors:
         """Return proven upper bounds, 2^-80 above, on the errors of all columns in a row of a block."""
         row = {name: float(values[i]) for name, values in block.items() if name != "t"}
         t, motion, truth = float(block["t"][i]), self._motion, dict[str, Real]()
-        with ctx.workprec(BITS + 16):
+        with workprec(BITS + 16):
             if any(name in row for name in MATRIX):
                 R = _precise(partial(motion.rotation, t))
                 truth |= dict(zip(MATRIX, (x for line in R for x in line), strict=True))
@@ -176,7 +177,7 @@ def _precise(function: Callable[[], Any]) -> Any:
     """Return nested lists of balls whose radii are small beside the largest of them; single ones may be zero."""
     precision = 2 * BITS
     while True:
-        with ctx.workprec(precision):
+        with workprec(precision):
             value = function()
         found = [arb(x) for x in numbers(value)]
         size = max((float(abs(x).mid()) for x in found if x.is_finite()), default=0.0)

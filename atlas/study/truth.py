@@ -5,19 +5,18 @@ Axis and frequencies come from the exact floor, and the phases are reduced in tw
 be graded against in a second; where a digit hangs on it, and for phases out of `within`, balls decide.
 """
 
-from typing import Any
-
 import numpy as np
-from flint import arb, fmpq
 from numpy.typing import NDArray
 
 from atlas.core.arithmetic.phase import Phases
-from atlas.core.arithmetic.wide import BITS, TURN, Wide
+from atlas.core.arithmetic.words import BITS, TURN, magnitude, middle, scaled, words
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.single_general import SingleGeneral
 from atlas.exact.digits import enclosed
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.general import GeneralMotion
+from atlas.exact.inputs import Real
+from atlas.formulas.numbers import workprec
 
 Long = NDArray[np.longdouble]
 
@@ -37,11 +36,10 @@ class Truth:
     uncertainty = UNCERTAINTY
 
     def __init__(self, motion: ElementaryMotion) -> None:
-        names = "k", "phi", "n2", "n3", "omega2", "omega3"
         values = enclosed(lambda: (motion.k, motion.phi, *motion.axis, motion.omega2, motion.omega3), BITS)
-        self._words = {name: _wide(value) for name, value in zip(names, values, strict=True)}
-        self._phases = Phases([self._words[name] / TURN for name in ("k", "phi")])
-        self.n2, self.n3, self.omega2, self.omega3 = (long(self._words[name]) for name in names[2:])
+        with workprec():
+            self._phases = Phases([x / TURN for x in values[:2]])
+        self.n2, self.n3, self.omega2, self.omega3 = map(long, values[2:])
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
         """Tell at which times the truth is good to UNCERTAINTY, shape (m,)."""
@@ -90,18 +88,11 @@ class GeneralTruth:
         return R.reshape(-1, 9).astype(np.longdouble), Omega.astype(np.longdouble), q.astype(np.longdouble)
 
 
-def long(value: Wide | fmpq) -> np.longdouble:
+def long(value: Real) -> np.longdouble:
     """Return the long double nearest to a number, or inf."""
-    number = value if isinstance(value, Wide) else _wide(value)
-    if not number:
+    number = middle(value)
+    if number == 0:
         return np.longdouble(0)
-    head, tail = number.scaled(-number.magnitude).words(2)
-    return np.longdouble(np.ldexp(np.longdouble(head) + np.longdouble(tail), number.magnitude))
-
-
-def _wide(value: Any) -> Wide:
-    """Return a certified number, cut to 256 binary digits."""
-    if isinstance(value, fmpq):
-        return Wide(int(value.p)) / Wide(int(value.q))
-    mantissa, exponent = arb(value).mid().man_exp()
-    return Wide(int(mantissa), int(exponent))
+    size = magnitude(number)
+    head, tail = words(scaled(number, -size), 2)
+    return np.longdouble(np.ldexp(np.longdouble(head) + np.longdouble(tail), size))

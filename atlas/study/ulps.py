@@ -7,11 +7,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.exact.inputs import Real
+from atlas.formulas.numbers import workprec
 
 ONE = 2.0**-52
 """A unit in the last place of 1."""
@@ -58,7 +59,7 @@ class WorstErrors:
     def checking(self, quantity: str, regime: str, inputs: Any) -> Iterator[None]:
         """Check at the precision of the truth, and keep what a kernel says when it will not answer."""
         try:
-            with ctx.workprec(BITS + 16):
+            with workprec(BITS + 16):
                 yield
         except AtlasError as reason:
             self.refusals.append(Refusal(quantity, regime, str(reason), inputs))

@@ -167,8 +167,8 @@ def test_the_ball_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 def test_a_larmor_turn_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """-alpha for alpha: only the matrix (30) of a ball with m2 = 0 does not depend on it."""
-    right = ball.ball
-    monkeypatch.setattr(ball, "ball", lambda I0, alpha, m2, m3: right(I0, -alpha, m2, m3))
+    right = ball.turning
+    monkeypatch.setattr(ball, "turning", lambda I0, alpha, m2, m3: right(I0, -alpha, m2, m3))
     moved = [tie for tie in TIES if tie.names not in {"(30)", "theorem-ball-rest"}]
     disagree(moved, *{tie.quantity for tie in moved})
 

@@ -8,7 +8,7 @@ import sympy
 from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, elementary, letters
 
 from atlas.core import hyperbola
-from atlas.core.arithmetic.wide import Wide
+from atlas.formulas import hyperbola as formulas
 from atlas.proof import formula
 from atlas.proof.run import trial
 
@@ -147,14 +147,14 @@ def test_the_hyperbola_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 def test_a_wrong_sign_in_the_curve_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """(1 + I) for (1 - I) in (72) and I for (2 - I) in (71)."""
 
-    def ordinate(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> Wide:
+    def ordinate(I2: Any, I3: Any, B2: Any, B3: Any, omega2: Any) -> Any:
         return B3 * omega2 / (I3 * B2 * (omega2 + B2)) * (I2 * omega2 + I3 * B2)
 
-    def proper(I2: Wide, I3: Wide, B2: Wide, B3: Wide, omega2: Wide) -> Wide:
+    def proper(I2: Any, I3: Any, B2: Any, B3: Any, omega2: Any) -> Any:
         return B3 * omega2 / (I3 * B2 * (omega2 + B2)) * (I2 + I3) * (omega2 + B2 + B2)
 
     monkeypatch.setattr(hyperbola, "ordinate", ordinate)
-    monkeypatch.setattr(hyperbola, "proper", proper)
+    monkeypatch.setattr(formulas, "proper", proper)
     disagree(TIES, "Hyperbola.omega3", "Hyperbola.frequencies", "Hyperbola.sample", "Hyperbola.branches")
 
 

@@ -23,6 +23,7 @@ from agreement import (
 )
 
 from atlas.core import charge
+from atlas.formulas import particle as formulas
 
 
 def launches(seed: int, count: int, **fixed: Any) -> list[Any]:
@@ -293,8 +294,8 @@ def test_the_particle_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 def test_a_force_the_other_way_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """[B, v] for [v, B]."""
-    right = charge.cross
-    monkeypatch.setattr(charge, "cross", lambda a, b: right(b, a))
+    right = formulas.cross
+    monkeypatch.setattr(formulas, "cross", lambda a, b: right(b, a))
     disagree(TIES, "ParticleMotion.drift", "ParticleMotion.velocity", "ParticleMotion.guiding_centre")
 
 

@@ -6,8 +6,7 @@ import pytest
 import sympy
 from agreement import Ledger, Tie, agree, bodies, disagree, each, length, letters
 
-from atlas.core import quadric
-from atlas.core.arithmetic.wide import Wide
+from atlas.formulas import quadric as formulas
 
 POINTS = bodies(58, 8)
 TWO_SHEETS = bodies(61, 3, body=1.7)
@@ -125,17 +124,17 @@ def test_the_quadric_is_that_of_the_ledger(tie: Tie, floor: str) -> None:
 
 def test_a_wrong_sign_in_the_eigenvalues_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """1 - sin(beta) for 1 + sin(beta), and the other way round."""
-    right = quadric._direction
-    monkeypatch.setattr(quadric, "_direction", lambda I2, I3, B2, B3: right(I2, I3, B2, -B3))
+    right = formulas._direction
+    monkeypatch.setattr(formulas, "_direction", lambda I2, I3, B2, B3: right(I2, I3, B2, -B3))
     disagree(TIES, "Quadric.a2", "Quadric.a3", "Quadric.semi_axes", "Quadric.axes", "Quadric.canonical")
 
 
 def test_a_wrong_sign_in_the_quadric_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """(2 + I) for (2 - I) in (50): its two ties are both gone."""
-    right = quadric.residual
+    right = formulas.residual
 
-    def wrong(I2: Wide, I3: Wide, B2: Wide, B3: Wide, w1: Wide, w2: Wide, w3: Wide) -> Wide:
+    def wrong(I2: Any, I3: Any, B2: Any, B3: Any, w1: Any, w2: Any, w3: Any) -> Any:
         return right(I2, I3, B2, B3, w1, w2, w3) + (I3 + I3) / I2 * B2 * B3 * w2
 
-    monkeypatch.setattr(quadric, "residual", wrong)
+    monkeypatch.setattr(formulas, "residual", wrong)
     disagree(TIES, "Quadric.residual")

@@ -23,7 +23,7 @@ FORMULAS = {
 """Modules whose functions are public quantities; of the others the classes are."""
 
 MACHINERY = {
-    "core": {"charge", "charges", "inputs", "motion"},
+    "core": {"charge", "inputs", "motion"},
     "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "spheres", "theta", "two_turns"},
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""

@@ -6,7 +6,7 @@ from oracles.taylor import taylor
 
 import atlas
 from atlas.core.arithmetic.rotation import DoubleRotation
-from atlas.core.arithmetic.wide import exact
+from atlas.core.arithmetic.words import exact
 from atlas.core.integrals import integrals
 
 EPS = float(np.finfo(float).eps)

@@ -8,7 +8,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from atlas.core.arithmetic.double_double import DoubleDouble, over
-from atlas.core.arithmetic.wide import Wide, length
+from atlas.formulas import numbers
+from atlas.formulas.numbers import length
 
 floats = st.floats(-1e30, 1e30, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-30)
 OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
@@ -122,8 +123,8 @@ def test_shapes_broadcast_and_empty_arrays_stay_empty() -> None:
 def test_a_row_in_doubt_is_made_in_256_digits(monkeypatch: pytest.MonkeyPatch) -> None:
     """Only the rows that cancel to the last digit are made by themselves."""
     made = []
-    sqrt = Wide.sqrt
-    monkeypatch.setattr(Wide, "sqrt", lambda self: made.append(1) or sqrt(self))
+    alone = numbers.alone
+    monkeypatch.setattr(numbers, "alone", lambda *row: made.append(1) or alone(*row))
     x, y = np.random.default_rng(2).uniform(1, 2, (2, 1000))
     z = np.ones(1000)
     z[:3] = -(x * y)[:3]

@@ -9,7 +9,8 @@ from atlas.core.body import SHAPES as CORE_SHAPES
 from atlas.core.body import SymmetricBody, from_shape, moments
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.body import SHAPES, mass_matrix, ratio_of, shape_moments
-from atlas.exact.inputs import rational, rationals, root
+from atlas.exact.inputs import rational, rationals
+from atlas.formulas.numbers import root
 
 
 @pytest.mark.parametrize("name", SHAPES)

@@ -67,31 +67,33 @@ MOTION = "--ratio 1.5 --field 1 2 --omega2 0.7"
 GENERAL = "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2"
 BALL = "--larmor 0.5 --momentum 0.3 -0.7 --times 1"
 PARTICLE = "--mu 1 --magnetic 0 0 1 --velocity 1 0 0 --times 1"
-DRAWING = "matplotlib contourpy fontTools numpy multiprocessing"  # Matplotlib itself loads Pillow and fontTools
+DRAWING = "matplotlib contourpy fontTools numpy flint multiprocessing"  # Matplotlib itself loads Pillow and fontTools
 
 CASES = [
     Case("classify --ratio 1.5 --field 1 2", "flint rich"),
-    Case("classify --ratio 1.5 --field 1 2 --json", "numpy"),
+    Case("classify --ratio 1.5 --field 1 2 --json", "flint numpy"),
     Case("classify --ratio 1.5 --field 1 2 --json --digits 30", "flint"),
     Case("classify --shape ring --radius 1 --field 1 2", "flint rich numpy"),
     Case("hyperbola --ratio 1.5 --field 1 2", "flint rich numpy"),
     Case("hyperbola --ratio 1.5 --field 1 2 --omega2 1 2", "flint rich"),
-    Case("hyperbola --ratio 1.5 --field 1 2 --json", "numpy"),
+    Case("hyperbola --ratio 1.5 --field 1 2 --json", "flint numpy"),
     Case(f"motion {MOTION} --times 1", "flint rich"),
-    Case(f"motion {MOTION} --grid 0 1 9 --json", "numpy"),
+    Case(f"motion {MOTION} --grid 0 1 9 --json", "flint numpy"),
     Case(f"general {GENERAL} --times 1", "flint rich"),
     Case(f"general {GENERAL} --grid 0 1 9 --json", "flint numpy"),
     Case(f"ball {BALL}", "flint rich"),
-    Case(f"ball {BALL} --json", "numpy"),
+    Case(f"ball {BALL} --json", "flint numpy"),
     Case(f"particle {PARTICLE}", "flint rich"),
-    Case(f"particle {PARTICLE} --json", "numpy"),
+    Case(f"particle {PARTICLE} --json", "flint numpy"),
     Case("list", "numpy rich"),
     Case("list --json", "numpy"),
     Case(f"check true.csv {MOTION}", "flint msgspec rich numpy"),
     Case(f"check true.csv {MOTION} --json --figure error.svg", "flint msgspec matplotlib contourpy fontTools numpy"),
     Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
     Case("bench --read bench.json", "msgspec numpy flint rich"),
-    Case("sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "numpy"),
+    Case(
+        "sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "flint numpy"
+    ),
     Case("stress --samples 40 --jobs 1 --json", "numpy flint multiprocessing"),
     Case("stress --samples 40 --jobs 2", "numpy flint multiprocessing rich"),
     Case("figure hyperbola --format svg", DRAWING),
@@ -127,7 +129,7 @@ kind = "figure"
 recipe = "flight"
 renderer = "shaded"
 """
-PAGES = "msgspec numpy jinja2 typst multiprocessing pylatexenc"
+PAGES = "msgspec numpy flint jinja2 typst multiprocessing pylatexenc"
 FONTS = "brotli fontTools"
 
 
@@ -273,9 +275,9 @@ def test_help_is_there_at_once() -> None:
         ("import atlas.paper", ""),
         ("import atlas.core", ""),
         ("import atlas.scene", "numpy"),
-        ("from atlas import Quadric, Hyperbola, ElementaryMotion, BallMotion, ParticleMotion, Flight, Field", "numpy"),
+        ("from atlas import Quadric, Hyperbola, ElementaryMotion, BallMotion, ParticleMotion, Flight", "numpy flint"),
     ],
 )
 def test_a_door_in_python_loads_what_it_lists(statement: str, loads: str) -> None:
-    """The package, the command line and the ledger load without NumPy; the kernels need nothing else."""
+    """The package, the command line and the ledger load without NumPy; the kernels need it and flint."""
     assert {name.split(".")[0] for name in loaded_by(statement)} & set(WATCHED) == set(loads.split())

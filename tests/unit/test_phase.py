@@ -1,18 +1,27 @@
+from typing import Any
+
 import numpy as np
 import pytest
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from atlas.core.arithmetic.phase import Phases
-from atlas.core.arithmetic.wide import TURN, Wide
+from atlas.core.arithmetic.words import TURN
 from atlas.errors import AtlasError
+from atlas.formulas.numbers import rational, workprec
 
 UNIT = 2.0**-53
 
 PROVEN = 8
 """Bound on the error of a cosine or a sine, in units, as the docstring of `Phases.circle` proves it."""
+
+
+def in_turns(frequency: float) -> Any:
+    """Return a frequency in turns."""
+    with workprec():
+        return rational(frequency) / TURN
 
 
 def circle(phases: Phases, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -36,7 +45,7 @@ def worst(phases: Phases, f: float, times: np.ndarray) -> float:
 
 def phases_of(f: float) -> Phases:
     """Return the phases of one frequency in radians."""
-    return Phases([Wide.exactly(f) / TURN])
+    return Phases([in_turns(f)])
 
 
 @settings(max_examples=60)
@@ -91,11 +100,11 @@ def test_the_rest_of_half_a_frequency_is_needed() -> None:
     assert worst(phases, f, t) > 100
 
 
-@pytest.mark.parametrize("origins", [None, [Wide.exactly(-0.3), Wide.exactly(0.49)]])
+@pytest.mark.parametrize("origins", [None, [rational(-0.3), rational(0.49)]])
 @pytest.mark.parametrize("digits", [-30, 0, 10, 20, 21, 22, 23, 30, 49])
-def test_half_a_phase_is_rounded_once(digits: int, origins: list[Wide] | None) -> None:
+def test_half_a_phase_is_rounded_once(digits: int, origins: list[Any] | None) -> None:
     """Half of f t + f0, less whole half turns, is within 4 units of 2^-53, short of and beyond exact heads."""
-    f = [Wide.exactly(1.2345) / TURN, Wide.exactly(0.7) / TURN]
+    f = [in_turns(1.2345), in_turns(0.7)]
     t = np.random.default_rng(digits % 64).uniform(-1, 1, 40) * 2.0**digits
     work = np.empty((8, 2, 50))
     found = Phases(f, origins).halves_of(t, work)
@@ -122,7 +131,7 @@ def test_one_less_the_cosine_keeps_its_digits() -> None:
 
 def test_a_time_in_two_words_is_taken_whole() -> None:
     """A phase f (t + low), low below the last digit of t, is that of the exact sum, and not that of t."""
-    phases = Phases([Wide(1) / Wide(3)])
+    phases = Phases([fmpq(1, 3)])
     for start in (1e14, 1e4):
         t, low = np.arange(start, start + 50), np.full(50, 3e-17 * start)
         half, rest, *_ = phases.reduced(t, np.empty((8, 1, 50)), low)
@@ -136,8 +145,8 @@ def test_a_time_in_two_words_is_taken_whole() -> None:
 def test_a_power_of_two_in_the_frequency_moves_to_the_time(exponent: int) -> None:
     """A frequency f 2^n at t 2^-n gives the bits of f at t, also where f is scaled inside."""
     t = np.array([0.0, 1e-7, 0.3, 1.7, 1e5, -3e12])
-    plain = circle(Phases([Wide.exactly(1.2345)]), t)
-    moved = circle(Phases([Wide.exactly(1.2345).scaled(exponent)]), np.ldexp(t, -exponent))
+    plain = circle(Phases([rational(1.2345)]), t)
+    moved = circle(Phases([rational(1.2345) * fmpq(2) ** exponent]), np.ldexp(t, -exponent))
     for a, b in zip(plain, moved, strict=True):
         assert np.array_equal(a, b)
 
@@ -151,7 +160,7 @@ def test_a_phase_out_of_reach_is_an_error(time: float) -> None:
 
 def test_without_frequency_every_finite_time_is_in_reach() -> None:
     """A body at rest stays there, but not to infinity."""
-    phases = Phases([Wide(0)])
+    phases = Phases([fmpq(0)])
     assert np.array_equal(circle(phases, np.array([1e308, -1e308]))[0], [1.0, 1.0])
     with pytest.raises(AtlasError):
         circle(phases, np.array([np.inf]))
@@ -162,5 +171,5 @@ def test_the_longest_time_is_where_the_phase_is_2_to_50() -> None:
     for f in (1.0, 0.3, 1e-200, 1e200):
         assert phases_of(f).reach == pytest.approx(2.0**50 / f, rel=4 * UNIT)
         assert phases_of(f).reach * f >= 2.0**50 * (1 - 4 * UNIT)
-    assert Phases([Wide.exactly(x) / TURN for x in (0.5, 2.0)]).reach == pytest.approx(2.0**49, rel=4 * UNIT)
-    assert np.isinf(Phases([Wide(0)]).reach)
+    assert Phases([in_turns(x) for x in (0.5, 2.0)]).reach == pytest.approx(2.0**49, rel=4 * UNIT)
+    assert np.isinf(Phases([fmpq(0)]).reach)

@@ -8,7 +8,7 @@ from mpmath import mp
 
 from atlas.core.arithmetic.phase import Phases
 from atlas.core.arithmetic.progression import Progression
-from atlas.core.arithmetic.wide import Wide
+from atlas.formulas.numbers import rational
 
 W = 2.0**-53
 TURNS = (0.7316497182736455, -3.1e-3, 2.0**-30 / 3, 0.0)
@@ -35,7 +35,7 @@ def half_turns(turn: float, start: float, step: float, i: int) -> Fraction:
 @pytest.mark.parametrize(("start", "step", "origin"), TIMES)
 def test_phases_are_those_of_the_exact_times(start: float, step: float, origin: int) -> None:
     """Half the phase less half turns of this parity is within 2^-6 w; where it is small, within 2.5 w of itself."""
-    phases = Progression([Wide.exactly(turn) for turn in TURNS], start, step, origin, max(PLACES))
+    phases = Progression([rational(turn) for turn in TURNS], start, step, origin, max(PLACES))
     i = np.array([PLACES, np.ones(len(PLACES))])
     head, rest, sign, _ = phases.parts(i, np.empty((8, len(TURNS), len(PLACES))))
     with mp.workdps(60):
@@ -55,7 +55,7 @@ def test_phases_are_those_of_the_exact_times(start: float, step: float, origin: 
 @pytest.mark.parametrize("refined", [False, True])
 def test_circles_are_those_of_single_times(refined: bool) -> None:
     """Cosine, sine and versine at times that are doubles agree with those of `Phases`, to the errors of both."""
-    turns, i = [Wide.exactly(turn) for turn in TURNS], np.arange(-1000.0, 1000.0)
+    turns, i = [rational(turn) for turn in TURNS], np.arange(-1000.0, 1000.0)
     ours, theirs = np.empty((2, 2, 4, i.size)), np.empty((2, 1, i.size))
     work = np.empty((8, 4, i.size))
     Progression(turns, 3.0, 2.0**-7, 5, 1000, refined=refined).circle(

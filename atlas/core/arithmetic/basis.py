@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 
 from atlas.core.arithmetic.phase import Phases
 from atlas.core.arithmetic.progression import Progression
-from atlas.core.arithmetic.wide import ONE, Wide
+from atlas.core.arithmetic.words import words
 from atlas.core.inputs import FloatArray
+from atlas.formulas.numbers import Number, nearest, workprec
 
-Axis = tuple[Wide, Wide, Wide]
+Axis = tuple[Number, Number, Number]
+"""A unit vector of exact numbers."""
 
 E, J, E33 = np.diag([1.0, 1, 0]), np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]), np.diag([0.0, 0, 1])
 
@@ -63,8 +65,9 @@ def multiply(rows: NDArray[Any]) -> None:
 
 def rodrigues(axis: Axis) -> FloatArray:
     """Return 1, [n, .] and n n^T, shape (3, 3, 3), each element rounded once."""
-    n1, n2, n3 = (float(n) for n in axis)
-    dyad = [[float(a * b) for b in axis] for a in axis]
+    n1, n2, n3 = map(nearest, axis)
+    with workprec():
+        dyad = [[nearest(a * b) for b in axis] for a in axis]
     return np.array([np.eye(3), [[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]], dyad])
 
 
@@ -74,13 +77,14 @@ def generators(axis: Axis) -> FloatArray:
     along = dyad.copy()
     for i, n in enumerate(axis):
         if along[i, i] < 0.5:
-            along[i, i] = 1.0 - float(ONE - n * n)
+            with workprec():
+                along[i, i] = 1.0 - nearest(1 - n * n)
     return np.array([along, np.eye(3) - along, across, dyad])
 
 
 def extended(axis: Axis) -> NDArray[np.longdouble]:
     """Return the same with the digits of a long double."""
-    n1, n2, n3 = (np.longdouble(head) + np.longdouble(tail) for head, tail in (n.words(2) for n in axis))
+    n1, n2, n3 = (np.longdouble(head) + np.longdouble(tail) for head, tail in (words(n, 2) for n in axis))
     dyad = np.outer([n1, n2, n3], [n1, n2, n3])
     across = np.array([[0, -n3, n2], [n3, 0, -n1], [-n2, n1, 0]])
     return np.array([dyad, np.eye(3) - dyad, across, dyad])

@@ -1,8 +1,8 @@
 """Arrays of numbers in two words, each row with a bound on its error: the scalars of many motions at once.
 
-A formula written with + - * / and `sqrt` takes these arrays as it takes `Wide` numbers. What a row loses, by rounding
-and by cancellation, is bounded on the way; where the bound leaves the nearest double in doubt, the row is computed
-again in 256 digits. So `over` returns the same bits for arrays as for single numbers.
+A formula written with + - * / and `root` takes these arrays as it takes exact rationals and balls. What a row loses, by
+rounding and by cancellation, is bounded on the way; where the bound leaves the nearest double in doubt, the row is
+computed again in 256 digits. So `over` returns the same bits for arrays as for single numbers.
 
 The sums and products are those of Dekker, Knuth and Joldes, Muller, Popescu (ACM TOMS 44, 15, 2017), without a fused
 multiply-add, which NumPy does not have. With u = 2^-53 their relative errors are at most 3 u^2 for a sum, 5 u^2 for a
@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.memory import keep
-from atlas.core.arithmetic.wide import exact
 from atlas.core.inputs import FloatArray, common_shape
+from atlas.formulas import numbers
 
 SPLITTER = 2.0**27 + 1
 SUM, PRODUCT, QUOTIENT, ROOT = (n * 2.0**-106 for n in (3, 8, 16, 6))
@@ -169,11 +169,11 @@ def over(
 ) -> Any:
     """Evaluate a formula, each result rounded once: floats for plain inputs, arrays of their common shape otherwise.
 
-    `formula` takes as many numbers, `Wide` or `DoubleDouble`. The inputs `unit` share one unit, in which the result is
-    homogeneous of this degree; degrees, if it returns several. `alone` takes floats and returns floats, where `Wide`
-    numbers do not suffice.
+    `formula` takes as many numbers, of flint or `DoubleDouble`. The inputs `unit` share one unit, in which the result
+    is homogeneous of this degree; degrees, if it returns several. `alone` takes floats and returns floats, where 256
+    digits do not suffice.
     """
-    alone = alone or partial(wide, formula)
+    alone = alone or partial(numbers.alone, formula)
     if not any(np.ndim(x) for x in inputs):
         return alone(*(float(x) for x in inputs))
     shape = common_shape(*(np.shape(x) for x in inputs))
@@ -192,12 +192,6 @@ def over(
             out[:, part.start + i] = alone(*row(i))
     found = [values.reshape(shape) for values in out]
     return found[0] if isinstance(degree, int) else found
-
-
-def wide(formula: Formula, *inputs: float) -> Any:
-    """Evaluate a formula on floats in 256 digits, each result rounded once."""
-    results = formula(*exact(*inputs))
-    return [float(x) for x in results] if isinstance(results, tuple) else float(results)
 
 
 def blocks(

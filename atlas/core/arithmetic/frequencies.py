@@ -9,11 +9,13 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, blocks
 from atlas.core.arithmetic.phase import LIMIT
-from atlas.core.arithmetic.wide import ONE, TURN, Wide
+from atlas.core.arithmetic.words import TURN, magnitude, middle, scaled, words
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError, DomainError
+from atlas.formulas.numbers import Number, workprec
 
-HEAD, TAIL = (np.float64(x) for x in (ONE / TURN).scaled(1).words(2))
+with workprec():
+    HEAD, TAIL = (np.float64(x) for x in words(2 / TURN, 2))
 PER_RADIAN = DoubleDouble(HEAD, TAIL, 2.0**-105)
 """Half turns in a radian."""
 
@@ -33,7 +35,7 @@ class Frequencies:
 
     words: FloatArray
     lack: FloatArray
-    exact: Callable[[Any], Sequence[Wide]]
+    exact: Callable[[Any], Sequence[Number]]
 
     def at(self, index: Any, t: FloatArray) -> FloatArray:
         """Return words of motions by their index, good for the times t that go with them.
@@ -55,12 +57,13 @@ class Frequencies:
         return words
 
 
-def _words(frequency: Wide) -> list[float]:
+def _words(frequency: Number) -> list[float]:
     """Return an exact frequency in radians as two words in half turns."""
-    halves = (frequency / TURN).scaled(1)
-    if halves and halves.magnitude > LARGEST:
+    with workprec():
+        halves = scaled(middle(frequency / TURN), 1)
+    if halves != 0 and magnitude(halves) > LARGEST:
         raise DomainError("A frequency of one of these motions is too large for a float: choose larger units.")
-    return halves.words(2)
+    return words(halves, 2)
 
 
 def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) -> tuple[FloatArray, FloatArray]:

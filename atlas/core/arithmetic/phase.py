@@ -10,9 +10,10 @@ from typing import Self
 
 import numpy as np
 
-from atlas.core.arithmetic.wide import TURN, Wide
+from atlas.core.arithmetic.words import TURN, magnitude, middle, scaled, turn_of, words
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
+from atlas.formulas.numbers import Number, nearest, workprec
 
 LIMIT = 2.0**50
 """Largest phase |f t| in radians: beyond it two words of f no longer hold the turn."""
@@ -39,10 +40,12 @@ NEAR = 2.0**21
 LESS = 4.0
 """How much further they do where the phase is rounded."""
 
-QUARTER = TURN.scaled(-2)
-HEAD = round(float(QUARTER.scaled(26))) / 2.0**26
-MINUS_HEAD, MINUS_TAIL = np.array(-HEAD), np.array(float(Wide.exactly(HEAD) - QUARTER))
-QUARTER_TURN, MINUS_BOTH = np.array(float(QUARTER)), np.array([MINUS_HEAD, MINUS_TAIL])[:, None, None]
+QUARTER = scaled(TURN, -2)
+HEAD = round(nearest(QUARTER) * 2.0**26) / 2.0**26
+with workprec():
+    TAIL = nearest(QUARTER - HEAD)
+MINUS_HEAD, MINUS_TAIL = np.array(-HEAD), np.array(-TAIL)
+QUARTER_TURN, MINUS_BOTH = np.array(nearest(QUARTER)), np.array([MINUS_HEAD, MINUS_TAIL])[:, None, None]
 """pi/2, and -pi/2 as a head of 27 digits, whose product with a multiple of 2^-25 below one is exact, and a tail."""
 
 HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0, np.float64(1.0).view(np.int64), 63))
@@ -59,23 +62,27 @@ class Phases:
     """
 
     def __init__(
-        self, turns: Sequence[Wide], origins: Sequence[Wide] | None = None, rounder: FloatArray = ROUNDER
+        self, turns: Sequence[Number], origins: Sequence[Number] | None = None, rounder: FloatArray = ROUNDER
     ) -> None:
-        halves = [turn.scaled(1) for turn in turns]
-        ordinary = any(halves) and all(abs(p.magnitude) <= SAFE for p in halves if p)
-        exponents = [0 if ordinary else p.magnitude if p else NEVER for p in halves]
+        halves = [scaled(middle(turn), 1) for turn in turns]
+        moving = [p for p in halves if p != 0]
+        ordinary = bool(moving) and all(abs(magnitude(p)) <= SAFE for p in moving)
+        exponents = [0 if ordinary else magnitude(p) if p != 0 else NEVER for p in halves]
+        small = [scaled(p, -x) for p, x in zip(halves, exponents, strict=True)]
         self.exponents = None if ordinary else np.array(exponents)[:, None]
-        self._keep(_columns([p.scaled(-x).words(2) for p, x in zip(halves, exponents, strict=True)]))
-        self._within(min((_reach(p) for p in turns if p), default=float("inf")))
+        self._keep(_columns([words(p, 2) for p in small]))
+        with workprec():
+            self._within(min((_reach(p) for p in moving), default=float("inf")))
+            self.near = min((nearest(NEAR / abs(p * QUARTER)) for p in moving), default=float("inf"))
+            radians = [p * QUARTER for p in small]
         self.rounder = rounder
         self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
-        self.radians = _columns([_head(p.scaled(-x) * QUARTER)[:2] for p, x in zip(halves, exponents, strict=True)])
-        self.near = min((float(Wide.exactly(NEAR) / abs(p * QUARTER)) for p in halves if p), default=float("inf"))
+        self.radians = _columns([_head(p)[:2] for p in radians])
         if self.origins is not None:
             first, rest = self.origins
             self.starts = -first * MINUS_HEAD, rest * QUARTER_TURN - first * MINUS_TAIL
         start = [] if self.origins is None else [self.origins[1]]
-        self.head, *rest = _columns([_head(p.scaled(-x)) for p, x in zip(halves, exponents, strict=True)])
+        self.head, *rest = _columns([_head(p) for p in small])
         self.table = QUARTER_TURN * np.hstack([*start, *rest, np.eye(len(halves))])
 
     @classmethod
@@ -295,21 +302,25 @@ def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:
     return np.array(rows).T[:, :, None]
 
 
-def _reach(turns: Wide) -> float:
+def _reach(halves: Number) -> float:
     """Return the longest time within LIMIT."""
-    return float(np.nextafter(float(Wide.exactly(LIMIT) / abs(turns * TURN)), np.inf))
+    return float(np.nextafter(nearest(LIMIT / abs(halves * QUARTER * 2)), np.inf))
 
 
-def _head(x: Wide) -> tuple[float, float, float]:
+def _head(x: Number) -> tuple[float, float, float]:
     """Cut a number into a double of 26 digits and the rest; and the number."""
-    if not x:
+    if x == 0:
         return 0.0, 0.0, 0.0
-    head = round(float(x.scaled(26 - x.magnitude))) * 2.0 ** (x.magnitude - 26)
-    return head, float(x - Wide.exactly(head)), float(x)
+    x = middle(x)
+    size = magnitude(x)
+    head = round(nearest(scaled(x, 26 - size))) * 2.0 ** (size - 26)
+    with workprec():
+        return head, nearest(x - head), nearest(x)
 
 
-def _cut(turn: Wide) -> tuple[float, float]:
+def _cut(turn: Number) -> tuple[float, float]:
     """Cut a phase in turns into half turns: a multiple of 2^-25, at most one, and the rest."""
-    half = turn.turn().scaled(1)
-    head = round(float(half.scaled(25))) / 2.0**25
-    return head, float(half - Wide.exactly(head))
+    half = scaled(turn_of(turn), 1)
+    head = round(nearest(scaled(half, 25))) / 2.0**25
+    with workprec():
+        return head, nearest(half - head)

@@ -9,10 +9,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from atlas.core.arithmetic.phase import HEAD, QUARTER, ROUNDER, circle_of, signs
-from atlas.core.arithmetic.wide import Wide
+from atlas.core.arithmetic.phase import TAIL as LACKING
+from atlas.core.arithmetic.words import middle
 from atlas.core.inputs import FloatArray
+from atlas.formulas.numbers import Number, nearest
 
-QUARTER_TURN, TAIL = float(QUARTER), np.array(float(QUARTER - Wide.exactly(HEAD)))
+QUARTER_TURN, TAIL = nearest(QUARTER), np.array(LACKING)
 """pi/2, and what its head of 27 digits lacks."""
 
 DIGITS = 26
@@ -38,7 +40,7 @@ class Progression:
     """
 
     def __init__(
-        self, turns: Sequence[Wide], start: float, step: float, origin: int, size: int, *, refined: bool = True
+        self, turns: Sequence[Number], start: float, step: float, origin: int, size: int, *, refined: bool = True
     ) -> None:
         self.refined = refined
         (first, d0), (stride, d1) = start.as_integer_ratio(), step.as_integer_ratio()
@@ -46,7 +48,7 @@ class Progression:
         stride *= unit // d1
         first = first * (unit // d0) + origin * stride
         shift, bits = 2 - unit.bit_length(), size.bit_length()  # one more, for half turns
-        cuts = [_cut(turn.m * first, turn.m * stride, turn.e + shift, bits) for turn in turns]
+        cuts = [_cut(m * first, m * stride, e + shift, bits) for m, e in map(_integers, turns)]
         self.table = np.array([*(cut[:2] for cut in cuts), *(cut[2:] for cut in cuts)])
 
     def circle(self, i: FloatArray, work: FloatArray, cos: FloatArray, sin: FloatArray, versine: FloatArray) -> None:
@@ -77,6 +79,12 @@ class Progression:
         rest += spare
         head *= HEAD
         return head, rest, signs(whole), spare
+
+
+def _integers(turn: Number) -> tuple[int, int]:
+    """Return m and e of a number m 2^e."""
+    m, e = middle(turn).man_exp()
+    return int(m), int(e)
 
 
 def _cut(first: int, step: int, e: int, bits: int) -> tuple[float, ...]:

@@ -11,9 +11,10 @@ import numpy as np
 from atlas.core.arithmetic.basis import SCALE, Axis, Basis, extended, generators, resolution, rodrigues
 from atlas.core.arithmetic.phase import QUANTUM, Phases
 from atlas.core.arithmetic.threads import shared
-from atlas.core.arithmetic.wide import TURN, Wide
+from atlas.core.arithmetic.words import TURN
 from atlas.core.inputs import FloatArray, real
 from atlas.errors import AtlasError
+from atlas.formulas.numbers import Number, workprec
 
 BLOCK, PART = 6000, 3000
 """Times evaluated at once, so that what they need stays in the second-level cache, and matrices made from them at once,
@@ -37,9 +38,10 @@ class DoubleRotation:
     vectors: Mapping[str, tuple[float, ...]] = MappingProxyType({})
     """Constant vectors of the motion, by name."""
 
-    def __init__(self, axis: Axis, precession: Wide, proper: Wide, *, inverse: bool = False) -> None:
+    def __init__(self, axis: Axis, precession: Number, proper: Number, *, inverse: bool = False) -> None:
         self.axis, self.frequencies, self.inverse = axis, (precession, proper), inverse
-        self.turns = [f / TURN for f in self.frequencies]
+        with workprec():
+            self.turns = [f / TURN for f in self.frequencies]
         self.phases, self.precession, self.proper = (Phases(self.turns[part]) for part in PARTS)
         weights = SCALE[:, None, None][: 11 if inverse else 9] * np.matmul(
             *resolution(generators(axis), third_row=inverse)

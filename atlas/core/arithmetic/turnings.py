@@ -15,9 +15,10 @@ import numpy as np
 from atlas.core.arithmetic.double_double import DoubleDouble, over
 from atlas.core.arithmetic.frequencies import Frequencies, words_of
 from atlas.core.arithmetic.phase import Phases
-from atlas.core.arithmetic.wide import Wide, direction, exact
+from atlas.core.arithmetic.words import exact
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
+from atlas.formulas.numbers import Number, direction, workprec
 
 REACH = 2.0**900
 """Frequencies between its inverse and itself: their products with times of phases up to LIMIT keep their digits."""
@@ -73,12 +74,13 @@ class Turnings:
         """Return the components of a vector, each (m,)."""
         return [x[self.indices] for x in self.vectors()[name]]
 
-    def _exact(self, i: int) -> Sequence[Wide]:
+    def _exact(self, i: int) -> Sequence[Number]:
         """Return k and phi of a motion."""
         constants, index, inputs = self.sources[self.groups[i]]
         place = i if isinstance(index, slice) else np.searchsorted(index, i)
         shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
-        return _both(constants, *exact(*(np.broadcast_to(x, shape).flat[place] for x in inputs)))
+        with workprec():
+            return _both(constants, *exact(*(np.broadcast_to(x, shape).flat[place] for x in inputs)))
 
     @property
     def extreme(self) -> Any:

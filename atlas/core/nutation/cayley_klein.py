@@ -9,17 +9,18 @@ from math import prod
 from typing import Any
 
 import numpy as np
-from flint import acb, arb, ctx
+from flint import acb, arb
 
 from atlas.core.arithmetic.phase import EVEN, ROUNDER, WHOLE, Phases
 from atlas.core.arithmetic.rotation import target
 from atlas.core.arithmetic.threads import shared
-from atlas.core.arithmetic.wide import Wide
+from atlas.core.arithmetic.words import ZERO, middle
 from atlas.core.inputs import FloatArray, real
-from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric, wide
+from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric
 from atlas.core.nutation.swing import Swing
 from atlas.exact.cayley_klein import Solution
 from atlas.exact.theta import infinite
+from atlas.formulas.numbers import workprec
 
 FIRST = 256
 """Binary digits with which the constants are tried first."""
@@ -62,7 +63,7 @@ class CayleyKlein:
 
     def _made(self, solution: Callable[[], Solution], precision: int) -> bool:
         """Take the constants at one precision; return whether it suffices."""
-        with ctx.workprec(precision):
+        with workprec(precision):
             found = solution()
             lattice, pair = found.lattice, (found.alpha, found.beta)
             periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
@@ -102,8 +103,8 @@ class CayleyKlein:
             if not all(_known(x, largest) for row in values for x in row):
                 return False
             self.functions, self.periodic = functions, periodic
-            self.frequencies = [wide(x) for x in turns]
-            self.origins = [Wide(0), Wide(0), wide(origin)] if periodic else None
+            self.frequencies = [middle(x) for x in turns]
+            self.origins = [ZERO, ZERO, middle(origin)] if periodic else None
             self.phases = self._phases()
             self.values = np.concatenate([_real_parts(x, largest) for x in (values[:2], values[2:]) if x])
             self.lost = self._lost(values[:2])

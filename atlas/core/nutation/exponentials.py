@@ -3,15 +3,15 @@
 from math import inf
 
 import numpy as np
-from flint import acb, arb, ctx
+from flint import acb, arb, fmpq
 
 from atlas.core.arithmetic.phase import Phases
-from atlas.core.arithmetic.wide import Wide
+from atlas.core.arithmetic.words import middle, turn_of
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.functions import wide
 from atlas.exact.cayley_klein import Parameter
 from atlas.exact.nutating import Nutating
 from atlas.exact.theta import infinite
+from atlas.formulas.numbers import nearest, workprec
 
 FINE = 128
 """Times in the fine table."""
@@ -40,25 +40,30 @@ class Exponentials:
             terms += [(f, parameter.factor / unit * z * acb(0, f * origin).exp()) for f, z in pairs]
         largest = max(float(abs(z).mid()) for _, z in terms)
         terms = [(f, z) for f, z in terms if float(abs(z).mid()) >= NEGLIGIBLE * largest]
-        self.turns = [wide((parameter.rate + f) / (2 * arb.pi())) for f, _ in terms]
+        self.turns = [middle((parameter.rate + f) / (2 * arb.pi())) for f, _ in terms]
         self.weights = np.array([complex(float(z.real.mid()), float(z.imag.mid())) for _, z in terms])
 
-    def coarse(self, start: Wide, step: Wide) -> Phases:
+    def coarse(self, start: fmpq, step: fmpq) -> Phases:
         """Return the phases at start + i step as functions of i."""
-        return Phases([(f * step).turn() for f in self.turns], [(f * start).turn() for f in self.turns])
+        return Phases(self._turned(step), self._turned(start))
 
-    def fine(self, step: Wide) -> FloatArray:
+    def fine(self, step: fmpq) -> FloatArray:
         """Return z_m exp(i f_m j step), j < FINE, as rows for cos and for sin of the coarse phase, (2 M, 2, FINE)."""
-        phases, work = Phases([(f * step).turn() for f in self.turns]), np.empty((8, len(self.turns), FINE))
+        phases, work = Phases(self._turned(step)), np.empty((8, len(self.turns), FINE))
         half, rest, sign, _ = phases.angles(np.arange(float(FINE)), work)
         angle = 2 * (half.astype(np.longdouble) + rest)
         z = 2 * self.weights[:, None] * (sign * np.cos(angle) + 1j * (sign * np.sin(angle))).astype(complex)
         return np.concatenate([np.stack([z.real, z.imag], 1), np.stack([-z.imag, z.real], 1)])
 
+    def _turned(self, t: fmpq) -> list[arb]:
+        """Return the phases at a time, less whole turns."""
+        with workprec():
+            return [turn_of(f * t) for f in self.turns]
+
 
 def exponentials(exact: Nutating, precision: int) -> tuple[Exponentials, Exponentials] | None:
     """Return alpha and beta as sums of exponentials, None where there is no period or where they cancel or are many."""
-    with ctx.workprec(precision):
+    with workprec(precision):
         found = exact.trigonometric()
         if found.lattice.form != "trigonometric" or found.swing:
             return None
@@ -78,7 +83,8 @@ def cancelling(alpha: Exponentials, beta: Exponentials) -> float:
     phases = np.linspace(0, 1, 257)
     square = np.zeros(len(phases))
     for x in (alpha, beta):
-        relative = [float(f - x.turns[0]) for f in x.turns]
+        with workprec():
+            relative = [nearest(f - x.turns[0]) for f in x.turns]
         unit = min((abs(f) for f in relative if f), default=1.0)
         turns = np.round(np.array(relative) / unit)
         square = square + np.abs(x.weights @ np.exp(2j * np.pi * np.outer(turns, phases))) ** 2

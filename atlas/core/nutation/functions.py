@@ -11,7 +11,7 @@ import numpy as np
 from flint import acb, arb, fmpq, fmpq_poly
 
 from atlas.core.arithmetic.phase import SPLITTER, WHOLE
-from atlas.core.arithmetic.wide import Wide
+from atlas.core.arithmetic.words import words
 from atlas.core.inputs import FloatArray
 from atlas.exact.cayley_klein import Solution
 from atlas.exact.theta import Sum, infinite
@@ -24,12 +24,6 @@ SATURATED = 700.0
 
 RAISED = 2.0**500
 """What sech x is multiplied by where x leaves that range: one of alpha and beta may be as small as it is there."""
-
-
-def wide(x: arb) -> Wide:
-    """Return the middle of a ball as a number of 256 digits."""
-    m, e = x.mid().man_exp()
-    return Wide(int(m), int(e))
 
 
 class Steady:
@@ -114,8 +108,8 @@ class Hyperbolic:
             slope, start = 4 * slope * lattice.half / arb.pi(), arb(0)
             first, second = (x.twist * 2 * lattice.half / arb.pi() for x in (found.alpha, found.beta))
             self.twist = np.array([[float(x.mid())] for x in (first + second, first - second)])
-        self.line = Line(wide(slope), wide(start))
-        self.distant = wide(self.reach).words(2) if self.periodic and self.reach > SATURATED else None
+        self.line = Line(slope, start)
+        self.distant = words(self.reach, 2) if self.periodic and self.reach > SATURATED else None
         self.sech = any(sum_.doubled for sum_ in sums)
         polynomials = [self._polynomials(sum_) for sum_ in sums]
         self.powers = max(self._needed(weights) for weights in polynomials)
@@ -189,7 +183,7 @@ class Linear:
 
     def __init__(self, found: Solution, _sums: Sequence[Sum]) -> None:
         self.count = 2
-        self.line = Line(wide(found.lattice.rate), wide(found.lattice.rate * found.origin), saturates=False)
+        self.line = Line(found.lattice.rate, found.lattice.rate * found.origin, saturates=False)
 
     def weights(self, sum_: Sum) -> list[acb]:
         """Return the weight of each row in a sum."""
@@ -212,9 +206,9 @@ class Line:
     If what is made of x `saturates`, no more than the `longest` time has to be asked for.
     """
 
-    def __init__(self, slope: Wide, start: Wide, *, saturates: bool = True) -> None:
-        self.slope, self.slope_rest = slope.words(2)
-        self.start, self.start_rest = start.words(2)
+    def __init__(self, slope: arb, start: arb, *, saturates: bool = True) -> None:
+        self.slope, self.slope_rest = words(slope, 2)
+        self.start, self.start_rest = words(start, 2)
         head = self.slope * SPLITTER - (self.slope * SPLITTER - self.slope)
         self.halves = float(head), float(self.slope - head)
         self.longest = (2 * SATURATED + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf

@@ -10,22 +10,22 @@ is evaluated time by time.
 """
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cache
-from math import ceil, frexp
+from math import frexp
 
 import numpy as np
+from flint import fmpq
 
 from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.arithmetic.grid import HUGE
 from atlas.core.arithmetic.phase import Phases
 from atlas.core.arithmetic.threads import shared
-from atlas.core.arithmetic.wide import Wide
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import BLOCK, Evaluation, Products, combined
 from atlas.core.nutation.exponentials import FINE, Exponentials
 from atlas.core.nutation.single import SingleMotion
 from atlas.errors import AtlasError
+from atlas.formulas.numbers import rational
 
 COARSE = 34
 """Coarse times in one product."""
@@ -74,11 +74,11 @@ def fill_grid(one: SingleMotion, start: float, step: float, out: FloatArray) -> 
         fill_each(grid, out)
         return
     blocks, rest = divmod(count, FINE)
-    fill_products(one, sums, Wide.exactly(start), Wide.exactly(step), out[: blocks * FINE])
+    fill_products(one, sums, rational(start), rational(step), out[: blocks * FINE])
     if rest:
         fill_each(grid, out[count - rest :], blocks * FINE)
-    if step and 0 <= Fraction(-start) / Fraction(step) < count:
-        i = ceil(Fraction(-start) / Fraction(step))
+    if step and 0 <= (first := -rational(start) / rational(step)) < count:
+        i = int(first.ceil())
         fill_each(grid, out[i : i + 1], i)
 
 
@@ -202,10 +202,10 @@ def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
 
 
 def fill_products(
-    one: SingleMotion, sums: tuple[Exponentials, Exponentials], start: Wide, step: Wide, out: FloatArray
+    one: SingleMotion, sums: tuple[Exponentials, Exponentials], start: fmpq, step: fmpq, out: FloatArray
 ) -> None:
     """Fill the matrices by products of coarse and fine tables; len(out) is a multiple of FINE."""
-    phases = [x.coarse(start, step * Wide(FINE)) for x in sums]
+    phases = [x.coarse(start, step * FINE) for x in sums]
     tables = [np.ascontiguousarray(x.fine(step).swapaxes(0, 1)) for x in sums]
     rows = out.reshape(-1, 9)
 

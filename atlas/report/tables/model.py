@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, TypeVar
 
+from atlas.formulas.numbers import workprec
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.numbers import Number
 from atlas.report.schema import StrictStruct, convert
@@ -79,14 +80,14 @@ def column(values: Sequence[Any], digits: int) -> list[Number]:
 
 def scaled(columns: Sequence[Sequence[Any]], unit: str, digits: int) -> tuple[str, list[list[Number]]]:
     """Print columns of one unit; where all are very small or large, a power of ten of thousands joins the unit."""
-    from flint import ctx, fmpq
+    from flint import fmpq
 
     sizes = [power for values in columns for value in values if (power := _power(value)) is not None]
     largest = max(sizes, default=0)
     if -3 <= largest <= 5:
         return unit, [column(values, digits) for values in columns]
     power = 3 * (largest // 3)
-    with ctx.workprec(2 * bits(digits)):  # the product is as accurate as its factors
+    with workprec(2 * bits(digits)):  # the product is as accurate as its factors
         shifted = [[value * fmpq(10) ** -power for value in values] for values in columns]
     return f"$10^{{{power}}}$ {unit}", [column(values, digits) for values in shifted]
 

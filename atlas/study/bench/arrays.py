@@ -16,7 +16,6 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from flint import ctx
 
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.general import GeneralMotion
@@ -24,6 +23,7 @@ from atlas.core.hyperbola import Hyperbola
 from atlas.core.quadric import Quadric
 from atlas.exact import elementary, general, hyperbola, quadric
 from atlas.exact.digits import enclosed
+from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import FloatArray
 from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.elementary import formula
@@ -62,7 +62,7 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
         for method in ("ours", "alone" if task.alone else "plain"):
             values = jobs[method]()
             chosen = np.unique(np.linspace(0, len(values) - 1, CHECKED).astype(int)).tolist()
-            with ctx.workprec(BITS + 16):
+            with workprec(BITS + 16):
                 worst = max(max(task.errors(values[i].flat, task.true(i))) for i in chosen)
             yield Rows(
                 task.name,

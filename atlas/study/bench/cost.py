@@ -16,9 +16,9 @@ from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
-from flint import ctx
 from msgspec.structs import replace
 
+from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import FloatArray, Grid
 from atlas.study.bench.clock import Job, interleave, one_core, ratio
 from atlas.study.bench.elementary import exact_motion, formula, frequencies, motion, turns
@@ -74,7 +74,7 @@ class Work:
             return None
         where = np.unique(np.linspace(0, len(self.times) - 1, SAMPLES).astype(int))
         exact = exact_motion()
-        with ctx.workprec(BITS):
+        with workprec(BITS):
             true = np.array([np.vectorize(nearest)(self.truth(exact, float(self.times[i]))) for i in where])
         return float(np.abs(values[where] - true).max())
 

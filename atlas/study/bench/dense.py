@@ -13,10 +13,10 @@ from itertools import chain
 from statistics import median
 
 import numpy as np
-from flint import ctx
 
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Exact
+from atlas.formulas.numbers import workprec
 from atlas.study.bench import elementary, general
 from atlas.study.bench.case import Grid, Solve
 from atlas.study.bench.clock import interleave, one_core, ratio
@@ -53,7 +53,7 @@ def rows(count: int, rounds: int) -> Iterator[Rows]:
     for (what, method), (evaluate, at) in solve.items():
         values = evaluate(at)
         chosen = np.unique(np.linspace(0, count - 1, CHECKED).astype(int)).tolist()
-        with ctx.workprec(BITS + 16):
+        with workprec(BITS + 16):
             true = [list(chain(*enclosed(partial(exact.rotation, float(at.times[i])), BITS))) for i in chosen]
             worst = max(max(absolute(values[i].flat, balls)) for i, balls in zip(chosen, true, strict=True))
         seconds = times[f"{what} {method}"]

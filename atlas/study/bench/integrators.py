@@ -15,8 +15,8 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from flint import ctx
 
+from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import Case, FloatArray, Grid, Solve
 from atlas.study.bench.reference import BITS, nearest
 
@@ -59,7 +59,7 @@ def integrators() -> tuple[Integrator, ...]:
 
 def start(case: Case) -> list[float]:
     """Return the initial state, each number rounded once."""
-    with ctx.workprec(BITS):
+    with workprec(BITS):
         return [nearest(x) for x in case.initial()]
 
 

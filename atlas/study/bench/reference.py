@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from flint import arb, arb_poly, arb_series, ctx
 
+from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import Case, FloatArray, Grid
 
 BITS = 256
@@ -39,7 +40,7 @@ class Reference:
 
 def reference(case: Case, grid: Grid) -> Reference:
     """Return the true values of a case."""
-    with ctx.workprec(BITS):
+    with workprec(BITS):
         words = [_two_words(x) for t in grid.times.tolist() for x in case.exact(t)]
     high, low = np.array(words).T.reshape(2, grid.count, *case.shape)
     return Reference(high, low, case.scale(high))
@@ -50,7 +51,7 @@ def check(case: Case, until: float) -> float:
 
     Every step sums ``ORDER`` terms; the series come from Picard's iteration, which gains one term each time.
     """
-    with ctx.workprec(BITS), _series(ORDER):
+    with workprec(BITS), _series(ORDER):
         parameters = {name: _balls(value) for name, value in case.parameters.items()}
         state, now = [arb(x) for x in case.initial()], 0.0
         distance = 0.0

@@ -5,13 +5,14 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.exact import elementary as exact
 from atlas.exact.digits import enclosed
+from atlas.formulas.numbers import workprec
 from atlas.study.bench.elementary import formula
 from atlas.study.extreme import PHASE_LIMIT
 
@@ -61,7 +62,7 @@ def _true(*parameters: bytes) -> FloatArray:
     words = []
     for ratio, B2, B3, omega2, t, *omega3 in zip(*(np.frombuffer(x).tolist() for x in parameters), strict=True):
         motion = exact.ElementaryMotion(ratio, (B2, B3), omega2, *omega3)
-        with ctx.workprec(BITS + 16):
+        with workprec(BITS + 16):
             balls = [*chain(*enclosed(partial(motion.rotation, t), BITS))]
             high = [float(x) for x in balls]
             words.append((high, [float(arb(x) - y) for x, y in zip(balls, high, strict=True)]))

@@ -1,0 +1,115 @@
+"""Numbers that formulas are written for: exact rationals and balls of flint, and arrays in two words.
+
+A formula uses + - * / and the functions below. So it gives the certified floor its balls, the kernels their floats of
+one motion, rounded once, and by `atlas.core.arithmetic.double_double` those of a million.
+"""
+
+from collections.abc import Callable, Sequence
+from math import inf, isqrt
+from threading import RLock
+from types import TracebackType
+from typing import Any, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+Number: TypeAlias = Any
+"""fmpq, arb, or an array of `DoubleDouble`."""
+
+Vector: TypeAlias = Sequence[Number]
+
+BITS = 256
+"""Digits of a ball from which a float of one motion is rounded: far more than cancel between exact inputs."""
+
+_LOCK = RLock()
+
+
+class workprec:  # noqa: N801  the name that flint has for it
+    """Let flint compute with so many binary digits inside a `with` block, in one thread at a time.
+
+    Its precision is one for all threads of a process.
+    """
+
+    __slots__ = ("_before", "bits")
+
+    def __init__(self, bits: int = BITS) -> None:
+        self.bits = bits
+
+    def __enter__(self) -> None:
+        _LOCK.acquire()
+        self._before = ctx.prec
+        ctx.prec = self.bits
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        ctx.prec = self._before
+        _LOCK.release()
+
+
+def rational(x: float) -> fmpq:
+    """Return a float as the number that it is."""
+    return fmpq(*x.as_integer_ratio())
+
+
+def root(x: Number) -> Number:
+    """Return the root of a number that is not negative; of a rational number exactly where it is rational."""
+    if not isinstance(x, fmpq):
+        return x.sqrt()
+    p, q = int(x.p), int(x.q)
+    a, b = isqrt(p), isqrt(q)
+    return fmpq(a, b) if a * a == p and b * b == q else arb(x).sqrt()
+
+
+def select(x: Number, positive: Number, other: Number) -> Number:
+    """Return `positive` where x is, `other` elsewhere."""
+    if isinstance(x, fmpq | arb):
+        return positive if x > 0 else other
+    return x.select(positive, other)
+
+
+def dot(a: Vector, b: Vector) -> Number:
+    """Scalar product (a, b)."""
+    first, *others = (x * y for x, y in zip(a, b, strict=True))
+    return sum(others, first)
+
+
+def cross(a: Vector, b: Vector) -> tuple[Number, Number, Number]:
+    """Vector product [a, b]."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def length(*components: Number) -> Number:
+    """Return the length of a vector."""
+    return root(dot(components, components))
+
+
+def direction(vector: Vector) -> tuple[Number, ...]:
+    """Return the unit vector along a vector; of a zero rational one, which has no direction, the last axis."""
+    size = length(*vector)
+    if isinstance(size, fmpq) and size == 0:
+        return *vector[:-1], fmpq(1)
+    return tuple(x / size for x in vector)
+
+
+def unit(vector: Vector) -> list[Number]:
+    """Return the unit vector along one that is not zero, each component by one root."""
+    square = dot(vector, vector)
+    roots = [(x, root(x * x / square)) for x in vector]
+    return [select(x, size, -size) for x, size in roots]
+
+
+def alone(formula: Callable[..., Any], *inputs: float) -> Any:
+    """Evaluate a formula on floats, which are taken as exact; each result is rounded once."""
+    with workprec():
+        found = formula(*map(rational, inputs))
+        return [nearest(x) for x in found] if isinstance(found, tuple | list) else nearest(found)
+
+
+def nearest(x: fmpq | arb) -> float:
+    """Return the double nearest to a number; beyond the largest, inf of the same sign."""
+    if isinstance(x, arb):
+        return float(x.mid())
+    try:
+        return int(x.p) / int(x.q)
+    except OverflowError:
+        return inf if x > 0 else -inf
