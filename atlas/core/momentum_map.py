@@ -22,6 +22,9 @@ from atlas.core.inputs import FloatArray, number, plain, positive, real, vectors
 from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 
+NEAR = 2.0**-48
+"""Part of the reach below which two ends of branches are one."""
+
 
 @dataclass(frozen=True)
 class Conserved:
@@ -104,6 +107,8 @@ def section(ratio: Any, b: Any, M3: Any, *, reach: float = 3.0, points: int = 40
             larger = (sign * M3 + np.copysign(np.sqrt(inside), sign * M3)) / 2
             ends += [larger, A / larger] if larger else [0.0]
     ends = sorted({float(x) for x in ends if abs(x) <= most})
+    # the two ways to an end differ by a rounding
+    ends = [x for x, y in zip(ends, [-np.inf, *ends], strict=False) if x - y > NEAR * most]
     branches = []
     for low, high in pairwise(ends):
         middle = (low + high) / 2

@@ -77,7 +77,7 @@ class Libration:
 
     def departure(self, turns: FloatArray) -> FloatArray:
         """Return points (t, Omega3 - omega3), shape (N, 2), exact also where the departure is a rounding of omega3."""
-        first = float(np.arcsin(np.clip((self.above + self.below) / (self.below - self.above), -1.0, 1.0)))
+        first = float(np.arcsin((self.above + self.below) / (self.below - self.above)))
         first = first if self.speed >= 0 else np.pi - first
         s = first + 2 * np.pi * np.asarray(turns)
         series = self._series

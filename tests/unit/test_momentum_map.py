@@ -1,5 +1,7 @@
 """The energy-momentum map: its critical values, and the kinds of motion over a plane of initial data."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -61,6 +63,32 @@ def test_a_section_has_as_many_branches_as_the_axis_leaves() -> None:
     for branch in section(0.5, 1.0, 0.4):
         assert (np.abs(branch.r) <= 1).all()
         assert (np.diff(branch.w) > 0).all()
+
+
+@pytest.mark.parametrize(
+    ("ratio", "M3", "count"), [(2.0, 2.0, 3), (2.0, -2.0, 3), (2.0, 0.0, 1), (1.0, 0.0, 2), (0.5, 0.0, 4)]
+)
+def test_a_section_is_cut_where_the_axis_touches(ratio: float, M3: float, count: int) -> None:
+    """At |M3| = 2 sqrt(A) exactly r = ±1 at one rate, which cuts; with M3 = 0 so do w = 0 and w^2 = -A, where they are.
+
+    Each inner end is on the axis or has M3 = 0, and the two outer ones are at `reach`.
+    """
+    branches = section(ratio, 1.0, M3, reach=3.0)
+    assert len(branches) == count
+    assert -branches[0].w[0] == pytest.approx(3.0, abs=1e-3) == branches[-1].w[-1]
+    for before, after in pairwise(branches):
+        assert before.w[-1] == pytest.approx(after.w[0], abs=1e-3)
+        if M3:
+            assert np.abs([before.r[-1], after.r[0]]) == pytest.approx(1.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("end", [1, -1])
+def test_a_steady_precession_may_lie_on_the_axis(end: int) -> None:
+    """With r = ±1 exactly the steady precession is the spin about the field of the same M3."""
+    found = steady(1.7, 1.3, 0.8, float(end))
+    spin, D = axis_spin(1.7, 1.3, found.M3, end)
+    assert (found.M3, found.p, found.h) == pytest.approx((spin.M3, spin.p, spin.h), rel=8 * EPS)
+    assert pytest.approx((0.8 - 0.7 * 1.3**2 / 0.8) ** 2, rel=64 * EPS) == D
 
 
 @pytest.mark.parametrize("ratio", [0.4, 1.0, 1.6])

@@ -32,3 +32,13 @@ def test_the_departure_from_the_quadric_of_a_needle_is_no_noise(ratio: float) ->
     made = recipes.load("quadric_leak").scene(ratio=ratio)
     sizes = [len(layer.points) for panel in made.panels for layer in panel.layers if isinstance(layer, Curve)]
     assert max(sizes) < 2000
+
+
+@pytest.mark.parametrize(("omega2", "omega3"), [(0.3, 0.2), (-2.5, 0.7), (0.9, -1.1)])
+def test_a_libration_from_a_turning_point_starts_at_one_of_its_ends(omega2: float, omega3: float) -> None:
+    """With omega1 = 0 one turning point is the start itself: the path starts there at t = 0, at rest."""
+    libration = Libration(PseudoOscillator(1.5, (1.0, 2.0), (0.0, omega2, omega3)))
+    assert min(libration.above, -libration.below) == 0.0
+    (time, departure), (_, later) = libration.departure([0.0, 1e-4])
+    assert (time, departure) == pytest.approx((0.0, 0.0), abs=1e-15)
+    assert abs(later) <= 1e-7 * (libration.above - libration.below)
