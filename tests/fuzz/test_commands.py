@@ -123,7 +123,9 @@ def checked(words: list[str]) -> None:
     elif "--json" in words and out:
         found = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} in JSON: {told}"))
         missing = json.dumps(found).count("null")
-        assert missing == 0 or "missing" in found or '"drift": null' in out or words[0] in {"check", "hyperbola", "list"}, told
+        assert (
+            missing == 0 or "missing" in found or '"drift": null' in out or words[0] in {"check", "hyperbola", "list"}
+        ), told
     assert "nan" not in out.lower(), told
 
 

@@ -12,6 +12,7 @@ from flint import arb, ctx
 
 from atlas.core import general
 from atlas.core.general import GeneralMotion
+from atlas.core.nutation import rows
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.regimes import GENERAL
 from tests.oracles.taylor import taylor
@@ -91,7 +92,7 @@ def test_omega_keeps_its_digits_near_rest(power: int, least: float) -> None:
 @pytest.mark.parametrize("regime", GENERAL)
 def test_omega_keeps_its_digits_in_every_regime(regime: str) -> None:
     """So it is next to separatrices and triple roots, along the field, and at any scale, over some periods."""
-    random, rows = Random(3), []  # noqa: S311  draws of test inputs
+    random, drawn = Random(3), []  # noqa: S311  draws of test inputs
     for _ in range(5):
         I, B, omega = GENERAL[regime](random)
         motion = GeneralMotion(I, B, omega)
@@ -100,8 +101,8 @@ def test_omega_keeps_its_digits_in_every_regime(regime: str) -> None:
         )
         true = narrow(Balls(I, B, omega).angular_velocity, float(t))
         assert off(motion.angular_velocity(t), true) <= WANTED
-        rows.append((I, B, omega, t, true))
-    I, B, omega, t, true = zip(*rows, strict=True)
+        drawn.append((I, B, omega, t, true))
+    I, B, omega, t, true = zip(*drawn, strict=True)
     together = GeneralMotion(np.array(I), np.array(B).T, np.array(omega).T).angular_velocity(np.array(t))
     assert max(map(off, together, true)) <= WANTED
 
@@ -147,3 +148,29 @@ def test_omega_in_the_laboratory_keeps_its_digits() -> None:
         for time in (0.7, 40.0, 3e3):
             true = narrow(partial(motion._turning.exact.angular_velocity), time)
             assert off(motion.angular_velocity(time), true) <= WANTED
+
+
+def test_a_spin_about_the_axis_starts_as_the_field_turns_it() -> None:
+    """With omega along the axis one of the pair is zero at t = 0: by its slope Omega is true, in arrays and alone."""
+    I, spins = np.array([1.5, 0.4, 1.0, 0.4]), np.array([0.7, -1.3, 0.9, -1e-9])
+    t = np.array([3.0, 11.0, 0.3, 40.0])
+    together = GeneralMotion(I, (1.0, np.array([2.0, -0.3, 0.5, 1.0])), (0.0, 0.0, spins)).angular_velocity(t)
+    for i, B3 in enumerate((2.0, -0.3, 0.5, 1.0)):
+        inputs = float(I[i]), (1.0, B3), (0.0, 0.0, float(spins[i]))
+        true = narrow(Balls(*inputs).angular_velocity, float(t[i]))
+        assert off(together[i], true) <= WANTED
+        assert off(GeneralMotion(*inputs).angular_velocity(float(t[i])), true) <= WANTED
+
+
+def test_needles_across_the_field_keep_their_digits_in_arrays(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Omega3 passes zero far below its largest values: such rows are made alone; were they not, it would show."""
+    I, B, omega = 1e-6, (1.0, 0.1), (2e-6, 1e-6, 3e-7)
+    t = np.linspace(5.0, 2000.0, 80)
+    true = [narrow(Balls(I, B, omega).angular_velocity, time) for time in t.tolist()]
+
+    def worst() -> float:
+        return max(map(off, GeneralMotion(np.full(80, I), B, omega).angular_velocity(t), true))
+
+    assert worst() <= WANTED / 2
+    monkeypatch.setattr(rows, "SMALL", np.inf)
+    assert worst() > WANTED / 2
