@@ -70,16 +70,6 @@ class Verdict:
         letters = ", ".join(f"{name} = {value}" for name, value in shown.items())
         return "; ".join(part for part in (reason, letters, relation, *sides) if part)
 
-    @property
-    def sound(self) -> bool:
-        """Whether it stands: proved or a definition, or refuted and graded; a corrected form must be proved."""
-        settled = self.verdict in {"proved", "definition"} or (self.verdict == "refuted" and bool(self.grade))
-        return (
-            settled
-            and (not self.grade or self.corrected_verdict == "proved")
-            and (not self.false or self.false_verdict == "refuted")
-        )
-
 
 def slips(verdicts: Iterable[Verdict]) -> dict[Grade, list[str]]:
     """Return the distinct slips by grade, the grave ones first, each by the name under which it is counted."""
