@@ -56,11 +56,9 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"Left, the attitude of a ball as a point of the torus of its two angles, $\alpha t$ the long way round "
-            r"and $\gamma t$ the short way. Right, the way of the point $\mathbf{R}_1$ "
-            rf"of the same ball. From above, $\gamma/\alpha$ is {shown}, with $\alpha={tex(larmor)}$ and "
-            rf"$m_3={tex(m3)}\,I_0$. A rational quotient closes the line and the trace; otherwise they fill the torus, "
-            r"and on the sphere a zone."
+            r"Left, the attitude of a ball on the torus of its two angles, $\alpha t$ the long way round and $\gamma t$ "
+            r"the short way; right, the way of its point $\mathbf{R}_1$. From above, $\gamma/\alpha$ is "
+            rf"{shown}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(
             f"{len(ratios)} rows of two pictures: a line that winds round a torus, closed in the first row and dense "

@@ -65,12 +65,10 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     return Scene(
         title=title(__doc__),
         caption=(
-            r"Every symmetric body has its place on the scale of $I=I_3/I_2$, and none lies beyond 2. Seven bodies "
-            r"with their true proportions, the needle with $I=0.02$, the rod with 0.2; above each is the surface (51) "
-            rf"of its initial angular velocities with constant $\Omega_3$ for $\mathbf{{B}}'$ along "
-            rf"${tex_vector((0.0, *field))}$, with the hyperbola of its motions. Bodies longer than a sphere have one "
-            r"sheet, flatter ones two. A disk and a loop have one $I$ and therefore one surface: the field does not "
-            r"tell them apart."
+            r"Seven bodies on the scale of $I=I_3/I_2$, in true proportions: the needle has $I=0.02$, the rod 0.2. "
+            r"Above each is the surface (51) of its initial data for $\mathbf{B}'$ along "
+            rf"${tex_vector((0.0, *field))}$, with the hyperbola of its motions. Disk and loop have one $I$ and one "
+            r"surface."
         ),
         alt=(
             "A scale of I from 0 to 2 with seven bodies drawn over it, a needle, a rod, a long solenoid, a sphere, a "

@@ -56,8 +56,7 @@ def scene() -> Scene:
     return Scene(
         title(__doc__),
         "The colours of the figures: in each of them a colour means one thing. They differ in lightness too, so that "
-        "they stay apart in grey print, and to those who do not see all of them. A name has the colour of its thing, "
-        "darker where it could not be read on white. The colours of bodies are for figures in which they are compared. "
+        "they stay apart in grey print. The colours of bodies are for figures in which they are compared. "
         "Elementary motions are initial angular velocities, and have their hue.",
         "Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image under "
         "the inverse inertia tensor pink, E blue, m green, angular velocities plum, the elementary motions violet, the "

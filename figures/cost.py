@@ -20,9 +20,9 @@ def scene(*, columns: int = 1) -> Scene:
     return Scene(
         title=title(__doc__),
         caption=(
-            "Above: time for one rotation matrix of the elementary motion among $N$, on one core, into memory that is "
-            "given where the method can. Below: the same over the time in which one core fills that memory with a "
-            f"constant, the median of ratios within one run, on one core and on two. {measured(record)}"
+            "Above: time for one rotation matrix of the elementary motion among $N$, on one core. Below: the same over "
+            "the time in which one core fills that memory with a constant, on one core and on two. "
+            f"{measured(record)}"
         ),
         alt=(
             "Two panels with logarithmic axes, the number of matrices to the right. Above, the time for one matrix "

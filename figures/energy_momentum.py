@@ -36,10 +36,9 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"Critical values of the energy $2H$ over the momentum $p$ about the field, at $M_3={tex(M3)}$ and "
-            rf"$b={tex(b)}$, for {listed([f'$I={tex(I)}$' for I in ratios])}: each point of a curve is a steady "
-            r"precession of the paper's family, stable (solid) or unstable (dashed); dots are spins about the field. "
-            r"Every motion lies on or above the lowest curve. For a long body the curve folds: inside the swallowtail "
-            r"two stable precessions share $p$, and the unstable one between them carries the separatrix."
+            rf"$b={tex(b)}$, for {listed([f'$I={tex(I)}$' for I in ratios])}: steady precessions, stable (solid) or "
+            r"unstable (dashed), and spins about the field (dots). Inside the swallowtail two stable precessions share "
+            r"$p$."
         ),
         alt=(
             f"Panels for I = {listed([plain(I) for I in ratios])} with the critical energies over p: for the long body "

@@ -42,11 +42,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            f"{tex_setting(ratio, field, first='A')}, started next to the unstable elementary motion "
-            rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. (a) $\Omega_3$ stays for a while, leaves with the rate "
-            rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$, goes round the two stable motions in turn, and comes back again and "
-            r"again. (b) The period over the push: $T$ grows by $(4/\sqrt{-\nu_n^2})\ln 10$ for each decade (dashed), "
-            "so it tells the push and the reach does not. An escape is a nutation of long period, not a flight."
+            f"{tex_setting(ratio, field, first='A')}, started beside the unstable elementary motion "
+            rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. (a) $\Omega_3$ leaves with the rate "
+            rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. (b) Its period grows by "
+            r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push (dashed)."
         ),
         alt=(
             f"Two panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: Omega 3 over time in pulses "

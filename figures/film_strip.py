@@ -52,10 +52,8 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$, at {count} moments of one turn of its "
-            r"precession; below each, the part of the period $2\pi/k$ that has gone by. The axis $\mathbf{R}_3$ keeps "
-            r"its angle with $\mathbf{B}$: there is no nutation. The dark seam shows the proper rotation; in one turn "
-            rf"of the precession the body turns by $\phi/k={tex(motion.phi / motion.k)}$ turns about its own axis, so "
-            "at the end the axis is back and the body is not."
+            r"precession; below, the part of the period $2\pi/k$ gone by. The axis $\mathbf{R}_3$ keeps its angle with "
+            rf"$\mathbf{{B}}$; the dark seam has made $\phi/k={tex(motion.phi / motion.k)}$ turns about it at the end."
         ),
         alt=(
             f"{count} drawings side by side of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: a "

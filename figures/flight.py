@@ -62,14 +62,11 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The flight of a point of {tex_setting(ratio, field)}, $\mu={tex(mu)}$ and $c={tex(c)}$, with "
-            rf"$\mathbf{{E}}={tex_vector(E)}$. The centre of mass starts at the origin with the velocity "
-            rf"${tex_vector(velocity)}$ and circles with the frequency $2\lvert\mathbf{{B}}'"
-            rf"\rvert{tex_equals(abs(particle.cyclotron_frequency))}$; the point starts at "
-            rf"$\mathbf{{x}}_N={tex_vector(point)}$ and is carried round it by the elementary motion with "
-            rf"$\omega_2={tex(motion.omega2)}$, $k{tex_equals(motion.k)}$ and $\phi{tex_equals(motion.phi)}$. (a) In "
-            r"space. (b) Seen along $\mathbf{B}$. Thin lines join the centre of mass to the point at equal steps of "
-            "time."
+            rf"The flight of a point $\mathbf{{x}}_N={tex_vector(point)}$ of {tex_setting(ratio, field)}, "
+            rf"$\mathbf{{E}}={tex_vector(E)}$, with $\omega_2={tex(motion.omega2)}$, "
+            rf"$k{tex_equals(motion.k)}$ and $\phi{tex_equals(motion.phi)}$; the centre of mass circles with "
+            rf"$2\lvert\mathbf{{B}}'\rvert{tex_equals(abs(particle.cyclotron_frequency))}$. (a) In space. (b) Along "
+            r"$\mathbf{B}$. Thin lines join centre and point at equal steps of time."
         ),
         alt=(
             f"Two panels with the path of a point of {plain_setting(ratio, field)} in the electric field "

@@ -48,11 +48,10 @@ def scene(
     found = closed(hyperbola, free, order) if free else {}
     ends = (-B2 - reach * abs(B2), -B2 + reach * abs(B2))
     proper = (
-        r"the proper rotation $\phi$, (72), which is zero at rest and at $\omega_2=-2B'_2$ and has its pole, dotted, "
-        r"at $\omega_2=-B'_2$. (b) Their quotient, (86): the motion repeats itself where it is rational. Dashed: the "
-        rf"free body that precesses as fast about the same axis, (87), with $\phi/k{tex_equals(free)}$."
+        r"the proper rotation $\phi$, (72), with its pole dotted. (b) Their quotient, (86). Dashed: the "
+        rf"free body of the same $k$, (87), $\phi/k{tex_equals(free)}$."
         + (
-            rf" Dots: the motions that repeat themselves after {counted(order)} of the precession, with $\phi/k=p/q$."
+            rf" Dots: the motions that repeat themselves after {counted(order)} of the precession."
             if found
             else ""
         )

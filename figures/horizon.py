@@ -25,10 +25,9 @@ def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), column
     return Scene(
         title=title(__doc__),
         caption=(
-            f"Largest error up to a time $T$, for {shown}. A method that rounds a phase loses "
-            "digits in proportion to $T$; the atlas keeps its phases in two words, and its largest error here is "
+            f"Largest error up to a time $T$, for {shown}. The largest of the atlas is "
             f"${tex(float(f'{worst:.1e}'))}$ (dotted: four ulp of 1). Of an integrator each dot is the best tolerance "
-            f"that came through in time, and its line ends where none did. {measured(record)}"
+            f"that came through in time. {measured(record)}"
         ),
         alt=(
             f"{'One panel' if len(cases) == 1 else f'{len(cases)} panels'} with two logarithmic axes, time to the "

@@ -54,13 +54,11 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The curves (67) of initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions in the "
+            r"The initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), in the "
             rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
-                r"All have the centre $-\mathbf{B}'$ and the dotted asymptote $\omega_2=-B'_2$, and all pass through "
-                r"the state of rest and through $-2\mathbf{B}'$; the dashed asymptotes run along "
-                r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: the points $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ "
-                "again. The scales of the two axes differ."
+                r"All share the centre $-\mathbf{B}'$ and the dotted asymptote; the dashed ones run along "
+                r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ again."
                 if B2 and B3
                 else "In such a field the curve is the same for every body, and falls apart into straight lines."
                 if B2

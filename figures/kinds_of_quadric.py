@@ -64,14 +64,11 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"Every quadric (51) once, up to its size: across, the body; upwards, the angle $\beta$ between "
-            r"$\mathbf{e}_2$ and $\mathbb{I}^{-1}\mathbf{B}'$, from a field across the body's axis to one along it. "
-            r"The kind depends on the body alone: one sheet for $I<1$, two for $I>1$, and a cone on the line between "
-            r"them. At the lower edge the surface is a pair of planes, at the upper one a line. Levels of the "
-            r"semi-axes, "
+            r"Every quadric (51) once, up to its size: over $I$ and the angle $\beta$ of $\mathbb{I}^{-1}\mathbf{B}'$ to "
+            r"$\mathbf{e}_2$. The body alone decides on the kind. At the lower edge the surface is a pair of planes, at "
+            r"the upper one a line. Levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$: "
             + listed([rf"({'abc'[k]}) $C_{k + 1}$" for k in range(3)])
-            + r", in units of $\lvert\mathbf{B}'\rvert$: $C_1$ and $C_2$ vanish towards the cone as "
-            r"$\sqrt{\lvert1-I\rvert}$, and for slender bodies in a field along the axis $C_2$ has no bound."
+            + "."
         ),
         alt=(
             "Three maps over I from 0 to 2 and beta from 0 to 90 degrees, the left half shaded as hyperboloids of one "

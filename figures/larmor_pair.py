@@ -57,10 +57,8 @@ def scene(
             rf"The third axis of {tex_setting(ratio, field)} after two launches, "
             rf"$\boldsymbol{{\omega}}=({', '.join(map(tex, omega))})$ (heavy) and "
             rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {plain(nutations)} periods of the nutation from "
-            r"the same attitude (dot), seen with $\mathbf{B}$ upright. (a) In the laboratory the two have little in "
-            r"common. (b) In the frame that turns with Larmor's angular velocity $-\mathbf{B}'$ the light line goes on "
-            "where the heavy one came from: it is "
-            "the same motion, run backwards."
+            r"one attitude (dot), $\mathbf{B}$ upright. (a) Laboratory. (b) Larmor's frame: the light line goes on "
+            "where the heavy one came from."
         ),
         alt=(
             f"Two unit spheres with traces of the body's axis for {plain_setting(ratio, field)}. In the laboratory the "

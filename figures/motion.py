@@ -54,7 +54,7 @@ def scene(
             rf"$\phi{tex_equals(motion.phi)}$. "
             rf"(a) {turning if motion.k else 'The body, whose third axis does not move.'} "
             r"(b) The angular velocity in the body. "
-            rf"(c) The angular momentum in the laboratory, divided by $I_2$, (88){along}."
+            rf"(c) $\mathbf{{m}}/I_2$ in the laboratory, (88){along}."
         ),
         alt=(
             f"Three panels for the elementary motion of {plain_setting(ratio, field)} from the angular velocity "

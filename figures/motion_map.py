@@ -49,13 +49,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The amplitude of the nutation, the difference between the largest and the least angle of $\mathbf{R}_3$ "
-            r"and $\mathbf{B}$, over the initial angular velocity $(0,\omega_2,\omega_3)$ in the field "
-            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$. It vanishes on the hyperbola (white) alone, which is all "
-            r"that the paper solves; open dot: rest, diamond: $-2\mathbf{B}'$. Between the dotted lines the trace of "
-            r"the axis makes loops, outside it waves; one of them is $\omega_2=0$, where it has cusps. For the long "
-            "solenoid the map jumps: there are the separatrices, and they meet the hyperbola where it is unstable. "
-            f"The turning points of each pixel, and the kind of its motion: `{table.command('motions.csv')}`."
+            r"The amplitude of the nutation over the initial angular velocity $(0,\omega_2,\omega_3)$, "
+            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$: zero on the hyperbola (white) alone. Open dot: rest; "
+            r"diamond: $-2\mathbf{B}'$. Between the dotted lines the axis draws loops, outside waves. For a long "
+            "solenoid the map jumps at the separatrices."
         ),
         alt=(
             f"Maps of the amplitude of nutation for I = {listed([f'{I:g}' for I in ratios])} over omega 2 and omega 3, "
@@ -64,6 +61,7 @@ def scene(
         panels=panels,
         columns=2,
         named={"white": "map_curve", "dotted": "map_border", "open dot": "rest", "diamond": "special"},
+        commands=(table.command("motions.csv"),),
         size=(WIDTH, HEIGHT),
     )
 

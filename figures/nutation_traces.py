@@ -39,10 +39,8 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"The third axis of {tex_setting(ratio, field)} with $\omega_3={tex(omega3)}$ over {plain(nutations)} "
-            r"periods of the nutation, seen with $\mathbf{B}$ upright. At the start (dot) the axis stands at a turning "
-            r"point of the nutation and moves along the parallel with $\omega_2$: at rest there, it draws cusps, as a "
-            "spinning top does that is let go; moved one way it waves, the other way it loops. The trace stays between "
-            "the two parallels, which are roots of the quartic $Q$."
+            r"periods of the nutation, $\mathbf{B}$ upright. At the start (dot) it moves along the parallel with "
+            r"$\omega_2$: at rest there it draws cusps, moved one way it waves, the other way it loops."
         ),
         alt=(
             f"Unit spheres with the trace of the body's axis for {plain_setting(ratio, field)}, omega 3 = "

@@ -64,7 +64,7 @@ def scene(
         caption=(
             rf"$\Omega_3$ and its rate for {tex_setting(ratio, field)}, for all motions with the two conserved momenta "
             rf"of the elementary motion $\omega_2={tex(omega2)}$: each line is one energy. Dots are equilibria, the "
-            rf"elementary motions. {eight}All other lines are nutations in elliptic functions."
+            rf"elementary motions. {eight}All other lines are nutations."
         ),
         alt=(
             f"Closed curves in the plane of Omega 3 and its rate, for {plain_setting(ratio, field)} with the momenta "

@@ -41,11 +41,11 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The third component $\Omega_3$ of the angular velocity of {tex_setting(ratio, field)}, started with "
+            rf"The third component $\Omega_3$ of the angular velocity of {tex_setting(ratio, field)}, from "
             rf"$\boldsymbol{{\omega}}={tex_vector(omega)}$. (a) The quartic $Q$ of the first integral "
-            r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of (47), $\ddot\Omega_3=-V'(\Omega_3)$, and the "
-            r"level of the motion. The shaded interval is the "
-            rf"allowed one, the dot the start. (c) $\Omega_3(t)$. {still if rest else period}"
+            r"$\dot\Omega_3^2=Q(\Omega_3)$. (b) The potential $V$ of (47) and the "
+            r"level of the motion. Dot: the start; the shaded "
+            rf"interval is allowed. (c) $\Omega_3(t)$. {still if rest else period}"
         ).rstrip(),
         alt=(
             f"Three panels for {plain_setting(ratio, field)}, started with the angular velocity "

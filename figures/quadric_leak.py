@@ -49,9 +49,8 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"Points of the quadric (51) of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$, off the "
-            r"hyperbola. From each, a constant $\Omega_3$ would solve (47), but the body leaves at the rate "
-            r"$\dot\Omega_3(0)=\omega_1B'_2$; only with $\omega_1=0$ it stays. (a) The motion of $\Omega_3$ for "
-            rf"$\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; dashed: the rate at the start. "
+            rf"hyperbola. (a) $\Omega_3$ for $\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; "
+            r"dashed: the rate at the start, $\omega_1B'_2$. "
             f"(b) The largest departure from the start, with dots for the motions of (a); {law}"
         ),
         alt=(

@@ -47,8 +47,7 @@ def scene(
         title=title(__doc__),
         caption=(
             r"The initial angular velocities with constant $\Omega_3$, (51), in the field "
-            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$, at one scale, for {named}. Two sheets come together, meet "
-            r"in a cone for the ball and join to a tube for long bodies. Heavy line: the hyperbola "
+            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$, at one scale, for {named}. Heavy line: the hyperbola "
             r"$\omega_1=0$, whose points alone are motions."
         ),
         alt=(

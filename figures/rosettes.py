@@ -44,7 +44,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The trace of a point of the body, 50 degrees from its axis, on the unit sphere, seen along $\mathbf{B}$, "
+            r"The trace of a point of the body, 50 degrees from its axis, seen along $\mathbf{B}$, "
             rf"for {tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back in its first attitude "
             f"after {listed([str(q) for _, q in fractions])} turns of the precession. The last motion, from "
             rf"$\omega_2={tex(omega2)}$, has been followed over {plain(turns)} turns."

@@ -42,10 +42,9 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"{tex_setting(ratio, field, first='A')}: both motions that leave the unstable precession "
-            rf"$\omega_2={tex(omega2)}$ and return to it. (a) One of them, the trace of the axis with $\mathbf{{B}}$ "
-            r"upright; dashed: the circle of the precession. (b) $\Omega_3$ over time, a rational function of "
-            rf"$\cosh(\sqrt{{-\nu_n^2}}\,t)$ with $\sqrt{{-\nu_n^2}}={tex(growth)}$. A motion next to it repeats such "
-            "excursions for ever, the more rarely the closer it is."
+            rf"$\omega_2={tex(omega2)}$ and return to it. (a) The trace of the axis in one of them, $\mathbf{{B}}$ "
+            r"upright; dashed: the circle of the precession. (b) $\Omega_3$ of both, with "
+            rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$."
         ),
         alt=(
             f"A unit sphere for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}, on which the axis winds "

@@ -48,16 +48,16 @@ def scene(
         title=title(__doc__),
         caption=(
             f"Nutation of {tex_setting(ratio, field)} about its elementary motions. (a) The nutation frequency "
-            r"squared, $\nu_n^2=-Q''(\omega_3)/2$ with the quartic $Q$ of theorem-quartic, along the hyperbola (67). "
+            r"squared, $\nu_n^2=-Q''(\omega_3)/2$, theorem-quartic, along the hyperbola (67). "
             + (
                 f"The motion is unstable on the shaded bands {where}, inside which it is negative. "
                 if bands
                 else "It is positive. "
             )
-            + r"(b) Levels of $\nu_n^2/{B'_2}^2$ for this body in every field, over $\tau=\lvert B'_3/B'_2\rvert$ and "
+            + r"(b) Levels of $\nu_n^2/{B'_2}^2$ over $\tau=\lvert B'_3/B'_2\rvert$ and "
             r"$\lvert x\rvert=\lvert(\omega_2+B'_2)/B'_2\rvert$; dotted: the field of (a). "
             + (
-                r"Shaded, its edge included but for $\tau=0$: unstable, for $\tau\le1/(2\sqrt2)$ only."
+                r"Shaded: unstable."
                 if long
                 else r"For $I\ge1$ all motions of the hyperbola are stable."
             )

@@ -51,14 +51,10 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     return Scene(
         title=title(__doc__),
         caption=(
-            r"What the worst elementary motion of a body does, over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. Within "
-            r"the rectangle some are unstable; solid lines are levels of the greatest rate at which a small nutation "
-            r"grows, $\sqrt{-\nu_n^2}$ in units of $\lvert B'_2\rvert$, where "
-            r"$-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all are stable; dashed lines are "
-            r"levels of the least nutation frequency. Only bodies with $I<1$, in a field nearly across their axis, "
-            r"have unstable elementary motions; the edge $\tau=1/(2\sqrt{2})$ belongs to them. "
-            r"The squares of these frequencies, negative where unstable, of all "
-            f"pixels: `{table.command('stability.csv')}`."
+            r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. In the rectangle some "
+            r"are unstable: solid lines are levels of the greatest rate of growth $\sqrt{-\nu_n^2}/\lvert B'_2\rvert$, "
+            r"$-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all are stable: dashed lines are "
+            r"levels of the least nutation frequency."
         ),
         alt=(
             "Map over I from 0 to 2 and tau from 0 to 0.6. The unstable rectangle reaches to I = 1 and tau = 0.354; "
@@ -67,6 +63,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
         ),
         panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP)),),
         named={"solid lines": "main", "dashed lines": "second"},
+        commands=(table.command("stability.csv"),),
         size=(WIDTH, HEIGHT),
     )
 

@@ -53,13 +53,11 @@ def scene(
         title=title(__doc__),
         caption=(
             f"A disk, $I={tex(quotient(ratio))}$, spins along the field $B'_3={tex(B3)}$ with "
-            rf"$\omega_3={tex(omega3)}$, nearly as Larmor's frame does; there $D={tex(D)}<0$, and a push "
-            rf"$\omega_1={tex(push)}$ grows with the rate $\sqrt{{-D}}/2={tex(growth)}$. Above: {count} moments "
-            "of half a period, by equal steps of the angle between its axis and the field; light is its first upper "
-            "side. Below: that angle, with the moments above as dots. "
+            rf"$\omega_3={tex(omega3)}$; $D={tex(D)}<0$, and a push $\omega_1={tex(push)}$ grows with the rate "
+            rf"$\sqrt{{-D}}/2={tex(growth)}$. Above: {count} moments of half a period. Below: the angle of axis and "
+            "field, with these moments as dots. "
             + (
-                "The axis goes round in one sense, through both ends of the field's, where it stays for a while; the "
-                "angle is counted from 0 to 180 degrees."
+                "The axis goes round in one sense, through both ends of the field's."
                 if omega3 == -B3
                 else rf"It reaches {far:.0f} degrees and comes back."
             )

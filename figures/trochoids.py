@@ -69,13 +69,11 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The path of a charged particle, (100), with $\mu={tex(mu)}$ and $c={tex(c)}$ in the fields "
-            rf"$\mathbf{{E}}={tex_vector(E)}$ and $\mathbf{{B}}={tex_vector(B)}$, projected on the plane orthogonal to "
-            r"$\mathbf{B}$; $x$ runs along $[\mathbf{E},\mathbf{B}]$ and $y$ along $\mathbf{E}_\perp$. The guiding "
-            r"centre drifts along the dashed line with the speed $v=c\lvert\mathbf{E}_\perp\rvert/\lvert\mathbf{B}"
-            rf"\rvert{tex_equals(v)}$, and the particle turns round it with the frequency $\omega=\lvert\mu\mathbf{{B}}"
-            rf"\rvert/c{tex_equals(omega)}$ on a circle of radius $a$. It starts at the large dot; small dots mark "
-            "whole turns. All panels have one scale."
+            rf"The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
+            rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ runs along "
+            r"$[\mathbf{E},\mathbf{B}]$. The guiding centre drifts along the dashed line with "
+            rf"$v{tex_equals(v)}$; the particle turns round it with $\omega{tex_equals(omega)}$ on a circle of radius "
+            r"$a$. Large dot: start; small dots: whole turns."
         ),
         alt=(
             f"The path of a charged particle across the fields E = {plain_vector(E)} and B = {plain_vector(B)}: "

@@ -27,8 +27,8 @@ def scene(
         caption=(
             f"Largest error up to $t = {power(horizon)}$ against the time for one sample, set-up apart, for "
             f"{listed([f'the {case_title(case)}' for case in cases])}. Each line is an integrator with one dot for "
-            "each tolerance from $10^{-3}$ to $10^{-14}$ that came through in time; each mark is a closed form, which "
-            f"has no tolerance. {measured(record)}"
+            "each tolerance from $10^{-3}$ to $10^{-14}$; each mark is a closed form. "
+            f"{measured(record)}"
         ),
         alt=(
             f"{'One panel' if len(cases) == 1 else f'{len(cases)} panels'} with two logarithmic axes, the largest "

@@ -233,6 +233,7 @@ def _describe(figure: "FigureBuild", picture: "Picture") -> None:
     picture.failure = figure.failure
     if not figure.failure:
         facts = figure.facts
+        picture.tables = tuple(facts["commands"])
         picture.caption, picture.alt, picture.size = facts["caption"], facts["alt"], tuple(facts["size"])
         picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
         picture.file = f"figures/{picture.stem}.{'svg' if 'pdf' in figure.kinds else 'png'}"

@@ -81,6 +81,7 @@ def _draw(task: Task) -> None:
     facts = {
         "title": scene.title,
         "caption": scene.caption,
+        "commands": list(scene.commands),
         "alt": scene.alt,
         "size": scene.size,
         "narrow": bool(small),

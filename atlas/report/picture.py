@@ -16,6 +16,7 @@ class Picture:
     caption, alt, size    what the scene says of itself, and its size in millimetres
     given       all parameters of the scene as text
     file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
+    tables      the commands that make tables of the numbers that it shows
     narrow      the place of an SVG with its panels below one another, if it has several beside each other
     failure     why there is none, or nothing; `remark` what the reader should know of how it was drawn
     """
@@ -32,6 +33,7 @@ class Picture:
     file: str = ""
     files: Mapping[str, str] = field(default_factory=dict)
     narrow: str = ""
+    tables: tuple[str, ...] = ()
     failure: str = ""
     remark: str = ""
 

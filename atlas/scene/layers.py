@@ -149,6 +149,7 @@ class Scene:
     ``caption`` and ``alt`` are complete sentences; ``alt`` has no TeX. ``parameters`` are those that the figure was
     made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
     {"dashed": "asymptote"}: a line that a caption names is one that can be seen.
+    ``commands`` make tables of the numbers that are drawn.
     """
 
     title: str
@@ -159,3 +160,4 @@ class Scene:
     size: tuple[float, float] = (120.0, 100.0)
     parameters: Mapping[str, Any] = field(default_factory=dict)
     named: Mapping[str, str] = field(default_factory=dict)
+    commands: tuple[str, ...] = ()

@@ -24,10 +24,8 @@ _FLAT = 1e-3
 LONGEST = 2.2
 """The arrow along I^-1 B' is at most so many times as long as that of B': for a needle all else would be small."""
 LEGEND = (
-    r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. In the plane of "
-    r"$\mathbf{e}_2$ and $\mathbf{e}_3$ lie $\mathbf{B}'$ and $\mathbb{I}^{-1}\mathbf{B}'$, the latter at the angle "
-    r"$\beta$ to $\mathbf{e}_2$, the canonical axes $\omega'_2$ and $\omega'_3$ through $-\mathbf{B}'$, and the "
-    r"hyperbola $\omega_1=0$ (heavy line), whose points alone are motions; the origin $O$ lies on it."
+    r"Blue is the outer, amber the inner side; parts that the surface hides are dashed. The points of the "
+    r"hyperbola $\omega_1=0$ (heavy line) alone are motions; through $-\mathbf{B}'$ go the canonical axes."
 )
 
 

@@ -1,6 +1,6 @@
 """A numbered table: of computed numbers, of recorded results, or written out in the report."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -112,7 +112,10 @@ class TableView:
 def view_computed(block: Table, composer: Composer) -> TableView:
     """Compute a table."""
     request = Request(chosen(block, composer.parameters), block.parameters, block.digits)
-    return _view(block, composer, compute(block.table, request), name=block.table)
+    data, named = compute(block.table, request), composer.parameters.fields.get(block.field or "")
+    if named and not block.caption and named.title not in data.caption:
+        data = replace(data, caption=f"{data.caption.rstrip('.')}; {named.title}.")
+    return _view(block, composer, data, name=block.table)
 
 
 def view_listing(block: Listing, composer: Composer) -> TableView:
