@@ -56,8 +56,8 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"Left, the attitude of a ball on the torus of its two angles, $\alpha t$ the long way round and $\gamma t$ "
-            r"the short way; right, the way of its point $\mathbf{R}_1$. From above, $\gamma/\alpha$ is "
+            r"Left, a ball's attitude on the torus of its two angles, $\alpha t$ the long way round and $\gamma t$ the "
+            r"short way; right, the way of its point $\mathbf{R}_1$. From above, $\gamma/\alpha$ is "
             rf"{shown}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(

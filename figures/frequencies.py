@@ -50,18 +50,14 @@ def scene(
     proper = (
         r"the proper rotation $\phi$, (72), with its pole dotted. (b) Their quotient, (86). Dashed: the "
         rf"free body of the same $k$, (87), $\phi/k{tex_equals(free)}$."
-        + (
-            rf" Dots: the motions that repeat themselves after {counted(order)} of the precession."
-            if found
-            else ""
-        )
+        + (rf" Dots: the motions that repeat themselves after {counted(order)} of the precession." if found else "")
         if free
         else r"the proper rotation $\phi$, (72), which is zero on the whole curve. (b) Their quotient, (86)."
     )
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The frequencies of the elementary motions of {tex_setting(ratio, field)}. (a) The precession "
+            rf"Frequencies of the elementary motions of {tex_setting(ratio, field)}. (a) The precession "
             rf"$k=\omega_2/\hat B_2$ about the field and {proper}"
         ),
         alt=(

@@ -64,9 +64,9 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"Every quadric (51) once, up to its size: over $I$ and the angle $\beta$ of $\mathbb{I}^{-1}\mathbf{B}'$ to "
-            r"$\mathbf{e}_2$. The body alone decides on the kind. At the lower edge the surface is a pair of planes, at "
-            r"the upper one a line. Levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$: "
+            r"Every quadric (51) once, up to its size: over $I$ and the angle $\beta$ of $\mathbb{I}^{-1}\mathbf{B}'$ "
+            r"to $\mathbf{e}_2$. The body alone decides on the kind. At the lower edge it is a pair of planes, "
+            r"at the upper one a line. Levels of the semi-axes in units of $\lvert\mathbf{B}'\rvert$: "
             + listed([rf"({'abc'[k]}) $C_{k + 1}$" for k in range(3)])
             + "."
         ),

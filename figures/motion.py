@@ -40,11 +40,8 @@ def scene(
     stop = min(slow, 2 * np.pi * FEW / phi) if phi else slow
     free = not any(motion.field)
     axis = r"$\mathbf{m}$" if free else r"$\mathbf{B}$"
-    along = "" if free else r"; dashed: its projection on the field, which is constant"
-    turning = (
-        rf"The body at the start, the circle on which the tip of $\mathbf{{R}}_3$ goes round {axis}, and its axis at "
-        rf"{SPOKES} equal steps of one turn."
-    )
+    along = "" if free else r"; dashed: its projection on the field"
+    turning = rf"The body at the start, and the way of its axis round {axis} in {SPOKES} steps."
     return Scene(
         title=title(__doc__),
         caption=(
@@ -74,7 +71,7 @@ def scene(
             momentum(motion, slow, unit),
         ),
         columns=COLUMNS,
-        named={"dashed": "reference"},
+        named={"dashed": "reference"} if along else {},
         size=(WIDTH, HEIGHT),
     )
 

@@ -60,7 +60,7 @@ def scene(
         ),
         panels=panels,
         columns=2,
-        named={"white": "map_curve", "dotted": "map_border", "open dot": "rest", "diamond": "special"},
+        named={"white": "map_curve", "dotted": "map_border", "Open dot": "rest", "diamond": "special"},
         commands=(table.command("motions.csv"),),
         size=(WIDTH, HEIGHT),
     )

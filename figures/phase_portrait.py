@@ -54,16 +54,16 @@ def scene(
         for nu, name in [*((nu, "stable") for nu in stable), *((nu, "unstable") for nu in saddles)]
     ]
     eight = (
-        r"The unstable one is a saddle: its separatrix (heavy line), on which the motion is elementary again, in "
-        r"hyperbolic functions, surrounds both stable ones. "
+        r"The unstable one is a saddle: its separatrix (heavy line) "
+        r"surrounds both stable ones. "
         if saddles
         else "Here there is one, and it is stable. "
     )
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"$\Omega_3$ and its rate for {tex_setting(ratio, field)}, for all motions with the two conserved momenta "
-            rf"of the elementary motion $\omega_2={tex(omega2)}$: each line is one energy. Dots are equilibria, the "
+            rf"$\Omega_3$ and its rate for {tex_setting(ratio, field)}, for all motions with the momenta "
+            rf"of the elementary one $\omega_2={tex(omega2)}$: each line is one energy. Dots are equilibria, the "
             rf"elementary motions. {eight}All other lines are nutations."
         ),
         alt=(

@@ -48,9 +48,9 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Points of the quadric (51) of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$, off the "
-            rf"hyperbola. (a) $\Omega_3$ for $\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; "
-            r"dashed: the rate at the start, $\omega_1B'_2$. "
+            rf"Points of the quadric (51) of {tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$. "
+            rf"(a) $\Omega_3$ for $\omega_1$ equal to {listed([f'${tex(value)}$' for value in omega1])}; "
+            r"dashed: the rate at $t=0$. "
             f"(b) The largest departure from the start, with dots for the motions of (a); {law}"
         ),
         alt=(

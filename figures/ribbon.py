@@ -58,8 +58,8 @@ def scene(
         caption=(
             rf"The surface (51) for {tex_setting(ratio, field)}, pale to dark by the rate $\lvert\omega_1B'_2\rvert$ "
             rf"at which $\Omega_3$ departs there, in {BANDS} steps up to ${tex(round(widest * field[0], 2))}$. "
-            r"From the heavy line it does not depart; it is the wider the faster a nutation is, in four "
-            rf"classes by $\nu_n/b$ from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$.{band} "
+            r"From the heavy line it does not depart; its width shows four "
+            rf"classes of $\nu_n/b$ from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$.{band} "
             r"Arrows at the bodies: $\boldsymbol{\omega}$."
         ),
         alt=(

@@ -41,8 +41,8 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$: the body cone about $\mathbf{{R}}_3$ "
-            rf"(amber) rolls on the space cone (green). Here $k={tex(motion.k)}$. (a) In the field the space cone is "
+            rf"{tex_setting(ratio, field, first='A')}, $\omega_2={tex(omega2)}$: the body cone (amber), "
+            rf"the space cone (green), $k={tex(motion.k)}$. (a) In the field that is "
             rf"about $\mathbf{{B}}$, and $\phi={tex(motion.phi)}$; (b) free, (87), about $\mathbf{{m}}$, and "
             rf"$\phi={tex(free.phi)}$. The body cone {contact(motion, axis)} in (a) and {contact(free, axis)} in (b)."
         ),

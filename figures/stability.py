@@ -56,11 +56,7 @@ def scene(
             )
             + r"(b) Levels of $\nu_n^2/{B'_2}^2$ over $\tau=\lvert B'_3/B'_2\rvert$ and "
             r"$\lvert x\rvert=\lvert(\omega_2+B'_2)/B'_2\rvert$; dotted: the field of (a). "
-            + (
-                r"Shaded: unstable."
-                if long
-                else r"For $I\ge1$ all motions of the hyperbola are stable."
-            )
+            + (r"Shaded: unstable." if long else r"For $I\ge1$ all motions of the hyperbola are stable.")
         ),
         alt=(
             f"Two panels for {plain_setting(ratio, field)}. The first shows the nutation frequency squared over omega "

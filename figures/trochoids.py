@@ -70,8 +70,8 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"The path of a charged particle, (100), $\mu={tex(mu)}$, $c={tex(c)}$, in "
-            rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ runs along "
-            r"$[\mathbf{E},\mathbf{B}]$. The guiding centre drifts along the dashed line with "
+            rf"$\mathbf{{E}}={tex_vector(E)}$, $\mathbf{{B}}={tex_vector(B)}$, seen along $\mathbf{{B}}$; $x$ is "
+            r"along $[\mathbf{E},\mathbf{B}]$. The guiding centre drifts along the dashed line with "
             rf"$v{tex_equals(v)}$; the particle turns round it with $\omega{tex_equals(omega)}$ on a circle of radius "
             r"$a$. Large dot: start; small dots: whole turns."
         ),

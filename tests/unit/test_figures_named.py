@@ -10,8 +10,8 @@ import pytest
 from atlas.draw.panels import to_figure
 from atlas.scene import Curve, Plane, Points, Region, Scene, recipes
 
-DOTS, LEAST, SEEN = 100, 40, 12
-"""Pixels an inch, how many must differ where a layer is taken away, and by how much of 255."""
+DOTS, LEAST, SEEN, WORDS = 100, 40, 12, 60
+"""Pixels an inch, how many must differ where a layer is taken away, and by how much of 255; words of a caption."""
 LOOKS = re.compile(r"\b([Dd]ashed|[Dd]otted|[Tt]hin|[Hh]eavy)\b")
 CASES: list[tuple[str, dict[str, Any]]] = [
     *((name, {}) for name in recipes.names() if name not in {"error_maps", "motion_map"}),
@@ -64,6 +64,14 @@ def fixed(scene: Scene) -> Scene:
             for panel, axis in axes
         ),
     )
+
+
+@pytest.mark.parametrize(("name", "parameters"), CASES[: len(recipes.names())], ids=lambda value: str(value)[:40])
+def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str, Any]) -> None:
+    """At most 60 words, a formula being one; what the reader may type stands in the line of the files."""
+    caption = recipes.load(name).scene(**parameters).caption
+    assert len(re.sub(r"\$[^$]*\$", "F", caption).split()) <= WORDS
+    assert "`" not in caption
 
 
 @pytest.mark.parametrize(("name", "parameters"), CASES, ids=lambda value: str(value)[:40])
