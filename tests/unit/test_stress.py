@@ -69,9 +69,9 @@ def test_a_record_can_be_reproduced_from_its_hexadecimal_input(short_run: Result
     worst = max((w for w in short_run.worst if w.quantity == "R"), key=lambda w: w.ulps)
     x = {name: float.fromhex(value) for name, value in worst.input.items()}
     motion = extreme.Motion(x["I2"], x["I3"], x["B2"], x["B3"], x["omega2"], x.get("omega3"), (x["t"],) * 6)
-    worst = WorstErrors()
-    check_motion(motion, "again", worst)
-    again = max(w.ulps for w in worst.worst.values() if w.quantity == "R")
+    found = WorstErrors()
+    check_motion(motion, "again", found)
+    again = max(w.ulps for w in found.worst.values() if w.quantity == "R")
     assert again == pytest.approx(worst.ulps, abs=0.6)  # a lone time may take another path through a matrix product
 
 
@@ -84,18 +84,18 @@ def test_a_phase_that_loses_its_second_word_is_found(monkeypatch: pytest.MonkeyP
         self.words[1:] = 0.0
 
     monkeypatch.setattr(phase.Phases, "__init__", without_second_word)
-    worst = WorstErrors()
-    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", worst)  # noqa: S311  reproducible, not secret
-    assert worst.worst["R", "ordinary, long times"].ulps > 1e3
+    found = WorstErrors()
+    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", found)  # noqa: S311  reproducible, not secret
+    assert found.worst["R", "ordinary, long times"].ulps > 1e3
 
 
 def test_a_planted_slip_in_a_scalar_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """A phi that is six ulps off is reported as six ulps off."""
     true = ElementaryMotion.phi.func
     monkeypatch.setattr(ElementaryMotion, "phi", property(lambda self: true(self) * (1 + 6 * 2.0**-52)))
-    worst = WorstErrors()
-    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", worst)  # noqa: S311  reproducible, not secret
-    assert 3 <= worst.worst["phi", "ordinary"].ulps <= 13
+    found = WorstErrors()
+    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", found)  # noqa: S311  reproducible, not secret
+    assert 3 <= found.worst["phi", "ordinary"].ulps <= 13
 
 
 def test_a_refusal_is_kept_with_its_input(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -105,10 +105,10 @@ def test_a_refusal_is_kept_with_its_input(monkeypatch: pytest.MonkeyPatch) -> No
         raise AtlasError("not today")
 
     monkeypatch.setattr(ElementaryMotion, "rotation", refuse)
-    worst = WorstErrors()
-    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", worst)  # noqa: S311  reproducible, not secret
-    assert [r.reason for r in worst.refusals] == ["not today"]
-    assert "B2" in worst.refusals[0].input
+    found = WorstErrors()
+    check_motion(extreme.motion("ordinary", Random(3)), "ordinary", found)  # noqa: S311  reproducible, not secret
+    assert [r.reason for r in found.refusals] == ["not today"]
+    assert "B2" in found.refusals[0].input
 
 
 def test_a_record_holds_the_worst_of_several_runs(tmp_path: Any, short_run: Result) -> None:
