@@ -23,9 +23,6 @@ so few that the library does not thread the product. No powers of two, whose mul
 LARGEST = float(np.finfo(float).max) / 4
 """Size of a component that turns: a sum of two, times two, is a float."""
 
-PARTS = slice(None), slice(1), slice(1, None)
-"""Both frequencies, that of the precession, that of the proper rotation."""
-
 
 class DoubleRotation:
     """Rotation matrix R(t) = R_n(k t) R_z(phi t), (85), of a body that precesses about n and turns about its axis.
@@ -42,13 +39,23 @@ class DoubleRotation:
         self.axis, self.frequencies, self.inverse = axis, (precession, proper), inverse
         with workprec():
             self.turns = [f / TURN for f in self.frequencies]
-        self.phases, self.precession, self.proper = (Phases(self.turns[part]) for part in PARTS)
+        self.phases = Phases(self.turns)
         weights = SCALE[:, None, None][: 11 if inverse else 9] * np.matmul(
             *resolution(generators(axis), third_row=inverse)
         )
         self.weights = np.ascontiguousarray(weights.swapaxes(1, 2)) if inverse else weights
         self.entries = self.weights.reshape(-1, 9)
         self.rodrigues = 2 * rodrigues(axis)
+
+    @cached_property
+    def precession(self) -> Phases:
+        """The phase k t by itself."""
+        return Phases(self.turns[:1])
+
+    @cached_property
+    def proper(self) -> Phases:
+        """The phase phi t by itself."""
+        return Phases(self.turns[1:])
 
     @cached_property
     def composition(self) -> tuple[FloatArray, FloatArray]:
