@@ -91,6 +91,9 @@ def test_the_charge_of_a_body_follows_from_its_mass() -> None:
     assert row[4] == Number(f"{1.8e-14 * 8.9875517862e9 / 1e-12:.1e}")
     with pytest.raises(AtlasError, match="mass and radius"):
         table("charges")
+    needle = Body(title="needle", shape="cylindrical_shell", mass=1.5e-15, radius=5e-324, height=1.2e-6)
+    with pytest.raises(AtlasError, match="too large for a float"):
+        table("charges", body=needle, field=field)
 
 
 def test_the_bodies_that_could_exist_have_the_frequencies_of_their_charge() -> None:

@@ -1,6 +1,6 @@
 """The charge of each body, and the electric field that it makes: what bounds the charge that a body can hold."""
 
-from math import pi
+from math import inf, isfinite, pi
 
 from atlas.core.units import ELECTRIC_CONSTANT
 from atlas.errors import AtlasError
@@ -18,7 +18,12 @@ def charges(request: Request) -> Data:
         if body is None or one.physical is None or body.mass is None or body.radius is None:
             raise AtlasError("this table needs bodies with mass and radius, and a field with a charge-to-mass ratio.")
         charge = float(one.physical.mu) * body.mass
-        field = charge / (4 * pi * ELECTRIC_CONSTANT * body.radius**2)
+        area = 4 * pi * ELECTRIC_CONSTANT * body.radius**2
+        field = charge / area if area else inf
+        if not isfinite(field):
+            raise AtlasError(
+                f"the field at {body.radius} m from the charge of {body.title!r} is too large for a float."
+            )
         rows.append((body.title, *(Number(f"{value:.1e}") for value in (body.mass, body.radius, charge, field))))
     return Data(
         (
