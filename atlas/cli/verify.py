@@ -72,47 +72,56 @@ def command(
 
 def _verdicts(found: Any, as_json: bool, record: bool, *, named: bool) -> int:
     """Show verdicts, more of those asked for by name, and what differs from the record; return the exit status."""
-    from atlas.paper import EQUATIONS
     from atlas.proof.recorded import differs
-    from atlas.proof.verdict import slips
 
     different = differs(found)
     if as_json:
         equations = [{name: one.as_dict()[name] for name in COLUMNS} | {"example": one.example} for one in found]
         dump({"equations": equations, "different": [list(row) for row in different]})
     else:
-        heading = ("equation", "verdict", "slip", "corrected form", "method", "s")
-        rows = [
-            [
-                one.name,
-                one.verdict,
-                one.grade,
-                one.corrected_verdict,
-                plain(one.method),
-                f"{one.seconds:.1f}",
-            ]
-            for one in found
-        ]
-        show(Printout("the paper's equations on trial, as printed", heading=heading, rows=rows, justify="left"))
+        _table(found)
         for one in found:
             if one.grade or named:
-                says = {"says": EQUATIONS[one.name].says, "tried from": one.follows} if named else {}
-                words = {name: plain(text) for name, text in says.items()}
-                words |= {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
-                words |= {"note": plain(one.note)} if named else {}
-                words = {name: text for name, text in words.items() if text}
-                click.echo("\n".join([one.name, *(f"  {name + ':':16}{text}" for name, text in words.items())]))
-        totals = Counter(one.verdict for one in found)
-        seconds = sum(one.seconds for one in found)
-        click.echo(f"{', '.join(f'{n} {name}' for name, n in totals.most_common())}; {seconds:.0f} s of trials")
-        graded = {grade: len(names) for grade, names in slips(found).items() if names}
-        if graded:
-            each = ", ".join(f"{count} {grade}" for grade, count in graded.items())
-            count = sum(graded.values())
-            click.echo(f"{count} distinct slip{'s' if count != 1 else ''}: {each}")
+                click.echo(_details(one, named=named))
+        _totals(found)
     for name, was, now in different:
         click.echo(f"atlas: {name} was recorded as {was} and is found {now}", err=True)
     return int(bool(different) and not record)
+
+
+def _table(found: Any) -> None:
+    """Show the verdicts, a line each."""
+    heading = ("equation", "verdict", "slip", "corrected form", "method", "s")
+    rows = [
+        [one.name, one.verdict, one.grade, one.corrected_verdict, plain(one.method), f"{one.seconds:.1f}"]
+        for one in found
+    ]
+    show(Printout("the paper's equations on trial, as printed", heading=heading, rows=rows, justify="left"))
+
+
+def _details(one: Any, *, named: bool) -> str:
+    """Return what one verdict says, a line for each part; more if it was asked for by name."""
+    from atlas.paper import EQUATIONS
+
+    says = {"says": EQUATIONS[one.name].says, "tried from": one.follows} if named else {}
+    words = {name: plain(text) for name, text in says.items()}
+    words |= {"as printed": one.printed, "counterexample": one.example, "corrected": one.corrected}
+    words |= {"note": plain(one.note)} if named else {}
+    return "\n".join([one.name, *(f"  {name + ':':16}{text}" for name, text in words.items() if text)])
+
+
+def _totals(found: Any) -> None:
+    """Show how many verdicts and slips of each kind there are."""
+    from atlas.proof.verdict import slips
+
+    totals = Counter(one.verdict for one in found)
+    seconds = sum(one.seconds for one in found)
+    click.echo(f"{', '.join(f'{n} {name}' for name, n in totals.most_common())}; {seconds:.0f} s of trials")
+    graded = {grade: len(names) for grade, names in slips(found).items() if names}
+    if graded:
+        each = ", ".join(f"{count} {grade}" for grade, count in graded.items())
+        count = sum(graded.values())
+        click.echo(f"{count} distinct slip{'s' if count != 1 else ''}: {each}")
 
 
 def _mutants(found: Any, as_json: bool) -> int:

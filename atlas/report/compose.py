@@ -57,34 +57,17 @@ def compose(
     appendices = ("".join(letters) for length in count(1) for letters in product(ascii_uppercase, repeat=length))
     for page in report.pages:
         composer.begin(page)
-        blocks = []
-        for place, block in enumerate(page.blocks, 1):
-            composer.where = f"page {page.slug!r}, block {place} ({kind_of(block)})"
-            try:
-                blocks.append(composer.view(block))
-            except AtlasError as error:
-                raise AtlasError(f"{composer.where}: {error}") from error
+        blocks = composer.views(page)
         document.targets[f"page:{page.slug}"] = (f"{page.slug}.html", f"page-{page.slug}", page.title)
         templates = tuple(KINDS[kind_of(block)].template for block in page.blocks)
         document.pages.append(
             PageView(
                 next(appendices if page.appendix else chapters),
-                *(page.slug, page.title, page.summary, tuple(blocks), templates, page.part, page.appendix),
+                *(page.slug, page.title, page.summary, blocks, templates, page.part, page.appendix),
             )
         )
-    composer.where = "the equations cited"
-    for name in sorted({name for text in document.texts.texts for name in citations(text.markdown)}):
-        if name in EQUATIONS and name not in document.targets and name not in document.ledger:
-            document.formulas[name] = composer.text(f"$${EQUATIONS[name].tex.strip()}$$")
-    composer.where = "the index"
-    document.symbols = [
-        (composer.text(f"${one.tex}$", inline=True), composer.anchors(one.at)) for one in report.index.symbols
-    ]
-    for symbol, (_, anchors) in zip(report.index.symbols, document.symbols, strict=True):
-        if not anchors:
-            raise AtlasError(
-                f"{composer.where}: {symbol.tex} is explained nowhere in this report, only in one beside it."
-            )
+    composer.cite_formulas()
+    composer.explain_symbols()
     return document
 
 
@@ -118,6 +101,35 @@ class _Composer(Composer):
         self.page, self.slug = page, page.slug
         self.cited: set[str] = set()
         self.said: set[str] = set()
+
+    def views(self, page: Page) -> tuple[Any, ...]:
+        """Return the views of the blocks of a page; an error says which of them it is about."""
+        found = []
+        for place, block in enumerate(page.blocks, 1):
+            self.where = f"page {page.slug!r}, block {place} ({kind_of(block)})"
+            try:
+                found.append(self.view(block))
+            except AtlasError as error:
+                raise AtlasError(f"{self.where}: {error}") from error
+        return tuple(found)
+
+    def cite_formulas(self) -> None:
+        """Take in the formulas of the equations that are cited and stand on no page of this report."""
+        document, self.where = self.document, "the equations cited"
+        for name in sorted({name for text in document.texts.texts for name in citations(text.markdown)}):
+            if name in EQUATIONS and name not in document.targets and name not in document.ledger:
+                document.formulas[name] = self.text(f"$${EQUATIONS[name].tex.strip()}$$")
+
+    def explain_symbols(self) -> None:
+        """Take in the symbols of the index. AtlasError for one that is explained nowhere in this report."""
+        self.where = "the index"
+        for symbol in self.report.index.symbols:
+            anchors = self.anchors(symbol.at)
+            if not anchors:
+                raise AtlasError(
+                    f"{self.where}: {symbol.tex} is explained nowhere in this report, only in one beside it."
+                )
+            self.document.symbols.append((self.text(f"${symbol.tex}$", inline=True), anchors))
 
     def view(self, block: Block) -> Any:
         """Return the view of a block."""
