@@ -205,7 +205,7 @@ def free_frequency_model() -> tuple[Model, Model]:
     return cases[0], cases[1]
 
 
-_MF89 = (
+_EQUATION_84 = (
     "[[cos(k*t)*cos(phi*t) - hB3*sin(k*t)*sin(phi*t), -cos(k*t)*sin(phi*t) - hB3*sin(k*t)*cos(phi*t), hB2*sin(k*t)],"
     " [hB3*sin(k*t)*cos(phi*t) + (hB2^2 + hB3^2*cos(k*t))*sin(phi*t),"
     " -hB3*sin(k*t)*sin(phi*t) + (hB2^2 + hB3^2*cos(k*t))*cos(phi*t), hB2*hB3*(1 - cos(k*t))],"
@@ -417,7 +417,7 @@ TRIALS = (
     ),
     Trial(
         name="(84)",
-        printed=f"R = {_MF89}",
+        printed=f"R = {_EQUATION_84}",
         model=matrix_model,
         follows=r"@(12) and @(16) by substitution, with $\boldsymbol{\Omega}$ of @(73)",
         defines=("R",),

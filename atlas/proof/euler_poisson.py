@@ -151,11 +151,11 @@ def grioli_model() -> Model:
     )
 
 
-_MF22 = (
+_EQUATION_11 = (
     "cross(I*Omega,Omega)[k] + 1/2*eps[k,i,j]*((A*I)[a,i]*R[a,j] + (R*I)[a,i]*A[a,j])"
     " - 1/2*I[k,a]*eps[a,i,j]*A[b,i]*R[b,j]"
 )
-_MF23 = (
+_FORCE_MATRIX = (
     "eps[i,j,k]*Bf[j]*dR[k,a] = {sign}eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
     " = {sign}eps[i,j,k]*eps[al,be,ga]*R[al,a]*R[be,b]*R[ga,l]*Bf[j]*Omega[b]*R[k,l]"
     " = {sign}eps[i,j,k]*eps[al,be,ga]*R[al,a]*Bf[j]*(R*Omega)[be]*(R*T(R))[ga,k]"
@@ -220,7 +220,7 @@ TRIALS = (
     ),
     Trial(
         name="text-affirmation",
-        printed=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_MF22})",
+        printed=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})",
         model=multiplier_model,
         follows=r"@(10) with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
         note="The multipliers are symmetric if and only if @(11) holds: one identity proves both directions, for "
@@ -229,8 +229,8 @@ TRIALS = (
         "matrix at the "
         "start, one of the determinant $-1$ among them, for which the identity holds too.",
         grade="missing case",
-        corrected=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_MF22})",
-        corrected_also=(Part(line=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_MF22})", model=mirrored_model),),
+        corrected=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})",
+        corrected_also=(Part(line=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})", model=mirrored_model),),
         corrected_tex=r"\text{(10)},\ \boxed{R_{ij}(0)=\delta_{ij}}\iff\text{(11), (12)}",
         false=Falsehood(
             "The Euler equations hold without their last term",
@@ -267,7 +267,7 @@ TRIALS = (
     ),
     Trial(
         name="(11)",
-        printed=f"IdOmega[k] = {_MF22}",
+        printed=f"IdOmega[k] = {_EQUATION_11}",
         model=multiplier_model,
         follows="the symmetry of the multipliers in @(10)",
     ),
@@ -335,10 +335,11 @@ TRIALS = (
     ),
     Trial(
         name="text-force-matrix",
-        printed=_MF23.format(sign="").replace("= ", "= ", 1) + " = R[i,a]*dot(Bf,R*Omega) - (R*Omega)[i]*(T(R)*Bf)[a]",
+        printed=_FORCE_MATRIX.format(sign="").replace("= ", "= ", 1)
+        + " = R[i,a]*dot(Bf,R*Omega) - (R*Omega)[i]*(T(R)*Bf)[a]",
         model=magnetic_model,
         follows="@(12) and $R R^T = 1$",
-        corrected=_MF23.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
+        corrected=_FORCE_MATRIX.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
         corrected_tex=(
             r"\begin{aligned} \epsilon_{ijk}B_j\dot R_{ka}&=\boxed{-}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}="
             r"\ldots\\ "

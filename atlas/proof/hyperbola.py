@@ -151,10 +151,10 @@ def frequency_model() -> Model:
     return Model({**LETTERS, "phi": phi}, where, units=units.QUADRIC)
 
 
-_MF711 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
-_MF76 = "B3*omega2*(omega2 + (2 - I)*B2)/(I*B2*(omega2 + B2))"
-_MF72 = "B3*omega2^2 - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
-_MF75 = "w2/a2 = sign*w3/a3; a2 = sqrt(2*sin(beta)/(1 - sin(beta))); a3 = sqrt(2*sin(beta)/(1 + sin(beta)))"
+_EQUATION_66 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
+_EQUATION_71 = "B3*omega2*(omega2 + (2 - I)*B2)/(I*B2*(omega2 + B2))"
+_EQUATION_67 = "B3*omega2^2 - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
+_EQUATION_70 = "w2/a2 = sign*w3/a3; a2 = sqrt(2*sin(beta)/(1 - sin(beta))); a3 = sqrt(2*sin(beta)/(1 + sin(beta)))"
 
 
 _PHIP = "(((1 - I)*omega3 + (2 - I)*B3)*(omega1^2 + omega2^2) - I*B2*omega2*omega3)"
@@ -256,10 +256,10 @@ TRIALS = (
         ),
         note=_REST,
     ),
-    Trial(name="(66)", printed=_MF711, model=condition_model, follows="@(50)"),
+    Trial(name="(66)", printed=_EQUATION_66, model=condition_model, follows="@(50)"),
     Trial(
         name="(67)",
-        printed=_MF72,
+        printed=_EQUATION_67,
         model=motion_model,
         follows="@(66) and the last equation of @(59) at $t = 0$",
         note=r"That $\omega_1 = 0$ follows from the last equation of @(59); @(65) and @(66) do not suffice, see "
@@ -295,7 +295,7 @@ TRIALS = (
     ),
     Trial(
         name="(70)",
-        printed=_MF75,
+        printed=_EQUATION_70,
         model=degenerate_model,
         follows=r"@(56) with $\omega_1 = 0$, $a_2$ and $a_3$ as defined in this line",
         defines=("a2", "a3"),
@@ -303,13 +303,16 @@ TRIALS = (
     ),
     Trial(
         name="(71)",
-        printed=f"omega3 = {_MF76}",
+        printed=f"omega3 = {_EQUATION_71}",
         model=lambda: motion_model()[0],
         follows=r"@(67) for $\omega_2$ different from $-B'_2$",
-        corrected=f"omega3 = {_MF76}",
+        corrected=f"omega3 = {_EQUATION_71}",
         corrected_also=(
-            Part(line=f"omega2 = -B2; I = 1; {_MF72}", model=lambda: motion_model()[1]),
-            Part(line=f"{_MF72.removesuffix(' = 0')} = I*B2*(omega2 + B2)*({_MF76} - omega3)", model=free_model),
+            Part(line=f"omega2 = -B2; I = 1; {_EQUATION_67}", model=lambda: motion_model()[1]),
+            Part(
+                line=f"{_EQUATION_67.removesuffix(' = 0')} = I*B2*(omega2 + B2)*({_EQUATION_71} - omega3)",
+                model=free_model,
+            ),
             Part(line="(1 - I)*B2^2*B3 = -condition", model=pole_on_curve_model),
         ),
         corrected_tex=(

@@ -214,11 +214,11 @@ def _general(model: Model) -> Value:
 
 
 _SOLVES = "d(yperp) = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t"
-_MF10 = (
+_EQUATION_98 = (
     "yperp = (cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1"
     " + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0))"
 )
-_MF11 = "yperp = mu*E2/omega*t*e1 + a*(e1*sin(omega*t) + e2*cos(omega*t))"
+_EQUATION_99 = "yperp = mu*E2/omega*t*e1 + a*(e1*sin(omega*t) + e2*cos(omega*t))"
 _TROCHOID = "x = mu*E2/omega*t + a*sin(omega*t); yy = mu*E2/{omega} + a*cos(omega*t)"
 _SIGNED = r",\qquad\omega=\boxed{\frac{\mu\lvert\mathbf{B}\rvert}{c}}"
 _SENSE = (
@@ -408,12 +408,12 @@ TRIALS = (
     ),
     Trial(
         name="(98)",
-        printed=_MF10,
+        printed=_EQUATION_98,
         model=charges_model,
         follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=_SOLVES,
-        corrected=_MF10 + "; omega = mu*b/c",
+        corrected=_EQUATION_98 + "; omega = mu*b/c",
         corrected_model=signed_model,
         corrected_tex=(
             r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}"
@@ -463,12 +463,12 @@ TRIALS = (
     ),
     Trial(
         name="(99)",
-        printed=_MF11,
+        printed=_EQUATION_99,
         model=lambda: charges_model("origin"),
         follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=f"{_SOLVES}; at0(yperp) = a*e2",
-        corrected=_MF11 + "; omega = mu*b/c",
+        corrected=_EQUATION_99 + "; omega = mu*b/c",
         corrected_model=lambda: signed_model("origin"),
         corrected_tex=(
             r"\mathbf{y}_{\bot}(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"

@@ -164,13 +164,13 @@ def initial_model() -> Model:
 
 
 _P = "(Omega3^2 - (2 - I)*c3*Omega3 + c5)"
-_MF51 = "d(Omega1) = phi*Omega2 + d(f)*Omega1; d(Omega2) = -phi*Omega1 + d(f)*Omega2"
-_MF54 = (
+_EQUATION_43 = "d(Omega1) = phi*Omega2 + d(f)*Omega1; d(Omega2) = -phi*Omega1 + d(f)*Omega2"
+_EQUATION_46 = (
     "d2(Omega3) = (-2*Omega3 + (2 - I)*c3)*(Omega1*K1 + Omega2*{K}) - I*Omega3*(K1^2 + K2^2)"
     " + (c3 - Omega3)*(Omega1^2 + Omega2^2)"
 )
-_MF55 = "d2(Omega3) = a0 + a1*Omega3 + a2*Omega3^2 + a3*Omega3^3"
-_MF56 = (
+_EQUATION_47 = "d2(Omega3) = a0 + a1*Omega3 + a2*Omega3^2 + a3*Omega3^3"
+_EQUATION_48 = (
     "a0 = ((2 - I)*c5 + E)*c3; a1 = -2*c5 + (I - (2 - {x})^2)*c3^2 - E - I*Bsquare; a2 = 6*(1 - I)*c3; a3 = -2*(1 - I)"
 )
 _C5 = "Omega1*K1 + Omega2*K2 - Omega3^2 + (2 - I)*c3*Omega3"
@@ -328,7 +328,7 @@ TRIALS = (
     ),
     Trial(
         name="(43)",
-        printed=_MF51,
+        printed=_EQUATION_43,
         model=state_model,
         follows=r"@(38) with $\mathbf{K}$ of @(42), $\phi$ and $f$ of @(44)",
         grade="missing case",
@@ -348,7 +348,7 @@ TRIALS = (
         model=state_model,
         follows="@(43) by substitution",
         defines=("phi", "f"),
-        solves=_MF51,
+        solves=_EQUATION_43,
         grade="missing case",
         slip="(42)",
         corrected="(E - I*Omega3^2)*phi = (2 - I)*c3*E - (E + I*c5)*Omega3; (E - I*Omega3^2)*d(f) = "
@@ -368,7 +368,7 @@ TRIALS = (
         model=quadrature_model,
         follows="@(43) by substitution, with two constants",
         defines=("Omega1", "Omega2"),
-        solves=_MF51,
+        solves=_EQUATION_43,
         grade="missing case",
         slip="(42)",
         corrected="Omega1 = f0*rho*sin(Phi + phi0); Omega2 = f0*rho*cos(Phi + phi0); rho^2 = E - I*u^2",
@@ -385,10 +385,10 @@ TRIALS = (
     ),
     Trial(
         name="(46)",
-        printed=_MF54.format(K="k2"),
+        printed=_EQUATION_46.format(K="k2"),
         model=state_model,
         follows="the rate of the last equation of @(38), with @(38), @(39) and @(40)",
-        corrected=_MF54.format(K="K2"),
+        corrected=_EQUATION_46.format(K="K2"),
         corrected_tex=(
             r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1K_1+\Omega_2\boxed{K_2})-I\Omega_3(K_1^2+K_2^2)"
             r"+[c_3-\Omega_3](\Omega_1^2+\Omega_2^2)"
@@ -397,17 +397,20 @@ TRIALS = (
         note="A lower-case $k_2$ that means nothing here stands for $K_2$.",
     ),
     Trial(
-        name="(47)", printed=_MF55, model=state_model, follows="@(46) and the four integrals, with @(48) as corrected"
+        name="(47)",
+        printed=_EQUATION_47,
+        model=state_model,
+        follows="@(46) and the four integrals, with @(48) as corrected",
     ),
     Trial(
         name="(48)",
-        printed=_MF56.format(x="1"),
+        printed=_EQUATION_48.format(x="1"),
         model=launch_model,
         follows="@(46) and the four integrals",
         corrected_model=bare_model,
         defines=("a0", "a1", "a2", "a3"),
-        solves=_MF55,
-        corrected=_MF56.format(x="I"),
+        solves=_EQUATION_47,
+        corrected=_EQUATION_48.format(x="I"),
         corrected_tex=(
             r"\begin{aligned} a_0&=[(2-I)c_5+E']c_3,&a_1&=-2c_5+[I-(2-\boxed{I})^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ "
             r"a_2&=6(1-I)c_3,&a_3&=-2(1-I) \end{aligned}"

@@ -229,8 +229,8 @@ def loop_model() -> Model:
     )
 
 
-_MF581 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
-_MF58 = "omega1^2 + (omega2 + B2)^2 - I*B2/B3*(omega2 + B2)*(omega3 + B3) = (1 - I)*B2^2"
+_EQUATION_50 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
+_EQUATION_51 = "omega1^2 + (omega2 + B2)^2 - I*B2/B3*(omega2 + B2)*(omega3 + B3) = (1 - I)*B2^2"
 _A2, _A3 = "2*sin(beta)/(1 - sin(beta))", "2*sin(beta)/(1 + sin(beta))"
 
 
@@ -240,7 +240,7 @@ def axes_line(factor: str) -> str:
     return f"C1s = {first}; C2s = {double}/(1 - sin(beta)); C3s = {double}/(1 + sin(beta))"
 
 
-_MF59 = "B3*(omega1^2 + omega2^2 + (2 - I)*B2*omega2)/(I*B2*(omega2 + B2))"
+_EQUATION_52 = "B3*(omega1^2 + omega2^2 + (2 - I)*B2*omega2)/(I*B2*(omega2 + B2))"
 AXES = ("C1s", "C2s", "C3s")
 
 
@@ -256,26 +256,26 @@ def turned_model() -> Model:
 TRIALS = (
     Trial(
         name="(50)",
-        printed=_MF581,
+        printed=_EQUATION_50,
         model=condition_model,
         follows=r"@(49) with $\Omega_3 = \omega_3$: every $\boldsymbol{\omega}$ for which the cubic vanishes",
     ),
     Trial(
         name="(51)",
-        printed=_MF58,
+        printed=_EQUATION_51,
         model=condition_model,
         follows="@(50), and the other way round: the two differ by the factor $B'_3$ for every "
         r"$\boldsymbol{\omega}$",
         also=(
             Part(
-                line=f"{_MF581.removesuffix(' = 0')} = B3*({_MF58.partition(' = ')[0]} - (1 - I)*B2^2)",
+                line=f"{_EQUATION_50.removesuffix(' = 0')} = B3*({_EQUATION_51.partition(' = ')[0]} - (1 - I)*B2^2)",
                 model=free_model,
             ),
         ),
     ),
     Trial(
         name="text-quadric-origin",
-        printed=_MF58,
+        printed=_EQUATION_51,
         model=origin_model,
         follows=r"@(51) at $\boldsymbol{\omega} = 0$",
         false=Falsehood(
@@ -285,13 +285,16 @@ TRIALS = (
     ),
     Trial(
         name="(52)",
-        printed=f"omega3 = {_MF59}",
+        printed=f"omega3 = {_EQUATION_52}",
         model=lambda: condition_model()[0],
         follows=r"@(50) for $\omega_2$ different from $-B'_2$",
-        corrected=f"omega3 = {_MF59}",
+        corrected=f"omega3 = {_EQUATION_52}",
         corrected_also=(
-            Part(line="omega2 = -B2; omega1 = sign*sqrt(1 - I)*B2; " + _MF581, model=lost_lines_model),
-            Part(line=f"{_MF581.removesuffix(' = 0')} = I*B2*(omega2 + B2)*({_MF59} - omega3)", model=free_model),
+            Part(line="omega2 = -B2; omega1 = sign*sqrt(1 - I)*B2; " + _EQUATION_50, model=lost_lines_model),
+            Part(
+                line=f"{_EQUATION_50.removesuffix(' = 0')} = I*B2*(omega2 + B2)*({_EQUATION_52} - omega3)",
+                model=free_model,
+            ),
             Part(line="condition = B3*(omega1^2 - (1 - I)*B2^2)", model=pole_model),
             Part(line="omega1^2 - (1 - I)*B2^2 > 0", model=no_lines_model),
         ),
@@ -446,7 +449,7 @@ TRIALS = (
     ),
     Trial(
         name="text-not-all",
-        printed=f"{_MF581}; omega1*B2 > 0",
+        printed=f"{_EQUATION_50}; omega1*B2 > 0",
         model=leaving_points_model,
         follows=(
             r"points of the quadric with $\omega_1 > 0$, at which $\Omega_3$ starts with the rate $\omega_1 "
