@@ -35,6 +35,14 @@ class Swing:
         """Return kappa times the integral of nu from a turning point, at time t, which is s in its own period."""
         return self.kappa * (self.rate * t + self.twist * s + self.bent(s))
 
+    @property
+    def largest(self) -> arb:
+        """Half of its largest part that is no multiple of time, about."""
+        half = self.lattice.half
+        unit = 8 / self.lattice.rate if infinite(half) else half
+        sizes = [abs(self.kappa * self.bent(unit * k / 8)) / 2 for k in range(1, 9)]
+        return max(sizes, key=lambda x: float(x.mid()))
+
     def bent(self, s: arb) -> arb:
         """Return the part that is no multiple of time."""
         return bent(self.odd.at(s)[0].real, self.even.at(s)[0].real, self.A)
@@ -147,7 +155,7 @@ def _inclined(lattice: Lattice, y: arb) -> Sum:
         falls = n and size ** (2 * n) * ((2 * eta).exp() * size**2 + (-2 * eta).exp()) < 0.25
         if (nome == 0 and n > 1) or (falls and first < arb(2) ** -(ctx.prec + 8)):
             break
-        odd.append(acb(up + down))
+        odd.append(acb(up + down) if n else acb(0))
         even.append(acb(up - down))
         n += 1
     return Sum(lattice, tuple(odd), tuple(even), arb(0) if nome == 0 else first, doubled=True)

@@ -22,6 +22,7 @@ from atlas.formulas.numbers import workprec
 from atlas.study import extreme
 from atlas.study.extreme import described
 from atlas.study.regimes import General
+from atlas.study.tops import Top, rate_of
 from atlas.study.ulps import BITS, ONE, WorstErrors, absolute, approximate, error, of_length, own, rigidity, with_more
 
 Inputs = dict[str, Any]
@@ -232,23 +233,41 @@ def check_general(draw: General, regime: str, random: Random, worst: WorstErrors
     """Check a general motion, in ulps of its largest rate: beside the register, structure and a grid."""
     I, field, omega = draw
     inputs = {"I": I.hex(), "field": [x.hex() for x in field], "omega": [x.hex() for x in omega]}
-    size = max(map(abs, (*field, *omega))) or 1.0
+    _nutation("general", draw, inputs, max(map(abs, (*field, *omega))) or 1.0, regime, random, worst)
+
+
+def check_top(draw: Top, regime: str, random: Random, worst: WorstErrors) -> None:
+    """Check a top, in ulps of its largest rate: beside the register, structure and a grid."""
+    inputs = {
+        name: value.hex() if isinstance(value, float) else [x.hex() for x in value]
+        for name, value in draw._asdict().items()
+    }
+    _nutation("top", draw, inputs, rate_of(draw), regime, random, worst)
+
+
+def _nutation(
+    name: str, draw: Sequence[Any], inputs: Inputs, size: float, regime: str, random: Random, worst: WorstErrors
+) -> None:
+    """Check a motion whose axis nutates, in ulps of a rate."""
     truth = partial(narrow, size=size)
 
     def more(found: Any, exact: Any, _: Where) -> None:
         R = found.rotation(np.array(times))
         defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
-        worst.add("general orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
+        worst.add(f"{name} orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
         start = np.abs(found.rotation(0.0) - np.eye(3)).max() / ONE
-        worst.add("general R(0) = 1", regime, [float(start)], lambda _: inputs)
+        worst.add(f"{name} R(0) = 1", regime, [float(start)], lambda _: inputs)
         # long enough for polynomials; at ends of their windows too
         grid, places = (0.0, times[-1] / GRID, GRID), (0, 255, 511, 4099, GRID - 1)
-        _grid("general R grid", found, exact, grid, places, regime, worst, inputs, truth)
+        _grid(f"{name} R grid", found, exact, grid, places, regime, worst, inputs, truth)
+
+    def unit(vector: str, _: float) -> float:
+        return ONE if vector == "b" else size * ONE
 
     times: list[float] = []
-    with worst.checking("general", regime, inputs):
-        times += _times(FAMILIES["general"].kernels()(*draw).period, size, random).tolist()
-        check("general", regime, draw, worst, inputs, times=times, unit=lambda *_: size * ONE, truth=truth, more=more)
+    with worst.checking(name, regime, inputs):
+        times += _times(FAMILIES[name].kernels()(*draw).period, size, random).tolist()
+        check(name, regime, draw, worst, inputs, times=times, unit=unit, truth=truth, more=more)
 
 
 def narrow(function: Callable[[], Any], size: float) -> Any:

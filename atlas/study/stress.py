@@ -27,8 +27,10 @@ from atlas.study.checks import (
     check_motion,
     check_particle,
     check_quadric,
+    check_top,
 )
 from atlas.study.regimes import GENERAL, REGIMES
+from atlas.study.tops import TOPS
 from atlas.study.ulps import Refusal, Worst, WorstErrors
 
 RECORD = Path(__file__).with_name("worst_errors.json")
@@ -39,7 +41,7 @@ LONG, SHORT = (3_000_000, 0), (60_000, 1)
 
 Progress = Callable[[int, int], None]
 
-STRESSED = ("elementary", "quadric", "hyperbola", "ball", "free", "general", "particle")
+STRESSED = ("elementary", "quadric", "hyperbola", "ball", "free", "general", "top", "particle")
 """The families that a run checks, in the order of its table."""
 
 LIMITS: Mapping[str, float] = {name: ulps for one in STRESSED for name, ulps in FAMILIES[one].promises.items()}
@@ -146,6 +148,9 @@ def one_round(seed: int, index: int) -> WorstErrors:
     other = Random(f"general {seed} {index}")  # noqa: S311  the same
     for regime, draw in GENERAL.items():
         check_general(draw(other), regime, other, found)
+    other = Random(f"top {seed} {index}")  # noqa: S311  the same
+    for regime, draw_top in TOPS.items():
+        check_top(draw_top(other), regime, other, found)
     return found
 
 

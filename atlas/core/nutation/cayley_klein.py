@@ -87,8 +87,6 @@ class CayleyKlein:
             factors = pair[0].factor * start, pair[1].factor / start
             values = [[f * w for w in functions.weights(x.sum)] for x, f in zip(pair, factors, strict=True)]
             self.swing = Swing(swing) if swing else None
-            if swing and periodic:
-                self.swing_twist = float((2 * swing.kappa * swing.twist * lattice.half / arb.pi()).mid())
             if self.swing and not self.swing.is_known:
                 return False
             if self.sloping:
@@ -146,32 +144,8 @@ class Evaluation:
 
         `low` (m,) is what the times t lack, None for nothing.
         """
-        m, functions, swing = t.size, self.of.functions, self.of.swing
-        rows, phases = self.rows[:, :m], self.of.phases
-        if isinstance(functions, Hyperbolic) and functions.periodic:
-            u, e, *_ = phases.reduced(t, self.work[..., :m], low)
-            x, rest = functions.line.at(u[2], e[2])
-            functions.fill(rows, x, rest)
-            u, v = u[:2], u[2]
-            u += functions.twist * v
-            if swing:
-                u[1] += swing.of_line(x + rest) + self.of.swing_twist * v
-        else:
-            u = phases.halves_of(t, self.work, low)
-        if isinstance(functions, Trigonometric):
-            u, v = u[:2], u[2]
-            np.tan(v, out=v)
-            functions.fill(rows, v)
-            if swing:
-                u[1] += swing.of_circle(*functions.doubled(v))
-        elif isinstance(functions, Steady):
-            functions.fill(rows, t)
-        elif not functions.periodic:
-            near = np.clip(t, -functions.line.longest, functions.line.longest)
-            x, rest = functions.line.at(near, 0.0 if low is None else low)
-            functions.fill(rows, x, rest)
-            if swing:
-                u[1] += swing.of_line(x + rest)
+        m = t.size
+        u = self._phases(t, low)
         np.tan(u, out=u)
         # phases of alpha and beta, half the sum and half the difference of the two; all have a common factor
         cos, sin = self.circles[..., :m]
@@ -181,7 +155,7 @@ class Evaluation:
         np.add(u[0], u[1], out=sin[0])
         np.subtract(u[0], u[1], out=sin[1])
         sums, result = self.sums[..., :m]
-        np.matmul(self.table, rows, out=sums)
+        np.matmul(self.table, self.rows[:, :m], out=sums)
         pairs, turned = sums.reshape(-1, 2, 2, m), result.reshape(-1, 2, 2, m)
         np.multiply(pairs, cos, out=turned)
         pairs *= sin
@@ -190,6 +164,47 @@ class Evaluation:
         if self.of.faint:
             result /= np.abs(result[:4]).max(axis=0)
         return np.asarray(result)
+
+    def _phases(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
+        """Fill the rows; return half the sum and half the difference of the phases of alpha and beta, (2, m)."""
+        m, functions = t.size, self.of.functions
+        rows, phases = self.rows[:, :m], self.of.phases
+        if isinstance(functions, Hyperbolic) and functions.periodic:
+            u, e, *_ = phases.reduced(t, self.work[..., :m], low)
+            x, rest = functions.line.at(u[2], e[2])
+            functions.fill(rows, x, rest)
+            u, v = u[:2], u[2]
+            u += functions.twist * v
+            if self.of.swing:
+                u[1] += self.of.swing.half_on_line(x, rest, v, e[2])
+            return np.asarray(u)
+        if isinstance(functions, Trigonometric):
+            return self._on_circle(functions, t, low)
+        u = phases.halves_of(t, self.work, low)
+        if isinstance(functions, Steady):
+            functions.fill(rows, t)
+            return np.asarray(u)
+        near = np.clip(t, -functions.line.longest, functions.line.longest)
+        x, rest = functions.line.at(near, 0.0 if low is None else low)
+        functions.fill(rows, x, rest)
+        if self.of.swing:
+            u[1] += self.of.swing.half_on_line(x, rest)
+        return np.asarray(u)
+
+    def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
+        """Do the same where the functions are trigonometric."""
+        phases, swing = self.of.phases, self.of.swing
+        if swing and swing.is_large:
+            u, e, *_ = phases.reduced(t, self.work[..., : t.size], low)
+            u[1] += swing.half_at(functions.multiple, u[2], e[2])
+        else:
+            u = phases.halves_of(t, self.work, low)
+        u, w = u[:2], u[2]
+        np.tan(w, out=w)
+        functions.fill(self.rows[:, : t.size], w)
+        if swing and not swing.is_large:
+            u[1] += swing.of_circle(*functions.doubled(w))
+        return np.asarray(u)
 
     def at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
         """Return the ten products at times t + low, (10, m)."""

@@ -80,6 +80,11 @@ class Trigonometric:
         for n in range(1, self.terms):
             np.multiply(pairs[n - 1], factor, out=pairs[n])
 
+    @property
+    def multiple(self) -> int:
+        """Twice v is so many times the angle whose tangent `fill` takes."""
+        return 4 if self.constant else 2
+
     def doubled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return cos 2v and sin 2v from what `fill` takes."""
         if self.constant:

@@ -4,11 +4,18 @@ It is (2 kappa/sqrt(|A|)) at(sqrt(|A|) O/E), at = arctan for A < 0 and artanh fo
 is zero 2 kappa O/E. So it goes through A = 0 without a gap: O/sqrt(|A|) was formed in balls before it was rounded.
 """
 
+from typing import Any, TypeAlias
+
 import numpy as np
 from flint import arb
+from numpy.typing import NDArray
 
 from atlas.core.inputs import FloatArray
 from atlas.exact.swing import Swing as Exact
+from atlas.exact.theta import infinite
+
+Numbers: TypeAlias = NDArray[Any]
+"""Numbers of the type."""
 
 NEGLIGIBLE, ACCURATE = 2.0**-60, 2.0**-60
 """Part of the first term below which a term is left out, and of itself to which a term is known before rounding."""
@@ -20,22 +27,50 @@ FAR = 18.0
 """From there on exp(2 x) + 1 is exp(2 x)."""
 
 
+HALF_TURN = 4 * np.arctan(np.longdouble(1))
+"""pi in extended precision."""
+
+LARGE = 2.0
+"""Angle from which on a double is too coarse, and extended precision is taken where the processor has it."""
+
+
 class Swing:
-    """Half of the periodic part, in radians, as a function of the time in a period."""
+    """Half of the periodic part, in radians, as a function of the time in a period; in numbers of `type`.
+
+    `twist` is what is proportional to that time, in radians by half turns of v.
+    """
 
     def __init__(self, exact: Exact) -> None:
         lattice, size = exact.lattice, abs(exact.A).sqrt()
+        largest = exact.largest
+        self.type = np.longdouble if not largest < LARGE else np.float64
         self.form, self.reach = lattice.form, lattice.reach
         merged = not size > MERGED
         self.sign = 0 if merged else 1 if exact.A > 0 else -1
-        self.factor = float((exact.kappa if merged else exact.kappa / size).mid())
+        self.factor = self._number(exact.kappa if merged else exact.kappa / size)
+        self.twist = self._number(
+            0 if infinite(lattice.half) else 2 * exact.kappa * exact.twist * lattice.half / arb.pi()
+        )
         odd, even = ([x.real for x in sum_] for sum_ in (exact.odd.odd, exact.even.even))
         odd = odd if merged else [x * size for x in odd]
         count = max(self._needed(odd), self._needed(even))
         odd, even = odd[:count], even[:count]
-        self.is_known = all(_known(x, max(abs(y).mid() for y in sum_)) for sum_ in (odd, even) for x in sum_)
-        self.odd, self.even = (np.array([float(x.mid()) for x in weights]) for weights in (odd, even))
-        self.depth = float(exact.depth.mid())
+        known = all(_known(x, max(abs(y).mid() for y in weights)) for weights in (odd, even) for x in weights)
+        self.is_known = known and bool(largest.is_finite())
+        self.odd, self.even = (np.array([self._number(x) for x in weights], dtype=self.type) for weights in (odd, even))
+        self.depth = self._number(exact.depth)
+        self.fall = self._number(-2 * self.reach)
+
+    @property
+    def is_large(self) -> bool:
+        """Whether extended precision is taken."""
+        return self.type is np.longdouble
+
+    def _number(self, x: arb | int) -> Any:
+        """Return the middle of a ball as a number of the type."""
+        middle = arb(x).mid()
+        head = float(middle)
+        return self.type(head) + self.type(float(middle - head))
 
     def _needed(self, weights: list[arb]) -> int:
         """Return how many terms matter."""
@@ -43,7 +78,26 @@ class Swing:
         largest = max(grown, key=lambda x: float(x.mid()))
         return max((n + 1 for n, x in enumerate(grown) if not x < NEGLIGIBLE * largest), default=1)
 
-    def of_circle(self, cos: FloatArray, sin: FloatArray) -> FloatArray:
+    def half_at(self, multiple: int, half: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return it from half phases and what rounding left out of them, 2v being a multiple, rounded once."""
+        v = multiple * self._sum(half, rest)
+        return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
+
+    def half_on_line(
+        self, x: FloatArray, rest: FloatArray, v: FloatArray | float = 0.0, left: FloatArray | float = 0.0
+    ) -> FloatArray:
+        """Return it from x + rest = rate s and, within a period, v + left, half a phase; rounded once."""
+        return self._rounded(self.of_line(self._sum(x, rest)) + self.twist * self._sum(v, left))
+
+    def _sum(self, x: FloatArray | float, rest: FloatArray | float) -> Numbers:
+        """Return the sum of two doubles as a number of the type."""
+        return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(rest, dtype=self.type))
+
+    def _rounded(self, angle: Numbers) -> FloatArray:
+        """Return an angle as doubles; a large one less whole half turns."""
+        return np.asarray(np.remainder(angle, HALF_TURN) if self.is_large else angle, dtype=np.float64)
+
+    def of_circle(self, cos: Numbers, sin: Numbers) -> Numbers:
         """Return it from cos 2v and sin 2v, v = rate s: trigonometric sums of multiples of 2v (Clenshaw)."""
         twice = cos + cos
         even, last_even, odd, last_odd = (np.zeros_like(cos) for _ in range(4))
@@ -52,7 +106,7 @@ class Swing:
             odd, last_odd = b + twice * odd - last_odd, odd
         return self._at(odd * sin, self.even[0] + cos * even - last_even)
 
-    def of_line(self, x: FloatArray) -> FloatArray:
+    def of_line(self, x: Numbers) -> Numbers:
         """Return it from x = rate s, where the sums are hyperbolic or linear."""
         if self.form == "linear":
             return self._at(self.odd[0] * x, np.full_like(x, self.even[0]))
@@ -66,12 +120,12 @@ class Swing:
             even += b * up * (2.0 + down)
         return self._at(np.copysign(1.0, x) * odd, even)
 
-    def _between(self, x: FloatArray) -> FloatArray:
+    def _between(self, x: Numbers) -> Numbers:
         """Return its size for A > 0 and x >= 0, as a logarithm whose terms are all positive."""
         d, nearer = self.depth, np.minimum(x, self.depth)
         odd, rest = np.zeros_like(x), np.zeros_like(x)
         for n in range(self.odd.size):
-            k, fallen = 2 * n + 1, -2.0 * n * (n + 1) * float(self.reach.mid()) if n else 0.0
+            k, fallen = 2 * n + 1, n * (n + 1) * self.fall
             odd += np.exp(2 * n * (x + d) + fallen) * np.expm1(-2 * k * x) * np.expm1(-2 * k * d)
             rest += np.exp(2 * n * x - (k + 1) * d + fallen + 2 * nearer)
             rest += np.exp(2 * n * d - (k + 1) * x + fallen + 2 * nearer)
@@ -81,11 +135,11 @@ class Swing:
             far = np.log(ratio) + 2 * nearer
         return np.asarray(np.where(nearer < FAR, near, far) / 2)
 
-    def _at(self, odd: FloatArray, even: FloatArray) -> FloatArray:
+    def _at(self, odd: Numbers, even: Numbers) -> Numbers:
         """Return the turn of O and E."""
         if self.sign < 0:
-            return self.factor * np.arctan2(odd, even)
-        return self.factor * (np.arctanh(odd / even) if self.sign else odd / even)
+            return np.asarray(self.factor * np.arctan2(odd, even))
+        return np.asarray(self.factor * (np.arctanh(odd / even) if self.sign else odd / even))
 
 
 def _known(x: arb, largest: arb) -> bool:

@@ -1,0 +1,108 @@
+"""Regimes of symmetric tops: each a draw of a motion that is hard on the formulas, every border from both sides."""
+
+from collections.abc import Callable, Mapping
+from random import Random
+from typing import NamedTuple
+
+from atlas.study.regimes import near, sign, size
+
+Pair = tuple[float, float]
+
+
+class Top(NamedTuple):
+    """What `atlas.TopMotion` takes, I2 = 1."""
+
+    inertia: Pair
+    coupling: Pair
+    direction: Pair
+    omega: tuple[float, float, float]
+    linear: float
+    quadratic: float
+
+
+def rate_of(top: Top) -> float:
+    """Return the largest rate that enters, of the frame, of the spin and of the potential."""
+    I3, (k2, k3) = top.inertia[1], top.coupling
+    potential = abs(top.linear) ** 0.5, abs(top.quadratic) ** 0.5
+    return max(*map(abs, top.omega), abs(k2), abs(k3) / I3, *potential) or 1.0
+
+
+def _number(random: Random) -> float:
+    return sign(random) * size(random)
+
+
+def _ordinary(random: Random) -> Top:
+    def pair() -> Pair:
+        return _number(random), _number(random)
+
+    I3 = random.choice((random.uniform(0.05, 2.0), 0.5, 1.0, 2.0))
+    coupling = random.choice((pair(), (0.0, 0.0), (0.0, _number(random)), (_number(random), 0.0)))
+    potential = random.choice((pair(), (_number(random), 0.0), (0.0, _number(random)), (0.0, 0.0)))
+    return Top((1.0, I3), coupling, pair(), (_number(random), _number(random), _number(random)), *potential)
+
+
+def _near_the_cubic(random: Random) -> Top:
+    """Draw A near zero, on either side."""
+    top = _ordinary(random)
+    (_, I3), (k2, k3) = top.inertia, top.coupling
+    return top._replace(quadratic=near(k2 * k2 - k3 * k3 / I3, random))
+
+
+def _near_the_quadratic(random: Random) -> Top:
+    """Draw a and A near zero."""
+    top = _ordinary(random)
+    (_, I3), (k2, k3), (n2, n3) = top.inertia, top.coupling, top.direction
+    M3 = I3 * top.omega[2] + k3 * n3 / (n2 * n2 + n3 * n3) ** 0.5
+    return top._replace(linear=near(-M3 * (k2 - k3 / I3), random), quadratic=near(k2 * k2 - k3 * k3 / I3, random))
+
+
+def _near_the_vertical(random: Random) -> Top:
+    top = _ordinary(random)
+    tilt = random.choice((0.0, sign(random) * size(random, -16, -1), sign(random) * size(random, -200, -16)))
+    slow = size(random, -16, -1)
+    omega = random.choice((top.omega, (slow * _number(random), slow * _number(random), top.omega[2])))
+    return top._replace(direction=(tilt, sign(random)), omega=omega)
+
+
+def _sleeping(random: Random) -> Top:
+    """Draw a heavy top near the border of M3^2 = 4 m g l, pushed little."""
+    top = _ordinary(random)
+    spin = 2 * abs(top.linear) ** 0.5 / top.inertia[1]
+    push = size(random, -14, -2)
+    return top._replace(
+        coupling=(0.0, 0.0), direction=(0.0, 1.0), omega=(push, 0.0, near(spin, random)), linear=abs(top.linear),
+        quadratic=0.0,
+    )  # fmt: skip
+
+
+def _needle(random: Random) -> Top:
+    top = _ordinary(random)
+    return top._replace(inertia=(1.0, size(random, -3, -1)))
+
+
+def _zero_momenta(random: Random) -> Top:
+    """Draw a pendulum, or nearly one."""
+    top = _ordinary(random)
+    return top._replace(coupling=(0.0, 0.0), omega=(top.omega[0], 0.0, random.choice((0.0, size(random, -20, -3)))))
+
+
+def _scales(random: Random) -> Top:
+    top, unit = _ordinary(random), 2.0 ** random.randint(-400, 400)
+    (k2, k3), (w1, w2, w3) = top.coupling, top.omega
+    return top._replace(
+        coupling=(k2 * unit, k3 * unit), omega=(w1 * unit, w2 * unit, w3 * unit), linear=top.linear * unit * unit,
+        quadratic=top.quadratic * unit * unit,
+    )  # fmt: skip
+
+
+TOPS: Mapping[str, Callable[[Random], Top]] = {
+    "top, ordinary": _ordinary,
+    "top, A near 0": _near_the_cubic,
+    "top, a and A near 0": _near_the_quadratic,
+    "top, axis near n": _near_the_vertical,
+    "top, sleeping": _sleeping,
+    "top, I3 from 0.001 to 0.1": _needle,
+    "top, M3 near 0": _zero_momenta,
+    "top, scales 1e-120 to 1e120": _scales,
+}
+"""Regimes of tops."""
