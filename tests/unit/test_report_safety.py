@@ -11,6 +11,7 @@ from lxml import html as reader
 from pypdf import PdfReader
 
 from atlas.errors import AtlasError
+from atlas.places import folder
 from atlas.report import html, pdf
 from atlas.report.compose import compose
 from atlas.report.definition import Report
@@ -33,6 +34,8 @@ MARKUP = (
     "= heading <label> @@ ~ _x",
     r"\input{/etc/passwd} \href{javascript:alert(1)}{x}",
 )
+SCRIPTS = [{"src": "minisearch.js", "defer": "defer"}, {"src": "page.js", "defer": "defer"}]
+"""The two that a page asks for, in this order: the library of its search box and its own."""
 BLOCKS = (
     "---",
     "---\ntitle: other\n---",
@@ -94,12 +97,12 @@ def visible(made: Document, folder: Path) -> tuple[reader.HtmlElement, str]:
 
 
 def inert(page: reader.HtmlElement) -> bool:
-    """Tell whether nothing in a page runs but its own script, and nothing is fetched or listens."""
+    """Tell whether nothing in a page runs but its own two scripts, and nothing is fetched or listens."""
     scripts = [dict(script.attrib) for script in page.iter("script")]
     tags = {element.tag for element in page.iter() if isinstance(element.tag, str)}
     attributes = {name for element in page.iter() for name in element.attrib}
     return (
-        scripts in ([], [{"src": "page.js", "defer": "defer"}])
+        scripts in ([], SCRIPTS)
         and not page.xpath("//script/text()")
         and not tags & {"iframe", "object", "embed", "form", "base", "img", "svg"}
         and not any(name.startswith("on") for name in attributes)
@@ -188,6 +191,13 @@ def test_names_that_become_anchors_and_files_are_letters_digits_and_hyphens(name
             convert({"name": "mine", "title": "", "pages": [page]}, Report)
     with pytest.raises(AtlasError, match="slug: must be a text of small letters and digits"):
         convert({"name": "mine", "title": "", "pages": [{"slug": name, "title": "", "blocks": []}]}, Report)
+
+
+def test_the_scripts_of_a_page_are_those_of_its_templates() -> None:
+    """What the pages ask for lies beside them, as it is in the templates whatever the report says."""
+    made = html.pages(document(definition(MARKUP[0])))
+    for script in SCRIPTS:
+        assert made[script["src"]] == (folder("templates") / "html" / script["src"]).read_text(encoding="utf-8")
 
 
 def test_every_page_has_a_policy_under_which_nothing_runs() -> None:
