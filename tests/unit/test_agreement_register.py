@@ -23,8 +23,11 @@ FORMULAS = {
 """Modules whose functions are public quantities; of the others the classes are."""
 
 MACHINERY = {
-    "core": {"charge", "inputs", "motion"},
-    "exact": {"cayley_klein", "digits", "euler", "inputs", "nutation", "quartic", "spheres", "theta", "two_turns"},
+    "core": {"charge", "inputs", "motion", "nutating"},
+    "exact": {
+        *("cayley_klein", "digits", "euler", "inputs", "nutating", "nutation", "quartic", "spheres", "surd", "swing"),
+        *("theta", "top_quartic", "two_turns"),
+    },
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""
 
@@ -73,9 +76,18 @@ UNTIED = {
         f"GeneralMotion.{name}": SERIES
         for name in (
             "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body from_frame "
-            "in_cell in_laboratory invariants is_steady kind modulus nome parameters period "
+            "in_cell in_laboratory invariants is_plane is_steady kind modulus nome parameters period precession "
             "precession_per_period quaternion roots rotation rotation_grid solution sphere spin_per_period "
-            "third_axis tilt trigonometric turning_points velocity velocity_sizes"
+            "swings_evenly third_axis tilt trigonometric turning_points turning_rate velocity velocity_sizes"
+        ).split()
+    },
+    **{
+        f"TopMotion.{name}": "compared with Taylor series of the equations of a top, in test_top"
+        for name in (
+            "angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame in_cell "
+            "invariants is_plane is_steady kind modulus nome parameters period precession precession_per_period quaternion "
+            "roots rotation rotation_grid solution sphere spin_per_period steady_rates swings_evenly third_axis tilt "
+            "trigonometric turning_points turning_rate"
         ).split()
     },
     "ElementaryMotion.omega": GIVEN,
