@@ -3,11 +3,14 @@
 from collections.abc import Callable
 from functools import cached_property
 from math import prod
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
+from flint import fmpq
 
-from atlas.core.inputs import FloatArray, finite, plain
+from atlas.core.body import SymmetricBody, moments
+from atlas.core.charge_moments import ChargeMoments
+from atlas.core.inputs import FloatArray, finite, number, plain, positive
 from atlas.core.motion import components
 from atlas.core.nutating import NutatingMotion, ends_of, padded
 from atlas.core.nutation.cayley_klein import FIRST
@@ -23,6 +26,14 @@ def balls(*row: float) -> Balls:
     """Return one motion as balls: I2, I3, k2, k3, n2, n3, the three components of omega, linear, quadratic."""
     with workprec(FIRST):
         return Balls(row[0:2], row[2:4], row[4:6], row[6:9], *row[9:])
+
+
+def _rounded(x: fmpq) -> float:
+    """Return a rational number as the nearest float. Raises DomainError where it is too large for one."""
+    try:
+        return int(x.p) / int(x.q)
+    except OverflowError as error:
+        raise DomainError("A moment or the weight of this top is too large for a float: choose other units.") from error
 
 
 class TopMotion(NutatingMotion[SingleTop]):
@@ -75,6 +86,55 @@ class TopMotion(NutatingMotion[SingleTop]):
         self.inertia, self.coupling, self.direction, self.omega, (self.linear, self.quadratic) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
         )
+
+    @classmethod
+    def heavy(
+        cls, body: SymmetricBody, gravity: float, length: float, direction: Any, omega: Any, *, mass: float
+    ) -> Self:
+        """Lagrange's top: a body held at a point of its axis, under its weight.
+
+        `body` with its moments about the centre of mass, which lies at `length` along the axis from the fixed point;
+        `gravity` g >= 0 and `mass`, in the units of the moments; `direction` (n2, n3) points up, against gravity. The
+        moment across the axis is I2 + m l^2, and linear = m g l; both are rounded once.
+        Raises DomainError for a mass that is not positive, a negative g, or a rod without thickness.
+        """
+        I2, I3 = moments(body)
+        m, g, l = positive(mass, "The mass"), number(gravity, "The gravity g"), number(length, "The length")
+        if g < 0:
+            raise DomainError(f"The gravity g must not be negative, but is {g}: turn the direction round instead.")
+        i2, m_, g_, l_ = (fmpq(*float(x).as_integer_ratio()) for x in (I2, m, g, l))
+        across, linear = i2 + m_ * l_ * l_, m_ * g_ * l_
+        return cls((_rounded(across), I3), (0.0, 0.0), direction, omega, linear=_rounded(linear))
+
+    @classmethod
+    def charged(
+        cls,
+        body: SymmetricBody,
+        charges: ChargeMoments,
+        field: Any,
+        omega: Any,
+        *,
+        c: float = 1.0,
+        moment: float = 0.0,
+        polarizability: tuple[float, float] = (0.0, 0.0),
+    ) -> Self:
+        """Top of a body whose charges are spread in another way than its mass, in the magnetic field (0, B2, B3).
+
+        `field` = (B2, B3) is B itself; `c` is 1 in SI and the speed of light in Gaussian units, as in `Field`. k_i =
+        J_i |B|/(2c). `moment` d is a magnetic moment along the axis, with the energy -d |B| nu; `polarizability`
+        (a2, a3), moments induced across and along the axis by a unit field, gives -(a3 - a2) B^2 nu^2/2: of a small
+        body of volume V, susceptibility chi and demagnetising factor N they are V chi/(mu0 (1 + N chi)) in SI.
+        Products are rounded. Raises DomainError for B = 0, where there is no direction: use `FreeMotion`.
+        """
+        I2, I3 = moments(body)
+        B2, B3 = (number(x, "A component of the field") for x in components(field, ("B2", "B3"), "The field"))
+        size = float(np.hypot(B2, B3))
+        if not size:
+            raise DomainError("Without a field a charged top has no direction: it is a free body, FreeMotion.")
+        half, (a2, a3) = size / (2 * positive(c, "c")), components(polarizability, ("a2", "a3"), "The polarizability")
+        coupling = charges.J2 * half, charges.J3 * half
+        linear, quadratic = -number(moment, "The moment") * size, -(a3 - a2) * size * size
+        return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
 
     def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
         """Write what motions of shape `own` have at times that they broadcast with into (m, ...), one by one."""

@@ -46,6 +46,7 @@ ELSEWHERE = {
 }
 """Modules of our own theorems: where they are compared with integrations and with one another."""
 
+TOP = "compared with Taylor series of the equations of a top, in test_top"
 GIVEN, AXES, NAME = "what was given, or another way to give it", "a choice of axes, not in the ledger", "no number"
 SERIES = "compared with Taylor series in balls, and with the elementary motions, in test_general and test_exact_general"
 
@@ -82,15 +83,17 @@ UNTIED = {
         ).split()
     },
     **{
-        f"TopMotion.{name}": "compared with Taylor series of the equations of a top, in test_top"
+        f"TopMotion.{name}": TOP
         for name in (
-            "angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame in_cell "
-            "invariants is_plane is_steady kind modulus nome parameters period precession precession_per_period quaternion "
-            "roots rotation rotation_grid solution sphere spin_per_period steady_rates swings_evenly third_axis tilt "
-            "trigonometric turning_points turning_rate"
+            "angular_momentum angular_velocity b charged column complementary_modulus field_in_body from_frame in_cell "
+            "heavy invariants is_plane is_steady kind modulus nome parameters period precession precession_per_period "
+            "quaternion roots rotation rotation_grid solution sphere spin_per_period steady_rates "
+            "swings_evenly third_axis tilt trigonometric turning_points turning_rate"
         ).split()
     },
     "ElementaryMotion.omega": GIVEN,
+    "ChargeMoments.points": TOP,
+    "ChargeMoments.shape": TOP,
     "Hyperbola.closed": "compared with its theorem and with an exact return in test_closed",
     "Hyperbola.escape": "a general motion: compared with an integration in test_general",
     "Hyperbola.growth_rate": "the root of the negative of Hyperbola.stability, which is tied",

@@ -21,6 +21,7 @@ MADE: dict[str, Any] = {
     "GeneralMotion": atlas.GeneralMotion(1.5, (1.0, 2.0), (0.1, 0.2, 0.3)),
     "BallMotion": atlas.BallMotion(1.0, 2.0, momentum=(0.5, 0.25)),
     "TopMotion": atlas.TopMotion((1.0, 1.5), (0.1, 0.2), (0.0, 1.0), (0.1, 0.2, 0.3)),
+    "ChargeMoments": atlas.ChargeMoments(1.0, 0.5),
     "ParticleMotion": PARTICLE,
 }
 MADE["Flight"] = atlas.Flight(PARTICLE, atlas.ElementaryMotion(1.5, (0.0, 1.0), 0.0, 0.5), (1.0, 0.0, 0.0))

@@ -1,5 +1,7 @@
 """Motions of a symmetric top: against Taylor series of the equations, against balls, and the laws they obey."""
 
+from collections.abc import Callable
+
 import mpmath
 import numpy as np
 import pytest
@@ -206,3 +208,65 @@ def test_what_is_no_top_is_refused_in_one_line(case: tuple[object, ...], words: 
         return
     with pytest.raises(atlas.AtlasError, match=words):
         atlas.TopMotion(*case)
+
+
+def test_a_heavy_top_swings_about_its_fixed_point() -> None:
+    """A plane pendulum of small swing has the frequency of a physical pendulum, sqrt(m g l/(I2 + m l^2))."""
+    body = atlas.SymmetricBody.solid_cylinder(mass=2.0, radius=0.5, height=1.0)
+    top = atlas.TopMotion.heavy(body, 9.81, 0.7, (1e-6, -1.0), (0, 0, 0), mass=2.0)
+    slow = np.sqrt(2.0 * 9.81 * 0.7 / (body.I2 + 2.0 * 0.7**2))
+    assert 2 * top.period == pytest.approx(2 * np.pi / slow, rel=1e-9)  # nu passes its ends twice a swing
+    assert top.inertia == (body.I2 + 2.0 * 0.7**2, body.I3)
+
+
+def test_charges_spread_as_the_mass_make_the_papers_body() -> None:
+    """With one charge-to-mass ratio a charged top is the general motion in B' = mu B/(2c)."""
+    body = atlas.SymmetricBody.cylindrical_shell(mass=1.0, radius=1.0, height=2.0)
+    charges = atlas.ChargeMoments.shape("cylindrical_shell", charge=-3.0, radius=1.0, height=2.0)
+    top = atlas.TopMotion.charged(body, charges, (1.0, 2.0), (0.3, 0.7, 0.2))
+    motion = atlas.GeneralMotion(body, (-1.5, -3.0), (0.3, 0.7, 0.2))
+    times = np.array([0.5, 3.0, 40.0])
+    assert np.abs(top.rotation(times) - motion.rotation(times)).max() < 1e-13
+
+
+def test_a_coat_of_charge_is_no_ball_and_point_charges_are_summed() -> None:
+    """A charged ring on a neutral sphere; the ring as many point charges has its moments."""
+    ring = atlas.ChargeMoments.shape("ring", charge=2.0, radius=1.5)
+    angles = np.arange(8) * np.pi / 4
+    points = 1.5 * np.stack([np.cos(angles), np.sin(angles), 0 * angles], -1)
+    beads = atlas.ChargeMoments.points(np.full(8, 0.25), points)
+    assert pytest.approx((ring.J2, ring.J3)) == (beads.J2, beads.J3)
+    both = ring + atlas.ChargeMoments.shape("sphere", charge=-1.0, radius=1.0)
+    assert pytest.approx((ring.J2 - 0.4, ring.J3 - 0.4)) == (both.J2, both.J3)
+    sphere = atlas.SymmetricBody.sphere(1.0, 1.0)
+    top = atlas.TopMotion.charged(sphere, both, (1.0, 1.0), (0, 0, 1), c=2.0, moment=0.5, polarizability=(0.25, 0.75))
+    B = np.sqrt(2)
+    assert top.coupling == pytest.approx((both.J2 * B / 4, both.J3 * B / 4))
+    assert (top.linear, top.quadratic) == pytest.approx((-0.5 * B, -1.0))
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: atlas.ChargeMoments.points([1.0, 1.0], [[0, 0, 1], [0, 0, 2]]), "off the centre of mass"),
+        (lambda: atlas.ChargeMoments.points([1.0, 1.0], [[1, 0, 0], [-1, 0, 0]]), "not symmetric about e3"),
+        (lambda: atlas.ChargeMoments.points([1.0], [[1, 0, 0], [-1, 0, 0]]), "charges and"),
+        (lambda: atlas.ChargeMoments.shape("cube", charge=1.0), "no shape 'cube'"),
+        (lambda: atlas.ChargeMoments(float("inf"), 1.0), "J2 must be finite"),
+        (lambda: heavy(gravity=-9.8), "must not be negative"),
+        (lambda: heavy(mass=0.0), "must be positive"),
+        (lambda: atlas.TopMotion.charged(BALL, atlas.ChargeMoments(1, 1), (0, 0), (0, 0, 1)), "no direction"),
+    ],
+)
+def test_what_cannot_be_reduced_to_a_top_is_refused(make: Callable[[], object], words: str) -> None:
+    """Errors say why."""
+    with pytest.raises(atlas.AtlasError, match=words):
+        make()
+
+
+BALL = atlas.SymmetricBody.sphere(1.0, 1.0)
+
+
+def heavy(gravity: float = 9.8, mass: float = 1.0) -> atlas.TopMotion:
+    """Return a heavy top."""
+    return atlas.TopMotion.heavy(BALL, gravity, 0.5, (0, 1), (0, 0, 1), mass=mass)
