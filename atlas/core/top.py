@@ -96,7 +96,7 @@ class TopMotion(NutatingMotion[SingleTop]):
         `body` with its moments about the centre of mass, which lies at `length` along the axis from the fixed point;
         `gravity` g >= 0 and `mass`, in the units of the moments; `direction` (n2, n3) points up, against gravity. The
         moment across the axis is I2 + m l^2, and linear = m g l; both are rounded once.
-        Raises DomainError for a mass that is not positive, a negative g, or a rod without thickness.
+        Raises AtlasError for what is no body or no number, DomainError for a mass that is not positive or a negative g.
         """
         I2, I3 = moments(body)
         m, g, l = positive(mass, "The mass"), number(gravity, "The gravity g"), number(length, "The length")
@@ -124,7 +124,8 @@ class TopMotion(NutatingMotion[SingleTop]):
         J_i |B|/(2c). `moment` d is a magnetic moment along the axis, with the energy -d |B| nu; `polarizability`
         (a2, a3), moments induced across and along the axis by a unit field, gives -(a3 - a2) B^2 nu^2/2: of a small
         body of volume V, susceptibility chi and demagnetising factor N they are V chi/(mu0 (1 + N chi)) in SI.
-        Products are rounded. Raises DomainError for B = 0, where there is no direction: use `FreeMotion`.
+        Products are rounded. Raises AtlasError for what is no body or no number, DomainError for B = 0, where there is
+        no direction: use `FreeMotion`.
         """
         I2, I3 = moments(body)
         B2, B3 = (number(x, "A component of the field") for x in components(field, ("B2", "B3"), "The field"))
