@@ -19,6 +19,7 @@ import atlas
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError
 from atlas.study.sweep import keys, run, storage, workers
+from atlas.study.sweep import plan as plan_module
 from atlas.study.sweep.lock import held
 from atlas.study.sweep.parts import MANIFEST
 from atlas.study.sweep.plan import LARGEST, Plan, Span
@@ -348,19 +349,20 @@ def test_a_part_takes_some_seconds_and_no_more_rows_than_fit(tmp_path: Path, mon
     assert sizes == [40, 154, 1, 154]
 
 
-def test_the_time_of_a_row_is_without_what_is_loaded_for_the_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Half a second of loading would make each of the first eight rows as dear as a hundred thousand others."""
-    real, calls = Plan.columns, []
+def test_the_time_of_a_row_is_without_what_is_the_same_for_any_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half a second of loading and a tenth for each call do not make the first rows dear: a row takes a millisecond."""
+    clock, calls = [0.0], []
 
-    def loads_first(plan: Plan) -> Any:
-        if not calls:
-            time.sleep(0.5)
+    def computed(plan: Plan) -> None:
+        clock[0] += 0.5 * (not calls) + 0.1 + 1e-3 * plan.count
         calls.append(plan.count)
-        return real(plan)
 
-    monkeypatch.setattr(Plan, "columns", loads_first)
-    assert Plan.of("elementary", GRID, ["k"]).seconds() < 0.5 / 8
-    assert calls == [1, 8, 64, 154]
+    monkeypatch.setattr(Plan, "columns", computed)
+    monkeypatch.setattr(plan_module, "perf_counter", lambda: clock[0])
+    many = Plan.of("elementary", GRID | {"omega2": np.linspace(0.1, 3, 2000)}, ["k"])
+    assert many.seconds() == pytest.approx(1e-3)
+    assert calls == [1, 1, 8, 64, 512]
+    assert Plan.of("elementary", GRID, ["k"]).seconds() == pytest.approx(1e-3)
 
 
 def test_a_table_beyond_all_disks_is_refused() -> None:

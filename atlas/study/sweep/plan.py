@@ -17,8 +17,8 @@ Columns = dict[str, NDArray[Any]]
 
 LARGEST = 10**11
 """Rows of a table: some 10 TB of them."""
-SAMPLE = 0.1
-"""Seconds that a sample of rows should take, to tell how long a row takes."""
+SAMPLE, SHORTEST = 0.3, 1e-9
+"""Seconds that a sample of rows should take, to tell how long a row takes; the least that this is believed to be."""
 
 
 @dataclass(frozen=True)
@@ -110,17 +110,22 @@ class Plan:
         return Plan(self.family, self._given(rows), self.quantities, True, self.digits)
 
     def seconds(self) -> float:
-        """Return how long a row takes here: as many rows are computed as tell it."""
+        """Return how long a row takes here beside others: as many rows are computed as tell it."""
         self.sample(1).columns()  # what is loaded for the first row is not of the rows
-        size = 8
+        size, took = 1, self._took(1)
         while True:
-            rows = self.sample(size)
-            begin = perf_counter()
-            rows.columns()
-            took = perf_counter() - begin
-            if took > SAMPLE or rows.count == self.count:
-                return took / rows.count
-            size *= 8
+            size, less, before = 8 * size, size, took
+            took = self._took(size)
+            # what a call costs however few its rows are is not of the rows either
+            if size >= self.count or (took > SAMPLE and took > 2 * before):
+                return max(took - before, 0.0) / (min(size, self.count) - less) or SHORTEST
+
+    def _took(self, size: int) -> float:
+        """Return the seconds that a sample takes."""
+        rows = self.sample(size)
+        begin = perf_counter()
+        rows.columns()
+        return perf_counter() - begin
 
     def columns(self) -> Columns:
         """Return the table."""
