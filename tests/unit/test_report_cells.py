@@ -80,28 +80,48 @@ def test_the_cells_of_the_quadric() -> None:
         holds(table("quadric"), *rows)
 
 
-def test_the_cells_of_bodies_side_by_side() -> None:
-    """Ratio, angle and semi-axes of each body."""
-    ratios = (1.6, 0.45)
-    with mp.workdps(40):
-        made = [closed_form.quadric(1, ratio, B2, B3) for ratio in ratios]
-        rows = [
-            (mpf(ratio), q.beta, *(root(square) for square in q.squares)) for ratio, q in zip(ratios, made, strict=True)
-        ]
-        data = table("bodies", bodies=[Body(title=f"{ratio}", ratio=ratio) for ratio in ratios])
-        holds(data, *rows)
-        assert [row[0] for row in data.rows] == ["1.6", "0.45"]
+def of_the_motion(ratio: float) -> tuple[mpf, ...]:
+    """Return initial data, frequencies, nutation and the five integrals of a body, from their definitions at t = 0."""
+    one, i, b2, b3 = closed_form.elementary(1, ratio, B2, B3, OMEGA2), mpf(ratio), mpf(B2), mpf(B3)
+    w2, w3 = one.omega2, one.omega3
+    x, c3 = (w2 + b2) / b2, w3 + b3
+    square = ((b2**2 + b3**2) * x**4 + (1 - i) * (2 * b3**2 - b2**2) * x**2 + b3**2 * (1 - i) ** 2) / x**2
+    c5 = w2 * b2 - w3**2 + (2 - i) * c3 * w3
+    return (w2, w3, one.k, one.phi, square, w2**2 + i * w3**2, b2**2 + b3**2, c3, c5, w2 * b2 + i * w3 * b3)
 
 
 def test_the_cells_of_a_motion() -> None:
-    """Initial data, frequencies and the five integrals, from their definitions at t = 0."""
+    """Initial data, frequencies, nutation and the integrals."""
     with mp.workdps(40):
-        one, i, b2, b3 = elementary(), mpf(I), mpf(B2), mpf(B3)
-        w2, w3 = one.omega2, one.omega3
-        c3 = w3 + b3
-        c5 = w2 * b2 - w3**2 + (2 - i) * c3 * w3
-        values = (w2, w3, one.k, one.phi, w2**2 + i * w3**2, b2**2 + b3**2, c3, c5, w2 * b2 + i * w3 * b3)
-        holds(table("motion", omega2=OMEGA2), *((value,) for value in values))
+        holds(table("motion", omega2=OMEGA2), *((value,) for value in of_the_motion(I)))
+
+
+def test_the_cells_of_a_data_sheet() -> None:
+    """Quadric and motion of each body in its column, on the same rows; a ball has no semi-axes."""
+    ratios = (1.6, 0.45, 1.0)
+    with mp.workdps(40):
+        bodies = []
+        for ratio in ratios:
+            q = closed_form.quadric(1, ratio, B2, B3)
+            axes = [None if ratio == 1 else root(square) for square in q.squares]
+            bodies.append((ratio, q.beta, q.angle, q.a2, q.a3, *axes, -B2, -B3, *of_the_motion(ratio)))
+        rows = [[value for value in same if value is not None] for same in zip(*bodies, strict=True)]
+        data = table("sheet", bodies=[Body(title=f"{ratio}", ratio=ratio) for ratio in ratios], omega2=OMEGA2)
+        holds(data, *rows)
+    assert [one.head for one in data.columns] == ["Quantity", "Symbol", "1.6", "0.45", "1.0", "Unit"]
+    words = {row[0]: row[2:5] for row in data.rows if isinstance(row[2], str)}
+    assert words == {
+        "quadric @(51)": ("two-sheet hyperboloid", "one-sheet hyperboloid", "cone"),
+        "nutation @theorem-stability": ("stable", "stable", "stable"),
+    }
+    assert [row[4] for row in data.rows if row[0] == "semi-axis"] == ["–", "–", "–"]
+
+
+def test_a_data_sheet_says_that_a_motion_is_unstable() -> None:
+    """Two bodies in a low field, one of them long: its motion is in the unstable band, theorem-band."""
+    bodies, low = [Body(title="a", ratio=0.5), Body(title="b", ratio=1.5)], Field(title="low", prime=(1.0, 0.1))
+    row = next(row for row in table("sheet", bodies=bodies, field=low, omega2=-0.5).rows if row[0][:8] == "nutation")
+    assert row[2:4] == ("unstable", "stable")
 
 
 def test_the_cells_of_a_motion_at_some_times() -> None:
@@ -248,6 +268,6 @@ def test_the_cells_of_radiation() -> None:
 
 def test_no_table_is_left_out() -> None:
     """Each table has a test of its cells above."""
-    tested = {"points", "quadric", "bodies", "motion", "samples", "particle", "flight", "ball", "body_and_field"}
+    tested = {"points", "quadric", "sheet", "motion", "samples", "particle", "flight", "ball", "body_and_field"}
     words = {"quantities"}  # a table of words: see test_guide
     assert set(TABLES) - words == tested | {"charges", "companions", "diamagnetism", "sizes", "radiation"}

@@ -117,6 +117,7 @@ def test_every_number_has_a_unit() -> None:
         "points": {},
         "quadric": {},
         "motion": {"omega2": 0.7},
+        "sheet": {"omega2": 0.7},
         "samples": {"omega2": 0.7, "times": [0.0, 1.0]},
         "body_and_field": {},
     }

@@ -6,7 +6,6 @@ from types import MappingProxyType
 from atlas.errors import unknown
 from atlas.report.tables import (
     ball,
-    bodies,
     body_and_field,
     charges,
     companions,
@@ -17,6 +16,7 @@ from atlas.report.tables import (
     points,
     quadric,
     quantities,
+    sheet,
     sizes,
 )
 from atlas.report.tables.model import Data, Maker, Request
@@ -24,12 +24,12 @@ from atlas.report.tables.model import Data, Maker, Request
 TABLES: Mapping[str, Maker] = MappingProxyType(
     {
         "body_and_field": body_and_field.body_and_field,
-        "bodies": bodies.bodies,
         "charges": charges.charges,
         "diamagnetism": diamagnetism.diamagnetism,
         "quadric": quadric.quadric,
         "points": points.points,
         "motion": motion.motion,
+        "sheet": sheet.sheet,
         "quantities": quantities.quantities,
         "samples": motion.samples,
         "ball": ball.ball,

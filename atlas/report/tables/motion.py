@@ -1,8 +1,10 @@
-"""One elementary motion: its constants, and the body's state at some times."""
+"""One elementary motion, of a body or of several: its constants, and one body's state at some times."""
 
+from atlas.report.body_and_field import BodyAndField
 from atlas.report.numbers import Number, plain
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import RATE, Column, Data, Request, certified, column, quantity
+from atlas.report.tables.layout import Quantity, side_by_side
+from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
 
 
 class Motion(StrictStruct, frozen=True):
@@ -21,29 +23,42 @@ class Samples(StrictStruct, frozen=True):
 
 
 def motion(request: Request) -> Data:
-    """List initial data, frequencies and integrals (36) to (41), (88) of the motion that starts with `omega2`."""
-    from atlas.exact.elementary import ElementaryMotion
-
+    """List initial data, frequencies, stability and integrals of the motion that starts with `omega2`."""
     asked = request.take(Motion)
-    made = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)
-    k, invariants = certified(lambda: (made.k, made.invariants), request.digits)
-    squared = r"s$^{-2}$"
-    rows = (
-        ("initial angular velocity", r"$\omega_2$", made.omega2, RATE),
-        ("", r"$\omega_3$", made.omega3, RATE),
-        ("frequency of precession", "$k$", k, RATE),
-        ("frequency of proper rotation", r"$\phi$", made.phi, RATE),
-        ("energy @(36)", "$E'=2E/I_2$", invariants["E'"], squared),
-        ("field in the body @(37)", r"$\mathbf{K}^2$", invariants["K^2"], squared),
-        ("integral @(40)", "$c_3$", invariants["c3"], RATE),
-        ("integral @(41)", "$c_5$", invariants["c5"], squared),
-        ("momentum along the field @(88)", r"$(\mathbf{m},\mathbf{B}')/I_2$", invariants["(m,B')"], squared),
-    )
+    columns, rows = side_by_side(request, [quantities(one, asked, request.digits) for one in request.cases])
     return Data(
-        (Column("Quantity"), Column("Symbol"), Column("Value"), Column("Unit")),
-        tuple((name, symbol, quantity(value, request.digits), unit) for name, symbol, value, unit in rows),
+        columns,
+        rows,
         rf"The motion with $\omega_2={plain(asked.omega2)}$ s$^{{-1}}$: initial data, frequencies and integrals.",
     )
+
+
+def quantities(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]:
+    """Return what belongs to a motion: (67), k and phi of (72), nutation, the integrals (36) to (41) and (88)."""
+    from atlas.exact.elementary import ElementaryMotion
+    from atlas.exact.hyperbola import Hyperbola
+
+    made = ElementaryMotion(case.exact, case.components, asked.omega2, asked.omega3)
+    k, invariants = certified(lambda: (made.k, made.invariants), digits)
+    squared, nutation = r"s$^{-2}$", []
+    if made.case in {"precession", "at rest"}:
+        h = Hyperbola(case.exact, case.components)
+        nutation = [
+            Quantity("square of the frequency of nutation", r"$\nu_n^2$", h.stability(made.omega2), squared),
+            Quantity("nutation @theorem-stability", "", "stable" if h.stable(made.omega2) else "unstable"),
+        ]
+    return [
+        Quantity("initial angular velocity", r"$\omega_2$", made.omega2, RATE),
+        Quantity("initial spin", r"$\omega_3$", made.omega3, RATE),
+        Quantity("frequency of precession", "$k$", k, RATE),
+        Quantity("frequency of proper rotation", r"$\phi$", made.phi, RATE),
+        *nutation,
+        Quantity("energy @(36)", "$E'=2E/I_2$", invariants["E'"], squared),
+        Quantity("field in the body @(37)", r"$\mathbf{K}^2$", invariants["K^2"], squared),
+        Quantity("integral @(40)", "$c_3$", invariants["c3"], RATE),
+        Quantity("integral @(41)", "$c_5$", invariants["c5"], squared),
+        Quantity("momentum along the field @(88)", r"$(\mathbf{m},\mathbf{B}')/I_2$", invariants["(m,B')"], squared),
+    ]
 
 
 def samples(request: Request) -> Data:
