@@ -20,6 +20,7 @@ _HOMES = {
     "FreeMotion": "atlas.core.elementary",
     "GeneralMotion": "atlas.core.general",
     "TopMotion": "atlas.core.top",
+    "EllipticMotion": "atlas.core.elliptic",
     "ChargeMoments": "atlas.core.charge_moments",
     "BallMotion": "atlas.core.ball",
     "ParticleMotion": "atlas.core.particle",

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import cached_property
+from math import prod
 from typing import Any, TypeVar
 
 import numpy as np
@@ -90,6 +91,17 @@ class NutatingMotion(Motion[Nutation]):
         from atlas.core.nutation.grid import fill_grid
 
         fill_grid(one, start, step, out)
+
+
+class AloneMotion(NutatingMotion[Nutation]):
+    """Motions of which each in an array is made by itself, some milliseconds each."""
+
+    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
+        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), one by one."""
+        motions = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape).ravel()
+        for i, one in enumerate(self._turnings):
+            places = np.flatnonzero(motions == i)
+            out[places] = evaluate(one, times.flat[places], None)
 
 
 def ends_of(exact: Any) -> list[float]:

@@ -1,8 +1,6 @@
 """Motions of a symmetric top in a uniform field, from any start (not in the paper)."""
 
-from collections.abc import Callable
 from functools import cached_property
-from math import prod
 from typing import Any, Self
 
 import numpy as np
@@ -12,7 +10,7 @@ from atlas.core.body import SymmetricBody, moments
 from atlas.core.charge_moments import ChargeMoments
 from atlas.core.inputs import FloatArray, finite, number, plain, positive
 from atlas.core.motion import components
-from atlas.core.nutating import NutatingMotion, ends_of, padded
+from atlas.core.nutating import AloneMotion, ends_of, padded
 from atlas.core.nutation.cayley_klein import FIRST
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_top import SingleTop
@@ -36,7 +34,7 @@ def _rounded(x: fmpq) -> float:
         raise DomainError("A moment or the weight of this top is too large for a float: choose other units.") from error
 
 
-class TopMotion(NutatingMotion[SingleTop]):
+class TopMotion(AloneMotion[SingleTop]):
     """Motion R(t), R(0) = 1, of a symmetric top in a uniform field, from any start (not in the paper).
 
     `inertia` (I2, I3) across and along the axis; `coupling` (k2, k3), so that M = I Omega + k b, in the unit of inertia
@@ -136,13 +134,6 @@ class TopMotion(NutatingMotion[SingleTop]):
         coupling = charges.J2 * half, charges.J3 * half
         linear, quadratic = -number(moment, "The moment") * size, -(a3 - a2) * size * size
         return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
-
-    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
-        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), one by one."""
-        motions = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape).ravel()
-        for i, top in enumerate(self._turnings):
-            places = np.flatnonzero(motions == i)
-            out[places] = evaluate(top, times.flat[places], None)
 
     @cached_property
     def kind(self) -> Any:

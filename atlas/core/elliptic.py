@@ -1,0 +1,123 @@
+"""Elliptic motions: the paper's family for a body with any three moments of inertia (not in the paper)."""
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.core.clebsch import Clebsch
+from atlas.core.inputs import FloatArray, finite, plain
+from atlas.core.motion import components
+from atlas.core.nutating import AloneMotion
+from atlas.core.nutation.cayley_klein import FIRST
+from atlas.core.nutation.single import BITS
+from atlas.core.nutation.single_elliptic import SingleElliptic
+from atlas.exact.digits import enclosed
+from atlas.exact.elliptic import EllipticMotion as Balls
+from atlas.formulas.numbers import workprec
+
+
+def balls(*row: float) -> Balls:
+    """Return one motion as balls: I1, I2, I3, B1, B2, B3, z, branch."""
+    with workprec(FIRST):
+        return Balls(row[0:3], row[3:6], *row[6:])
+
+
+class EllipticMotion(AloneMotion[SingleElliptic]):
+    """Motion R(t), R(0) = 1, of a charged body of any inertia tensor, one of a family for each field, theorem-elliptic.
+
+    `inertia` (I1, I2, I3), the principal moments; `field` (B1, B2, B3), the components of B' in the principal axes at
+    t = 0, in 1/time; `z` in the unit of inertia squared and `branch`, 1 or -1, choose the motion: with D = I1 I2 I3,
+
+        Omega(t) = -[1 + v (z II + D)^-1] K(t) for all t,     v = branch sqrt((z + D/I1)(z + D/I2)(z + D/I3)),
+
+    which is the initial angular velocity `omega` too. So K turns like a free body, K' = [K, E K], E_i = -v/(z I_i + D),
+    in Jacobi's elliptic functions. The inputs are taken as exact and broadcast with one another and with t. z lies on
+    one of two ovals: above the largest of -D/I_i, or between the other two. For I1 = I2 this is the paper's hyperbola
+    (67) of elementary motions, and z = 0 is rest (branch -1) or Omega = -2 K (branch 1). `kind`, decided exactly, is
+
+    - "at rest", "Omega = -2 K", "ball", "field along an axis": K is constant, and R a turn about the field;
+    - "elementary": two moments are equal, R = R_B(k t) R_3(phi t) as in (84), (85);
+    - "elliptic", or "separatrix", where K tends to the axis of the middle E_i.
+
+    The cost does not depend on t; arrays of motions are made one by one, some milliseconds each. Entries of R are
+    within 3.6e-15 for phases up to 2^50, K within 3.6e-15 |B'|, Omega_i within 3.6e-15 |E_i - 1| |B'|. Stability is not
+    decided here. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
+    others, for a z on neither oval or at the end of one, and for another branch; AtlasError for what is no finite
+    number.
+    """
+
+    def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
+        parts = [
+            *components(inertia, ("I1", "I2", "I3"), "The inertia"),
+            *components(field, ("B1", "B2", "B3"), "The field"),
+            *components((z, branch), ("z", "branch"), "The point of the curve"),
+        ]
+        super().__init__(lambda *row: SingleElliptic(balls(*row)), *parts)
+        for i in range(int(np.prod(self.shape, dtype=int))):
+            balls(*self._row(i))  # what is no motion is refused here
+        self.inertia, self.field, (self.z, self.branch) = (
+            tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 3), (3, 6), (6, 8))
+        )
+
+    @cached_property
+    def kind(self) -> Any:
+        """Name of the kind of motion, a string, or an array of them."""
+        return self._each("kind", lambda exact: exact.kind)
+
+    @cached_property
+    def period(self) -> Any:
+        """Period T of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
+        return self._scalar("period")
+
+    @cached_property
+    def v(self) -> Any:
+        """The root v of prod(z + D/I_i), of the sign of the branch, in the unit of inertia cubed."""
+        return self._scalar("v")
+
+    @cached_property
+    def omega(self) -> tuple[Any, Any, Any]:
+        """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B'."""
+        found = self._each("omega", lambda exact: [float(arb(x).mid()) for x in enclosed(lambda: exact.omega, BITS)])
+        finite(found, "omega")
+        return (found[..., 0], found[..., 1], found[..., 2]) if self.shape else tuple(found)
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
+
+    def angular_momentum(self, t: Any) -> FloatArray:
+        """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        m = self.angular_velocity(t) * np.stack(np.broadcast_arrays(*self.inertia), -1)
+        return np.asarray(finite(np.matvec(self.rotation(t), m), "m"))
+
+    def invariants(self, t: Any = 0.0) -> dict[str, Any]:
+        """Constants of any body's motion, theorem-clebsch: H, F, (M, K), K^2 and the kinetic energy.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        Omega, K, J = self.angular_velocity(t), self.field_in_body(t), np.stack(np.broadcast_arrays(*self.inertia), -1)
+        W = Omega + K
+        M = J * W
+        found = Clebsch(
+            H=plain((np.vecdot(M, W) + np.vecdot(K, J * K)) / 2),
+            F=plain(np.vecdot(M, M) - np.vecdot(K, J[..., [1, 2, 0]] * J[..., [2, 0, 1]] * K)),
+            MK=plain(np.vecdot(M, K)),
+            K2=plain(np.vecdot(K, K)),
+            energy=plain(np.vecdot(Omega, J * Omega) / 2),
+        )
+        return {"H": found.H, "F": found.F, "(M,K)": found.MK, "K^2": found.K2, "energy": found.energy}
