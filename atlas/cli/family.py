@@ -63,7 +63,7 @@ def _made(family: Family, described: Described) -> click.Command:
     given = [p for p in family.parameters if p.option]
     decorators = [
         *([body_options] if "ratio" in names else []),
-        *([field_options] if "field" in names else []),
+        *([field_options] if _in_plane(family) else []),
         *map(_option, given),
         *([units_option] if "c" in names else []),
         *([times_options] if family.sampled else []),
@@ -94,6 +94,11 @@ def _made(family: Family, described: Described) -> click.Command:
     return made(stack(*decorators)(run))
 
 
+def _in_plane(family: Family) -> bool:
+    """Whether a family takes its field (0, B2, B3), which may be given as B and mu, by the options made for that."""
+    return any(p.name == "field" and not p.option for p in family.parameters)
+
+
 def _option(p: Parameter) -> Callable[[Any], Any]:
     """Return the option of a parameter."""
     count = len(p.names)
@@ -111,7 +116,7 @@ def _values(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator
     for p in family.parameters:
         if p.name == "ratio":
             yield (exact_body if exact else chosen_body)(options)
-        elif p.name == "field":
+        elif p.name == "field" and not p.option:
             yield (exact_field if exact else chosen_field)(options)
         elif p.name == "c":
             yield _speed_of_light(options["units"])

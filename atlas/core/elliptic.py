@@ -74,7 +74,7 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
     @cached_property
     def v(self) -> Any:
         """The root v of prod(z + D/I_i), of the sign of the branch, in the unit of inertia cubed."""
-        return self._scalar("v")
+        return finite(self._scalar("v"), "v")
 
     @cached_property
     def omega(self) -> tuple[Any, Any, Any]:

@@ -26,7 +26,7 @@ from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.spheres import POLES, Sphere
 from atlas.exact.theta import Lattice, constant
-from atlas.formulas.numbers import root
+from atlas.formulas.numbers import nearest, root
 
 ROUNDING = fmpq(1, 2**48)
 """By so much of itself the largest moment of a plane body may exceed the sum of the others."""
@@ -44,7 +44,7 @@ class EllipticMotion(Nutating):
         self.field = rationals(field, "field (B1, B2, B3)", 3)
         self.z, sign = rational(z, "z"), rational(branch, "branch")
         if sign not in (1, -1):
-            raise DomainError(f"The branch, the sign of v, is 1 or -1, not {float(sign):.17g}.")
+            raise DomainError(f"The branch, the sign of v, is 1 or -1, not {nearest(sign)}.")
         self.branch = int(sign.p)
         _check(moments)
         self.square = _square(moments, self.z)
@@ -194,6 +194,9 @@ class EllipticMotion(Nutating):
             rate = arb(root(square)) if along and square > 0 else arb(0)
         return arb("inf") if rate.is_zero() else 2 * arb.pi() / rate
 
+    def _periods(self) -> tuple[arb, arb]:
+        return (arb(1), arb("inf")) if self.is_steady else super()._periods()
+
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
         t = rational(t, "the time")
@@ -239,7 +242,7 @@ class EllipticMotion(Nutating):
 
 def _check(moments: tuple[fmpq, ...]) -> None:
     """Raise DomainError for what are no moments of a body."""
-    shown = ", ".join(f"{float(I):.17g}" for I in moments)
+    shown = ", ".join(str(nearest(I)) for I in moments)
     if min(moments) <= 0:
         raise DomainError(f"No body has the moments of inertia {shown}: all three are positive.")
     if max(moments) * (2 - ROUNDING) > sum(moments):
@@ -251,10 +254,10 @@ def _square(moments: tuple[fmpq, ...], z: fmpq) -> fmpq:
     D = moments[0] * moments[1] * moments[2]
     zeros = sorted(-D / I for I in moments)
     if not (z > zeros[2] or zeros[0] < z < zeros[1]):
-        low, middle, high = (f"{float(x):.17g}" for x in zeros)
+        low, middle, high = map(nearest, zeros)
         oval = f" and between {low} and {middle}" if zeros[0] < zeros[1] else ""
         raise DomainError(
-            f"There is no elliptic motion with z = {float(z):.17g}: v^2 = prod(z + D/I_i) is positive for z above "
+            f"There is no elliptic motion with z = {nearest(z)}: v^2 = prod(z + D/I_i) is positive for z above "
             f"{high}{oval}, the ends excluded."
         )
     return (z - zeros[0]) * (z - zeros[1]) * (z - zeros[2])

@@ -107,7 +107,7 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
     first, last = (start + step * float(index[i]) for i in (0, -1))
     far = max(abs(first), abs(last))
     digit = 2.0 ** (frexp(far)[1] - 52)
-    away = start == 0 or first / far > CLOSE < last / far or -first / far > CLOSE < -last / far
+    away = start == 0 or far == 0 or first / far > CLOSE < last / far or -first / far > CLOSE < -last / far
     if not (abs(start) <= far <= phases.near and digit > TINY and (away or abs(step) > 2 * CLOSE * far)):
         t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
         return t.hi, t.low

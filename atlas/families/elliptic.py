@@ -1,0 +1,72 @@
+"""The paper's family for a body with any three moments of inertia, theorem-elliptic."""
+
+from typing import Any
+
+from atlas.families.model import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.shared import in_brackets, rotation
+
+
+def _kernels() -> Any:
+    from atlas.core.elliptic import EllipticMotion
+
+    return EllipticMotion
+
+
+def _balls() -> Any:
+    from atlas.exact.elliptic import EllipticMotion
+
+    return EllipticMotion
+
+
+FAMILY = Family(
+    "elliptic",
+    "elliptic motion of a charged body of any three moments",
+    _kernels,
+    _balls,
+    (
+        Parameter(
+            "inertia", "Principal moments of inertia.", "inertia", (0.8, 1.0, 1.3), (0.5, 2.0),
+            columns=("I1", "I2", "I3"), metavar="I1 I2 I3",
+        ),
+        Parameter(
+            "field", "Components of B' = mu B/(2c) along the principal axes at t = 0.", RATE, (0.2, 1.0, 0.6),
+            (-3.0, 3.0), columns=("B1", "B2", "B3"), metavar="B1 B2 B3",
+        ),
+        Parameter("z", "Place on the curve v^2 = prod(z + D/I_i), D = I1 I2 I3.", "inertia^2", (1.7,), (-0.2, 4.0)),
+        Parameter("branch", "Sign of v, 1 or -1.", "", (1.0,), (-1.0, 1.0), needed=False, omitted=1.0),
+    ),
+    (
+        Quantity("kind", "name of the kind"),
+        Quantity("v", "root of prod(z + D/I_i)", "inertia^3", "theorem-elliptic", certified=True),
+        Quantity(
+            "omega", "initial angular velocity", RATE, "theorem-elliptic", columns=("omega1", "omega2", "omega3"),
+            text=in_brackets, certified=True,
+        ),
+        Quantity("period", "period of K", TIME, certified=True),
+        Quantity("precession_per_period", "turn about B in one period", missing="no period", certified=True),
+        Quantity("modulus", "of the elliptic functions", certified=True),
+        Quantity("nome", "of the elliptic functions", certified=True),
+    ),
+    (
+        rotation("", ""),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "theorem-elliptic"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, printed=False),
+        Sampled("m", "angular_momentum", "angular momentum", "inertia/time", symbol="m_i", printed=False),
+    ),
+    {},
+    Command(
+        "elliptic",
+        "Compute an elliptic motion: three different moments.",
+        "The paper's family for a body with any three moments of inertia: Omega = -[1 + v (z II + D)^-1] K for all "
+        "times, v^2 = prod(z + D/I_i), D = I1 I2 I3 (not in the paper).",
+        (
+            "atlas elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7 --times 0 1 1e6",
+            "atlas elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z -1.2 --branch -1 --times 1e12 --digits 40",
+            "atlas elliptic --inertia 1 1 1.5 --field 0 1 2 --z 0.3 --grid 0 1 40 --json",
+        ),
+        "elliptic motion: ",
+        "kind",
+        undecided=True,
+    ),
+    at_once=200,
+)  # fmt: skip

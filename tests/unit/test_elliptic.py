@@ -1,0 +1,313 @@
+"""Elliptic motions of a body with three moments: against Taylor series of (12), (16), balls, and the laws they obey."""
+
+from fractions import Fraction
+from itertools import permutations
+
+import mpmath
+import numpy as np
+import pytest
+from flint import arb, ctx
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from oracles.taylor import taylor
+
+import atlas
+from atlas.exact.digits import certified
+from atlas.exact.elementary import ElementaryMotion as ElementaryBalls
+from atlas.exact.elliptic import EllipticMotion as Balls
+
+EPS = 2.0**-52
+BODY, FIELD = (0.8, 1.0, 1.3), (0.2, 1.0, 0.6)
+
+CASES = {
+    "unbounded oval": (BODY, FIELD, 1.7, 1),
+    "unbounded oval, other branch": (BODY, FIELD, 1.7, -1),
+    "unbounded oval, z < 0": (BODY, FIELD, -0.7, 1),
+    "bounded oval": (BODY, FIELD, -1.2, 1),
+    "bounded oval, other branch": (BODY, FIELD, -1.1, -1),
+    "axes in another order": ((1.3, 0.8, 1.0), (0.6, -0.2, -1.0), -0.7, 1),
+    "K in a principal plane": (BODY, (0.0, 1.0, 0.5), 1.7, 1),
+    "K in another one": (BODY, (-0.5, 1.0, 0.0), -1.2, -1),
+    "next to the unstable axis": (BODY, (1e-9, 1.0, 1e-9), 1.7, 1),
+    "next to a stable axis": (BODY, (1e-100, 0.0, 1.0), 1.7, 1),
+    "flat": ((1.0, 2.0, 3.0), (1.0, -2.0, 0.5), -4.0, -1),
+    "rod": ((0.01, 1.0, 1.005), FIELD, 0.5, 1),
+    "nearly symmetric": ((1.0, 1.0 + 2.0**-50, 1.5), FIELD, 0.3, 1),
+    "separatrix": ((1.0, 2.0, 3.0), (2.0, 1.0, 3.0), 10, 1),
+    "separatrix, the other way": ((3.0, 1.0, 2.0), (-3.0, 2.0, 1.0), 10, -1),
+    "field along an axis": (BODY, (0.0, 1.0, 0.0), 1.7, 1),
+    "two equal moments": ((1.0, 1.0, 1.5), FIELD, 0.3, 1),
+    "two other equal moments": ((1.5, 1.0, 1.0), FIELD, -0.9, -1),
+    "ball": ((1.0, 1.0, 1.0), FIELD, 0.3, -1),
+    "Omega = -2 K": (BODY, FIELD, 0, 1),
+}
+NEAR_AN_END = (BODY, FIELD, -0.799999, -1)
+
+
+def middle(rows: list[list[object]]) -> np.ndarray:
+    """Return the middles of balls and rationals as floats."""
+    return np.array([[float(arb(x).mid()) for x in row] for row in rows])
+
+
+def fraction(x: object) -> Fraction:
+    """Return the middle of a ball."""
+    mantissa, exponent = arb(x).mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def turn(axis: np.ndarray, angle: float) -> np.ndarray:
+    """Return the rotation about a vector."""
+    cross = np.cross(axis / np.linalg.norm(axis), np.eye(3)).T
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_balls_hold_what_taylor_series_of_the_equations_give(name: str) -> None:
+    """R(t) and Omega(t) as balls hold the values of an integration of (12), (16), to 28 digits."""
+    with ctx.workprec(240):
+        motion = Balls(*CASES[name])
+        inertia, field, _, _ = CASES[name]
+        for state in taylor(inertia, field, [fraction(x) for x in motion.omega], [0.5, 3.0]):
+            R, Omega = motion.rotation(state.t), motion.angular_velocity(state.t)
+            assert all(
+                abs(arb(R[i][j]) - arb(mpmath.nstr(state.R[i, j], 35))) < arb("1e-28")
+                for i in range(3)
+                for j in range(3)
+            )
+            assert all(abs(arb(Omega[i]) - arb(mpmath.nstr(state.Omega[i], 35))) < arb("1e-27") for i in range(3))
+            assert max(arb(x).rad() for row in R for x in row) < arb("1e-40")
+
+
+@pytest.mark.parametrize("case", [*CASES.values(), NEAR_AN_END], ids=[*CASES, "next to an end of the oval"])
+def test_floats_are_within_16_ulp_of_balls_at_any_time(case: tuple[object, ...]) -> None:
+    """Entries of R to 16 ulp of 1, K of |B'|, Omega of |E - 1| |B'|, up to t = 1e12, backwards too."""
+    times = [0.0, 0.3, -7.5, 1e3, -1e9, 1e12]
+    found, exact = atlas.EllipticMotion(*case), Balls(*case)
+    R, K, Omega = (x(np.array(times)) for x in (found.rotation, found.field_in_body, found.angular_velocity))
+    b = float(np.linalg.norm(case[1]))
+    rates = b * np.array([float(abs(arb(E) - 1).mid()) for E in exact.E])
+    for i, t in enumerate(times):
+        with ctx.workprec(800):
+            true, vectors = exact.rotation(t), [exact.field_in_body(t), exact.angular_velocity(t)]
+            assert max(arb(x).rad() for row in true + vectors for x in row) < 1e-20
+        assert np.abs(R[i] - middle(true)).max() <= 16 * EPS
+        assert np.abs(K[i] - middle(vectors)[0]).max() <= 16 * EPS * b
+        assert (np.abs(Omega[i] - middle(vectors)[1]) <= 16 * EPS * rates).all()
+
+
+part = st.floats(-4, 4, allow_subnormal=False).map(lambda x: round(x, 6))
+
+
+@settings(max_examples=60)
+@given(
+    st.tuples(*[st.floats(0.0, 1.0)] * 3),
+    st.tuples(part, part, part),
+    st.floats(0.001, 0.999),
+    st.booleans(),
+    st.sampled_from([1, -1]),
+    st.integers(-200, 200),
+    st.floats(-1e3, 1e3),
+)
+def test_any_motion_of_any_body_in_any_unit_is_within_16_ulp(
+    mass: tuple[float, ...], field: tuple[float, ...], place: float, bounded: bool, branch: int, e: int, t: float
+) -> None:
+    """R at a random time of a random body, on either oval, times counted in 2^e: 16 ulp of 1."""
+    mass = tuple(0.01 + round(x, 5) for x in mass)
+    I = tuple(sum(mass) - x for x in mass)
+    ends = sorted(-np.prod(I) / x for x in I)
+    z = ends[0] + place * (ends[1] - ends[0]) if bounded else ends[2] + place / (1 - place)
+    assume(ends[0] < z < ends[1] if bounded else z > ends[2])
+    case = I, tuple(x * 2.0**e for x in field), z, branch
+    try:
+        found = atlas.EllipticMotion(*case).rotation(t / 2.0**e)
+    except atlas.DomainError as error:
+        assert "There is no elliptic motion" in str(error)  # noqa: PT017  an oval no longer than a rounding
+        return
+    with ctx.workprec(500):
+        true = Balls(*case).rotation(t / 2.0**e)
+        assert max(arb(x).rad() for row in true for x in row) < 1e-20
+    assert np.abs(found - middle(true)).max() <= 16 * EPS
+
+
+@pytest.mark.parametrize(
+    ("ratio", "z", "branch", "omega2"),
+    [(1.5, 1.25, 1, -2.5), (1.5, 1.25, -1, 0.5), (1.5, -0.4375, -1, -0.25), (0.5, -0.75, 1, -1.5), (0.5, 3.0, 1, -3.0)],
+)
+def test_two_equal_moments_give_the_hyperbola_exactly(ratio: float, z: float, branch: int, omega2: float) -> None:
+    """I1 = I2: the elementary motion (71) to (85) of the point (67) with v/(z + D) = -(omega2 + B2)/B2, not a limit."""
+    inertia, field = (1.0, 1.0, ratio), (0.0, 1.0, 2.0)
+    sign = branch if z + ratio > 0 else -branch
+    motion, paper = atlas.EllipticMotion(inertia, field, z, sign), atlas.ElementaryMotion(ratio, (1.0, 2.0), omega2)
+    assert motion.kind == "elementary"
+    assert motion.omega == (0.0, omega2, pytest.approx(paper.omega3, rel=4 * EPS))
+    times = np.array([0.3, -2.0, 1e6, 1e12])
+    assert np.abs(motion.rotation(times) - paper.rotation(times)).max() <= 8 * EPS
+    with ctx.workprec(256):
+        first = Balls(inertia, field, z, sign).rotation(1e12)
+        other = ElementaryBalls(ratio, (1.0, 2.0), omega2).rotation(1e12)
+        assert all(arb(first[i][j]).overlaps(arb(other[i][j])) for i in range(3) for j in range(3))
+        assert max(arb(x).rad() for row in first for x in row) < 1e-50
+
+
+def test_the_symmetric_body_is_the_limit_of_others() -> None:
+    """R(50) for I2 = 1 + 2^-n tends to that for I2 = 1 as 2^-n does."""
+    at = [atlas.EllipticMotion((1.0, 1.0 + d, 1.5), FIELD, 0.3).rotation(50.0) for d in (0, 2.0**-30, -(2.0**-30))]
+    above, below = (R - at[0] for R in at[1:])
+    assert 0 < np.abs(above).max() < 1e-5
+    assert np.abs(above + below).max() < 1e-4 * np.abs(above).max()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_other_branch_is_the_motion_back_in_time(name: str) -> None:
+    """R(t) of -v is R_B(-2bt) R(-t) of v, theorem-pair, and Omega(0) is -2B' - Omega(0)."""
+    inertia, field, z, branch = CASES[name]
+    one, other = (atlas.EllipticMotion(inertia, field, z, sign) for sign in (branch, -branch))
+    B = np.array(field)
+    size = np.abs(one.omega).max() + np.abs(other.omega).max()
+    assert np.abs(np.add(one.omega, other.omega) + 2 * B).max() <= 4 * EPS * size
+    for t in (0.25, 11.0):
+        expected = turn(B, -2 * float(np.linalg.norm(B)) * t) @ one.rotation(-t)
+        assert np.abs(other.rotation(t) - expected).max() <= 64 * EPS
+
+
+@pytest.mark.parametrize("order", list(permutations(range(3))))
+def test_axes_may_come_in_any_order(order: tuple[int, ...]) -> None:
+    """R of axes in another order is P R P^T; in a left-handed one the field has the other sign."""
+    P = np.eye(3)[list(order)]
+    motion = atlas.EllipticMotion(BODY, FIELD, -0.7)
+    field = np.linalg.det(P).round() * P @ np.array(FIELD)
+    other = atlas.EllipticMotion(tuple(P @ np.array(BODY)), tuple(field), -0.7)
+    times = np.array([0.5, 40.0])
+    assert np.abs(other.rotation(times) - P @ motion.rotation(times) @ P.T).max() <= 1024 * EPS
+    assert other.period == pytest.approx(motion.period, rel=64 * EPS)
+
+
+def test_a_motion_goes_on_from_where_it_is() -> None:
+    """R(t + s) = R(s) R(t), the latter of the same z in the field K(s)."""
+    motion = atlas.EllipticMotion(BODY, FIELD, 1.7)
+    for s in (0.7, -13.0):
+        rest = atlas.EllipticMotion(BODY, tuple(motion.field_in_body(s)), 1.7)
+        expected = motion.rotation(s) @ rest.rotation(2.5)
+        assert np.abs(motion.rotation(2.5 + s) - expected).max() <= 256 * EPS
+
+
+@pytest.mark.parametrize("name", ["unbounded oval", "bounded oval", "two equal moments"])
+def test_a_period_brings_the_field_back_and_turns_the_body_about_it(name: str) -> None:
+    """R(t + T) = R_B(precession) R(t), and not before T."""
+    motion = atlas.EllipticMotion(*CASES[name])
+    for t in (0.25, 3.5):
+        expected = turn(np.array(FIELD), motion.precession_per_period) @ motion.rotation(t)
+        assert np.abs(motion.rotation(t + motion.period) - expected).max() <= 1024 * EPS
+        assert np.abs(motion.field_in_body(t + motion.period / 2) - motion.field_in_body(t)).max() > 0.1
+
+
+def test_what_is_conserved_stays() -> None:
+    """H, F, (M, K), K^2 and the energy at t = 1e6 are those of the start, and those of `clebsch`."""
+    motion = atlas.EllipticMotion(*CASES["bounded oval"])
+    for name, values in motion.invariants([0.0, 1.0, 1e6]).items():
+        assert np.ptp(values) <= 64 * EPS, name
+    known = atlas.clebsch(BODY, motion.omega, FIELD)
+    assert list(motion.invariants().values()) == pytest.approx(
+        [known.H, known.F, known.MK, known.K2, known.energy], abs=8 * EPS
+    )
+    m = motion.angular_momentum(0.7)
+    assert np.abs(motion.rotation(0.7).T @ m - np.array(BODY) * motion.angular_velocity(0.7)).max() <= 8 * EPS
+
+
+@pytest.mark.parametrize(
+    ("case", "kind"),
+    [
+        (CASES["bounded oval"], "elliptic"),
+        (CASES["separatrix"], "separatrix"),
+        (((1.0, 2.0, 3.0), (2.0, 1.0, 3.0 + 2.0**-50), 10), "elliptic"),
+        (CASES["field along an axis"], "field along an axis"),
+        (((1.0, 1.0, 1.5), (1.0, 0.0, 0.0), 0.3), "field along an axis"),
+        (CASES["two equal moments"], "elementary"),
+        (CASES["ball"], "ball"),
+        (CASES["Omega = -2 K"], "Omega = -2 K"),
+        ((BODY, FIELD, 0, -1), "at rest"),
+        ((BODY, (0, 0, 0), 1.7), "at rest"),
+    ],
+)
+def test_each_kind_has_its_name(case: tuple[object, ...], kind: str) -> None:
+    """Which case it is, is decided exactly; where K is constant it stays so."""
+    motion = atlas.EllipticMotion(*case)
+    assert motion.kind == kind
+    assert np.isfinite(motion.rotation([0.0, 1e5])).all()
+    if kind == "at rest":
+        assert np.abs(motion.rotation(1e5) - np.eye(3)).max() <= EPS
+        assert not np.any(motion.omega)
+    if kind == "separatrix":
+        K = motion.field_in_body(100.0)
+        assert abs(abs(K[1]) - np.linalg.norm(case[1])) <= 16 * EPS
+        assert motion.period == np.inf
+        with pytest.raises(atlas.DomainError, match="no period"):
+            _ = motion.precession_per_period
+
+
+def test_the_period_about_an_axis_is_that_of_a_small_change() -> None:
+    """Near the field along an axis; about the middle one there is none."""
+    still = atlas.EllipticMotion(BODY, (0.0, 0.0, 1.0), 1.7)
+    moved = atlas.EllipticMotion(BODY, (0.0, 1e-7, 1.0), 1.7)
+    assert still.period == pytest.approx(moved.period, rel=1e-12)
+    assert atlas.EllipticMotion(*CASES["field along an axis"]).period == np.inf
+
+
+def test_v_is_on_the_curve() -> None:
+    """V^2 = prod(z + D/I_i), of the branch's sign, and Omega(0) = -[1 + v/(z I_i + D)] B'."""
+    for z, branch in ((1.7, 1), (-1.2, -1)):
+        motion = atlas.EllipticMotion(BODY, FIELD, z, branch)
+        D = np.prod(BODY)
+        assert motion.v == pytest.approx(branch * np.sqrt(np.prod([z + D / x for x in BODY])), rel=32 * EPS)
+        omega = [-(1 + motion.v / (z * x + D)) * B for x, B in zip(BODY, FIELD, strict=True)]
+        assert motion.omega == pytest.approx(omega, abs=32 * EPS)
+
+
+def test_arrays_are_the_motions_one_by_one_and_a_grid_is_its_times() -> None:
+    """Parameters broadcast with one another and with the times; a grid is within 32 ulp of the same times."""
+    motions = atlas.EllipticMotion((0.8, 1.0, np.array([1.1, 1.2, 1.3])), FIELD, [[1.7], [-0.5]], -1)
+    times = np.array([0.0, 1.0, 2.5])
+    assert motions.rotation(times).shape == (2, 3, 3, 3)
+    assert motions.kind.shape == motions.period.shape == motions.omega[0].shape == (2, 3)
+    one = atlas.EllipticMotion(BODY, FIELD, -0.5, -1)
+    assert (motions.rotation(times)[1, 2] == one.rotation(2.5)).all()
+    assert (motions.angular_velocity(1.0)[1, 2] == one.angular_velocity(1.0)).all()
+    assert motions.omega[1][1, 2] == one.omega[1]
+    for count, step in ((100, 0.25), (20_000, 2.0**-9), (120_000, 0.5)):
+        at = -3.0 + step * np.arange(count)
+        assert np.abs(one.rotation_grid(-3.0, step, count) - one.rotation(at)).max() <= 32 * EPS
+
+
+def test_digits_are_proven_at_any_time() -> None:
+    """Thirty digits of R33 at t = 1e12, and a quaternion that makes the matrix."""
+    motion = Balls(*CASES["bounded oval"])
+    text = certified(lambda: motion.rotation(10**12)[2][2], 30)
+    assert len(text.lstrip("-0.")) == 30
+    assert float(text) == pytest.approx(atlas.EllipticMotion(*CASES["bounded oval"]).rotation(1e12)[2, 2], abs=16 * EPS)
+    with ctx.workprec(200):
+        w, x, y, z = (float(part.mid()) for part in motion.quaternion(2.5))
+    R = middle(motion.rotation(2.5))
+    assert np.array([z * w, x * w, y * w]) * 4 == pytest.approx(np.array([R - R.T]).ravel()[[3, 7, 2]], abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        (((0.8, 1, 1.9), FIELD, 1), "1.0, 1.9: the largest is at most the sum of the others"),
+        (((0.8, 0, 1.3), FIELD, 1), "all three are positive"),
+        (((0.8, float("nan"), 1.3), FIELD, 1), "I2 must be finite"),
+        (((0.8, 1), FIELD, 1), r"3 components \(I1, I2, I3\)"),
+        ((BODY, (1, 2), 1), "must have the 3 components"),
+        ((BODY, FIELD, -0.9), "positive for z above -0.8 and between -1.3 and -1.04, the ends excluded"),
+        ((BODY, FIELD, -2), "z above -0.8 and between"),
+        ((BODY, FIELD, [1.0, -2.0]), "no elliptic motion with z = -2.0"),
+        (((1, 1, 0.5), FIELD, -0.5), "above -0.5 and between -1.0 and -0.5"),
+        (((0.5, 0.5, 1), FIELD, -0.4), "positive for z above -0.25, the ends excluded"),
+        ((BODY, FIELD, 1, 2), "is 1 or -1, not 2.0"),
+        ((BODY, FIELD, "far"), "z must be a real number"),
+    ],
+)
+def test_what_is_no_elliptic_motion_is_refused_in_one_line(case: tuple[object, ...], words: str) -> None:
+    """Errors say what is wrong and what would be right."""
+    with pytest.raises(atlas.AtlasError, match=words):
+        atlas.EllipticMotion(*case)
