@@ -1,6 +1,7 @@
 """The paper's family for a body of any inertia tensor as balls: elliptic motions (not in the paper).
 
-Omega = -[1 + v (z II + D)^-1] K = (E - 1) K for all times, D = I1 I2 I3, v^2 = prod(z + D/I_i), E_i = -v/(z I_i + D). So
+Omega = -[1 + v (z II + D)^-1] K = (E - 1) K for all times, with D = I1 I2 I3, v^2 = prod(z + D/I_i) and
+E_i = -v/(z I_i + D), theorem-elliptic. So
 
     R(t) = R_B(-b t) S(t),     S' = S (E K)^,     K = R^T B' = S^T B':     K' = [K, E K],
 
@@ -94,7 +95,7 @@ class EllipticMotion(Nutating):
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether the axis that carries the pair turns by nothing about itself in a period: it does wherever it nutates."""
+        """Whether the body turns by nothing about the axis of the pair in a period: wherever that nutates."""
         return not self.is_steady
 
     @property

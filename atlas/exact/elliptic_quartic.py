@@ -1,7 +1,7 @@
 """The polynomial Q of an elliptic motion: (dK_a/dt)^2 = Q(-K_a), K_a the component of the field along one axis.
 
-K' = [K, E K] with E_i = -v e_i, e_i = 1/(z I_i + D), keeps N = (K, K) and h = sum e_i K_i^2. So the squares of the other
-two components are affine in that of K_a, and with u = -K_a, (b, c, a) a cyclic order of the axes,
+K' = [K, E K] with E_i = -v e_i, e_i = 1/(z I_i + D), keeps N = (K, K) and h = sum e_i K_i^2. So the squares of the
+other two components are affine in that of K_a, and with u = -K_a, (b, c, a) a cyclic order of the axes,
 
     (du/dt)^2 = v^2 [e_c N - h + (e_a - e_c) u^2] [h - e_b N - (e_a - e_b) u^2].
 

@@ -266,9 +266,8 @@ TRIALS = (
         model=elliptic_model,
         follows=r"@(16) and @(35), for any $v$",
         defines=("E",),
-        note="What is left of @(16) vanishes for $v^2=P$: then $\\boldsymbol{\\Omega}$ solves it, and the equations have "
-        r"but one solution from a start. Elsewhere it does only where $[J\mathbf{K},\mathbf{K}]$ vanishes for all "
-        "times, so for a field along an axis, or a ball.",
+        note=r"What is left of @(16) vanishes for $v^2=P$, and from a start there is but one solution. For another $v$ "
+        r"it vanishes only where $[J\mathbf{K},\mathbf{K}]=0$ for all times: the field along an axis, or a ball.",
         false=Falsehood(
             "Any $v$ will do",
             "(1 - v^2/P)*cross(J*K,K)",

@@ -26,7 +26,7 @@ MACHINERY = {
     "core": {"charge", "inputs", "motion", "nutating"},
     "exact": {
         *("cayley_klein", "digits", "euler", "inputs", "nutating", "nutation", "quartic", "spheres", "surd", "swing"),
-        *("theta", "top_quartic", "two_turns"),
+        *("elliptic_quartic", "theta", "top_quartic", "two_turns"),
     },
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""
@@ -89,6 +89,15 @@ UNTIED = {
             "heavy invariants is_plane is_steady kind modulus nome parameters period precession precession_per_period "
             "quaternion roots rotation rotation_grid solution sphere spin_per_period steady_rates "
             "swings_evenly third_axis tilt trigonometric turning_points turning_rate"
+        ).split()
+    },
+    **{
+        f"EllipticMotion.{name}": "compared with Taylor series of (12), (16), and with its theorem, in test_elliptic"
+        for name in (
+            "E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame in_cell "
+            "invariants is_plane is_steady kind modulus nome omega parameters period precession precession_per_period "
+            "quaternion rate_of rotation rotation_grid solution sphere spin_per_period steady_rates swings_evenly "
+            "third_axis tilt trigonometric turning_rate v"
         ).split()
     },
     "ElementaryMotion.omega": GIVEN,

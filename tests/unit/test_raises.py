@@ -22,6 +22,7 @@ MADE: dict[str, Any] = {
     "BallMotion": atlas.BallMotion(1.0, 2.0, momentum=(0.5, 0.25)),
     "TopMotion": atlas.TopMotion((1.0, 1.5), (0.1, 0.2), (0.0, 1.0), (0.1, 0.2, 0.3)),
     "ChargeMoments": atlas.ChargeMoments(1.0, 0.5),
+    "EllipticMotion": atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7),
     "ParticleMotion": PARTICLE,
 }
 MADE["Flight"] = atlas.Flight(PARTICLE, atlas.ElementaryMotion(1.5, (0.0, 1.0), 0.0, 0.5), (1.0, 0.0, 0.0))
