@@ -6,13 +6,9 @@ precession, its trace waves; if it moves against it, the trace loops; if it stan
 
 from typing import Any
 
-import numpy as np
-
 from atlas.core.general import GeneralMotion
-from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.sample import curve
+from atlas.scene import Scene, axis_trace
 from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
 
 SIZE = 58.0
@@ -32,9 +28,12 @@ def scene(
         raise DomainError(f"figure nutation_traces needs both components of the field, not field = {field}.")
     motions = [GeneralMotion(ratio, field, (0.0, start, omega3)) for start in omega2]
     panels = tuple(
-        panel(rf"({letter}) $\omega_2={tex(start)}$", field, motion, nutations, elevation)
+        axis_trace.sphere(
+            rf"({letter}) $\omega_2={tex(start)}$", field, motion.third_axis, nutations * motion.period,
+            max(16, round(12 * nutations)), label=r"$\mathbf{B}$", elevation=elevation,
+        )
         for letter, start, motion in zip("abcdef", omega2, motions, strict=False)
-    )
+    )  # fmt: skip
     return Scene(
         title=title(__doc__),
         caption=(
@@ -51,30 +50,3 @@ def scene(
         columns=len(panels),
         size=(SIZE * len(panels), SIZE + 10.0),
     )
-
-
-def panel(name: str, field: tuple[float, float], motion: GeneralMotion, nutations: float, elevation: float) -> Space:
-    """Return one sphere, turned about e1 so that the field stands upright."""
-    fine = quadric_panel.tolerance(1.4)
-    B2, B3 = np.array(field) / np.hypot(*field)
-    upright = np.array([[1.0, 0.0, 0.0], [0.0, B3, -B2], [0.0, B2, B3]])
-
-    def axis(t: FloatArray) -> FloatArray:
-        return np.asarray(motion.third_axis(t) @ upright.T)
-
-    trace = curve(axis, 0.0, nutations * motion.period, fine, pieces=max(16, round(12 * nutations)))
-    height = trace[:, 2].min(), trace[:, 2].max()
-    layers: list[Layer] = [
-        solids.sphere(quadric_panel.O, 1.0, fine),
-        Arrow(quadric_panel.O, 1.45 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
-        *(
-            Curve(
-                solids.circle(z * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(max(0.0, 1 - z * z))), fine),
-                "reference",
-            )
-            for z in height
-        ),
-        Curve(trace, "trace"),
-        Points(trace[:1], "start"),
-    ]
-    return Space(tuple(layers), azimuth=-60.0, elevation=elevation, title=name)

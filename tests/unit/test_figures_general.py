@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from oracles.top import taylor
 
-from atlas import DomainError, ElementaryMotion, GeneralMotion, Hyperbola, simulate
+from atlas import DomainError, ElementaryMotion, GeneralMotion, Hyperbola, TopMotion, simulate
 from atlas.core.momentum_map import momentum_map, potential
 from atlas.core.separatrix import companions
 from atlas.exact.general import GeneralMotion as Balls
@@ -197,6 +198,18 @@ def test_the_three_traces_wave_have_cusps_and_loop() -> None:
     assert wave == 0.0
     assert cusp <= 1e-3
     assert loop > 0.1
+
+
+def test_the_axes_of_four_tops_follow_the_equations_of_a_top() -> None:
+    """The heavy top's trace ends where Taylor series of its equations take it, n upright; all lie on the sphere."""
+    drawn = [layers(panel, Curve, "trace")[0].points for panel in panels("tops")]
+    assert all(np.abs((x * x).sum(axis=1) - 1).max() <= 16 * EPS for x in drawn)
+    case = (1.0, 0.75), (0.0, 0.0), (1.0, 0.5), (0.0, 0.4, 4.0), 1.5**2, 0.0
+    ((R, _),) = taylor(case, [6 * TopMotion(*case).period], digits=12)
+    end = np.array([float(R[i, 2]) for i in range(3)])
+    across, along = np.array([1.0, 0.5]) / np.hypot(1.0, 0.5)
+    upright = np.array([end[0], along * end[1] - across * end[2], across * end[1] + along * end[2]])
+    assert np.abs(drawn[2][-1] - upright).max() < 1e-9
 
 
 @pytest.mark.parametrize("push", [1e-2, 1e-4])

@@ -1,0 +1,49 @@
+"""A sphere with the line that the body's axis draws on it, between the parallels that it touches."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.scene import quadric_panel, solids
+from atlas.scene.layers import Arrow, Curve, Layer, Points, Space
+from atlas.scene.sample import curve
+
+
+def sphere(
+    name: str,
+    upright: tuple[float, float],
+    third_axis: Callable[[FloatArray], FloatArray],
+    length: float,
+    pieces: int,
+    *,
+    label: str,
+    elevation: float,
+) -> Space:
+    """Return one sphere, turned about e1 so that the vector (0, *upright) stands upright, under that label.
+
+    `third_axis` is R_3 as a function of time, drawn from 0 to `length` in so many pieces at first.
+    """
+    fine = quadric_panel.tolerance(1.4)
+    across, along = np.array(upright) / np.hypot(*upright)
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, along, -across], [0.0, across, along]])
+
+    def axis(t: FloatArray) -> FloatArray:
+        return np.asarray(third_axis(t) @ turn.T)
+
+    trace = curve(axis, 0.0, length, fine, pieces=pieces)
+    height = trace[:, 2].min(), trace[:, 2].max()
+    layers: list[Layer] = [
+        solids.sphere(quadric_panel.O, 1.0, fine),
+        Arrow(quadric_panel.O, 1.45 * quadric_panel.E3, "field", label),
+        *(
+            Curve(
+                solids.circle(z * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(max(0.0, 1 - z * z))), fine),
+                "reference",
+            )
+            for z in height
+        ),
+        Curve(trace, "trace"),
+        Points(trace[:1], "start"),
+    ]
+    return Space(tuple(layers), azimuth=-60.0, elevation=elevation, title=name)

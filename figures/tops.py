@@ -1,0 +1,71 @@
+"""One launch, four tops.
+
+The same body is launched in the same way: with its charge spread as its mass, with its charge outside, held at a point
+of its axis under its weight, and turned by what a field induces in it.
+"""
+
+from typing import Any
+
+from atlas.core.top import TopMotion
+from atlas.errors import DomainError
+from atlas.scene import Scene, axis_trace
+from atlas.scene.words import plain, tex, title
+
+SIZE = 44.0
+
+TOPS = (
+    ("paper's body", (1.0, 1.0), 0.0, 0.0),
+    ("charge outside", (1.0, 2.5), 0.0, 0.0),
+    ("heavy top", (0.0, 0.0), 1.0, 0.0),
+    ("magnetised", (0.0, 0.0), 0.0, -2.0),
+)
+"""Name, coupling k2/(I2 b) and k3/(I3 b), linear and quadratic part of the potential over I2 b^2."""
+
+
+def scene(
+    *,
+    ratio: float = 0.75,
+    direction: tuple[float, float] = (1.0, 0.5),
+    omega: tuple[float, float, float] = (0.0, 0.4, 4.0),
+    rate: float = 1.5,
+    nutations: float = 6.0,
+    elevation: float = 25.0,
+) -> Scene:
+    """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``rate`` b scales coupling and potential."""
+    if not rate > 0:
+        raise DomainError(f"figure tops needs a positive rate, which scales coupling and potential, not {rate}.")
+    motions = [_motion(ratio, direction, omega, rate, *what) for _, *what in TOPS]
+    panels = tuple(
+        axis_trace.sphere(
+            f"({letter}) {name}", direction, motion.third_axis, nutations * motion.period,
+            max(16, round(12 * nutations)), label=r"$\mathbf{n}$", elevation=elevation,
+        )
+        for letter, (name, *_), motion in zip("abcd", TOPS, motions, strict=True)
+    )  # fmt: skip
+    start = ", ".join(tex(x) for x in omega)
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega=({start})$, over "
+            rf"{plain(nutations)} periods of nutation, $\mathbf{{n}}$ upright: (a) one charge-to-mass ratio throughout "
+            r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Dots: the start. All four are one "
+            r"formula."
+        ),
+        alt=(
+            f"Four unit spheres with traces of a body's axis, I = {plain(ratio)}: waves or loops between two parallels "
+            "around n, another pattern for each top."
+        ),
+        panels=panels,
+        columns=len(panels),
+        size=(SIZE * len(panels), SIZE + 10.0),
+    )
+
+
+def _motion(
+    ratio: float, direction: Any, omega: Any, b: float, coupling: Any, linear: float, quadratic: float
+) -> TopMotion:
+    """Return one of the tops, in units of I2."""
+    k2, k3 = coupling
+    return TopMotion(
+        (1.0, ratio), (k2 * b, k3 * ratio * b), direction, omega, linear=linear * b * b, quadratic=quadratic * b * b
+    )
