@@ -282,6 +282,15 @@ def test_critical_values_are_extrema_of_the_effective_potential() -> None:
                 assert np.abs(V[turns] - h).min() <= 1e-6 * max(1.0, abs(h))
 
 
+def test_in_a_field_twice_as_strong_the_energy_momentum_map_is_the_same_but_for_its_scales() -> None:
+    """With b and M3 doubled p doubles and h is fourfold, bit for bit: points, and what the axes show."""
+    for one, two in zip(panels("energy_momentum"), panels("energy_momentum", b=2.0, M3=0.5), strict=True):
+        for before, after in zip(layers(one, (Curve, Points)), layers(two, (Curve, Points)), strict=True):
+            assert np.array_equal(before.points * (2.0, 4.0), after.points)
+        assert np.array_equal(2.0 * np.array(one.x_limits), two.x_limits)
+        assert np.array_equal(4.0 * np.array(one.y_limits), two.y_limits)
+
+
 def test_the_motion_map_shows_the_amplitude_of_the_nutation() -> None:
     """Cells hold the difference of the angles at both turning points of the certified motion, within 1e-4 degrees."""
     for panel, I in zip(panels("motion_map", cells=12), (2.0, 1.5, 1.0, 0.5), strict=True):

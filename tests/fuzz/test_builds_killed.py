@@ -1,0 +1,140 @@
+"""Builds that are killed while they run, and two at once in one folder: every file whole, all of one report at last."""
+
+import hashlib
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from values import EXAMPLES
+
+KILLS = max(1, EXAMPLES * 120 // 20_000) if EXAMPLES else 3
+PAIRS = max(1, EXAMPLES * 25 // 20_000) if EXAMPLES else 1
+REPORT = """
+name = "small"
+title = "A Small Report, {version}"
+authors = ["A. Author"]
+abstract = "A formula, $R(t)$."
+
+[[pages]]
+slug = "index"
+title = "The page"
+
+[[pages.blocks]]
+kind = "equation"
+name = "(71)"
+
+[[pages.blocks]]
+kind = "figure"
+recipe = "trochoids"
+parameters = {{ turns = {version}.5 }}
+"""
+
+Process = subprocess.Popen[str]
+Content = dict[str, str]
+
+
+def start(folder: Path, version: int) -> Process:
+    """Start a build of one version of a report, as the leader of a group of processes."""
+    file = folder / str(version) / "small.toml"
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(REPORT.format(version=version))
+    words = [sys.executable, "-m", "atlas", "report", str(file), "--out", "out", "-j", "2"]
+    surroundings = os.environ | {"ATLAS_CACHE": str(folder / "cache")}
+    return subprocess.Popen(
+        words,
+        cwd=folder,
+        env=surroundings,
+        start_new_session=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def ended(process: Process) -> tuple[int, str]:
+    """Return the exit status of a build and what it said."""
+    told = process.communicate()[1]
+    return process.returncode, told
+
+
+def content(folder: Path) -> Content:
+    """Return the digests of what a reader gets: the pages, the figures, the PDF."""
+    out = folder / "out"
+    files = [path for path in [*(out / "small").rglob("*"), out / "small.pdf"] if path.is_file()]
+    return {path.relative_to(out).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
+
+
+@pytest.fixture(scope="module")
+def versions(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Content]:
+    """Return what becomes of both versions in peace."""
+    found = {}
+    for version in (1, 2):
+        folder = tmp_path_factory.mktemp("peace")
+        assert ended(start(folder, version)) == (0, "")
+        found[version] = content(folder)
+    assert found[1].keys() == found[2].keys() >= {"small/index.html", "small/figures/01-trochoids.svg", "small.pdf"}
+    for name in ("small/index.html", "small/figures/01-trochoids.svg", "small.pdf"):
+        assert found[1][name] != found[2][name]
+    return found
+
+
+def kept(folder: Path) -> int:
+    """Return how many files the cache of a build has, those under way too."""
+    return sum(1 for _ in (folder / "cache").rglob("*"))
+
+
+def wait_until_alone(group: int) -> None:
+    """Wait until no process of a group lives."""
+    deadline = time.monotonic() + 60.0
+    while True:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return
+        assert time.monotonic() < deadline, "a process of a killed build lives on"
+        time.sleep(0.02)
+
+
+def test_builds_that_are_killed_leave_whole_files_and_heal(tmp_path: Path, versions: dict[int, Content]) -> None:
+    """Killed at any moment from its first entry in the cache on, the last one ends in the bytes of a build in peace."""
+    chance, killed, finished, longest, version = random.Random(os.getpid()), 0, 0, 1.0, 1  # noqa: S311
+    print(f"seed {os.getpid()}")  # noqa: T201  shown if the test fails
+    whole = versions[1].items() | versions[2].items()
+    while killed < KILLS:
+        before, process = kept(tmp_path), start(tmp_path, version)
+        while process.poll() is None and kept(tmp_path) <= before:
+            time.sleep(0.005)
+        seen = time.monotonic()
+        while process.poll() is None and time.monotonic() < seen + chance.random() * longest:
+            time.sleep(0.005)
+        process.send_signal(signal.SIGKILL)
+        status, told = ended(process)
+        wait_until_alone(process.pid)
+        assert content(tmp_path).items() <= whole
+        if status == -signal.SIGKILL:
+            killed, longest = killed + 1, 1.1 * longest
+            continue
+        assert (status, told) == (0, "")  # it was faster
+        assert content(tmp_path) == versions[version]
+        finished, longest, version = finished + 1, max(0.05, 0.7 * longest), 3 - version
+        shutil.rmtree(tmp_path / "cache")
+    assert ended(start(tmp_path, version)) == (0, "")
+    assert content(tmp_path) == versions[version]
+    print(f"{killed} builds killed, {finished} between them ended")  # noqa: T201  the count of a hunt: pytest -s
+
+
+def test_two_builds_at_once_do_no_harm(tmp_path: Path, versions: dict[int, Content]) -> None:
+    """The same report or two versions of it, started together in one folder: both end well, in the bytes of one."""
+    for pair in range(PAIRS):
+        both = [start(tmp_path, version) for version in (1, 1 + pair % 2)]
+        assert [ended(process) for process in both] == [(0, ""), (0, "")]
+        assert content(tmp_path) in ([versions[1]] if pair % 2 == 0 else list(versions.values()))
+        shutil.rmtree(tmp_path / "cache")
+        shutil.rmtree(tmp_path / "out")
+    print(f"{PAIRS} pairs of builds ended well")  # noqa: T201
