@@ -227,3 +227,13 @@ def test_tubes_are_as_wide_as_lines_and_marks_on_paper() -> None:
             assert look.width <= look.tube <= 3.0 * look.width, role
         assert 0.0 <= look.fill <= 1.0, role
         assert 0.0 < look.glass <= 1.0, role
+
+
+@pytest.mark.parametrize("role", ["surface", "sphere", "ball", "cone", "tangent_plane", "plane"])
+def test_what_stands_behind_two_walls_is_seen(role: str) -> None:
+    """Where curves run on and behind a surface its near wall and the far one, of half its tint, pass 2/5 of the light.
+
+    Both tint: together they take a tenth of it away at least.
+    """
+    fill = STYLES[role].fill
+    assert 0.4 <= (1.0 - fill) * (1.0 - 0.5 * fill) <= 0.9
