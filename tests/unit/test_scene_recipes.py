@@ -55,11 +55,21 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_parameter_without_default_is_refused(folder: Path) -> None:
+@pytest.mark.parametrize("taken", ["*, ratio", "ratio", "ratio, field=(1.0, 2.0)", "field=(1.0, 2.0), *, ratio"])
+def test_a_parameter_without_default_is_refused(folder: Path, taken: str) -> None:
     """A recipe can be made by its name alone, so each of its parameters has a default."""
-    (folder / "bare.py").write_text('"""Bare."""\ndef scene(*, ratio): ...\n', encoding="utf-8")
+    (folder / "bare.py").write_text(f'"""Bare."""\ndef scene({taken}): ...\n', encoding="utf-8")
     with pytest.raises(AtlasError, match=r"parameter 'ratio' of figures/bare.py has no default"):
         recipes.load("bare")
+
+
+@pytest.mark.parametrize("star", ["*, ", "", "size=1.0, /, ", "size=1.0, *, ", "size=1.0, "])
+def test_parameters_may_be_named_or_in_order(folder: Path, star: str) -> None:
+    """A recipe of a reader's own need not write the star before its parameters."""
+    text = f'"""Own."""\ndef scene({star}ratio=1.5, field=(1.0, 2.0)): ...\n'
+    (folder / "own.py").write_text(text, encoding="utf-8")
+    size = {"size": 1.0} if "size" in star else {}
+    assert recipes.load("own").parameters == size | {"ratio": 1.5, "field": (1.0, 2.0)}
 
 
 def test_a_default_that_must_be_computed_is_refused(folder: Path) -> None:
