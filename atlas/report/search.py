@@ -17,7 +17,8 @@ _START = re.compile(
     r'<(?:h[23]|figure|section)\b[^>]*? id="([^"]+)"[^>]*>|<div class="equation" id="([^"]+)">'
     r'|<main id="([^"]+)">|</main>'
 )
-_TITLE = re.compile(r"<h[123][^>]*>(.*?)</h[123]>|(?:<figcaption[^>]*>)<b>(.*?)</b>|^(.*?)</h[23]>", re.DOTALL)
+_TITLE = re.compile(r"<h[123][^>]*>(.*?)</h[123]>|(?:<figcaption[^>]*>)<b>(.*?)</b>", re.DOTALL)
+_REST_OF_HEADING = re.compile(r"(.*?)</h[23]>", re.DOTALL)
 _MARKUP = re.compile(r"<[^>]+>")
 _INLINE = re.compile(r"</?(?:a|b|i|em|strong|span|code|sup|sub)\b[^>]*>")
 _RELATION = re.compile(r"\s*([=≤≥≈≠])\s*")
@@ -32,20 +33,21 @@ def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) ->
     ``sections`` holds rows (page, anchor, title, words) of its sections, figures, tables and equations in the order of
     the pages, ``equations`` the formula of each name as HTML. Formulas are words on one line: Ω3=ω1B'2, I=3/2.
     """
-    sections = [
-        row for page in document.pages for row in _sections(page.file, f"{page.number} {page.title}", pages[page.file])
+    rows = [
+        row for page in document.pages for row in sections(page.file, f"{page.number} {page.title}", pages[page.file])
     ]
-    content = json.dumps({"sections": sections, "equations": _equations(document, texts)}, ensure_ascii=False)
+    content = json.dumps({"sections": rows, "equations": _equations(document, texts)}, ensure_ascii=False)
     return f"atlasIndex({content});\n"
 
 
-def _sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, str]]:
+def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, str]]:
     """Cut a page at its anchors."""
     starts = list(_START.finditer(html))
     for start, end in pairwise(starts):
         anchor = next(filter(None, start.groups()))
         content = html[start.end() : end.start()]
-        tag, title = _TAG.search(content), _TITLE.search(content)
+        tag = _TAG.search(content)
+        title = _REST_OF_HEADING.match(content) if start[0].startswith("<h") else _TITLE.search(content)
         if anchor.startswith("eq-") and tag:
             yield file, anchor, f"Equation {_words(tag[1])}", page
         else:

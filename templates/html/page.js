@@ -16,16 +16,6 @@ const focusable = () => {
 document.fonts.ready.then(focusable);
 addEventListener("resize", focusable);
 
-// index.js calls this with what can be searched and shown; it is loaded when it is first wanted.
-let found;
-let index = () => (found ??= new Promise((resolve, reject) => {
-  window.atlasIndex = resolve;
-  const script = document.createElement("script");
-  script.src = "index.js";
-  script.onerror = reject;
-  document.head.append(script);
-}));
-
 const element = (tag, attributes = {}, ...children) => {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
@@ -33,8 +23,21 @@ const element = (tag, attributes = {}, ...children) => {
   return made;
 };
 
+// An index.js, that of this report or of one beside it, calls atlasIndex with what can be searched and shown; it is
+// loaded when it is first wanted.
+const waiting = new Map();
+window.atlasIndex = content => waiting.get(document.currentScript)(content);
+const load = folder => new Promise((resolve, reject) => {
+  const script = element("script", {src: `${folder}index.js`});
+  waiting.set(script, resolve);
+  script.onerror = reject;
+  document.head.append(script);
+});
+let found;
+const index = () => (found ??= load(""));
+
 // The search box: in the head of the front page, else above the contents; on the first screen in both.
-const box = element("input", {type: "search", id: "search", placeholder: "Search: words, I=3/2, omega2, (72)", "aria-label": "Search this report", autocomplete: "off", role: "combobox", "aria-expanded": "false", "aria-controls": "results"});
+const box = element("input", {type: "search", id: "search", placeholder: "Search: words, I=3/2, omega2, (72)", "aria-label": "Search this report and those beside it", autocomplete: "off", role: "combobox", "aria-expanded": "false", "aria-controls": "results"});
 const results = element("ul", {class: "results", id: "results", "aria-live": "polite", "aria-label": "Results"});
 const place = document.querySelector("header.title .h") ?? document.querySelector(".contents .book");
 place.after(element("search", {}, box, results));
@@ -52,13 +55,21 @@ const pieces = text => plain(text).split(/[\s,;:!?"“”]+/).flatMap(raw => {
   return [...new Set([bare, ...bare.split(/[=<>≤≥≈≠+()[\]]/), ...(/^[a-z]+(-[a-z]+)+$/.test(bare) ? bare.split("-") : [])])];
 }).filter(Boolean);
 
+// The reports beside this one are searched too, those that are there: what they have comes after what this one has.
+const beside = [...document.querySelectorAll("[data-beside]")].map(link => [link.dataset.beside, `${link.textContent}: `]);
+const sections = async () => {
+  const rows = ([folder, of], content) => content.sections.map(([file, anchor, title, text]) => ({file: folder + file, anchor, title: of + title, text, nearness: folder ? 0.5 : 1}));
+  const parts = [index().then(content => rows(["", ""], content)), ...beside.map(one => load(one[0]).then(content => rows(one, content), () => []))];
+  return (await Promise.all(parts)).flat();
+};
+
 let search;
-const engine = () => (search ??= index().then(({sections}) => {
+const engine = () => (search ??= sections().then(rows => {
   const made = new MiniSearch({
-    fields: ["title", "text"], storeFields: ["file", "anchor", "title", "text"], tokenize: pieces, processTerm: term => term,
-    searchOptions: {boost: {title: 3}, combineWith: "AND", prefix: term => term.length > 1 && !term.startsWith("("), fuzzy: term => /^[a-z]{4,}$/.test(term) ? 0.25 : false, tokenize: text => plain(text).split(/[\s,;]+/).filter(Boolean)},
+    fields: ["title", "text"], storeFields: ["file", "anchor", "title", "text", "nearness"], tokenize: pieces, processTerm: term => term,
+    searchOptions: {boost: {title: 3}, boostDocument: (id, term, {nearness}) => nearness, combineWith: "AND", prefix: term => term.length > 1 && !term.startsWith("("), fuzzy: term => /^[a-z]{4,}$/.test(term) ? 0.25 : false, tokenize: text => plain(text).split(/[\s,;]+/).filter(Boolean)},
   });
-  made.addAll(sections.map(([file, anchor, title, text], id) => ({id, file, anchor, title, text})));
+  made.addAll(rows.map((row, id) => ({id, ...row})));
   return made;
 }));
 const look = async () => {
@@ -97,7 +108,8 @@ addEventListener("keydown", event => {
 const card = element("div", {class: "shown", role: "tooltip", id: "shown"});
 card.hidden = true;
 document.body.append(card);
-const hide = () => { card.hidden = true; };
+const hide = () => { card.hidden = true; card.dataset.of = ""; };
+const leave = () => { if (!card.dataset.of) hide(); };
 const show = async (link, tapped = false) => {
   const name = decodeURIComponent(link.hash).replace(/^#(eq|ledger)-/, "");
   const {equations} = await index();
@@ -126,6 +138,11 @@ for (const link of document.querySelectorAll('main a[href*="#eq-"], main a[href*
     link.focus();
     show(link, true);
   });
-  link.addEventListener("mouseleave", hide);
-  link.addEventListener("blur", () => setTimeout(hide, 200));
+  link.addEventListener("mouseleave", leave);
+  link.addEventListener("blur", leave);
 }
+// What was tapped stays until its link is followed, or until something else is tapped.
+card.addEventListener("click", event => { if (event.target.closest("a")) hide(); });
+addEventListener("pointerdown", event => {
+  if (card.dataset.of && !card.contains(event.target) && event.target.closest("a")?.href !== card.dataset.of) hide();
+});

@@ -16,6 +16,7 @@ from atlas.report.compose import compose
 from atlas.report.load import load
 from atlas.report.picture import Picture
 from atlas.report.pictures import pictures
+from atlas.report.search import sections as rows_of
 
 REPORT = """
 name = "mine"
@@ -106,6 +107,17 @@ def test_a_formula_can_be_searched(tmp_path: Path, tex: str, line: str) -> None:
     assert line in html.pages(document)["index.js"]
 
 
+def test_a_table_is_found_by_its_number_whatever_follows_it() -> None:
+    """The words of a table, and a heading without an anchor behind it, are not in the title of its row."""
+    page = (
+        '<main id="page-index"><h1>First</h1><figure class="table" id="tab-a"><figcaption><b>Table 3.</b> Slips.'
+        '</figcaption><td>many words</td></figure><h3>Sign</h3><p>text</p><h2 id="b">Next</h2>more</main>'
+    )
+    rows = {anchor: (title, text) for _, anchor, title, text in rows_of("index.html", "1 First", page)}
+    assert rows["tab-a"] == ("Table 3 — 1 First", "Table 3. Slips. many words Sign text")
+    assert rows["b"] == ("Next — 1 First", "Next more")
+
+
 def test_the_search_box_needs_no_network(made: dict[str, str]) -> None:
     """Its library lies beside the page, with its licence, and is loaded before what uses it."""
     assert "Permission is hereby granted" in made["minisearch.js"]
@@ -155,8 +167,9 @@ def test_the_head_of_a_column_is_one_line(made: dict[str, str]) -> None:
 
 
 def test_related_reports_stand_beside(made: dict[str, str], tmp_path: Path) -> None:
-    """Each page leads to the reports that are named; a name that there is not is an error."""
+    """Each page leads to the reports that are named, whose indices its script reads; an unknown name is an error."""
     for name in ("index.html", "second.html"):
+        assert reader.fromstring(made[name]).xpath("//nav//a/@data-beside") == ["../atlas/"]
         assert "The atlas" in reader.fromstring(made[name]).xpath("//nav//a[@href='../atlas/index.html']/text()")
     (tmp_path / "mine.toml").write_text(REPORT.replace("atlas =", "atlass ="))
     with pytest.raises(AtlasError, match=r"related: .*'atlass'"):

@@ -1,0 +1,107 @@
+// The search box of a built report in headless Chromium, opened from disk under the policy of its pages: what is found
+// for letters, formulas, numbers and slips, in this report and in the one beside it; arrows, Enter and Escape; and on a
+// telephone a tap on an equation's number. Run by `make accessibility`, which brings the package from npm.
+import { existsSync } from "node:fs";
+import { createRequire } from "node:module";
+import { resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const [folder, other, packages] = process.argv.slice(2).map(path => resolve(path));
+const { chromium } = createRequire(`${packages}/`)("playwright-core");
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+let asked = 0, failed = 0;
+const holds = (right, ...words) => { asked += 1; if (!right) { failed += 1; console.log("not so:", ...words); } };
+const open = async options => {
+  const page = await (await browser.newContext(options)).newPage();
+  page.on("pageerror", error => holds(false, String(error)));
+  page.on("console", message => holds(message.type() !== "error", message.text()));
+  await page.goto(`file://${folder}/index.html`);
+  return page;
+};
+const hits = async (page, query) => {
+  await page.fill("#search", "");
+  await page.waitForFunction(() => document.querySelector("#results").hidden);
+  await page.fill("#search", query);
+  await page.waitForFunction(() => !document.querySelector("#results").hidden);
+  return page.$$eval("#results a", links => links.map(link => ({ href: link.href, title: link.querySelector("b").textContent })));
+};
+const focused = page => page.evaluate(() => document.activeElement.href ?? document.activeElement.id);
+
+const page = await open({ viewport: { width: 1280, height: 900 } });
+const box = await page.locator("#search").boundingBox();
+holds(box.y + box.height < 900, "the search box is on the first screen");
+for (const query of ["I=3/2", "I = 3/2", "omega2", "ω2", "Ω3", "g-factor", "(72)", "precession", "preccession", "Clebsch"]) {
+  const found = await hits(page, query);
+  holds(found.length > 0, query, "is found");
+  for (const { href } of found) {
+    const file = fileURLToPath(href.split("#")[0]);
+    holds(existsSync(file), query, "leads to a page that is there:", href);
+  }
+}
+const across = (await hits(page, "slips found in the paper")).filter(({ href }) => href.startsWith(`file://${other}/`));
+holds(across.length > 0, "what only the other volume has is found");
+holds(across.every(({ title }) => title.includes(": ")), "and its volume is named");
+holds((await hits(page, "hyperbola"))[0].href.startsWith(`file://${folder}/`), "this report's own come first");
+holds((await hits(page, "zzzzqqq")).length === 0 && await page.locator("#results").innerText() === "Nothing found.", "nothing is said to be nothing");
+
+const found = await hits(page, "quadric");
+await page.focus("#search");
+for (const place of [0, 1, 2]) {
+  await page.keyboard.press("ArrowDown");
+  holds(await focused(page) === found[place].href, "arrow down goes to result", place);
+}
+for (const place of [1, 0]) {
+  await page.keyboard.press("ArrowUp");
+  holds(await focused(page) === found[place].href, "arrow up goes to result", place);
+}
+await page.keyboard.press("ArrowUp");
+holds(await focused(page) === "search", "and back to the box");
+await page.keyboard.press("Escape");
+holds(await page.locator("#results").isHidden(), "Escape closes the results");
+await hits(page, "quadric");
+await page.keyboard.press("ArrowDown");
+await page.keyboard.press("ArrowDown");
+await page.keyboard.press("Enter");
+await page.waitForURL(found[1].href);
+await page.goBack();
+const [first] = await hits(page, "(72)");
+await page.keyboard.press("Enter");
+await page.waitForURL(first.href);
+await page.keyboard.press("/");
+holds(await focused(page) === "search", "a slash goes to the box");
+
+const away = await hits(page, "slips found in the paper");
+await page.locator(`#results a[href*="${across[0].href.split("/").at(-2)}/"]`).first().click();
+await page.waitForURL(url => url.href.startsWith(`file://${other}/`));
+holds(away.length > 0, "a result of the other volume opens there");
+
+// A telephone: no hover, so that a tap shows the equation and a second one goes to it.
+const phone = await open({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+const link = phone.locator('main a[href*="#eq-"]').first();
+await link.scrollIntoViewIfNeeded();
+const before = phone.url();
+await link.tap();
+await phone.waitForSelector("#shown:not([hidden])");
+holds(await phone.locator("#shown math").count() > 0, "a tap shows the equation");
+holds(phone.url() === before, "and stays on the page");
+const shown = await phone.locator("#shown").boundingBox();
+holds(shown.x >= 0 && shown.x + shown.width <= 390, "within the screen");
+const target = await link.evaluate(one => one.href);
+await phone.locator("#shown a", { hasText: "Go there" }).tap();
+await phone.waitForURL(target);
+holds(await phone.locator("#shown").isHidden(), "the equation goes when its link is followed");
+await phone.goto(before);
+await link.tap();
+await phone.waitForSelector("#shown:not([hidden])");
+await phone.locator("#shown").evaluate(() => document.activeElement.blur());
+holds(await phone.locator("#shown").isVisible(), "what was tapped stays");
+await phone.locator("main p").first().tap({ position: { x: 2, y: 2 } });
+holds(await phone.locator("#shown").isHidden(), "a tap elsewhere closes it");
+await link.tap();
+await phone.waitForSelector("#shown:not([hidden])");
+await link.tap();
+await phone.waitForURL(target);
+
+await browser.close();
+console.log(`${folder}: ${asked} questions, ${failed} failures`);
+process.exit(failed ? 1 : 0);
