@@ -72,6 +72,7 @@ def test_sweeps_that_are_killed_lose_nothing(tmp_path: Path, tables: dict[float,
     assert ended(start(tmp_path, B2)) == (0, "")
     assert (tmp_path / "t.csv").read_bytes() == tables[B2]
     assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
+    print(f"{killed} sweeps killed")  # noqa: T201  the count of a hunt: pytest -s
 
 
 def test_two_sweeps_at_once_make_one_table(tmp_path: Path, tables: dict[float, bytes]) -> None:
@@ -87,3 +88,4 @@ def test_two_sweeps_at_once_make_one_table(tmp_path: Path, tables: dict[float, b
         assert (tmp_path / "t.csv").read_bytes() == tables[recipes[bool(one)]]
         assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
         (tmp_path / "t.csv").unlink()
+    print(f"{PAIRS} pairs of sweeps ended well")  # noqa: T201

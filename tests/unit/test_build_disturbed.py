@@ -1,4 +1,7 @@
-"""Builds that are killed, doubled, starved or moved: whole or not at all, and the same bytes in the end."""
+"""Builds whose processes are killed, starved or moved: whole or not at all, and the same bytes in the end.
+
+Killed themselves, and two at once: `tests/fuzz/test_builds_killed.py`.
+"""
 
 import hashlib
 import os
@@ -89,21 +92,6 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     return found
 
 
-def test_killed_at_random_moments_it_heals(undisturbed: dict[str, str], tmp_path: Path) -> None:
-    """However often a build is killed, what is there is whole, and the next one ends in the same bytes."""
-    words, chance = command(tmp_path, "-j", "2"), random.Random(11)  # noqa: S311  reproducible, not secret
-    for _ in range(10):
-        with subprocess.Popen(
-            words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
-        ) as build:
-            time.sleep(chance.uniform(0.05, 2.5))
-            os.killpg(build.pid, signal.SIGKILL)
-        found = content(tmp_path)
-        assert found.items() <= undisturbed.items()
-    assert run(words).returncode == 0
-    assert content(tmp_path) == undisturbed
-
-
 def test_a_killed_build_leaves_no_process_behind(tmp_path: Path) -> None:
     """When the build alone is killed, the processes that draw for it come to an end by themselves."""
     chance = random.Random(5)  # noqa: S311  reproducible, not secret
@@ -175,16 +163,6 @@ def test_damaged_entries_of_the_cache_are_made_again(undisturbed: dict[str, str]
         result = run(words)
         assert result.returncode == 0, result.stderr
         assert content(tmp_path) == undisturbed
-
-
-def test_two_builds_at_once_do_no_harm(undisturbed: dict[str, str], tmp_path: Path) -> None:
-    """Two builds of the same report into the same folder both end well, with the same bytes."""
-    words = command(tmp_path)
-    both = [subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(2)]
-    for build in both:
-        _, complaint = build.communicate()
-        assert build.returncode == 0, complaint
-    assert content(tmp_path) == undisturbed
 
 
 def test_folder_jobs_locale_and_time_zone_change_no_byte(undisturbed: dict[str, str], tmp_path: Path) -> None:
