@@ -17,6 +17,7 @@ from atlas.paper import (
     clebsch,
     closed,
     elementary,
+    elliptic,
     euler_poisson,
     general,
     hyperbola,
@@ -33,7 +34,7 @@ __all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "find", "topi
 
 _FILES = (
     *(lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle),
-    *(theorems, clebsch, general, separatrix, closed),
+    *(theorems, clebsch, elliptic, general, separatrix, closed),
 )
 
 _TOPICS = {entry.name: file.__name__.rpartition(".")[2] for file in _FILES for entry in file.EQUATIONS}
