@@ -51,9 +51,9 @@ def scene(
             offset=(7.0, 0.0),
         ),
     ]
-    if strength > 0.0:
+    if strength > 0.0 and all(E):
         steep = abs(E[0]) < 2.0 * abs(E[1])
-        drawn = E if steep else np.copysign((np.cos(LEAN), np.sin(LEAN)), (E[0], E[1] or 1.0))
+        drawn = E if steep else np.copysign((np.cos(LEAN), np.sin(LEAN)), E)
         tip = 1.1 * reach * quadric_panel.in_plane(*(float(part) for part in drawn / np.linalg.norm(drawn)))
         flat, tall = tip[1] * quadric_panel.E2, tip[2] * quadric_panel.E3
         layers += [
@@ -63,15 +63,21 @@ def scene(
             Label(0.62 * flat, r"$\mathbf{E}_{\!\perp}$", offset=(0.0, -5.0)),
             Label(flat + 0.5 * tall, r"$\mathbf{E}_{\!\parallel}$", offset=(5.0, 0.0)),
         ]
+    elif strength > 0.0:  # along an axis, E is one of its own components
+        name = r"$\mathbf{E}=\mathbf{E}_{\!\perp}$" if E[0] else r"$\mathbf{E}=\mathbf{E}_{\!\parallel}$"
+        offset = (0.0, -8.0) if E[0] else (-16.0, 0.0)
+        tip = 0.9 * reach * quadric_panel.in_plane(float(np.sign(E[0])), float(np.sign(E[1])))
+        layers.append(Arrow(quadric_panel.O, tip, "electric", name, offset=offset))
+    drift = r" and drifts along $[\mathbf{E}, \mathbf{B}]$, the axis $x$" if E[0] else ""
     vector = tex_vector((0.0, *E))
     return Scene(
         title(__doc__),
         rf"Laboratory system for a particle with $\mu={tex(mu)}$ in $\mathbf{{E}}={vector}$ and $\mathbf{{B}}=(0, 0, "
         rf"{tex(B)})$: $z$ points along the axis of $\mathbf{{B}}$, and $\mathbf{{E}}$ lies in the plane of $y$ and "
-        r"$z$. The path begins at the origin and drifts along $[\mathbf{E}, \mathbf{B}]$, the axis $x$. The arrows of "
-        "the fields are not to scale.",
+        rf"$z$. The path begins at the origin{drift}. The arrows of the fields are not to scale.",
         f"Axes x towards the reader, y to the right and z up; B = {plain(B)} along z, E = {plain_vector((0.0, *E))} in "
-        "the plane of y and z with its two components, and the spiral path of a particle that drifts along x.",
+        f"the plane of y and z{' with its two components' if all(E) else ''}, and the spiral path of a particle"
+        f"{' that drifts along x' if E[0] else ''}.",
         (Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
         size=(100.0, 88.0),
     )

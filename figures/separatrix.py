@@ -75,12 +75,15 @@ def sphere(motion: Companion, last: float, view: tuple[float, float]) -> Space:
     trace = curve(axis, -last, last, fine, pieces=64)
     r = motion.double
     ring = solids.circle(r * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(1.0 - r * r)), fine)
+    aside = np.array([-np.sin(np.radians(view[0])), np.cos(np.radians(view[0])), 0.0])
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine),
         Arrow(quadric_panel.O, 1.4 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
         Curve(ring, "reference"),
+        Label(ring[int(np.argmax(ring @ aside))], "precession", "reference", (6.0, 0.0)),
         Curve(trace, "trace"),
         Points(axis(np.zeros(1)), "start"),
+        Label(axis(np.zeros(1))[0], "$t=0$", "label", (0.0, 8.0)),
     ]
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=r"(a) axis on the sphere")
 
