@@ -84,9 +84,9 @@ def versions(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Content]:
     return found
 
 
-def kept(folder: Path) -> int:
-    """Return how many files the cache of a build has, those under way too."""
-    return sum(1 for _ in (folder / "cache").rglob("*"))
+def kept(folder: Path, place: str) -> set[Path]:
+    """Return what a build has in its cache, or at the top of where it writes, those under way too."""
+    return set((folder / place).rglob("*") if place == "cache" else (folder / place).glob("*"))
 
 
 def wait_until_alone(group: int) -> None:
@@ -102,27 +102,29 @@ def wait_until_alone(group: int) -> None:
 
 
 def test_builds_that_are_killed_leave_whole_files_and_heal(tmp_path: Path, versions: dict[int, Content]) -> None:
-    """Killed at any moment from its first entry in the cache on, the last one ends in the bytes of a build in peace."""
-    chance, killed, finished, longest, version = random.Random(os.getpid()), 0, 0, 1.0, 1  # noqa: S311
+    """Killed after a new entry in the cache, or while files take their places, the last one ends as in peace."""
+    chance, killed, finished, version = random.Random(os.getpid()), 0, 0, 1  # noqa: S311
+    longest = {"cache": 1.0, "out": 0.05}
     print(f"seed {os.getpid()}")  # noqa: T201  shown if the test fails
     whole = versions[1].items() | versions[2].items()
     while killed < KILLS:
-        before, process = kept(tmp_path), start(tmp_path, version)
-        while process.poll() is None and kept(tmp_path) <= before:
-            time.sleep(0.005)
-        seen = time.monotonic()
-        while process.poll() is None and time.monotonic() < seen + chance.random() * longest:
-            time.sleep(0.005)
+        place = chance.choice(list(longest))
+        before, process = kept(tmp_path, place), start(tmp_path, version)
+        while process.poll() is None and kept(tmp_path, place) <= before:
+            time.sleep(0.002)
+        end = time.monotonic() + chance.random() * longest[place]
+        while process.poll() is None and time.monotonic() < end:
+            time.sleep(0.002)
         process.send_signal(signal.SIGKILL)
         status, told = ended(process)
         wait_until_alone(process.pid)
         assert content(tmp_path).items() <= whole
         if status == -signal.SIGKILL:
-            killed, longest = killed + 1, 1.1 * longest
+            killed, longest[place] = killed + 1, 1.1 * longest[place]
             continue
         assert (status, told) == (0, "")  # it was faster
         assert content(tmp_path) == versions[version]
-        finished, longest, version = finished + 1, max(0.05, 0.7 * longest), 3 - version
+        finished, longest[place], version = finished + 1, max(0.01, 0.7 * longest[place]), 3 - version
         shutil.rmtree(tmp_path / "cache")
     assert ended(start(tmp_path, version)) == (0, "")
     assert content(tmp_path) == versions[version]
