@@ -1,26 +1,12 @@
-"""Worker processes, where the system lets us have any, and programs that are run to their end."""
+"""Worker processes, where the system lets us have any."""
 
-import ctypes
-import multiprocessing
 import os
-import signal
-import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
-from functools import partial
-from multiprocessing import get_context
 from threading import Thread
 from typing import Any
-
-PATIENCE = 20
-"""How much longer than its seconds of a processor a program may take, on a machine that has other things to do."""
-
-PR_SET_PDEATHSIG = 1
-"""The option of Linux' prctl(2) that names the signal which a process gets when its parent ends."""
-
-_LIBC = ctypes.CDLL(None) if sys.platform == "linux" else None
 
 SAFE = "PYTHONSAFEPATH"
 """As the option -P of Python, which a process inherits."""
@@ -31,6 +17,8 @@ def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "s
 
     None where the system has no semaphores, as with a /dev/shm that can't be written: then the work is to be done here.
     """
+    from multiprocessing import get_context
+
     try:
         with _without_main():
             return _Pool(workers, get_context(context), begin)
@@ -44,45 +32,12 @@ def end_with_parent() -> None:
 
 
 def _wait_for_parent() -> None:
-    parent = multiprocessing.parent_process()
+    from multiprocessing import parent_process
+
+    parent = parent_process()
     if parent is not None:
         parent.join()
         os._exit(1)
-
-
-def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> subprocess.CompletedProcess[str]:
-    """Run a program to its end, with `text` as its input, and return what it wrote.
-
-    It ends when this process does, however that was, and has no more than so many seconds of a processor. Raises
-    TimeoutExpired where these were not enough.
-    """
-    started = partial(_bound, os.getpid(), seconds)
-    found = subprocess.run(  # noqa: S603  each caller runs a program of ours
-        command,
-        input=text,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-        timeout=PATIENCE * seconds,
-        preexec_fn=started if os.name == "posix" else None,
-        **more,
-    )
-    if -found.returncode in {signal.SIGXCPU, signal.SIGKILL} if os.name == "posix" else False:
-        raise subprocess.TimeoutExpired(command, seconds)
-    return found
-
-
-def _bound(parent: int, seconds: int) -> None:
-    """Bind a process that is about to run a program: Linux ends it with its parent, any system after its seconds."""
-    import resource
-
-    hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
-    limit = seconds if hard == resource.RLIM_INFINITY else min(seconds, hard)
-    resource.setrlimit(resource.RLIMIT_CPU, (limit, hard))
-    if _LIBC is not None:
-        _LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-        if os.getppid() != parent:
-            os._exit(1)
 
 
 class _Pool(ProcessPoolExecutor):

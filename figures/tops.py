@@ -27,14 +27,14 @@ def scene(
     ratio: float = 0.75,
     direction: tuple[float, float] = (1.0, 0.5),
     omega: tuple[float, float, float] = (0.0, 0.4, 4.0),
-    rate: float = 1.5,
+    larmor: float = 1.5,
     nutations: float = 6.0,
     elevation: float = 25.0,
 ) -> Scene:
-    """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``rate`` b scales coupling and potential."""
-    if not rate > 0:
-        raise DomainError(f"figure tops needs a positive rate, which scales coupling and potential, not {rate}.")
-    motions = [_motion(ratio, direction, omega, rate, *what) for _, *what in TOPS]
+    """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``larmor`` scales coupling, potential."""
+    if not larmor > 0:
+        raise DomainError(f"figure tops needs a positive larmor, which scales coupling and potential, not {larmor}.")
+    motions = [_motion(ratio, direction, omega, larmor, *what) for _, *what in TOPS]
     panels = tuple(
         axis_trace.sphere(
             f"({letter}) {name}", direction, motion.third_axis, nutations * motion.period,

@@ -15,7 +15,7 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-from atlas import files, processes
+from atlas import files, programs
 from atlas.errors import AtlasError
 from atlas.libraries import release
 from atlas.places import own_folder
@@ -115,7 +115,7 @@ def _draws(name: str) -> bool:
     if name in WINDOWS:
         environment[VARIABLE] = WINDOWS[name]
     try:
-        child = processes.run([sys.executable, "-P", "-c", _PROBE], _TIMEOUT, env=environment)
+        child = programs.run([sys.executable, "-P", "-c", _PROBE], _TIMEOUT, env=environment)
     except (OSError, subprocess.TimeoutExpired):
         return False
     return child.returncode == 0 and (name not in WINDOWS or WINDOWS[name] in child.stdout)

@@ -92,7 +92,7 @@ def _use(styles: Sequence[Any]) -> None:
             raise AtlasError(f"the style {str(one)!r} cannot be used: {error}") from error
         if said:
             raise AtlasError(f"the style {str(one)!r} cannot be used: {' '.join(said[0].split())}")
-    for name, value in mpl.rcParams.items():
+    for name, value in dict.items(mpl.rcParams):  # by itself it would load pyplot to name a backend
         if isinstance(value, float) and not isfinite(value):
             raise AtlasError(f"the style sets {name} to {value}, which is no number to draw with.")
     if mpl.rcParams["text.usetex"] and not shutil.which("latex"):

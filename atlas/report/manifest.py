@@ -97,7 +97,7 @@ def _numbers(table: "TableView", texts: list[str]) -> Iterator[tuple[str, str]]:
     for name, row, cells in zip(_counted(names), rows, table.rows, strict=True):
         for head, text, cell in zip(heads, row, cells, strict=True):
             if cell.text is None and text:
-                yield f"{name} | {head}", text
+                yield f"{name} | {head}".replace("@(", "("), text  # an equation is named, not cited, here
 
 
 def _counted(names: Iterable[str]) -> list[str]:

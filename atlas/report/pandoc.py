@@ -16,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Literal, TypeAlias
 
-from atlas import libraries, processes
+from atlas import libraries, programs
 from atlas.errors import AtlasError
 
 Target: TypeAlias = Literal["html", "typst"]
@@ -91,7 +91,7 @@ def run(arguments: Sequence[str], source: str) -> str:
         log = Path(folder) / "log.json"
         command = [_program(), "+RTS", f"-M{MEMORY}", "-RTS", *arguments, f"--log={log}"]
         try:
-            run = processes.run(command, SECONDS + len(source) // SPEED, source)
+            run = programs.run(command, SECONDS + len(source) // SPEED, source)
         except subprocess.TimeoutExpired as error:
             raise AtlasError(_ENDLESS.format(f"{SECONDS} seconds")) from error
         if run.returncode == _HEAP:

@@ -97,12 +97,12 @@ def _scales(random: Random) -> Top:
 
 TOPS: Mapping[str, Callable[[Random], Top]] = {
     "top, ordinary": _ordinary,
-    "top, A near 0": _near_the_cubic,
-    "top, a and A near 0": _near_the_quadratic,
-    "top, axis near n": _near_the_vertical,
+    "top, near the cubic": _near_the_cubic,
+    "top, near the quadratic": _near_the_quadratic,
+    "top, axis near the vertical": _near_the_vertical,
     "top, sleeping": _sleeping,
-    "top, I3 from 0.001 to 0.1": _needle,
-    "top, M3 near 0": _zero_momenta,
+    "top, needle": _needle,
+    "top, pendulum": _zero_momenta,
     "top, scales 1e-120 to 1e120": _scales,
 }
 """Regimes of tops."""

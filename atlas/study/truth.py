@@ -20,7 +20,7 @@ from atlas.formulas.numbers import workprec
 
 Long = NDArray[np.longdouble]
 
-UNCERTAINTY = 1e-18
+UNCERTAINTY = 2e-18
 """Bound on the error of an entry of R, of a quaternion, and of Omega in units of its length."""
 
 PHASE = 2.0**-6

@@ -22,7 +22,7 @@ TABLES = {
     "flight": {"omega2": 0.7, "velocity": [3e-6, 0.0, 0.0], "point": [0.0, 1e-6, 0.0], "times": [0.0, 0.5]},
     "particle": {"velocity": [0.3, 0.0, 0.0], "times": [0.0, 0.5]},
     "charges": {},
-    "bodies": {},
+    "sheet": {"omega2": 0.7},
 }
 REPORT: dict[str, Any] = {
     "name": "mine",
@@ -83,7 +83,7 @@ def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 
 def block(table: str, name: str) -> dict[str, Any]:
     """Return a table of the shell in the magnet."""
-    who = {"bodies": ["shell"]} if table in {"charges", "bodies"} else {"body": "shell"}
+    who = {"bodies": ["shell"]} if table in {"charges", "sheet"} else {"body": "shell"}
     more = {"parameters": copy.deepcopy(TABLES[table])} if TABLES[table] else {}
     return {"kind": "table", "table": table, "id": name, "field": "magnet", **who, **more}
 

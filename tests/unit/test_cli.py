@@ -186,7 +186,6 @@ def test_what_a_terminal_would_obey_is_not_printed() -> None:
         "report short_solenoid --out {}",
         "bench --quick --out {}",
         "check mine.csv --figure {}.svg",
-        "diff old new --page {}.html",
     ],
 )
 def test_a_place_below_a_file_is_told_before_any_work(words: str, tmp_path: Path) -> None:

@@ -1,7 +1,6 @@
 """Maps of the error: the plain formula loses its digits with time, the atlas does not."""
 
 import csv
-import re
 import shlex
 from pathlib import Path
 from typing import Any
@@ -92,13 +91,12 @@ def matrix(t: float) -> list[Any]:
 def test_the_pixels_of_a_map_are_the_rows_of_the_sweep_beside_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, parameters: dict[str, Any]
 ) -> None:
-    """The command in the caption makes a table whose rows are the pixels of the map."""
+    """The command beside the figure makes a table whose rows are the pixels of the map."""
     monkeypatch.chdir(tmp_path)
     scene = recipes.load(name).scene(**parameters)
     images = [layer for panel in scene.panels for layer in panel.layers if isinstance(layer, Image)]
-    commands = re.findall("`(atlas sweep [^`]*)`", scene.caption)
     rows = []
-    for command in commands:
+    for command in scene.commands:
         result = CliRunner().invoke(program, [*shlex.split(command)[1:], "-j", "1"])
         assert not result.exit_code, result.output
         with Path(result.output.strip()).open(newline="") as file:

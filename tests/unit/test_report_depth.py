@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from atlas import processes, toml
+from atlas import programs, toml
 from atlas.cli.app import atlas
 from atlas.errors import AtlasError
 from atlas.report import pandoc
@@ -64,10 +64,10 @@ def test_a_text_that_pandoc_cannot_finish_ends_in_a_sentence(monkeypatch: pytest
 
 @pytest.mark.skipif(sys.platform != "linux", reason="prctl(2) is Linux'")
 def test_a_program_that_we_start_ends_when_we_are_killed(tmp_path: Path) -> None:
-    """A process that runs another by `processes.run` is killed: the other is gone, too."""
+    """A process that runs another by `programs.run` is killed: the other is gone, too."""
     file = tmp_path / "pid"
     inner = f"import os, pathlib, time; pathlib.Path({str(file)!r}).write_text(str(os.getpid())); time.sleep(60)"
-    outer = f"import sys; from atlas import processes; processes.run([sys.executable, '-c', {inner!r}], 30)"
+    outer = f"import sys; from atlas import programs; programs.run([sys.executable, '-c', {inner!r}], 30)"
     parent = subprocess.Popen([sys.executable, "-c", outer])
     deadline = time.monotonic() + 60
     while not (file.exists() and file.read_text()) and time.monotonic() < deadline:
@@ -91,8 +91,8 @@ def _runs(process: int) -> bool:
 def test_a_program_has_no_more_than_its_seconds() -> None:
     """One that computes without end is ended after a second of a processor; one that ends well says what it wrote."""
     with pytest.raises(subprocess.TimeoutExpired):
-        processes.run([sys.executable, "-c", "while True: pass"], 1)
-    assert processes.run([sys.executable, "-c", "print(input())"], 30, "word").stdout == f"word{os.linesep}"
+        programs.run([sys.executable, "-c", "while True: pass"], 1)
+    assert programs.run([sys.executable, "-c", "print(input())"], 30, "word").stdout == f"word{os.linesep}"
 
 
 def test_toml_nested_too_deeply_is_a_mistake_in_one_line(tmp_path: Path) -> None:

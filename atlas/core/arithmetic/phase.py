@@ -51,6 +51,10 @@ QUARTER_TURN, MINUS_BOTH = np.array(nearest(QUARTER)), np.array([MINUS_HEAD, MIN
 HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0, np.float64(1.0).view(np.int64), 63))
 
 
+LEAST = 1e-290
+"""Longest time below which it is the unit of frequency that is at fault."""
+
+
 class Phases:
     """Phases of one or two frequencies, and what is needed to evaluate them at times t.
 
@@ -248,8 +252,10 @@ class Phases:
         """Raise AtlasError for a time that is out of reach."""
         far = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
         if far.size:
+            units = "" if self.reach > LEAST else " A frequency is too large for a float: choose larger units."
             raise AtlasError(
-                f"A time is {far[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is lost."
+                f"A time is {far[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is "
+                f"lost.{units}"
             )
 
 

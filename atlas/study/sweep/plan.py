@@ -118,7 +118,8 @@ class Plan:
             took = self._took(size)
             # what a call costs however few its rows are is not of the rows either
             if size >= self.count or (took > SAMPLE and took > 2 * before):
-                return max(took - before, 0.0) / (min(size, self.count) - less) or SHORTEST
+                more = min(size, self.count) - less
+                return (max(took - before, 0.0) / more if more else took) or SHORTEST
 
     def _took(self, size: int) -> float:
         """Return the seconds that a sample takes."""

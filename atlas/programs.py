@@ -1,0 +1,53 @@
+"""Programs that are run to their end: they have limits, and end with this process, however that ends."""
+
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+PATIENCE = 20
+"""How much longer than its seconds of a processor a program may take, on a machine that has other things to do."""
+
+PR_SET_PDEATHSIG = 1
+"""The option of Linux' prctl(2) that names the signal which a process gets when its parent ends."""
+
+_LIBC = ctypes.CDLL(None) if sys.platform == "linux" else None
+
+
+def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> subprocess.CompletedProcess[str]:
+    """Run a program to its end, with `text` as its input, and return what it wrote.
+
+    It ends when this process does, however that was, and has no more than so many seconds of a processor. Raises
+    TimeoutExpired where these were not enough.
+    """
+    started = partial(_bound, os.getpid(), seconds)
+    found = subprocess.run(  # noqa: S603  each caller runs a program of ours
+        command,
+        input=text,
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+        timeout=PATIENCE * seconds,
+        preexec_fn=started if os.name == "posix" else None,
+        **more,
+    )
+    if -found.returncode in {signal.SIGXCPU, signal.SIGKILL} if os.name == "posix" else False:
+        raise subprocess.TimeoutExpired(command, seconds)
+    return found
+
+
+def _bound(parent: int, seconds: int) -> None:
+    """Bind a process that is about to run a program: Linux ends it with its parent, any system after its seconds."""
+    import resource
+
+    hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
+    limit = seconds if hard == resource.RLIM_INFINITY else min(seconds, hard)
+    resource.setrlimit(resource.RLIMIT_CPU, (limit, hard))
+    if _LIBC is not None:
+        _LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        if os.getppid() != parent:
+            os._exit(1)
