@@ -63,7 +63,7 @@ FAMILY = Family(
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="top Omega"),
         Sampled("b", "field_in_body", "direction n in the body", checked="top b", printed=False),
     ),
-    {"top R": 16, "top R grid": 24, "top Omega": 32, "top b": 16, "top orthogonality": 16, "top R(0) = 1": 8},
+    {"top R": 16, "top R grid": 24, "top Omega": 16, "top b": 16, "top orthogonality": 16, "top R(0) = 1": 8},
     Command(
         "top",
         "Compute any motion of a symmetric top: heavy, charged, magnetised.",

@@ -160,6 +160,17 @@ def test_a_sleeping_top_and_its_separatrix_have_names() -> None:
     assert exactly.kind == "steady precession" or exactly.period > 0
 
 
+def test_the_axis_turns_over_once_from_one_pole_to_the_other() -> None:
+    """With p = M3 = a = 0 and h = A/2 the top is on the separatrix between n and -n; with kappa not 0 it is refused."""
+    case = (1.0, 1.0), (0.0, 0.0), (1.0, 0.0), (2.0, 0.0, 0.0), 0.0, 4.0
+    top = atlas.TopMotion(*case)
+    assert top.kind == "separatrix between n and -n"
+    ((R, _),) = taylor(case, [1.5], digits=16)
+    assert max(abs(float(R[i, j]) - top.rotation(1.5)[i, j]) for i in range(3) for j in range(3)) <= 16 * EPS
+    with pytest.raises(atlas.DomainError, match="turns over from n to -n once"):
+        atlas.TopMotion((1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (2.0, 0.0, 0.0), 0.0, 3.0)
+
+
 def test_a_uniform_grid_has_the_matrices_of_its_times() -> None:
     """Grids short, long and fine: within 32 ulp of the same times one by one."""
     motion = atlas.TopMotion(*CASES["metal shell"])
