@@ -3,7 +3,7 @@
 import math
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
@@ -230,11 +230,18 @@ def chosen_body(options: dict[str, Any]) -> Any:
         raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
     if options["ratio"] is not None:
         return options["ratio"]
-    from atlas.core.body import SymmetricBody, from_shape
+    if options["shape"] is not None:
+        return _of_shape(options["shape"].replace("_", "-"), sizes)
+    from atlas.core.body import SymmetricBody
 
-    if options["inertia"] is not None:
-        return SymmetricBody(*options["inertia"])
-    shape, known = options["shape"].replace("_", "-"), shapes()
+    return SymmetricBody(*options["inertia"])
+
+
+def _of_shape(shape: str, sizes: Mapping[str, Typed]) -> Any:
+    """Return the body of a shape with the dimensions that were typed."""
+    from atlas.core.body import from_shape
+
+    known = shapes()
     if shape == ROD:
         raise click.UsageError(ROD_REASON)
     if shape not in known:

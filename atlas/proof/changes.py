@@ -98,34 +98,39 @@ def _is_product(node: ast.AST) -> bool:
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult | ast.Div)
 
 
-def _every(  # noqa: C901  one branch for each kind of node
-    node: ast.AST, parent: ast.AST, letters: frozenset[str]
-) -> Iterator[tuple[str, ast.expr]]:
+def _every(node: ast.AST, parent: ast.AST, letters: frozenset[str]) -> Iterator[tuple[str, ast.expr]]:
     """Yield all that one node may be changed to."""
-    exponent = isinstance(parent, ast.BinOp) and isinstance(parent.op, ast.Pow) and parent.right is node
-    in_brackets = isinstance(parent, ast.Subscript) and parent.slice is node
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
-        swapped = ast.Sub() if isinstance(node.op, ast.Add) else ast.Add()
-        yield "term", ast.BinOp(node.left, swapped, node.right)
-    elif isinstance(node, ast.UnaryOp):
-        yield "sign", node.operand
-    elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
-        yield "exponent", node.left
-    elif isinstance(node, ast.BinOp):
-        if not _is_product(parent):
-            yield "coefficient", ast.BinOp(ast.Constant(2), ast.Mult(), node)
-            yield "sign", ast.UnaryOp(ast.USub(), node)
-        if isinstance(node.op, ast.Div):
-            yield "exponent", ast.BinOp(node.left, ast.Mult(), node.right)
-    elif isinstance(node, ast.Constant) and isinstance(node.value, int):
-        yield ("exponent" if exponent else "index" if in_brackets else "number"), ast.Constant(node.value + 1)
-    elif isinstance(node, ast.Name) and not _is_function(node, parent):
-        yield from _renamed(node, parent, letters)
-    elif isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Tuple):
-        first, second, *rest = node.slice.elts
-        yield "index", ast.Subscript(node.value, ast.Tuple([second, first, *rest], ast.Load()), ast.Load())
-    elif isinstance(node, ast.Call):
-        yield from _called(node)
+    match node:
+        case ast.BinOp():
+            yield from _operated(node, parent)
+        case ast.UnaryOp():
+            yield "sign", node.operand
+        case ast.Constant(value=int(value)):
+            exponent = isinstance(parent, ast.BinOp) and isinstance(parent.op, ast.Pow) and parent.right is node
+            in_brackets = isinstance(parent, ast.Subscript) and parent.slice is node
+            yield ("exponent" if exponent else "index" if in_brackets else "number"), ast.Constant(value + 1)
+        case ast.Name() if not _is_function(node, parent):
+            yield from _renamed(node, parent, letters)
+        case ast.Subscript(slice=ast.Tuple(elts=[first, second, *rest])):
+            yield "index", ast.Subscript(node.value, ast.Tuple([second, first, *rest], ast.Load()), ast.Load())
+        case ast.Call():
+            yield from _called(node)
+
+
+def _operated(node: ast.BinOp, parent: ast.AST) -> Iterator[tuple[str, ast.expr]]:
+    match node.op:
+        case ast.Add():
+            yield "term", ast.BinOp(node.left, ast.Sub(), node.right)
+        case ast.Sub():
+            yield "term", ast.BinOp(node.left, ast.Add(), node.right)
+        case ast.Pow():
+            yield "exponent", node.left
+        case _:
+            if not _is_product(parent):
+                yield "coefficient", ast.BinOp(ast.Constant(2), ast.Mult(), node)
+                yield "sign", ast.UnaryOp(ast.USub(), node)
+            if isinstance(node.op, ast.Div):
+                yield "exponent", ast.BinOp(node.left, ast.Mult(), node.right)
 
 
 def _is_function(node: ast.AST, parent: ast.AST) -> bool:

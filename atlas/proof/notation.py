@@ -191,28 +191,31 @@ class Reader:
     def _factor(  # noqa: PLR0911  one return for each kind of factor
         self, node: ast.expr, bound: Mapping[str, int]
     ) -> Value:
-        if isinstance(node, ast.Constant):
-            return sympy.Integer(node.value)
-        if isinstance(node, ast.Name):
-            if node.id in bound:
-                return bound[node.id]
-            return self.letters[node.id] if node.id in self.letters else sympy.Symbol(node.id, real=True)
-        if isinstance(node, ast.Subscript):
-            base = self._factor(node.value, bound)
-            where = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
-            at = tuple(int(self._factor(index, bound)) for index in where)
-            if isinstance(base, sympy.MatrixBase):
-                return base[tuple(index - 1 for index in at)] if len(at) > 1 else base[at[0] - 1]
-            return base[at if len(at) > 1 else at[0]]
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
-            base, power = self.value(node.left, bound), self.value(node.right, bound)
-            return base.dot(base) ** (power / 2) if isinstance(base, sympy.MatrixBase) else base**power
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            return self.letters[node.func.id](*(self.value(argument, bound) for argument in node.args))
-        if isinstance(node, ast.List):
-            rows = [entry.elts if isinstance(entry, ast.List) else [entry] for entry in node.elts]
-            return sympy.Matrix([[self.value(entry, bound) for entry in row] for row in rows])
+        match node:
+            case ast.Constant():
+                return sympy.Integer(node.value)
+            case ast.Name():
+                named = bound.get(node.id, self.letters.get(node.id))
+                return sympy.Symbol(node.id, real=True) if named is None else named
+            case ast.Subscript():
+                return self._entry(node, bound)
+            case ast.BinOp(op=ast.Pow()):
+                base, power = self.value(node.left, bound), self.value(node.right, bound)
+                return base.dot(base) ** (power / 2) if isinstance(base, sympy.MatrixBase) else base**power
+            case ast.Call(func=ast.Name(id=name)):
+                return self.letters[name](*(self.value(argument, bound) for argument in node.args))
+            case ast.List():
+                rows = [entry.elts if isinstance(entry, ast.List) else [entry] for entry in node.elts]
+                return sympy.Matrix([[self.value(entry, bound) for entry in row] for row in rows])
         return self.value(node, bound)
+
+    def _entry(self, node: ast.Subscript, bound: Mapping[str, int]) -> Value:
+        """Return what brackets choose; those of a matrix count from one."""
+        base = self._factor(node.value, bound)
+        where = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+        first = isinstance(base, sympy.MatrixBase)
+        at = tuple(int(self._factor(index, bound)) - first for index in where)
+        return base[at if len(at) > 1 else at[0]]
 
 
 def letters_of(tree: ast.AST) -> tuple[str, ...]:

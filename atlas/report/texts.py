@@ -7,7 +7,7 @@ holds no pictures, and a citation such as ``@(67)`` becomes a link.
 import hashlib
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -193,28 +193,35 @@ class _Checked:
 
     def citation(self, parts: Any) -> Tree:
         """Return the links of a citation, in brackets with the words around them if it was written so."""
-        found: Tree = []
         links = [self.cite(part["citationId"], self.text.where) for part in parts]
-        works = [bool(link.bracketed) for link in links]
-        if any(works) and not all(works):
-            raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
-        if all(works) and any(part["citationPrefix"] for part in parts):
-            raise AtlasError(f"{self.text.where}: words before a work in brackets are lost in print; put them outside.")
-        if all(works) and self.target == "typst":  # which sets its own bibliography
+        works = self.are_works(parts, links)
+        if works and self.target == "typst":  # which sets its own bibliography
             return [{"t": "Cite", "c": [[part | self.around(part) for part in parts], []]}]
         bracketed = parts[0]["citationMode"]["t"] == "NormalCitation"
+        found: Tree = []
         for part, link in zip(parts, links, strict=True):
-            name = part["citationId"]
-            words = _words(link.bracketed if bracketed and link.bracketed else link.words)
-            says = link.says if self.target == "html" else ""
-            node = [_link(words, f"{link.page}#{link.anchor}", says)] if link.anchor else words
-            if name in self.anchors:
-                node = [{"t": "Span", "c": [[self.anchors.pop(name), [], []], node]}]
-            space = [{"t": "Space"}]
             prefix, suffix = self.around(part).values()
-            found += [*(_words("; ") if found else ()), *prefix, *(space if prefix else ()), *node, *suffix]
-        first, last = "()" if all(works) else "[]"
+            space = [{"t": "Space"}] if prefix else []
+            found += [*(_words("; ") if found else ()), *prefix, *space, *self.cited(part, link, bracketed), *suffix]
+        first, last = "()" if works else "[]"
         return [*_words(first), *found, *_words(last)] if bracketed else found
+
+    def are_works(self, parts: Any, links: Sequence[Link]) -> bool:
+        """Return whether a citation is of works, not of equations; it can't be of both."""
+        works = {bool(link.bracketed) for link in links}
+        if len(works) > 1:
+            raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
+        if works == {True} and any(part["citationPrefix"] for part in parts):
+            raise AtlasError(f"{self.text.where}: words before a work in brackets are lost in print; put them outside.")
+        return works == {True}
+
+    def cited(self, part: Any, link: Link, bracketed: bool) -> Tree:
+        """Return one link of a citation, at its anchor where it is the first to the name."""
+        words = _words(link.bracketed if bracketed and link.bracketed else link.words)
+        says = link.says if self.target == "html" else ""
+        node = [_link(words, f"{link.page}#{link.anchor}", says)] if link.anchor else words
+        anchor = self.anchors.pop(part["citationId"], None)
+        return [{"t": "Span", "c": [[anchor, [], []], node]}] if anchor is not None else node
 
     def around(self, part: Any) -> dict[str, Tree]:
         """Return the words before and after a name in brackets."""

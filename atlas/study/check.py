@@ -129,23 +129,11 @@ def check(
         given = dict(trajectory.parameters)
         if ratio is None and len(given.get("inertia", ())) > 2:
             return _any_body(trajectory, path.name, field, threshold)
-        parameters: dict[str, Any] = {
+        parameters = {
             "ratio": ratio if ratio is not None else _body(given, path.name),
             "field": field if field is not None else _needed(given, "field", path.name),
-        }
-        one = omega2 is not None or omega3 is not None
-        if omega is not None and one:
-            raise AtlasError("The start is one of omega (three components) and omega2 with omega3: found both.")
-        if omega is None and not one and "omega" in given and "omega2" in given:
-            raise AtlasError(f"{path.name} gives the start twice, by omega and by omega2: leave one of them out.")
-        motion: ElementaryMotion | GeneralMotion
-        if omega is not None or ("omega" in given and not one):
-            parameters["omega"] = omega if omega is not None else given["omega"]
-            motion = GeneralMotion(*parameters.values())
-        else:
-            parameters["omega2"] = omega2 if omega2 is not None else _needed(given, "omega2", path.name)[0]
-            parameters["omega3"] = omega3 if omega3 is not None else given.get("omega3", (None,))[0]
-            motion = ElementaryMotion(*parameters.values())
+        } | _start(given, path.name, omega2, omega3, omega)
+        motion = (GeneralMotion if "omega" in parameters else ElementaryMotion)(*parameters.values())
         errors, drifts, envelope = Errors(motion), Drifts(partial(of_motion, motion)), Envelope()
         grades = [Grade(name, threshold, errors) for name in trajectory.names if name != "t"]
         rows = 0
@@ -200,6 +188,29 @@ def _any_body(trajectory: Trajectory, file: str, field: Sequence[float] | None, 
     shown = {"inertia": list(given), "field": B.tolist()}
     times = (ends[0], ends[-1])
     return Check(file, "any inertia tensor", shown, {}, rows, float(threshold), (), drifts, rows, times, {})
+
+
+def _start(
+    given: Mapping[str, tuple[float, ...]],
+    file: str,
+    omega2: float | None,
+    omega3: float | None,
+    omega: tuple[float, float, float] | None,
+) -> dict[str, Any]:
+    """Return the initial angular velocity: omega, or omega2 and omega3; what is an argument comes before the file."""
+    one = omega2 is not None or omega3 is not None
+    if omega is not None and one:
+        raise AtlasError("The start is one of omega (three components) and omega2 with omega3: found both.")
+    if omega is not None:
+        return {"omega": omega}
+    if not one and "omega" in given and "omega2" in given:
+        raise AtlasError(f"{file} gives the start twice, by omega and by omega2: leave one of them out.")
+    if not one and "omega" in given:
+        return {"omega": given["omega"]}
+    return {
+        "omega2": omega2 if omega2 is not None else _needed(given, "omega2", file)[0],
+        "omega3": omega3 if omega3 is not None else given.get("omega3", (None,))[0],
+    }
 
 
 def _shown(parameters: Mapping[str, Any]) -> dict[str, Any]:
