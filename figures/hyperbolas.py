@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.hyperbola_plane import asymptote, branches, components, places, window
+from atlas.scene.hyperbola_plane import Window, asymptote, branches, components, places, window
 from atlas.scene.style import LINES
 from atlas.scene.words import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector, title
 
@@ -26,29 +26,7 @@ def scene(
     if not 0 < len(ratios) <= len(LINES):
         raise AtlasError(f"ratios must hold one to {len(LINES)} values of I, not {len(ratios)}.")
     view, (B2, B3) = window(field, reach), components(field)
-    centre = np.array([-B2, -B3])
-    s2, s3 = np.copysign(1.0, field)
-    layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
-    if B2 and B3:
-        layers.append(Curve(view.upright(-B2), "pole"))
-        layers += [Curve(asymptote(ratio, field, view), "asymptote") for ratio in ratios]
-    roles = tuple(map(body_role, ratios))
-    if len(set(roles)) < len(roles):
-        roles = LINES
-    for ratio, role in zip(ratios if B2 and B3 else ratios[:1], roles, strict=False):
-        name = f"$I={tex(quotient(ratio))}$" if B2 and B3 else "every $I$"
-        pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))
-        layers += [Curve(piece, role, "" if order else name) for order, piece in enumerate(pieces)]
-    common = places(ratios[0], field)[:2]
-    layers.append(Points(centre[None], "centre"))
-    layers += [Points(np.array([place.at]), place.role) for place in common]
-    layers.append(Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)))
-    layers += [
-        Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
-        for place, turn in zip(common, (1, -1), strict=True)
-    ]
-    for ratio in ratios:
-        layers += [Points(np.array([place.at]), place.role) for place in places(ratio, field)[2:]]
+    layers = [*_straight(ratios, field, view), *_curves(ratios, field, view), *_points(ratios, field)]
     bodies = listed([f"a {body_name(ratio)} ($I={tex(quotient(ratio))}$)" for ratio in ratios])
     spoken = listed([f"a {body_name(ratio)} with I = {plain(quotient(ratio))}" for ratio in ratios])
     return Scene(
@@ -82,3 +60,44 @@ def scene(
         named={"dotted": "pole", "dashed": "asymptote"},
         size=(WIDTH, HEIGHT),
     )
+
+
+def _straight(ratios: tuple[float, ...], field: tuple[float, float], view: Window) -> list[Layer]:
+    """Return the axes and, where there are any, the asymptotes."""
+    B2, B3 = components(field)
+    layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
+    if B2 and B3:
+        layers.append(Curve(view.upright(-B2), "pole"))
+        layers += [Curve(asymptote(ratio, field, view), "asymptote") for ratio in ratios]
+    return layers
+
+
+def _curves(ratios: tuple[float, ...], field: tuple[float, float], view: Window) -> list[Layer]:
+    """Return the curve of each body, or the one that all have in common."""
+    apart = all(components(field))
+    roles = tuple(map(body_role, ratios))
+    if len(set(roles)) < len(roles):
+        roles = LINES
+    layers: list[Layer] = []
+    for ratio, role in zip(ratios if apart else ratios[:1], roles, strict=False):
+        name = f"$I={tex(quotient(ratio))}$" if apart else "every $I$"
+        pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))
+        layers += [Curve(piece, role, "" if order else name) for order, piece in enumerate(pieces)]
+    return layers
+
+
+def _points(ratios: tuple[float, ...], field: tuple[float, float]) -> list[Layer]:
+    """Return the centre, rest and -2B' with their names, and the points of each body."""
+    B2, B3 = components(field)
+    centre, (s2, s3) = np.array([-B2, -B3]), np.copysign(1.0, field)
+    common = places(ratios[0], field)[:2]
+    return [
+        Points(centre[None], "centre"),
+        *(Points(np.array([place.at]), place.role) for place in common),
+        Label(centre, r"$-\mathbf{B}'$", "centre", (5 * s2, -5 * s3)),
+        *(
+            Label(np.array(place.at), place.text, place.role, (5 * s2 * turn, -4 * s3 * turn))
+            for place, turn in zip(common, (1, -1), strict=True)
+        ),
+        *(Points(np.array([place.at]), place.role) for ratio in ratios for place in places(ratio, field)[2:]),
+    ]

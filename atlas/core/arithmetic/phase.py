@@ -70,10 +70,9 @@ class Phases:
     ) -> None:
         halves = [scaled(middle(turn), 1) for turn in turns]
         moving = [p for p in halves if p != 0]
-        ordinary = bool(moving) and all(abs(magnitude(p)) <= SAFE for p in moving)
-        exponents = [0 if ordinary else magnitude(p) if p != 0 else NEVER for p in halves]
+        exponents = _exponents(halves)
         small = [scaled(p, -x) for p, x in zip(halves, exponents, strict=True)]
-        self.exponents = None if ordinary else np.array(exponents)[:, None]
+        self.exponents = np.array(exponents)[:, None] if any(exponents) else None
         self._keep(_columns([words(p, 2) for p in small]))
         with workprec():
             self._within(min((_reach(p) for p in moving), default=float("inf")))
@@ -257,6 +256,14 @@ class Phases:
                 f"A time is {far[0]}, but |t| may be {self.reach:.6g} at most, where a phase reaches 2^50 and is "
                 f"lost.{units}"
             )
+
+
+def _exponents(halves: Sequence[Number]) -> list[int]:
+    """Return the powers of two by which frequencies are scaled: zeros, where none is extreme."""
+    moving = [magnitude(p) for p in halves if p != 0]
+    if moving and all(abs(x) <= SAFE for x in moving):
+        return [0] * len(halves)
+    return [magnitude(p) if p != 0 else NEVER for p in halves]
 
 
 def signs(whole: FloatArray) -> FloatArray:

@@ -66,46 +66,24 @@ class CayleyKlein:
         with workprec(precision):
             found = solution()
             lattice, pair = found.lattice, (found.alpha, found.beta)
-            periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
-            swing, start = found.swing, acb(1)
-            rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
-            if swing:
-                rates[1] += swing.kappa * swing.rate
-                start = acb(0, -swing.at(arb(0), found.origin) / 2).exp()
-            # the phase is 2v where only sin v / cos v is wanted, else v
-            odd = lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
-            whole = (2 if odd else 4) * lattice.half
-            turns = [x / (2 * arb.pi()) for x in rates] + ([1 / whole] if periodic else [])
-            origin = found.origin / whole if periodic else arb(0)
-            if not all(x.is_finite() for x in (*turns, found.origin)):
-                return False
-            scale = max(abs(x) for x in turns)
-            if not all(_radius(x) <= FREQUENCY * scale.mid() for x in turns) or not _radius(origin) <= FREQUENCY:
+            self.periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
+            turns, origin = _turns(found, self.periodic)
+            if not found.origin.is_finite() or not _reducible(turns, origin):
                 return False
             kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
-            functions = kind(found, [x.sum for x in pair])
-            factors = pair[0].factor * start, pair[1].factor / start
-            values = [[f * w for w in functions.weights(x.sum)] for x, f in zip(pair, factors, strict=True)]
-            self.swing = Swing(swing) if swing else None
+            self.functions = kind(found, [x.sum for x in pair])
+            self.swing = Swing(found.swing) if found.swing else None
+            tables = _weights(found, self.functions, slopes=self.sloping)
+            largest = max(abs(x).mid() for row in tables[0] for x in row)
+            if not all(_known(x, largest) for table in tables for row in table for x in row):
+                return False
             if self.swing and not self.swing.is_known:
                 return False
-            if self.sloping:
-                values += [
-                    [f * (acb(0, x.rate + x.twist) * v + w) for v, w in zip(a, b, strict=True)]
-                    for f, x, a, b in (
-                        (f, x, functions.weights(x.sum), functions.weights(x.sum.derivative))
-                        for x, f in zip(pair, factors, strict=True)
-                    )
-                ]
-            largest = max(abs(x).mid() for row in values[:2] for x in row)
-            if not all(_known(x, largest) for row in values for x in row):
-                return False
-            self.functions, self.periodic = functions, periodic
             self.frequencies = [middle(x) for x in turns]
-            self.origins = [ZERO, ZERO, middle(origin)] if periodic else None
+            self.origins = [ZERO, ZERO, middle(origin)] if self.periodic else None
             self.phases = self._phases()
-            self.values = np.concatenate([_real_parts(x, largest) for x in (values[:2], values[2:]) if x])
-            self.lost = self._lost(values[:2])
+            self.values = np.concatenate([_real_parts(table, largest) for table in tables])
+            self.lost = self._lost(tables[0])
             least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
             self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
         return True
@@ -125,6 +103,46 @@ class CayleyKlein:
         phases = Phases(self.frequencies, self.origins, np.array([EVEN, EVEN, ROUNDER])[:, None])
         phases.near = -1.0
         return phases
+
+
+def _turns(found: Solution, periodic: bool) -> tuple[list[arb], arb]:
+    """Return the frequencies, in turns per unit of time, and the phase in the period at t = 0, in turns."""
+    pair, swing = (found.alpha, found.beta), found.swing
+    rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
+    if swing:
+        rates[1] += swing.kappa * swing.rate
+    turns = [x / (2 * arb.pi()) for x in rates]
+    if not periodic:
+        return turns, arb(0)
+    # the phase is 2v where only sin v / cos v is wanted, else v
+    odd = found.lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
+    whole = (2 if odd else 4) * found.lattice.half
+    return [*turns, 1 / whole], found.origin / whole
+
+
+def _reducible(turns: list[arb], origin: arb) -> bool:
+    """Return whether frequencies and origin are known so well that phases can be reduced."""
+    if not all(x.is_finite() for x in turns):
+        return False
+    scale = max(abs(x) for x in turns)
+    return all(_radius(x) <= FREQUENCY * scale.mid() for x in turns) and bool(_radius(origin) <= FREQUENCY)
+
+
+def _weights(found: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
+    """Return the weights of the functions of time in alpha and beta and, with `slopes`, in their derivatives."""
+    swing, start = found.swing, acb(1)
+    if swing:
+        start = acb(0, -swing.at(arb(0), found.origin) / 2).exp()
+    pair = [(found.alpha, found.alpha.factor * start), (found.beta, found.beta.factor / start)]
+    plain = [functions.weights(x.sum) for x, _ in pair]
+    tables = [[[factor * w for w in row] for (_, factor), row in zip(pair, plain, strict=True)]]
+    if slopes:
+        rising = [functions.weights(x.sum.derivative) for x, _ in pair]
+        tables.append([
+            [factor * (acb(0, x.rate + x.twist) * v + w) for v, w in zip(row, change, strict=True)]
+            for (x, factor), row, change in zip(pair, plain, rising, strict=True)
+        ])  # fmt: skip
+    return tables
 
 
 class Evaluation:

@@ -1,6 +1,6 @@
 """The whole benchmark in one call: error against time, set-up, cost against the count and the memory limit."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import TypeAlias, TypeVar
@@ -93,28 +93,13 @@ def run(
             progress(done, total, what)
         done += 1
 
-    checks, rows, prices = list[ReferenceCheck](), list[Setup | Run](), list[Cost]()
-    for case in chosen:
-        say(f"{case.title}: the reference")
-        checks.append(ReferenceCheck(case.name, scope.check_until, check(case, scope.check_until)))
-        bench = Bench.of(case, scope.plan)
-        say(f"{case.title}: closed forms")
-        rows.extend(closed(bench))
-        for peer in peers:
-            say(f"{case.title}: {peer.name}")
-            rows.extend(stepping(bench, peer))
-    for count in counts:
-        say(f"the cost of {count} matrices")
-        prices.extend(costs(count, scope.rounds(count), scope.cost_limit, prices))
-    many = list[Rows]()
-    if counts:
-        say(f"{scope.rows} motions at once")
-        many.extend(arrays.rows(scope.rows, scope.rounds(scope.rows)))
-    if wide:
-        say(f"{scope.rows} matrices of the general motion")
-        many.extend(dense.rows(scope.rows, scope.rounds(scope.rows)))
+    found = [*_cases(chosen, scope, peers, say), *_many(counts, wide, scope, say)]
     if progress is not None:
         progress(total, total, "done")
+
+    def of(kind: type[Row]) -> list[Row]:
+        return [_short(row) for row in found if isinstance(row, kind)]
+
     return Results(
         format=FORMAT,
         command=command,
@@ -127,12 +112,42 @@ def run(
             case.name: {name: list(x) if isinstance(x, tuple) else x for name, x in case.parameters.items()}
             for case in chosen
         },
-        checks=[_short(item) for item in checks],
-        runs=[_short(row) for row in rows if isinstance(row, Run)],
-        setups=[_short(row) for row in rows if isinstance(row, Setup)],
-        costs=[_short(price) for price in prices],
-        rows=[_short(row) for row in many],
+        checks=of(ReferenceCheck),
+        runs=of(Run),
+        setups=of(Setup),
+        costs=of(Cost),
+        rows=of(Rows),
     )
+
+
+def _cases(
+    cases: Sequence[Case], scope: Scope, peers: Sequence[Integrator], say: Callable[[str], None]
+) -> Iterator[ReferenceCheck | Setup | Run]:
+    """Yield what is measured of each case: the reference, closed forms, integrators."""
+    for case in cases:
+        say(f"{case.title}: the reference")
+        yield ReferenceCheck(case.name, scope.check_until, check(case, scope.check_until))
+        bench = Bench.of(case, scope.plan)
+        say(f"{case.title}: closed forms")
+        yield from closed(bench)
+        for peer in peers:
+            say(f"{case.title}: {peer.name}")
+            yield from stepping(bench, peer)
+
+
+def _many(counts: Sequence[int], general: bool, scope: Scope, say: Callable[[str], None]) -> Iterator[Cost | Rows]:
+    """Yield the cost against the count of matrices, and that of many motions."""
+    prices = list[Cost]()
+    for count in counts:
+        say(f"the cost of {count} matrices")
+        prices.extend(costs(count, scope.rounds(count), scope.cost_limit, prices))
+    yield from prices
+    if counts:
+        say(f"{scope.rows} motions at once")
+        yield from arrays.rows(scope.rows, scope.rounds(scope.rows))
+    if general:
+        say(f"{scope.rows} matrices of the general motion")
+        yield from dense.rows(scope.rows, scope.rounds(scope.rows))
 
 
 def _case(item: str | Case) -> Case:
