@@ -58,7 +58,8 @@ def find(word: str) -> tuple[Equation, ...]:
     name = f"({number})" if number.isdecimal() else word
     found = (EQUATIONS[name],) if name in EQUATIONS else _ALIASES.get(name, ())
     if not found and number.isdecimal():
-        near = min(_NUMBERS, key=lambda known: abs(known - int(number)))
+        asked = min(float(number), max(_NUMBERS))  # of any number of digits
+        near = min(_NUMBERS, key=lambda known: abs(known - asked))
         raise AtlasError(f"there is no equation ({number}) in the ledger; the nearest is ({near}).")
     if not found:
         raise unknown("equation", word, [*EQUATIONS, *_ALIASES], "in the ledger")

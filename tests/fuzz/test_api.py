@@ -11,6 +11,7 @@ from values import answered, arrays, no_numbers, numbers, ratios, share
 import atlas
 from atlas.core import integrals, units
 from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.families import FAMILIES
 
 pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")  # NumPy's, of a float that overflows to inf
 
@@ -80,6 +81,28 @@ def test_general_motion(I: Any, field: Any, omega: Any, t: Any, step: float) -> 
             "rotation_grid": lambda m: m.rotation_grid(step, step, 9),
         },
     )
+
+
+@st.composite
+def families(draw: Any) -> tuple[str, list[Any]]:
+    """Draw a family of the register and its parameters: as they stand there, ordinary or extreme."""
+    one = draw(st.sampled_from(list(FAMILIES.values())))
+    given = []
+    for p in one.parameters:
+        component = st.one_of(st.floats(*p.range), st.floats(*p.range), numbers)
+        usual = (st.just(p.default),) * bool(p.default)
+        value = draw(st.one_of(*usual, *usual, st.tuples(*[component] * len(p.names))))
+        given.append(value if p.columns else value[0])
+    return one.name, given
+
+
+@share(0.1, 60)
+@given(families(), times)
+def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
+    """All that the register lists of a motion or surface."""
+    one, given = FAMILIES[case[0]], case[1]
+    at = {s.name: lambda m, s=s: s.at(m)(t) for s in one.sampled}
+    asked(lambda: one.kernels()(*given), {q.name: q.of for q in one.quantities} | at)
 
 
 @share(0.1, 40)

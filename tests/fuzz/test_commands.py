@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from values import share, watched
 
 from atlas.cli.app import atlas, main
+from atlas.families import FAMILIES
 
 BUILDERS = {"report", "stress", "sweep"}
 """Commands that write files or run for long: they have tests of their own."""
@@ -28,19 +29,21 @@ far = st.sampled_from(
 words = "nan inf -inf 1e999 1e-9999 1e-99999 1_0 x 1,2 -- - 1/0 0x \\d 1e $HOME ../.. {} --json=1 None é \u0661".split()
 bad = st.sampled_from([*words, "", " ", "9" * 5000, "\x1b[2J", "a\nb"])
 number = st.one_of(good, good, good, good, far, far, bad)
-BASES = {
-    "classify": "--ratio 1.5 --field 1 2",
-    "hyperbola": "--ratio 1.5 --field 1 2",
-    "motion": "--ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1",
-    "general": "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1",
-    "ball": "--larmor 0.5 --momentum 0.3 -0.7 --times 0 1",
-    "particle": "--mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1",
-    "check": "FILE --ratio 1.5 --field 1 2 --omega2 0.7",
-    "figure": "",
-    "list": "",
-    "diff": "old new",
-    "verify": "999",
-    "bench": "--read nosuch.json",
+EXAMPLES = {
+    f.command.name: [example.removeprefix(f"atlas {f.command.name} ") for example in f.command.examples]
+    for f in FAMILIES.values()
+    if f.command
+}
+"""Every family's command, as its help shows it."""
+
+BASES = EXAMPLES | {
+    "hyperbola": ["--ratio 1.5 --field 1 2"],
+    "check": ["FILE --ratio 1.5 --field 1 2 --omega2 0.7"],
+    "figure": [""],
+    "list": [""],
+    "diff": ["old new"],
+    "verify": ["999"],
+    "bench": ["--read nosuch.json"],
 }
 NEVER = {
     "--out",
@@ -61,10 +64,10 @@ NEVER = {
 @st.composite
 def lines(draw: Any) -> list[str]:
     """Draw a command with its usual words, some of them changed, and options of its own or of others."""
-    name = draw(st.sampled_from([*BASES, "motion", "general", "hyperbola", "classify", "particle"]))
-    words = [name, *BASES[name].split()]
+    name = draw(st.sampled_from([*BASES, *EXAMPLES]))
+    words = [name, *draw(st.sampled_from(BASES[name])).split()]
     for i in range(1, len(words)):
-        if re.fullmatch(r"-?[\d.]+", words[i]) and draw(st.integers(0, 3)) == 0:
+        if re.fullmatch(r"-?\d[\d.e-]*", words[i]) and draw(st.integers(0, 3)) == 0:
             words[i] = draw(number)
     options = [option for option in COMMANDS[name].params if isinstance(option, click.Option)]
     for option in draw(st.lists(st.sampled_from(options), max_size=3)):
@@ -106,6 +109,12 @@ def test_a_command_that_never_ends_is_noticed(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(COMMANDS["list"], "callback", never)
     with pytest.raises(AssertionError, match="ran for more than"):
         ran(["list"])
+
+
+def test_every_command_is_drawn() -> None:
+    """A new command joins by itself if it is a family's, and is named here else."""
+    assert set(BASES) == set(COMMANDS)
+    assert all(EXAMPLES.values())
 
 
 def checked(words: list[str]) -> None:

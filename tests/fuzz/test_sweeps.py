@@ -1,6 +1,5 @@
 """A sweep of any words or file: a whole table of numbers, or one line and no file."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -8,15 +7,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from test_commands import number, ran
+from test_reports import written
 from values import share
 
 from atlas.study.sweep.families import FAMILIES as KNOWN
 
 FAMILIES = {
-    "elementary": {"ratio": "1.5", "B2": "1", "B3": "0.3", "omega2": "0.7"},
-    "quadric": {"ratio": "1.5", "B2": "1", "B3": "0.3"},
-    "ball": {"larmor": "0.5", "m2": "0.3", "m3": "-0.7"},
+    name: {
+        key: f"{x:g}" for p in swept.family.parameters if p.needed for key, x in zip(p.names, p.default, strict=True)
+    }
+    for name, swept in KNOWN.items()
 }
+"""Every family with what it needs, at its defaults."""
+
 one = st.one_of(number, st.tuples(number, number).map(":".join), st.tuples(number, number).map(",".join))
 ranges = st.one_of(
     one,
@@ -30,7 +33,8 @@ def asked(draw: Any) -> list[str]:
     """Draw a sweep of a family with some of its parameters changed, left out or foreign, and its quantities."""
     family = draw(st.sampled_from(list(FAMILIES)))
     given = dict(FAMILIES[family])
-    for name in draw(st.lists(st.sampled_from([*given, "nosuch", "t"]), max_size=2, unique=True)):
+    more = [*given, *KNOWN[family].optional, "nosuch"]
+    for name in draw(st.lists(st.sampled_from(more), max_size=2, unique=True)):
         given[name] = draw(ranges)
         if draw(st.integers(0, 5)) == 0:
             del given[name]
@@ -68,18 +72,30 @@ def test_any_sweep_is_a_table_or_a_line(folder: Path, words: list[str], kind: st
     assert {path.name for path in folder.iterdir()} <= {out.name}, told
 
 
-@share(0.01, 10)
-@given(content=st.recursive(st.one_of(number, st.integers(), st.booleans()), lambda inner: st.lists(inner, max_size=3)))
-def test_any_file_of_a_sweep_is_a_table_or_a_line(folder: Path, content: Any) -> None:
-    """A TOML file in which a value has any type."""
-    file, out = folder / "sweep.toml", folder / "mine.csv"
-    file.write_text(
-        f'family = "elementary"\nquantities = ["phi"]\nout = {json.dumps(str(out))}\n'
-        f"[parameters]\nratio = 1.5\nB2 = 1\nB3 = {json.dumps(content)}\nomega2 = 0.7\n"
+@st.composite
+def recipes(draw: Any) -> tuple[str, dict[str, Any]]:
+    """Draw the family of a sweep's file and its parameters, of which one has any type."""
+    family = draw(st.sampled_from(list(FAMILIES)))
+    given: dict[str, Any] = {name: float(value) for name, value in FAMILIES[family].items()}
+    any_type = st.recursive(
+        st.one_of(number, st.integers(), st.floats(), st.booleans()), lambda inner: st.lists(inner, max_size=3)
     )
+    given[draw(st.sampled_from([*given, *KNOWN[family].optional]))] = draw(any_type)
+    return family, given
+
+
+@share(0.02, 10)
+@given(recipe=recipes())
+def test_any_file_of_a_sweep_is_a_table_or_a_line(folder: Path, recipe: tuple[str, dict[str, Any]]) -> None:
+    """A TOML file in which a value has any type."""
+    family, given = recipe
+    file, out = folder / "sweep.toml", folder / "mine.csv"
+    quantity = next(iter(KNOWN[family].quantities))
+    head = {"family": family, "quantities": [quantity], "out": str(out), "parameters": given}
+    file.write_text(written(head), encoding="utf-8")
     status, _, err = ran(["sweep", "--file", str(file), "-j", "1"])
-    assert "Traceback" not in err, (content, err)
-    assert status in {0, 2}, (content, err)
-    assert (err.count("\n") == 1 and not out.exists()) if status else out.exists(), (content, err)
+    assert "Traceback" not in err, (recipe, err)
+    assert status in {0, 2}, (recipe, err)
+    assert (err.count("\n") == 1 and not out.exists()) if status else out.exists(), (recipe, err)
     out.unlink(missing_ok=True)
     file.unlink()

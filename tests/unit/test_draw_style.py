@@ -102,11 +102,27 @@ def test_the_settings_of_the_user_stay_as_they_were() -> None:
 
 def test_a_style_that_cannot_be_used_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     """The error names the style; one that needs LaTeX says so where there is none."""
-    with pytest.raises(AtlasError, match="'etching'"):
-        to_figure(lines(), "etching")
+    for name in ("etching", "no.such"):
+        with pytest.raises(AtlasError, match=rf"the style '{name}' .*: it is no file, nor a name of Matplotlib's\.$"):
+            to_figure(lines(), name)
     monkeypatch.setattr(shutil, "which", lambda _: None)
     with pytest.raises(AtlasError, match=r"no LaTeX.*no-latex"):
         to_figure(lines(), {"text.usetex": True})
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"\xff\xfe", r"is no text in UTF-8\.$"),
+        (b"nosuch: 1", r"Bad key nosuch in file .*, line 1 \('nosuch: 1'\)$"),
+        (b"lines.linewidth: fish", r"line 1 .*: Could not convert 'fish' to float$"),
+    ],
+)
+def test_a_style_sheet_that_is_none_says_why(tmp_path: Path, content: bytes, words: str) -> None:
+    """What is wrong and in which line, without advice about a file of Matplotlib's."""
+    (tmp_path / "mine.mplstyle").write_bytes(content)
+    with pytest.raises(AtlasError, match=words):
+        to_figure(lines(), tmp_path / "mine.mplstyle")
 
 
 def test_pgf_needs_no_latex_to_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

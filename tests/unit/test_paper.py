@@ -76,6 +76,7 @@ def test_a_label_that_stands_twice_in_the_source_means_both_equations() -> None:
         ("mf77x", r"'mf77x' in the ledger \(did you mean 'mf77'\?\)"),
         ("theorem-pear", r"'theorem-pear' in the ledger \(did you mean 'theorem-pair'\?\)"),
         ("105", r"no equation \(105\) in the ledger; the nearest is \(104\)"),
+        pytest.param("9" * 5000, r"no equation \(9+\) in the ledger; the nearest is \(104\)", id="5000 digits"),
         ("(0)", r"no equation \(0\) in the ledger; the nearest is \(1\)"),
         ("\N{SUPERSCRIPT TWO}", "there is no equation"),
     ],
