@@ -74,29 +74,36 @@ def _sheet() -> Any:
     return mpl.rc_params_from_file(SHEET, use_default_template=False)
 
 
-def _use(styles: Sequence[Any]) -> None:
-    """Apply a user's styles one after the other."""
+def _apply(one: Any) -> None:
+    """Apply one style of a user."""
     import matplotlib as mpl
     import matplotlib.style
 
+    if isinstance(one, str) and one not in mpl.style.library:
+        with suppress(ImportError):
+            import scienceplots  # noqa: F401  it enters its sheets into Matplotlib's library
+    cannot, unknown = f"the style {str(one)!r} cannot be used", "it is no file, nor a name of Matplotlib's"
+    if isinstance(one, str | Path) and Path(one).exists() and not Path(one).is_file():
+        raise AtlasError(f"{cannot}: {unknown}.")
+    try:
+        with _complaints() as said:
+            mpl.style.use(one)
+    except OSError as error:
+        raise AtlasError(f"{cannot}: {unknown}.") from error
+    except UnicodeDecodeError as error:
+        raise AtlasError(f"{cannot}: it is no text in UTF-8.") from error
+    except (LookupError, ValueError, TypeError, ImportError) as error:
+        raise AtlasError(f"{cannot}: {error}") from error
+    if said:  # without the advice below, which is about Matplotlib's own file
+        raise AtlasError(f"{cannot}: {said[0].strip().splitlines()[0]}")
+
+
+def _use(styles: Sequence[Any]) -> None:
+    """Apply a user's styles one after the other."""
+    import matplotlib as mpl
+
     for one in styles:
-        if isinstance(one, str) and one not in mpl.style.library:
-            with suppress(ImportError):
-                import scienceplots  # noqa: F401  it enters its sheets into Matplotlib's library
-        cannot, unknown = f"the style {str(one)!r} cannot be used", "it is no file, nor a name of Matplotlib's"
-        if isinstance(one, str | Path) and Path(one).exists() and not Path(one).is_file():
-            raise AtlasError(f"{cannot}: {unknown}.")
-        try:
-            with _complaints() as said:
-                mpl.style.use(one)
-        except OSError as error:
-            raise AtlasError(f"{cannot}: {unknown}.") from error
-        except UnicodeDecodeError as error:
-            raise AtlasError(f"{cannot}: it is no text in UTF-8.") from error
-        except (LookupError, ValueError, TypeError, ImportError) as error:
-            raise AtlasError(f"{cannot}: {error}") from error
-        if said:  # without the advice below, which is about Matplotlib's own file
-            raise AtlasError(f"{cannot}: {said[0].strip().splitlines()[0]}")
+        _apply(one)
     for name, value in dict.items(mpl.rcParams):  # by itself it would load pyplot to name a backend
         if isinstance(value, float) and not isfinite(value):
             raise AtlasError(f"the style sets {name} to {value}, which is no number to draw with.")
