@@ -150,10 +150,10 @@ def _build(
     figures.draw(list(wanted), cache, jobs, lambda done, _, what: progress(done, steps, what))
     times["figures"] = time.perf_counter()
     for figure, picture in wanted.items():
-        _describe(figure, picture)
+        describe(figure, picture)
     progress(steps - 2, steps, "texts")
     works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
-    document = compose(report, found, gather(report), works, _related(report))
+    document = compose(report, found, gather(report), works, outlines(report))
     times["tables"] = time.perf_counter()
     _set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
@@ -180,7 +180,7 @@ def _build(
     )
 
 
-def _related(report: "Report") -> "dict[str, Document]":
+def outlines(report: "Report") -> "dict[str, Document]":
     """Return the reports beside this one in outline: the numbers and places of what they have."""
     from atlas.report.compose import compose
     from atlas.report.load import load
@@ -226,7 +226,7 @@ def _figures(
     }
 
 
-def _describe(figure: "FigureBuild", picture: "Picture") -> None:
+def describe(figure: "FigureBuild", picture: "Picture") -> None:
     """Let a report know what a figure says and how large it is, or why there is none."""
     from atlas.report.numbers import shown
 

@@ -68,6 +68,7 @@ def atlas() -> None:
 
 for name, says in {
     "report": "Build a report.",
+    "data": "Write the data of a report, to be cited.",
     "diff": "Compare two built reports.",
     "figure": "Draw figures.",
     "list": "Name the figures, reports and shapes.",

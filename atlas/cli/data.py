@@ -1,0 +1,29 @@
+"""``atlas data``: the tables and drawn data of a report as files to cite."""
+
+from pathlib import Path
+
+import click
+
+from atlas.cli.options import Command, examples, jobs_option, out_option
+from atlas.cli.progress import bar
+
+
+@click.command(
+    "data", cls=Command, epilog=examples("atlas data short_solenoid", "atlas data my_paper.toml --out paper/data")
+)
+@click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
+@out_option("build/data")
+@jobs_option
+def command(name: str, out: Path, jobs: int | None) -> None:
+    """Write the tables of a report, and the points that its figures draw, as CSV and Parquet.
+
+    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. The file
+    datapackage.json, a Data Package, names for each the columns with units and digits, the equations, the command that
+    draws the figure, and the digest. CSV has all digits that are printed, Parquet the nearest doubles. The folder is
+    written whole, with the same bytes each time.
+    """
+    from atlas.build.data import build_data
+
+    with bar("data") as tell:
+        place = build_data(name, out, tell, jobs=jobs)
+    click.echo(place)

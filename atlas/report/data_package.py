@@ -1,0 +1,228 @@
+"""The tables of a report and what its figures draw, as files to cite: CSV and Parquet, described by a Data Package.
+
+The description, `datapackage.json`, is that of the Frictionless Data Package (version 1): for each file its columns
+with names, units and digits, the equations it comes from, its size and digest. The same report gives the same bytes.
+"""
+
+import csv
+import hashlib
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from io import BytesIO, StringIO
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from atlas.errors import AtlasError
+from atlas.paper import EQUATIONS
+from atlas.plain import plain
+from atlas.report.blocks.table import Cell, TableView
+from atlas.report.document import Document
+from atlas.report.numbers import MINUS, THIN
+from atlas.report.texts import citations
+from atlas.report.versions import versions
+
+if TYPE_CHECKING:
+    from atlas.report.blocks.figure import FigureView
+
+DESCRIPTION = "datapackage.json"
+SOURCES = (
+    {
+        "title": "A. A. Deriglazov, Rotation matrix of a charged symmetrical body: one-parameter family of solutions "
+        "in elementary functions, Universe 10 (2024) 250",
+        "path": "https://doi.org/10.3390/universe10060250",
+    },
+)
+_LETTER = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (\w+)|GREEK (PHI|THETA|EPSILON) SYMBOL")
+
+
+@dataclass(frozen=True)
+class Resource:
+    """One table: its name, what is said of it, its columns as a Data Package describes them, and its rows as texts."""
+
+    name: str
+    facts: Mapping[str, Any]
+    fields: Sequence[Mapping[str, Any]]
+    rows: Sequence[Sequence[str]]
+
+
+def package(document: Document, drawn: Mapping[str, str]) -> dict[str, bytes]:
+    """Return the files of a report's data by their places; `drawn` holds each figure's data as CSV, by its anchor.
+
+    Raises AtlasError where pyarrow, which writes Parquet, is missing.
+    """
+    made, resources = dict[str, bytes](), []
+    for one in (*_tables(document), *_figures(document, drawn)):
+        for kind, content in (("csv", _csv(one)), ("parquet", _parquet(one))):
+            path = f"{one.name}.{kind}"
+            made[path] = content
+            resources.append(
+                {
+                    "name": one.name.replace("/", "-") + ("" if kind == "csv" else "-parquet"),
+                    "path": path,
+                    "format": kind,
+                    "mediatype": "text/csv" if kind == "csv" else "application/vnd.apache.parquet",
+                    **({"profile": "tabular-data-resource", "encoding": "utf-8"} if kind == "csv" else {}),
+                    **one.facts,
+                    "schema": {"fields": one.fields, "missingValues": [""]},
+                    "bytes": len(content),
+                    "hash": f"sha256:{hashlib.sha256(content).hexdigest()}",
+                }
+            )
+    report = document.report
+    described = {
+        "name": report.name.lower().replace("_", "-"),
+        "title": report.title,
+        "description": _plain(report.abstract or report.subtitle),
+        "version": versions()["atlas"],
+        "sources": SOURCES,
+        "software": versions(),
+        "resources": resources,
+    }
+    made[DESCRIPTION] = msgspec.json.format(msgspec.json.encode(described), indent=1) + b"\n"
+    return made
+
+
+def _tables(document: Document) -> Iterator[Resource]:
+    """Yield the tables of a report, each with a column for each of its columns."""
+    texts = [text.markdown for text in document.texts.texts]
+    for table in document.listed("table"):
+        yield _table(table, texts)
+
+
+def _table(table: TableView, texts: Sequence[str]) -> Resource:
+    """Return a table; a number whose digits are not all proven is marked in a column of its own."""
+    heads = [_plain(texts[column.head]) for column in table.columns]
+    names = _unique(_ascii(head) or "column" for head in heads)
+    fields, columns, found = list[Mapping[str, Any]](), list[list[str]](), set[str]()
+    for place, (column, head, name) in enumerate(zip(table.columns, heads, names, strict=True)):
+        cells = [row[place] for row in table.rows]
+        numbers = [cell for cell in cells if cell.text is None and cell.whole]
+        numeric = bool(numbers) and all(cell.text is None for cell in cells)
+        unit = _plain(texts[column.unit]) if column.unit is not None else ""
+        field: dict[str, Any] = {"name": name, "title": head, "type": "number" if numeric else "string"}
+        if unit:
+            field["unit"] = unit
+        values = [_value(cell, texts) for cell in cells]
+        if numbers:
+            field["digits"] = max(_digits(_value(cell, texts)) for cell in numbers)
+        fields.append(field)
+        columns.append(values)
+        if not all(cell.proven for cell in cells):
+            says = f"whether all digits of {name} are proven"
+            fields.append({"name": f"{name}_proven", "title": says, "type": "boolean"})
+            columns.append(["true" if cell.proven else "false" for cell in cells])
+        found |= {name for n in (column.head, *(cell.text for cell in cells)) if n for name in citations(texts[n])}
+    caption = texts[table.caption]
+    equations = sorted((found | set(citations(caption))) & set(EQUATIONS), key=list(EQUATIONS).index)
+    facts: dict[str, Any] = {"title": f"Table {table.number}", "description": _plain(caption), "equations": equations}
+    if table.note is not None:
+        facts["note"] = _plain(texts[table.note])
+    rows = [list(row) for row in zip(*columns, strict=True)]
+    return Resource(f"tables/{table.id.removeprefix('tab-')}", facts, fields, rows)
+
+
+def _figures(document: Document, drawn: Mapping[str, str]) -> Iterator[Resource]:
+    """Yield what the figures of a report draw, point by point; see `atlas.scene.data`."""
+    texts = [text.markdown for text in document.texts.texts]
+    views: list[FigureView] = document.listed("figure")
+    for figure in views:
+        if figure.id not in drawn:
+            continue
+        lines = drawn[figure.id].splitlines()
+        said = [line.removeprefix("# ") for line in lines if line.startswith("# ")]
+        heading, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+        numbers = {"panel": "integer", "layer": "integer"} | dict.fromkeys(("x", "y", "z", "value"), "number")
+        fields = [{"name": name, "type": numbers.get(name, "string")} for name in heading]
+        caption, first = texts[figure.caption], figure.pictures[0]
+        facts = {
+            "title": f"Figure {figure.number}",
+            "description": _plain(caption),
+            "equations": [name for name in EQUATIONS if name in citations(caption)],
+            "axes": [line for line in said if line.startswith("panel ")],
+            "parameters": dict(first.given),
+            "command": first.command,
+        }
+        yield Resource(f"figures/{figure.id.removeprefix('fig-')}", facts, fields, rows)
+
+
+def _csv(one: Resource) -> bytes:
+    """Write a table as CSV, with all digits as they are printed."""
+    out = StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([field["name"] for field in one.fields])
+    writer.writerows(one.rows)
+    return out.getvalue().encode()
+
+
+def _parquet(one: Resource) -> bytes:
+    """Write a table as Parquet, numbers as the doubles nearest to what is printed."""
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ModuleNotFoundError as error:
+        raise AtlasError("Parquet needs the library pyarrow: pip install pyarrow.") from error
+
+    convert: dict[str, Callable[[str], Any]] = {
+        "number": float,
+        "integer": int,
+        "boolean": "true".__eq__,
+        "string": str,
+    }
+    types = {"number": pa.float64(), "integer": pa.int64(), "boolean": pa.bool_(), "string": pa.string()}
+    arrays, fields = [], []
+    for place, field in enumerate(one.fields):
+        cells = [row[place] for row in one.rows]
+        kind, text = field["type"], field["type"] == "string"
+        arrays.append(pa.array([convert[kind](x) if x or text else None for x in cells], types[kind]))
+        more = {key: str(value) for key, value in field.items() if key in {"title", "unit"}}
+        fields.append(pa.field(field["name"], types[kind], metadata=more))
+    out = BytesIO()
+    parquet.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), out)
+    return out.getvalue()
+
+
+def _value(cell: Cell, texts: Sequence[str]) -> str:
+    """Return a cell as a text: words, or the digits of a number."""
+    if cell.text is not None:
+        return _plain(texts[cell.text])
+    digits = f"{cell.whole}{cell.fraction}".replace(THIN, "").replace(MINUS, "-")
+    power = cell.power.replace(MINUS, "-")
+    return "" if digits == "?" else f"{digits}e{power}" if power else digits
+
+
+def _digits(number: str) -> int:
+    """Return how many significant digits a number has."""
+    return len(re.sub(r"e.*|[-.]", "", number).lstrip("0"))
+
+
+def _plain(markdown: str) -> str:
+    """Return a text without markup, on one line."""
+    text = plain(markdown.replace("`", "").replace("**", ""))
+    return " ".join(re.sub(r"\^\{(-?\d+)\}", r"^\1", text).split())
+
+
+def _ascii(head: str) -> str:
+    """Return the head of a column as a name: Greek letters spelt out, indices on the line, all else a low line."""
+    letters = []
+    for letter in unicodedata.normalize("NFKC", head).replace("′", "_prime").replace("'", "_prime"):
+        found = _LETTER.match(unicodedata.name(letter, ""))
+        if found:
+            name = (found[2] or found[3]).lower()
+            letters.append(name.capitalize() if found[1] == "CAPITAL" else name)
+        else:
+            letters.append(letter)
+    joined = re.sub(r"_(?=\d)", "", "".join(letters)).encode("ascii", "ignore").decode()
+    return re.sub(r"[^A-Za-z0-9]+", "_", joined).strip("_")
+
+
+def _unique(names: Iterable[str]) -> list[str]:
+    """Return names with a number behind those that were there before."""
+    seen, found = Counter[str](), []
+    for name in names:
+        seen[name] += 1
+        found.append(f"{name}_{seen[name]}" if seen[name] > 1 else name)
+    return found

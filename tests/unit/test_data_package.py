@@ -1,0 +1,192 @@
+"""`atlas data`: each table and each drawn point of a report, with what it is, the same bytes each time."""
+
+import csv
+import hashlib
+import json
+from decimal import Decimal
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from atlas.build.data import build_data
+from atlas.cli.app import atlas as program
+from atlas.core.elementary import ElementaryMotion
+from atlas.errors import AtlasError
+from atlas.exact.digits import certified
+from atlas.exact.elementary import ElementaryMotion as Balls
+from atlas.report.data_package import _ascii
+from atlas.scene import recipes
+from atlas.scene.data import table
+
+REPORT = r"""
+name = "small"
+title = "Small"
+abstract = "One body, $I=3/2$."
+[parameters]
+bodies.short = { title = "A short solenoid", ratio = 1.5 }
+fields.up = { title = "up", prime = [1.0, 2.0] }
+[[pages]]
+slug = "index"
+title = "T"
+
+[[pages.blocks]]
+kind = "table"
+table = "motion"
+id = "numbers"
+body = "short"
+field = "up"
+digits = 20
+parameters.omega2 = 0.7
+
+[[pages.blocks]]
+kind = "table"
+table = "samples"
+id = "samples"
+body = "short"
+field = "up"
+digits = 12
+parameters = { omega2 = 0.7, times = [0, 2.5] }
+
+[[pages.blocks]]
+kind = "listing"
+id = "words"
+columns = ["$\\omega_2$", "What"]
+rows = [["1", "a"], ["$x$", "b"]]
+caption = "Words after @(71)."
+
+[[pages.blocks]]
+kind = "figure"
+recipe = "frequencies"
+id = "curves"
+parameters.ratio = 1.5
+"""
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of the data of a small report."""
+    place = tmp_path_factory.mktemp("data")
+    (place / "small.toml").write_text(REPORT, encoding="utf-8")
+    return build_data(place / "small.toml", place / "out").parent
+
+
+@pytest.fixture(scope="module")
+def described(data: Path) -> dict[str, Any]:
+    """Return what the description says of each file."""
+    found = json.loads((data / "datapackage.json").read_text("utf-8"))
+    return found | {"resources": {one["path"]: one for one in found["resources"]}}
+
+
+def read(path: Path) -> list[dict[str, str]]:
+    """Read a CSV file."""
+    return list(csv.DictReader(StringIO(path.read_text("utf-8"))))
+
+
+def test_each_file_is_described_and_nothing_else_is_there(data: Path, described: dict[str, Any]) -> None:
+    """Paths, sizes, digests and columns are those of the files, and no file is left out."""
+    there = {str(path.relative_to(data)) for path in data.rglob("*") if path.is_file()}
+    assert there == {*described["resources"], "datapackage.json"}
+    for path, one in described["resources"].items():
+        content = (data / path).read_bytes()
+        assert one["bytes"] == len(content)
+        assert one["hash"] == f"sha256:{hashlib.sha256(content).hexdigest()}"
+        if one["format"] == "csv":
+            assert content.decode().splitlines()[0].split(",") == [field["name"] for field in one["schema"]["fields"]]
+    assert described["description"] == "One body, I=3/2."
+
+
+def test_numbers_have_all_digits_that_are_printed(data: Path, described: dict[str, Any]) -> None:
+    """The frequency k of the table is the ball's, to its last digit; the description counts the digits."""
+    rows = {row["Symbol"]: row for row in read(data / "tables" / "numbers.csv")}
+    k = certified(lambda: {"k": Balls(1.5, (1.0, 2.0), 0.7).k}, 30)["k"]
+    printed = Decimal(rows["k"]["Value"])
+    assert abs(printed - Decimal(k)) <= Decimal(1).scaleb(int(printed.as_tuple().exponent))
+    assert rows["k"]["Unit"] == "s^-1"
+    value = next(f for f in described["resources"]["tables/numbers.csv"]["schema"]["fields"] if f["name"] == "Value")
+    assert (value["type"], value["digits"]) == ("string", 20)  # there are words in it, too
+    samples = described["resources"]["tables/samples.csv"]["schema"]["fields"]
+    assert {field["type"] for field in samples} == {"number"}
+
+
+def test_parquet_holds_the_nearest_doubles(data: Path, described: dict[str, Any]) -> None:
+    """Read back by pyarrow it has the same columns and the doubles nearest to the digits; heads and units go along."""
+    parquet = pytest.importorskip("pyarrow.parquet")
+    for path in [path for path in described["resources"] if path.endswith(".parquet")]:
+        found, rows = parquet.read_table(data / path), read(data / path.replace(".parquet", ".csv"))
+        for field in described["resources"][path]["schema"]["fields"]:
+            cells = found.column(field["name"]).to_pylist()
+            texts = [row[field["name"]] for row in rows]
+            convert = {"number": float, "integer": int, "string": str}[field["type"]]
+            assert cells == [convert(x) if x or convert is str else None for x in texts]
+        units = {f.name: (f.metadata or {}).get(b"unit", b"").decode() for f in found.schema}
+        assert units == {f["name"]: f.get("unit", "") for f in described["resources"][path]["schema"]["fields"]}
+
+
+def test_samples_are_those_of_the_motion(data: Path) -> None:
+    """R13 at each time is that of the kernel."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    for row in read(data / "tables" / "samples.csv"):
+        assert float(row["R_13"]) == pytest.approx(motion.rotation(float(row["t"]))[0, 2], abs=1e-11)
+
+
+def test_a_column_of_words_and_numbers_is_one_of_words(data: Path, described: dict[str, Any]) -> None:
+    """What stands in a table of words is text; its heads become names, its caption's equations are named."""
+    one = described["resources"]["tables/words.csv"]
+    assert [(f["name"], f["type"]) for f in one["schema"]["fields"]] == [("omega2", "string"), ("What", "string")]
+    assert one["equations"] == ["(71)"]
+    assert read(data / "tables" / "words.csv")[1] == {"omega2": "x", "What": "b"}
+
+
+def test_a_figure_gives_the_points_that_it_draws(data: Path, described: dict[str, Any]) -> None:
+    """They are those of the scene, and the description names axes, parameters and the command."""
+    scene = recipes.load("frequencies").scene(ratio=1.5)
+    expected = "".join(line for line in table(scene).splitlines(keepends=True) if not line.startswith("#"))
+    assert (data / "figures" / "curves.csv").read_text("utf-8") == expected
+    one = described["resources"]["figures/curves.csv"]
+    assert one["command"].startswith("atlas figure frequencies --set ratio=1.5")
+    assert one["axes"][0].startswith("panel 1: ")
+
+
+def test_the_same_report_gives_the_same_bytes(data: Path) -> None:
+    """Made again in its place, every file has the same bytes, and what is left of other files goes."""
+    before = {path: path.read_bytes() for path in data.rglob("*") if path.is_file()}
+    (data / "tables" / "old.csv").write_text("old\n", encoding="utf-8")
+    build_data(data.parents[1] / "small.toml", data.parent)
+    assert {path: path.read_bytes() for path in data.rglob("*") if path.is_file()} == before
+    assert [path.name for path in data.parent.iterdir()] == ["small"]
+
+
+@pytest.mark.parametrize("kind", ["folder", "link"])
+def test_a_folder_of_something_else_is_refused(data: Path, tmp_path: Path, kind: str) -> None:
+    """What is there stays; so does what a link leads to."""
+    place, theirs = tmp_path / "small", tmp_path / "theirs"
+    theirs.mkdir()
+    (theirs / "thesis.tex").write_text("x", encoding="utf-8")
+    if kind == "link":
+        place.symlink_to(theirs)
+    else:
+        theirs.rename(place)
+    with pytest.raises(AtlasError, match="holds something else than the data of a report"):
+        build_data(data.parents[1] / "small.toml", tmp_path)
+    assert (place / "thesis.tex").read_text("utf-8") == "x"
+
+
+def test_a_figure_that_fails_leaves_what_was_there(data: Path, tmp_path: Path) -> None:
+    """The reason is told in a line, and the status is 2."""
+    wrong = REPORT.replace("parameters.ratio = 1.5", "parameters.ratio = 7.5")
+    assert wrong != REPORT
+    (tmp_path / "small.toml").write_text(wrong, encoding="utf-8")
+    done = CliRunner().invoke(program, ["data", str(tmp_path / "small.toml"), "--out", str(data.parent)])
+    assert isinstance(done.exception, AtlasError)
+    assert "frequencies" in str(done.exception)
+    assert (data / "datapackage.json").is_file()
+
+
+def test_heads_become_names() -> None:
+    """Greek letters are spelt out, a prime is named, what has no name in ASCII falls away."""
+    assert [_ascii(head) for head in ("ω_2", "Ω_3", "B'_2", "ϕ/k", "E′", "What it is", "𝕀", "ν_n^2")] == [
+        "omega2", "Omega3", "B_prime2", "phi_k", "E_prime", "What_it_is", "I", "nu_n_2",
+    ]  # fmt: skip
