@@ -10,6 +10,7 @@ import numpy as np
 from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.words import exact
 from atlas.core.body import moments
+from atlas.core.branches import Branch, halves
 from atlas.core.closed import ClosedMotion
 from atlas.core.inputs import FloatArray, plain, positive, real, whole
 from atlas.core.motion import components
@@ -19,8 +20,8 @@ from atlas.formulas.numbers import Number, length, nearest, root, workprec
 
 if TYPE_CHECKING:
     from atlas.core.general import GeneralMotion
+    from atlas.core.top_hyperbola import TopHyperbola
 
-Branch = tuple[FloatArray, FloatArray]
 MOST = 10**8
 """Points of a curve that are sampled in one call."""
 
@@ -45,6 +46,18 @@ class Hyperbola:
         B2, B3 = components(field, ("B2", "B3"), "The field")
         self.I2, self.I3, self.B2, self.B3 = I2, I3, plain(B2), plain(B3)
         self._ratio = ratio
+
+    @classmethod
+    def of_top(
+        cls, inertia: Any, coupling: Any, direction: Any, linear: float = 0.0, quadratic: float = 0.0
+    ) -> "TopHyperbola":
+        """Return the hyperbola of the steady precessions of one symmetric top, given as in `TopMotion`.
+
+        Raises AtlasError as `TopMotion` does, DomainError for n2 = 0.
+        """
+        from atlas.core.top_hyperbola import TopHyperbola
+
+        return TopHyperbola(inertia, coupling, direction, linear, quadratic)
 
     @cached_property
     def _exact(self) -> tuple[Number, ...]:
@@ -202,7 +215,7 @@ class Hyperbola:
         if self.B2 == 0:
             y = np.linspace(-extent, extent, whole(points, "The number of points"))
             return ((np.zeros_like(y), y - self.B3),)
-        x, y = (np.linspace(-extent, extent, n) for n in _halves(points))
+        x, y = (np.linspace(-extent, extent, n) for n in halves(points))
         return (x - self.B2, np.zeros_like(x)), (np.full_like(y, -self.B2), y)
 
     def _parameters(self, points: Any, extent: float) -> tuple[FloatArray, FloatArray]:
@@ -217,7 +230,7 @@ class Hyperbola:
             raise DomainError(f"B2 = {self.B2} and B3 = {self.B3} are too far apart: B3/(I B2) must be a float.")
         high = np.log(extent / scale)
         low = np.log(scale / B2) + np.log(tangent * B2 / extent) if self.I2 != self.I3 else high - np.log(1e3)
-        first, second = (np.linspace(min(low, high - 1), high, n) for n in _halves(points))
+        first, second = (np.linspace(min(low, high - 1), high, n) for n in halves(points))
         return first, second
 
     def _branch(self, sign: int, s: FloatArray) -> Branch:
@@ -246,9 +259,3 @@ class Hyperbola:
             found = np.broadcast_to(omega2, pole.shape)[pole].flat[0]
             raise DomainError(f"omega2 = -B2 = {found} is the pole of omega3(omega2), (71).")
         return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, 5), **more)
-
-
-def _halves(points: Any) -> tuple[int, int]:
-    """Split a number of points between two branches."""
-    count = whole(points, "The number of points of two branches", 2)
-    return count - count // 2, count // 2

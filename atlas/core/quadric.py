@@ -1,4 +1,4 @@
-"""The quadric of initial data with constant Omega3, (51), and its canonical form (54) to (57)."""
+"""The quadric of initial data with constant Omega3, (51), its canonical form (54) to (57), and that of every top."""
 
 from functools import cached_property
 from typing import Any
@@ -9,8 +9,11 @@ from atlas.core.arithmetic.double_double import BLOCK, over
 from atlas.core.body import moments
 from atlas.core.inputs import FloatArray, common_shape, plain, vectors
 from atlas.core.motion import components
+from atlas.core.symmetric_top import given
 from atlas.errors import DomainError
-from atlas.formulas import quadric
+from atlas.exact.top_quadric import TopQuadric as Exact
+from atlas.formulas import quadric, top
+from atlas.formulas.numbers import nearest, workprec
 
 KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "one-sheet hyperboloid")
 
@@ -36,6 +39,16 @@ class Quadric:
         self._inputs = (*moments(ratio), plain(B2), plain(B3))
         self.shape = common_shape(*map(np.shape, self._inputs))
         self.field = self._inputs[2:]
+
+    @classmethod
+    def of_top(
+        cls, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0
+    ) -> "TopQuadric":
+        """Return the quadric of any symmetric top, given as in `TopMotion`, theorem-top-quadric.
+
+        Raises AtlasError as `TopMotion` does.
+        """
+        return TopQuadric(inertia, coupling, direction, linear, quadratic)
 
     @cached_property
     def kind(self) -> Any:
@@ -130,3 +143,89 @@ class Quadric:
         if np.any((B2 == 0) & (B3 == 0)):
             raise DomainError("With B = 0 there is no angle beta: I^-1 B' has no direction.")
         return I2, I3, B2, B3
+
+
+def _exactly(row: Any) -> Exact:
+    """Return one quadric in exact numbers, from its eight inputs."""
+    I2, I3, k2, k3, n2, n3, a0, A0 = (float(x) for x in row)
+    return Exact((I2, I3), (k2, k3), (n2, n3), a0, A0)
+
+
+class TopQuadric(Quadric):
+    """The surface n3 (omega1^2 + w^2) - I n2 w v + n2^2 n3 D = 0 of starts of a top at which nu'' = 0.
+
+    The inputs are those of `TopMotion` without omega, and broadcast. In units of I2, with n a unit vector,
+
+        w = omega2 + n2 k3/I,    v = omega3 + n3 (k3 - 2 kappa)/I,    D = A + kappa^2 + a0/n3,
+
+    kappa = k2 - k3/I, A = A0 + k3^2/I - k2^2, a0 and A0 the `linear` and the `quadratic` potential. It is (51) for k2 =
+    b, k3 = I b, n = B'/b without a potential, and D is in the place of (I - 1) b^2. `beta`, `a2`, `a3` and `axes` are
+    those of (53) and (54) with n in the place of B', `semi_axes` the roots of |D| n2^2 (1, |a2|, |a3|). For omega1 != 0
+    that nu'' vanishes at the start is not enough for a steady motion: these have omega1 = 0, see `Hyperbola.of_top`.
+
+    Degenerate kinds: for n2 = 0 ("line") as in `Quadric`; for n3 = 0 ("plane pair", "hyperbolic cylinder") a linear
+    potential makes D and the semi-axes infinite: DomainError.
+    """
+
+    def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0) -> None:
+        self._top = given(inertia, coupling, direction, linear, quadratic)
+        self._inputs = tuple(plain(self._top[i]) for i in (0, 1, 4, 5))  # n in the place of B'
+        self.shape = common_shape(*map(np.shape, self._top))
+        self.direction = self._inputs[2:]
+
+    @cached_property
+    def kind(self) -> Any:
+        """Kind of the surface, the sign of D: decided exactly on the inputs as given.
+
+        One of "two-sheet hyperboloid" (D > 0), "cone" (D = 0), "one-sheet hyperboloid" (D < 0); for n3 = 0 "plane pair"
+        or, with a linear potential, "hyperbolic cylinder"; "line" for n2 = 0.
+        """
+        rows = zip(*(x.flat for x in np.broadcast_arrays(*self._top)), strict=True)
+        names = np.array([_exactly(row).kind for row in rows]).reshape(self.shape)
+        return names if names.ndim else str(names)
+
+    @cached_property
+    def D(self) -> Any:
+        """D = A + kappa^2 + a0/n3, over I2, in 1/time^2, rounded once."""
+        self._needs_finite()
+        return self._over(top.D, lambda exact: (exact.D,))
+
+    @cached_property
+    def semi_axes(self) -> Any:
+        """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
+        self._needs_finite()
+        found = self._over(top.semi_axes, lambda exact: exact.semi_axes, degree=(1, 1, 1), along=True)
+        C1, C2, C3 = (plain(np.where(np.asarray(self._top[4]) == 0, 0.0, C)) for C in found)
+        return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
+
+    @cached_property
+    def centre(self) -> FloatArray:
+        """Centre w = v = 0, shape (..., 3)."""
+        second, third = self._over(top.centre, lambda exact: exact.centre[1:], degree=(1, 1))
+        return np.stack(np.broadcast_arrays(0.0, second, third), -1)
+
+    def residual(self, omega: Any) -> Any:
+        """Left-hand side at points `omega` (..., 3), rounded once: -nu'' at the start, in 1/time^2.
+
+        Zero on the surface only. Raises AtlasError for what are no vectors.
+        """
+        points = np.moveaxis(vectors(omega, "omega"), -1, 0)
+        return self._over(top.residual, lambda exact, *w: (exact.residual(w),), *points)
+
+    def _over(self, formula: Any, exact: Any, *more: Any, degree: Any = 1, along: bool = False) -> Any:
+        """Return what a formula gives in two words, and where these leave a doubt, its exact value, rounded once."""
+
+        def alone(*row: float) -> Any:
+            with workprec():
+                found = [nearest(x) for x in exact(_exactly(row[:8]), *row[8:])]
+            return found if isinstance(degree, tuple) else found[0]
+
+        inputs = list(self._top)
+        if along:
+            inputs[4] = np.where(np.asarray(inputs[4]) == 0, 1.0, inputs[4])
+        return over(top.of_given(formula), *inputs, *more, degree=degree, alone=alone)
+
+    def _needs_finite(self) -> None:
+        """Raise DomainError where D is infinite."""
+        if np.any((np.asarray(self._top[5]) == 0) & (np.asarray(self._top[6]) != 0)):
+            raise DomainError("With n3 = 0 and a linear potential D = A + kappa^2 + a0/n3 is infinite.")

@@ -14,6 +14,8 @@ from atlas.core.nutating import AloneMotion, ends_of, padded
 from atlas.core.nutation.cayley_klein import FIRST
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_top import SingleTop
+from atlas.core.quadric import TopQuadric
+from atlas.core.symmetric_top import given
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.top import TopMotion as Balls
@@ -64,22 +66,8 @@ class TopMotion(AloneMotion[SingleTop]):
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
     ) -> None:
-        parts = [
-            *components(inertia, ("I2", "I3"), "The inertia"),
-            *components(coupling, ("k2", "k3"), "The coupling"),
-            *components(direction, ("n2", "n3"), "The direction"),
-            *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity"),
-            *components((linear, quadratic), ("linear", "quadratic"), "The potential"),
-        ]
-        I2, I3, _, _, n2, n3 = np.broadcast_arrays(*parts)[:6]
-        wrong = ~((I3 > 0) & (I2 > 0) & (I3 <= 2 * I2))
-        if wrong.any():
-            raise DomainError(
-                f"No body has I2 = {I2[wrong].flat[0]}, I3 = {I3[wrong].flat[0]}: both are positive and I3 is at most "
-                "2 I2."
-            )
-        if ((n2 == 0) & (n3 == 0)).any():
-            raise DomainError("The direction (n2, n3) must not be the zero vector.")
+        *top, a0, A0 = given(inertia, coupling, direction, linear, quadratic)
+        parts = [*top, *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity"), a0, A0]
         super().__init__(lambda *row: SingleTop(balls(*row), np.eye(3)), *parts)
         self.inertia, self.coupling, self.direction, self.omega, (self.linear, self.quadratic) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
@@ -150,6 +138,11 @@ class TopMotion(AloneMotion[SingleTop]):
         """Least and largest nu = cos theta; one of them is approached and never reached on a separatrix."""
         ends = self._each("turning_points", ends_of)
         return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
+
+    @property
+    def quadric(self) -> TopQuadric:
+        """The quadric of starts with nu'' = 0 of this top, whatever omega, theorem-top-quadric."""
+        return TopQuadric(self.inertia, self.coupling, self.direction, self.linear, self.quadratic)
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body; shape (..., 3).

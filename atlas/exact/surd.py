@@ -105,14 +105,14 @@ def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
     """Return the factors without multiple roots, each with the multiplicity of its roots (Yun)."""
     found, n = list[tuple[Polynomial, int]](), 1
     slope = derivative(p)
-    common = _gcd(p, slope)
-    b, c = _divided(p, common)[0], _divided(slope, common)[0]
+    common = gcd(p, slope)
+    b, c = divided(p, common)[0], divided(slope, common)[0]
     while len(b) > 1:
         d = _minus(c, derivative(b))
-        a = _gcd(b, d)
+        a = gcd(b, d)
         if len(a) > 1:
             found.append((a, n))
-        b, c, n = _divided(b, a)[0], _divided(d, a)[0], n + 1
+        b, c, n = divided(b, a)[0], divided(d, a)[0], n + 1
     return found
 
 
@@ -146,7 +146,7 @@ def _isolated(p: acb_poly, radius: arb) -> list[acb]:
     return real + [z for z, y in zip(found, mirrored, strict=True) if not z.overlaps(y)]
 
 
-def _divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
+def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
     """Return quotient and remainder."""
     rest, quotient = list(p), [q[0].of(0)] * max(len(p) - len(q) + 1, 0)
     for n in range(len(p) - len(q), -1, -1):
@@ -157,10 +157,10 @@ def _divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
     return trimmed(quotient), trimmed(rest[: len(q) - 1])
 
 
-def _gcd(p: Polynomial, q: Polynomial) -> Polynomial:
+def gcd(p: Polynomial, q: Polynomial) -> Polynomial:
     """Return the greatest common divisor with leading coefficient one."""
     while q:
-        p, q = q, _divided(p, q)[1]
+        p, q = q, divided(p, q)[1]
     return tuple(c / p[-1] for c in p)
 
 

@@ -23,6 +23,7 @@ from atlas.exact.nutation import Nutation
 from atlas.exact.spheres import POLES, Sphere
 from atlas.exact.swing import swing
 from atlas.exact.theta import Lattice, constant
+from atlas.exact.top_quadric import given
 from atlas.exact.top_quartic import TopQuartic
 
 
@@ -36,17 +37,9 @@ class TopMotion(Nutating):
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0, quadratic: Any = 0
     ) -> None:
-        I2, I3 = rationals(inertia, "inertia (I2, I3)", 2)
-        k2, k3 = rationals(coupling, "coupling (k2, k3)", 2)
-        self.direction = rationals(direction, "direction (n2, n3)", 2)
+        self.I, self.coupling, self.direction, potential = given(inertia, coupling, direction, linear, quadratic)
         self.omega = rationals(omega, "omega", 3)
-        if not (0 < I3 <= 2 * I2):
-            raise DomainError(f"No body has I2 = {float(I2)}, I3 = {float(I3)}: I3 lies in (0, 2 I2].")
-        if not any(x != 0 for x in self.direction):
-            raise DomainError("The direction (n2, n3) must not be the zero vector.")
         self.field = fmpq(0), *self.direction
-        self.I, self.coupling = I3 / I2, (k2 / I2, k3 / I2)
-        potential = rational(linear, "linear") / I2, rational(quadratic, "quadratic") / I2
         self.quartic: TopQuartic = TopQuartic(self.I, self.coupling, self.direction, self.omega, potential)
         self.kind = self._kind()
         self._known: tuple[int, Solution] | None = None

@@ -27,6 +27,7 @@ from atlas.paper import (
     quadric,
     separatrix,
     theorems,
+    top,
 )
 from atlas.paper.equation import Equation, Kind, Section, slug
 
@@ -34,7 +35,7 @@ __all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "find", "topi
 
 _FILES = (
     *(lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle),
-    *(theorems, clebsch, elliptic, general, separatrix, closed),
+    *(theorems, clebsch, elliptic, general, separatrix, closed, top),
 )
 
 _TOPICS = {entry.name: file.__name__.rpartition(".")[2] for file in _FILES for entry in file.EQUATIONS}

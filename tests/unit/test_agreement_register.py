@@ -23,7 +23,7 @@ FORMULAS = {
 """Modules whose functions are public quantities; of the others the classes are."""
 
 MACHINERY = {
-    "core": {"charge", "inputs", "motion", "nutating"},
+    "core": {"branches", "charge", "inputs", "motion", "nutating", "symmetric_top"},
     "exact": {
         *("cayley_klein", "digits", "euler", "inputs", "nutating", "nutation", "quartic", "spheres", "surd", "swing"),
         *("elliptic_quartic", "theta", "top_quartic", "two_turns"),
@@ -40,9 +40,10 @@ ELSEWHERE = {
         "laboratory": "test_laboratory.py",
         "momentum_map": "test_momentum_map.py",
         "separatrix": "test_separatrix.py",
+        "top_hyperbola": "test_top_quadric.py",
         "trace_map": "test_momentum_map.py",
     },
-    "exact": {},
+    "exact": {"top_quadric": "test_top_quadric.py"},
 }
 """Modules of our own theorems: where they are compared with integrations and with one another."""
 
@@ -87,7 +88,7 @@ UNTIED = {
         for name in (
             "angular_momentum angular_velocity b charged column complementary_modulus field_in_body from_frame in_cell "
             "heavy invariants is_plane is_steady kind modulus nome parameters period precession precession_per_period "
-            "quaternion roots rotation rotation_grid solution sphere spin_per_period steady_rates "
+            "quadric quaternion roots rotation rotation_grid solution sphere spin_per_period steady_rates "
             "swings_evenly third_axis tilt trigonometric turning_points turning_rate"
         ).split()
     },
@@ -101,6 +102,8 @@ UNTIED = {
         ).split()
     },
     "ElementaryMotion.omega": GIVEN,
+    "Quadric.of_top": "compared with the paper's quadric and with Taylor series of a top, in test_top_quadric",
+    "Hyperbola.of_top": "compared with the paper's hyperbola and with Taylor series of a top, in test_top_quadric",
     "ChargeMoments.points": TOP,
     "ChargeMoments.shape": TOP,
     "Hyperbola.closed": "compared with its theorem and with an exact return in test_closed",
