@@ -35,33 +35,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
         raise DomainError(f"figure body_ruler needs B2, B3 not zero, not field = {field}.")
     unit = SIZE / float(np.hypot(*field))
     prime = (unit * field[0], unit * field[1])
-    fine = quadric_panel.tolerance(STEP * len(BODIES) / 2)
-    places = row(len(BODIES), STEP, azimuth)
-    low, high = places[0] - 0.3 * (places[1] - places[0]), places[-1] + 0.3 * (places[1] - places[0])
-
-    def on_scale(I: float, height: float = 0.0) -> FloatArray:
-        return low + I / 2 * (high - low) + (RULER + height) * quadric_panel.E3
-
-    layers: list[Layer] = []
-    for place, (name, I) in zip(places, BODIES, strict=True):
-        layers += body(name, I, place, fine)
-        layers.append(Label(place + NAMES * quadric_panel.E3, name, body_role(I), (0.0, 0.0)))
-        foot = place + (NAMES - 0.3) * quadric_panel.E3
-        layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
-        layers.append(Points(on_scale(I)[None], "point"))
-        surfaces = quadrics.pieces(I, prime, REACH * SIZE, fine)
-        shift = place + ABOVE * quadric_panel.E3 + quadric_panel.in_plane(*prime)
-        for surface in surfaces:
-            layers.append(solids.moved(surface, shift))
-            line = quadrics.hyperbola(quadrics.quadric_matrix(I, prime), surface, fine)
-            layers += [Curve(points + shift, "hyperbola") for points in line]
-    layers.append(Curve(np.stack([on_scale(0.0), on_scale(2.0)]), "basis"))
-    for mark in np.linspace(0.0, 2.0, 9):
-        layers.append(Curve(np.stack([on_scale(mark), on_scale(mark, -TICK)]), "basis"))
-        if 2 * mark == round(2 * mark):
-            layers.append(Label(on_scale(mark, -4 * TICK), f"${mark:g}$", "label", (0.0, 0.0)))
-    layers += [Label(on_scale(I, -9 * TICK), kind, "note", (0.0, 0.0)) for I, kind in KINDS]
-    layers.append(Label(on_scale(0.0), "$I$", "label", (-10.0, 0.0)))
+    view = {"azimuth": azimuth, "elevation": elevation}
     return Scene(
         title=title(__doc__),
         caption=(
@@ -75,9 +49,45 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
             "short solenoid, a disk and a loop, each joined by a line to its value; over them tubes for the first "
             "three, a double cone for the sphere, and pairs of bowls for the rest, the same pair for disk and loop."
         ),
-        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        panels=(Space(ruler(0, 7, prime, azimuth), **view),),
+        narrow=(Space(ruler(0, 4, prime, azimuth), **view), Space(ruler(3, 7, prime, azimuth), **view)),
         size=(WIDTH, HEIGHT),
     )
+
+
+def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> tuple[Layer, ...]:
+    """Return the layers of some of the bodies and the part of the scale on which they stand."""
+    some = BODIES[first:end]
+    start, stop = np.floor(some[0][1]), some[-1][1]
+    fine = quadric_panel.tolerance(STEP * len(some) / 2)
+    places = row(len(some), STEP, azimuth)
+    low, high = places[0] - 0.3 * (places[1] - places[0]), places[-1] + 0.3 * (places[1] - places[0])
+
+    def on_scale(I: float, height: float = 0.0) -> FloatArray:
+        part = (I - start) / (stop - start)
+        return np.asarray(low + part * (high - low) + (RULER + height) * quadric_panel.E3)
+
+    layers: list[Layer] = []
+    for place, (name, I) in zip(places, some, strict=True):
+        layers += body(name, I, place, fine)
+        layers.append(Label(place + NAMES * quadric_panel.E3, name, body_role(I), (0.0, 0.0)))
+        foot = place + (NAMES - 0.3) * quadric_panel.E3
+        layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
+        layers.append(Points(on_scale(I)[None], "point"))
+        surfaces = quadrics.pieces(I, prime, REACH * SIZE, fine)
+        shift = place + ABOVE * quadric_panel.E3 + quadric_panel.in_plane(*prime)
+        for surface in surfaces:
+            layers.append(solids.moved(surface, shift))
+            line = quadrics.hyperbola(quadrics.quadric_matrix(I, prime), surface, fine)
+            layers += [Curve(points + shift, "hyperbola") for points in line]
+    layers.append(Curve(np.stack([on_scale(start), on_scale(stop)]), "basis"))
+    for mark in np.arange(start, stop + 0.25, 0.25):
+        layers.append(Curve(np.stack([on_scale(mark), on_scale(mark, -TICK)]), "basis"))
+        if 2 * mark == round(2 * mark):
+            layers.append(Label(on_scale(mark, -4 * TICK), f"${mark:g}$", "label", (0.0, 0.0)))
+    layers += [Label(on_scale(I, -9 * TICK), kind, "note", (0.0, 0.0)) for I, kind in KINDS if start <= I <= stop]
+    layers.append(Label(on_scale(start), "$I$", "label", (-10.0, 0.0)))
+    return tuple(layers)
 
 
 def body(name: str, I: float, centre: FloatArray, tolerance: float) -> list[Layer]:

@@ -5,7 +5,8 @@ One colour means one thing in the whole atlas; this is the key to all of its fig
 
 import numpy as np
 
-from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, quadric_panel, solids
+from atlas.scene.narrow import stacked
 from atlas.scene.words import title
 
 COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
@@ -37,22 +38,22 @@ MARKS = (("rest", "rest"), ("centre", r"$-\mathbf{B}'$"), ("special", r"$-2\math
 
 def scene() -> Scene:
     """Draw each role that has a colour of its own beside its meaning, in four columns."""
-    layers: list[Layer] = []
+    columns: list[list[Layer]] = [[], [], [], []]
     for row, (role, name) in enumerate(VECTORS):
         tail, tip = place(0, row)
-        layers += [Arrow(tail, tip, role), beside(tip, name)]
+        columns[0] += [Arrow(tail, tip, role), beside(tip, name)]
     for column, roles in ((1, CURVES), (2, COMPONENTS), (3, BODIES)):
         for row, (role, name) in enumerate(roles):
             ends = place(column, row)
-            layers += [Curve(ends, role), beside(ends[1], name)]
+            columns[column] += [Curve(ends, role), beside(ends[1], name)]
     for row, (role, name) in enumerate(MARKS, len(COMPONENTS)):
         ends = place(2, row)
-        layers += [Points(ends.mean(axis=0)[None], role), beside(ends[1], name)]
+        columns[2] += [Points(ends.mean(axis=0)[None], role), beside(ends[1], name)]
     for column, (role, name) in enumerate((("surface", "initial data"), ("solid", "the body"))):
         ends = place(column, len(VECTORS))
         half = 0.5 * (ends[1] - ends[0])
-        layers.append(solids.rectangle(ends.mean(axis=0), half, 0.3 * quadric_panel.E3, role=role))
-        layers.append(beside(ends[1], name))
+        area = solids.rectangle(ends.mean(axis=0), half, 0.3 * quadric_panel.E3, role=role)
+        columns[column] += [area, beside(ends[1], name)]
     return Scene(
         title(__doc__),
         "The colours of the figures: in each of them a colour means one thing. They differ in lightness too, so that "
@@ -62,8 +63,9 @@ def scene() -> Scene:
         "the inverse inertia tensor pink, E blue, m green, angular velocities plum, the elementary motions violet, the "
         "body's axis and its path navy, the path of a point teal, the unstable motions vermilion, a loop magenta, a "
         "short solenoid petrol, a ball olive, a long solenoid dark brown.",
-        (Space(tuple(layers), azimuth=0.0, elevation=0.0),),
+        stacked(columns, 1, 0.0, 0.0),
         size=(178.0, 46.0),
+        narrow=stacked(columns, 2, 0.0, 0.0),
     )
 
 

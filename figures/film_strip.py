@@ -10,8 +10,9 @@ import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Scene, quadric_panel, solids
 from atlas.scene.bodies import drawn_body, row
+from atlas.scene.narrow import stacked
 from atlas.scene.words import plain, plain_setting, quotient, tex, tex_setting, title
 
 WIDTH, HEIGHT = 178.0, 50.0
@@ -38,16 +39,18 @@ def scene(
     axis = quadric_panel.in_plane(*field) / np.hypot(*field)
     angle = float(np.arctan2(field[0], field[1]))
     fine = quadric_panel.tolerance(STEP * count / 2)
-    layers: list[Layer] = []
+    cells: list[list[Layer]] = []
     for i, (centre, R) in enumerate(zip(row(count, STEP, azimuth), motion.rotation(times), strict=True)):
-        layers += drawn_body(quotient(ratio), R, centre, 1.0, fine)
         ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), fine)
-        layers += [
-            Curve(ring, "trace"),
-            Arrow(centre, centre + 1.35 * R[:, 2], "body_axis"),
-            Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
-            Label(centre - 1.35 * quadric_panel.E3, rf"${i}/{count - 1}$", "note", (0.0, -5.0)),
-        ]
+        cells.append(
+            [
+                *drawn_body(quotient(ratio), R, centre, 1.0, fine),
+                Curve(ring, "trace"),
+                Arrow(centre, centre + 1.35 * R[:, 2], "body_axis"),
+                Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
+                Label(centre - 1.35 * quadric_panel.E3, rf"${i}/{count - 1}$", "note", (0.0, -5.0)),
+            ]
+        )
     return Scene(
         title=title(__doc__),
         caption=(
@@ -60,6 +63,7 @@ def scene(
             "cylinder whose axis goes once round the field on a cone, and whose painted seam turns about the axis "
             "meanwhile."
         ),
-        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        panels=stacked(cells, 1, azimuth, elevation),
+        narrow=stacked(cells, 2, azimuth, elevation),
         size=(WIDTH, HEIGHT),
     )

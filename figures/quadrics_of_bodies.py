@@ -9,6 +9,7 @@ import numpy as np
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Scene, Space, quadric_panel, quadrics, solids
 from atlas.scene.camera import frame
+from atlas.scene.narrow import stacked
 from atlas.scene.words import body_name, body_role, listed, tex, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 62.0
@@ -31,17 +32,19 @@ def scene(
     right = frame(Space((), azimuth=azimuth))[0]
     each = [quadrics.pieces(I, field, REACH * b, quadric_panel.tolerance(2 * REACH * b)) for I in ratios]
     extents = [solids.extent(surfaces, right) for surfaces in each]
-    layers: list[Layer] = []
+    cells: list[list[Layer]] = []
     place, gap = 0.0, 0.35 * b
     for I, surfaces, (left, end) in zip(ratios, each, extents, strict=True):
         shift = (place - left) * right
         place += end - left + gap
+        layers: list[Layer] = []
         for surface in surfaces:
             layers.append(solids.moved(surface, shift))
             curve = quadrics.hyperbola(quadrics.quadric_matrix(I, field), surface, quadric_panel.tolerance(3 * b))
             layers += [Curve(points + shift, "hyperbola") for points in curve]
         centre = quadric_panel.in_plane(-field[0], -field[1]) + shift
         layers.append(Label(centre - 2.35 * b * quadric_panel.E3, f"$I={tex(I)}$", body_role(I), (0.0, 0.0)))
+        cells.append(layers)
     named = listed([f"{body_name(I)} ($I={tex(I)}$)" for I in ratios])
     return Scene(
         title=title(__doc__),
@@ -54,7 +57,8 @@ def scene(
             "A row of quadrics of one centre and one scale: two bowls facing away from each other, then closer, then a "
             "double cone, then tubes that widen."
         ),
-        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        panels=stacked(cells, 1, azimuth, elevation),
+        narrow=stacked(cells, 2, azimuth, elevation) if len(cells) > 3 else (),
         named={"Heavy": "hyperbola"},
         size=(WIDTH, HEIGHT),
     )

@@ -16,8 +16,9 @@ from atlas.core.general import GeneralMotion
 from atlas.core.inputs import FloatArray
 from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel
+from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, quadric_panel
 from atlas.scene.bodies import drawn_body, row
+from atlas.scene.narrow import stacked
 from atlas.scene.sample import flat
 from atlas.scene.words import plain, quotient, tex, title
 
@@ -48,6 +49,7 @@ def scene(
     growth = float(np.sqrt(-D)) / 2
     motion = GeneralMotion(ratio, (0.0, B3), (push, 0.0, omega3))
     times = moments(motion, count)
+    cells, below = strip(motion, I, times, azimuth), course(motion, times, unit)
     far = float(np.degrees(angle(motion.third_axis(np.array([motion.period / 2]))))[0])
     return Scene(
         title=title(__doc__),
@@ -66,10 +68,8 @@ def scene(
             f"A disk drawn at {count} moments while it tips over; below, the angle of its axis and the field over "
             f"time, three times from zero to {plain(round(far))} degrees and back."
         ),
-        panels=(
-            strip(motion, I, times, (azimuth, elevation)),
-            course(motion, times, unit),
-        ),
+        panels=(*stacked(cells, 1, azimuth, elevation), below),
+        narrow=(*stacked(cells, 2, azimuth, elevation), below),
         named={"dots": "start"},
         size=(WIDTH, HEIGHT),
     )
@@ -87,18 +87,20 @@ def moments(motion: GeneralMotion, count: int) -> FloatArray:
     return np.interp(np.linspace(grown[0], grown[-1], count), grown, t)
 
 
-def strip(motion: GeneralMotion, I: float, times: FloatArray, view: tuple[float, float]) -> Space:
-    """Return the body at these times side by side."""
+def strip(motion: GeneralMotion, I: float, times: FloatArray, azimuth: float) -> list[list[Layer]]:
+    """Return the layers of the body at each of these times, side by side as seen from there."""
     fine = quadric_panel.tolerance(STEP * len(times) / 2)
-    layers: list[Layer] = []
-    for i, (centre, R) in enumerate(zip(row(len(times), STEP, view[0]), motion.rotation(times), strict=True)):
-        layers += drawn_body(I, R, centre, 1.0, fine)
-        layers += [
-            Arrow(centre, centre + 1.15 * R[:, 2], "body_axis"),
-            Arrow(centre, centre + 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$" if i == 0 else ""),
-            Label(centre - 1.15 * quadric_panel.E3, f"{i + 1}", "note", (0.0, -4.0)),
-        ]
-    return Space(tuple(layers), azimuth=view[0], elevation=view[1])
+    cells: list[list[Layer]] = []
+    for i, (centre, R) in enumerate(zip(row(len(times), STEP, azimuth), motion.rotation(times), strict=True)):
+        cells.append(
+            [
+                *drawn_body(I, R, centre, 1.0, fine),
+                Arrow(centre, centre + 1.15 * R[:, 2], "body_axis"),
+                Arrow(centre, centre + 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$" if i == 0 else ""),
+                Label(centre - 1.15 * quadric_panel.E3, f"{i + 1}", "note", (0.0, -4.0)),
+            ]
+        )
+    return cells
 
 
 def course(motion: GeneralMotion, times: FloatArray, unit: str) -> Plane:

@@ -11,8 +11,9 @@ import numpy as np
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space, quadric_panel, solids
+from atlas.scene import Arrow, Curve, Label, Layer, Scene, quadric_panel, solids
 from atlas.scene.bodies import drawn_body, row
+from atlas.scene.narrow import stacked
 from atlas.scene.words import plain, plain_setting, quotient, tex, tex_setting, title
 
 STEP = 3.0
@@ -43,10 +44,10 @@ def scene(
     axis = quadric_panel.in_plane(*field) / np.hypot(*field)
     fine = quadric_panel.tolerance(1.5 * STEP)
     steps = ((np.eye(3), r"$1$"), (about_axis, r"$R_z(\phi t)$"), (R, r"$R_\mathbf{B}(kt)\,R_z(\phi t)$"))
-    layers: list[Layer] = []
+    cells: list[list[Layer]] = []
     for i, (centre, (attitude, name)) in enumerate(zip(row(3, STEP, azimuth), steps, strict=True)):
-        layers += drawn_body(quotient(ratio), attitude, centre, 1.0, fine)
-        layers += [
+        layers = [
+            *drawn_body(quotient(ratio), attitude, centre, 1.0, fine),
             Arrow(centre, centre + REACH * attitude[:, 2], "body_axis", r"$\mathbf{R}_3$"),
             Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$"),
             Label(centre - 1.6 * quadric_panel.E3, name, "label", (0.0, -6.0)),
@@ -66,6 +67,7 @@ def scene(
                 r"$kt$",
                 fine,
             )
+        cells.append(layers)
     return Scene(
         title=title(__doc__),
         caption=(
@@ -78,7 +80,8 @@ def scene(
             f"Three drawings of {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: upright with its seam in "
             "front; upright with the seam turned about its axis; tilted, its axis carried round the field on a cone."
         ),
-        panels=(Space(tuple(layers), azimuth=azimuth, elevation=elevation),),
+        panels=stacked(cells, 1, azimuth, elevation),
+        narrow=stacked(cells, 3, azimuth, elevation),
         named={"dashed line": "construction"},
         size=(160.0, 72.0),
     )

@@ -67,7 +67,7 @@ def scene(made: Scene, noisy: tuple[int, ...] = (), *, words: bool = True) -> It
 
 def shown(panel: Panel, *, noise: bool = False) -> Iterator[str]:
     """Yield what a panel shows, and its layers."""
-    settings = {one.name: getattr(panel, one.name) for one in fields(panel) if one.name != "layers"}
+    settings = {one.name: getattr(panel, one.name) for one in fields(panel) if one.name not in {"layers", "span"}}
     yield from written([(type(panel).__name__, *_parted(settings, noise=noise))])
     yield from written(
         (

@@ -216,7 +216,7 @@ def _figures(
     """
     from atlas.build.figures import FigureBuild
 
-    pages = ("svg", "pdf", "png", "csv.gz", "narrow"), ("png", "csv.gz")
+    pages = ("svg", "pdf", "png", "csv.gz", "narrow"), ("png", "csv.gz", "narrow")
     lines, shaded = pages if "html" in formats else (("pdf",), ("png",))
     return {
         FigureBuild(one.recipe, one.parameters, one.renderer, kinds, style): one
@@ -236,9 +236,11 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
         picture.tables = tuple(facts["commands"])
         picture.caption, picture.alt, picture.size = facts["caption"], facts["alt"], tuple(facts["size"])
         picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
-        picture.file = f"figures/{picture.stem}.{'svg' if 'pdf' in figure.kinds else 'png'}"
+        kind = "svg" if "pdf" in figure.kinds else "png"
+        picture.file = f"figures/{picture.stem}.{kind}"
         picture.files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds if kind != "narrow"}
-        picture.narrow = f"figures/{picture.stem}-narrow.svg" if "narrow" in figure.kinds and facts["narrow"] else ""
+        wanted = "narrow" in figure.kinds and facts["narrow"]
+        picture.narrow = f"figures/{picture.stem}-narrow.{kind}" if wanted else ""
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
 
 

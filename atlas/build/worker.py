@@ -69,10 +69,11 @@ def _draw(task: Task) -> None:
             save(scene, {path: kind for kind, path in paths.items()}, task.renderer, task.style)
         small = narrowed(scene)
         if "narrow" in task.keys:
-            paths["narrow"] = folder / "narrow.svg"
+            paths["narrow"] = folder / "narrow"
             paths["narrow"].touch()
             if small:
-                save(small, {paths["narrow"]: "svg"}, style=task.style)
+                kind = "png" if renderer == "shaded" else "svg"
+                save(small, {paths["narrow"]: kind}, renderer, task.style)
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
     if "csv" in task.keys:
         contents["csv"] = data.table(scene).encode()

@@ -61,6 +61,9 @@ def fit(panel: Space, window: tuple[float, float]) -> View:
     panel, seen = scaled(panel, centre, size), (seen - centre) / size
     eye = frame(panel)
     flat = seen @ eye[:2].T
+    wide = 0.5 * np.maximum(np.array(panel.span) / size, np.ptp(flat, axis=0))
+    middle = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
+    flat = np.concatenate([flat, [middle - wide, middle + wide]])
     tags = [tag for layer in panel.layers for tag in _tags(layer, eye)]
     inside = np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN])
     scale = _fit(flat, tags, inside)

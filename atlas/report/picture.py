@@ -17,7 +17,7 @@ class Picture:
     given       all parameters of the scene as text
     file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
     tables      the commands that make tables of the numbers that it shows
-    narrow      the place of an SVG with its panels below one another, if it has several beside each other
+    narrow      the place of the same for a narrow screen, if that is another picture
     failure     why there is none, or nothing; `remark` what the reader should know of how it was drawn
     """
 

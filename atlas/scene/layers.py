@@ -130,13 +130,15 @@ class Plane:
 class Space:
     """A panel in three dimensions, seen in parallel projection from ``azimuth`` and ``elevation`` (degrees).
 
-    With azimuth 0 the eye looks along -e1: e2 points right and e3 up, as in the paper's figures.
+    With azimuth 0 the eye looks along -e1: e2 points right and e3 up, as in the paper's figures. Panels of one ``span``
+    (how much is shown at least, to the right and upwards) have one scale.
     """
 
     layers: tuple[Layer, ...]
     azimuth: float = 20.0
     elevation: float = 15.0
     title: str = ""
+    span: tuple[float, float] = (0.0, 0.0)
 
 
 Panel: TypeAlias = Plane | Space
@@ -149,7 +151,8 @@ class Scene:
     ``caption`` and ``alt`` are complete sentences; ``alt`` has no TeX. ``parameters`` are those that the figure was
     made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
     {"dashed": "asymptote"}: a line that a caption names is one that can be seen.
-    ``commands`` make tables of the numbers that are drawn.
+    ``commands`` make tables of the numbers that are drawn. ``narrow`` holds the panels for a narrow screen, one below
+    the other, each as high as a row of the figure, where those of the figure would only become smaller.
     """
 
     title: str
@@ -161,3 +164,4 @@ class Scene:
     parameters: Mapping[str, Any] = field(default_factory=dict)
     named: Mapping[str, str] = field(default_factory=dict)
     commands: tuple[str, ...] = ()
+    narrow: tuple[Panel, ...] = ()

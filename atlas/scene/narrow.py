@@ -1,8 +1,13 @@
 """A scene for a narrow screen: its panels below one another, and curves no wider than it."""
 
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 
-from atlas.scene.layers import Plane, Scene
+import numpy as np
+
+from atlas.scene.camera import frame, shown
+from atlas.scene.layers import FloatArray, Layer, Plane, Scene, Space
 
 WIDTH = 90.0
 """Millimetres: what a phone shows of a figure without making its words smaller."""
@@ -11,18 +16,32 @@ WIDTH = 90.0
 def narrowed(scene: Scene) -> Scene | None:
     """Return a scene with its panels in as few columns as leave them no smaller, or None if it has them already.
 
-    Wide panels of curves that stand below one another are made narrower alone: their words stay readable.
+    Wide panels of curves that stand below one another are made narrower alone: their words stay readable. A scene that
+    has panels for a narrow screen is drawn with these.
     """
     panels, (width, height) = len(scene.panels), scene.size
-    if (
-        scene.columns == 1 < panels
-        and width > WIDTH
-        and all(isinstance(one, Plane) and not one.equal for one in scene.panels)
-    ):
+    rows = -(-panels // scene.columns)
+    if scene.narrow:
+        high = height / rows * len(scene.narrow)
+        return replace(scene, panels=scene.narrow, columns=1, size=(WIDTH, high))
+    curves = all(isinstance(one, Plane) and not one.equal for one in scene.panels)
+    if scene.columns == 1 and width > WIDTH and curves:
         return replace(scene, size=(WIDTH, height))
     columns = max(1, int(WIDTH * scene.columns // width))
     if columns >= scene.columns:
         return None
-    rows, before = (-(-panels // one) for one in (columns, scene.columns))
     scale = WIDTH / width * scene.columns / columns
-    return replace(scene, columns=columns, size=(WIDTH, scale * height * rows / before))
+    return replace(scene, columns=columns, size=(WIDTH, scale * height * -(-panels // columns) / rows))
+
+
+def stacked(cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float) -> tuple[Space, ...]:
+    """Return groups of layers that stand side by side in space as so many panels at one scale."""
+    each = -(-len(cells) // rows)
+    panels = [Space(tuple(chain(*cells[i : i + each])), azimuth, elevation) for i in range(0, len(cells), each)]
+    return tuple(replace(one, span=tuple(np.max([extent(panel) for panel in panels], axis=0))) for one in panels)
+
+
+def extent(panel: Space) -> FloatArray:
+    """Return how much of the plane of view (right, up) the layers of a panel cover."""
+    points = [np.reshape(part, (-1, 3)) for layer in panel.layers for part in shown(layer)]
+    return np.asarray(np.ptp(np.concatenate(points) @ frame(panel)[:2].T, axis=0))

@@ -1,11 +1,12 @@
-"""A scene for a narrow screen: the same panels below one another, none smaller; only wide curves change their shape."""
+"""A scene for a narrow screen: the same panels below one another, none smaller; wide curves and strips change shape."""
 
 from dataclasses import replace
 
 import pytest
 
+from atlas.draw.view import fit
 from atlas.scene import recipes
-from atlas.scene.layers import Scene
+from atlas.scene.layers import Scene, Space
 from atlas.scene.narrow import WIDTH, narrowed
 
 SCENE = recipes.load("motion").scene()
@@ -44,3 +45,17 @@ def test_a_narrow_scene_stays_as_it_is() -> None:
 def cell(scene: Scene) -> tuple[float, float]:
     """Return the room of one panel, in millimetres."""
     return scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
+
+
+@pytest.mark.parametrize(("name", "rows"), [("film_strip", 2), ("quadrics_of_bodies", 2), ("two_turns", 3)])
+def test_what_stands_side_by_side_stands_in_rows_at_one_scale(name: str, rows: int) -> None:
+    """A strip in space has panels of its own, which show everything once; only names can make their scales differ."""
+    strip = recipes.load(name).scene()
+    after = narrowed(strip)
+    assert after is not None
+    assert after.size == (WIDTH, strip.size[1] * rows)
+    assert len(after.panels) == rows
+    assert [layer for panel in after.panels for layer in panel.layers] == list(strip.panels[0].layers)
+    views = [fit(panel, (255.0, 140.0)) for panel in after.panels if isinstance(panel, Space)]
+    scales = [view.scale / view.size for view in views]
+    assert max(scales) <= 1.1 * min(scales)
