@@ -42,8 +42,8 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
     - "elliptic", or "separatrix", where K tends to the axis of the middle E_i.
 
     The cost does not depend on t; arrays of motions are made one by one, some milliseconds each. Entries of R are
-    within 3.6e-15 for phases up to 2^50, K within 3.6e-15 |B'|, Omega_i within 3.6e-15 |E_i - 1| |B'|. Stability is not
-    decided here. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
+    within 3.6e-15 for phases up to 2^50, K within 3.6e-15 |B'|, Omega_i within 3.6e-15 |E_i - 1| |B'|; scalars within
+    4 ulp. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
     others, for a z on neither oval or at the end of one, and for another branch; AtlasError for what is no finite
     number.
     """
@@ -70,6 +70,24 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
     def period(self) -> Any:
         """Period T of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
         return self._scalar("period")
+
+    @cached_property
+    def stability(self) -> Any:
+        """Whether every motion that starts near stays beside the curve of K and M: a string, or an array of them.
+
+        "stable", "unstable" or, where `splitting` is zero, "undecided"; decided exactly on the inputs. Where the body
+        rests or Omega = -2 K the curve is that of the second flow, along which neighbours drift slowly.
+        """
+        return self._each("stability", lambda exact: exact.stability)
+
+    @cached_property
+    def splitting(self) -> Any:
+        """Squared frequency of small departures in the flow of H + (z/D) F/2, in 1/time^2; negative: unstable.
+
+        [4 b^2 P + s (P'^2 - 2 P P'')]/D^2 with P = v^2 as a polynomial in z, s = sum K_i^2/(z + D/I_i). For
+        I1 = I2 = 1 it is (1 + z/D)^2 times the squared frequency of nutation of `Hyperbola.stability`.
+        """
+        return finite(self._scalar("splitting"), "splitting")
 
     @cached_property
     def v(self) -> Any:

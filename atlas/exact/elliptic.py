@@ -21,16 +21,15 @@ from flint import acb, arb, ctx, fmpq
 from atlas.errors import DomainError
 from atlas.exact import two_turns
 from atlas.exact.cayley_klein import Parameter, Solution, matrix
+from atlas.exact.elliptic_curve import check_moments, square_of_v
 from atlas.exact.elliptic_quartic import EllipticQuartic
 from atlas.exact.inputs import Real, rational, rationals, sin_cos
 from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.spheres import POLES, Sphere
 from atlas.exact.theta import Lattice, constant
+from atlas.formulas.elliptic import splitting
 from atlas.formulas.numbers import nearest, root
-
-ROUNDING = fmpq(1, 2**48)
-"""By so much of itself the largest moment of a plane body may exceed the sum of the others."""
 
 
 class EllipticMotion(Nutating):
@@ -47,8 +46,8 @@ class EllipticMotion(Nutating):
         if sign not in (1, -1):
             raise DomainError(f"The branch, the sign of v, is 1 or -1, not {nearest(sign)}.")
         self.branch = int(sign.p)
-        _check(moments)
-        self.square = _square(moments, self.z)
+        check_moments(moments)
+        self.square = square_of_v(moments, self.z)
         D = moments[0] * moments[1] * moments[2]
         self._e = tuple(1 / (self.z * I + D) for I in moments)
         self.places = self._order()
@@ -71,7 +70,7 @@ class EllipticMotion(Nutating):
 
     def _kind(self) -> str:
         e, K = self._e, self.field
-        if all(x == 0 or (c * c * self.square == 1 and c * self.branch < 0) for c, x in zip(e, K, strict=True)):
+        if self._rests and all(x == 0 or c * self.branch < 0 for c, x in zip(e, K, strict=True)):
             return "at rest"
         if self.z == 0:
             return "Omega = -2 K"
@@ -82,6 +81,34 @@ class EllipticMotion(Nutating):
         if len(set(e)) == 2:
             return "elementary"
         return "separatrix" if any(x.multiplicity > 1 for x in self.quartic.roots()) else "elliptic"
+
+    @property
+    def _rests(self) -> bool:
+        """Whether |E_i| = 1 wherever K_i is not zero: the body is at rest, or at -2 K."""
+        return all(x == 0 or c * c * self.square == 1 for c, x in zip(self._e, self.field, strict=True))
+
+    @property
+    def splitting(self) -> fmpq:
+        """C/D^2, whose sign decides on stability: see `atlas.formulas.elliptic`."""
+        found: fmpq = splitting(self.inertia, self.field, self.z)
+        return found
+
+    @property
+    def stability(self) -> str:
+        """Whether all motions that start near stay beside the curve of K and M: "stable", "unstable" or "undecided".
+
+        At rest and at Omega = -2 K the curve is that of the flow of F, along which neighbours drift slowly.
+        """
+        C, within = self.splitting, self._change() if self.is_steady else fmpq(0)
+        if self._rests or (C > 0 and within >= 0 and self.kind != "separatrix"):
+            return "stable"
+        return "undecided" if C == 0 and within >= 0 and self.kind != "separatrix" else "unstable"
+
+    def _change(self) -> fmpq:
+        """Return the squared frequency of a small change in the family of a K that is constant."""
+        first, second, last = self.places
+        e = self._e
+        return (e[first] - e[last]) * (e[second] - e[last]) * self.square * self.quartic.N
 
     @property
     def is_steady(self) -> bool:
@@ -185,14 +212,11 @@ class EllipticMotion(Nutating):
         """Period of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
         if not self.is_steady:
             return super().period
-        first, second, last = self.places
         if self.kind == "elementary":
             rate = abs(arb(self.steady_rates()[1]))
         else:
-            e = self._e
-            square = (e[first] - e[last]) * (e[second] - e[last]) * self.square * self.quartic.N
-            along = sum(x != 0 for x in self.field) == 1
-            rate = arb(root(square)) if along and square > 0 else arb(0)
+            square = self._change() if sum(x != 0 for x in self.field) == 1 else fmpq(0)
+            rate = arb(root(square)) if square > 0 else arb(0)
         return arb("inf") if rate.is_zero() else 2 * arb.pi() / rate
 
     def _periods(self) -> tuple[arb, arb]:
@@ -239,26 +263,3 @@ class EllipticMotion(Nutating):
     def _turned(self, vector: Any) -> Any:
         """Return components in the order of the axes."""
         return tuple(vector[i] for i in self.places)
-
-
-def _check(moments: tuple[fmpq, ...]) -> None:
-    """Raise DomainError for what are no moments of a body."""
-    shown = ", ".join(str(nearest(I)) for I in moments)
-    if min(moments) <= 0:
-        raise DomainError(f"No body has the moments of inertia {shown}: all three are positive.")
-    if max(moments) * (2 - ROUNDING) > sum(moments):
-        raise DomainError(f"No body has the moments of inertia {shown}: the largest is at most the sum of the others.")
-
-
-def _square(moments: tuple[fmpq, ...], z: fmpq) -> fmpq:
-    """Return v^2 = prod(z + D/I_i); DomainError where it is not positive."""
-    D = moments[0] * moments[1] * moments[2]
-    zeros = sorted(-D / I for I in moments)
-    if not (z > zeros[2] or zeros[0] < z < zeros[1]):
-        low, middle, high = map(nearest, zeros)
-        oval = f" and between {low} and {middle}" if zeros[0] < zeros[1] else ""
-        raise DomainError(
-            f"There is no elliptic motion with z = {nearest(z)}: v^2 = prod(z + D/I_i) is positive for z above "
-            f"{high}{oval}, the ends excluded."
-        )
-    return (z - zeros[0]) * (z - zeros[1]) * (z - zeros[2])

@@ -37,23 +37,36 @@ FAMILY = Family(
     ),
     (
         Quantity("kind", "name of the kind"),
-        Quantity("v", "root of prod(z + D/I_i)", "inertia^3", "theorem-elliptic", certified=True),
+        Quantity("stability", "of the curve of K"),
+        Quantity(
+            "splitting", "squared frequency of small departures", "1/time^2", checked="elliptic splitting",
+            certified=True,
+        ),
+        Quantity(
+            "v", "root of prod(z + D/I_i)", "inertia^3", "theorem-elliptic", checked="elliptic v", certified=True
+        ),
         Quantity(
             "omega", "initial angular velocity", RATE, "theorem-elliptic", columns=("omega1", "omega2", "omega3"),
-            text=in_brackets, certified=True,
+            text=in_brackets, checked="elliptic omega", certified=True,
         ),
-        Quantity("period", "period of K", TIME, certified=True),
+        Quantity("period", "period of K", TIME, checked="elliptic period", certified=True),
         Quantity("precession_per_period", "turn about B in one period", missing="no period", certified=True),
         Quantity("modulus", "of the elliptic functions", certified=True),
         Quantity("nome", "of the elliptic functions", certified=True),
     ),
     (
-        rotation("", ""),
-        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "theorem-elliptic"),
-        Sampled("K", "field_in_body", "field B' in the body", RATE, printed=False),
+        rotation("", "elliptic R"),
+        Sampled(
+            "Omega", "angular_velocity", "angular velocity in the body", RATE, "theorem-elliptic",
+            checked="elliptic Omega",
+        ),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, checked="elliptic K", printed=False),
         Sampled("m", "angular_momentum", "angular momentum", "inertia/time", symbol="m_i", printed=False),
     ),
-    {},
+    {
+        "elliptic R": 16, "elliptic R grid": 32, "elliptic Omega": 16, "elliptic K": 16, "elliptic orthogonality": 16,
+        "elliptic R(0) = 1": 4, "elliptic v": 4, "elliptic splitting": 4, "elliptic omega": 4, "elliptic period": 4,
+    },
     Command(
         "elliptic",
         "Compute an elliptic motion: three different moments.",

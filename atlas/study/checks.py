@@ -20,6 +20,7 @@ from atlas.exact.inputs import Real
 from atlas.families import FAMILIES
 from atlas.formulas.numbers import workprec
 from atlas.study import extreme
+from atlas.study.elliptic import Elliptic, rates_of
 from atlas.study.extreme import described
 from atlas.study.regimes import General
 from atlas.study.tops import Top, rate_of
@@ -242,13 +243,29 @@ def check_top(draw: Top, regime: str, random: Random, worst: WorstErrors) -> Non
         name: value.hex() if isinstance(value, float) else [x.hex() for x in value]
         for name, value in draw._asdict().items()
     }
-    _nutation("top", draw, inputs, rate_of(draw), regime, random, worst)
+    _nutation("top", draw, inputs, rate_of(draw), regime, random, worst, b=1.0)
+
+
+def check_elliptic(draw: Elliptic, regime: str, random: Random, worst: WorstErrors) -> None:
+    """Check an elliptic motion, K in ulps of the field: beside the register, structure and a grid."""
+    names = ("inertia", "field")
+    inputs = {name: [x.hex() for x in getattr(draw, name)] for name in names}
+    inputs |= {"z": draw.z.hex(), "branch": draw.branch}
+    b, size = rates_of(draw)
+    _nutation("elliptic", draw, inputs, size, regime, random, worst, K=b)
 
 
 def _nutation(
-    name: str, draw: Sequence[Any], inputs: Inputs, size: float, regime: str, random: Random, worst: WorstErrors
+    name: str,
+    draw: Sequence[Any],
+    inputs: Inputs,
+    size: float,
+    regime: str,
+    random: Random,
+    worst: WorstErrors,
+    **lengths: float,
 ) -> None:
-    """Check a motion whose axis nutates, in ulps of a rate."""
+    """Check a motion whose axis nutates, vectors in ulps of their `lengths`, or of a rate."""
     truth = partial(narrow, size=size)
 
     def more(found: Any, exact: Any, _: Where) -> None:
@@ -262,7 +279,7 @@ def _nutation(
         _grid(f"{name} R grid", found, exact, grid, places, regime, worst, inputs, truth)
 
     def unit(vector: str, _: float) -> float:
-        return ONE if vector == "b" else size * ONE
+        return lengths.get(vector, size) * ONE
 
     times: list[float] = []
     with worst.checking(name, regime, inputs):

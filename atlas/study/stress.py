@@ -21,6 +21,7 @@ from atlas.families import FAMILIES
 from atlas.study import extreme
 from atlas.study.checks import (
     check_ball,
+    check_elliptic,
     check_free,
     check_general,
     check_hyperbola,
@@ -29,6 +30,7 @@ from atlas.study.checks import (
     check_quadric,
     check_top,
 )
+from atlas.study.elliptic import ELLIPTIC
 from atlas.study.regimes import GENERAL, REGIMES
 from atlas.study.tops import TOPS
 from atlas.study.ulps import Refusal, Worst, WorstErrors
@@ -41,7 +43,7 @@ LONG, SHORT = (3_000_000, 0), (60_000, 1)
 
 Progress = Callable[[int, int], None]
 
-STRESSED = ("elementary", "quadric", "hyperbola", "ball", "free", "general", "top", "particle")
+STRESSED = ("elementary", "quadric", "hyperbola", "ball", "free", "general", "top", "elliptic", "particle")
 """The families that a run checks, in the order of its table."""
 
 LIMITS: Mapping[str, float] = {name: ulps for one in STRESSED for name, ulps in FAMILIES[one].promises.items()}
@@ -151,6 +153,9 @@ def one_round(seed: int, index: int) -> WorstErrors:
     other = Random(f"top {seed} {index}")  # noqa: S311  the same
     for regime, draw_top in TOPS.items():
         check_top(draw_top(other), regime, other, found)
+    other = Random(f"elliptic {seed} {index}")  # noqa: S311  the same
+    for regime, draw_elliptic in ELLIPTIC.items():
+        check_elliptic(draw_elliptic(other), regime, other, found)
     return found
 
 

@@ -290,6 +290,82 @@ def test_digits_are_proven_at_any_time() -> None:
     assert np.array([z * w, x * w, y * w]) * 4 == pytest.approx(np.array([R - R.T]).ravel()[[3, 7, 2]], abs=1e-14)
 
 
+def departure(case: tuple[object, ...], push: float, until: float) -> float:
+    """Return how far Omega comes from -[1 + v (z II + D)^-1] K after a push, by Taylor series of (12), (16)."""
+    motion, (inertia, field, z, _) = atlas.EllipticMotion(*case), case
+    start = np.array(motion.omega) + push * np.array([0.6, -0.64, 0.48])
+    E = -motion.v / (z * np.array(inertia) + np.prod(inertia))
+    states = taylor(inertia, field, start.tolist(), np.linspace(0, until, 17)[1:].tolist(), digits=12)
+    return max(float(np.abs(np.array(s.Omega, float) - (E - 1) * np.array(s.K, float)).max()) for s in states)
+
+
+@pytest.mark.parametrize(
+    ("case", "stability"),
+    [
+        (((1.3, 1.0, 0.5), (0.0, 1.0, 1.0), -0.67, 1), "unstable"),
+        (((1.3, 1.0, 0.5), (0.0, 1.0, 1.0), -1.0, 1), "stable"),
+        ((BODY, FIELD, -1.05, 1), "unstable"),
+        ((BODY, FIELD, -0.7, 1), "stable"),
+        ((BODY, (0.0, 1.0, 0.0), 1.7, 1), "unstable"),  # K about the middle axis
+        ((BODY, (1.0, 0.0, 0.0), 1.7, 1), "stable"),
+        ((BODY, FIELD, 0, -1), "stable"),
+    ],
+)
+def test_pushed_motions_leave_what_is_unstable_only(case: tuple[object, ...], stability: str) -> None:
+    """A push of 1e-4 stays below 1e-3, or grows beyond 0.01, within 16 units of time."""
+    motion = atlas.EllipticMotion(*case)
+    assert motion.stability == stability
+    if stability == "stable":
+        assert departure(case, 1e-4, 8.0) < 1e-3
+    elif motion.splitting < 0:
+        assert departure(case, 1e-4, 16.0) > 0.01
+    else:  # it goes on to other motions of the family
+        state = taylor(*case[:2], (np.array(motion.omega) + [1e-3, 0, 0]).tolist(), [16.0], digits=12)[0]
+        assert abs(float(state.K[0])) > 0.01
+
+
+@pytest.mark.parametrize("name", ["unbounded oval", "bounded oval, other branch", "axes in another order", "flat"])
+def test_the_splitting_is_the_square_of_the_flow_across(name: str) -> None:
+    """The flow of H + (z/D) F/2 stands still on the motion, with eigenvalues +-sqrt(-C)/D there, and four zeros."""
+    inertia, field, z, branch = CASES[name]
+    motion = atlas.EllipticMotion(inertia, field, z, branch)
+    I, D = np.array(inertia), float(np.prod(inertia))
+    V, G = 1 / I + z / D, I - z / I
+
+    def flow(state: np.ndarray) -> np.ndarray:
+        M, K = state[:3], state[3:]
+        return np.concatenate([np.cross(M, V * M) + np.cross(K, G * K), np.cross(K, V * M)])
+
+    at = np.concatenate([I * (np.array(motion.omega) + field), field])
+    assert np.abs(flow(at)).max() <= 64 * EPS * (at @ at)
+    steps = np.eye(6)
+    L = np.stack([flow(at + h) - flow(at - h) for h in steps], axis=1) / 2  # exact: it is quadratic
+    squares = np.linalg.eigvals(L) ** 2
+    assert np.trace(L @ L) / 2 == pytest.approx(-motion.splitting, rel=1e-10)
+    assert np.sort(np.abs(squares))[:4].max() <= 1e-6 * abs(motion.splitting)
+
+
+def test_for_two_equal_moments_the_splitting_is_that_of_the_paper() -> None:
+    """C/D^2 = (1 + z/D)^2 times the squared frequency of nutation of the hyperbola; both signs occur."""
+    for ratio, B3, x in ((1.5, 2.0, -1.5), (0.5, 0.125, 0.5), (0.5, 2.0, 1.75)):
+        z, omega2 = x * x - 1, x - 1
+        motion = atlas.EllipticMotion((1.0, 1.0, ratio), (0.0, 1.0, B3), z, -1 if (x > 0) == (z + ratio > 0) else 1)
+        assert motion.omega[1] == pytest.approx(omega2, abs=8 * EPS)
+        nutation = atlas.Hyperbola(ratio, (1.0, B3)).stability(omega2)
+        assert motion.splitting == pytest.approx((1 + z / ratio) ** 2 * nutation, rel=64 * EPS)
+        assert motion.stability == ("stable" if nutation > 0 else "unstable")
+
+
+def test_stability_is_decided_exactly_or_left_open() -> None:
+    """Where C is zero to the last bit it is undecided, and on either side it is not; a separatrix is left."""
+    case = (0.5, 0.5, 0.25), (0.0, 3.0, 1.0)  # the triple root of (47): I = 1/2, x = 1/2
+    found = [atlas.EllipticMotion(*case, -0.1875 + d, -1).stability for d in (-(2.0**-40), 0.0, 2.0**-40)]
+    assert found[1] == "undecided"
+    assert set(found) == {"stable", "unstable", "undecided"}
+    assert atlas.EllipticMotion(*CASES["separatrix"]).stability == "unstable"
+    assert atlas.EllipticMotion(BODY, (0, 0, 0), 1.7).stability == "stable"
+
+
 @pytest.mark.parametrize(
     ("case", "words"),
     [

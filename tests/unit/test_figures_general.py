@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 from oracles.top import taylor
 
-from atlas import DomainError, ElementaryMotion, GeneralMotion, Hyperbola, TopMotion, simulate
+from atlas import DomainError, ElementaryMotion, EllipticMotion, GeneralMotion, Hyperbola, TopMotion, simulate
 from atlas.core.momentum_map import momentum_map, potential
 from atlas.core.separatrix import companions
 from atlas.exact.general import GeneralMotion as Balls
@@ -332,3 +332,21 @@ def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, 
     """Each figure says in one line what it needs."""
     with pytest.raises(DomainError, match=f"figure {name}"):
         panels(name, **parameters)
+
+
+def test_the_drawn_curves_of_three_moments_are_starts_of_elliptic_motions() -> None:
+    """Drawn points are on the curve that leaves z out, 1e-9; what is dashed is unstable, and what is not is stable."""
+    count = 0
+    for panel, I1 in zip(panels("elliptic_family"), (1.3, 1.03, 0.97), strict=True):
+        drawn = [layer for layer in panel.layers if isinstance(layer, Curve)]
+        for line in (line for line in drawn if line.role in {"main", "third", "unstable_line"}):
+            inner = line.points[1:-1:4]
+            x, y = -(inner + 1.0).T  # v/(z + D) and v/(z/2 + D), of I2 = 1, I3 = 1/2, B2 = B3 = 1
+            z = 0.5 * I1 * (y - x) / (x - y / 2)
+            assert np.abs(x * y - 2 * z - 1).max() <= 1e-9  # v^2 = prod(z + D/I_i)
+            for place, found in zip(z[::2], x[::2], strict=True):
+                sign = 1 if found * (place + I1 / 2) > 0 else -1
+                motion = EllipticMotion((I1, 1.0, 0.5), (0.0, 1.0, 1.0), float(place), sign)
+                assert (motion.stability == "unstable") == (line.role == "unstable_line")
+                count += 1
+    assert count > 60  # of all pieces

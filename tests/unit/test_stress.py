@@ -18,6 +18,7 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.study import extreme
 from atlas.study.checks import check_motion
+from atlas.study.elliptic import ELLIPTIC
 from atlas.study.regimes import GENERAL, REGIMES
 from atlas.study.stress import LIMITS, SHORT, Result, read_record, record_name, stress, write_record
 from atlas.study.ulps import UNDERFLOW, WorstErrors, error, of_length, own, ulp
@@ -53,6 +54,7 @@ def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
     regimes = {w.regime for w in short_run.worst if w.quantity == "k"}
     assert regimes == {*REGIMES, "B2 = 0"}
     assert {w.regime for w in short_run.worst if w.quantity == "general R"} == set(GENERAL)
+    assert {w.regime for w in short_run.worst if w.quantity == "elliptic R"} == set(ELLIPTIC)
     clocks = {w.regime.rpartition(", ")[2] for w in short_run.worst if w.quantity == "R"}
     assert clocks == set(extreme.CLOCKS)
 

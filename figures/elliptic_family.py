@@ -1,0 +1,120 @@
+"""The paper's family for three different moments.
+
+The initial angular velocities of the elliptic motions, theorem-elliptic, of bodies that differ little from a symmetric
+one, in a field across the first axis: both ovals of v^2 = prod(z + D/I_i). Where two moments become equal the ovals
+meet, and what they join is the hyperbola (67), besides a straight line.
+"""
+
+from itertools import pairwise, product
+from typing import Any
+
+import numpy as np
+
+from atlas.core.inertia import inertia_tensor
+from atlas.core.inputs import FloatArray
+from atlas.errors import AtlasError
+from atlas.formulas.elliptic import splitting
+from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.hyperbola_plane import Window, branches, components, seen, window
+from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.words import listed, plain, plain_vector, tex, tex_vector, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 12.0
+NEAR = 1e-3
+"""Where a branch begins, as a part of an oval: by then it has left the window."""
+
+
+def scene(
+    *,
+    first: tuple[float, ...] = (1.3, 1.03, 0.97),
+    ratio: float = 0.5,
+    field: tuple[float, float] = (1.0, 1.0),
+    reach: float = 2.6,
+    unit: str = "time",
+) -> Scene:
+    """Draw the curves of the bodies (``first``, 1, ``ratio``) with the hyperbola of (1, 1, ``ratio``)."""
+    if not 0 < len(first) <= 3:
+        raise AtlasError(f"first must hold one to three values of I1, not {len(first)}.")
+    view, across = window(field, reach), WIDTH / len(first) - MARGIN
+    panels = tuple(
+        panel(f"({letter}) $I_1={tex(I1)}$", (I1, 1.0, ratio), field, view, across, unit)
+        for letter, I1 in zip("abc", first, strict=False)
+    )
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            r"Initial angular velocities of the elliptic motions in the field "
+            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for bodies with $I_2=1$, $I_3={tex(ratio)}$: the "
+            r"unbounded oval (dark), the bounded one (pale), unstable motions (dashed). Dotted: the hyperbola (67) of "
+            r"$I_1=1$. There the ovals meet, in it and in the line $\omega_3=-B'_3$, and part again the other way."
+        ),
+        alt=(
+            f"Panels for I1 = {listed([plain(I1) for I1 in first])} in the plane of omega 2 and omega 3, in the field "
+            f"{plain_vector((0.0, *field))}: two families of curves that avoid each other next to the crossings of a "
+            "hyperbola with a horizontal line, and come nearer to both as I1 comes near 1."
+        ),
+        panels=panels,
+        columns=len(panels),
+        named={"dark": "main", "pale": "third", "dashed": "unstable_line", "Dotted": "limit"},
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def panel(
+    name: str, inertia: tuple[float, ...], field: tuple[float, float], view: Window, across: float, unit: str
+) -> Plane:
+    """Return the curves of one body."""
+    millimetres = (across, HEIGHT - MARGIN)
+    layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
+    layers += [Curve(piece, "limit") for piece in branches(inertia[2], field, view, millimetres)]
+    layers += [Curve(part, role) for part, role in curves(inertia, field, view, millimetres)]
+    B2, B3 = components(field)
+    for factor, text, role in (
+        (0.0, "rest", "rest"),
+        (-1.0, r"$-\mathbf{B}'$", "centre"),
+        (-2.0, r"$-2\mathbf{B}'$", "special"),
+    ):
+        layers.append(Points(factor * np.array([[B2, B3]]), role))
+        layers.append(Label(factor * np.array([B2, B3]), text, role, (5, -5)))
+    y_label = rf"$\omega_3$ (1/{unit})"
+    return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", y_label, view.x, view.y, title=name)
+
+
+def curves(
+    inertia: tuple[float, ...], field: tuple[float, float], view: Window, millimetres: tuple[float, float]
+) -> list[tuple[FloatArray, str]]:
+    """Return the pieces (N, 2) of both ovals that the window shows, each with its role."""
+    I, B = np.diag(inertia_tensor(inertia)), np.array([0.0, *components(field)])
+    D = float(np.prod(I))
+    low, middle, high = np.sort(-D / I)
+    (x, y), (left, bottom), (right, top) = millimetres, *view.box
+
+    def unbounded(s: FloatArray) -> FloatArray:
+        return high - high * np.tan(np.pi / 2 * s) ** 2
+
+    def bounded(s: FloatArray) -> FloatArray:
+        return low + (middle - low) * np.sin(np.pi / 2 * s) ** 2
+
+    found = []
+    for role, branch in product(("main", "third"), (1.0, -1.0)):
+        along = unbounded if role == "main" else bounded
+
+        def points(s: FloatArray, along: Any = along, branch: float = branch) -> FloatArray:
+            """Return (omega2, omega3, z)."""
+            z = along(s)
+            w = z[:, None] + D / I
+            v = branch * np.sqrt(np.abs(w.prod(axis=1)))
+            omega = -(1 + v[:, None] / (I * w)) * B
+            return np.column_stack([omega[:, 1:], z])
+
+        box = np.array([left, bottom, -np.inf]), np.array([right, top, np.inf])
+        scale = np.array([x / (right - left), y / (top - bottom), 0.0])
+        line = curve(points, NEAR, 1 - NEAR, quarter_pixel(1.0, 1.0), pieces=64, box=box, scale=scale)
+        saddle = splitting(I, B, line[:, 2]) < 0
+        cuts = [0, *(np.flatnonzero(np.diff(saddle)) + 1).tolist(), len(line)]
+        for a, b in pairwise(cuts):
+            piece = line[a : b + 1, :2]
+            piece = piece[seen(piece, view)]
+            if len(piece):
+                found.append((piece, "unstable_line" if saddle[a] else role))
+    return found
