@@ -248,8 +248,7 @@ def check_top(draw: Top, regime: str, random: Random, worst: WorstErrors) -> Non
 
 def check_elliptic(draw: Elliptic, regime: str, random: Random, worst: WorstErrors) -> None:
     """Check an elliptic motion, K in ulps of the field: beside the register, structure and a grid."""
-    names = ("inertia", "field")
-    inputs = {name: [x.hex() for x in getattr(draw, name)] for name in names}
+    inputs: Inputs = {name: [x.hex() for x in getattr(draw, name)] for name in ("inertia", "field")}
     inputs |= {"z": draw.z.hex(), "branch": draw.branch}
     b, size = rates_of(draw)
     _nutation("elliptic", draw, inputs, size, regime, random, worst, K=b)

@@ -97,8 +97,8 @@ UNTIED = {
         for name in (
             "E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame in_cell "
             "invariants is_plane is_steady kind modulus nome omega parameters period precession precession_per_period "
-            "quaternion rate_of rotation rotation_grid solution sphere spin_per_period splitting stability steady_rates "
-            "swings_evenly third_axis tilt trigonometric turning_rate v"
+            "quaternion rate_of rotation rotation_grid solution sphere spin_per_period splitting stability "
+            "steady_rates swings_evenly third_axis tilt trigonometric turning_rate v"
         ).split()
     },
     "ElementaryMotion.omega": GIVEN,

@@ -320,7 +320,7 @@ def test_pushed_motions_leave_what_is_unstable_only(case: tuple[object, ...], st
     elif motion.splitting < 0:
         assert departure(case, 1e-4, 16.0) > 0.01
     else:  # it goes on to other motions of the family
-        state = taylor(*case[:2], (np.array(motion.omega) + [1e-3, 0, 0]).tolist(), [16.0], digits=12)[0]
+        state = taylor(*case[:2], np.add(motion.omega, (1e-3, 0, 0)).tolist(), [16.0], digits=12)[0]
         assert abs(float(state.K[0])) > 0.01
 
 
