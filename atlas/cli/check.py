@@ -5,16 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import (
-    REAL,
-    Command,
-    Place,
-    body_options,
-    chosen_body,
-    chosen_field,
-    examples,
-    field_options,
-)
+from atlas.cli.body import BODY, body_options, chosen_body, chosen_field, field_options
+from atlas.cli.options import REAL, Command, Place, examples
 from atlas.cli.present import Printout, dump, show
 
 if TYPE_CHECKING:
@@ -57,7 +49,7 @@ def command(file: Path, **options: Any) -> int:
     """
     from atlas.study.check import check
 
-    body = any(options[name] is not None for name in ("ratio", "inertia", "shape"))
+    body = any(options[name] is not None for name in BODY)
     field = any(options[name] is not None for name in ("field", "magnetic"))
     found = check(
         file,

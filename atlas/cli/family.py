@@ -5,23 +5,18 @@ from typing import Any
 
 import click
 
-from atlas.cli.numbers import along, answer, body_parameters, certificate, in_threes, samples
-from atlas.cli.options import (
-    REAL,
-    Command,
+from atlas.cli.body import (
     body_options,
+    body_parameters,
     chosen_body,
     chosen_field,
-    chosen_times,
     exact_body,
     exact_field,
-    exactly,
-    examples,
     field_options,
-    output_options,
-    stack,
-    times_options,
+    units_of,
 )
+from atlas.cli.numbers import along, answer, certificate, in_threes, samples
+from atlas.cli.options import REAL, Command, chosen_times, exactly, examples, output_options, stack, times_options
 from atlas.cli.present import Line, Printout, show
 from atlas.errors import DomainError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
@@ -163,8 +158,8 @@ def _printout(family: Family, described: Described, texts: dict[str, Any], optio
     """Lay the certified texts out, three rows a time."""
     from atlas.exact.digits import NOT_CERTIFIED
 
-    case = texts[described.named] if described.named else ""
-    units = UNITS[options["units"]] if family.parameters[-1].name == "c" else {}
+    case, names = texts[described.named] if described.named else "", [p.name for p in family.parameters]
+    units = UNITS[options["units"]] if "c" in names else units_of(options) if "ratio" in names else {}
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
     rows = in_threes(texts.get("samples", []))

@@ -4,21 +4,18 @@ from typing import Any
 
 import click
 
-from atlas.cli.numbers import along, answer, body_parameters, certificate
-from atlas.cli.options import (
-    REAL,
-    Command,
-    Many,
+from atlas.cli.body import (
     body_options,
+    body_parameters,
     chosen_body,
     chosen_field,
     exact_body,
     exact_field,
-    exactly,
-    examples,
     field_options,
-    output_options,
+    units_of,
 )
+from atlas.cli.numbers import along, answer, certificate
+from atlas.cli.options import REAL, Command, Many, exactly, examples, output_options
 from atlas.cli.present import Line, Printout, show
 
 CROSS = "With B3 = 0 the curve is this line and another, omega2 = -B2, on which omega3 is free."
@@ -85,13 +82,13 @@ def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
 
 def printout(texts: dict[str, Any], options: dict[str, Any], notes: list[str]) -> Printout:
     """Lay the certified texts out, a row a point."""
-    band = texts["unstable_band"]
+    band, rate = texts["unstable_band"], units_of(options).get("1/time", "1/time")
     lines = [
-        Line("-B2", "pole of omega3(omega2)", texts["pole"], "1/time", "(71)"),
+        Line("-B2", "pole of omega3(omega2)", texts["pole"], rate, "(71)"),
         Line(
             "y", "((omega2 + B2)/B2)^2 where the motion is unstable", f"{band[0]} to {band[1]}" if band else "nowhere"
         ),
     ]
-    heading = [f"{name} [1/time]" for name in COLUMNS[:-1]] + ["nutation^2 [1/time^2]"]
+    heading = [f"{name} [{rate}]" for name in COLUMNS[:-1]] + [f"nutation^2 [{rate}^2]"]
     rows = [[f"{float(row['omega2'])!r}", *(row[name] for name in COLUMNS[1:])] for row in texts["points"]]
     return Printout("hyperbola of elementary motions, (67)", lines, heading, rows, [*notes, certificate(options)])

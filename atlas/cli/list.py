@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import Command, shapes
+from atlas.cli.body import shapes
+from atlas.cli.options import Command
 from atlas.cli.present import Printout, dump, show
 from atlas.errors import AtlasError
 

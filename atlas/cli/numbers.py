@@ -65,11 +65,3 @@ def in_threes(records: Sequence[dict[str, Any]]) -> list[list[str]]:
             parts = (value[i] if isinstance(value[i], list) else [value[i]] for value in values)
             rows.append([f"{float(t)!r}" if i == 0 else "", *chain(*parts)])
     return rows
-
-
-def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
-    """Return the options that describe the body and the field, as they were given."""
-    body = ("ratio", "inertia", "shape", "radius", "height", "length", "equatorial", "polar")
-    names = (*body, "field", "magnetic", "mu")
-    given = {name: options[name] for name in names if options.get(name) is not None}
-    return given | ({"units": options["units"]} if options["magnetic"] is not None else {})

@@ -1,9 +1,9 @@
-"""Options that several commands share: the body, the field, the times, the form of the output."""
+"""Options that several commands share: numbers, the times, the form of the output, files."""
 
 import math
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
@@ -141,30 +141,6 @@ def stack(*decorators: Callable[[F], F]) -> Callable[[F], F]:
     return apply
 
 
-body_options: Callable[[F], F] = stack(
-    click.option("--ratio", type=REAL, help="I = I3/I2, in (0, 2]."),
-    click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
-    click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, disk, ...; see atlas list."),
-    click.option("--radius", type=REAL, help="Radius of the shape."),
-    click.option("--height", type=REAL, help="Height of a cylinder or cylindrical shell."),
-    click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
-    click.option("--equatorial", type=REAL, help="Equatorial semi-axis of a spheroid."),
-    click.option("--polar", type=REAL, help="Polar semi-axis of a spheroid."),
-)
-
-field_options: Callable[[F], F] = stack(
-    click.option("--field", type=REAL, nargs=2, metavar="B2 B3", help="Components of B' = mu B/(2c), in 1/time."),
-    click.option("--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="Components of B itself; needs --mu."),
-    click.option("--mu", type=REAL, help="Charge-to-mass ratio mu = e/m, either sign; with --magnetic."),
-    click.option(
-        "--units",
-        type=click.Choice(["natural", "gaussian", "si"]),
-        default="natural",
-        show_default=True,
-        help="Of --magnetic and --mu: c = 1; gauss and esu/g; tesla and C/kg (no factor c).",
-    ),
-)
-
 output_options: Callable[[F], F] = stack(
     click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."),
     click.option(
@@ -198,102 +174,6 @@ times_options: Callable[[F], F] = stack(
     click.option("--times", cls=Many, type=REAL, metavar="T [T ...]", help="Times, as many as you like."),
     click.option("--grid", type=REAL, nargs=3, metavar="START STEP COUNT", help="A uniform grid of times instead."),
 )
-
-
-ROD = "thin-rod"
-ROD_REASON = (
-    "a thin rod has I3 = 0 and so no ratio I = I3/I2 > 0: its turn about its own axis carries no inertia, and Omega3 "
-    "is not determined; give it a radius with --shape solid-cylinder."
-)
-
-
-def shapes() -> dict[str, list[str]]:
-    """Return the shapes that --shape takes, each with the options of its dimensions."""
-    from atlas.core.body import SHAPES
-
-    named = {name.replace("_", "-"): names for name, (_, names) in SHAPES.items()}
-    return {name: [size for size in names if size != "mass"] for name, names in named.items() if name != ROD}
-
-
-def chosen_body(options: dict[str, Any]) -> Any:
-    """Return the ratio, or the body that --inertia or --shape describes; one of the three is needed.
-
-    Raises click.UsageError when none or several are given, or when a dimension is missing or out of place.
-    """
-    given = [name for name in ("ratio", "inertia", "shape") if options[name] is not None]
-    if len(given) != 1:
-        found = " and ".join(f"--{name}" for name in given) or "none"
-        raise click.UsageError(f"the body is one of --ratio, --inertia, --shape; found {found}.")
-    sizes = {name: options[name] for name in ("radius", "height", "length", "equatorial", "polar")}
-    sizes = {name: size for name, size in sizes.items() if size is not None}
-    if sizes and options["shape"] is None:
-        raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
-    if options["ratio"] is not None:
-        return options["ratio"]
-    if options["shape"] is not None:
-        return _of_shape(options["shape"].replace("_", "-"), sizes)
-    from atlas.core.body import SymmetricBody
-
-    return SymmetricBody(*options["inertia"])
-
-
-def _of_shape(shape: str, sizes: Mapping[str, Typed]) -> Any:
-    """Return the body of a shape with the dimensions that were typed."""
-    from atlas.core.body import from_shape
-
-    known = shapes()
-    if shape == ROD:
-        raise click.UsageError(ROD_REASON)
-    if shape not in known:
-        raise click.UsageError(f"there is no shape {shape!r}; the shapes are {', '.join(known)}.")
-    if set(sizes) != set(known[shape]):
-        wanted, found = (" ".join(f"--{size}" for size in names) or "none" for names in (known[shape], sizes))
-        raise click.UsageError(f"the shape {shape} takes {wanted}; found {found}.")
-    for name, size in sizes.items():
-        if size and not 1e-150 < abs(size) < 1e150:
-            raise click.UsageError(f"--{name} {size.text} has no square among floats: choose another unit of length.")
-    return from_shape(shape.replace("-", "_"), mass=1.0, **sizes)
-
-
-def exact_body(options: dict[str, Any]) -> Any:
-    """Return the body of `chosen_body` for the certified floor: what was typed, nothing rounded."""
-    body = chosen_body(options)
-    if not options["decimal"]:
-        return body
-    if options["shape"] is not None:
-        raise click.UsageError("--decimal goes with --ratio or --inertia, not with --shape.")
-    if options["ratio"] is not None:
-        return options["ratio"].exactly()
-    I2, I3 = (moment.exactly() for moment in options["inertia"])
-    return I3 / I2
-
-
-def chosen_field(options: dict[str, Any]) -> tuple[float, float]:
-    """Return (B2, B3) of B' in 1/time, from --field or from --magnetic and --mu.
-
-    Raises click.UsageError when neither or both are given, or what belongs to the one stands beside the other.
-    """
-    if (options["field"] is None) == (options["magnetic"] is None):
-        raise click.UsageError("the field is one of --field (components of B') and --magnetic with --mu.")
-    if options["field"] is not None:
-        idle = "mu" if options["mu"] is not None else "units" if options["units"] != "natural" else ""
-        if idle:
-            raise click.UsageError(f"--{idle} goes with --magnetic only: --field holds B', in 1/time.")
-        return tuple(options["field"])
-    if options["mu"] is None:
-        raise click.UsageError("--magnetic needs --mu, the charge-to-mass ratio.")
-    from atlas.core.field import Field
-
-    maker = {"natural": Field, "gaussian": Field.gaussian, "si": Field.si}[options["units"]]
-    prime = maker(B=(0.0, *options["magnetic"]), mu=options["mu"]).prime
-    return (float(prime[1]), float(prime[2]))
-
-
-def exact_field(options: dict[str, Any]) -> Any:
-    """Return the field of `chosen_field` for the certified floor."""
-    if options["decimal"] and options["field"] is None:
-        raise click.UsageError("--decimal goes with --field, not with --magnetic.")
-    return exactly(chosen_field(options), options)
 
 
 def exactly(value: Any, options: dict[str, Any]) -> Any:

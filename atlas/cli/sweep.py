@@ -1,6 +1,5 @@
 """``atlas sweep``: quantities over a grid or a list of parameters, as a table in a file."""
 
-import csv
 import re
 from collections import Counter
 from collections.abc import Sequence
@@ -9,6 +8,17 @@ from typing import Annotated, Any
 
 import click
 
+from atlas.cli.body import (
+    BODY,
+    SIZES,
+    body_options,
+    body_parameters,
+    chosen_body,
+    chosen_field,
+    field_options,
+    units_of,
+)
+from atlas.cli.columns import columns_of
 from atlas.cli.options import REAL, Command, Place, examples
 from atlas.cli.progress import bar
 from atlas.families import FAMILIES
@@ -52,6 +62,8 @@ OUT = Out()
         "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "
         "--quantity stability --out map.npz",
         "atlas sweep ball --list launches.csv --quantity gamma --digits 30 --out gamma.csv",
+        "atlas sweep elementary --shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --magnetic 0.75 1.3 "
+        "--set omega2=-2:2:401 --quantity k --out ring.csv",
         "atlas sweep --file sweep.toml --out table.parquet/",
     ),
 )
@@ -63,6 +75,8 @@ OUT = Out()
     metavar="NAME=VALUES",
     help="A parameter: one number, several with commas, or START:STOP:COUNT; :log for even steps of the logarithm.",
 )
+@body_options
+@field_options
 @click.option("--list", "listing", type=click.Path(dir_okay=False, path_type=Path), help="CSV of rows with a heading.")
 @click.option("--quantity", "quantities", multiple=True, metavar="NAME", help="What to compute; may be repeated.")
 @click.option("--file", "toml", type=click.Path(dir_okay=False, path_type=Path), help="All of this from a TOML file.")
@@ -80,13 +94,14 @@ def command(
     digits: int | None,
     rows: int | None,
     jobs: int | None,
+    **options: Any,
 ) -> None:
     """Compute quantities of a family over parameters, and write the table."""
     from atlas.study.sweep.run import sweep
 
     wanted: dict[str, Any] = {"digits": digits, "rows": rows} if toml is None else {}
     if toml is not None:
-        if family or settings or listing or quantities or digits or rows:
+        if family or settings or listing or quantities or digits or rows or body_parameters(options):
             raise click.UsageError("with --file only --out and --jobs are left to say.")
         recipe = read(toml)
         family, quantities = recipe.family, tuple(recipe.quantities)
@@ -96,13 +111,14 @@ def command(
         wanted = {"digits": recipe.digits, "rows": recipe.rows}
     else:
         pairs = [_setting(text) for text in settings]
-        settings_read = dict(pairs)
-        _once([name for name, _ in pairs], "--set")
+        body = _body(options)
+        settings_read = body | dict(pairs)
+        _once([*body, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(body))
     if family is None:
         raise click.UsageError(f"name the family to sweep: {NAMES}.")
     if out is None:
         raise click.UsageError("--out says which file the table goes to.")
-    columns = _rows(listing) if listing else {}
+    columns = columns_of(listing) if listing else {}
     _once([*columns, *settings_read], f"{listing} and elsewhere")
     with bar("sweep") as tell:
         path = sweep(
@@ -113,9 +129,18 @@ def command(
             listed=listing is not None,
             jobs=jobs,
             progress=lambda done, total: tell(done, total, ""),
+            time=units_of(options).get("time", "time"),
             **{name: value for name, value in wanted.items() if value is not None},
         )
     click.echo(str(path))
+
+
+def _body(options: dict[str, Any]) -> dict[str, float]:
+    """Return what the options of body and field say, by the names of a table."""
+    body, found = any(options[name] is not None for name in BODY), body_parameters(options)
+    ratio = getattr(made := chosen_body(options), "ratio", made) if body else None
+    B = dict(zip(("B2", "B3"), chosen_field(options), strict=True)) if set(found) - {*BODY, *SIZES} else {}
+    return ({} if ratio is None else {"ratio": float(ratio)}) | B
 
 
 def read(path: Path) -> Any:
@@ -185,29 +210,3 @@ def _values(name: str, given: Any) -> Any:
     if count > MOST:
         raise click.UsageError(f"a range of {name} has at most {MOST} values, not {rest[0].strip()}.")
     return Range(first, last, count, log=len(rest) == 2).values
-
-
-def _rows(path: Path) -> dict[str, list[float]]:
-    """Return the columns of a CSV file, named by its first line."""
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            heading, *lines = [line for line in csv.reader(file) if line] or [[]]
-    except OSError as error:
-        raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
-    except UnicodeDecodeError as error:
-        raise click.UsageError(f"{path} is not UTF-8: byte {error.object[error.start]:#04x}.") from error
-    except csv.Error as error:
-        raise click.UsageError(f"{path} cannot be read as CSV: {error}.") from error
-    names = [name.partition("[")[0].strip() for name in heading]  # k [1/time] is k
-    if not lines or len(set(names)) != len(names):
-        raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
-    columns: dict[str, list[float]] = {name: [] for name in names}
-    for number, line in enumerate(lines, 2):
-        if len(line) != len(names):
-            raise click.UsageError(f"{path}: line {number} has {len(line)} cells, but the heading {len(names)}.")
-        for name, cell in zip(names, line, strict=True):
-            try:
-                columns[name].append(float(cell))
-            except ValueError:
-                raise click.UsageError(f"{path}: line {number}: {cell!r} under {name} is not a number.") from None
-    return columns

@@ -1,7 +1,7 @@
 """Moments of inertia as exact rationals: of a ratio, of a body, of a shape with its dimensions (8), (33)."""
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from flint import fmpq
 
@@ -12,6 +12,13 @@ ROD = (
     "A thin rod has I3 = 0: its turn about its own axis carries no inertia, so Omega3 is not determined; "
     "give it a radius."
 )
+
+
+class Moments(NamedTuple):
+    """I2 and I3, in the place of a ratio."""
+
+    I2: Any
+    I3: Any
 
 
 def ratio_of(ratio: Any) -> fmpq:

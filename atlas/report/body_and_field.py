@@ -1,7 +1,7 @@
 """The bodies and fields of a report, from the form in which they are given to what the kernels take."""
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -11,13 +11,6 @@ from atlas.core.field import LaboratoryFrame
 from atlas.core.units import System, charge_to_mass, system
 from atlas.errors import AtlasError, unknown
 from atlas.report.parameters import BodiesAndFields, Body, Field
-
-
-class Moments(NamedTuple):
-    """I2 and I3, as `atlas.exact` takes them in the place of a ratio."""
-
-    I2: Any
-    I3: Any
 
 
 @dataclass(frozen=True)
@@ -37,15 +30,15 @@ class BodyAndField:
     units: System | None = None
 
     @property
-    def exact(self) -> "Moments":
+    def exact(self) -> Any:
         """The moments without rounding: of a shape, from its dimensions."""
+        from atlas.exact.body import Moments, shape_moments
+
         record = self.body_record
         if self.body is None or record is None:
             raise AtlasError("this needs a body: name one with the key 'body'.")
         if record.shape is None:
             return Moments(self.body.I2, self.body.I3)
-        from atlas.exact.body import shape_moments
-
         return Moments(*shape_moments(record.shape, **dimensions(record)))
 
     @property

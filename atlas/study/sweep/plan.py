@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from atlas.core.inputs import real
 from atlas.errors import AtlasError
+from atlas.families.model import TIME
 from atlas.study.sweep.families import FAMILIES, MISSING
 
 Columns = dict[str, NDArray[Any]]
@@ -26,7 +27,7 @@ class Plan:
     """Rows of parameters of a family, and the quantities that each is to have.
 
     `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row.
-    With `digits` the quantities are text with so many certified digits.
+    With `digits` the quantities are text with so many certified digits. `time` is the unit of time in headings.
     """
 
     family: str
@@ -34,6 +35,7 @@ class Plan:
     quantities: tuple[str, ...]
     listed: bool = False
     digits: int | None = None
+    time: str = TIME
 
     @classmethod
     def of(
@@ -44,6 +46,7 @@ class Plan:
         *,
         listed: bool = False,
         digits: int | None = None,
+        time: str = TIME,
     ) -> "Plan":
         """Check what a user gave. Raises AtlasError for what is unknown, missing, not a number or not of one length."""
         if family not in FAMILIES:
@@ -61,7 +64,7 @@ class Plan:
             arrays = {name: np.broadcast_to(array, count) for name, array in arrays.items()}
         if digits is not None and digits < 1:
             raise AtlasError(f"A number has at least one digit, not {digits}.")
-        plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits)
+        plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time)
         if not 0 < plan.count <= LARGEST:
             raise AtlasError(f"A table has from one row to {LARGEST:.0e}, not {plan.count}.")
         return plan
@@ -82,7 +85,7 @@ class Plan:
     @property
     def headings(self) -> list[str]:
         """The same as a CSV file has them: with their unit, `k [1/time]`, where there is one."""
-        units = FAMILIES[self.family].units
+        units = {name: unit.replace(TIME, self.time) for name, unit in FAMILIES[self.family].units.items()}
         return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
 
     def span(self, start: int, stop: int) -> "Span":

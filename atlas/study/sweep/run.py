@@ -7,6 +7,7 @@ from typing import Any
 from uuid import uuid4
 
 from atlas.errors import AtlasError
+from atlas.families.model import TIME
 from atlas.study.sweep.lock import held
 from atlas.study.sweep.parts import Parts
 from atlas.study.sweep.plan import Columns, Plan
@@ -33,6 +34,7 @@ def sweep(
     executor: Any = None,
     jobs: int | None = None,
     progress: Progress | None = None,
+    time: str = TIME,
 ) -> Columns | Path | str:
     """Compute quantities of a family for all combinations of parameters, or, if `listed`, for lists of them by row.
 
@@ -46,7 +48,7 @@ def sweep(
     the table is whole; a sweep that was stopped goes on from there, and makes damaged parts again. The workers write
     the parts where they see the folder; on Dask a data set is written by Dask. The bytes of a file do not depend on the
     parts or on who computed them. With `digits` the quantities are text with so many certified digits.
-    `progress(rows done, rows)` is called after each part.
+    `progress(rows done, rows)` is called after each part. `time` is what headings call the unit of time.
 
     Where a quantity has no value, as an angle a period on a separatrix, its cell is empty (NaN in the columns and .npz,
     null in .parquet, no text), and the column `missing` says why.
@@ -56,7 +58,7 @@ def sweep(
     """
     if rows is not None and rows < 1:
         raise AtlasError(f"A part has at least one row, not {rows}.")
-    plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits)
+    plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits, time=time)
     if out is None:
         return plan.columns()
     table = target(out)

@@ -1,0 +1,249 @@
+"""The body and the field of a command: their options, and what the kernels and the certified floor take of them."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+import click
+
+from atlas.cli.columns import columns_of
+from atlas.cli.options import REAL, Typed, exactly, stack
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+BODY = ("ratio", "inertia", "shape", "points")
+"""The options of which one says what body it is."""
+SIZES = ("radius", "height", "length", "equatorial", "polar")
+SECONDS = {"1/time": "1/s", "1/time^2": "1/s^2", "time": "s"}
+"""Units where the field is given as B, in gauss or tesla."""
+SYMMETRIC = 1e-9
+"""By how much moments about the axis may differ, in parts of the largest."""
+
+ROD = "thin-rod"
+ROD_REASON = (
+    "a thin rod has I3 = 0 and so no ratio I = I3/I2 > 0: its turn about its own axis carries no inertia, and Omega3 "
+    "is not determined; give it a radius with --shape solid-cylinder."
+)
+
+body_options: Callable[[F], F] = stack(
+    click.option("--ratio", type=REAL, help="I = I3/I2, in (0, 2]."),
+    click.option("--inertia", type=REAL, nargs=2, metavar="I2 I3", help="The two moments of inertia instead of I."),
+    click.option("--shape", metavar="NAME", help="A body with dimensions instead: ring, disk, ...; see atlas list."),
+    click.option("--radius", type=REAL, help="Radius of the shape."),
+    click.option("--height", type=REAL, help="Height of a cylinder or cylindrical shell."),
+    click.option("--length", type=REAL, hidden=True),  # of a rod, which is refused with a reason
+    click.option("--equatorial", type=REAL, help="Equatorial semi-axis of a spheroid."),
+    click.option("--polar", type=REAL, help="Polar semi-axis of a spheroid."),
+    click.option(
+        "--points",
+        type=click.Path(exists=True, dir_okay=False, path_type=Path),
+        metavar="FILE",
+        help="Point masses instead: a CSV file with the columns x, y, z, mass and, for --magnetic, charge.",
+    ),
+)
+
+field_options: Callable[[F], F] = stack(
+    click.option("--field", type=REAL, nargs=2, metavar="B2 B3", help="Components of B' = mu B/(2c), in 1/time."),
+    click.option(
+        "--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="Components of B itself; needs --mass --charge or --mu."
+    ),
+    click.option("--mass", type=REAL, help="Mass of the body, with --charge."),
+    click.option("--charge", type=REAL, help="Charge of the body, either sign; with --magnetic."),
+    click.option("--mu", type=REAL, help="Charge-to-mass ratio mu = e/m instead, either sign."),
+    click.option(
+        "--units",
+        type=click.Choice(["natural", "gaussian", "si"]),
+        help="Of --magnetic, --mu, --mass, --charge: c = 1; gauss, esu/g, g, esu; tesla, C/kg, kg, C (no factor c). "
+        "SI where a charge is given, else natural.",
+    ),
+)
+
+
+def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the options that describe the body and the field, as they were given."""
+    names = (*BODY, *SIZES, "field", "magnetic", "mass", "charge", "mu")
+    given = {name: options[name] for name in names if options.get(name) is not None}
+    given |= {"points": str(options["points"])} if "points" in given else {}
+    return given | ({"units": system_of(options)} if options["magnetic"] is not None else {})
+
+
+def shapes() -> dict[str, list[str]]:
+    """Return the shapes that --shape takes, each with the options of its dimensions."""
+    from atlas.core.body import SHAPES
+
+    named = {name.replace("_", "-"): names for name, (_, names) in SHAPES.items()}
+    return {name: [size for size in names if size != "mass"] for name, names in named.items() if name != ROD}
+
+
+def chosen_body(options: dict[str, Any]) -> Any:
+    """Return the ratio, or the body that --inertia, --shape or --points describes; one of the four is needed.
+
+    Raises click.UsageError when none or several are given, or when a dimension is missing or out of place.
+    """
+    given = [name for name in BODY if options[name] is not None]
+    if len(given) != 1:
+        found = " and ".join(f"--{name}" for name in given) or "none"
+        raise click.UsageError(f"the body is one of {', '.join(f'--{name}' for name in BODY)}; found {found}.")
+    sizes = {name: options[name] for name in SIZES if options[name] is not None}
+    if sizes and options["shape"] is None:
+        raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only.")
+    if options["ratio"] is not None:
+        return options["ratio"]
+    if options["shape"] is not None:
+        return _of_shape(options["shape"].replace("_", "-"), sizes, options["mass"])
+    if options["points"] is not None:
+        return points(options["points"]).body
+    from atlas.core.body import SymmetricBody
+
+    return SymmetricBody(*options["inertia"])
+
+
+def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any:
+    """Return the body of a shape with the dimensions that were typed; its mass is 1 where none was."""
+    from atlas.core.body import from_shape
+
+    known = shapes()
+    if shape == ROD:
+        raise click.UsageError(ROD_REASON)
+    if shape not in known:
+        raise click.UsageError(f"there is no shape {shape!r}; the shapes are {', '.join(known)}.")
+    if set(sizes) != set(known[shape]):
+        wanted, found = (" ".join(f"--{size}" for size in names) or "none" for names in (known[shape], sizes))
+        raise click.UsageError(f"the shape {shape} takes {wanted}; found {found}.")
+    for name, size in sizes.items():
+        if size and not 1e-150 < abs(size) < 1e150:
+            raise click.UsageError(f"--{name} {size.text} has no square among floats: choose another unit of length.")
+    return from_shape(shape.replace("-", "_"), mass=1.0 if mass is None else mass, **sizes)
+
+
+class Points(NamedTuple):
+    """The body of point masses, their charge-to-mass ratio, None where the file has no charges, and their mass."""
+
+    body: Any
+    mu: float | None
+    mass: float
+
+
+def points(path: Path) -> Points:
+    """Read point masses, and charges if there are any. Raises click.UsageError for what is no body of the paper."""
+    import numpy as np
+
+    from atlas.core.body import SymmetricBody
+    from atlas.core.inertia import mass_matrix_of_points
+
+    columns = columns_of(path)
+    if not {"x", "y", "z", "mass"} <= set(columns) <= {"x", "y", "z", "mass", "charge"}:
+        raise click.UsageError(f"{path} must have the columns x, y, z, mass and may have charge; it has "
+                               f"{', '.join(columns)}.")  # fmt: skip
+    m = np.array(columns["mass"])
+    g = mass_matrix_of_points(m, np.transpose([columns[name] for name in "xyz"]))
+    inertia = g.trace() * np.eye(3) - g
+    largest = np.abs(inertia).max()
+    equal, upright = (abs(x) <= SYMMETRIC * largest for x in (g[0, 0] - g[1, 1], np.abs(np.triu(g, 1)).max()))
+    if not (equal and upright):
+        lacks = "I1 = I2" * (not equal) + " and " * (not equal and not upright) + "no products" * (not upright)
+        raise click.UsageError(
+            f"{path}: the points are not symmetric about the axis z: {lacks} would be needed, to {SYMMETRIC:g} of the "
+            f"largest, but about their centre of mass I1 = {inertia[0, 0]:.10g}, I2 = {inertia[1, 1]:.10g}, "
+            f"I3 = {inertia[2, 2]:.10g}, I12 = {inertia[0, 1]:.3g}, I13 = {inertia[0, 2]:.3g}, "
+            f"I23 = {inertia[1, 2]:.3g}."
+        )
+    across = (g[0, 0] + g[1, 1]) / 2
+    body = SymmetricBody.from_mass_matrix(np.array([across, across, g[2, 2]]))
+    return Points(body, _one_ratio(path, m, np.array(columns["charge"])) if "charge" in columns else None, m.sum())
+
+
+def _one_ratio(path: Path, masses: Any, charges: Any) -> float:
+    """Return the charge-to-mass ratio of all points. Raises click.UsageError where they have different ones."""
+    from atlas.core.units import charge_to_mass
+
+    ratios = charges / masses
+    if ratios.max() - ratios.min() > SYMMETRIC * abs(ratios).max():
+        raise click.UsageError(
+            f"{path}: charge/mass must be the same for all points, but goes from {ratios.min():.6g} to "
+            f"{ratios.max():.6g}; other charges are those of atlas.TopMotion.charged."
+        )
+    return charge_to_mass(float(charges.sum()), float(masses.sum()))
+
+
+def exact_body(options: dict[str, Any]) -> Any:
+    """Return the body of `chosen_body` for the certified floor: what was typed, nothing rounded."""
+    from atlas.exact.body import Moments, shape_moments
+
+    body = chosen_body(options)
+    if options["points"] is not None and options["decimal"]:
+        raise click.UsageError("--decimal goes with --ratio, --inertia or --shape, not with --points.")
+    if options["shape"] is not None:
+        sizes = {name: options[name] for name in ("mass", *SIZES) if options[name] is not None}
+        sizes = {name: exactly(size, options) for name, size in sizes.items()}
+        return Moments(*shape_moments(options["shape"].replace("-", "_"), **({"mass": 1} | sizes)))
+    if options["decimal"]:
+        typed = options["ratio"] if options["inertia"] is None else options["inertia"]
+        return exactly(typed, options) if options["inertia"] is None else Moments(*exactly(typed, options))
+    return body
+
+
+def system_of(options: Mapping[str, Any]) -> str:
+    """Return the system of units of --magnetic: SI where a charge is given and nothing is said."""
+    charged = options["charge"] is not None or options["points"] is not None
+    return options["units"] or ("si" if charged else "natural")
+
+
+def units_of(options: Mapping[str, Any]) -> dict[str, str]:
+    """Return what the units of times and rates are, where they are known."""
+    return SECONDS if options["magnetic"] is not None and system_of(options) != "natural" else {}
+
+
+def charge_to_mass_of(options: Mapping[str, Any]) -> float:
+    """Return mu, from --mu, from --mass and --charge or from --points.
+
+    Raises click.UsageError where none of them or several are given.
+    """
+    both = [f"--{name}" for name in ("mass", "charge") if options[name] is not None]
+    if options["points"] is not None:
+        if both or options["mu"] is not None:
+            raise click.UsageError(
+                f"--points holds masses and charges: {(both or ['--mu'])[0]} has no place beside it."
+            )
+        mu = points(options["points"]).mu
+        if mu is None:
+            raise click.UsageError(f"--magnetic needs the charges of the points: {options['points']} has no column "
+                                   "charge.")  # fmt: skip
+        return mu
+    if options["mu"] is not None:
+        if both:
+            raise click.UsageError(f"--mu is the charge-to-mass ratio: {both[0]} has no place beside it.")
+        return float(options["mu"])
+    if len(both) != 2:
+        missing = "--mass and --charge, or --mu" if not both else "--mass" if both == ["--charge"] else "--charge"
+        raise click.UsageError(f"--magnetic needs {missing}, for the charge-to-mass ratio.")
+    from atlas.core.units import charge_to_mass
+
+    return charge_to_mass(options["charge"], options["mass"])
+
+
+def chosen_field(options: dict[str, Any]) -> tuple[float, float]:
+    """Return (B2, B3) of B' in 1/time, from --field, or from --magnetic and the charge-to-mass ratio.
+
+    Raises click.UsageError when neither or both are given, or what belongs to the one stands beside the other.
+    """
+    if (options["field"] is None) == (options["magnetic"] is None):
+        raise click.UsageError("the field is one of --field (components of B') and --magnetic, with --mass and "
+                               "--charge or with --mu.")  # fmt: skip
+    if options["field"] is not None:
+        for name in ("mu", "mass", "charge", "units"):
+            if options[name] is not None:
+                raise click.UsageError(f"--{name} goes with --magnetic only: --field holds B', in 1/time.")
+        return tuple(options["field"])
+    from atlas.core.field import Field
+
+    maker = {"natural": Field, "gaussian": Field.gaussian, "si": Field.si}[system_of(options)]
+    prime = maker(B=(0.0, *options["magnetic"]), mu=charge_to_mass_of(options)).prime
+    return (float(prime[1]), float(prime[2]))
+
+
+def exact_field(options: dict[str, Any]) -> Any:
+    """Return the field of `chosen_field` for the certified floor."""
+    if options["decimal"] and options["field"] is None:
+        raise click.UsageError("--decimal goes with --field, not with --magnetic.")
+    return exactly(chosen_field(options), options)

@@ -1,0 +1,127 @@
+"""Bodies and fields on the command line in SI units: shapes with mass and charge, and point masses from a file."""
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import atlas
+from atlas.cli.app import atlas as command
+from atlas.cli.app import main
+from atlas.report.body_and_field import body_and_field
+from atlas.report.find import find
+from atlas.report.load import load
+
+SHELL = "--shape cylindrical-shell --radius 1e-6 --height 1.2e-6 --mass 1.5e-15 --charge 2e-15 --magnetic 0.75 1.3"
+TETRAGON = "x [m],y,z,mass [kg],charge\n1e-6,0,0,1,-2\n0,1e-6,0,1,-2\n-1e-6,0,0,1,-2\n0,-1e-6,0,1,-2\n"
+
+
+def record(*words: str) -> dict:  # type: ignore[type-arg]
+    """Read what a command prints with --json."""
+    result = CliRunner().invoke(command, [*words, "--json"], catch_exceptions=False)
+    assert result.exit_code == 0, result.output
+    return json.loads(result.stdout)
+
+
+def test_the_shell_of_a_report_is_the_same_in_a_command() -> None:
+    """Shape, mass, charge and B of short_solenoid in options give its quadric, digit by digit, rates in 1/s."""
+    known = load(find("short_solenoid")).parameters
+    case = body_and_field(known.bodies["shell"], known.fields["magnet"])
+    from atlas.exact.digits import certified
+    from atlas.exact.quadric import Quadric
+
+    quadric = Quadric(case.exact, case.components)
+    found = record("classify", *SHELL.split(), "--digits", "40")
+    assert found["semi_axes"] == certified(lambda: list(quadric.semi_axes), 40)
+    assert found["parameters"]["units"] == "si"
+    result = CliRunner().invoke(command, ["motion", *SHELL.split(), "--omega2", "1", "--times", "0"])
+    assert " 1/s " in result.stdout
+    assert "1/time" not in result.stdout
+    assert "1/time" not in CliRunner().invoke(command, ["hyperbola", *SHELL.split()]).stdout
+
+
+def test_decimals_of_a_shape_are_taken_as_typed() -> None:
+    """With --decimal the ratio of a shell of radius 1/10 and height 1/5 is the rational 12/10, in 60 digits."""
+    typed = "--shape cylindrical-shell --radius 0.1 --height 0.2 --field 0.1 0.2 --omega2 0.3 --decimal --digits 60"
+    I, B2, B3, w2 = Fraction(12, 10), Fraction(1, 10), Fraction(2, 10), Fraction(3, 10)
+    omega3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
+    assert abs(Fraction(record("motion", *typed.split())["omega3"]) - omega3) < Fraction(1, 10**59)
+
+
+@pytest.mark.parametrize("units", [["--units", "gaussian"], []])
+def test_mass_and_charge_are_their_ratio(units: list[str]) -> None:
+    """--mass and --charge do what --mu does with their quotient; without --units they are in SI."""
+    base = "motion --ratio 1.5 --magnetic 1 2 --omega2 0.7".split()
+    by_charge = record(*base, "--mass", "4", "--charge", "-3", *units)
+    by_ratio = record(*base, "--mu", "-0.75", *(units or ["--units", "si"]))
+    assert by_charge["k"] == by_ratio["k"]
+    assert by_charge["omega3"] == by_ratio["omega3"]
+
+
+def test_points_are_the_body_that_they_are(tmp_path: Path) -> None:
+    """Four points on a ring are a ring, with the charge-to-mass ratio of each; their place does not matter."""
+    (tmp_path / "ring.csv").write_text(TETRAGON, encoding="utf-8")
+    points = record("motion", "--points", str(tmp_path / "ring.csv"), *"--magnetic 1 2 --omega2 0.7".split())
+    assert points["omega3"] == pytest.approx(atlas.ElementaryMotion(2.0, (-1.0, -2.0), 0.7).omega3, rel=1e-14)
+    mass, at = np.array([1.0, 1.0, 2.0]), np.array([[1.0, 0, 0], [-1.0, 0, 0], [0, 0, 1.0]])
+    four = np.concatenate([at[:2], at[:2][:, [1, 0, 2]], at[2:]]) + np.array([3.0, -2.0, 7.0])
+    rows = [",".join(map(repr, map(float, (*x, m)))) for x, m in zip(four, [1, 1, 1, 1, 2], strict=True)]
+    (tmp_path / "kite.csv").write_text("\n".join(["x,y,z,mass", *rows]), encoding="utf-8")
+    body = atlas.SymmetricBody.from_point_masses([1, 1, 1, 1, mass[2]], four)
+    found = record("classify", "--points", str(tmp_path / "kite.csv"), "--field", "1", "2")
+    assert found["beta"] == pytest.approx(atlas.Quadric(body.ratio, (1.0, 2.0)).beta, rel=1e-13)
+
+
+def test_a_sweep_takes_body_and_field_by_the_same_options(tmp_path: Path) -> None:
+    """`atlas sweep` with SHELL has its ratio and its field in each row, and names the unit 1/s."""
+    out = tmp_path / "table.csv"
+    words = ["sweep", "elementary", *SHELL.split(), "--set", "omega2=0.5,1", "--quantity", "k", "--out", str(out)]
+    assert CliRunner().invoke(command, words).exit_code == 0
+    heading, first, _ = out.read_text(encoding="utf-8").splitlines()
+    assert heading == "ratio,B2 [1/s],B3 [1/s],omega2 [1/s],k [1/s]"
+    expected = record("motion", *SHELL.split(), "--omega2", "0.5")["k"]
+    assert float(first.rpartition(",")[2]) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("words", "tells"),
+    [
+        ("classify --ratio 1.5 --magnetic 1 2", "needs --mass and --charge, or --mu"),
+        ("classify --ratio 1.5 --magnetic 1 2 --mass 1", "needs --charge"),
+        ("classify --ratio 1.5 --magnetic 1 2 --charge 1", "needs --mass"),
+        ("classify --ratio 1.5 --magnetic 1 2 --charge 1 --mass 0", "mass must be positive"),
+        ("classify --ratio 1.5 --magnetic 1 2 --charge 1 --mass 1 --mu 1", "--mass has no place"),
+        ("classify --ratio 1.5 --field 1 2 --charge 1", "--charge goes with --magnetic only"),
+        ("classify --points {ring} --ratio 1 --field 1 2", "--ratio and --points"),
+        ("classify --points {ring} --mass 1 --magnetic 1 2", "--mass has no place"),
+        ("classify --points {bald} --magnetic 1 2", "no column charge"),
+        ("classify --points {lop} --field 1 2", "I1 = I2 would be needed"),
+        ("classify --points {skew} --field 1 2", "I13 = "),
+        ("classify --points {mixed} --magnetic 1 2", "goes from 1 to 2"),
+        ("classify --points {bald} --field 1 2 --decimal --digits 5", "not with --points"),
+        ("classify --points {void} --field 1 2", "x, y, z, mass"),
+        ("sweep elementary --ratio 1 --set ratio=1 --field 1 2 --quantity k --out {out}", "ratio is given 2 times"),
+    ],
+)
+def test_what_is_missing_is_said(words: str, tells: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What does not describe a body and a field ends with one line that says what is missing, and status 2."""
+    files = {
+        "ring": TETRAGON,
+        "bald": "x,y,z,mass\n1,0,0,1\n0,1,0,1\n-1,0,0,1\n0,-1,0,1\n",
+        "lop": "x,y,z,mass\n1,0,0,1\n-1,0,0,1\n0,0,1,1\n0,0,-1,1\n",
+        "skew": "x,y,z,mass\n1,0,1,1\n-1,0,-1,1\n0,1,0,1\n0,-1,0,1\n",
+        "mixed": "x,y,z,mass,charge\n1,0,0,1,1\n0,1,0,1,2\n-1,0,0,1,1\n0,-1,0,1,2\n",
+        "void": "x,y\n1,2\n",
+    }
+    for name, text in files.items():
+        (tmp_path / f"{name}.csv").write_text(text, encoding="utf-8")
+    places = {name: tmp_path / f"{name}.csv" for name in (*files, "out")}
+    with pytest.raises(SystemExit) as ended:
+        main(words.format(**places).split())
+    assert ended.value.code == 2
+    said = capsys.readouterr().err
+    assert tells in said
+    assert said.count("\n") == 1
