@@ -16,10 +16,11 @@ from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_top import SingleTop
 from atlas.core.quadric import TopQuadric
 from atlas.core.symmetric_top import given
-from atlas.errors import DomainError
+from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.top import TopMotion as Balls
-from atlas.formulas.numbers import workprec
+from atlas.exact.top_steady import SteadyPrecession
+from atlas.formulas.numbers import nearest, workprec
 
 
 def balls(*row: float) -> Balls:
@@ -138,6 +139,43 @@ class TopMotion(AloneMotion[SingleTop]):
         """Least and largest nu = cos theta; one of them is approached and never reached on a separatrix."""
         ends = self._each("turning_points", ends_of)
         return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
+
+    @cached_property
+    def stable(self) -> Any:
+        """Whether a motion with constant theta is stable against nutation, decided exactly, theorem-top-nutation.
+
+        At the border of stability the next derivatives of the potential decide. DomainError for a top that nutates.
+        """
+        return self._each("stable", lambda exact: exact.stable)
+
+    @property
+    def steady_precessions(self) -> list[SteadyPrecession]:
+        """Steady precessions at the inclination and with the omega3 of this top: `rate`, `nutation`, `stable`.
+
+        I2 nu w^2 - M3 w + a + A nu = 0, theorem-top-precession, w = rate + k2/I2 with `rate` about n; none where both
+        are complex, one where they meet or nu = 0, else the one of the smaller |w| first. omega2 = rate n2/|n| and
+        omega1 = 0 start it. Asked of one top: AtlasError for an array; DomainError with the axis along n, and where
+        every rate is one.
+        """
+        found = enclosed(lambda: [tuple(x) for x in self._one.steady_precessions], BITS)
+        return [SteadyPrecession(nearest(rate), nearest(square), stable) for rate, square, stable in found]
+
+    @property
+    def sleeping_bands(self) -> dict[str, tuple[float, float] | None]:
+        """Values of omega3 between which this top falls over, its axis along n, "upright", or against it, "hanging".
+
+        M3^2 < 4 (a + A), with the sign of a reversed for "hanging", theorem-sleeping-top; of Lagrange's top (I3
+        omega3)^2 < 4 I2 m g l. None where it is stable at any spin. At an end see `stable`. AtlasError for an array.
+        """
+        found = enclosed(lambda: list(self._one.sleeping_bands.items()), BITS)
+        return {name: band and (nearest(band[0]), nearest(band[1])) for name, band in found}
+
+    @property
+    def _one(self) -> Balls:
+        """One top in balls. Raises AtlasError for an array."""
+        if self._turning is None:
+            raise AtlasError("This is asked of one top: give its parameters as numbers, not as arrays.")
+        return self._turning.exact
 
     @property
     def quadric(self) -> TopQuadric:

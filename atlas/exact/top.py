@@ -15,7 +15,7 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
-from atlas.exact import two_turns
+from atlas.exact import top_steady, two_turns
 from atlas.exact.cayley_klein import Parameter, Solution, matrix
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.nutating import Nutating
@@ -25,6 +25,7 @@ from atlas.exact.swing import swing
 from atlas.exact.theta import Lattice, constant
 from atlas.exact.top_quadric import given
 from atlas.exact.top_quartic import TopQuartic
+from atlas.exact.top_steady import SteadyPrecession
 
 
 class TopMotion(Nutating):
@@ -166,6 +167,27 @@ class TopMotion(Nutating):
             return q.nu.value, q.nu.value
         roots = q.roots()
         return -roots[q.high].value.real, -roots[q.low].value.real
+
+    @property
+    def stable(self) -> bool:
+        """Whether a motion with constant theta is stable against nutation, decided exactly."""
+        if not self.is_steady:
+            raise DomainError("This top nutates; whether it is stable is asked of one whose theta is constant.")
+        return top_steady.stable(self.quartic)
+
+    @property
+    def steady_precessions(self) -> list[SteadyPrecession]:
+        """The steady precessions of this top at its inclination and with its omega3, at most two."""
+        return top_steady.steady_precessions(self.quartic, self.coupling[0])
+
+    @property
+    def sleeping_bands(self) -> dict[str, tuple[Real, Real] | None]:
+        """The omega3 between which this top falls over, if its axis is along n, "upright", or against it, "hanging"."""
+        q, k3 = self.quartic, self.coupling[1]
+        return {
+            name: top_steady.sleeping_band(self.I, q.kappa, k3, (q.linear, q.A), side)
+            for name, side in (("upright", 1), ("hanging", -1))
+        }
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""

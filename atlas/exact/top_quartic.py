@@ -43,6 +43,7 @@ class TopQuartic(Quartic):
         self.p = M2 * self.across + self.M3 * self.nu
         self.rate = self.across * w1
         self.kappa = k2 - k3 / I
+        self.linear = linear
         self.a = self.M3 * self.kappa + linear
         self.A = k3 * k3 / I - k2 * k2 + quadratic
         p, M3, a, A = self.p, self.M3, self.a, self.nu.of(self.A)

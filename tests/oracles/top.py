@@ -1,4 +1,4 @@
-"""The equations of a symmetric top in a uniform field by Taylor series, in numbers of mpmath: it shares no code.
+"""The equations of a symmetric top in a uniform field by Taylor series in mpmath, and by DOP853: they share no code.
 
     I dOmega/dt = [I Omega, Omega] + [k b, Omega] + [k Omega, b] - k [b, Omega] - U'(nu) [e3, b],    db/dt = [b, Omega],
 
@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import mpmath
+import numpy as np
+from scipy.integrate import solve_ivp
 
 Series = list[Any]
 
@@ -74,3 +76,19 @@ def _product(a: Series, b: Series, order: int) -> Any:
 def _cross(a: list[Series], b: list[Series], order: int) -> Series:
     """Return a coefficient of a cross product."""
     return [_product(a[i], b[j], order) - _product(a[j], b[i], order) for i, j in ((1, 2), (2, 0), (0, 1))]
+
+
+def integrated(case: Sequence[Any], times: Sequence[float]) -> Any:
+    """Return nu(t) at ascending times in floats, to some 1e-13: by SciPy's DOP853 on Omega and b."""
+    (I2, I3), (k2, k3), (n2, n3), omega, *potential = case
+    linear, quadratic = [*potential, 0.0, 0.0][:2]
+    I, k = np.array([I2, I2, I3]), np.array([k2, k2, k3])
+
+    def rate(_: float, state: Any) -> Any:
+        W, b = state[:3], state[3:]
+        db = np.cross(b, W)
+        force = k * W - np.array([0.0, 0.0, linear + quadratic * b[2]])
+        return np.concatenate([(np.cross(I * W + k * b, W) + np.cross(force, b) - k * db) / I, db])
+
+    start = np.array([*omega, 0.0, *np.array([n2, n3]) / np.hypot(n2, n3)])
+    return solve_ivp(rate, (0.0, times[-1]), start, "DOP853", times, rtol=1e-13, atol=1e-15).y[5]

@@ -26,7 +26,7 @@ MACHINERY = {
     "core": {"branches", "charge", "inputs", "motion", "nutating", "symmetric_top"},
     "exact": {
         *("cayley_klein", "digits", "euler", "inputs", "nutating", "nutation", "quartic", "spheres", "surd", "swing"),
-        *("elliptic_curve", "elliptic_quartic", "theta", "top_quartic", "two_turns"),
+        *("elliptic_curve", "elliptic_quartic", "theta", "top_quartic", "top_steady", "two_turns"),
     },
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""
@@ -88,8 +88,8 @@ UNTIED = {
         for name in (
             "angular_momentum angular_velocity b charged column complementary_modulus field_in_body from_frame in_cell "
             "heavy invariants is_plane is_steady kind modulus nome parameters period precession precession_per_period "
-            "quadric quaternion roots rotation rotation_grid solution sphere spin_per_period steady_rates "
-            "swings_evenly third_axis tilt trigonometric turning_points turning_rate"
+            "quadric quaternion roots rotation rotation_grid sleeping_bands solution sphere spin_per_period stable "
+            "steady_precessions steady_rates swings_evenly third_axis tilt trigonometric turning_points turning_rate"
         ).split()
     },
     **{
