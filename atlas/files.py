@@ -26,6 +26,17 @@ def replacing(path: Path) -> Iterator[Path]:
             part.unlink(missing_ok=True)
 
 
+@contextmanager
+def named(path: Path) -> Iterator[None]:
+    """Give an OSError the file's name that has none: one of writing, as on a full disk."""
+    try:
+        yield
+    except OSError as error:
+        if error.filename or error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
 def check(path: Path) -> None:
     """Raise OSError if no file can be written there; what is there stays as it is."""
     part = path.with_name(f".{path.name}.{os.getpid()}.part")

@@ -2,8 +2,8 @@
 
 `python tests/mutants.py core exact figures --count 60 --seed 0` draws so many changes, evenly over the tokens of these
 packages of `atlas` and of the recipes, and lists those that survive. A test reaches a line if it calls the function in
-which the line stands, which a run of the unchanged tests records first (in build/mutants.json, renewed for the test
-files that have changed). The cheapest run first, up to SECONDS in all, until one fails; one that takes more than LIMIT
+which the line stands, which a run of the unchanged tests records first (in build/mutants, renewed for the test files
+that have changed). The cheapest run first, up to SECONDS in all, until one fails; one that takes more than LIMIT
 seconds of the processor has noticed, however busy the machine is. Changes that make no difference stand in
 equivalent.toml, each with its reason, and are not drawn.
 
@@ -40,7 +40,7 @@ from typing import Any
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-SEEN = ROOT / "build" / "mutants.json"
+SEEN = ROOT / "build" / "mutants"
 EQUIVALENT = ROOT / "tests" / "equivalent.toml"
 LIMIT, SECONDS, SHARE = 300, 40, 10
 """Seconds of the processor: of one run, of the tests of one change by the record, and of the first among them."""
@@ -240,22 +240,22 @@ def reached(clean: Path, pool: ThreadPoolExecutor, *, known: bool) -> dict[str, 
     tests = [test for test in tests if not test.name.startswith(LATE)]
     others = [path for path in clean.rglob("*") if path.is_file() and path.parts[len(clean.parts)] != "tests"]
     code = digest(sorted([*others, *(clean / "tests").glob("*.py"), *(clean / "tests" / "oracles").glob("*.py")]))
-    before = json.loads(SEEN.read_text(encoding="utf-8")) if SEEN.exists() else {}
+    SEEN.mkdir(parents=True, exist_ok=True)
 
-    def seen(test: Path) -> tuple[str, Any]:
-        name, now = test.relative_to(clean).as_posix(), code + digest([test])
-        if name in before and (known or before[name]["digest"] == now):
-            return name, before[name]
+    def seen(test: Path) -> Any:
+        record, now = SEEN / f"{test.parent.name}-{test.stem}.json", code + digest([test])
+        if record.exists():
+            before = json.loads(record.read_text(encoding="utf-8"))
+            if known or before["digest"] == now:
+                return before["tests"]
         with tempfile.NamedTemporaryFile("r", encoding="utf-8") as out:
-            passed(clean, [name], out.name)
+            passed(clean, [test.relative_to(clean).as_posix()], out.name)
             found = json.loads(out.read() or "{}")
-        print(f"{name}: {len(found)} tests are watched", flush=True)
-        return name, {"digest": now, "tests": found}
+        print(f"{test.name}: {len(found)} tests are watched", flush=True)
+        record.write_text(json.dumps({"digest": now, "tests": found}), encoding="utf-8")
+        return found
 
-    found = dict(pool.map(seen, tests))
-    SEEN.parent.mkdir(exist_ok=True)
-    SEEN.write_text(json.dumps(found), encoding="utf-8")
-    return {test: calls for one in found.values() for test, calls in one["tests"].items()}
+    return {test: calls for found in pool.map(seen, tests) for test, calls in found.items()}
 
 
 def around(mutant: Mutant, root: Path) -> str:

@@ -85,7 +85,8 @@ def build_report(
         found = _found(file.stem, out, formats, cache, key)
         return found or _build(file, out, formats, style, jobs, cache, key, progress)
     except OSError as error:
-        raise OSError(f"the build in {out} stopped: {error.strerror or error}.") from error
+        where = f": {error.filename}" if error.filename else ""
+        raise OSError(f"the build in {out} stopped: {error.strerror or error}{where}.") from error
 
 
 def key_of(file: Path, sources: Sources, style: str | None = None) -> str:

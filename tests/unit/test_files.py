@@ -1,5 +1,7 @@
 """Files written whole or not at all, and the one list of libraries."""
 
+import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -57,6 +59,33 @@ def test_a_full_disk_names_the_file_that_was_meant(tmp_path: Path) -> None:
     told = subprocess.check_output([sys.executable, "-c", program, str(path)], text=True)
     assert told.strip() == str(path)
     assert not list(tmp_path.iterdir())
+
+
+SWEEP = "sweep quadric --set ratio=0.5:2:99 --set B2=1 --set B3=2 --quantity beta -j 1 --out t.csv"
+
+
+@pytest.mark.parametrize(("words", "name"), [(SWEEP, "t.csv.parts"), ("report mine.toml --out out", "cache")])
+def test_a_full_disk_is_told_with_the_file_that_did_not_fit(tmp_path: Path, words: str, name: str) -> None:
+    """One line, which says where there is no room: beside the output or in the cache."""
+    (tmp_path / "mine.toml").write_text(
+        'name = "mine"\ntitle = "T"\n[[pages]]\nslug = "index"\ntitle = "T"\n'
+        '[[pages.blocks]]\nkind = "prose"\ntext = "A text."\n',
+        encoding="utf-8",
+    )
+    program = (
+        "import resource, sys; from atlas.cli import main\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300)); main(sys.argv[1:])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, *words.split()],
+        cwd=tmp_path,
+        env=os.environ | {"ATLAS_CACHE": str(tmp_path / "cache"), "PYTHONDONTWRITEBYTECODE": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (1, "", 1), done.stderr
+    assert re.search(rf"File too large: .*{name}", done.stderr), done.stderr
 
 
 def test_the_libraries_are_those_of_the_project() -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
 
+from atlas import files
 from atlas.errors import AtlasError
 
 
@@ -40,13 +41,13 @@ class Local:
     def write(self, name: str, data: bytes) -> None:
         """Write a file in place of one of that name; the folder is there."""
         self.delete(name)
-        with (self.path / name).open("xb") as file:  # never through a link
+        with files.named(self.path / name), (self.path / name).open("xb") as file:  # never through a link
             file.write(data)
 
     def append(self, name: str, data: bytes) -> None:
         """Write more at the end of a file; the folder is made for the first."""
         self.path.mkdir(parents=True, exist_ok=True)
-        with (self.path / name).open("ab") as file:
+        with files.named(self.path / name), (self.path / name).open("ab") as file:
             file.write(data)
 
     def delete(self, name: str) -> None:
