@@ -15,6 +15,7 @@ from atlas.core.general import GeneralMotion
 from atlas.core.nutation import pair as nutation_pair
 from atlas.core.nutation import roots as nutation_roots
 from atlas.core.nutation.rows import GeneralRows
+from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.arrays import GENERAL_REGIME, check_general_rows, state
@@ -223,3 +224,44 @@ def test_the_bound_on_a_root_does_not_depend_on_the_unit(power: int) -> None:
     assert np.isfinite(plain.rel).all()
     assert (np.ldexp(plain.hi, power) == scaled.hi).all()
     assert (np.abs(plain.rel / scaled.rel - 1) <= 16 * np.finfo(float).eps).all()
+
+
+@pytest.mark.parametrize("power", [-90, 40, 90])
+def test_nothing_depends_on_the_unit(power: int) -> None:
+    """Rows whose frequencies are all that small or large have matrices and periods of those near one, to the bit."""
+    (I, B, omega), unit = ordinary(40, 11), 2.0**power
+    t = times((I, B, omega), 12)
+    one, other = GeneralMotion(I, B, omega), GeneralMotion(I, B * unit, omega * unit)
+    assert np.array_equal(one.rotation(t), other.rotation(t / unit))
+    assert np.array_equal(one.angular_velocity(t) * unit, other.angular_velocity(t / unit))
+    assert np.array_equal(one.period, other.period * unit)
+
+
+def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
+    """Return what arrays make of some rows, none of them alone: columns, Omega, and scalars that are sure."""
+    I, B, omega = (x[..., rows] for x in inputs)
+    columns, found = (1.0, I, *B, *omega), []
+    for name in ("rotation", "angular_velocity"):
+        out, at = np.zeros((rows.size, *((3, 3) if name == "rotation" else (3,)))), GeneralRows(columns, I.shape).at
+        made = at(slice(None), t[rows])
+        with np.errstate(all="ignore"):
+            getattr(made, name)(t[rows], out)
+        out[made.extreme] = 0.0
+        found.append(out)
+    scalars = Scalars(columns, I.shape)
+    return found + [np.where(x.sure, x.values, 0.0).T for x in map(scalars.__getitem__, SCALARS)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_motion_does_not_depend_on_those_beside_it(seed: int) -> None:
+    """In any order and any part of an array, hostile neighbours or none, each row has the same bits."""
+    r = np.random.default_rng(seed)
+    balls, others, (_, B, omega) = ordinary(300, seed), ordinary(100, seed + 10), ordinary(100, seed + 20)
+    balls[0][:] = 1.0
+    hostile = r.choice([0.5, 1.0, 1 + 2.0**-40], 100), *(x * 10.0 ** r.uniform(-12, 40, x.shape) for x in (B, omega))
+    inputs = tuple(np.concatenate(x, axis=-1) for x in zip(balls, others, hostile, strict=True))
+    t, order = times(inputs, seed), r.permutation(inputs[0].size)
+    whole = motions(inputs, t, np.arange(order.size))
+    for rows in (*np.array_split(order, 5), order[:1], np.arange(300)):
+        for all_rows, some in zip(whole, motions(inputs, t, rows), strict=True):
+            assert np.array_equal(some, all_rows[rows])

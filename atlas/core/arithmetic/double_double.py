@@ -195,12 +195,12 @@ def over(
 
 
 def blocks(
-    formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice
+    formula: Formula, inputs: Sequence[Any], shape: tuple[int, ...], unit: slice, bound: float = ORDINARY
 ) -> Iterator[tuple[slice, Callable[[int], Sequence[float]], tuple[Any, Any] | None, Sequence[Any]]]:
     """Yield results of a formula by blocks of rows of `shape`, flattened: those of the rows, and how to get a row.
 
-    Where an input is far from 1, those in `unit` are scaled by a power of two: its exponents come third, with the rows
-    that are ordinary numbers after that.
+    Where an input is not between 1/bound and `bound`, those in `unit` are scaled by a power of two: its exponents come
+    third, with the rows that are ordinary numbers after that. No row depends on those beside it.
     """
     size = int(np.prod(shape))
     columns = [np.float64(x) if np.ndim(x) == 0 else _flat(np.asarray(x), shape) for x in inputs]
@@ -209,8 +209,9 @@ def blocks(
         part = slice(start, min(start + BLOCK, size))
         given = [x if isinstance(x, np.float64) else x[part] for x in columns]
         used, exponents = given, None
-        if not all(_ordinary(x).all() for x in given):
-            used, exponents = _scaled(given, unit, part.stop - part.start)
+        plain = _ordinary(given, part.stop - part.start, bound)
+        if not plain.all():
+            used, exponents = _scaled(given, unit, plain)
         with np.errstate(all="ignore"):
             results = formula(*(DoubleDouble(x) for x in used))
             yield part, _row(given), exponents, results if isinstance(results, tuple) else (results,)
@@ -225,19 +226,25 @@ def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
     return x.reshape(-1) if x.shape == shape and x.flags.c_contiguous else np.broadcast_to(x, shape).flat
 
 
-def _ordinary(x: Any) -> Any:
-    """Return where numbers are zero or far from what products of a few could not hold."""
-    size = abs(x)
-    return (size == 0) | ((size >= 1 / ORDINARY) & (size <= ORDINARY))
+def _ordinary(columns: Sequence[Any], rows: int, bound: float = ORDINARY) -> Any:
+    """Return in which rows all numbers are zero or far from what products of a few could not hold."""
+    found = np.ones(rows, dtype=bool)
+    for size in map(abs, columns):
+        found &= (size == 0) | ((size >= 1 / bound) & (size <= bound))
+    return found
 
 
-def _scaled(given: Sequence[Any], unit: slice, rows: int) -> tuple[list[Any], tuple[Any, Any]]:
-    """Return the inputs with those in `unit` over a power of two, its exponents, and which rows are ordinary then."""
+def _scaled(given: Sequence[Any], unit: slice, plain: Any) -> tuple[list[Any], tuple[Any, Any]]:
+    """Return the inputs with those in `unit` over a power of two, its exponents, and which rows are ordinary then.
+
+    Rows that are `plain` stay as they are.
+    """
+    rows = plain.size
     largest = np.max(np.broadcast_arrays(np.zeros(rows), *(abs(x) for x in given[unit])), axis=0)
-    exponents = np.frexp(largest)[1]
+    exponents = np.where(plain, 0, np.frexp(largest)[1])
     used = list(given)
     used[unit] = [np.ldexp(x, -exponents) for x in given[unit]]
-    ordinary = np.logical_and.reduce(np.broadcast_arrays(np.ones(rows, dtype=bool), *(_ordinary(x) for x in used)))
+    ordinary = _ordinary(used, rows)
     # a number that the scaling made zero is none
     lost = [(x != 0) & (y == 0) for x, y in zip(given[unit], used[unit], strict=True)]
     return used, (exponents, ordinary & ~np.logical_or.reduce(np.broadcast_arrays(np.zeros(rows, dtype=bool), *lost)))

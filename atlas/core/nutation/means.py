@@ -6,6 +6,7 @@ With the turning points and the other factor f of Q, let N = sqrt(f(low) f(high)
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -32,6 +33,16 @@ class Level:
     product: DoubleDouble
     sum: DoubleDouble
 
+    @property
+    def parts(self) -> tuple[DoubleDouble, ...]:
+        """All five."""
+        return self.a, self.g, self.difference, self.product, self.sum
+
+    @cached_property
+    def one(self) -> Any:
+        """Where both means are one."""
+        return ~(self.difference.hi > ENOUGH * self.a.hi)
+
 
 class Means:
     """Gauss's means of motions with these roots: rate M = pi/T, moduli and nome; the start."""
@@ -57,11 +68,13 @@ class Means:
         both = a + g
         larger, smaller = chosen(self.four, a, g), chosen(self.four, g, a)
         levels = [Level(larger, smaller, abs(self.minus).scaled(-2) / both, larger * smaller, both)]
-        while len(levels) < MEANS and (levels[-1].difference.hi > ENOUGH * levels[-1].a.hi).any():
+        while len(levels) < MEANS and not levels[-1].one.all():
             last = levels[-1]
             a, g = last.sum.scaled(-1), last.product.sqrt()
             both, square = a + g, last.difference * last.difference
-            levels.append(Level(a, g, (square / both).scaled(-2), a * g, both))
+            more = Level(a, g, (square / both).scaled(-2), a * g, both)
+            # means that are one stay as they are: no motion depends on those beside it
+            levels.append(Level(*(chosen(last.one, x, y) for x, y in zip(last.parts, more.parts, strict=True))))
         return levels
 
     def level(self, n: int) -> Level:
@@ -92,7 +105,8 @@ class Means:
         """Nome of the theta functions, in size: that of the moduli for four real roots, else the root of it."""
         product = constant(1.0, self.N)
         for n in range(len(self.levels) - 1, 0, -1):
-            product = (product * self.level(n).a / self.level(n + 1).a).sqrt()
+            further = (product * self.level(n).a / self.level(n + 1).a).sqrt()
+            product = chosen(self.level(n).one, product, further)
         return abs(self.minus).sqrt().scaled(-3) / self.levels[0].sum.scaled(-1) * product
 
     @cached_property
@@ -107,14 +121,14 @@ class Means:
         for m in self.levels:
             squares, weighted = C * C, m.product * D * D
             size, product = squares + weighted, C * D
-            # once the means are one nothing is added, and what C and D have lost by then does not count
-            one = m.difference.hi <= ENOUGH * m.a.hi
-            x, y = _unit(size, -(product * m.difference))
-            turns.append((chosen(one, constant(1.0, x), x), chosen(one, constant(0.0, y), y)))
+            turns.append(_unit(size, -(product * m.difference)))
             C, D = (squares - weighted) / size, product.scaled(1) / size
-        rest = _half(turns[-1])
-        for turn in turns[-2::-1]:
-            rest = _half(_turned(turn, rest))
+        one, zero = constant(1.0, C), constant(0.0, C)
+        rest = one, zero
+        for m, turn in zip(reversed(self.levels), reversed(turns), strict=True):
+            cos, sin = _half(_turned(turn, rest))
+            # once the means are one nothing is added, and what C and D have lost by then does not count
+            rest = chosen(m.one, one, cos), chosen(m.one, zero, sin)
         cos, sin = _half(_turned(whole, rest))
         return cos, chosen(r.rate.hi < 0, -sin, sin)
 

@@ -128,12 +128,14 @@ class Pair:
         more, less, before = up * up, down * down, (circle[0], -circle[1])
         twice = (circle[0] * circle[0] - circle[1] * circle[1]).scaled(1)
         even, odd = np.zeros((2, TERMS, *up.hi.shape))
-        terms, zero = np.ones(weight.hi.shape, dtype=int), constant(0.0, up)
+        terms, matters = np.ones(weight.hi.shape, dtype=int), np.ones(weight.hi.shape, dtype=bool)
+        zero = constant(0.0, up)
         sums, ends = (zero, zero), (zero, zero)
         for n in range(TERMS):
             flip = self._signs[n] * np.where(zeros.beside, (-1.0) ** n, 1.0)
             weights, lower = signed(weight, flip), signed(down, sign)
-            a, b = weights * (up + lower), weights * (up - lower)
+            # a term that does not matter in a row is none of it, whatever the rows beside it need
+            a, b = (chosen(matters, weights * x, zero) for x in (up + lower, up - lower))
             even[n], odd[n] = a.hi, b.hi
             sums = sums[0] + a * circle[0], sums[1] + b * circle[1]
             ends = ends[0] + a, ends[1] + signed(b, (-1.0) ** n)
@@ -142,7 +144,7 @@ class Pair:
             first, second = circle
             circle, before = (twice * first - before[0], twice * second - before[1]), circle
             size = weight.hi * np.maximum(up.hi, down.hi)
-            matters = (size > NEGLIGIBLE * np.maximum(abs(even[0]), abs(odd[0]))).any(axis=0)
+            matters &= (size > NEGLIGIBLE * np.maximum(abs(even[0]), abs(odd[0]))).any(axis=0)
             terms[matters] = n + 2
             if not matters.any():
                 break
@@ -160,12 +162,12 @@ class Pair:
         circle = self.means.start
         before, twice = (circle[0], -circle[1]), (circle[0] * circle[0] - circle[1] * circle[1]).scaled(1)
         weight, power = constant(1.0, square), constant(1.0, square)
-        weights, at_low, at_high = np.zeros((TERMS, *square.hi.shape)), constant(0.0, square), constant(0.0, square)
-        for n in range(int(self.sums.terms.max(initial=1))):
-            if n == TERMS:
-                break
+        zero = constant(0.0, square)
+        weights, at_low, at_high = np.zeros((TERMS, *square.hi.shape)), zero, zero
+        for n in range(min(int(self.sums.terms.max(initial=1)), TERMS)):
             cos, sin = circle
             signs = self._signs[n]
+            weight = chosen(self.sums.terms > n, weight, zero)
             weights[n] = weight.hi * signs * (-1.0) ** n
             at_low, at_high = at_low + signed(weight, signs * (-1.0) ** n) * sin, at_high + signed(weight, signs) * cos
             power = power * square
@@ -227,21 +229,21 @@ def _steps(
     half = (p + m.product / p).scaled(-1)
     p, d = better(after.a + by_product, half), better(half - after.a, by_product)
     going = (np.maximum(abs(Q.hi), x.hi) > ENOUGH).any(axis=0)
+    ended = DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
     if not going.any() or len(levels) == 2:
-        return DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
+        return ended
     rows = np.flatnonzero(going) if 2 * np.count_nonzero(going) < going.size else slice(None)
-    rest = [Level(*(taken(y, rows) for y in vars(level).values())) for level in levels[1:]]
-    total, product = _steps(rest, *(taken(y, rows) for y in (p, d, x, Q)))
-    if not isinstance(rows, slice):
-        total, product = (
-            _spread(y, rows, like) for y, like in ((total, constant(0.0, Q)), (product, constant(1.0, Q)))
-        )
-    return Q + total, (term * product).sqrt()
+    rest = [Level(*(taken(y, rows) for y in level.parts)) for level in levels[1:]]
+    Q, term, p, d, x = (taken(y, rows) for y in (Q, term, p, d, x))
+    total, product = _steps(rest, p, d, x, Q)
+    return _where(going, rows, Q + total, ended[0]), _where(going, rows, (term * product).sqrt(), ended[1])
 
 
-def _spread(x: DoubleDouble, rows: Any, like: DoubleDouble) -> DoubleDouble:
-    """Return an array that has x in some columns."""
-    words = [np.array(np.broadcast_to(y, like.hi.shape)) for y in (like.hi, like.low, like.rel)]
+def _where(going: Any, rows: Any, x: DoubleDouble, other: DoubleDouble) -> DoubleDouble:
+    """Return x, of some rows or of all, where a condition holds, and the other elsewhere."""
+    if isinstance(rows, slice):
+        return chosen(going, x, other)
+    words = [np.array(np.broadcast_to(y, other.hi.shape)) for y in (other.hi, other.low, other.rel)]
     for word, y in zip(words, (x.hi, x.low, x.rel), strict=True):
         word[:, rows] = y
     return DoubleDouble(*words)

@@ -48,7 +48,7 @@ class Block(NamedTuple):
 def each_block(inputs: Sequence[Any], shape: tuple[int, ...]) -> Iterator[Block]:
     """Yield the roots of motions I2, I3, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks."""
     columns = [np.broadcast_to(np.asarray(x, dtype=float), shape) for x in inputs]
-    for rows, _, exponents, (roots,) in blocks(lambda *x: (roots_of(*x),), columns, shape, slice(2, 7)):
+    for rows, _, exponents, (roots,) in blocks(lambda *x: (roots_of(*x),), columns, shape, slice(2, 7), bound=1.0):
         frequencies = np.array([abs(x.reshape(-1)[rows]) for x in columns[2:]])
         least = np.where(frequencies == 0, np.inf, frequencies).min(axis=0)
         fine = least >= SPREAD * frequencies.max(axis=0)
