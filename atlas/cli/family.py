@@ -18,6 +18,7 @@ from atlas.cli.body import (
 from atlas.cli.numbers import along, answer, certificate, in_threes, samples
 from atlas.cli.options import REAL, Command, chosen_times, exactly, examples, output_options, stack, times_options
 from atlas.cli.present import Line, Printout, show
+from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.errors import DomainError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.families import Command as Described
@@ -30,6 +31,9 @@ UNKNOWN = (
     f"with {SPARE} binary digits the number cannot be told from zero, and that it is zero does not follow from a "
     "symmetry of the motion."
 )
+
+OTHERWISE = ("inertia", "direction")
+"""Parameters of a top that --heavy or --magnetic may stand for."""
 
 UNITS = {
     "natural": {},
@@ -56,10 +60,12 @@ def _made(family: Family, described: Described) -> click.Command:
     """Make the command of a family: its options, and what it does with them."""
     names = [p.name for p in family.parameters]
     given = [p for p in family.parameters if p.option]
+    ways = family.name == "top"
     decorators = [
         *([body_options] if "ratio" in names else []),
         *([field_options] if _in_plane(family) else []),
-        *map(_option, given),
+        *(_option(p, needed=p.needed and not (ways and p.name in OTHERWISE)) for p in given),
+        *([top_options] if ways else []),
         *([units_option] if "c" in names else []),
         *([times_options] if family.sampled else []),
         output_options,
@@ -80,6 +86,7 @@ def _made(family: Family, described: Described) -> click.Command:
 
         parameters = body_parameters(options) if "ratio" in names else {}
         parameters |= {p.name: options[p.name] for p in given if options[p.name] is not None}
+        parameters = parameters_of_top(names, options) if ways and given_otherwise(options) else parameters
         parameters |= {"units": options["units"]} if "c" in names else {}
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
@@ -94,11 +101,11 @@ def _in_plane(family: Family) -> bool:
     return any(p.name == "field" and not p.option for p in family.parameters)
 
 
-def _option(p: Parameter) -> Callable[[Any], Any]:
+def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
     """Return the option of a parameter."""
     count = len(p.names)
     more: dict[str, Any] = {"nargs": count, "metavar": p.metavar} if count > 1 else {}
-    if p.needed:
+    if needed:
         more["required"] = True
     elif p.omitted is not None:
         typed = f"{p.omitted:g}"
@@ -108,6 +115,12 @@ def _option(p: Parameter) -> Callable[[Any], Any]:
 
 def _values(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:
     """Yield the parameters, as kernels or as balls take them."""
+    if family.name == "top":
+        if given_otherwise(options):
+            made = chosen_top(options)
+            yield from (getattr(made, p.name) for p in family.parameters)
+            return
+        needs_no_way(options)
     for p in family.parameters:
         if p.name == "ratio":
             yield (exact_body if exact else chosen_body)(options)
@@ -160,6 +173,7 @@ def _printout(family: Family, described: Described, texts: dict[str, Any], optio
 
     case, names = texts[described.named] if described.named else "", [p.name for p in family.parameters]
     units = UNITS[options["units"]] if "c" in names else units_of(options) if "ratio" in names else {}
+    units = top_units(options) if family.name == "top" else units
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
     rows = in_threes(texts.get("samples", []))

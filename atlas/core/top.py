@@ -16,6 +16,7 @@ from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_top import SingleTop
 from atlas.core.quadric import TopQuadric
 from atlas.core.symmetric_top import given
+from atlas.core.units import system
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.top import TopMotion as Balls
@@ -102,20 +103,23 @@ class TopMotion(AloneMotion[SingleTop]):
         omega: Any,
         *,
         c: float = 1.0,
+        units: str | None = None,
         moment: float = 0.0,
         polarizability: tuple[float, float] = (0.0, 0.0),
     ) -> Self:
         """Top of a body whose charges are spread in another way than its mass, in the magnetic field (0, B2, B3).
 
-        `field` = (B2, B3) is B itself; `c` is 1 in SI and the speed of light in Gaussian units, as in `Field`. k_i =
-        J_i |B|/(2c). `moment` d is a magnetic moment along the axis, with the energy -d |B| nu; `polarizability`
-        (a2, a3), moments induced across and along the axis by a unit field, gives -(a3 - a2) B^2 nu^2/2: of a small
-        body of volume V, susceptibility chi and demagnetising factor N they are V chi/(mu0 (1 + N chi)) in SI.
+        `field` = (B2, B3) is B itself; `units`, "SI" (kg, m, C, T) or "Gaussian" (g, cm, statC, G), say what `c` is: 1
+        in SI, the speed of light in Gaussian units, as in `Field`; results are in seconds. k_i = J_i |B|/(2c). `moment`
+        d is a magnetic moment along the axis, with the energy -d |B| nu; `polarizability` (a2, a3), moments induced
+        across and along the axis by a unit field, gives -(a3 - a2) B^2 nu^2/2: of a small body of volume V,
+        susceptibility chi and demagnetising factor N they are V chi/(mu0 (1 + N chi)) in SI.
         Products are rounded. Raises AtlasError for what is no body or no number, DomainError for B = 0, where there is
         no direction: use `FreeMotion`.
         """
         I2, I3 = moments(body)
         B2, B3 = (number(x, "A component of the field") for x in components(field, ("B2", "B3"), "The field"))
+        c = c if units is None else system(units).c
         size = float(np.hypot(B2, B3))
         if not size:
             raise DomainError("Without a field a charged top has no direction: it is a free body, FreeMotion.")
@@ -144,7 +148,7 @@ class TopMotion(AloneMotion[SingleTop]):
     def stable(self) -> Any:
         """Whether a motion with constant theta is stable against nutation, decided exactly, theorem-top-nutation.
 
-        At the border of stability the next derivatives of the potential decide. DomainError for a top that nutates.
+        At the border of stability the next derivatives of the potential decide. None where theta varies.
         """
         return self._each("stable", lambda exact: exact.stable)
 
@@ -154,8 +158,8 @@ class TopMotion(AloneMotion[SingleTop]):
 
         I2 nu w^2 - M3 w + a + A nu = 0, theorem-top-precession, w = rate + k2/I2 with `rate` about n; none where both
         are complex, one where they meet or nu = 0, else the one of the smaller |w| first. omega2 = rate n2/|n| and
-        omega1 = 0 start it. Asked of one top: AtlasError for an array; DomainError with the axis along n, and where
-        every rate is one.
+        omega1 = 0 start it. None with the axis along n, see `sleeping_bands`. AtlasError for an array; DomainError
+        where every rate is one.
         """
         found = enclosed(lambda: [tuple(x) for x in self._one.steady_precessions], BITS)
         return [SteadyPrecession(nearest(rate), nearest(square), stable) for rate, square, stable in found]

@@ -169,11 +169,9 @@ class TopMotion(Nutating):
         return -roots[q.high].value.real, -roots[q.low].value.real
 
     @property
-    def stable(self) -> bool:
-        """Whether a motion with constant theta is stable against nutation, decided exactly."""
-        if not self.is_steady:
-            raise DomainError("This top nutates; whether it is stable is asked of one whose theta is constant.")
-        return top_steady.stable(self.quartic)
+    def stable(self) -> bool | None:
+        """Whether a motion with constant theta is stable against nutation, decided exactly; None where theta varies."""
+        return top_steady.stable(self.quartic) if self.is_steady else None
 
     @property
     def steady_precessions(self) -> list[SteadyPrecession]:

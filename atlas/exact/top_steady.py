@@ -26,7 +26,7 @@ class SteadyPrecession(NamedTuple):
 def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession]:
     """Return the steady precessions with the nu and M3 of a quartic, the slower one in w first; `precession` is k2."""
     if q.across.is_zero:
-        raise DomainError("With the axis along n there is no precession, but a sleeping top: see sleeping_bands.")
+        return []
     nu, M3, push = q.nu, q.M3, q.a + q.nu * q.A
     level = (1 - 3 * nu * nu) * q.A - 2 * nu * q.a + M3 * M3
     fourfold = (q.a + 2 * nu * q.A).is_zero and q.A < 0

@@ -18,6 +18,20 @@ def _balls() -> Any:
     return TopMotion
 
 
+def _rates(made: Any) -> Any:
+    """Return the rates of the steady precessions, of which there are two at most."""
+    return [one.rate for one in made.steady_precessions] or "none"
+
+
+def _rates_text(rates: Any) -> str:
+    return rates if isinstance(rates, str) else " and ".join(rates)
+
+
+def _stability(made: Any) -> str:
+    """Return "stable" or "unstable"."""
+    return {True: "stable", False: "unstable", None: "not steady"}[made.stable]
+
+
 FAMILY = Family(
     "top",
     "any motion of a symmetric top in a uniform field",
@@ -55,6 +69,14 @@ FAMILY = Family(
         Quantity("period", "period of nutation", TIME, certified=True),
         Quantity("precession_per_period", "turn about n in one period", missing="no period", certified=True),
         Quantity("spin_per_period", "turn about the body's axis in one period", missing="no period", certified=True),
+        Quantity(
+            "steady_precessions", "rates of steady precession at this inclination and omega3", RATE,
+            "theorem-top-precession", get=_rates, exact=_rates, text=_rates_text, tabled=False,
+        ),
+        Quantity(
+            "stable", "this steady motion against nutation", "", "theorem-top-nutation", get=_stability,
+            exact=_stability, tabled=False,
+        ),
         Quantity("modulus", "of the elliptic functions", missing="triple root", certified=True),
         Quantity("nome", "of the elliptic functions", missing="triple root", certified=True),
     ),
@@ -72,6 +94,8 @@ FAMILY = Family(
         (
             "atlas top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3 --times 0 1 1e6",
             "atlas top --inertia 1 0.75 --coupling 1 1.5 --direction 1 2 --omega 0.3 0.7 0.2 --times 1e12 --digits 40",
+            "atlas top --shape disk --radius 0.03 --mass 0.1 --heavy 9.81 0.04 --direction 0.3 1 --omega 0 0 150",
+            "atlas top --inertia 2e-27 1e-27 --charged 1e-23 2e-23 --magnetic 1 2 --omega 0.1 0.2 0.3",
             "atlas top --inertia 1 0.5 --direction 0 1 --omega 1e-3 0 1 --linear 2 --grid 0 1 40 --json",
         ),
         "top: ",

@@ -123,13 +123,10 @@ def test_the_border_of_sleep_is_decided_by_the_next_derivative(
 
 def test_what_is_not_steady_or_not_one_says_why() -> None:
     """One line for each."""
-    nutating = made("heavy")
-    with pytest.raises(atlas.DomainError, match="nutates"):
-        _ = nutating.stable
+    assert made("heavy").stable is None
     many = atlas.TopMotion((1.0, 0.5), (0, 0), (0.6, 0.8), (0, 0, np.array([1.0, 2.0])), 3.0)
     with pytest.raises(atlas.AtlasError, match="one top"):
         _ = many.steady_precessions
-    with pytest.raises(atlas.DomainError, match="sleeping"):
-        _ = atlas.TopMotion((1.0, 0.5), (0, 0), (0, 1), (0, 0, 1), 3.0).steady_precessions
+    assert atlas.TopMotion((1.0, 0.5), (0, 0), (0, 1), (0, 0, 1), 3.0).steady_precessions == []
     with pytest.raises(atlas.DomainError, match="every rate"):
         _ = atlas.TopMotion((1.0, 0.5), (0, 0), (1, 0), (0, 0, 0)).steady_precessions

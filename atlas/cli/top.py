@@ -1,0 +1,174 @@
+"""What ``atlas top`` takes in the place of moments and couplings: a heavy body, or a charged one in a field."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import click
+
+from atlas.cli.body import SECONDS, SIZES, F
+from atlas.cli.columns import columns_of
+from atlas.cli.options import REAL, stack
+
+WAYS = ("heavy", "magnetic")
+BODY = ("inertia", "shape", "points")
+CHARGES = ("charged", "coat", "points")
+OF_HEAVY, OF_CHARGED = ("mass",), ("charged", "coat", "charge", "moment", "polarizability", "units")
+
+top_options: Callable[[F], F] = stack(
+    click.option("--heavy", type=REAL, nargs=2, metavar="G L", help="Lagrange's top: gravity, and the distance of the "
+                 "centre of mass along the axis from the point at which the body is held, in SI. Needs --mass."),
+    click.option("--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="A charged body in this magnetic field, which "
+                 "is the direction too. Needs --charged, --coat or --points."),
+    click.option("--mass", type=REAL, help="Mass of the body: with --heavy or --shape."),
+    click.option("--shape", metavar="NAME", help="A body with dimensions for --inertia: ring, disk, ...; see atlas "
+                 "list."),
+    *(click.option(f"--{name}", type=REAL, help=f"{name.capitalize()} of the shape, see atlas list.") for name in
+      ("radius", "height", "equatorial", "polar")),
+    click.option("--points", type=click.Path(exists=True, dir_okay=False), metavar="FILE", help="Point masses and "
+                 "charges instead: a CSV file with the columns x, y, z, mass, charge; the axis is z."),
+    click.option("--charged", type=REAL, nargs=2, metavar="J2 J3", help="Moments of the charges, across and along the "
+                 "axis: charge times length squared."),
+    click.option("--coat", metavar="NAME", help="The charge is spread over this shape, of the dimensions of the body; "
+                 "needs --charge."),
+    click.option("--charge", type=REAL, help="Charge of the coat, either sign."),
+    click.option("--moment", type=REAL, help="Magnetic moment along the axis, with --magnetic."),
+    click.option("--polarizability", type=REAL, nargs=2, metavar="A2 A3", help="Moments that a unit field induces "
+                 "across and along the axis."),
+    click.option("--units", type=click.Choice(["si", "gaussian"]), help="Of --magnetic and what goes with it: kg, m, "
+                 "C, T (the default), or g, cm, statC, G."),
+)  # fmt: skip
+
+
+def given_otherwise(options: Mapping[str, Any]) -> bool:
+    """Say whether the top is given by a way of its own."""
+    return any(options[name] is not None for name in WAYS)
+
+
+def top_units(options: Mapping[str, Any]) -> dict[str, str]:
+    """Return what the units of times and rates are: seconds in SI and in Gaussian units."""
+    return SECONDS if given_otherwise(options) else {}
+
+
+def needs_no_way(options: Mapping[str, Any]) -> None:
+    """Raise click.UsageError where an option stands alone that goes with --heavy or --magnetic."""
+    for name in top_parameters(options):
+        if name != "inertia":
+            raise click.UsageError(f"--{name} goes with --heavy or --magnetic.")
+    for name in ("inertia", "direction"):
+        if options[name] is None:
+            raise click.UsageError(f"--{name} is missing: give it, or --heavy or --magnetic; see --help.")
+
+
+def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options that describe the body and its forces, as they were given."""
+    names = (*WAYS, *BODY, *SIZES, *OF_HEAVY, *OF_CHARGED)
+    return {name: options[name] for name in dict.fromkeys(names) if options.get(name) is not None}
+
+
+def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what was given, and what the top has from it."""
+    made = chosen_top(options)
+    given = top_parameters(options) | {"omega": options["omega"]}
+    given |= {} if options["direction"] is None else {"direction": options["direction"]}
+    return given | {"top": {name: getattr(made, name) for name in names}}
+
+
+def chosen_top(options: Mapping[str, Any]) -> Any:
+    """Return the top that --heavy or --magnetic describes. Raises click.UsageError for what does not go together."""
+    from atlas.core.top import TopMotion
+
+    if options["decimal"]:
+        raise click.UsageError("--decimal goes with --inertia, --coupling and --direction, not with --heavy or "
+                               "--magnetic, from which these are computed.")  # fmt: skip
+    if all(options[name] is not None for name in WAYS):
+        raise click.UsageError("the forces are those of --heavy or of --magnetic, not of both.")
+    for name in ("coupling", "linear", "quadratic"):
+        if any(options[name] if isinstance(options[name], tuple) else [options[name]]):
+            raise click.UsageError(f"--{name} has no place beside --heavy or --magnetic, from which it is computed.")
+    omega = tuple(map(float, options["omega"]))
+    if options["heavy"] is not None:
+        _nothing_of(options, (*OF_CHARGED, "points"), "--magnetic", "--heavy")
+        _needs(options, "mass", "--heavy")
+        _needs(options, "direction", "--heavy")
+        gravity, length = options["heavy"]
+        n = _pair(options["direction"])
+        return TopMotion.heavy(_body(options), gravity, length, n, omega, mass=options["mass"])
+    if options["direction"] is not None:
+        raise click.UsageError("--direction has no place beside --magnetic: it is that of the field.")
+    return TopMotion.charged(
+        _body(options), _charges(options), _pair(options["magnetic"]), omega,
+        units=options["units"] or "si", moment=options["moment"] or 0.0,
+        polarizability=_pair(options["polarizability"] or (0.0, 0.0)),
+    )  # fmt: skip
+
+
+def _body(options: Mapping[str, Any]) -> Any:
+    """Return the body of --inertia, --shape or --points."""
+    from atlas.core.body import SymmetricBody, from_shape
+
+    given = [name for name in BODY if options[name] is not None]
+    if len(given) != 1:
+        found = " and ".join(f"--{name}" for name in given) or "none"
+        raise click.UsageError(f"the body is one of {', '.join(f'--{name}' for name in BODY)}; found {found}.")
+    if options["points"] is not None:
+        columns = _points(options["points"])
+        return SymmetricBody.from_point_masses(columns["mass"], _centred(columns))
+    if options["inertia"] is not None:
+        return SymmetricBody(*_pair(options["inertia"]))
+    _needs(options, "mass", "--shape")
+    return from_shape(options["shape"].replace("-", "_"), mass=options["mass"], **_sizes(options))
+
+
+def _charges(options: Mapping[str, Any]) -> Any:
+    """Return the moments of the charges of --charged, --coat or --points."""
+    from atlas.core.charge_moments import ChargeMoments
+
+    given = [name for name in CHARGES if options[name] is not None]
+    if len(given) != 1:
+        found = " and ".join(f"--{name}" for name in given) or "none"
+        raise click.UsageError(f"the charge is one of {', '.join(f'--{name}' for name in CHARGES)}; found {found}.")
+    if options["points"] is not None:
+        columns = _points(options["points"])
+        return ChargeMoments.points(columns["charge"], _centred(columns))
+    if options["charged"] is not None:
+        return ChargeMoments(*_pair(options["charged"]))
+    _needs(options, "charge", "--coat")
+    return ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **_sizes(options))
+
+
+def _sizes(options: Mapping[str, Any]) -> dict[str, float]:
+    return {name: float(options[name]) for name in SIZES if options.get(name) is not None}
+
+
+def _points(path: str) -> dict[str, Any]:
+    """Return the columns of a file of point masses and charges."""
+    from pathlib import Path
+
+    columns = columns_of(Path(path))
+    if set(columns) != {"x", "y", "z", "mass", "charge"}:
+        raise click.UsageError(f"{path} must have the columns x, y, z, mass, charge; it has {', '.join(columns)}.")
+    return columns
+
+
+def _centred(columns: Mapping[str, Any]) -> Any:
+    """Return the places of points from their centre of mass."""
+    import numpy as np
+
+    places, masses = np.transpose([columns[name] for name in "xyz"]), np.array(columns["mass"])
+    return places - masses @ places / masses.sum()
+
+
+def _pair(typed: Any) -> tuple[float, float]:
+    first, second = typed
+    return float(first), float(second)
+
+
+def _needs(options: Mapping[str, Any], name: str, other: str) -> None:
+    if options[name] is None:
+        raise click.UsageError(f"{other} needs --{name}.")
+
+
+def _nothing_of(options: Mapping[str, Any], names: tuple[str, ...], way: str, other: str) -> None:
+    for name in names:
+        if options[name] is not None:
+            raise click.UsageError(f"--{name} goes with {way}, not with {other}.")

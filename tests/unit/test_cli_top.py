@@ -1,0 +1,111 @@
+"""``atlas top`` with a heavy or a charged body: what Python makes of the same, units, and what is wrong in a line."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+import atlas
+from atlas.cli.family import command
+
+TOP = command("top")
+HEAVY = "--shape disk --radius 0.03 --mass 0.1 --heavy 9.81 0.04 --direction 0.3 1 --omega 0 0 150"
+CHARGED = "--inertia 2e-27 1e-27 --charged 1e-23 2e-23 --magnetic 1 2 --omega 0.1 0.2 0.3"
+
+
+def record(words: str) -> dict[str, Any]:
+    """Return what the command prints as JSON."""
+    found = CliRunner().invoke(TOP, [*words.split(), "--json"], catch_exceptions=False)
+    assert found.exit_code == 0, found.output
+    return json.loads(found.stdout)  # type: ignore[no-any-return]
+
+
+def test_a_heavy_top_from_body_gravity_and_length_is_that_of_python() -> None:
+    """Kind, period and rates of the top of a disk on a peg, those of `TopMotion.heavy` to the bit."""
+    body = atlas.SymmetricBody.disk(0.1, 0.03)
+    top = atlas.TopMotion.heavy(body, 9.81, 0.04, (0.3, 1.0), (0, 0, 150), mass=0.1)
+    found = record(HEAVY)
+    assert (found["kind"], found["period"]) == (top.kind, top.period)
+    assert found["steady_precessions"] == [one.rate for one in top.steady_precessions]
+    text = CliRunner().invoke(TOP, HEAVY.split()).stdout
+    assert "1/s" in text
+    assert "1/time" not in text
+
+
+def test_a_charged_top_takes_moments_in_si_or_in_gaussian_units() -> None:
+    """The same body in both systems has the same period, to rounding; a coat has the moments of its shape."""
+    c = 299_792_458.0
+    si = record(CHARGED)
+    charge = 10 * c * 1e4  # statC cm^2 in one C m^2
+    gaussian = record(
+        f"--inertia 2e-20 1e-20 --charged {1e-23 * charge!r} {2e-23 * charge!r} --magnetic 1e4 2e4 --omega 0.1 0.2 0.3 "
+        "--units gaussian"
+    )
+    assert si["period"] == pytest.approx(gaussian["period"], rel=1e-14)
+    coat = record(
+        "--shape solid-cylinder --coat cylindrical-shell --radius 2 --height 3 --mass 3 --charge 5 --magnetic 1 2 "
+        "--omega 0 1 1"
+    )
+    body = atlas.SymmetricBody.solid_cylinder(3, 2, 3)
+    charges = atlas.ChargeMoments.shape("cylindrical_shell", 5, radius=2, height=3)
+    top = atlas.TopMotion.charged(body, charges, (1, 2), (0, 1, 1), units="SI")
+    assert coat["turning_points"] == list(top.turning_points)
+    assert coat["parameters"]["top"]["coupling"] == list(top.coupling)
+
+
+def test_point_masses_may_have_any_charges(tmp_path: Path) -> None:
+    """A ring of charges on heavy poles, from a file; charges off the centre of mass are refused with the reason."""
+    rows = ["1,0,0,1,2", "-1,0,0,1,2", "0,1,0,1,2", "0,-1,0,1,2", "0,0,1,5,0", "0,0,-1,5,0"]
+    path = tmp_path / "points.csv"
+    path.write_text("\n".join(["x,y,z,mass,charge", *rows]), "utf-8")
+    found = record(f"--points {path} --magnetic 1 2 --omega 0.1 0.2 0.3")
+    top = atlas.TopMotion.charged(
+        atlas.SymmetricBody(12.0, 4.0), atlas.ChargeMoments(4.0, 8.0), (1, 2), (0.1, 0.2, 0.3), units="SI"
+    )
+    assert found["period"] == pytest.approx(top.period, rel=1e-14)
+    path.write_text("\n".join(["x,y,z,mass,charge", *rows[:-1], "0,0,-1,5,3"]), "utf-8")
+    wrong = CliRunner().invoke(TOP, f"--points {path} --magnetic 1 2 --omega 0.1 0.2 0.3".split())
+    assert "centre of charge is off the centre of mass" in str(wrong.exception)
+
+
+def test_a_steady_motion_says_whether_it_is_stable() -> None:
+    """The sleeping top beyond and within its band."""
+    words = "--inertia 1 0.5 --direction 0 1 --linear 4 --omega 0 0"
+    assert record(f"{words} 8.1")["stable"] == "stable"
+    assert record(f"{words} 7.9")["stable"] == "unstable"
+    assert record("--inertia 1 0.5 --direction 0.6 0.8 --linear 4 --omega 0 0 8")["stable"] == "not steady"
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("--inertia 1 0.5 --omega 0 0 1", "--direction is missing"),
+        ("--direction 0 1 --omega 0 0 1", "--inertia is missing"),
+        ("--inertia 1 0.5 --direction 0 0 --omega 0 0 1", "zero vector"),
+        ("--inertia 1 2.5 --direction 0 1 --omega 0 0 1", "I3 lies in"),
+        ("--inertia 1 nan --direction 0 1 --omega 0 0 1", "finite"),
+        ("--inertia 1 0.5 --direction 0 1 --omega 0 0 1e400", "beyond the largest float"),
+        ("--inertia 1 0.5 --direction 0 1 --omega 0 0 1 --mass 2", "goes with --heavy or --magnetic"),
+        (f"{HEAVY} --magnetic 1 2", "not of both"),
+        (f"{HEAVY} --linear 2", "--linear has no place"),
+        (f"{HEAVY} --charge 2", "--charge goes with --magnetic"),
+        (f"{HEAVY} --decimal --digits 20", "--decimal goes with"),
+        (HEAVY.replace("--mass 0.1", ""), "needs --mass"),
+        (HEAVY.replace("0.04", "1e200"), "too large"),
+        (HEAVY.replace("9.81", "-9.81"), "must not be negative"),
+        (HEAVY.replace("--shape disk", "--shape disk --inertia 1 1"), "the body is one of"),
+        (f"{CHARGED} --direction 0 1", "--direction has no place"),
+        (CHARGED.replace("--charged 1e-23 2e-23", ""), "the charge is one of"),
+        (CHARGED.replace("1 2 --omega", "0 0 --omega"), "no direction"),
+        (CHARGED.replace("--charged 1e-23 2e-23", "--coat ring --radius 1"), "needs --charge"),
+    ],
+)
+def test_what_does_not_go_together_is_said_in_one_line(words: str, says: str) -> None:
+    """Of one line, by an error that the command line shows with status 2."""
+    found = CliRunner().invoke(TOP, words.split())
+    told = found.output.strip().splitlines()[-1] if isinstance(found.exception, SystemExit) else str(found.exception)
+    assert found.exit_code != 0
+    assert says in told
+    assert "\n" not in told
