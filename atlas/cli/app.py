@@ -75,6 +75,7 @@ for name, says in {
     "hyperbola": "Sample the hyperbola (67).",
     "sweep": "Tabulate quantities over parameters.",
     "check": "Grade a trajectory of your own.",
+    "tex": "Write a report as LaTeX.",
     "verify": "Put the paper's equations on trial.",
     "bench": "Measure error against time.",
     "stress": "Hunt for the worst errors.",

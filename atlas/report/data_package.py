@@ -76,7 +76,7 @@ def package(document: Document, drawn: Mapping[str, str]) -> dict[str, bytes]:
     described = {
         "name": report.name.lower().replace("_", "-"),
         "title": report.title,
-        "description": _plain(report.abstract or report.subtitle),
+        "description": words(report.abstract or report.subtitle),
         "version": versions()["atlas"],
         "sources": SOURCES,
         "software": versions(),
@@ -95,20 +95,20 @@ def _tables(document: Document) -> Iterator[Resource]:
 
 def _table(table: TableView, texts: Sequence[str]) -> Resource:
     """Return a table; a number whose digits are not all proven is marked in a column of its own."""
-    heads = [_plain(texts[column.head]) for column in table.columns]
-    names = _unique(_ascii(head) or "column" for head in heads)
+    heads = [words(texts[column.head]) for column in table.columns]
+    names = unique(ascii_name(head) or "column" for head in heads)
     fields, columns, found = list[Mapping[str, Any]](), list[list[str]](), set[str]()
     for place, (column, head, name) in enumerate(zip(table.columns, heads, names, strict=True)):
         cells = [row[place] for row in table.rows]
         numbers = [cell for cell in cells if cell.text is None and cell.whole]
         numeric = bool(numbers) and all(cell.text is None for cell in cells)
-        unit = _plain(texts[column.unit]) if column.unit is not None else ""
+        unit = words(texts[column.unit]) if column.unit is not None else ""
         field: dict[str, Any] = {"name": name, "title": head, "type": "number" if numeric else "string"}
         if unit:
             field["unit"] = unit
-        values = [_value(cell, texts) for cell in cells]
+        values = [value(cell, texts) for cell in cells]
         if numbers:
-            field["digits"] = max(_digits(_value(cell, texts)) for cell in numbers)
+            field["digits"] = max(digits(value(cell, texts)) for cell in numbers)
         fields.append(field)
         columns.append(values)
         if not all(cell.proven for cell in cells):
@@ -118,9 +118,9 @@ def _table(table: TableView, texts: Sequence[str]) -> Resource:
         found |= {name for n in (column.head, *(cell.text for cell in cells)) if n for name in citations(texts[n])}
     caption = texts[table.caption]
     equations = sorted((found | set(citations(caption))) & set(EQUATIONS), key=list(EQUATIONS).index)
-    facts: dict[str, Any] = {"title": f"Table {table.number}", "description": _plain(caption), "equations": equations}
+    facts: dict[str, Any] = {"title": f"Table {table.number}", "description": words(caption), "equations": equations}
     if table.note is not None:
-        facts["note"] = _plain(texts[table.note])
+        facts["note"] = words(texts[table.note])
     rows = [list(row) for row in zip(*columns, strict=True)]
     return Resource(f"tables/{table.id.removeprefix('tab-')}", facts, fields, rows)
 
@@ -140,7 +140,7 @@ def _figures(document: Document, drawn: Mapping[str, str]) -> Iterator[Resource]
         caption, first = texts[figure.caption], figure.pictures[0]
         facts = {
             "title": f"Figure {figure.number}",
-            "description": _plain(caption),
+            "description": words(caption),
             "equations": [name for name in EQUATIONS if name in citations(caption)],
             "axes": [line for line in said if line.startswith("panel ")],
             "parameters": dict(first.given),
@@ -185,27 +185,27 @@ def _parquet(one: Resource) -> bytes:
     return out.getvalue()
 
 
-def _value(cell: Cell, texts: Sequence[str]) -> str:
+def value(cell: Cell, texts: Sequence[str]) -> str:
     """Return a cell as a text: words, or the digits of a number."""
     if cell.text is not None:
-        return _plain(texts[cell.text])
+        return words(texts[cell.text])
     digits = f"{cell.whole}{cell.fraction}".replace(THIN, "").replace(MINUS, "-")
     power = cell.power.replace(MINUS, "-")
     return "" if digits == "?" else f"{digits}e{power}" if power else digits
 
 
-def _digits(number: str) -> int:
+def digits(number: str) -> int:
     """Return how many significant digits a number has."""
     return len(re.sub(r"e.*|[-.]", "", number).lstrip("0"))
 
 
-def _plain(markdown: str) -> str:
+def words(markdown: str) -> str:
     """Return a text without markup, on one line."""
     text = plain(markdown.replace("`", "").replace("**", ""))
     return " ".join(re.sub(r"\^\{(-?\d+)\}", r"^\1", text).split())
 
 
-def _ascii(head: str) -> str:
+def ascii_name(head: str) -> str:
     """Return the head of a column as a name: Greek letters spelt out, indices on the line, all else a low line."""
     letters = []
     for letter in unicodedata.normalize("NFKC", head).replace("′", "_prime").replace("'", "_prime"):
@@ -219,7 +219,7 @@ def _ascii(head: str) -> str:
     return re.sub(r"[^A-Za-z0-9]+", "_", joined).strip("_")
 
 
-def _unique(names: Iterable[str]) -> list[str]:
+def unique(names: Iterable[str]) -> list[str]:
     """Return names with a number behind those that were there before."""
     seen, found = Counter[str](), []
     for name in names:

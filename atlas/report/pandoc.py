@@ -1,4 +1,4 @@
-"""pandoc: Markdown with TeX to its tree, and trees to HTML with MathML or to Typst; one run for many texts.
+"""pandoc: Markdown with TeX to its tree, and trees to HTML with MathML, Typst or LaTeX; one run for many texts.
 
 What can be written is a choice of Markdown in which nothing is passed through: HTML, TeX outside formulas, attributes
 and metadata are text like any other. A formula that pandoc can't read is left as TeX with a warning: here that is an
@@ -19,7 +19,7 @@ from typing import Any, Literal, TypeAlias
 from atlas import libraries, programs
 from atlas.errors import AtlasError
 
-Target: TypeAlias = Literal["html", "typst"]
+Target: TypeAlias = Literal["html", "typst", "latex"]
 Tree: TypeAlias = list[Any]
 """Inlines or blocks as pandoc writes them in JSON."""
 
@@ -28,8 +28,12 @@ MARKDOWN = (
     "+startnum+backtick_code_blocks+all_symbols_escapable+intraword_underscores+escaped_line_breaks"
     "+blank_before_header+space_in_atx_header+blank_before_blockquote+shortcut_reference_links"
 )
-_WRITE = {"html": ["-t", "html5", "--mathml", "--syntax-highlighting=none"], "typst": ["-t", "typst"]}
-_MARK = {"html": "<!--{}-->", "typst": "//{}"}
+_WRITE = {
+    "html": ["-t", "html5", "--mathml", "--syntax-highlighting=none"],
+    "typst": ["-t", "typst"],
+    "latex": ["-t", "latex", "--natbib"],
+}
+_MARK = {"html": "<!--{}-->", "typst": "//{}", "latex": "%{}"}
 SECONDS, SPEED, MEMORY = 8, 50_000, "1000m"
 """What pandoc may take: seconds of a processor, one more for so many characters, and memory. A book takes a third."""
 _HEAP = 251
@@ -68,7 +72,7 @@ def read(texts: Sequence[tuple[str, bool]]) -> list[Tree]:
 
 
 def write(trees: Sequence[tuple[Tree, bool]], target: Target) -> list[str]:
-    """Return trees (tree, inline) as HTML or as Typst. Raises FormulaError for a formula that can't be read."""
+    """Return trees (tree, inline) as HTML, Typst or LaTeX. Raises FormulaError for a formula that can't be read."""
     mark = _MARK[target].format(hashlib.sha256(json.dumps(trees).encode()).hexdigest())
     blocks: list[Any] = []
     for tree, inline in trees:

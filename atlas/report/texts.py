@@ -177,7 +177,7 @@ class _Checked:
             return self.citation(content[0])
         if kind == "Math":
             formula = {"t": kind, "c": [content[0], _tex(content[1], self.target)]}
-            if self.target == "html":
+            if self.target != "typst":
                 return [formula]
             mark = {"t": "RawInline", "c": [self.target, _mark(self.text)]}
             return [mark, formula, mark]
@@ -195,7 +195,7 @@ class _Checked:
         """Return the links of a citation, in brackets with the words around them if it was written so."""
         links = [self.cite(part["citationId"], self.text.where) for part in parts]
         works = self.are_works(parts, links)
-        if works and self.target == "typst":  # which sets its own bibliography
+        if works and self.target != "html":  # Typst and BibTeX set their own bibliography
             return [{"t": "Cite", "c": [[part | self.around(part) for part in parts], []]}]
         bracketed = parts[0]["citationMode"]["t"] == "NormalCitation"
         found: Tree = []
@@ -217,10 +217,13 @@ class _Checked:
 
     def cited(self, part: Any, link: Link, bracketed: bool) -> Tree:
         """Return one link of a citation, at its anchor where it is the first to the name."""
-        words = _words(link.bracketed if bracketed and link.bracketed else link.words)
+        name, words = part["citationId"], _words(link.bracketed if bracketed and link.bracketed else link.words)
+        if self.target == "latex":  # figures and tables are numbered by the paper that they stand in
+            counted = f"{link.words.partition(' ')[0]}~\\ref{{{link.anchor}}}"
+            return [{"t": "RawInline", "c": ["latex", counted]}] if name.startswith(("fig:", "tab:")) else words
         says = link.says if self.target == "html" else ""
         node = [_link(words, f"{link.page}#{link.anchor}", says)] if link.anchor else words
-        anchor = self.anchors.pop(part["citationId"], None)
+        anchor = self.anchors.pop(name, None)
         return [{"t": "Span", "c": [[anchor, [], []], node]}] if anchor is not None else node
 
     def around(self, part: Any) -> dict[str, Tree]:
@@ -266,8 +269,8 @@ def _mark(text: Text) -> str:
 
 def _finished(piece: str, target: Target, text: Text) -> str:
     """Mend what pandoc made of the formulas of a text, in Typst of those between marks, and of nothing else."""
-    if target == "html":
-        return mend_all(piece)
+    if target != "typst":
+        return mend_all(piece) if target == "html" else piece
     parts = piece.split(_mark(text))
     parts[1::2] = [_mended(formula, text) for formula in parts[1::2]]
     piece = "".join(parts)

@@ -17,7 +17,7 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion as Balls
-from atlas.report.data_package import _ascii
+from atlas.report.data_package import ascii_name
 from atlas.scene import recipes
 from atlas.scene.data import table
 
@@ -169,7 +169,7 @@ def test_a_folder_of_something_else_is_refused(data: Path, tmp_path: Path, kind:
         place.symlink_to(theirs)
     else:
         theirs.rename(place)
-    with pytest.raises(AtlasError, match="holds something else than the data of a report"):
+    with pytest.raises(AtlasError, match="holds something else than was made here"):
         build_data(data.parents[1] / "small.toml", tmp_path)
     assert (place / "thesis.tex").read_text("utf-8") == "x"
 
@@ -187,6 +187,6 @@ def test_a_figure_that_fails_leaves_what_was_there(data: Path, tmp_path: Path) -
 
 def test_heads_become_names() -> None:
     """Greek letters are spelt out, a prime is named, what has no name in ASCII falls away."""
-    assert [_ascii(head) for head in ("ω_2", "Ω_3", "B'_2", "ϕ/k", "E′", "What it is", "𝕀", "ν_n^2")] == [
+    assert [ascii_name(head) for head in ("ω_2", "Ω_3", "B'_2", "ϕ/k", "E′", "What it is", "𝕀", "ν_n^2")] == [
         "omega2", "Omega3", "B_prime2", "phi_k", "E_prime", "What_it_is", "I", "nu_n_2",
     ]  # fmt: skip

@@ -1,0 +1,78 @@
+"""A report composed with its figures drawn in some format, and a folder of files put in its place as a whole."""
+
+import shutil
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import TYPE_CHECKING
+
+from atlas.build import figures
+from atlas.build.cache import Cache
+from atlas.build.figures import FigureBuild
+from atlas.errors import AtlasError
+from atlas.places import cache_folder
+from atlas.report.find import find
+from atlas.sources import Sources
+
+if TYPE_CHECKING:
+    from atlas.report.document import Document
+    from atlas.report.picture import Picture
+
+UNFINISHED = ".atlas-unfinished-"
+"""How the folder begins that files stand in until all are written, beside the one that they are for."""
+Progress = Callable[[int, int, str], None]
+
+
+def composed(
+    name: str | Path, out: Path, kinds: "Callable[[Picture], tuple[str, ...]]", progress: Progress, jobs: int | None
+) -> "tuple[Document, dict[str, FigureBuild]]":
+    """Return a report, its tables computed, and its figures by the stems of their pictures, drawn in these formats.
+
+    Raises AtlasError for a mistake in the report and for a figure that fails.
+    """
+    from atlas.build.appendices import gather
+    from atlas.build.report import describe, outlines
+    from atlas.draw import gl
+    from atlas.report import bibliography
+    from atlas.report.compose import compose
+    from atlas.report.load import load
+    from atlas.report.pictures import pictures
+
+    file = find(str(name))
+    report = load(file)
+    cache, wanted = Cache(cache_folder(out)), pictures(report)
+    builds = {
+        FigureBuild(one.recipe, one.parameters, one.renderer, kinds(one)): one
+        for one in wanted.values()
+        if not one.failure
+    }
+    figures.find(list(builds), cache, Sources(cache), gl.library())
+    figures.draw(list(builds), cache, jobs or figures.cores(), progress)
+    for build, picture in builds.items():
+        if build.failure:
+            raise AtlasError(f"the figure {build.name} failed: {build.failure}")
+        describe(build, picture)
+    works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
+    document = compose(report, wanted, gather(report), works, outlines(report))
+    return document, {picture.stem: build for build, picture in builds.items()}
+
+
+def check_place(place: Path, own: str) -> None:
+    """Raise AtlasError for a folder that is not ours to replace: a link, or one with files but not that of ours."""
+    if place.is_symlink() or (place.exists() and not (place / own).is_file() and any(place.iterdir())):
+        raise AtlasError(f"{place} holds something else than was made here: move it, or choose another --out.")
+
+
+def replace(place: Path, contents: Mapping[str, bytes]) -> None:
+    """Put a folder with these files in the place of the one that is there."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    work = Path(mkdtemp(dir=place.parent, prefix=UNFINISHED))
+    try:
+        for name, content in contents.items():
+            (work / "new" / name).parent.mkdir(parents=True, exist_ok=True)
+            (work / "new" / name).write_bytes(content)
+        if place.exists():
+            place.rename(work / "old")
+        (work / "new").rename(place)
+    finally:
+        shutil.rmtree(work, ignore_errors=True)

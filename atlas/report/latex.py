@@ -1,0 +1,240 @@
+r"""A report as LaTeX to be taken into a manuscript: numbers by key, tables, figures, references, and all as one paper.
+
+Numbers go through siunitx, which rounds them; what is asked for beyond the proven digits is an error of LaTeX. Tables
+are booktabs' with columns of siunitx made for their numbers. A report in REVTeX stands beside them as `paper.tex`.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+import atlas
+from atlas.places import folder
+from atlas.report.blocks.equation import EquationView
+from atlas.report.blocks.figure import FigureView
+from atlas.report.blocks.prose import ProseView
+from atlas.report.blocks.table import Cell, ColumnView, TableView
+from atlas.report.data_package import ascii_name, digits, unique, value, words
+from atlas.report.document import Document
+from atlas.report.versions import versions
+
+COLUMN, PAGE = 86.0, 178.0
+"""Widths of a column and of a page of REVTeX, in millimetres."""
+LETTERS, BOTH, LONG = 46, 115, 30
+"""Letters of a table that fit in a column and across the page; more of a cell than that are broken into lines."""
+ANY = 99
+"""Digits of an exact zero."""
+NUMBERS, PAPER, REFERENCES = "atlas-numbers.tex", "paper.tex", "references.bib"
+_POWER = re.compile(r"\$?10\^\{?(-?\d+)\}?\$? *")
+
+
+@dataclass(frozen=True)
+class Numeral:
+    """A number by its key: its digits, all proven, how many they are, and its unit for siunitx."""
+
+    key: str
+    digits: int
+    value: str
+    unit: str
+
+
+def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the files of a document whose texts are set in LaTeX, by their places.
+
+    `pictures` are the files of its figures, by name: ``figures/ID.pdf`` or ``.png``.
+    """
+    markdown, texts = [text.markdown for text in document.texts.texts], document.written["latex"]
+    environment = Environment(
+        loader=FileSystemLoader(folder("templates") / "latex"),
+        autoescape=False,  # noqa: S701  what is filled in is LaTeX
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        keep_trailing_newline=True,
+        variable_start_string="<$",
+        variable_end_string="$>",
+        block_start_string="<%",
+        block_end_string="%>",
+        comment_start_string="<#",
+        comment_end_string="#>",
+    )
+    common = {"report": document.report, "versions": versions()}
+    computed = [table for table in document.listed("table") if table.name]
+    numbers = [one for table in computed for one in _numbers(table, markdown)]
+    made = {NUMBERS: environment.get_template("numbers.tex").render(numbers=numbers, **common)}
+    for table in document.listed("table"):
+        made[f"tables/{table.id.removeprefix('tab-')}.tex"] = _table(table, markdown, texts)
+    for figure in document.listed("figure"):
+        made[f"figures/{figure.id.removeprefix('fig-')}.tex"] = _figure(figure, texts, pictures)
+    made[REFERENCES] = _references(document)
+    made[PAPER] = environment.get_template("paper.tex").render(
+        title=_escaped(document.report.title),
+        authors=[_escaped(author) for author in document.report.authors],
+        abstract=texts[document.abstract],
+        body="\n\n".join(_body(document, texts)),
+        **common,
+    )
+    return {name: text.encode() for name, text in made.items()} | dict(pictures)
+
+
+def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
+    """Yield the numbers of a computed table: keyed by table, row and, where there are several, column."""
+    heads = [ascii_name(words(markdown[column.head])) for column in table.columns]
+    numeric = [place for place in range(len(heads)) if any(row[place].whole for row in table.rows)]
+    at = {name: place for place, name in enumerate(heads)}
+    rows = [[value(cell, markdown) for cell in row] for row in table.rows]
+    names = unique(_row_name(row, at, numeric, number) for number, row in enumerate(rows, 1))
+    for name, row, cells in zip(names, rows, table.rows, strict=True):
+        for place in numeric:
+            if cells[place].text is None and row[place] and cells[place].proven:
+                column = table.columns[place]
+                of_row = cells[at["Unit"]].text if "Unit" in at else None
+                said = column.unit if column.unit is not None else of_row
+                last = [heads[place] or str(place)] if len(numeric) > 1 else []
+                key = "/".join([table.id.removeprefix("tab-"), name, *last])
+                unit = "" if said is None else markdown[said]
+                yield Numeral(key, digits(row[place]) or ANY, *_with_unit(row[place], unit))
+
+
+def _row_name(row: Sequence[str], at: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
+    """Return the name of a row: its symbol, else its first words, else its number."""
+    if "Symbol" in at and row[at["Symbol"]]:
+        return ascii_name(row[at["Symbol"]].partition("=")[0])
+    return (ascii_name(row[0]) if 0 not in numeric else "") or str(number)
+
+
+def _with_unit(number: str, unit: str) -> tuple[str, str]:
+    """Return a number with the power of ten that stands before its unit, and the unit as siunitx reads it."""
+    power = _POWER.match(unit)
+    rest = re.sub(r"\s+", ".", (unit[power.end() :] if power else unit).replace("$", "").strip())
+    rest = "" if rest == "1" else rest
+    return (f"{number}e{power[1]}" if power and "e" not in number else number), rest
+
+
+def _table(table: TableView, markdown: Sequence[str], texts: Sequence[str]) -> str:
+    """Return a table as an environment of its own, over both columns where it is wide."""
+    places = range(len(table.columns))
+    formats = [_format([row[place] for row in table.rows], markdown) for place in places]
+    heads = [_head(column, texts, format_) for column, format_ in zip(table.columns, formats, strict=True)]
+    rows = [
+        " & ".join(_entry(row[place], texts, numeric=formats[place] != "l") for place in places) + r" \\"
+        for row in table.rows
+    ]
+    letters = [
+        max(map(len, [words(markdown[column.head]), *(value(row[place], markdown) for row in table.rows)])) + 2
+        for place, column in enumerate(table.columns)
+    ]
+    kind = "table*" if sum(letters) > LETTERS else "table"
+    note = [rf"\par\smallskip\footnotesize {texts[table.note]}"] if table.note is not None else []
+    return "\n".join(
+        [
+            rf"\begin{{{kind}}}[tb]",
+            rf"\caption{{{texts[table.caption]}}}\label{{{table.id}}}",
+            r"\centering\footnotesize",
+            rf"\begin{{tabular}}{{{''.join(_broken(formats, letters))}}}",
+            r"\toprule",
+            " & ".join(heads) + r" \\",
+            r"\midrule",
+            *rows,
+            r"\bottomrule",
+            r"\end{tabular}",
+            *note,
+            rf"\end{{{kind}}}",
+            "",
+        ]
+    )
+
+
+def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
+    """Return the column type of some cells: of siunitx with room for their numbers, or l for words."""
+    numbers = [value(cell, markdown) for cell in cells if cell.text is None and cell.whole not in {"", "?"}]
+    if not numbers:
+        return "l"
+    parts = [re.fullmatch(r"(-?)(\d*)(?:\.(\d*))?(?:e(-?)(\d+))?", number) for number in numbers]
+    found = [part.groups(default="") for part in parts if part]
+    sign = "-" if any(part[0] for part in found) else ""
+    whole, fraction = (max(len(part[place]) for part in found) for place in (1, 2))
+    power = max(len(part[4]) for part in found)
+    exponent = f"e{'-' if any(part[3] for part in found) else ''}{power}" if power else ""
+    return f"S[table-format={sign}{whole or 1}.{fraction}{exponent}]"
+
+
+def _broken(formats: Sequence[str], letters: Sequence[int]) -> Iterator[str]:
+    """Yield the column types, those of long words as paragraphs where the table is wider than the page."""
+    long = [place for place, count in enumerate(letters) if count > LONG and formats[place] == "l"]
+    left = BOTH - sum(count for place, count in enumerate(letters) if place not in long)
+    total = sum(letters[place] for place in long)
+    for place, format_ in enumerate(formats):
+        narrow = place in long and total > left
+        yield rf"p{{{max(left, LONG) * letters[place] / total / BOTH:.2f}\textwidth}}" if narrow else format_
+
+
+def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:
+    """Return the head of a column with its unit; braces keep siunitx from reading it as a number."""
+    unit = texts[column.unit] if column.unit is not None else ""
+    head = texts[column.head] + (f" ({unit})" if unit and unit != "1" else "")
+    return head if format_ == "l" else f"{{{head}}}"
+
+
+def _entry(cell: Cell, texts: Sequence[str], *, numeric: bool) -> str:
+    """Return a cell: words, in braces in a column of numbers, or digits; a star marks what is not proven."""
+    if cell.text is not None:
+        return f"{{{texts[cell.text]}}}" if numeric else texts[cell.text]
+    number = value(cell, ())
+    if not number:
+        return "{?}" if cell.whole else ""
+    return number if cell.proven else f"{number}{{*}}"
+
+
+def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, bytes]) -> str:
+    """Return a figure as an environment of its own, as wide as it was drawn, and no wider than the page."""
+    name = figure.id.removeprefix("fig-")
+    files = [file for file in pictures if re.fullmatch(rf"figures/{re.escape(name)}(-\d+)?\.\w+", file)]
+    kind = "figure" if figure.width <= COLUMN + 1 else "figure*"
+    width = min(figure.width, COLUMN if kind == "figure" else PAGE)
+    graphics = "\n".join(rf"\includegraphics[width={width:g}mm]{{{file}}}" for file in files)
+    return (
+        f"\\begin{{{kind}}}[tb]\n\\centering\n{graphics}\n"
+        f"\\caption{{{texts[figure.caption]}}}\\label{{{figure.id}}}\n\\end{{{kind}}}\n"
+    )
+
+
+def _references(document: Document) -> str:
+    """Return the bibliography: what the report cites from its own, and the atlas."""
+    own = f"""@software{{atlas,
+  author  = {{{{The atlas developers}}}},
+  title   = {{atlas: exact motion of a charged symmetric body in constant electric and magnetic fields}},
+  version = {{{atlas.__version__}}},
+}}
+"""
+    return "\n".join(filter(None, [document.bibliography.source.strip(), own]))
+
+
+def _body(document: Document, texts: Sequence[str]) -> Iterator[str]:
+    """Yield the blocks of all pages; what has no place in a paper is named in a comment."""
+    for page in document.pages:
+        yield rf"\section{{{_escaped(page.title)}}}"
+        for name, block in zip(page.templates, page.blocks, strict=True):
+            yield _block(name, block, texts)
+
+
+def _block(name: str, block: Any, texts: Sequence[str]) -> str:
+    match block:
+        case ProseView():
+            return texts[block.text]
+        case EquationView():
+            tex = texts[block.text].strip().removeprefix(r"\[").removesuffix(r"\]")
+            label = f"eq-{block.slug}" if block.anchor else ""
+            return rf"\atlasequation{{{_escaped(block.number)}}}{{{label}}}{{{tex}}}"
+        case TableView():
+            return rf"\input{{tables/{block.id.removeprefix('tab-')}}}"
+        case FigureView():
+            return rf"\input{{figures/{block.id.removeprefix('fig-')}}}"
+    return f"% left out: {name}"
+
+
+def _escaped(text: str) -> str:
+    """Escape plain text for LaTeX."""
+    return re.sub(r"([#$%&_{}])", r"\\\1", text).replace("’", "'")

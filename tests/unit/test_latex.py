@@ -1,0 +1,208 @@
+r"""`atlas tex`: numbers by key that LaTeX can't print beyond what is proven, tables that fit their numbers, a paper."""
+
+import re
+import shutil
+import subprocess
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from atlas.build.tex import build_tex
+from atlas.errors import AtlasError
+from atlas.exact.digits import certified
+from atlas.exact.elementary import ElementaryMotion as Balls
+from atlas.report.blocks.table import Cell
+from atlas.report.latex import _format, _with_unit
+
+REPORT = r"""
+name = "small"
+title = "Numbers & Figures"
+authors = ["A. Author"]
+abstract = "One body, $I=3/2$; see @fig:curves."
+bibliography = "references.bib"
+[parameters]
+bodies.short = { title = "A short solenoid", ratio = 1.5 }
+fields.up = { title = "up", prime = [1.0, 2.0] }
+[[pages]]
+slug = "index"
+title = "Motions"
+
+[[pages.blocks]]
+kind = "prose"
+text = '''
+As in @clebsch1871, by @(72) in @tab:numbers: $k$ is @cell:numbers-3-3, 5 % off. A body of 1 µm:
+
+- one
+- two
+'''
+
+[[pages.blocks]]
+kind = "equation"
+name = "(72)"
+
+[[pages.blocks]]
+kind = "table"
+table = "motion"
+id = "numbers"
+body = "short"
+field = "up"
+digits = 20
+parameters.omega2 = 0.7
+
+[[pages.blocks]]
+kind = "table"
+table = "samples"
+id = "samples"
+body = "short"
+field = "up"
+digits = 12
+parameters = { omega2 = 0.7, times = [0, 2.5] }
+
+[[pages.blocks]]
+kind = "figure"
+recipe = "frequencies"
+id = "curves"
+parameters.ratio = 1.5
+
+[[pages.blocks]]
+kind = "bibliography"
+"""
+WORK = """@article{clebsch1871, author = {Clebsch, Alfred}, title = {Ueber die Bewegung}, journal = {Math. Ann.},
+  volume = {3}, year = {1871}}
+"""
+KEY = re.compile(r"\\atlasnumber\{([^}]+)\}\{(\d+)\}\{([^}]+)\}\{([^\n]*)\}")
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a small report as LaTeX."""
+    place = tmp_path_factory.mktemp("tex")
+    (place / "small.toml").write_text(REPORT, encoding="utf-8")
+    (place / "references.bib").write_text(WORK, encoding="utf-8")
+    return build_tex(place / "small.toml", place / "out").parent
+
+
+@pytest.fixture(scope="module")
+def numbers(made: Path) -> dict[str, tuple[int, str, str]]:
+    """Return the digits, the number and the unit of each key."""
+    text = (made / "atlas-numbers.tex").read_text("utf-8")
+    return {key: (int(digits), value, unit) for key, digits, value, unit in KEY.findall(text)}
+
+
+def test_a_key_has_the_proven_digits_and_the_unit(numbers: dict[str, tuple[int, str, str]]) -> None:
+    """K and phi are those of balls, to the last of the 20 digits; the unit is one that siunitx reads."""
+    true = certified(lambda: {name: getattr(Balls(1.5, (1.0, 2.0), 0.7), name) for name in ("k", "phi")}, 30)
+    for name in ("k", "phi"):
+        digits, value, unit = numbers[f"numbers/{name}"]
+        assert (digits, unit) == (20, "s^{-1}")
+        assert abs(Decimal(value) - Decimal(true[name])) <= Decimal(1).scaleb(int(Decimal(value).as_tuple().exponent))
+    assert numbers["samples/2/Omega1"][2] == "s^{-1}"
+    assert numbers["samples/1/R_13"] == (99, "0", "")
+
+
+def test_what_a_table_prints_has_a_key(made: Path, numbers: dict[str, tuple[int, str, str]]) -> None:
+    """Every number of the two tables is there, and no other."""
+    texts = [(made / "tables" / f"{name}.tex").read_text("utf-8") for name in ("numbers", "samples")]
+    rows = [line for text in texts for line in text.partition(r"\midrule")[2].splitlines() if line.endswith(r"\\")]
+    printed = [cell.strip() for row in rows for cell in row.removesuffix(r"\\").split("&")]
+    found = [cell for cell in printed if re.fullmatch(r"-?\d[\d.]*(e-?\d+)?", cell)]
+    assert sorted(found) == sorted(value for _, value, _ in numbers.values())
+
+
+def test_words_formulas_and_citations_are_latex(made: Path) -> None:
+    """Figures and tables are numbered where they stand, works cited by BibTeX, equations by their number."""
+    paper = (made / "paper.tex").read_text("utf-8")
+    for piece in (
+        r"\title{Numbers \& Figures}", r"\citet{clebsch1871}", r"Table~\ref{tab-numbers}", r"Figure~\ref{fig-curves}",
+        r"by (72) in", r"5 \%", r"\atlasequation{(72)}{eq-72}", r"\input{tables/numbers}", r"\input{figures/curves}",
+    ):  # fmt: skip
+        assert piece in paper, piece
+    assert "Clebsch" in (made / "references.bib").read_text("utf-8")
+    figure = (made / "figures" / "curves.tex").read_text("utf-8")
+    assert r"\label{fig-curves}" in figure
+    assert "{figures/curves.pdf}" in figure
+    assert (made / "figures" / "curves.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize(
+    ("cells", "expected"),
+    [
+        ([("1", ".25", ""), ("\N{MINUS SIGN}12", ".5", "")], "S[table-format=-2.2]"),
+        ([("1", "", "")], "S[table-format=1.0]"),
+        ([("1", ".5", "\N{MINUS SIGN}15"), ("9", ".125", "")], "S[table-format=1.3e-2]"),
+        ([("", "", "")], "l"),
+    ],
+)
+def test_a_column_has_room_for_its_numbers(cells: list[tuple[str, str, str]], expected: str) -> None:
+    """The widest part before and behind the point, a sign, and the digits of an exponent."""
+    assert _format([Cell(None, *cell) for cell in cells], ()) == expected
+
+
+@pytest.mark.parametrize(
+    ("number", "unit", "expected"),
+    [
+        ("1.5", "s$^{-1}$", ("1.5", "s^{-1}")),
+        ("9.3", "kg m$^2$", ("9.3", "kg.m^2")),
+        ("2.5", "$10^{-6}$ m", ("2.5e-6", "m")),
+        ("2.5", "1", ("2.5", "")),
+    ],
+)
+def test_units_are_those_of_siunitx(number: str, unit: str, expected: tuple[str, str]) -> None:
+    """A power of ten before a unit goes to the number; units are parted by points."""
+    assert _with_unit(number, unit) == expected
+
+
+def test_a_folder_of_something_else_is_refused(made: Path, tmp_path: Path) -> None:
+    """What is there stays."""
+    (tmp_path / "small").mkdir()
+    (tmp_path / "small" / "thesis.tex").write_text("x", encoding="utf-8")
+    with pytest.raises(AtlasError, match="holds something else than was made here"):
+        build_tex(made.parents[1] / "small.toml", tmp_path)
+    assert (tmp_path / "small" / "thesis.tex").read_text("utf-8") == "x"
+
+
+LATEX, TO_TEXT, FIND = (shutil.which(name) or "" for name in ("pdflatex", "pdftotext", "kpsewhich"))
+REVTEX = FIND and subprocess.run([FIND, "revtex4-2.cls", "siunitx.sty"], capture_output=True, text=True, check=False)
+needs_latex = pytest.mark.skipif(
+    not (LATEX and TO_TEXT and REVTEX and REVTEX.stdout.count("\n") == 2),
+    reason="LaTeX with REVTeX and siunitx, and pdftotext, are not there",
+)
+
+
+def compiled(folder: Path, file: str) -> tuple[int, str, str]:
+    """Compile a file; return the status, the log, and the words of the PDF."""
+    told: dict[str, Any] = {"cwd": folder, "capture_output": True, "text": True, "errors": "replace"}
+    done = subprocess.run([LATEX, "-interaction=nonstopmode", file], check=False, timeout=120, **told)
+    words = subprocess.run([TO_TEXT, Path(file).with_suffix(".pdf").name, "-"], check=False, **told)
+    return done.returncode, done.stdout, words.stdout
+
+
+@needs_latex
+def test_the_paper_compiles(made: Path, numbers: dict[str, tuple[int, str, str]]) -> None:
+    """REVTeX sets it without an error or a line that is too wide, and prints the numbers."""
+    status, log, text = compiled(made, "paper.tex")
+    assert status == 0, log[-2000:]
+    assert "Overfull \\hbox" not in log
+    assert numbers["numbers/k"][1] in re.sub(r"[\s\u2009\u202f]", "", text).replace("\N{MINUS SIGN}", "-")
+
+
+@needs_latex
+def test_latex_rounds_a_number_and_refuses_more_than_is_proven(
+    made: Path, numbers: dict[str, tuple[int, str, str]]
+) -> None:
+    """Three figures are printed of k; 21 are an error that names the key, and so is a key that is not there."""
+    head = "\\documentclass{article}\\usepackage{siunitx}\\input{atlas-numbers}\\begin{document}"
+    (made / "three.tex").write_text(rf"{head}\atlas[3]{{numbers/k}}\end{{document}}", encoding="utf-8")
+    status, log, text = compiled(made, "three.tex")
+    assert status == 0, log[-2000:]
+    assert f"{float(numbers['numbers/k'][1]):.3g}" in text
+    for words, reason in (
+        (r"\atlas[21]{numbers/k}", "numbers/k has 20 proven digits, not 21"),
+        (r"\atlas{numbers/K}", "there is no number numbers/K"),
+    ):
+        (made / "wrong.tex").write_text(rf"{head}{words}\end{{document}}", encoding="utf-8")
+        status, log, _ = compiled(made, "wrong.tex")
+        assert status != 0
+        assert reason in log.replace("\n", "")
