@@ -5,7 +5,11 @@ from typing import TypeAlias
 
 from flint import acb, acb_poly, arb, ctx, fmpq
 
+from atlas.errors import DomainError
 from atlas.formulas.numbers import root, workprec
+
+MOST = 1 << 22
+"""Bits at which the search for roots is given up, after less than a second."""
 
 Polynomial: TypeAlias = tuple["Surd", ...]
 """Coefficients, the constant one first; the last one is not zero."""
@@ -119,17 +123,21 @@ def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
 def roots(p: Polynomial) -> list[acb]:
     """Return the roots of a polynomial that has no double one, the real ones first, ascending; no two balls overlap.
 
-    They are as accurate as the precision of the moment.
+    They are as accurate as the precision of the moment. DomainError where they are too many orders of magnitude apart:
+    flint's iteration halves the distance to a small one, in as many steps as the root of the precision.
     """
     if len(p) == 2:
         return [acb((-(p[0] / p[1])).value)]
     digits, fine = ctx.prec, ctx.prec
-    while True:
+    while fine < MOST:
         with workprec(2 * fine + 64):
             found = _isolated(acb_poly([acb(c.value) for c in p]), arb(2) ** -fine)
         if found and all(z.rel_accuracy_bits() >= digits for z in found):
             return found
         fine *= 2
+    raise DomainError(
+        "The roots of Q are too many orders of magnitude apart to be found: make the components more alike."
+    )
 
 
 def _isolated(p: acb_poly, radius: arb) -> list[acb]:
