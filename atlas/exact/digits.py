@@ -189,7 +189,7 @@ def _written(m: int, e: int, count: int, layout: Layout, mark: str) -> str:
     """Write m 10^(e+1-count), m of ``count`` digits."""
     sign, text = "-" * (m < 0), str(abs(m))
     if layout != "scientific" and -5 <= e < count:
-        text = "0" * -e + text if e < 0 else text
+        text = "0" * -e + text
         point = max(e, 0) + 1
         return sign + text[:point] + ("." + text[point:] if text[point:] else "") + mark
     mantissa = sign + text[0] + ("." + text[1:] if count > 1 else "")

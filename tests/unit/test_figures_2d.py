@@ -335,6 +335,17 @@ def test_drawn_angular_velocity_is_that_of_the_paper() -> None:
     assert np.allclose(three[:, 1], omega3, rtol=16 * EPS, atol=0)
 
 
+def test_angular_velocity_is_drawn_for_25_of_its_turns_at_most() -> None:
+    """Beyond it would be all ink; the angular momentum goes on for all turns of the precession."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    for turns in (1.0, 100.0):
+        _, velocity, momentum = load("motion").scene(omega2=0.7, turns=turns).panels
+        slow = 2 * np.pi * turns / abs(motion.k)
+        assert curves(momentum, "main")[0][-1, 0] == slow
+        assert curves(velocity, "main")[0][-1, 0] == min(slow, 2 * np.pi * 25 / abs(motion.phi))
+        assert (slow > 50 * np.pi / abs(motion.phi)) == (turns == 100.0)
+
+
 def test_drawn_angular_momentum_keeps_its_projection_on_the_field() -> None:
     """(m, B') of (88) from the drawn curves, brought to common times, equals the dashed level."""
     scene = load("motion").scene(ratio=1.5, field=(1.0, 2.0), omega2=0.7)
@@ -382,6 +393,17 @@ def test_trochoids_are_those_of_the_paper(mu: float) -> None:
         if a:
             assert np.abs(x - line[:, :1]).min(axis=1).max() <= 1e-7 * a
         assert np.abs(points(panel, "sample")[:, 0] - 2 * np.pi / abs(omega) * V * np.array([1, 2])).max() <= 1e-13 * V
+
+
+@pytest.mark.parametrize("turns", [0.75, 1.25])
+def test_trochoids_have_one_width_that_holds_them(turns: float) -> None:
+    """From the first to the last drawn point, that of the guiding centre or of a path, and a twentieth on each side."""
+    panels = load("trochoids").scene(speeds=(0.4, 0.2), turns=turns).panels
+    x = np.concatenate([line[:, 0] for p in panels for role in ("trajectory", "reference") for line in curves(p, role)])
+    margin = 0.05 * (x.max() - x.min())
+    for panel in panels:
+        assert isinstance(panel, Plane)
+        assert panel.x_limits == pytest.approx((x.min() - margin, x.max() + margin), rel=1e-14)
 
 
 def test_the_cycloid_has_cusps_and_the_others_do_not() -> None:
