@@ -1,8 +1,8 @@
 """Energy-momentum map.
 
-A symmetric body has three conserved numbers: the momentum M3 about its axis, p about the field, and the energy h. The
-critical values of the map that takes a motion to them are those of the steady precessions, theorem-steady; at one M3
-they are curves in the plane (p, h). Above them lie all other motions.
+A symmetric top has three conserved numbers: the momentum M3 about its axis, p about the field or the vertical, and the
+energy. The critical values of the map that takes a motion to them are those of the steady precessions,
+theorem-top-precession; at one M3 they are curves in the plane of p and the energy. Above them lie all other motions.
 """
 
 from itertools import pairwise
@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.momentum_map import Branch, axis_spin, section
+from atlas.core.wells import Branch, Wells
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.words import listed, plain, tex, title
@@ -21,69 +21,98 @@ WIDTH, HEIGHT = 178.0, 78.0
 def scene(
     *,
     ratios: tuple[float, ...] = (0.5, 1.5),
-    b: float = 1.0,
+    b: tuple[float, ...] = (1.0,),
+    linear: tuple[float, ...] = (0.0,),
     M3: float = 0.25,
     reach: float = 1.6,
     unit: str = "time",
 ) -> Scene:
-    """Draw the section M3 = const of the bifurcation diagram for each of the ``ratios``, up to |p| = ``reach`` b."""
-    if not (b > 0 and 1 <= len(ratios) <= 3):
-        raise DomainError(f"figure energy_momentum needs b > 0 and 1 to 3 ratios, not b = {b} and {ratios}.")
-    panels = tuple(
-        panel(f"({letter}) $I={tex(I)}$", I, b, M3, reach, unit) for letter, I in zip("abc", ratios, strict=False)
-    )
+    """Draw the section M3 = const of the bifurcation diagram for each of the ``ratios``, up to |p| = ``reach`` scales.
+
+    ``b`` and the weight ``linear`` over I2 are one for all or one for each; the scale is the larger of b and the root
+    of the weight.
+    """
+    count = len(ratios)
+    if not (1 <= count <= 3 and len(b) in {1, count} and len(linear) in {1, count}):
+        raise DomainError(
+            f"figure energy_momentum needs 1 to 3 ratios, and one b and one weight linear for all or for each, not "
+            f"{ratios}, {b} and {linear}."
+        )
+    tops = list(zip(ratios, b * (count // len(b)), linear * (count // len(linear)), strict=True))
+    if not all(field >= 0 and (field or weight) for _, field, weight in tops):
+        raise DomainError(f"figure energy_momentum needs b > 0, or b = 0 and a weight linear, not {b} and {linear}.")
+    panels = tuple(panel("abc"[k], *top, M3, reach, unit) for k, top in enumerate(tops))
+    same = f"$b={tex(b[0])}$" if len(b) == 1 else "the fields and weights above"
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Critical values of the energy $2H$ over the momentum $p$ about the field, at $M_3={tex(M3)}$ and "
-            rf"$b={tex(b)}$, for {listed([f'$I={tex(I)}$' for I in ratios])}: steady precessions, stable (solid) or "
-            r"unstable (dashed), and spins about the field (dots). Inside the swallowtail two stable precessions share "
-            r"$p$."
+            rf"Critical values of the energy $2H$ over the momentum $p$, at $M_3={tex(M3)}$ and {same}, for "
+            rf"{listed([name(*top) for top in tops])}: steady precessions, stable (solid) or unstable (dashed), and "
+            "spins along the field or the vertical, stable (dots) or of focus-focus type (diamonds). Inside a "
+            r"swallowtail two stable precessions share $p$."
         ),
         alt=(
-            f"Panels for I = {listed([plain(I) for I in ratios])} with the critical energies over p: for the long body "
-            "a curve with a triangular fold, whose upper side is unstable; for the short one a smooth curve."
+            f"Panels for I = {listed([plain(I) for I in ratios])} with the critical energies over p: a smooth curve, "
+            "or for a long body one with a triangular fold, whose upper side is unstable; the spins along the axis are "
+            "isolated points above it where they are unstable, and ends of a branch where they are stable."
         ),
         panels=panels,
         columns=len(panels),
-        named={"solid": "main", "dashed": "unstable_line", "dots": "special"},
+        named={
+            role: kind
+            for role, kind in {
+                "solid": "main",
+                "dashed": "unstable_line",
+                "dots": "start",
+                "diamonds": "special",
+            }.items()
+            if any(getattr(layer, "role", "") == kind for one in panels for layer in one.layers)
+        },
         size=(WIDTH, HEIGHT),
     )
 
 
-def panel(name: str, I: float, b: float, M3: float, reach: float, unit: str) -> Plane:
-    """Return the curves of one body."""
-    branches = section(I, b, M3, reach=3.0 * reach)
-    ends = [axis_spin(I, b, M3, end) for end in (1, -1)]
-    lines = [(part, "unstable_line" if unstable else "main") for one in branches for part, unstable in runs(one)]
-    near = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * b] for line, _ in lines)])
+def name(I: float, b: float, linear: float) -> str:
+    """Return what a top is called."""
+    return f"$I={tex(I)}$" + (f", $b={tex(b)}$, $a_0={tex(linear)}$" if linear else "")
+
+
+def panel(letter: str, I: float, b: float, linear: float, M3: float, reach: float, unit: str) -> Plane:
+    """Return the curves of one top."""
+    scale = max(b, abs(linear) ** 0.5)
+    wells, rest = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
+    lines = [
+        (part, "unstable_line" if unstable else "main")
+        for one in wells.precessions(3.0 * reach * scale)
+        for part, unstable in runs(one, rest)
+    ]
+    near = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)])
     if not len(near):
         raise DomainError(
             f"figure energy_momentum: with M3 = {M3:g} and b = {b:g} no steady precession at I = {I:g} has |p| below "
             f"reach b = {reach * b:g}; give a larger reach, or an M3 nearer to b."
         )
+    spins = [wells.spin(end) for end in (1, -1)]
     low, high = float(near[:, 1].min()), float(near[:, 1].max())
     pad = 0.08 * (high - low)
     layers: list[Layer] = [Curve(line, role) for line, role in lines]
-    for spin, D in ends:
-        layers.append(Points(np.array([[float(spin.p), float(spin.h)]]), "start" if D > 0 else "special"))
-    layers.append(
-        Label(np.array([float(ends[0][0].p), float(ends[0][0].h)]), r"spin along $\mathbf{B}$", "note", (5, 6))
-    )
+    layers += [Points(np.array([[p, g + rest]]), "start" if D > 0 else "special") for p, g, D in spins]
+    what = r"spin along $\mathbf{B}$" if b else "upright spin"
+    layers.append(Label(np.array([spins[0][0], spins[0][1] + rest]), what, "note", (5, 6)))
     return Plane(
         tuple(layers),
         rf"$p$ (1/{unit})",
         rf"$2H$ (1/{unit}$^2$)",
-        (-reach * b, reach * b),
+        (-reach * scale, reach * scale),
         (low - pad, high + pad),
-        title=name,
+        title=f"({letter}) {name(I, b, linear)}",
     )
 
 
-def runs(branch: Branch) -> list[tuple[FloatArray, bool]]:
-    """Return the pieces (N, 2) of a curve (p, h) that are stable or unstable throughout, each with whether unstable."""
+def runs(branch: Branch, rest: float) -> list[tuple[FloatArray, bool]]:
+    """Return the pieces (N, 2) of a curve (p, 2H) that are stable or unstable throughout, and which."""
     unstable = np.asarray(branch.stable) < 0
-    points = np.stack([branch.p, branch.h], axis=1)
+    points = np.stack([branch.p, branch.g + rest], axis=1)
     cuts = np.flatnonzero(np.diff(unstable)) + 1
     edges = [0, *cuts.tolist(), len(points)]
     return [(points[a : b + 1], bool(unstable[a])) for a, b in pairwise(edges)]

@@ -28,6 +28,7 @@ from atlas.paper import (
     separatrix,
     theorems,
     top,
+    top_map,
 )
 from atlas.paper.equation import Equation, Kind, Section, slug
 
@@ -35,7 +36,7 @@ __all__ = ["EQUATIONS", "Equation", "Kind", "Section", "equation", "find", "topi
 
 _FILES = (
     *(lagrangian, euler_poisson, ball, pseudo_oscillator, quadric, hyperbola, elementary, particle),
-    *(theorems, clebsch, elliptic, general, separatrix, closed, top),
+    *(theorems, clebsch, elliptic, general, separatrix, closed, top, top_map),
 )
 
 _TOPICS = {entry.name: file.__name__.rpartition(".")[2] for file in _FILES for entry in file.EQUATIONS}

@@ -39,9 +39,11 @@ ELSEWHERE = {
         "invariants": "test_elementary.py",
         "laboratory": "test_laboratory.py",
         "momentum_map": "test_momentum_map.py",
+        "monodromy": "test_monodromy.py",
         "separatrix": "test_separatrix.py",
         "top_hyperbola": "test_top_quadric.py",
         "trace_map": "test_momentum_map.py",
+        "wells": "test_momentum_map.py",
     },
     "exact": {"top_quadric": "test_top_quadric.py"},
 }

@@ -12,10 +12,11 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("body_ruler", {"field": (0.0, 1.0)}, "not zero"),
     ("body_ruler", {"field": (1.0, 0.0)}, "not zero"),
     ("cone", {"field": (0.0, 1.0)}, "cone"),
-    ("energy_momentum", {"b": 0.0}, "b > 0"),
+    ("energy_momentum", {"b": (0.0,)}, "b > 0"),
     ("energy_momentum", {"ratios": ()}, "1 to 40"),
     ("energy_momentum", {"ratios": (0.5, 0.7, 1.5, 2.0)}, "1 to 3"),
-    ("energy_momentum", {"b": 1e-30}, "no steady precession"),
+    ("energy_momentum", {"b": (1e-30,)}, "no steady precession"),
+    ("energy_momentum", {"b": (1.0, 1.0, 1.0)}, "for all or for each"),
     ("escape", {"omega2": 0.7}, "escape"),
     ("film_strip", {"field": (0.0, 0.0)}, "free body"),
     ("film_strip", {"count": 1}, "count"),
@@ -58,6 +59,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
 ]
 GOOD: list[tuple[str, dict[str, Any]]] = [
     ("energy_momentum", {"ratios": (0.5, 1.0, 1.5)}),
+    ("energy_momentum", {"b": (0.0, 1.0), "linear": (1.0, -0.5), "M3": 3.0, "reach": 4.0}),
     ("film_strip", {"field": (1.0, 0.0), "count": 2}),
     ("film_strip", {"field": (1.0, 0.0), "count": 24}),
     ("flight_poster", {"count": 2}),

@@ -284,7 +284,7 @@ def test_critical_values_are_extrema_of_the_effective_potential() -> None:
 
 def test_in_a_field_twice_as_strong_the_energy_momentum_map_is_the_same_but_for_its_scales() -> None:
     """With b and M3 doubled p doubles and h is fourfold, bit for bit: points, and what the axes show."""
-    for one, two in zip(panels("energy_momentum"), panels("energy_momentum", b=2.0, M3=0.5), strict=True):
+    for one, two in zip(panels("energy_momentum"), panels("energy_momentum", b=(2.0,), M3=0.5), strict=True):
         for before, after in zip(layers(one, (Curve, Points)), layers(two, (Curve, Points)), strict=True):
             assert np.array_equal(before.points * (2.0, 4.0), after.points)
         assert np.array_equal(2.0 * np.array(one.x_limits), two.x_limits)
@@ -324,7 +324,7 @@ def layers_of_kind(panel: Any, kind: Any) -> list[Any]:
         ("larmor_pair", {"omega": (0.0, 0.0, 0.0)}),
         ("tipping_disk", {"ratio": 0.5}),
         ("separatrix", {"omega2": 1.0}),
-        ("energy_momentum", {"b": -1.0}),
+        ("energy_momentum", {"b": (-1.0,)}),
         ("motion_map", {"cells": 1}),
     ],
 )

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.momentum_map import axis_spin, momentum_map, nutation_squared, potential, section, steady
+from atlas.core.momentum_map import axis_spin, momentum_map, nutation_squared, potential, steady
 from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.core.trace_map import quartic, trace_map, turning_points
+from atlas.core.wells import Branch, Wells, border, rest
 
 EPS = float(np.finfo(float).eps)
 BODIES = [(0.5, (1.0, 0.1), -0.5), (2.0, (1.0, -2.0), -3.0), (1.0, (1.0, 2.0), 0.7), (1.5, (-1.0, 2.0), 0.4)]
@@ -39,28 +40,74 @@ def test_spins_on_the_axis_are_critical_values() -> None:
             assert pytest.approx(ratio**2 * (0.4 + B3) ** 2 + 4 * (1 - ratio) * B3**2, abs=64 * EPS) == D
 
 
-@pytest.mark.parametrize(("ratio", "M3"), SECTIONS)
-def test_a_section_holds_the_rest_points_of_the_potential(ratio: float, M3: float) -> None:
-    """On each branch V(r) = h and V is flat there, a minimum exactly where the precession is called stable."""
-    branches = section(ratio, 1.0, M3, points=60)
+def section(ratio: float, M3: float, reach: float = 3.0, points: int = 60) -> tuple[Branch, ...]:
+    """Return the curves of critical values of the paper's body in a field with b = 1."""
+    return Wells(M3, ratio - 1.0).precessions(reach, points)
+
+
+@pytest.mark.parametrize(
+    ("M3", "A", "a"),
+    [
+        *((M3, ratio - 1.0, 0.0) for ratio, M3 in SECTIONS),
+        *((0.5, 0.0, 1.0), (3.0, 0.0, 1.0), (-0.7, 0.0, -2.0), (0.3, -2.0, 0.5), (0.0, 0.5, -0.2), (0.0, 0.0, 1.0)),
+    ],
+)
+def test_a_section_holds_the_rest_points_of_the_potential(M3: float, A: float, a: float) -> None:
+    """On each branch V(r) = g and V is flat there, a minimum exactly where the precession is called stable."""
+    wells = Wells(M3, A, a)
+    branches = wells.precessions(3.0, 60)
     assert branches
     for branch in branches:
         inside = np.abs(branch.r) < 0.999
-        r, p, h = branch.r[inside], branch.p[inside], branch.h[inside]
+        r, p, g = branch.r[inside], branch.p[inside], branch.g[inside]
         d = 1e-4 * (1 - np.abs(r))
-        V = np.array([potential(ratio, 1.0, M3, p, r + s * d) for s in (-1, 0, 1)])
-        assert V[1] == pytest.approx(h, rel=1e-9, abs=1e-9)
+        V = np.array([wells.potential(p, r + s * d) for s in (-1, 0, 1)])
+        assert V[1] == pytest.approx(g, rel=1e-9, abs=1e-9)
         scale = np.abs(V[1]) + branch.w[inside] ** 2 + 1
         assert (np.abs(V[2] - V[0]) <= 1e-6 * scale).all()
         bend, clear = (V[0] - 2 * V[1] + V[2]) / d**2, np.abs(branch.stable[inside]) > 1e-2 * scale
         assert (np.sign(bend) == np.sign(branch.stable[inside]))[clear].all()
 
 
+@pytest.mark.parametrize(("M3", "p"), [(0.0, 1.0), (0.5, 1.0), (1.0, 1.0), (-1.5, 0.4)])
+def test_two_wells_lie_on_one_side_of_the_border(M3: float, p: float) -> None:
+    """On the border V has a rest that is flat to third order; beside it, along a, one side has two rests more."""
+    nu = np.linspace(-0.9, 0.85, 6)
+    dense = np.linspace(-0.9995, 0.9995, 40_001)
+    for r, (a, A) in zip(nu, border(M3, p, nu), strict=True):
+        assert A < 0
+        d = 0.01 * (1 - abs(r))
+        V = Wells(M3, A, a).potential(p, r + d * np.array([-2.0, -1.0, 0.0, 1.0, 2.0]))
+        size = abs(A) + abs(a) + np.abs(V).max()
+        assert abs(V[3] - V[1]) <= 1e-4 * size
+        assert abs(V[3] - 2 * V[2] + V[1]) <= 1e-4 * size * d
+        assert rest(M3, p, np.array([r]))[0] == pytest.approx(a + A * r, rel=1e-12, abs=1e-12)
+        counts = sorted(
+            int(np.sum(np.diff(np.sign(np.diff(Wells(M3, A, a + s * 1e-3 * size).potential(p, dense)))) != 0))
+            for s in (-1, 1)
+        )
+        assert counts[1] - counts[0] == 2
+
+
+def test_the_axis_that_stops_has_the_energy_of_a_cusp() -> None:
+    """Released from rest a top has the values p, g of the cusp at its cosine, and its M3, A and a, 64 eps."""
+    for coupling, linear, quadratic in (((0.0, 0.0), 1.5, 0.0), ((0.5, -0.25), 0.75, -1.25)):
+        top = atlas.TopMotion((1.0, 0.75), coupling, (0.6, 0.8), (0.0, 0.0, 3.0), linear, quadratic)
+        wells = Wells.of(top)
+        p, g = wells.cusps(0.8, coupling[0])
+        assert p == pytest.approx(top.invariants()["p"], abs=64 * EPS)
+        assert wells.potential(p, 0.8) == pytest.approx(g, abs=64 * EPS)
+        low, high = top.turning_points
+        assert min(abs(low - 0.8), abs(high - 0.8)) <= 8 * EPS
+        for nu in (low, high):
+            assert wells.potential(p, nu) == pytest.approx(g, abs=1e-12)
+
+
 def test_a_section_has_as_many_branches_as_the_axis_leaves() -> None:
     """A disk with |M3| < 2 sqrt(A) has all w > 0 and w < 0 in one branch; beyond, the axis cuts it into three."""
-    assert len(section(2.0, 1.0, 1.0)) == 1
-    assert len(section(2.0, 1.0, 2.5, reach=9.0)) == 3
-    for branch in section(0.5, 1.0, 0.4):
+    assert len(section(2.0, 1.0)) == 1
+    assert len(section(2.0, 2.5, reach=9.0)) == 3
+    for branch in section(0.5, 0.4):
         assert (np.abs(branch.r) <= 1).all()
         assert (np.diff(branch.w) > 0).all()
 
@@ -73,7 +120,7 @@ def test_a_section_is_cut_where_the_axis_touches(ratio: float, M3: float, count:
 
     Each inner end is on the axis or has M3 = 0, and the two outer ones are at `reach`.
     """
-    branches = section(ratio, 1.0, M3, reach=3.0)
+    branches = section(ratio, M3, points=400)
     assert len(branches) == count
     assert -branches[0].w[0] == pytest.approx(3.0, abs=1e-3) == branches[-1].w[-1]
     for before, after in pairwise(branches):

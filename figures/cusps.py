@@ -1,0 +1,112 @@
+"""Loops, cusps and waves of a heavy top.
+
+A top under its weight is launched at one inclination, with the same spin, and pushed along a parallel at different
+rates. Its axis draws loops where it turns back, cusps where it stops, and waves otherwise. It stops, theorem-cusp,
+where the energy is that of rest at the cosine nu = p/M3.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.core.top import TopMotion
+from atlas.core.wells import Wells
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Scene, axis_trace
+from atlas.scene.words import listed, plain, tex, title
+
+SIZE = 62.0
+RANGES = {"nutations": (0.5, 40.0)}
+
+
+def scene(
+    *,
+    ratio: float = 0.5,
+    linear: float = 1.0,
+    direction: tuple[float, float] = (0.8, 0.6),
+    omega3: float = 4.4,
+    omega2: tuple[float, ...] = (-0.5, 0.0, 0.25),
+    nutations: float = 5.0,
+    elevation: float = 25.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw the axis for each push ``omega2``, and where these motions lie beside the line of cusps."""
+    if not (linear > 0 and omega3 and direction[0] and 1 <= len(omega2) <= 3):
+        raise DomainError(
+            "figure cusps needs a weight linear > 0, a spin omega3, an axis that is not upright and 1 to 3 pushes, not "
+            f"linear = {linear}, omega3 = {omega3}, direction = {direction}, omega2 = {omega2}."
+        )
+    tops = [TopMotion((1.0, ratio), (0.0, 0.0), direction, (0.0, push, omega3), linear) for push in omega2]
+    for push, top in zip(omega2, tops, strict=True):
+        if not np.isfinite(top.period) or "steady" in top.kind:
+            raise DomainError(f"figure cusps: pushed with omega2 = {push} this top is a {top.kind}; take another push.")
+    kinds = [trace(top) for top in tops]
+    spheres = [
+        axis_trace.sphere(
+            f"({letter}) {kind}, $\\omega_2={tex(push)}$", direction, top.third_axis, nutations * top.period,
+            max(16, round(12 * nutations)), label=r"$\mathbf{n}$", elevation=elevation,
+        )
+        for letter, kind, push, top in zip("abc", kinds, omega2, tops, strict=False)
+    ]  # fmt: skip
+    panels = (*spheres, plane("abcd"[len(tops)], tops, unit))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The third axis of a heavy top, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
+            rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) in the plane of "
+            r"$p$ and $g$, above the least energies (solid). Cusps lie on the dashed segment, from spin to spin "
+            r"(diamonds), loops above it, waves elsewhere."
+        ),
+        alt=(
+            f"Unit spheres with the trace of an axis: {listed(kinds)}. A plane of p and g with the curve of the "
+            "steady precessions, and above it a straight segment between the two spins on the axis."
+        ),
+        panels=panels,
+        columns=min(len(panels), 2),
+        named={"solid": "main", "dashed": "reference", "dots": "start", "diamonds": "special"},
+        size=(2 * SIZE, SIZE * -(-len(panels) // 2) + 6.0),
+    )
+
+
+def trace(top: TopMotion) -> str:
+    """Return what the axis draws, by the rate of its precession at both ends of its range, theorem-cusp."""
+    kept = top.invariants()
+    p, M3 = float(kept["p"]), float(kept["M3"])
+    if not top.omega[0] and not top.omega[1]:
+        return "cusps"
+    low, high = (p - M3 * nu for nu in top.turning_points)
+    return "loops" if low * high < 0 else "waves"
+
+
+def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
+    """Return the energies g over p: the least ones, those of the cusps, and the motions drawn."""
+    wells = Wells.of(tops[0])
+    M3 = wells.M3
+    ends = np.array([wells.spin(end)[:2] for end in (1, -1)])
+    places = np.array([value(top, wells) for top in tops])
+    far = 1.35 * abs(M3)
+    lines = [
+        np.stack([branch.p, branch.g], axis=1) for branch in wells.precessions(3 * far + 3 * np.sqrt(abs(wells.a)))
+    ]
+    inside = np.concatenate([line[np.abs(line[:, 0]) <= far] for line in lines] + [ends, places])
+    low, high = float(inside[:, 1].min()), float(max(ends[:, 1].max(), places[:, 1].max()))
+    pad = 0.12 * (high - low)
+    cusps = np.linspace(-1.0, 1.0, 65)
+    layers: list[Layer] = [Curve(line, "main") for line in lines]
+    layers += [
+        Curve(np.stack(wells.cusps(cusps), axis=1), "reference"),
+        Points(ends, "special"),
+        Points(places, "start"),
+    ]
+    beside = np.array([-0.07 * far, 0.06 * (high - low)])
+    layers += [Label(place + beside, name, "label", (0.0, 0.0)) for name, place in zip("abc", places, strict=False)]
+    return Plane(
+        tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)", (-far, far), (low - pad, high + pad),
+        title=f"({letter}) energies",
+    )  # fmt: skip
+
+
+def value(top: TopMotion, wells: Wells) -> FloatArray:
+    """Return p and g of a motion, formed at its start."""
+    (n2, n3), (_, omega2, _) = top.direction, top.omega
+    nu, across = n3 / np.hypot(n2, n3), n2 / np.hypot(n2, n3)
+    return np.array([omega2 * across + wells.M3 * nu, wells.energy(nu, omega2 / across)])

@@ -1,0 +1,123 @@
+"""Monodromy of a heavy top and of a charged disk.
+
+A motion with given momenta p, M3 and energy g comes back after a lattice of turns and times, atlas.core.monodromy.
+Followed once round the value of an unstable spin about the field or the vertical, the lattice comes back, but its basis
+does not, theorem-monodromy.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.monodromy import Monodromy, around, monodromy
+from atlas.core.wells import Wells
+from atlas.errors import DomainError
+from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene
+from atlas.scene.words import plain, tex, title
+
+WIDTH, HEIGHT = 178.0, 122.0
+RANGES = {"points": (24, 200)}
+
+
+def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 40, unit: str = "time") -> Scene:
+    """Draw loops of so many ``points`` round one spin of a heavy top, one of a disk, and both of a disk with M3 = 0.
+
+    The weight of the heavy top, over I2, is b^2.
+    """
+    if not (1 < ratio <= 2 and b > 0 and 0 < M3 * M3 < 4 * (ratio - 1) * b * b):
+        raise DomainError(
+            "figure monodromy needs a disk, 1 < ratio <= 2, in a field b > 0, and M3 with 0 < M3^2 < 4 (I-1) b^2, so "
+            f"that its spin about the field is unstable, not ratio = {ratio}, b = {b}, M3 = {M3}."
+        )
+    disk, A = (b, ratio * b), (ratio - 1) * b * b
+    cases: list[tuple[str, Any, Any]] = [
+        ("heavy top", Wells(M3, 0.0, b * b), {"coupling": (0.0, 0.0), "linear": b * b}),
+        ("disk", Wells(M3, A), {"coupling": disk}),
+        ("disk, $M_3=0$", Wells(0.0, A), {"coupling": disk}),
+    ]
+    found = []
+    for _, wells, top in cases:
+        found.append(monodromy(ratio, M3=wells.M3, loop=around(wells, wells.M3, points), **top))
+    maps = [values(f"({'abc'[k]}) {cases[k][0]}", cases[k][1], found[k], k == 0, unit) for k in range(3)]
+    lattices = [lattice(f"({'def'[k]}) {words(found[k])}", found[k], k == 0) for k in range(3)]
+    error = max(one.step for one in found)
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"Above: critical values (solid) for $I={tex(ratio)}$, $b={tex(b)}$, $a_0=b^2$, $M_3={tex(M3)}$, and "
+            r"loops round unstable spins (diamonds). Below: the periods that take one nutation, by their turns about "
+            r"$\mathbf{n}$ and about the axis. Followed round the loop, $\mathbf{g}_3$ goes from one (dot) to another "
+            rf"(arrow). Largest step {error:.2g} of a turn."
+        ),
+        alt=(
+            "Three diagrams with a loop round one or two isolated critical values, and three lattices of points, in "
+            f"which a line leads from a point to another one: {', '.join(plain_words(one) for one in found)}."
+        ),
+        panels=(*maps, *lattices),
+        columns=3,
+        named={"solid": "main", "diamonds": "special", "dot": "start", "arrow": "component"},
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def words(found: Monodromy) -> str:
+    """Return what becomes of g3, for a title."""
+    terms = ""
+    for number, name in zip(found.matrix[2], ("g_1", "g_2"), strict=False):
+        if number:
+            size = "" if abs(number) == 1 else f"{abs(number)}"
+            terms += rf"{'-' if number < 0 else '+'}{size}\mathbf{{{name[0]}}}_{name[2]}"
+    return rf"$\mathbf{{g}}_3\to\mathbf{{g}}_3{terms}$"
+
+
+def plain_words(found: Monodromy) -> str:
+    """Return the same for a sentence without TeX."""
+    m, n, _ = found.matrix[2]
+    return f"g3 comes back as g3 with {plain(m)} of g1 and {plain(n)} of g2"
+
+
+def values(name: str, wells: Wells, found: Monodromy, first: bool, unit: str) -> Plane:
+    """Return the critical values at one M3 with the loop."""
+    ends = np.array([[p, g] for p, g, D in (wells.spin(end) for end in (1, -1)) if D < 0])
+    far = 1.25 * max(float(np.abs(found.p).max()), float(np.abs(ends[:, 0]).max()))
+    lines = [
+        np.stack([x.p, x.g], axis=1) for x in wells.precessions(4 * far + 4 * np.sqrt(abs(wells.A) + abs(wells.a)))
+    ]
+    inside = np.concatenate([line[np.abs(line[:, 0]) <= far] for line in lines])
+    low, high = float(inside[:, 1].min()), float(found.g.max())
+    pad = 0.1 * (high - low)
+    layers: list[Layer] = [
+        *(Curve(line, "main") for line in lines),
+        Curve(np.stack([found.p, found.g], axis=1), "trajectory"),
+        Points(ends, "special"),
+        Points(np.array([[found.p[0], found.g[0]]]), "start"),
+    ]
+    return Plane(
+        tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)" if first else "", (-far, far), (low - pad, high + pad),
+        title=name,
+    )  # fmt: skip
+
+
+def lattice(name: str, found: Monodromy, first: bool) -> Plane:
+    """Return the periods with one nutation, in turns, and the course of g3."""
+    track = -found.turns
+    start, end = track[0], track[-1]
+    middle, half = (track.min(axis=0) + track.max(axis=0)) / 2, 0.5 * float(np.ptp(track, axis=0).max()) + 0.45
+    steps = np.arange(-4, 5)
+    grid = start + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    grid = grid[(np.abs(grid - middle) <= half).all(axis=1)]
+    layers: list[Layer] = [
+        Points(grid, "sample"),
+        Arrow(start, end, "component"),
+        Curve(track, "trajectory"),
+        Points(track[:1], "start"),
+    ]
+    return Plane(
+        tuple(layers),
+        r"turns about $\mathbf{n}$",
+        "turns about the axis" if first else "",
+        (float(middle[0] - half), float(middle[0] + half)),
+        (float(middle[1] - half), float(middle[1] + half)),
+        equal=True,
+        title=name,
+    )

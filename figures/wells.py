@@ -1,0 +1,115 @@
+"""One well or two.
+
+The axis of a symmetric top moves in the potential V = 2 a nu + A nu^2 + (p - M3 nu)^2/(1 - nu^2), theorem-every-top.
+At given momenta p and M3 a top is a point of the plane of a and A. It can precess steadily at the cosine nu if it lies
+on a straight line, theorem-top-precession; the envelope of these lines borders the tops with two wells.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.core.wells import border, rest
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
+from atlas.scene.words import listed, plain, tex, title
+
+WIDTH, HEIGHT = 178.0, 78.0
+RANGES = {"reach": (0.5, 50.0)}
+
+
+def scene(
+    *,
+    M3: tuple[float, ...] = (0.0, 0.5, 1.0),
+    cosines: tuple[float, ...] = (-0.6, -0.3, 0.0, 0.3, 0.6),
+    reach: float = 4.0,
+) -> Scene:
+    """Draw the plane up to ``reach`` p^2 for each momentum ``M3`` over p, with the lines of some ``cosines``."""
+    if not (1 <= len(M3) <= 3 and all(abs(nu) < 1 for nu in cosines)):
+        raise DomainError(f"figure wells takes 1 to 3 momenta M3 and cosines between -1 and 1, not {M3} and {cosines}.")
+    panels = tuple(panel("abc"[k], k == 0, k == len(M3) - 1, momentum, cosines, reach) for k, momentum in enumerate(M3))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            r"Tops with the momenta $p$ and $M_3$, each a point $(a,A)$. On a dashed line the axis can rest at the "
+            r"cosine $\nu_0$ that the line bears: on one such line with one well, on three in the shaded region with "
+            r"two wells. Its border is their envelope, where $\nu_0$ is a triple root."
+        ),
+        alt=(
+            f"Planes of a and A for M3/p = {listed([plain(x) for x in M3])}: straight lines that touch a curve with a "
+            "cusp; the region below the curve, which lies below A = 0, is shaded and has two wells."
+        ),
+        panels=panels,
+        columns=len(panels),
+        named={"dashed": "reference", "shaded": "region"},
+        size=(WIDTH * len(panels) / 3, HEIGHT),
+    )
+
+
+def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float, ...], reach: float) -> Plane:
+    """Return the plane of one momentum, in units of p."""
+    edge = clipped(envelope(M3, reach), reach)
+    layers: list[Layer] = [Region(edge, "region")] if len(edge) > 2 else []
+    layers += [
+        Curve(np.array([[-reach, 0.0], [reach, 0.0]]), "guide"),
+        Curve(np.array([[0.0, -reach], [0.0, reach]]), "guide"),
+    ]
+    for nu in cosines:
+        c = float(rest(M3, 1.0, np.array([nu]))[0])
+        line = within(c, nu, reach)
+        if not len(line):
+            continue
+        layers.append(Curve(line, "reference"))
+        if np.ptp(line[:, 1]) > 0.4 * reach:
+            layers.append(Label(0.11 * line[0] + 0.89 * line[1], f"${tex(nu)}$", "note", (0.0, 0.0)))
+    layers.append(Curve(envelope(M3, reach), "main"))
+    if last:
+        layers += [
+            Label(np.array([-0.55 * reach, 0.07 * reach]), "heavy tops", "label", (0.0, 0.0)),
+            Label(np.array([-0.5 * reach, -0.7 * reach]), "paper's bodies", "label", (0.0, 0.0)),
+        ]
+    return Plane(
+        tuple(layers), r"$a/p^2$", r"$A/p^2$" if first else "", (-reach, reach), (-reach, reach),
+        title=f"({letter}) $M_3={'p' if M3 == 1 else tex(M3) + 'p' * bool(M3)}$",
+    )  # fmt: skip
+
+
+def envelope(M3: float, reach: float) -> FloatArray:
+    """Return the border (N, 2) as far as it is near the view; with |M3| = p it goes on along the line of a spin."""
+    nu = np.tanh(np.linspace(-9.0, 9.0, 1201))
+    points = border(M3, 1.0, nu)
+    near = np.abs(points).max(axis=1) < 40 * reach
+    points = points[near]
+    if abs(M3) == 1:  # nu = e is a double root: e a + A = M3^2/4
+        e = np.copysign(1.0, M3)
+        last = points[-1] if e > 0 else points[0]
+        far = last + 40 * reach * np.array([e, -1.0])
+        points = np.concatenate([points, [far]] if e > 0 else [[far], points])
+    return points
+
+
+def within(c: float, nu: float, reach: float) -> FloatArray:
+    """Return the ends (2, 2) of the line a + A nu = c in the view, the upper one last; empty if it does not meet it."""
+    A = np.array([-reach, reach])
+    if nu:
+        crossings = np.sort((c + np.array([-reach, reach])) / nu)
+        A = np.array([max(A[0], crossings[0]), min(A[1], crossings[1])])
+    if A[0] >= A[1] or abs(c - nu * A).max() > reach * (1 + 1e-9):
+        return np.empty((0, 2))
+    return np.stack([c - nu * A, A], axis=1)
+
+
+def clipped(polygon: FloatArray, reach: float) -> FloatArray:
+    """Return the part of a polygon in the square of the view (Sutherland and Hodgman)."""
+    for axis, sign in ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
+        if not len(polygon):
+            break
+        inside = sign * polygon[:, axis] <= reach
+        kept = []
+        for one, other, here, there in zip(polygon, np.roll(polygon, -1, 0), inside, np.roll(inside, -1), strict=True):
+            if here:
+                kept.append(one)
+            if here != there:
+                part = (sign * reach - one[axis]) / (other[axis] - one[axis])
+                kept.append(one + part * (other - one))
+        polygon = np.array(kept).reshape(-1, 2)
+    return polygon

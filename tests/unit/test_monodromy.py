@@ -1,0 +1,116 @@
+"""The lattice of periods round focus-focus values: against quadrature of the angles, and the laws of theorem-residue."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import atlas
+from atlas.core.monodromy import Monodromy, around, monodromy
+from atlas.core.wells import Wells
+
+CASES: dict[str, tuple[Any, ...]] = {
+    "heavy top": (0.5, (0.0, 0.0), 1.0, 1.0, 1.0, 0.0, (-1, 1)),
+    "heavy top, the other spin": (0.5, (0.0, 0.0), -1.0, -1.0, 1.0, 0.0, (-1, 1)),
+    "disk along the field": (1.5, (1.0, 1.5), 0.5, 0.5, 0.0, 0.0, (-1, 1)),
+    "disk against it": (1.5, (1.0, 1.5), 0.5, -0.5, 0.0, 0.0, (-1, -1)),
+    "disk, both spins": (1.5, (1.0, 1.5), 0.0, 0.0, 0.0, 0.0, (-2, 0)),
+    "charged heavy top": (0.5, (0.3, 0.4), 0.5, 0.5, 1.0, -0.25, (-1, 1)),
+    "disk, neither": (1.5, (1.0, 1.5), 0.5, 0.0, 0.0, 0.0, (0, 0)),
+}
+"""I, coupling, M3, p of the middle of the loop, linear, quadratic; and g1, g2 in what becomes of g3."""
+
+
+def carried(name: str, points: int = 32) -> tuple[Wells, Monodromy]:
+    """Return the potential and the lattice carried round the loop of one case."""
+    I, (k2, k3), M3, p, linear, quadratic, _ = CASES[name]
+    wells = Wells(M3, k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear)
+    return wells, monodromy(I, (k2, k3), M3, around(wells, p, points), linear, quadratic)
+
+
+def quadrature(name: str, p: float, g: float) -> np.ndarray:
+    """Return the period and both angles over 2 pi of one nutation, by Gauss and Chebyshev's rule over nu."""
+    I, (k2, k3), M3, _, linear, quadratic, _ = CASES[name]
+    A, a, kappa = k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear, k2 - k3 / I
+    q = np.array([A, 2 * a, -A - g - M3 * M3, -2 * a + 2 * p * M3, g - p * p])
+    roots = np.roots(np.trim_zeros(q, "f"))
+    real = np.sort(roots[np.abs(roots.imag) < 1e-9].real)
+    low, high = max(
+        ((x, y) for x, y in zip(real, real[1:], strict=False) if np.polyval(q, (x + y) / 2) > 0 and abs(x + y) < 2),
+        key=lambda ends: ends[1] - ends[0],
+    )
+    count = 20_000
+    nu = (low + high) / 2 + (high - low) / 2 * np.cos(np.pi * (np.arange(count) + 0.5) / count)
+    rest = np.polydiv(q, [-1.0, low + high, -low * high])[0]
+    dt = 2 * np.pi / count / np.sqrt(np.polyval(rest, nu))
+    turn = (p - M3 * nu) / ((1 - nu) * (1 + nu))
+    return np.array(
+        [dt.sum(), ((turn - k2) * dt).sum() / (2 * np.pi), ((M3 / I - nu * turn + kappa * nu) * dt).sum() / (2 * np.pi)]
+    )
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_lattice_is_that_of_a_quadrature_all_round_the_loop(name: str) -> None:
+    """Period and angles are those of a quadrature of 20 000 points, but for whole turns, within 1e-9.
+
+    Carried on by themselves the angles of the quadrature change by the same whole turns.
+    """
+    wells, found = carried(name)
+    true = np.array([quadrature(name, p, g) for p, g in zip(found.p, found.g, strict=True)])
+    assert found.period == pytest.approx(true[:, 0], rel=1e-9)
+    apart = found.turns - true[:, 1:]
+    assert np.abs(apart - np.round(apart)).max() <= 1e-9
+    carried_on = np.unwrap(true[:, 1:], axis=0, period=1.0)
+    m, n = -(carried_on[-1] - carried_on[0])
+    assert found.matrix == ((1, 0, 0), (0, 1, 0), (round(m), round(n), 1))
+    assert (round(m), round(n)) == CASES[name][-1]
+    assert found.radius <= 2.0**-80
+    assert found.step < 1 / 4
+    assert wells.spin(1)[0] == wells.M3
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if "disk" not in name] + ["disk against it"])
+def test_the_turn_is_made_where_the_axis_passes_through_the_pole(name: str) -> None:
+    """By theorem-residue the angles of one nutation jump by a turn where p = sigma M3 above the spin, not below it."""
+    I, coupling, M3, p, linear, quadratic, _ = CASES[name]
+    wells, _ = carried(name)
+    sigma = 1 if p == M3 else -1
+    _, spin, D = wells.spin(sigma)
+    assert D < 0
+    room = spin - float(np.min(wells.potential(p, np.linspace(-0.999, 0.999, 999))))
+    for side, jump in ((0.4, 1.0), (-0.4, 0.0)):
+        before, after = (quadrature(name, p + d, spin + side * room)[1:] for d in (-2e-3, 2e-3))
+        change = after - before
+        assert np.abs(change - np.round(change)).max() <= 0.05
+        assert np.round(change).tolist() == pytest.approx([jump, -sigma * jump])
+
+
+def test_a_loop_run_backwards_has_the_inverse_matrix() -> None:
+    """And half the points give the same."""
+    I, coupling, M3, p, linear, quadratic, _ = CASES["heavy top"]
+    loop = around(Wells(M3, 0.0, linear), p, 32)
+    there, back, half = (monodromy(I, coupling, M3, one, linear) for one in (loop, loop[::-1], loop[::2]))
+    assert (np.array(there.matrix) @ np.array(back.matrix) == np.eye(3)).all()
+    assert half.matrix == there.matrix
+    assert half.step > there.step
+
+
+@pytest.mark.parametrize(
+    ("loop", "tells"),
+    [
+        ([(1.0, 1.5), (0.9, 2.2), (1.2, 2.2)], "more points"),
+        ([(1.0, 2.0), (0.9, 2.2), (1.2, 2.2)], "separatrix"),
+        ([(1.0, 0.5), (0.9, 2.2), (1.2, 2.2)], "No motion has"),
+        ([(1.0, 1.5), (0.9, 2.2)], "number of points"),
+    ],
+)
+def test_loops_that_tell_nothing_are_refused(loop: list[tuple[float, float]], tells: str) -> None:
+    """A loop that is too coarse, meets a critical value, or leaves the motions."""
+    with pytest.raises(atlas.AtlasError, match=tells):
+        monodromy(0.5, (0.0, 0.0), 1.0, np.array(loop), 1.0)
+
+
+def test_a_stable_spin_has_no_loop() -> None:
+    """With D > 0 the value of the spin lies on the border of all motions."""
+    with pytest.raises(atlas.DomainError, match="D is not negative"):
+        around(Wells(3.0, 0.0, 1.0), 3.0)
