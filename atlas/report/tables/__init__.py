@@ -12,12 +12,14 @@ from atlas.report.tables import (
     diamagnetism,
     flight,
     motion,
+    observed,
     particle,
     points,
     quadric,
     quantities,
     sheet,
     sizes,
+    tops,
 )
 from atlas.report.tables.model import Data, Maker, Request
 
@@ -38,6 +40,10 @@ TABLES: Mapping[str, Maker] = MappingProxyType(
         "flight": flight.flight,
         "sizes": sizes.sizes,
         "radiation": sizes.radiation,
+        "coats": observed.coats,
+        "swings": observed.swings,
+        "tops": tops.tops,
+        "monodromy": tops.loops,
     }
 )
 
