@@ -1,5 +1,6 @@
-"""The lattice of periods round focus-focus values: against quadrature of the angles, and the laws of theorem-residue."""
+"""The lattice of periods round focus-focus values: against a quadrature of the angles, and theorem-residue."""
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -36,7 +37,7 @@ def quadrature(name: str, p: float, g: float) -> np.ndarray:
     roots = np.roots(np.trim_zeros(q, "f"))
     real = np.sort(roots[np.abs(roots.imag) < 1e-9].real)
     low, high = max(
-        ((x, y) for x, y in zip(real, real[1:], strict=False) if np.polyval(q, (x + y) / 2) > 0 and abs(x + y) < 2),
+        ((x, y) for x, y in pairwise(real) if np.polyval(q, (x + y) / 2) > 0 and abs(x + y) < 2),
         key=lambda ends: ends[1] - ends[0],
     )
     count = 20_000
@@ -72,7 +73,7 @@ def test_the_lattice_is_that_of_a_quadrature_all_round_the_loop(name: str) -> No
 @pytest.mark.parametrize("name", [name for name in CASES if "disk" not in name] + ["disk against it"])
 def test_the_turn_is_made_where_the_axis_passes_through_the_pole(name: str) -> None:
     """By theorem-residue the angles of one nutation jump by a turn where p = sigma M3 above the spin, not below it."""
-    I, coupling, M3, p, linear, quadratic, _ = CASES[name]
+    _, _, M3, p, *_ = CASES[name]
     wells, _ = carried(name)
     sigma = 1 if p == M3 else -1
     _, spin, D = wells.spin(sigma)
@@ -87,7 +88,7 @@ def test_the_turn_is_made_where_the_axis_passes_through_the_pole(name: str) -> N
 
 def test_a_loop_run_backwards_has_the_inverse_matrix() -> None:
     """And half the points give the same."""
-    I, coupling, M3, p, linear, quadratic, _ = CASES["heavy top"]
+    I, coupling, M3, p, linear, *_ = CASES["heavy top"]
     loop = around(Wells(M3, 0.0, linear), p, 32)
     there, back, half = (monodromy(I, coupling, M3, one, linear) for one in (loop, loop[::-1], loop[::2]))
     assert (np.array(there.matrix) @ np.array(back.matrix) == np.eye(3)).all()

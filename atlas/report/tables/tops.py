@@ -51,24 +51,28 @@ def tops(request: Request) -> Data:
     asked = request.take(TopsParameters).tops
     found = certified(lambda: [_nutation(one) for one in asked], request.digits)
     columns = [column(values, request.digits) for values in zip(*found, strict=True)]
-    given = [
+    given: list[tuple[str | Number, ...]] = [
         (
             one.name,
-            *(Number.given(x) for x in (one.ratio, *one.coupling, one.linear, one.quadratic)),
-            f"$({plain(one.direction[0])},{plain(one.direction[1])})$",
-            "$(" + ",".join(map(plain, one.omega)) + ")$",
+            Number.given(one.ratio),
+            *(_row(x) for x in (one.coupling, (one.linear, one.quadratic), one.direction, one.omega)),
         )
         for one in asked
     ]
     return Data(
         (
-            *map(Column, ("Top", "$I$", "$k_2$", "$k_3$", "$a_0$", "$A_0$", r"$\mathbf{n}$", r"$\boldsymbol\omega$")),
+            *map(Column, ("Top", "$I$", "$k_2,k_3$", "$a_0,A_0$", "$n_2,n_3$", r"$\boldsymbol\omega$")),
             *map(Column, ("$T$", r"$\Delta\psi$", r"$\Delta\chi$")),
         ),
         tuple((*first, *rest) for first, rest in zip(given, zip(*columns, strict=True), strict=True)),
         r"Tops of every kind: the period $T$ of nutation and the angles $\Delta\psi$ about $\mathbf{n}$ and "
         r"$\Delta\chi$ about the axis by which the body turns in it, in units of $J_2$ and of one time.",
     )
+
+
+def _row(numbers: tuple[float, ...]) -> str:
+    """Return given numbers in one cell."""
+    return "$" + ",".join(map(plain, numbers)) + "$"
 
 
 def _nutation(one: Top) -> tuple[Any, Any, Any]:
