@@ -71,9 +71,9 @@ def swings(request: Request) -> Data:
             top = TopMotion((I2, I3), (b * I2, b * I3), (B2, B3), (0.0, -B2, -B3), 0.0, quadratic)
             rates.append(sqrt(abs((I3 - I2) * b * b + quadratic) / I2))
             periods.append(float(top.period))
-        rows.append(
-            (record.title, *(_three(value) for value in (2 * pi / b, rates[0], periods[0], rates[1], periods[1])))
-        )
+        excess = (rates[1] / rates[0]) ** 2 if rates[0] else 0.0
+        values = (2 * pi / b, rates[0], periods[0], rates[1], periods[1], excess)
+        rows.append((record.title, *map(_three, values)))
     return Data(
         (
             Column("Body"),
@@ -83,6 +83,7 @@ def swings(request: Request) -> Data:
                 for what in ("charge alone", "magnetised")
                 for head, unit in ((r"$\sqrt{\lvert A\rvert}$", RATE), ("$T$", "s"))
             ),
+            Column(r"quotient of both $\lvert A\rvert$"),
         ),
         tuple(rows),
         r"Bodies that start at rest in Larmor's frame, $\boldsymbol\omega=-\mathbf{B}'$, in the field of the tables: "
