@@ -2,7 +2,7 @@
 
 A motion with given momenta p, M3 and energy g comes back after a lattice of turns and times, atlas.core.monodromy.
 Followed once round the value of an unstable spin about the field or the vertical, the lattice comes back, but its basis
-does not, theorem-monodromy.
+does not, theorem-residue.
 """
 
 from typing import Any

@@ -1,4 +1,4 @@
-"""Monodromy of a symmetric top: what becomes of the periods on a loop round a focus-focus value, theorem-monodromy.
+"""Monodromy of a symmetric top: what becomes of the periods on a loop round a focus-focus value, theorem-residue.
 
 At regular values of (M3, p, g) the motion lies on a torus. Its periods are the lattice of all (s, t, u) for which the
 turn by s about n, the turn by t about the body's axis and the motion for the time u, one after the other, bring the
