@@ -45,8 +45,8 @@ def coats(request: Request) -> Data:
             *map(Column, ("$I$", r"$g_\perp$", r"$g_\parallel$", r"$\kappa/b$", "$A/b^2$")),
         ),
         tuple(rows),
-        r"Bodies whose charge is not spread like their mass, $b=eB/2m_0c$ with the whole charge: "
-        r"gyromagnetic factors across and along the axis, and what stands in @theorem-every-top. For one charge-to-mass ratio throughout "
+        r"Bodies whose charge is not spread like their mass, $b=eB/2m_0c$ with the whole charge: gyromagnetic factors "
+        r"across and along the axis, and what stands in @theorem-every-top. For one charge-to-mass ratio throughout "
         r"both factors are 1, $\kappa=0$ and $A/b^2=I-1$.",
         ("Three decimals; dimensions in the text.",),
     )
