@@ -13,7 +13,7 @@ SEED   ?= 0
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures picture accessibility verify bench stress mutants lint clean setup lock newest lowest FORCE
+.PHONY: help report test figures picture accessibility verify bench stress mutants lint clean setup lock newest lowest release FORCE
 
 help:
 	@echo 'make report    the atlas, the paper on trial and the guide, as pages and PDF: build/report/atlas/index.html'
@@ -25,6 +25,7 @@ help:
 	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
 	@echo 'make accessibility   the linter axe-core on every page, and the search box, in Chromium: needs node and npm'
 	@echo 'make newest    the unit tests with the newest libraries that the ranges allow;   make lowest   with the oldest'
+	@echo 'make release TAG=v0.2.0   the sdist and the wheel of a tag, in dist/'
 	@echo 'make lint      ruff, mypy, import-linter;   make clean   removes build/'
 
 # What the report is made from; with nothing changed, make ends without starting Python.
@@ -91,6 +92,16 @@ lint: setup
 test: lint
 	@echo 'the tests: about 5 minutes on two cores'
 	@$(BIN)/python -m pytest -n $(JOBS)
+
+# The sdist and the wheel of a tag, from what the tag holds and nothing else.
+release: setup
+	@test -n '$(TAG)' || { echo 'atlas: which release? make release TAG=v0.2.0' >&2; exit 2; }
+	@git rev-parse -q --verify 'refs/tags/$(TAG)' >/dev/null || { echo "atlas: there is no tag $(TAG): git tag $(TAG)" >&2; exit 2; }
+	@rm -rf build/release && mkdir -p build/release/source && git archive '$(TAG)' | tar -x -C build/release/source
+	@cd build/release/source && version=$$(../../../$(BIN)/hatchling version) && test "v$$version" = '$(TAG)' || \
+	  { echo "atlas: atlas/__init__.py of $(TAG) says version $$version" >&2; exit 2; }
+	@cd build/release/source && ../../../$(BIN)/hatchling build -d ../../../dist
+	@rm -rf build/release
 
 clean:
 	rm -rf build

@@ -10,6 +10,7 @@ from typing import Any, get_args
 import click
 import pytest
 
+import atlas
 from atlas.cli.app import atlas as command_line
 from atlas.places import folder
 from atlas.report.blocks import KINDS, Block
@@ -90,10 +91,11 @@ def test_the_table_of_blocks_is_what_a_page_may_hold() -> None:
 
 
 def test_every_document_names_the_same_version_and_licence() -> None:
-    """CITATION.cff, codemeta.json and the changelog agree with pyproject.toml."""
+    """CITATION.cff, codemeta.json and the changelog agree with the package, whose version hatchling takes."""
     project = tomllib.loads((CHECKOUT / "pyproject.toml").read_text("utf-8"))["project"]
     cited = dict(re.findall(r"^(\w+): (.+)$", (CHECKOUT / "CITATION.cff").read_text("utf-8"), re.MULTILINE))
     meta = json.loads((CHECKOUT / "codemeta.json").read_text("utf-8"))
-    assert cited["version"] == meta["version"] == project["version"]
+    assert project["dynamic"] == ["version"]
+    assert cited["version"] == meta["version"] == atlas.__version__
     assert cited["license"] == meta["license"].rpartition("/")[2] == project["license"]
-    assert f"## {project['version']}" in (CHECKOUT / "CHANGELOG.md").read_text("utf-8")
+    assert f"## {atlas.__version__}" in (CHECKOUT / "CHANGELOG.md").read_text("utf-8")
