@@ -7,9 +7,9 @@ one side, each about its centre -B'. At I = 1 the two sheets meet in a cone; for
 import numpy as np
 
 from atlas.errors import DomainError
-from atlas.scene import Curve, Label, Layer, Scene, Space, quadric_panel, quadrics, solids
-from atlas.scene.camera import frame
+from atlas.scene import Scene, quadric_panel, quadric_row, quadrics
 from atlas.scene.narrow import stacked
+from atlas.scene.quadric_row import Member
 from atlas.scene.words import body_name, body_role, listed, tex, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 62.0
@@ -29,22 +29,17 @@ def scene(
             f"figure quadrics_of_bodies needs B2, B3 not zero and 1 to 12 ratios, not field = {field}, {ratios}."
         )
     b = float(np.hypot(*field))
-    right = frame(Space((), azimuth=azimuth))[0]
-    each = [quadrics.pieces(I, field, REACH * b, quadric_panel.tolerance(2 * REACH * b)) for I in ratios]
-    extents = [solids.extent(surfaces, right) for surfaces in each]
-    cells: list[list[Layer]] = []
-    place, gap = 0.0, 0.35 * b
-    for I, surfaces, (left, end) in zip(ratios, each, extents, strict=True):
-        shift = (place - left) * right
-        place += end - left + gap
-        layers: list[Layer] = []
-        for surface in surfaces:
-            layers.append(solids.moved(surface, shift))
-            curve = quadrics.hyperbola(quadrics.quadric_matrix(I, field), surface, quadric_panel.tolerance(3 * b))
-            layers += [Curve(points + shift, "hyperbola") for points in curve]
-        centre = quadric_panel.in_plane(-field[0], -field[1]) + shift
-        layers.append(Label(centre - 2.35 * b * quadric_panel.E3, f"$I={tex(I)}$", body_role(I), (0.0, 0.0)))
-        cells.append(layers)
+    members = [
+        Member(
+            quadrics.pieces(I, field, REACH * b, quadric_panel.tolerance(2 * REACH * b)),
+            quadrics.quadric_matrix(I, field),
+            quadric_panel.in_plane(-field[0], -field[1]),
+            f"$I={tex(I)}$",
+            body_role(I),
+        )
+        for I in ratios
+    ]
+    cells = quadric_row.cells(members, b, azimuth)
     named = listed([f"{body_name(I)} ($I={tex(I)}$)" for I in ratios])
     return Scene(
         title=title(__doc__),

@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from atlas.core.quadric import Quadric
+from atlas.core.quadric import Quadric, TopQuadric
 from atlas.scene import conics, mesh, sample, solids
 from atlas.scene.layers import FloatArray, Surface
 
@@ -96,12 +96,25 @@ def profile(rest: float, slope: float, sign: float) -> tuple[_Line, _Line, Calla
     return lambda s: np.sqrt(-slope) * s, lambda s: s, lambda height: height
 
 
-def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:
-    """Return the sheets of the quadric (51) of a body within ``reach`` of its centre along its axis.
+def top_matrix(I: float, quadric: TopQuadric) -> FloatArray:
+    """Return the (4, 4) matrix of the quadric of a top, theorem-top-quadric, divided by n3, which is not zero."""
+    n2, n3 = quadric.direction
+    across, c = n2 / float(np.hypot(n2, n3)), np.asarray(quadric.centre)
+    form = np.diag([1.0, 1.0, 0.0])
+    form[1, 2] = form[2, 1] = -0.5 * I * n2 / n3
+    return solids.matrix(form, -2.0 * form @ c, float(c @ form @ c) + across * across * float(quadric.D))
 
-    ``field`` is (B2, B3) of B', of which neither vanishes; a hyperboloid of one sheet and a cone are one surface.
+
+def pieces(ratio: float, field: tuple[float, float], reach: float, tolerance: float) -> list[Surface]:
+    """Return the sheets of the quadric (51) of a body, as `sheets` does; ``field`` is (B2, B3), neither zero."""
+    return sheets(Quadric(ratio, field), quadric_matrix(ratio, field), reach, tolerance)
+
+
+def sheets(quadric: Quadric, Q: FloatArray, reach: float, tolerance: float) -> list[Surface]:
+    """Return the sheets of a quadric with the matrix ``Q`` within ``reach`` of its centre along its axis.
+
+    A hyperboloid of one sheet and a cone are one surface.
     """
-    quadric, Q = Quadric(ratio, field), quadric_matrix(ratio, field)
     if quadric.kind == "two-sheet hyperboloid":
         vertex = abs(float(quadric.semi_axes[sheet_axis(quadric)]))
         return [sheet(quadric, Q, *span, tolerance) for span in ((vertex, reach), (-reach, -vertex))]

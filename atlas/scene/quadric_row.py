@@ -1,0 +1,41 @@
+"""Quadrics of initial data side by side in space, at one scale, each with the hyperbola of its motions and its name."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from atlas.scene import quadric_panel, quadrics, solids
+from atlas.scene.camera import frame
+from atlas.scene.layers import Curve, FloatArray, Label, Layer, Space, Surface
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """One quadric: its sheets, its matrix (4, 4) and its centre (3,), its name and the role of that."""
+
+    surfaces: Sequence[Surface]
+    matrix: FloatArray
+    centre: FloatArray
+    name: str
+    role: str = "label"
+
+
+def cells(members: Sequence[Member], scale: float, azimuth: float) -> list[list[Layer]]:
+    """Return the layers of each, from left to right; lengths are in units of ``scale``, the first stays in height."""
+    right, found, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
+    for one in members:
+        level = members[0].centre - one.centre
+        surfaces = [solids.moved(surface, level) for surface in one.surfaces] if level.any() else one.surfaces
+        left, end = solids.extent(surfaces, right)
+        shift = (place - left) * right + level
+        place += end - left + 0.35 * scale
+        layers: list[Layer] = []
+        for surface in one.surfaces:
+            layers.append(solids.moved(surface, shift))
+            curve = quadrics.hyperbola(one.matrix, surface, quadric_panel.tolerance(3 * scale))
+            layers += [Curve(points + shift, "hyperbola") for points in curve]
+        low = one.centre + shift - 2.35 * scale * quadric_panel.E3
+        layers.append(Label(np.asarray(low), one.name, one.role, (0.0, 0.0)))
+        found.append(layers)
+    return found

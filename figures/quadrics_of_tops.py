@@ -1,0 +1,96 @@
+"""The paper's quadric for every top.
+
+The starts at which an axis has no acceleration lie on a quadric, whatever the charge and the weight are,
+theorem-top-quadric: that of the paper, moved. Its kind is the sign of D, which takes the place of (I - 1) b^2. The
+plane below holds all tops of one ratio I, by their potential and by how far out their charge is.
+"""
+
+import numpy as np
+
+from atlas.core.quadric import TopQuadric
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadric_row, quadrics
+from atlas.scene.narrow import stacked
+from atlas.scene.quadric_row import Member
+from atlas.scene.words import tex, title
+
+WIDTH, HEIGHT = 178.0, 134.0
+REACH = 1.9
+RANGES = {"weight": (0.01, 2.0), "moment": (0.01, 2.0), "outside": (0.01, 3.0)}
+
+
+def scene(
+    *,
+    ratio: float = 0.75,
+    direction: tuple[float, float] = (1.0, 1.0),
+    weight: float = 0.3,
+    moment: float = 0.05,
+    outside: float = 1.3,
+    azimuth: float = 20.0,
+    elevation: float = 14.0,
+) -> Scene:
+    """Draw six tops in units of b: weight and moment are |a0|, ``outside`` is k3/(I k2) of the charge outside."""
+    n2, n3 = direction
+    if not (n2 and n3 > 0 and 0 < ratio <= 2):
+        raise DomainError(
+            f"figure quadrics_of_tops needs a ratio in (0, 2] and n2 not 0, n3 > 0, not {ratio} and {direction}."
+        )
+    cosine = n3 / float(np.hypot(n2, n3))
+    tops = [  # name, k3/(I k2) with k2 = b, a0, A0; without charge k2 does not matter
+        ("hanging top", 0.0, -weight, 0.0),
+        ("magnet", 1.0, -moment, 0.0),
+        ("paper's body", 1.0, 0.0, 0.0),
+        ("border", 1.0, 0.0, 1.0 - ratio),
+        ("charge outside", outside, 0.0, 0.0),
+        ("standing top", 0.0, weight, 0.0),
+    ]
+    surfaces = [TopQuadric((1.0, ratio), (float(g > 0), ratio * g), direction, a0, A0) for _, g, a0, A0 in tops]
+    # two sheets begin at their vertices, which all must lie inside
+    reach = max(REACH, *(1.4 * float(one.semi_axes[quadrics.sheet_axis(one)]) for one in surfaces if one.D > 0), 0.0)
+    members = []
+    for number, (quadric, (name, *_)) in enumerate(zip(surfaces, tops, strict=True), 1):
+        Q = quadrics.top_matrix(ratio, quadric)
+        sheets = quadrics.sheets(quadric, Q, reach, quadric_panel.tolerance(2 * reach))
+        members.append(Member(sheets, Q, np.asarray(quadric.centre), f"{number} {name}"))
+    cells = quadric_row.cells(members, reach / REACH, azimuth)
+    plane = kinds(ratio, np.array([[A0 + a0 / cosine, g] for _, g, a0, A0 in tops]))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"Initial angular velocities with $\ddot\nu=0$ of tops, $I={tex(ratio)}$, "
+            rf"$\mathbf{{n}}\propto(0,{tex(n2)},{tex(n3)})$. Heavy line: the hyperbola $\omega_1=0$, whose points "
+            r"alone are steady. Below: the same tops (dots) in the plane of all with this $I$. On the border (solid), "
+            r"$D=0$, is 4, a paper's body that the field magnetises."
+        ),
+        alt=(
+            "A row of quadrics at one scale, tubes of one sheet, then a double cone, then two bowls; below a plane "
+            "with a curve that parts tops with one sheet from those with two, and six numbered points."
+        ),
+        panels=(*stacked(cells, 1, azimuth, elevation), plane),
+        narrow=(*stacked(cells, 2, azimuth, elevation), plane),
+        named={"Heavy": "hyperbola", "dots": "start", "solid": "main"},
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def kinds(ratio: float, places: np.ndarray) -> Plane:
+    """Return the plane of (A0 + a0/n3)/b^2 and k3/(I k2), with the border D = 0 and the tops."""
+    wide = 1.25 * max(1.0, float(np.abs(places[:, 0]).max()))
+    high = 1.25 * max(1.0, float(places[:, 1].max()))
+    low = -0.2 * high
+    g = np.linspace(low, high, 129)
+    border = np.stack([g * (2.0 - (1.0 + ratio) * g), g], axis=1)
+    clipped = np.stack([np.clip(border[:, 0], -wide, wide), g], axis=1)
+    layers: list[Layer] = [
+        Region(np.concatenate([clipped, [[-wide, high], [-wide, low]]]), "region"),
+        Curve(np.array([[-wide, 1.0], [wide, 1.0]]), "guide"),
+        Curve(np.array([[-wide, 0.0], [wide, 0.0]]), "guide"),
+        Curve(border, "main"),
+        Points(places, "start"),
+        *(Label(place, f"{number}", "label", (5.0, 5.0)) for number, place in enumerate(places, 1)),
+        Label(np.array([-0.72 * wide, 0.5 * high]), "one sheet", "note", (0.0, 0.0)),
+        Label(np.array([0.72 * wide, 0.5 * high]), "two sheets", "note", (0.0, 0.0)),
+    ]
+    return Plane(
+        tuple(layers), r"$(A_0+a_0/n_3)/b^2$", r"$k_3/Ik_2$", (-wide, wide), (low, high),
+    )  # fmt: skip

@@ -1,0 +1,138 @@
+"""The figures of the chapter on tops as arrays: what is drawn is what the theory says."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from atlas import DomainError, TopMotion
+from atlas.core.quadric import TopQuadric
+from atlas.core.wells import Wells
+from atlas.scene import Arrow, Curve, Points, Region, Scene, Space, Surface, recipes
+from atlas.scene.narrow import narrowed
+
+
+def made(name: str, **parameters: Any) -> Scene:
+    """Return a figure as data."""
+    return recipes.load(name).scene(**parameters)
+
+
+def layers(panel: Any, kind: Any, role: str = "") -> list[Any]:
+    """Return the layers of one kind, and role, of a panel."""
+    return [layer for layer in panel.layers if isinstance(layer, kind) and role in {"", layer.role}]
+
+
+@pytest.mark.parametrize("M3", [(0.0, 0.5, 1.0), (-1.0, 2.0)])
+def test_shaded_tops_have_two_wells_and_the_others_one(M3: tuple[float, ...]) -> None:
+    """Points of the plane have two wells where the shaded polygon holds them, by a count of minima on 4001 cosines.
+
+    Points closer to the border than 0.1 are left out; on |M3| = p a well may lie on the pole itself.
+    """
+    nu = np.sin(np.linspace(-0.4999, 0.4999, 4001) * np.pi)
+    for panel, momentum in zip(made("wells", M3=M3).panels, M3, strict=True):
+        (shaded,) = layers(panel, Region)
+        (edge,) = layers(panel, Curve, "main")
+        for a, A in np.random.default_rng(3).uniform(-4, 4, size=(60, 2)):
+            if np.min(np.hypot(*(dense(edge.points) - (a, A)).T)) < 0.1:
+                continue
+            V = Wells(momentum, A, a).potential(1.0, nu)
+            minima = int(np.sum((V[1:-1] < V[:-2]) & (V[1:-1] < V[2:])))
+            if abs(momentum) == 1:
+                minima += int(V[-1] < V[-2]) if momentum > 0 else int(V[0] < V[1])
+            assert (minima == 2) == inside(shaded.points, a, A), (momentum, a, A)
+
+
+def dense(line: np.ndarray) -> np.ndarray:
+    """Return a polyline (N, 2) with 20 points on each of its pieces."""
+    t = np.linspace(0, 1, 20)[:, None, None]
+    return np.asarray((line[:-1] + t * (line[1:] - line[:-1])).reshape(-1, 2))
+
+
+def inside(polygon: np.ndarray, x: float, y: float) -> bool:
+    """Return whether a point lies in a polygon, by the crossings of a ray."""
+    one, other = polygon, np.roll(polygon, -1, axis=0)
+    crossed = (one[:, 1] > y) != (other[:, 1] > y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = one[:, 0] + (y - one[:, 1]) / (other[:, 1] - one[:, 1]) * (other[:, 0] - one[:, 0])
+    return bool(np.sum(crossed & (at > x)) % 2)
+
+
+def test_the_heavy_top_stops_at_its_cusps_and_turns_back_in_its_loops() -> None:
+    """The least speed of each drawn axis and the sense of its longitude are those of its name; its energies too."""
+    scene = made("cusps")
+    *spheres, plane = scene.panels
+    (cusps,), (places,) = layers(plane, Curve, "reference"), layers(plane, Points, "start")
+    slope = np.ptp(cusps.points[:, 1]) / np.ptp(cusps.points[:, 0])
+    for panel, omega2, (p, g) in zip(spheres, (-0.5, 0.0, 0.25), places.points, strict=True):
+        top = TopMotion((1.0, 0.5), (0.0, 0.0), (0.8, 0.6), (0.0, omega2, 4.4), 1.0)
+        t = np.linspace(0, top.period, 4001)
+        Omega, b = top.angular_velocity(t), top.field_in_body(t)
+        speed = np.hypot(Omega[:, 0], Omega[:, 1])
+        sense = Omega[:, 0] * b[:, 0] + Omega[:, 1] * b[:, 1]
+        kind = panel.title.split()[1].rstrip(",")
+        assert kind == {-0.5: "loops", 0.0: "cusps", 0.25: "waves"}[omega2]
+        assert (speed.min() < 1e-6) == (kind == "cusps")
+        assert (sense.min() < -1e-6 < 1e-6 < sense.max()) == (kind == "loops")
+        assert np.sign(round(float(g - slope * p), 12)) == {"loops": 1, "cusps": 0, "waves": -1}[kind]
+        assert p == pytest.approx(top.invariants()["p"], abs=1e-14)
+        trace = layers(panel, Curve, "trace")[0].points
+        assert trace[:, 2].min() == pytest.approx(top.turning_points[0], abs=1e-3)
+
+
+def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_does() -> None:
+    """Its components are those in the title of the panel, within 1e-12, and its ends are points of the lattice."""
+    maps, lattices = (made("monodromy", points=32).panels[k : k + 3] for k in (0, 3))
+    for panel, step in zip(lattices, ((-1, 1), (-1, 1), (-2, 0)), strict=True):
+        (arrow,), (track,) = layers(panel, Arrow), layers(panel, Curve, "trajectory")
+        assert arrow.tip - arrow.tail == pytest.approx(step, abs=1e-12)
+        assert track.points[[0, -1]] == pytest.approx(np.array([arrow.tail, arrow.tip]), abs=1e-12)
+        grid = layers(panel, Points, "sample")[0].points
+        assert min(np.hypot(*(grid - arrow.tip).T)) <= 1e-12
+    for panel in maps:
+        (loop,), (spin,) = layers(panel, Curve, "trajectory"), layers(panel, Points, "special")
+        assert inside(loop.points, *spin.points[0])
+
+
+def test_the_quadrics_of_tops_are_those_of_the_class() -> None:
+    """Every point of a drawn sheet, at its own centre, has the residual 0 within 1e-9; the kinds part at the border."""
+    scene = made("quadrics_of_tops")
+    row, plane = scene.panels
+    assert isinstance(row, Space)
+    given = [(0.0, 0.0, -0.3, 0.0), (1.0, 1.0, -0.05, 0.0), (1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 0.0, 0.25)]
+    given += [(1.0, 1.3, 0.0, 0.0), (0.0, 0.0, 0.3, 0.0)]
+    surfaces = layers(row, Surface)
+    assert len(surfaces) == 8
+    for k, (k2, g, a0, A0) in enumerate(given):
+        quadric = TopQuadric((1.0, 0.75), (k2, 0.75 * g), (1.0, 1.0), a0, A0)
+        mine = surfaces[k : k + 1] if k < 4 else surfaces[2 * k - 4 : 2 * k - 2]
+        points = np.concatenate([grid.reshape(-1, 3) for one in mine for grid in one.grids])[::61]
+        Q = mine[0].quadric
+        centre = -np.linalg.solve(Q[:3, :3], Q[:3, 3])
+        assert np.abs(quadric.residual(points - centre + quadric.centre)).max() <= 1e-9
+        x, y = layers(plane, Points)[0].points[k]
+        if quadric.kind == "cone":
+            assert np.min(np.hypot(*(dense(layers(plane, Curve, "main")[0].points) - (x, y)).T)) < 1e-3
+        else:
+            assert inside(layers(plane, Region)[0].points, x, y) == (quadric.kind == "one-sheet hyperboloid")
+    narrow = narrowed(scene)
+    assert narrow is not None
+    assert len(narrow.panels) == 3
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters"),
+    [
+        ("wells", {"cosines": (1.0,)}),
+        ("wells", {"M3": (0.0, 0.1, 0.2, 0.3)}),
+        ("cusps", {"linear": -1.0}),
+        ("cusps", {"omega2": (-0.5, 0.0, 0.25, 0.3)}),
+        ("monodromy", {"ratio": 0.5}),
+        ("monodromy", {"M3": 1.5}),
+        ("quadrics_of_tops", {"direction": (1.0, 0.0)}),
+        ("quadrics_of_tops", {"ratio": 2.5}),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, parameters: dict[str, Any]) -> None:
+    """Each figure says in one line what it needs."""
+    with pytest.raises(DomainError, match=f"figure {name}"):
+        made(name, **parameters)
