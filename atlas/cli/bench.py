@@ -20,7 +20,11 @@ OUT = Path("build/bench.json")
     ),
 )
 @click.option(
-    "--case", "cases", cls=Many, metavar="NAME [...]", help="elementary, general, ball, particle; all when left out."
+    "--case",
+    "cases",
+    cls=Many,
+    metavar="NAME [...]",
+    help="elementary, general, ball, particle, heavy; all when left out.",
 )
 @click.option("--quick", is_flag=True, help="The short form, under half a minute.")
 @click.option("--read", type=click.Path(dir_okay=False, path_type=Path), help="Show this record instead of measuring.")

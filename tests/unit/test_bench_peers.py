@@ -6,13 +6,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from atlas.study.bench import ball, elementary, general, particle
+from atlas.study.bench import ball, elementary, general, heavy, particle
 from atlas.study.bench.case import Case, Method, grid
 from atlas.study.bench.integrators import Integrator, integrators
 from atlas.study.bench.reference import check, reference
 
 EPS = 2.0**-52
-CASES = [elementary.case(), general.case(), ball.case(), particle.case()]
+CASES = [elementary.case(), general.case(), ball.case(), particle.case(), heavy.case()]
 FASTEST = 3.0  # above the highest frequency of any case
 CLOSED = [(case, method) for case in CASES for method in case.closed]
 STEPPING = [(case, integrator) for case in CASES for integrator in integrators()]

@@ -24,6 +24,7 @@ CASES = {
     "general": "general motion",
     "ball": "charged ball",
     "particle": "charged particle",
+    "heavy": "heavy top",
 }
 
 SCALARS, SURFACE, MATRIX = "omega3, k, phi of a curve", "quadric with its axes", "R at one time of each motion"

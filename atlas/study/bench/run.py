@@ -8,7 +8,7 @@ from typing import TypeAlias, TypeVar
 from msgspec.structs import replace
 
 from atlas.errors import AtlasError
-from atlas.study.bench import arrays, ball, dense, elementary, general, particle
+from atlas.study.bench import arrays, ball, dense, elementary, general, heavy, particle
 from atlas.study.bench.case import Case
 from atlas.study.bench.cost import costs
 from atlas.study.bench.integrators import Integrator, integrators
@@ -16,7 +16,13 @@ from atlas.study.bench.precision import Bench, Plan, closed, stepping
 from atlas.study.bench.reference import check
 from atlas.study.bench.results import FORMAT, Cost, ReferenceCheck, Results, Rows, Run, Setup, machine, today, versions
 
-CASES = {"elementary": elementary.case, "general": general.case, "ball": ball.case, "particle": particle.case}
+CASES = {
+    "elementary": elementary.case,
+    "general": general.case,
+    "ball": ball.case,
+    "particle": particle.case,
+    "heavy": heavy.case,
+}
 
 Row = TypeVar("Row", ReferenceCheck, Run, Setup, Cost, Rows)
 
