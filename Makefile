@@ -68,8 +68,9 @@ verify: setup
 bench: setup $(VENV)/.bench
 	@env -u OPENBLAS_CORETYPE $(ATLAS) bench --store   # so that OpenBLAS chooses the kernels of this processor
 
-stress: setup
+stress: setup $(VENV)/.bench
 	@$(ATLAS) stress
+	@$(BIN)/python tests/tops.py   # against heyoka
 	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz
 
 # Needs node, npm and Chromium.
