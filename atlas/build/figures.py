@@ -30,8 +30,8 @@ class FigureBuild:
 
     The recipe is a name, or the place of a file.
 
-    The kinds are svg, pdf, png, pgf, csv, csv.gz, and narrow: an SVG for a narrow screen, a PNG of what is
-    shaded, empty where the figure itself will do.
+    The kinds are svg, pdf, png, pgf, csv, csv.gz, and two that may be empty: narrow, an SVG for a narrow screen, a PNG
+    of what is shaded, where the figure itself won't do; and scene, a script for the viewer of the pages.
 
     `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
     """

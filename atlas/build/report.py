@@ -213,11 +213,12 @@ def _figures(
 ) -> "dict[FigureBuild, Picture]":
     """Return the figures of a report: PNG where they are shaded, else SVG for the pages and PDF for the PDF.
 
-    The pages offer each figure as PDF and PNG too, and its data as CSV, and stack its panels on a narrow screen.
+    The pages offer each figure as PDF and PNG too, and its data as CSV; they stack its panels on a narrow screen, and
+    turn those in space.
     """
     from atlas.build.figures import FigureBuild
 
-    pages = ("svg", "pdf", "png", "csv.gz", "narrow"), ("png", "csv.gz", "narrow")
+    pages = ("svg", "pdf", "png", "csv.gz", "narrow", "scene"), ("png", "csv.gz", "narrow", "scene")
     lines, shaded = pages if "html" in formats else (("pdf",), ("png",))
     return {
         FigureBuild(one.recipe, one.parameters, one.renderer, kinds, style): one
@@ -239,9 +240,10 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
         picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
         kind = "svg" if "pdf" in figure.kinds else "png"
         picture.file = f"figures/{picture.stem}.{kind}"
-        picture.files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds if kind != "narrow"}
-        wanted = "narrow" in figure.kinds and facts["narrow"]
-        picture.narrow = f"figures/{picture.stem}-narrow.{kind}" if wanted else ""
+        files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds}
+        picture.narrow = f"figures/{picture.stem}-narrow.{kind}" if files.pop("narrow", "") and facts["narrow"] else ""
+        picture.scene = f"figures/{picture.stem}.js" if files.pop("scene", "") and facts["scene"] else ""
+        picture.files = files
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
 
 
@@ -276,7 +278,8 @@ def _pages(
     drawn = {
         name: figure.contents[kind]
         for figure, picture in figures.items()
-        for kind, name in (*picture.files.items(), *([("narrow", picture.narrow)] if picture.narrow else ()))
+        for kind, name in (*picture.files.items(), ("narrow", picture.narrow), ("scene", picture.scene))
+        if name
     }
     files = {name: page.encode() for name, page in pages.items()} | drawn
     files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))

@@ -75,6 +75,10 @@ def _draw(task: Task) -> None:
                 kind = "png" if renderer == "shaded" else "svg"
                 save(small, {paths["narrow"]: kind}, renderer, task.style)
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
+    if "scene" in task.keys:
+        from atlas.draw import viewer
+
+        contents["scene"] = viewer.script(scene, task.style).encode()
     if "csv" in task.keys:
         contents["csv"] = data.table(scene).encode()
     if "csv.gz" in task.keys:
@@ -86,6 +90,7 @@ def _draw(task: Task) -> None:
         "alt": scene.alt,
         "size": scene.size,
         "narrow": bool(small),
+        "scene": bool(contents.get("scene")),
         "parameters": scene.parameters,
         "renderer": renderer,
         "note": note,

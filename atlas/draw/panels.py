@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.axes import Axes
 from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
@@ -14,7 +15,7 @@ from atlas.draw.plane import draw_plane
 from atlas.draw.space import draw_shaded, draw_space
 from atlas.draw.style import context
 from atlas.draw.text import typeset
-from atlas.scene.layers import Plane, Scene
+from atlas.scene.layers import Panel, Plane, Scene
 
 _INCH = 25.4
 _FONTS = ("pdf.fonttype", "ps.fonttype")
@@ -45,23 +46,7 @@ def to_figure(scene: Scene, style: Any = None, *, shaded: bool = False) -> Figur
     Raises AtlasError where a panel cannot hold one of its layers.
     """
     with context(style):
-        figure = SceneFigure([length / _INCH for length in scene.size])
-        figure.fonts = {name: mpl.rcParams[name] for name in _FONTS}
-        framed = any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
-        rows = -(-len(scene.panels) // scene.columns)
-        edges = {} if framed else {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
-        grid = figure.add_gridspec(rows, scene.columns, **edges)
-        panels = [(figure.add_subplot(grid[divmod(k, scene.columns)]), panel) for k, panel in enumerate(scene.panels)]
-        for number, (axes, panel) in enumerate(panels, 1):
-            if isinstance(panel, Plane):
-                draw_plane(axes, panel, number)
-            else:
-                axes.set_title(typeset(panel.title), y=1.0)
-                axes.set_axis_off()
-        if framed:
-            FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once
-            ConstrainedLayoutEngine().execute(figure)
-            FigureCanvasBase(figure)
+        figure, panels = laid_out(scene)
         for number, (axes, panel) in enumerate(panels, 1):
             if isinstance(panel, Plane):
                 names.write(axes, panel)
@@ -70,3 +55,25 @@ def to_figure(scene: Scene, style: Any = None, *, shaded: bool = False) -> Figur
             else:
                 draw_space(axes, panel, number)
     return figure
+
+
+def laid_out(scene: Scene) -> tuple[Figure, list[tuple[Axes, Panel]]]:
+    """Return a figure and its axes in their places, each with its panel; those in space are still empty."""
+    figure = SceneFigure([length / _INCH for length in scene.size])
+    figure.fonts = {name: mpl.rcParams[name] for name in _FONTS}
+    framed = any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
+    rows = -(-len(scene.panels) // scene.columns)
+    edges = {} if framed else {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
+    grid = figure.add_gridspec(rows, scene.columns, **edges)
+    panels = [(figure.add_subplot(grid[divmod(k, scene.columns)]), panel) for k, panel in enumerate(scene.panels)]
+    for number, (axes, panel) in enumerate(panels, 1):
+        if isinstance(panel, Plane):
+            draw_plane(axes, panel, number)
+        else:
+            axes.set_title(typeset(panel.title), y=1.0)
+            axes.set_axis_off()
+    if framed:
+        FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once
+        ConstrainedLayoutEngine().execute(figure)
+        FigureCanvasBase(figure)
+    return figure, panels

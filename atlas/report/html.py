@@ -1,4 +1,4 @@
-"""The pages: plain HTML with MathML, one stylesheet, embedded fonts, one small script; nothing from the network."""
+"""The pages: plain HTML with MathML, one stylesheet, embedded fonts, small scripts; nothing from the network."""
 
 import re
 from collections import Counter
@@ -18,8 +18,9 @@ from atlas.report.search import index
 from atlas.report.templates import templates
 from atlas.report.versions import versions
 
-SCRIPTS = ("page.js", "minisearch.js")
-"""The page's own, and the library of its search box, vendored so that a page opened from disk needs no network."""
+SCRIPTS = ("page.js", "minisearch.js", "scene.js")
+"""The page's own, the library of its search box, vendored so that a page opened from disk needs no network, and what
+turns figures in space."""
 
 
 class Card(NamedTuple):

@@ -18,6 +18,7 @@ class Picture:
     file        its place in the report: SVG or PNG; `files` those of all its formats, the data as CSV among them
     tables      the commands that make tables of the numbers that it shows
     narrow      the place of the same for a narrow screen, if that is another picture
+    scene       the place of the script with which the page turns it, if it is in space
     failure     why there is none, or nothing; `remark` what the reader should know of how it was drawn
     """
 
@@ -33,6 +34,7 @@ class Picture:
     file: str = ""
     files: Mapping[str, str] = field(default_factory=dict)
     narrow: str = ""
+    scene: str = ""
     tables: tuple[str, ...] = ()
     failure: str = ""
     remark: str = ""

@@ -1,0 +1,201 @@
+"""A scene as data for the viewer of the pages, which turns it: quadrics as ten numbers, lines, and outlines of letters.
+
+Coordinates are those of the view, in which a panel has the size one; lengths on paper are in printer's points. Points
+of lines are 16-bit multiples of 1/`STEPS`, and numbers have seven digits: to less than any pixel.
+"""
+
+import json
+from base64 import b64encode
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.font_manager import FontProperties
+from matplotlib.path import Path
+from matplotlib.textpath import TextPath
+
+from atlas.draw.arrow import HEAD_LENGTH, HEAD_WIDTH
+from atlas.draw.glass import distinct
+from atlas.draw.panels import laid_out
+from atlas.draw.shaded import dashes
+from atlas.draw.space import window
+from atlas.draw.style import context, style_of
+from atlas.draw.text import extent, line, points, typeset
+from atlas.draw.view import View, fit, named
+from atlas.scene.camera import frame, shown
+from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface
+from atlas.scene.narrow import narrowed
+from atlas.scene.style import Style, readable
+
+STEPS, GRID = 16000, 40
+"""To the unit of a panel, and to the point of letters."""
+_FLAT, _NEAR = 1e-6, 0.05
+_UPPER = np.triu_indices(4)
+_WORDS = {Path.MOVETO: "m", Path.LINETO: "l", Path.CURVE3: "q", Path.CURVE4: "c"}
+
+
+def script(scene: Scene, style: Any = None) -> str:
+    """Return the script that hands a scene to the viewer; nothing for one that is flat, with nothing to turn."""
+    if not any(isinstance(panel, Space) and _deep(panel) for panel in scene.panels):
+        return ""
+    return f"atlasScene({json.dumps(data(scene, style), ensure_ascii=False, separators=(',', ':'))});\n"
+
+
+def data(scene: Scene, style: Any = None) -> dict[str, Any]:
+    """Return a scene: its panels in space in the figure and in that for a narrow screen, and all texts."""
+    small = narrowed(scene)
+    with context(style):
+        texts: dict[tuple[str, float], int] = {}
+        return {
+            "wide": _laid_out(scene, texts),
+            "narrow": small and _laid_out(small, texts, same=small.panels == scene.panels),
+            "texts": [[*map(_short, extent(text, size)), _outline(text, size)] for text, size in texts],
+        }
+
+
+def _laid_out(scene: Scene, texts: dict[tuple[str, float], int], *, same: bool = False) -> dict[str, Any]:
+    """Return where the panels in space are in a figure, and what is in them if they are not the same as before."""
+    _, panels = laid_out(scene)
+    views = [(axes, fit(panel, window(axes))) for axes, panel in panels if isinstance(panel, Space)]
+    found: dict[str, Any] = {"places": [_place(axes, view) for axes, view in views]}
+    return found if same else found | {"panels": [_panel(view, texts) for _, view in views]}
+
+
+def _deep(panel: Space) -> bool:
+    """Tell whether a panel is more than a drawing across the direction of view."""
+    depth = (
+        np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in shown(layer)]) @ frame(panel)[2]
+    )
+    return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
+
+
+def _place(axes: Axes, view: View) -> list[float]:
+    """Return left, top, width and height as shares of the figure; its size, scale and shift in points."""
+    left, bottom, right, top = axes.get_position().extents
+    return [*map(_short, (left, 1.0 - top, right - left, top - bottom, *view.window, view.scale, *view.shift))]
+
+
+def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
+    """Return what is in a panel; its texts are numbers of those that all panels share."""
+    found: dict[str, Any] = {"frame": _list(view.frame), "matt": int(any(map(_classes, view.surfaces)))}
+    found["surfaces"] = [_surface(surface) for surface in view.surfaces]
+    found |= {kind: [] for kind in ("lines", "wires", "arrows", "dots", "names")}
+    for layer in view.panel.layers:
+        for kind, entry in _solids(layer, view):
+            found[kind].append(entry)
+        request = named(layer, view.frame)
+        if request:
+            text, at, offset, role = request
+            size = points("axes.labelsize" if role == "note" else "font.size")
+            number = texts.setdefault((text, size), len(texts))
+            beyond = isinstance(layer, Arrow) and not layer.offset
+            stands = _list(layer.tail) if beyond else [*map(_short, offset)]
+            found["names"].append([number, readable(style_of(role).colour), _list(np.atleast_2d(at)), stands])
+    return found
+
+
+def _classes(surface: Surface) -> bool:
+    """Tell whether the colour of a surface is a class of a value, which a glare would falsify."""
+    return surface.role.startswith("rate_")
+
+
+def _surface(surface: Surface) -> list[Any]:
+    """Return quadric, half spaces, quadrics within which it lies, both colours, opacity, and the corners of a box."""
+    look = style_of(surface.role)
+    seen = np.concatenate([np.reshape(part, (-1, 3)) for part in (*surface.grids, *surface.rims)])
+    box = seen.min(axis=0) - 1e-3, seen.max(axis=0) + 1e-3
+    within = [_form(quadric) for quadric in surface.within]
+    return [
+        _form(surface.quadric),
+        _list(surface.clip),
+        within,
+        look.colour,
+        look.back or look.colour,
+        look.glass,
+        *map(_list, box),
+    ]
+
+
+def _solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
+    """Yield the lines, wires, arrows and dots of a layer, each with its kind."""
+    if isinstance(layer, Surface):
+        yield from (("wires", [style_of("wire").colour, style_of("wire").tube, _packed(wire)]) for wire in layer.wires)
+        for rim in layer.rims:
+            yield from _lines(rim, style_of("rim"), view)
+    elif isinstance(layer, Curve):
+        yield from _lines(layer.points, style_of(layer.role), view)
+    elif isinstance(layer, Arrow):
+        look = style_of(layer.role)
+        head = HEAD_LENGTH + 2.2 * look.width
+        yield (
+            "arrows",
+            [look.colour, look.tube, _short(head), _short(HEAD_WIDTH * head), _list(layer.tail), _list(layer.tip)],
+        )
+    elif isinstance(layer, Points):
+        look = style_of(layer.role)
+        yield from (("dots", [look.colour, look.tube, _list(point)]) for point in np.atleast_2d(layer.points))
+
+
+def _lines(curve: FloatArray, look: Style, view: View) -> Iterator[tuple[str, list[Any]]]:
+    """Yield a line, or its dashes."""
+    for dash in dashes(curve, look, view) if look.tube > 0.0 else ():
+        fine = distinct(dash)
+        if len(fine) > 1:
+            yield "lines", [look.colour, look.tube, _packed(_thinned(fine, _NEAR / view.scale))]
+
+
+def _thinned(curve: FloatArray, near: float) -> FloatArray:
+    """Return a line without every second point where that is as near as that to the chord, three times over."""
+    for _ in range(3):
+        before, middle, after = curve[:-2:2], curve[1:-1:2], curve[2::2]
+        chord = after - before
+        share = np.sum((middle - before) * chord, axis=1) / np.maximum(np.sum(chord * chord, axis=1), 1e-300)
+        off = np.linalg.norm(middle - before - np.clip(share, 0.0, 1.0)[:, None] * chord, axis=1)
+        keep = np.ones(len(curve), dtype=bool)
+        keep[1:-1:2] = off > near
+        curve = curve[keep]
+    return curve
+
+
+def _packed(curve: FloatArray) -> str:
+    """Return the points of a line as 16-bit numbers in base 64, without those that fall on the one before."""
+    steps = np.round(STEPS * curve).astype("<i2")
+    new = np.concatenate([[True], np.any(np.diff(steps, axis=0), axis=1)])
+    return b64encode(steps[new].tobytes()).decode()
+
+
+def _form(quadric: FloatArray) -> list[float]:
+    """Return the upper triangle of a quadric, whose largest coefficient is one."""
+    return _list(quadric[_UPPER] / np.abs(quadric).max())
+
+
+def _list(numbers: FloatArray) -> list[float]:
+    return [_short(number) for number in np.ravel(numbers)]
+
+
+def _short(number: float) -> float:
+    """Return a number of seven digits, a whole one as such."""
+    short = float(f"{number:.7g}") + 0.0
+    return int(short) if short.is_integer() else short
+
+
+def _outline(text: str, size: float) -> str:
+    """Return the outline of a text about its middle as the data of an SVG path, in points over `GRID`; y goes down."""
+    import matplotlib as mpl
+
+    font = FontProperties(family=mpl.rcParams["font.family"], math_fontfamily=mpl.rcParams["mathtext.fontset"])
+    path = TextPath((0.0, 0.0), typeset(text), size=size, prop=font)
+    width, ascent, descent = line(text, size)
+    parts, start, pen = [], np.zeros(2, dtype=int), np.zeros(2, dtype=int)
+    for vertices, code in path.iter_segments(curves=True, simplify=False):
+        if code == Path.CLOSEPOLY:
+            parts.append("z")
+            pen = start
+            continue
+        x, y = np.reshape(vertices, (-1, 2)).T
+        places = np.round(GRID * np.stack([x - 0.5 * width, 0.5 * (ascent - descent) - y], axis=1)).astype(int)
+        parts.append(_WORDS[code] + " ".join(map(str, (places - pen).ravel())).replace(" -", "-"))
+        pen = places[-1]
+        start = pen if code == Path.MOVETO else start
+    return "".join(parts)

@@ -1,0 +1,118 @@
+"""Scenes for the viewer of the pages: what is handed over says the same as the scene, and no more than is needed."""
+
+import json
+import re
+from base64 import b64decode
+from typing import Any
+
+import numpy as np
+import pytest
+
+from atlas.draw.style import style_of
+from atlas.draw.viewer import GRID, STEPS, data, script
+from atlas.places import folder
+from atlas.scene import recipes
+from atlas.scene.camera import frame
+from atlas.scene.layers import Curve, FloatArray, Points, Space, Surface
+
+HTML = folder("templates") / "html"
+
+
+def handed(name: str) -> dict[str, Any]:
+    """Return what the script of a recipe's scene hands over."""
+    text = script(recipes.load(name).scene())
+    found: dict[str, Any] = json.loads(text.removeprefix("atlasScene(").removesuffix(");\n"))
+    return found
+
+
+def line(packed: str) -> FloatArray:
+    """Return the points of a line."""
+    return np.frombuffer(b64decode(packed), "<i2").reshape(-1, 3) / STEPS
+
+
+def full(form: list[float]) -> FloatArray:
+    """Return a quadric from its upper triangle."""
+    found = np.zeros((4, 4))
+    found[np.triu_indices(4)] = form
+    return found + np.triu(found, 1).T
+
+
+def test_points_of_surfaces_obey_what_is_handed_over() -> None:
+    """In the units of the view the grid of each surface lies on its quadric, within its planes and in its box."""
+    scene = recipes.load("hyp_a").scene()
+    (panel,) = scene.panels
+    assert isinstance(panel, Space)
+    (surface,) = (layer for layer in panel.layers if isinstance(layer, Surface))
+    (given,) = data(scene)["wide"]["panels"][0]["surfaces"]
+    form, planes, within, front, back, dense, low, high = given
+    seen = np.concatenate([np.reshape(part, (-1, 3)) for part in (*surface.grids, *surface.rims)])
+    size = np.ptp(seen, axis=0)
+    y = np.array(low) + 1e-3 + (seen - seen.min(axis=0)) * ((np.array(high) - low - 2e-3) / size)
+    one = np.concatenate([y, np.ones((len(y), 1))], axis=1)
+    assert np.abs(np.einsum("ni,ij,nj->n", one, full(form), one)).max() < 2e-6
+    for *normal, distance in np.reshape(planes, (-1, 4)):
+        assert (y @ normal).max() < distance + 1e-6
+    look = style_of(surface.role)
+    assert (within, front, back, dense) == ([], look.colour, look.back, look.glass)
+
+
+def test_lines_and_marks_are_all_there() -> None:
+    """A line has no more points than the curve, none twice, and its extent; marks are there; the eye is the scene's."""
+    scene = recipes.load("nutation_traces").scene()
+    for panel, given in zip(scene.panels, data(scene)["wide"]["panels"], strict=True):
+        assert isinstance(panel, Space)
+        assert np.allclose(np.reshape(given["frame"], (3, 3)), frame(panel), atol=1e-6)
+        curves = [layer for layer in panel.layers if isinstance(layer, Curve) and not style_of(layer.role).dash]
+        marks = [layer for layer in panel.layers if isinstance(layer, Points)]
+        lines = [line(packed) for _, _, packed in given["lines"]]
+        for curve in curves:
+            (same,) = (one for one in lines if np.allclose(shape(one), shape(curve.points), atol=2e-4))
+            assert len(same) <= len(curve.points)
+            assert np.any(np.diff(same, axis=0), axis=1).all()
+        assert len(given["dots"]) == sum(len(np.atleast_2d(one.points)) for one in marks)
+
+
+def shape(points: FloatArray) -> FloatArray:
+    """Return what of a curve is the same wherever the origin is: its extent, measured by the largest."""
+    size = np.ptp(points, axis=0)
+    return np.asarray(size / size.max())
+
+
+def test_letters_are_outlines_about_their_middle() -> None:
+    """Each text has its size in points and an outline that fits into it, of moves, lines and curves only."""
+    for wide, high, outline in handed("cone")["texts"]:
+        assert re.fullmatch(r"([mlqcz][-\d ]*)+", outline)
+        x, y = map(int, re.findall(r"-?\d+", outline)[:2])
+        assert abs(x) <= GRID * wide
+        assert abs(y) <= GRID * high
+
+
+def test_panels_know_their_places_on_both_screens() -> None:
+    """Panels in space beside curves lie within the figure, and anew where they stand below one another."""
+    for name, panels in (("motion", 0), ("two_turns", 3)):
+        found = handed(name)
+        assert len(found["narrow"].get("panels", ())) == panels
+        for places in (found["wide"]["places"], found["narrow"]["places"]):
+            for left, top, width, height, *rest in places:
+                assert min(left, top, 1.0 - left - width, 1.0 - top - height) > -1e-6
+                assert min(rest) > 0.0
+        assert found["wide"]["places"] != found["narrow"]["places"]
+
+
+@pytest.mark.parametrize("name", ["hyperbola", "colours"])
+def test_what_is_flat_is_not_turned(name: str) -> None:
+    """Neither a figure of curves, nor the key of colours, which is a drawing across the direction of view."""
+    assert not script(recipes.load(name).scene())
+
+
+def test_a_page_stays_light() -> None:
+    """The viewer is below 30 kB, and the poster, the figure with the most lines in it, below 140 kB."""
+    assert len((HTML / "scene.js").read_bytes()) < 30_000
+    assert len(script(recipes.load("flight_poster").scene())) < 140_000
+
+
+def test_the_viewer_asks_for_nothing() -> None:
+    """In the script there is no address but the name of SVG, and nothing that could send or fetch one."""
+    text = (HTML / "scene.js").read_text(encoding="utf-8")
+    assert re.findall(r"\w+://[^\"']*", text) == ["http://www.w3.org/2000/svg"]
+    assert not re.search(r"fetch\(|XMLHttpRequest|WebSocket|sendBeacon|eval\(|innerHTML|import\(", text)
