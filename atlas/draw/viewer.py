@@ -120,7 +120,10 @@ def _surface(surface: Surface) -> list[Any]:
 def _solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
     """Yield the lines, wires, arrows and dots of a layer, each with its kind."""
     if isinstance(layer, Surface):
-        yield from (("wires", [style_of("wire").colour, style_of("wire").tube, _packed(wire)]) for wire in layer.wires)
+        yield from (
+            ("wires", [style_of("wire").colour, style_of("wire").tube, _packed(_thinned(wire, _NEAR / view.scale))])
+            for wire in layer.wires
+        )
         for rim in layer.rims:
             yield from _lines(rim, style_of("rim"), view)
     elif isinstance(layer, Curve):
