@@ -93,6 +93,7 @@ def panel(letter: str, I: float, b: float, linear: float, M3: float, reach: floa
             f"reach b = {reach * b:g}; give a larger reach, or an M3 nearer to b."
         )
     spins = [wells.spin(end) for end in (1, -1)]
+    near = np.array([*near, *((p, g + rest) for p, g, _ in spins if abs(p) <= reach * scale)])
     low, high = float(near[:, 1].min()), float(near[:, 1].max())
     pad = 0.08 * (high - low)
     layers: list[Layer] = [Curve(line, role) for line, role in lines]

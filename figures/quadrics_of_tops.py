@@ -52,7 +52,8 @@ def scene(
         Q = quadrics.top_matrix(ratio, quadric)
         sheets = quadrics.sheets(quadric, Q, reach, quadric_panel.tolerance(2 * reach))
         members.append(Member(sheets, Q, np.asarray(quadric.centre), f"{number} {name}"))
-    cells = quadric_row.cells(members, reach / REACH, azimuth)
+    depth = max(one.centre[2] - grid[..., 2].min() for one in members for sheet in one.surfaces for grid in sheet.grids)
+    cells = quadric_row.cells(members, reach / REACH, azimuth, 0.35 + float(depth) * REACH / reach)
     plane = kinds(ratio, np.array([[A0 + a0 / cosine, g] for _, g, a0, A0 in tops]))
     return Scene(
         title=title(__doc__),

@@ -69,8 +69,13 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
         ]
     return Plane(
         tuple(layers), r"$a/p^2$", r"$A/p^2$" if first else "", (-reach, reach), (-reach, reach),
-        title=f"({letter}) $M_3={'p' if M3 == 1 else tex(M3) + 'p' * bool(M3)}$",
+        title=f"({letter}) $M_3={times(M3)}$",
     )  # fmt: skip
+
+
+def times(M3: float) -> str:
+    """Return a multiple of p for a title."""
+    return {0.0: "0", 1.0: "p", -1.0: "-p"}.get(M3, f"{tex(M3)}p")
 
 
 def envelope(M3: float, reach: float) -> FloatArray:

@@ -21,8 +21,11 @@ class Member:
     role: str = "label"
 
 
-def cells(members: Sequence[Member], scale: float, azimuth: float) -> list[list[Layer]]:
-    """Return the layers of each, from left to right; lengths are in units of ``scale``, the first stays in height."""
+def cells(members: Sequence[Member], scale: float, azimuth: float, below: float = 2.35) -> list[list[Layer]]:
+    """Return the layers of each, from left to right, all centres as high as the first; names stand ``below`` them.
+
+    Gaps and that length are in units of ``scale``.
+    """
     right, found, place = frame(Space((), azimuth=azimuth))[0], [], 0.0
     for one in members:
         level = members[0].centre - one.centre
@@ -35,7 +38,7 @@ def cells(members: Sequence[Member], scale: float, azimuth: float) -> list[list[
             layers.append(solids.moved(surface, shift))
             curve = quadrics.hyperbola(one.matrix, surface, quadric_panel.tolerance(3 * scale))
             layers += [Curve(points + shift, "hyperbola") for points in curve]
-        low = one.centre + shift - 2.35 * scale * quadric_panel.E3
+        low = one.centre + shift - below * scale * quadric_panel.E3
         layers.append(Label(np.asarray(low), one.name, one.role, (0.0, 0.0)))
         found.append(layers)
     return found
