@@ -163,4 +163,5 @@ newest lowest: | setup
 	@$(BIN)/python -I -m pip install -qq --disable-pip-version-check 'uv>=0.13'
 	@rm -rf build/$@ && $(PYTHON) -I -m venv build/$@
 	@$(BIN)/uv pip install -q --python build/$@/bin/python --resolution $(RANGE_$@) -r pyproject.toml --extra test --extra sweep
+	@build/$@/bin/python -I -c 'import pathlib, sysconfig; (pathlib.Path(sysconfig.get_path("purelib")) / "checkout.pth").write_text("../../../../../.venv/checkout\n")'
 	@build/$@/bin/python -m pytest -n $(JOBS) tests/unit

@@ -5,8 +5,8 @@ from typing import Any
 
 
 def loads(text: str) -> dict[str, Any]:
-    """Return the values of a text. Raises tomllib.TOMLDecodeError, a ValueError, for one that is no TOML."""
+    """Return the values of a text. Raises ValueError, which TOMLDecodeError is, for one that is no TOML."""
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise tomllib.TOMLDecodeError("its values stand in one another too deeply") from None
+        raise ValueError("its values stand in one another too deeply") from None

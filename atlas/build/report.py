@@ -198,10 +198,10 @@ def _places(out: Path, name: str) -> tuple[Path, Path]:
 
 def _check(name: str, file: Path, out: Path, cache: Cache) -> None:
     """Refuse a name that is not that of the file, and a folder of something else, from which files would be removed."""
-    if name != file.stem:
-        raise AtlasError(f"{file}: the report's name is {name!r}, but the file is called {file.stem!r}.")
     if name.startswith("."):
         raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
+    if name != file.stem:
+        raise AtlasError(f"{file}: the report's name is {name!r}, but the file is called {file.stem!r}.")
     pages = out / name
     known = (pages / MANIFEST).exists() or cache.load(_noted(name, out))
     if pages.is_dir() and any(pages.iterdir()) and not known:

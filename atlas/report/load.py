@@ -1,7 +1,6 @@
 """Reading a report file: TOML to records, and every mistake in it to one sentence that says where and what instead."""
 
 import re
-import tomllib
 from pathlib import Path
 
 from msgspec.structs import replace
@@ -22,7 +21,7 @@ def load(path: Path) -> Report:
         raise AtlasError(f"{path} is not a text in UTF-8: {error.reason} at byte {error.start}.") from error
     try:
         raw = toml.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:
         raise AtlasError(f"{path} is not TOML: {error}.") from error
     try:
         report = _consistent(_located(convert(raw, Report), path.absolute().parent))

@@ -54,7 +54,9 @@ def test_dask_writes_the_same_bytes(tmp_path: Path) -> None:
     """A local cluster of two workers writes the bytes of the single process."""
     distributed = pytest.importorskip("distributed")
     with (
-        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as cluster,
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0"
+        ) as cluster,
         distributed.Client(cluster) as client,
     ):
         assert sweep(tmp_path / "d.csv", executor=client) == sweep(tmp_path / "a.csv", jobs=1)

@@ -89,7 +89,9 @@ def test_dask_writes_the_data_set_itself_and_goes_on_where_it_was_stopped(
 
     monkeypatch.setattr(on_dask, "BATCH", 1)
     with (
-        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as cluster,
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0"
+        ) as cluster,
         distributed.Client(cluster) as client,
     ):
         with monkeypatch.context() as patch:
