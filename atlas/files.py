@@ -1,9 +1,13 @@
 """Files written whole or not at all: under another name beside their place first, then renamed."""
 
+import ctypes
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+
+HERE, EXCHANGE = -100, 2
+"""AT_FDCWD and RENAME_EXCHANGE of Linux."""
 
 
 @contextmanager
@@ -24,6 +28,23 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+def exchange(new: Path, old: Path) -> bool:
+    """Let two folders change places at once, or put the new one where none is; False if this system cannot do that.
+
+    Nor is it done where the place is a link or no folder. Both are on one file system.
+    """
+    if not old.exists() and not old.is_symlink():
+        new.rename(old)
+        return True
+    if old.is_symlink() or not old.is_dir():
+        return False
+    try:
+        rename = ctypes.CDLL(None).renameat2
+    except (AttributeError, OSError, TypeError):
+        return False
+    return bool(rename(HERE, os.fsencode(new.absolute()), HERE, os.fsencode(old.absolute()), EXCHANGE) == 0)
 
 
 @contextmanager

@@ -10,7 +10,7 @@ import os
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from atlas.build.cache import Cache
 from atlas.errors import AtlasError
+from atlas.files import exchange
 from atlas.libraries import versions
 from atlas.places import cache_folder, folder
 from atlas.report.find import find, related_to
@@ -307,9 +308,11 @@ _MAKERS = {"html": _pages, "pdf": _pdf}
 
 
 def _publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str) -> None:
-    """Write the files of each format, all of them beside their places before the first is renamed.
+    """Write the files of each format, all of them before the first takes its place.
 
-    What is stale in the folder of the pages is removed, and what a killed build left. Two builds at once take turns.
+    The pages take theirs at once: they are a folder that is exchanged with the one before, if the system can do that
+    and it is no link. So a build that is killed leaves the pages of one build, and a PDF of this one or the one before;
+    what else it leaves is removed by the next one. Two builds at once take turns.
     """
     files = {path: content for contents in made.values() for path, content in contents.items()}
     out.mkdir(parents=True, exist_ok=True)
@@ -318,18 +321,33 @@ def _publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str) -> N
             shutil.rmtree(left, ignore_errors=True)
         work = Path(mkdtemp(dir=out, prefix=UNFINISHED))
         try:
-            for number, content in enumerate(files.values()):
-                (work / str(number)).write_bytes(content)
-            for number, path in enumerate(files):
-                (out / path).parent.mkdir(parents=True, exist_ok=True)
-                (work / str(number)).replace(out / path)
-            for old in sorted((out / name).rglob("*"), reverse=True) if "html" in made else ():
-                if old.is_dir() and not any(old.iterdir()):
-                    old.rmdir()
-                elif not old.is_dir() and old.relative_to(out).as_posix() not in files:
-                    old.unlink()
+            for path, content in files.items():
+                (work / path).parent.mkdir(parents=True, exist_ok=True)
+                (work / path).write_bytes(content)
+            if "html" in made and exchange(work / name, out / name):
+                _place(work, out, [path for path in files if not path.startswith(f"{name}/")])
+                return
+            _place(work, out, files)
+            if "html" in made:
+                _remove_others(out, out / name, files)
         finally:
             shutil.rmtree(work, ignore_errors=True)
+
+
+def _place(work: Path, out: Path, files: Iterable[str]) -> None:
+    """Put files into their places, one by one."""
+    for path in files:
+        (out / path).parent.mkdir(parents=True, exist_ok=True)
+        (work / path).replace(out / path)
+
+
+def _remove_others(out: Path, folder: Path, files: Mapping[str, bytes]) -> None:
+    """Remove what a folder holds beside these files."""
+    for old in sorted(folder.rglob("*"), reverse=True):
+        if old.is_dir() and not any(old.iterdir()):
+            old.rmdir()
+        elif not old.is_dir() and old.relative_to(out).as_posix() not in files:
+            old.unlink()
 
 
 @contextmanager

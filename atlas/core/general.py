@@ -13,7 +13,7 @@ from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import components
 from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
 from atlas.core.nutation.cayley_klein import FIRST
-from atlas.core.nutation.rows import GeneralRows
+from atlas.core.nutation.rows import Blocks, GeneralRows
 from atlas.core.nutation.scalars import KINDS, Scalars
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_general import SingleGeneral
@@ -120,14 +120,19 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         return found.reshape(self.shape + found.shape[1:])
 
     @cached_property
+    def _blocks(self) -> Blocks:
+        """All motions in arrays, by blocks."""
+        return Blocks(self._inputs, self.shape)
+
+    @cached_property
     def _scalars(self) -> Scalars:
         """Scalars of all motions in arrays."""
-        return Scalars(self._inputs, self.shape)
+        return Scalars(self._blocks)
 
     @cached_property
     def _rows(self) -> GeneralRows:
         """All motions in arrays, for a few times each."""
-        return GeneralRows(self._inputs, self.shape)
+        return GeneralRows(self._blocks)
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body; shape (..., 3); within 16 ulp of its largest component.

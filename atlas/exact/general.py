@@ -55,6 +55,12 @@ class GeneralMotion(Nutating):
         self.kind = self._kind()
         self._known: dict[str, tuple[int, Solution]] = {}
 
+    @cached_property
+    def cancelled(self) -> int:  # type: ignore[override]  # not writable
+        """Digits, of base two, that the spin in a period loses: it is of the order of 1 - I."""
+        less = abs(1 - self.I)
+        return max(0, int(less.q).bit_length() - int(less.p).bit_length()) if less != 0 else 0
+
     def _kind(self) -> str:
         q = self.quartic
         if q.K2 == 0 or q.is_constant:

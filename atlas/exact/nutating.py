@@ -2,13 +2,14 @@
 
 from typing import Any
 
-from flint import acb, arb, fmpq
+from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.cayley_klein import Solution
 from atlas.exact.inputs import Real, rational
 from atlas.exact.quartic import Quartic
 from atlas.exact.theta import infinite
+from atlas.formulas.numbers import workprec
 
 
 class Nutating:
@@ -19,6 +20,8 @@ class Nutating:
     omega: tuple[fmpq, ...]
     field: tuple[fmpq, ...]
     """Vector about which the axis precesses, in the body at t = 0; of any length."""
+    cancelled = 0
+    """Digits, of base two, that the spin in a period loses when it is made of two turns."""
 
     @property
     def solution(self) -> Solution:
@@ -75,7 +78,8 @@ class Nutating:
     @property
     def spin_per_period(self) -> arb:
         """Angle by which the body turns about its axis in one period, the integral of chi'."""
-        return self._angles()[1]
+        with workprec(ctx.prec + self.cancelled):
+            return self._angles()[1]
 
     @property
     def nome(self) -> arb:

@@ -72,5 +72,5 @@ FAMILY = Family(
         "kind",
         undecided=True,
     ),
-    at_once=20_000,
+    at_once=8192,
 )  # fmt: skip

@@ -1,12 +1,16 @@
 """Whole or not at all: whatever happens to a build, the last good files stay."""
 
+import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from atlas.build import report as build
+from atlas.build.report import _publish as publish
 from atlas.build.report import build_report
 from atlas.errors import AtlasError
 from atlas.report import pdf
@@ -120,3 +124,62 @@ def test_a_report_is_not_named_after_the_folder_above(tmp_path: Path) -> None:
     with pytest.raises(AtlasError, match="must not begin with a dot"):
         build_report(file, tmp_path / "out")
     assert (tmp_path / "mine").read_text() == "mine"
+
+
+class Killed(BaseException):
+    """The end of a process."""
+
+
+def made(version: str, extra: str) -> dict[str, dict[str, bytes]]:
+    """Return the files of a report in two formats."""
+    pages = {f"plain/{name}": version.encode() for name in ("a.html", "figures/b.svg", extra, "z.html")}
+    return {"html": pages, "pdf": {"plain.pdf": version.encode()}}
+
+
+def test_pages_take_their_places_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Killed before any step of publishing, a build leaves the pages of one build, and the next one heals it."""
+    steps, limit, killed = [0], 0, True
+    named = {b"old": "plain/c.html", b"new": "plain/d.html"}
+
+    def counted(function: Any) -> Any:
+        def step(*arguments: Any) -> Any:
+            if steps[0] == limit:
+                raise Killed
+            steps[0] += 1
+            return function(*arguments)
+
+        return step
+
+    publish(made("old", "c.html"), tmp_path, "plain")
+    old = state(tmp_path)
+    while killed:
+        with monkeypatch.context() as patched:
+            patched.setattr(Path, "replace", counted(Path.replace))
+            patched.setattr(build, "exchange", counted(build.exchange))
+            patched.setattr(shutil, "rmtree", lambda *_, **__: None)
+            steps[0] = 0
+            try:
+                publish(made("new", "d.html"), tmp_path, "plain")
+            except Killed:
+                limit += 1
+            else:
+                killed = False
+        left = {name: content for name, content in state(tmp_path).items() if name != "plain.pdf"}
+        (version,) = set(left.values())
+        assert left.keys() & set(named.values()) == {named[version]}
+        publish(made("old", "c.html"), tmp_path, "plain")
+        assert state(tmp_path) == old
+        assert {path.name for path in tmp_path.iterdir()} == {"plain", "plain.pdf"}
+    assert limit >= 2
+
+
+def test_pages_behind_a_link_are_written_there(tmp_path: Path) -> None:
+    """Where the folder of the pages is a link it stays one, and what is stale behind it goes."""
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "plain").symlink_to(tmp_path / "elsewhere")
+    for version, extra in (("old", "c.html"), ("new", "d.html")):
+        publish(made(version, extra), tmp_path / "out", "plain")
+    assert (tmp_path / "out" / "plain").is_symlink()
+    assert {path.name for path in (tmp_path / "elsewhere").iterdir()} == {"a.html", "d.html", "figures", "z.html"}
+    assert (tmp_path / "elsewhere" / "a.html").read_bytes() == b"new"

@@ -14,7 +14,7 @@ from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.general import GeneralMotion
 from atlas.core.nutation import pair as nutation_pair
 from atlas.core.nutation import roots as nutation_roots
-from atlas.core.nutation.rows import GeneralRows
+from atlas.core.nutation.rows import Blocks, GeneralRows
 from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
@@ -108,7 +108,7 @@ def test_matrices_of_many_motions_are_true_to_the_promise(inputs: Any) -> None:
 def test_each_frequency_keeps_its_bound(inputs: Any) -> None:
     """The frequencies of alpha, beta and nutation in two words are within their own bounds of the balls."""
     found = GeneralMotion(*inputs)
-    constants = GeneralRows(found._inputs, found.shape).field
+    constants = GeneralRows(found._blocks).field
     assert constants.sure.mean() > 0.3
     for i in np.flatnonzero(constants.sure).tolist():
         with ctx.workprec(400):
@@ -240,15 +240,15 @@ def test_nothing_depends_on_the_unit(power: int) -> None:
 def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
     """Return what arrays make of some rows, none of them alone: columns, Omega, and scalars that are sure."""
     I, B, omega = (x[..., rows] for x in inputs)
-    columns, found = (1.0, I, *B, *omega), []
+    blocks, found = Blocks((1.0, I, *B, *omega), I.shape), []
     for name in ("rotation", "angular_velocity"):
-        out, at = np.zeros((rows.size, *((3, 3) if name == "rotation" else (3,)))), GeneralRows(columns, I.shape).at
+        out, at = np.zeros((rows.size, *((3, 3) if name == "rotation" else (3,)))), GeneralRows(blocks).at
         made = at(slice(None), t[rows])
         with np.errstate(all="ignore"):
             getattr(made, name)(t[rows], out)
         out[made.extreme] = 0.0
         found.append(out)
-    scalars = Scalars(columns, I.shape)
+    scalars = Scalars(blocks)
     return found + [np.where(x.sure, x.values, 0.0).T for x in map(scalars.__getitem__, SCALARS)]
 
 

@@ -327,9 +327,10 @@ def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
 def test_a_part_takes_some_seconds_and_no_more_rows_than_fit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its rows follow from the time of one; a table of few rows is one part; a sweep goes on with the parts it has."""
     sizes = []
-    for pace, few in ((0.05, 0), (1e-9, 0), (5.0, 0), (0.05, run.FEW)):
+    for pace, few, shares in ((0.05, 0, 1), (1e-9, 0, 16), (5.0, 0, 16), (0.05, run.FEW, 16), (0.02, 0, 16)):
         monkeypatch.setattr(run, "_pace", lambda *_, pace=pace: pace)
         monkeypatch.setattr(run, "FEW", few)
+        monkeypatch.setattr(run, "SHARES", shares)
         starts = made(monkeypatch, 2)
         try:
             sweep(tmp_path / "t.csv", rows=None)
@@ -346,7 +347,7 @@ def test_a_part_takes_some_seconds_and_no_more_rows_than_fit(tmp_path: Path, mon
         else:
             sizes.append(154)
             assert starts == [0]
-    assert sizes == [40, 154, 1, 154]
+    assert sizes == [40, 154, 1, 154, 12]
 
 
 def test_the_time_of_a_row_is_without_what_is_the_same_for_any_number(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,13 +7,14 @@ sums are long or cancel; where Omega3 is constant, for the matrix; where the inp
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import blocks
+from atlas.core.arithmetic.double_double import BLOCK, blocks
 from atlas.core.arithmetic.frequencies import LOST, PER_RADIAN
 from atlas.core.arithmetic.phase import LIMIT, Phases
 from atlas.core.arithmetic.turnings import REACH
@@ -36,7 +37,8 @@ SMALL = 3.0
 """By how much Omega3 may change, in parts of the largest component of Omega: that is within 16 ulp then."""
 
 
-class Block(NamedTuple):
+@dataclass(frozen=True)
+class Block:
     """Motions `rows` of all; the exponents of the power of two that their frequencies are over; where that is fine."""
 
     rows: slice
@@ -44,9 +46,35 @@ class Block(NamedTuple):
     exponents: Any
     fine: Any
 
+    @cached_property
+    def means(self) -> Means:
+        """Gauss's means."""
+        return Means(self.roots)
 
-def each_block(inputs: Sequence[Any], shape: tuple[int, ...]) -> Iterator[Block]:
-    """Yield the roots of motions I2, I3, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks."""
+    @cached_property
+    def pair(self) -> Pair:
+        """Pair of the axis and of the field."""
+        return Pair(self.means, sphere_of_field(self.roots))
+
+
+class Blocks:
+    """Motions I2, I3, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks.
+
+    What is known of a single block is kept for whoever asks next; of many it would take too much memory.
+    """
+
+    def __init__(self, inputs: Sequence[Any], shape: tuple[int, ...]) -> None:
+        self.inputs, self.shape, self.count = inputs, shape, prod(shape)
+        self._kept: list[Block] = []
+
+    def __iter__(self) -> Iterator[Block]:
+        if self.count > BLOCK:
+            return _each_block(self.inputs, self.shape)
+        self._kept = self._kept or [*_each_block(self.inputs, self.shape)]
+        return iter(self._kept)
+
+
+def _each_block(inputs: Sequence[Any], shape: tuple[int, ...]) -> Iterator[Block]:
     columns = [np.broadcast_to(np.asarray(x, dtype=float), shape) for x in inputs]
     for rows, _, exponents, (roots,) in blocks(lambda *x: (roots_of(*x),), columns, shape, slice(2, 7), bound=1.0):
         frequencies = np.array([abs(x.reshape(-1)[rows]) for x in columns[2:]])
@@ -99,7 +127,7 @@ def _velocity(block: Block) -> tuple[Any, ...]:
     """Return the constants of the angular velocity of a block, and those of its third component after them."""
     with np.errstate(all="ignore"):
         r = block.roots
-        pair = Pair(Means(r), sphere_of_velocity(r))
+        pair = Pair(block.means, sphere_of_velocity(r))
         found, change, (cos, sin) = _constants(pair, block), pair.change, pair.means.start
         return *found._replace(sure=found.sure & (change.size.rel < KNOWN)), *Third(
             np.ldexp(r.omega[2].hi, block.exponents),
@@ -113,7 +141,7 @@ def _velocity(block: Block) -> tuple[Any, ...]:
 def _field(block: Block) -> Constants:
     """Return the constants of the axis and the field of a block."""
     with np.errstate(all="ignore"):
-        return _constants(Pair(Means(block.roots), sphere_of_field(block.roots)), block)
+        return _constants(block.pair, block)
 
 
 def _constants(pair: Pair, block: Block) -> Constants:
@@ -146,10 +174,10 @@ def _constants(pair: Pair, block: Block) -> Constants:
 
 
 class GeneralRows:
-    """Motions I2, I3, B2, B3, omega1, omega2, omega3 in arrays, ready to be evaluated."""
+    """Motions in arrays, ready to be evaluated."""
 
-    def __init__(self, inputs: Sequence[Any], shape: tuple[int, ...]) -> None:
-        self.inputs, self.shape, self.indices = inputs, shape, np.arange(prod(shape))
+    def __init__(self, blocks: Blocks) -> None:
+        self.blocks, self.indices = blocks, np.arange(blocks.count)
 
     @cached_property
     def field(self) -> Constants:
@@ -163,7 +191,7 @@ class GeneralRows:
         return Constants(*found[:n]), Third(*found[n:])
 
     def _of(self, constants: Callable[[Block], tuple[Any, ...]]) -> list[Any]:
-        found = map(constants, each_block(self.inputs, self.shape))
+        found = map(constants, self.blocks)
         return [np.concatenate(x, axis=-1) for x in zip(*found, strict=True)]
 
     def at(self, index: Any, t: FloatArray) -> "At":

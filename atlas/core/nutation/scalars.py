@@ -4,18 +4,13 @@ What two words do not hold for certain is not `sure`, and is left to the motion 
 triple root, where Omega3 is all but constant, where the inputs are of very different sizes.
 """
 
-from collections.abc import Sequence
-from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
-from atlas.core.nutation.means import Means
-from atlas.core.nutation.pair import Pair
 from atlas.core.nutation.roots import part
-from atlas.core.nutation.rows import Block, each_block
-from atlas.core.nutation.spheres import sphere_of_field
+from atlas.core.nutation.rows import Block, Blocks
 
 KINDS = (
     "nutation, two real roots",
@@ -41,8 +36,8 @@ class Found(NamedTuple):
 class Scalars:
     """Scalars of many motions: each is `Found`, evaluated with others that share its steps."""
 
-    def __init__(self, inputs: Sequence[Any], shape: tuple[int, ...]) -> None:
-        self.inputs, self.shape, self.count = inputs, shape, prod(shape)
+    def __init__(self, blocks: Blocks) -> None:
+        self.blocks = blocks
         self._known: dict[str, Found] = {}
 
     def __getitem__(self, name: str) -> Found:
@@ -55,12 +50,12 @@ class Scalars:
     def _fill(self, values: Any) -> None:
         """Evaluate some scalars."""
         parts: dict[str, list[Found]] = {}
-        inputs, shape = (self.inputs, self.shape) if self.count else ((1.0,) * 7, (1,))
-        for block in each_block(inputs, shape):
+        count = self.blocks.count
+        for block in self.blocks if count else Blocks((1.0,) * 7, (1,)):
             for name, found in values(block).items():
                 parts.setdefault(name, []).append(found)
         for name, all_of_it in parts.items():
-            columns = (np.concatenate(x, axis=-1)[..., : self.count] for x in zip(*all_of_it, strict=True))
+            columns = (np.concatenate(x, axis=-1)[..., :count] for x in zip(*all_of_it, strict=True))
             self._known[name] = Found(*columns)
 
 
@@ -75,7 +70,7 @@ def _scalars(block: Block) -> dict[str, Found]:
     """Return kind, turning points, roots, period, moduli and nome of a block."""
     with np.errstate(all="ignore"):
         r = block.roots
-        means, known = Means(r), r.exact & ~r.free
+        means, known = block.means, r.exact & ~r.free
         period, nome = HALF_TURN / means.rate, means.nome
         one_by_one = {
             "period": _rounded(period, block, -1),
@@ -116,8 +111,7 @@ def _angles(block: Block) -> dict[str, Found]:
     """Return the angles of precession and of spin in one period."""
     with np.errstate(all="ignore"):
         r = block.roots
-        means, sphere = Means(r), sphere_of_field(r)
-        angles = Pair(means, sphere).angles
+        means, sphere, angles = block.means, block.pair.sphere, block.pair.angles
         first, second = part(angles, 0), part(angles, 1)
         half = (HALF_TURN / means.rate).scaled(-1)
         spin = half * (first - second + (r.less * r.c3).scaled(1))

@@ -8,7 +8,7 @@ from flint import arb
 
 from atlas.core.inputs import FloatArray, largest, real
 from atlas.core.nutation.cayley_klein import CayleyKlein
-from atlas.core.nutation.rows import GeneralRows
+from atlas.core.nutation.rows import Blocks, GeneralRows
 from atlas.core.nutation.single import BITS, VECTOR, SingleMotion
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion
@@ -57,7 +57,7 @@ class SingleGeneral(SingleMotion):
         """Return Omega3 at times (m,): of many from two words, and where these do not suffice, from balls."""
         out, left = np.empty((t.size, 3)), np.arange(t.size)
         if self._inputs and t.size > FEW:
-            rows = GeneralRows(self._inputs, (1,)).at(np.zeros(t.size, dtype=int), t)
+            rows = GeneralRows(Blocks(self._inputs, (1,))).at(np.zeros(t.size, dtype=int), t)
             rows.angular_velocity(t, out)
             left = rows.extreme
         for i in left.tolist():

@@ -12,10 +12,12 @@ from atlas.study.sweep.lock import held
 from atlas.study.sweep.parts import Parts
 from atlas.study.sweep.plan import Columns, Plan
 from atlas.study.sweep.targets import DataSet, TableFile, target
-from atlas.study.sweep.workers import ahead, workers
+from atlas.study.sweep.workers import ahead, width, workers
 
 SECONDS, MOST = 2.0, 2**18
 """How long a part should take, and the most rows that it has, which a worker keeps in memory."""
+SHARES, SHORT = 16, 0.25
+"""Parts that each worker should get at least, since some rows take longer; how long a part takes in any case."""
 FEW = 4096
 """Rows that are one part in any case, unless they have certified digits."""
 
@@ -65,7 +67,7 @@ def sweep(
     with held(table.lock, str(table)):
         table.check()
         parts = Parts(table.parts)
-        _begin(plan, parts, rows, executor)
+        _begin(plan, parts, rows, executor, jobs)
         try:
             _compute(plan, table, parts, executor, jobs, progress)
         except AtlasError:
@@ -76,7 +78,7 @@ def sweep(
     return table.place
 
 
-def _begin(plan: Plan, parts: Parts, rows: int | None, executor: Any) -> None:
+def _begin(plan: Plan, parts: Parts, rows: int | None, executor: Any, jobs: int | None) -> None:
     """Say how many rows a part has: as many as asked for, as the parts have that are there, or by the time of a row."""
     from atlas.study.sweep.keys import key  # which reads the code
 
@@ -85,16 +87,22 @@ def _begin(plan: Plan, parts: Parts, rows: int | None, executor: Any) -> None:
     if rows is None and plan.count <= FEW and plan.digits is None:
         rows = plan.count
     if rows is None:
-        rows = max(1, min(MOST, int(SECONDS / _pace(plan, executor))))
+        pace, share = _pace(plan, executor), plan.count / (SHARES * width(executor, jobs))
+        rows = max(1, min(MOST, int(min(SECONDS / pace, max(SHORT / pace, share)))))
     # a table of one part is made again: its key need not be known, which takes half a second
     parts.begin(key(plan) if parts.header or rows < plan.count else uuid4().hex, rows)
 
 
 def _pace(plan: Plan, executor: Any) -> float:
     """Return the seconds of a row where the rows will be computed; of a plan that has rows out of its domain, any."""
+    from atlas.study.sweep.keys import code  # which reads it
+
     try:
         with workers(executor, 1, 1) as (engine, _):
-            return engine.submit(plan.sample(32_768).seconds).result()
+            asked = engine.submit(plan.sample(32_768).seconds)
+            if executor is not None:
+                code()  # what takes longest in the key, meanwhile
+            return asked.result()
     except AtlasError:
         return SECONDS / FEW  # the part that has them will say so
 

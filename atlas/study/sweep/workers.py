@@ -41,15 +41,22 @@ def _reached(folder: Local, mark: bytes) -> bool:
         return False
 
 
+def width(executor: Any, jobs: int | None) -> int:
+    """Return how many parts are computed at a time."""
+    if hasattr(executor, "ncores"):
+        return max(1, sum(executor.ncores().values()))
+    return jobs or processors() if executor is None else getattr(executor, "_max_workers", processors())
+
+
 @contextmanager
 def workers(executor: Any, jobs: int | None, parts: int) -> Iterator[tuple[Executor, int]]:
     """Give an executor and how many parts it works on at a time; `executor` is one, a client of Dask, or None."""
     if hasattr(executor, "get_executor"):
-        yield executor.get_executor(pure=False), sum(executor.ncores().values())
+        yield executor.get_executor(pure=False), width(executor, jobs)
     elif executor is not None:
-        yield executor, getattr(executor, "_max_workers", processors())
+        yield executor, width(executor, jobs)
     else:
-        count = min(jobs or processors(), parts)
+        count = min(width(executor, jobs), parts)
         own = _pool(count) if count > 1 else None
         if own is None:
             yield _Here(), 0
