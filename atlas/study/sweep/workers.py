@@ -43,9 +43,11 @@ def _reached(folder: Local, mark: bytes) -> bool:
 
 def width(executor: Any, jobs: int | None) -> int:
     """Return how many parts are computed at a time."""
+    if executor is None:
+        return jobs or processors()
     if hasattr(executor, "ncores"):
         return max(1, sum(executor.ncores().values()))
-    return jobs or processors() if executor is None else getattr(executor, "_max_workers", processors())
+    return int(getattr(executor, "_max_workers", processors()))
 
 
 @contextmanager
