@@ -46,7 +46,7 @@ def width(executor: Any, jobs: int | None) -> int:
     if executor is None:
         return jobs or processors()
     if hasattr(executor, "ncores"):
-        return max(1, sum(executor.ncores().values()))
+        return max(1, int(sum(executor.ncores().values())))
     return int(getattr(executor, "_max_workers", processors()))
 
 
