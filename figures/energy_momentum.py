@@ -47,9 +47,9 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"Critical values of the energy $2H$ over the momentum $p$, at $M_3={tex(M3)}$ and {same}, for "
-            rf"{listed([name(*top) for top in tops])}: steady precessions, stable (solid) or unstable (dashed), and "
-            "spins along the field or the vertical, stable (dots) or of focus-focus type (diamonds). Inside a "
-            r"swallowtail two stable precessions share $p$."
+            rf"{listed([name(*top) for top in tops])}: steady precessions with their rate $w$ in Larmor's frame, "
+            "stable (solid) or unstable (dashed), and spins along the field or the vertical, "
+            r"stable (dots) or of focus-focus type (diamonds). Inside a swallowtail two stable precessions share $p$."
         ),
         alt=(
             f"Panels for I = {listed([plain(I) for I in ratios])} with the critical energies over p: a smooth curve, "
@@ -81,11 +81,8 @@ def panel(letter: str, I: float, b: float, linear: float, M3: float, reach: floa
     """Return the curves of one top."""
     scale = max(b, abs(linear) ** 0.5)
     wells, rest = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
-    lines = [
-        (part, "unstable_line" if unstable else "main")
-        for one in wells.precessions(3.0 * reach * scale)
-        for part, unstable in runs(one, rest)
-    ]
+    branches = list(wells.precessions(3.0 * reach * scale))
+    lines = [(part, "unstable_line" if unstable else "main") for one in branches for part, unstable in runs(one, rest)]
     near = np.concatenate([np.empty((0, 2)), *(line[np.abs(line[:, 0]) <= reach * scale] for line, _ in lines)])
     if not len(near):
         raise DomainError(
@@ -97,6 +94,7 @@ def panel(letter: str, I: float, b: float, linear: float, M3: float, reach: floa
     low, high = float(near[:, 1].min()), float(near[:, 1].max())
     pad = 0.08 * (high - low)
     layers: list[Layer] = [Curve(line, role) for line, role in lines]
+    layers += [label for one in branches for label in names(one, reach * scale, rest)]
     layers += [Points(np.array([[p, g + rest]]), "start" if D > 0 else "special") for p, g, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"
     layers.append(Label(np.array([spins[0][0], spins[0][1] + rest]), what, "note", (5, 6)))
@@ -108,6 +106,23 @@ def panel(letter: str, I: float, b: float, linear: float, M3: float, reach: floa
         (low - pad, high + pad),
         title=f"({letter}) {name(I, b, linear)}",
     )
+
+
+def names(branch: Branch, reach: float, rest: float) -> list[Layer]:
+    """Return the names of what is seen of a curve: where it is unstable, else the sign of its rate w."""
+    w, stable, seen = np.asarray(branch.w), np.asarray(branch.stable) >= 0, np.abs(branch.p) <= 0.75 * reach
+    order = np.argsort(-branch.g, kind="stable")
+    points = np.stack([branch.p, branch.g + rest], axis=1)
+    kinds = (
+        ("$w<0$", "note", stable & (w < 0), (-6.0, 0.0), 1),
+        ("$w>0$", "note", stable & (w > 0), (6.0, 0.0), 1),
+        ("unstable", "unstable_line", ~stable, (0.0, 5.0), -1),
+    )
+    return [
+        Label(points[order[(which & seen)[order]]][::step][:40:10], text, role, offset)
+        for text, role, which, offset, step in kinds
+        if (which & seen).any()
+    ]
 
 
 def runs(branch: Branch, rest: float) -> list[tuple[FloatArray, bool]]:

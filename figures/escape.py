@@ -45,7 +45,7 @@ def scene(
             f"{tex_setting(ratio, field, first='A')}, started beside the unstable elementary motion "
             rf"$\omega_2={tex(omega2)}$ with a push $\omega_1$. (a) $\Omega_3$ leaves with the rate "
             rf"$\sqrt{{-\nu_n^2}}={tex(growth)}$ and comes back. (b) Its period grows by "
-            r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push (dashed)."
+            r"$(4/\sqrt{-\nu_n^2})\ln 10$ for each decade of the push, the slope of the dashed line below it."
         ),
         alt=(
             f"Two panels for {plain_setting(ratio, field)} with omega 2 = {plain(omega2)}: Omega 3 over time in pulses "
@@ -78,7 +78,7 @@ def course(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: floa
         line = flat(point, 0.0, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=96)
         layers += [
             Curve(line, role),
-            Label(peaks(line, omega3), rf"$\omega_1={tex(push)}$", role, (0.0, 5.0)),
+            Label(peaks(line, omega3), rf"$\omega_1={written(push)}$", role, (0.0, 5.0)),
         ]
     return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title="(a) leaving and returning")
 
@@ -95,7 +95,7 @@ def periods(
     decades = np.arange(-12.0, 0.0)
     push = abs(field[0]) * 10.0**decades
     found = np.array([GeneralMotion(ratio, field, (one, *start)).period for one in push])
-    law = found[0] - 4 / growth * np.log(10.0) * (decades - decades[0])
+    law = found[0] - 0.12 * found.max() - 4 / growth * np.log(10.0) * (decades - decades[0])
     view = ((float(push[0]), float(push[-1])), (0.0, 1.1 * float(found.max())))
     marked = np.array([[push, GeneralMotion(ratio, field, (push, *start)).period] for push in pushes])
     layers: list[Layer] = [
@@ -111,6 +111,12 @@ def periods(
         x_scale="log",
         title="(b) period of the nutation",
     )
+
+
+def written(push: float) -> str:
+    """Return a push for a formula, powers of ten as such."""
+    power = round(np.log10(abs(push))) if push else 0
+    return f"10^{{{power}}}" if push == 10.0**power else tex(push)
 
 
 def peaks(line: FloatArray, level: float) -> FloatArray:

@@ -43,7 +43,6 @@ def scene(
     for k, row in enumerate(levels):
         layers: list[Layer] = [
             Region(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, RIGHT], [0.0, RIGHT]]), "region"),
-            Region(np.array([[1.0, 0.0], [2.0, 0.0], [2.0, RIGHT], [1.0, RIGHT]]), "shade"),
             Curve(np.array([[1.0, 0.0], [1.0, RIGHT]]), "silhouette"),
         ]
         for value in row:
@@ -72,7 +71,7 @@ def scene(
         ),
         alt=(
             "Three maps over I from 0 to 2 and beta from 0 to 90 degrees, the left half shaded as hyperboloids of one "
-            "sheet, the right half as those of two sheets, with the line I = 1 of the cones between them; level lines "
+            "sheet, the right half, on white, as those of two sheets, with the line I = 1 of the cones between them; level lines "
             "of the three semi-axes run symmetrically away from that line."
         ),
         panels=tuple(panels),

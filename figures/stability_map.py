@@ -21,7 +21,9 @@ WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
 TOP = 0.6
 CELLS = (240, 144)
-BODIES = ((0.0, "needle"), (0.5, "long solenoid"), (1.0, "sphere"), (1.5, "short solenoid"), (2.0, "loop, disk"))
+BODIES = ((0.0, "needle"), (0.5, "long solenoid"), (1.0, "sphere"), (1.5, "short solenoid"), (2.0, "loop"))
+ABOVE, ASIDE = 0.045, 0.09
+"""Room for the names above the map, and how far the outermost stand inside, in units of tau and I."""
 
 
 def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
@@ -35,7 +37,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     least = table.columns()["least_stability"].T
     layers: list[Layer] = [
         Image(x, y, -np.sign(least) * np.sqrt(abs(least)), r"rate of growth over $|B'_2|$; below 0 the frequency"),
-        Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "unstable"),
+        Curve(np.array([[0.0, EDGE], [1.0, EDGE], [1.0, 0.0]]), "map_curve"),
     ]
     layers += [Curve(np.array([[I, 0.0], [I, TOP]]), "guide") for I, _ in BODIES if 0 < I < 2]
     for rate in rates:
@@ -46,13 +48,16 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
             if len(line):
                 layers += [Curve(line, "second"), Label(on(line, rate), f"${rate:g}$", "second")]
     layers += [Points(np.array([[I, 0.0]]), "point") for I, _ in BODIES]
-    layers += [Label(np.array([I, TOP]), name, body_role(I) if I else "note", (0.0, -8.0)) for I, name in BODIES]
-    layers.append(Label(np.array([0.0, EDGE]), r"$\tau=1/(2\sqrt{2})$", "unstable", (4.0, 6.0)))
+    layers += [
+        Label(np.array([np.clip(I, ASIDE, 2.0 - ASIDE), TOP + ABOVE / 2]), name, body_role(I) if I else "note")
+        for I, name in BODIES
+    ]
+    layers.append(Label(np.array([0.0, EDGE]), r"$\tau=1/(2\sqrt{2})$", "map_curve", (4.0, 6.0)))
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. In the rectangle some "
-            r"are unstable: solid lines are levels of the greatest rate of growth $\sqrt{-\nu_n^2}/\lvert B'_2\rvert$, "
+            r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. In the rectangle, edged "
+            r"white, some are unstable: solid lines are levels of the greatest rate of growth $\sqrt{-\nu_n^2}/\lvert B'_2\rvert$, "
             r"$-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all are stable: dashed lines are "
             r"levels of the least nutation frequency."
         ),
@@ -61,8 +66,8 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
             "level lines of the growth rate fall from its left to its lower edge, level lines of the least nutation "
             "frequency fill the rest. Five bodies are marked."
         ),
-        panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP)),),
-        named={"solid lines": "main", "dashed lines": "second"},
+        panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP + ABOVE)),),
+        named={"white": "map_curve", "solid lines": "main", "dashed lines": "second"},
         commands=(table.command("stability.csv"),),
         size=(WIDTH, HEIGHT),
     )

@@ -28,10 +28,13 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
     _scale(axes, panel)
     axes.spines[:].set_in_layout(False)  # they are where the axes are
     entries = []
+    mapped = any(isinstance(layer, Image) for layer in panel.layers)
     for order, layer in enumerate(panel.layers):
         artist = _draw(axes, layer, 1e-3 * order)
         if artist is not None:
             artist.set_gid(gid(layer, number, order + 1))
+        if mapped and isinstance(layer, Points) and artist.get_markerfacecolor() != WHITE:
+            artist.set_markeredgecolor(WHITE)  # what is dark stands off a dark ground, in grey print too
         if artist is not None and layer.label and not isinstance(layer, Arrow | Image):
             artist.set_label(typeset(layer.label))
             entries.append(artist)
