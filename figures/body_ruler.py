@@ -11,6 +11,7 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Points, Scene, Space, quadric_panel, quadrics, solids
 from atlas.scene.bodies import proportions, row, solenoid
+from atlas.scene.camera import frame
 from atlas.scene.words import body_role, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 92.0
@@ -33,8 +34,7 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     """Draw seven bodies, their places on the scale of I, and their quadrics in the field B' = (0, B2, B3)."""
     if not all(field):
         raise DomainError(f"figure body_ruler needs B2, B3 not zero, not field = {field}.")
-    unit = SIZE / float(np.hypot(*field))
-    prime = (unit * field[0], unit * field[1])
+    prime = drawn(field, azimuth)
     view = {"azimuth": azimuth, "elevation": elevation}
     return Scene(
         title=title(__doc__),
@@ -55,11 +55,21 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
     )
 
 
+def drawn(field: tuple[float, float], azimuth: float) -> tuple[float, float]:
+    """Return the field B' of the drawn quadrics: as long as leaves each of them its place in the row."""
+    right = frame(Space((), azimuth=azimuth))[0]
+    unit = SIZE / float(np.hypot(*field))
+    prime = (unit * field[0], unit * field[1])
+    ends = [solids.extent(quadrics.pieces(I, prime, REACH * SIZE, 0.1), right) for _, I in BODIES]
+    part = min(1.0, 0.95 * STEP / max(high - low for low, high in ends))
+    return part * prime[0], part * prime[1]
+
+
 def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> tuple[Layer, ...]:
     """Return the layers of some of the bodies and the part of the scale on which they stand."""
     some = BODIES[first:end]
     start, stop = np.floor(some[0][1]), some[-1][1]
-    fine = quadric_panel.tolerance(STEP * len(some) / 2)
+    fine, reach = quadric_panel.tolerance(STEP * len(some) / 2), REACH * float(np.hypot(*prime))
     places = row(len(some), STEP, azimuth)
     low, high = places[0] - 0.3 * (places[1] - places[0]), places[-1] + 0.3 * (places[1] - places[0])
 
@@ -74,7 +84,7 @@ def ruler(first: int, end: int, prime: tuple[float, float], azimuth: float) -> t
         foot = place + (NAMES - 0.3) * quadric_panel.E3
         layers.append(Curve(np.stack([foot, on_scale(I, 2 * TICK)]), "guide"))
         layers.append(Points(on_scale(I)[None], "point"))
-        surfaces = quadrics.pieces(I, prime, REACH * SIZE, fine)
+        surfaces = quadrics.pieces(I, prime, reach, fine)
         shift = place + ABOVE * quadric_panel.E3 + quadric_panel.in_plane(*prime)
         for surface in surfaces:
             layers.append(solids.moved(surface, shift))

@@ -23,6 +23,8 @@ TOP = 4.0
 MOST = 8
 BESIDE = 4.4
 """Millimetres from a dot to its p/q."""
+APART = 3.0
+"""Millimetres between dots that have their p/q both."""
 CLOSE = 1e-9
 """Nearer to the pole than this part of B2, a float omega2 does not tell phi well enough to draw."""
 
@@ -162,14 +164,18 @@ def quotients(
         layers += [Curve(piece, "main") for piece in pieces]
     else:
         layers.append(Curve(view.level(0.0), "main"))
+    named = [np.full(2, np.inf)]
     for r, motion in found.items():
         at = np.array([motion.omega2, float(r)])
         if ends[0] < motion.omega2 < ends[1]:
             x = 1 + motion.omega2 / B2
             scale = np.array([(WIDTH - MARGIN) / (ends[1] - ends[0]), (HEIGHT / 2 - MARGIN) / (2 * top)])  # mm
             across = np.array([scale[1] * free / (x * x * B2), scale[0]])  # upright to the curve, as drawn
-            away = across / np.hypot(*across) / scale * BESIDE * np.copysign(1.0, free * x)
-            layers += [Points(at[None], "point"), Label(at - away, f"${r}$", "label", (0.0, 0.0))]
+            away = across / np.hypot(*across) / scale * BESIDE * np.copysign(1.0, -free)
+            layers.append(Points(at[None], "point"))
+            if min(float(np.hypot(*((at - one) * scale))) for one in named) > APART:
+                named.append(at)
+                layers.append(Label(at - away, f"${r}$", "label", (0.0, 0.0)))
     layers.append(Points(np.array([[0.0, 2 * free]]), "rest"))
     layers.append(Points(np.array([[-2 * B2, 0.0]]), "special"))
     return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", r"$\phi/k$", view.x, view.y, title="(b) their quotient")

@@ -7,7 +7,7 @@ one side, each about its centre -B'. At I = 1 the two sheets meet in a cone; for
 import numpy as np
 
 from atlas.errors import DomainError
-from atlas.scene import Scene, quadric_panel, quadric_row, quadrics
+from atlas.scene import Scene, quadric_panel, quadric_row, quadrics, solids
 from atlas.scene.narrow import stacked
 from atlas.scene.quadric_row import Member
 from atlas.scene.words import body_name, body_role, listed, tex, tex_vector, title
@@ -39,7 +39,8 @@ def scene(
         )
         for I in ratios
     ]
-    cells = quadric_row.cells(members, b, azimuth)
+    depth = max(float(one.centre[2]) - solids.extent(one.surfaces, quadric_panel.E3)[0] for one in members)
+    cells = quadric_row.cells(members, b, azimuth, max(2.35, 0.75 + depth / b))
     named = listed([f"{body_name(I)} ($I={tex(I)}$)" for I in ratios])
     return Scene(
         title=title(__doc__),

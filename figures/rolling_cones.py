@@ -14,6 +14,7 @@ from atlas.core.elementary import ElementaryMotion, FreeMotion
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.camera import frame
 from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 
@@ -79,6 +80,21 @@ def reach(line: FloatArray, omega: FloatArray) -> float:
     return 1.35 if line @ omega > 0.0 else 0.6
 
 
+def beside(
+    rim: FloatArray, omega: FloatArray, view: tuple[float, float], *, narrow: bool
+) -> tuple[FloatArray, tuple[float, float]]:
+    """Return places at the rim (N, 3) of a cone for its name, clear of both cones, and the offset from them."""
+    right, up = (rim @ line for line in frame(Space((), *view))[:2])
+    if up.mean() > 0.0 and narrow:
+        return rim[int(np.argmax(up))], (0.0, 5.0)
+    if up.mean() > 0.0:
+        ends = int(np.argmin(right)), int(np.argmax(right))
+        far = max(ends, key=lambda end: float(np.linalg.norm(rim[end] - omega)))
+        return rim[far], (float(np.copysign(5.0, right[far] - right.mean())), 0.0)
+    quarters = rim[[0, len(rim) // 4, len(rim) // 2, 3 * len(rim) // 4]]
+    return 1.05 * quarters[np.argsort(-np.linalg.norm(quarters - omega, axis=1))], (0.0, -6.0)
+
+
 def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, view: tuple[float, float]) -> Space:
     """Return both cones at t = 0, touching along the angular velocity, with their angles and what their tips draw.
 
@@ -99,9 +115,8 @@ def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, vi
             replace(cone, role=part),
             Curve(np.stack([quadric_panel.O, 1.12 * np.cos(angle) * towards]), "construction"),
         ]
-        far = cone.rims[0][[0, len(cone.rims[0]) // 4, len(cone.rims[0]) // 2, 3 * len(cone.rims[0]) // 4]]
-        far = far[np.argsort(-np.linalg.norm(far - omega, axis=1))]
-        layers.append(Label(1.05 * far, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", (0.0, -6.0)))
+        at, offset = beside(cone.rims[0], omega, view, narrow=angle == min(one[1] for one in sides))
+        layers.append(Label(at, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", offset))
     free = isinstance(motion, FreeMotion)
     role, letter = ("momentum", r"$\mathbf{m}$") if free else ("field", r"$\mathbf{B}$")
     along = axis * (np.sign(axis @ omega) if free else 1.0)  # m = I2 omega + (I3 - I2) Omega_3 R_3 is along the axis
