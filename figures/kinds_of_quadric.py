@@ -71,8 +71,8 @@ def scene(
         ),
         alt=(
             "Three maps over I from 0 to 2 and beta from 0 to 90 degrees, the left half shaded as hyperboloids of one "
-            "sheet, the right half, on white, as those of two sheets, with the line I = 1 of the cones between them; level lines "
-            "of the three semi-axes run symmetrically away from that line."
+            "sheet, the right half, on white, as those of two sheets, with the line I = 1 of the cones between them; "
+            "level lines of the three semi-axes run symmetrically away from that line."
         ),
         panels=tuple(panels),
         columns=3,

@@ -7,7 +7,8 @@ one side, each about its centre -B'. At I = 1 the two sheets meet in a cone; for
 import numpy as np
 
 from atlas.errors import DomainError
-from atlas.scene import Scene, quadric_panel, quadric_row, quadrics, solids
+from atlas.scene import Scene, Space, quadric_panel, quadric_row, quadrics, solids
+from atlas.scene.camera import frame
 from atlas.scene.narrow import stacked
 from atlas.scene.quadric_row import Member
 from atlas.scene.words import body_name, body_role, listed, tex, tex_vector, title
@@ -39,8 +40,9 @@ def scene(
         )
         for I in ratios
     ]
-    depth = max(float(one.centre[2]) - solids.extent(one.surfaces, quadric_panel.E3)[0] for one in members)
-    cells = quadric_row.cells(members, b, azimuth, max(2.35, 0.75 + depth / b))
+    up = frame(Space((), azimuth=azimuth, elevation=elevation))[1]
+    depth = max(float(one.centre @ up) - solids.extent(one.surfaces, up)[0] for one in members) / up[2]
+    cells = quadric_row.cells(members, b, azimuth, 0.3 + depth / b)
     named = listed([f"{body_name(I)} ($I={tex(I)}$)" for I in ratios])
     return Scene(
         title=title(__doc__),

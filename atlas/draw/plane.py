@@ -28,13 +28,11 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
     _scale(axes, panel)
     axes.spines[:].set_in_layout(False)  # they are where the axes are
     entries = []
-    mapped = any(isinstance(layer, Image) for layer in panel.layers)
+    edge = WHITE if any(isinstance(layer, Image) for layer in panel.layers) else ""
     for order, layer in enumerate(panel.layers):
-        artist = _draw(axes, layer, 1e-3 * order)
+        artist = _draw(axes, layer, 1e-3 * order, edge)
         if artist is not None:
             artist.set_gid(gid(layer, number, order + 1))
-        if mapped and isinstance(layer, Points) and artist.get_markerfacecolor() != WHITE:
-            artist.set_markeredgecolor(WHITE)  # what is dark stands off a dark ground, in grey print too
         if artist is not None and layer.label and not isinstance(layer, Arrow | Image):
             artist.set_label(typeset(layer.label))
             entries.append(artist)
@@ -64,8 +62,8 @@ def _scale(axes: Axes, panel: Plane) -> None:
             axis(scale)
 
 
-def _draw(axes: Axes, layer: Layer, rise: float) -> Any:
-    """Draw one layer and return the artist that stands for it in a legend."""
+def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
+    """Draw one layer and return the artist that stands for it in a legend; dark marks may have another edge."""
     if isinstance(layer, Label):
         return None
     if isinstance(layer, Image):
@@ -75,7 +73,7 @@ def _draw(axes: Axes, layer: Layer, rise: float) -> Any:
         dashes = (0, look.dash) if look.dash else "-"
         return axes.plot(*layer.points.T, color=look.colour, lw=look.width, ls=dashes, zorder=_LINES + rise)[0]
     if isinstance(layer, Points):
-        return axes.plot(*np.atleast_2d(layer.points).T, ls="", zorder=_MARKS + rise, **marker(layer.role))[0]
+        return axes.plot(*np.atleast_2d(layer.points).T, ls="", zorder=_MARKS + rise, **marker(layer.role, edge))[0]
     if isinstance(layer, Region):
         shape = mpl.patches.Polygon(layer.points, facecolor=look.colour, alpha=look.fill, lw=0, zorder=_AREAS + rise)
         return axes.add_patch(shape)
@@ -92,10 +90,10 @@ def gid(layer: Layer, panel: int, place: int, part: int = 1) -> str:
     return name if part == 1 else f"{name}-{part}"
 
 
-def marker(role: str) -> dict[str, Any]:
-    """Return the marker of a role as keywords of `Axes.plot`."""
+def marker(role: str, ring: str = "") -> dict[str, Any]:
+    """Return the marker of a role as keywords of `Axes.plot`, on a map with a ring, so that it stands off in grey."""
     look = style_of(role)
-    edge = INK if look.colour == WHITE else look.colour
+    edge = INK if look.colour == WHITE else ring or look.colour
     shape, size = ("o", 0.5 * look.size) if look.marker == "." else (look.marker or "o", look.size)
     return {"marker": shape, "ms": size, "mfc": look.colour, "mec": edge, "mew": 0.7}
 

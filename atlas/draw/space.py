@@ -200,11 +200,11 @@ def _ink(view: View) -> Iterator[tuple[FloatArray, float]]:
     """Yield what names should not cover in a shaded picture, with its weight."""
     for layer in view.panel.layers:
         if isinstance(layer, Curve):
-            yield along(view.on_paper(layer.points)), 1.5
+            yield along(view.on_paper(layer.points)), 3.0
         elif isinstance(layer, Arrow):
             yield along(view.on_paper(np.stack([layer.tail, layer.tip]))), 2.0
         elif isinstance(layer, Points):
             yield view.on_paper(np.atleast_2d(layer.points)), 8.0
         elif isinstance(layer, Surface):
             for rim in layer.rims:
-                yield along(view.on_paper(rim)), 1.0
+                yield along(view.on_paper(rim)), 3.0
