@@ -98,7 +98,9 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
         Points(places, "start"),
     ]
     beside = np.array([-0.07 * far, 0.06 * (high - low)])
-    layers += [Label(place + beside, name, "label", (0.0, 0.0)) for name, place in zip("abc", places, strict=False)]
+    for name, top, place in zip("abc", tops, places, strict=False):
+        side = -1 if trace(top) == "waves" else 1
+        layers.append(Label(place + side * beside, name, "label", (0.0, 0.0)))
     return Plane(
         tuple(layers), f"$p$ (1/{unit})", f"$g$ (1/{unit}$^2$)", (-far, far), (low - pad, high + pad),
         title=f"({letter}) energies",

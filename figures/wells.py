@@ -60,7 +60,8 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
             continue
         layers.append(Curve(line, "reference"))
         if np.ptp(line[:, 1]) > 0.4 * reach:
-            layers.append(Label(0.11 * line[0] + 0.89 * line[1], f"${tex(nu)}$", "note", (0.0, 0.0)))
+            down = 0.11 if line[1, 1] == reach else 0.25
+            layers.append(Label(down * line[0] + (1 - down) * line[1], f"${tex(nu)}$", "note", (0.0, 0.0)))
     layers.append(Curve(envelope(M3, reach), "main"))
     if last:
         layers += [
