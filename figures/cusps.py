@@ -97,7 +97,7 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
         Points(ends, "special"),
         Points(places, "start"),
     ]
-    beside = np.array([-0.07 * far, 0.06 * (high - low)])
+    beside = np.array([0.0, 0.08 * (high - low)])
     for name, top, place in zip("abc", tops, places, strict=False):
         side = -1 if trace(top) == "waves" else 1
         layers.append(Label(place + side * beside, name, "label", (0.0, 0.0)))
