@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import flint
 import mpmath
+import numpy as np
 import pytest
 from fontTools.ttLib import TTFont
 
@@ -285,3 +286,51 @@ def test_the_room_of_a_number_is_its_width_in_the_font() -> None:
     assert room(f"{MINUS}12.345{THIN}6") == pytest.approx(sum(map(room, f"{MINUS}12.345{THIN}6")))
     least, most = (wide["×"] + 2.0 + 0.72 * (wide[MINUS] + digits) for digits in (2, 4))
     assert least <= POWER <= most
+
+
+def test_tops_of_a_table_have_the_period_of_a_quadrature() -> None:
+    """T of a released heavy top and of a spherical pendulum, by 4000 points of Gauss and Chebyshev, to ten digits."""
+    given = [
+        {"name": "top", "ratio": 0.5, "direction": [0.6, 0.8], "omega": [0.0, 0.0, 5.0], "linear": 1.0},
+        {"name": "pendulum", "ratio": 0.5, "direction": [0.6, -0.8], "omega": [0.5, 0.6, 0.0], "linear": 1.0},
+    ]
+    rows = compute("tops", Request((), {"tops": given}, 10)).rows
+    for row, (nu, p, M3, square) in zip(rows, ((0.8, 2.0, 2.5, 0.0), (-0.8, 0.36, 0.0, 0.61)), strict=True):
+        g = square + 2 * nu
+        q = np.array([2.0, -g - M3 * M3, -2.0 + 2 * p * M3, g - p * p])
+        low, high, far = np.sort(np.roots(q).real)
+        x = (low + high) / 2 + (high - low) / 2 * np.cos(np.pi * (np.arange(4000) + 0.5) / 4000)
+        assert float(row[6].digits) == pytest.approx(np.mean(2 * np.pi / np.sqrt(2 * (far - x))), rel=1e-9)
+
+
+def test_charges_outside_have_the_factors_of_their_shapes() -> None:
+    """A ball: 5/3 twice. A cylinder with I = 1 and its charge on the mantle: 3/2 and 2, and A = (2 - 9/8) 2."""
+    cylinder = {"radius": 1.0, "height": 3.0**0.5}
+    given = [
+        {"name": "ball", "mass": "sphere", "charge": "spherical_shell", "dimensions": {"radius": 2.0}},
+        {"name": "rod", "mass": "solid_cylinder", "charge": "cylindrical_shell", "dimensions": cylinder},
+    ]
+    rows = compute("coats", Request((), {"coats": given}, 3)).rows
+    assert [number.digits for number in rows[0][1:]] == ["1.000", "1.667", "1.667", "0.000", "0.000"]
+    assert [number.digits for number in rows[1][1:]] == ["1.000", "1.500", "2.000", "-0.500", "1.750"]
+
+
+def test_magnetised_bodies_swing_like_pendulums() -> None:
+    """T is 2K(sin theta)/sqrt(-A) of a needle, which goes through the pole, 4K(cos theta)/sqrt(A) of a disk."""
+    field = Field(title="", B=(0.0, 2.0, 4.0), charge_to_mass=1.0)
+    needle = Body(title="", shape="cylindrical_shell", mass=6e-15, radius=1e-6, height=4.242640687119285e-6)
+    disk = Body(title="", shape="ring", mass=1e-16, radius=1e-6)
+    for body, quarters, square in ((needle, 2, 0.2), (disk, 4, 0.8)):
+        (row,) = table("swings", body=body, field=field, susceptibility=-1.2e-5, density=2500.0).rows
+        for rate, period in ((row[2], row[3]), (row[4], row[5])):
+            true = quarters * float(mpmath.ellipk(square)) / float(rate.digits)
+            assert float(period.digits) == pytest.approx(true, rel=0.012)
+        assert float(row[6].digits) == pytest.approx((float(row[4].digits) / float(row[2].digits)) ** 2, rel=0.03)
+
+
+def test_the_monodromy_of_a_table_is_that_of_its_loop() -> None:
+    """A row of the matrix for g3, and a step that tells why."""
+    loop = {"name": "top", "ratio": 0.5, "M3": 0.5, "p": 0.5, "linear": 1.0}
+    (row,) = compute("monodromy", Request((), {"loops": [loop], "points": 24}, 3)).rows
+    assert r"0&1&0\\-1&1&1\end" in row[6]
+    assert float(row[7].digits) < 0.25

@@ -87,8 +87,8 @@ def swings(request: Request) -> Data:
         ),
         tuple(rows),
         r"Bodies that start at rest in Larmor's frame, $\boldsymbol\omega=-\mathbf{B}'$, in the field of the tables: "
-        r"Larmor's period, the rate $\sqrt{\lvert A\rvert}$ of small swings of the axis and the period $T$ of its own "
-        rf"wide one, with the charge alone and with a susceptibility of {Number(f'{asked.susceptibility:.1e}').tex()}.",
+        r"Larmor's period, the rate $\sqrt{\lvert A\rvert}$ of small swings of the axis and the period $T$ of its "
+        rf"inclination, with the charge alone and with $\chi_m={Number(f'{asked.susceptibility:.1e}').tex()[1:]}.",
         ("Three digits; the ball does not swing.",),
     )
 
