@@ -51,7 +51,7 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The third axis of a heavy top, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
+            rf"The third axis of a top with a weight, $I={tex(ratio)}$, $a={tex(linear)}$, launched with "
             rf"$\omega_3={tex(omega3)}$, over {plain(nutations)} nutations. Last: these motions (dots) in the plane of "
             r"$p$ and $g$, above the least energies (solid). Cusps lie on the dashed segment, from spin to spin "
             r"(diamonds), loops above it, waves elsewhere."
