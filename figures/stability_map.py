@@ -56,8 +56,8 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. In the rectangle, "
-            r"edged white, some are unstable: solid lines are levels of the greatest rate of growth "
+            r"The worst elementary motion of a body over $I$ and $\tau=\lvert B'_3/B'_2\rvert$. In the rectangle "
+            r"some are unstable: solid lines are levels of the greatest rate of growth "
             r"$\sqrt{-\nu_n^2}/\lvert B'_2\rvert$, "
             r"$-\nu_n^2/{B'_2}^2=(1-I)[1-2\tau^2-2\tau\sqrt{1+\tau^2}]$. Elsewhere all are stable: dashed lines are "
             r"levels of the least nutation frequency."
@@ -68,7 +68,7 @@ def scene(*, rates: tuple[float, ...] = (0.2, 0.4, 0.6, 0.8)) -> Scene:
             "frequency fill the rest. Five bodies are marked."
         ),
         panels=(Plane(tuple(layers), r"$I=I_3/I_2$", r"$\tau=|B'_3/B'_2|$", (0.0, 2.0), (0.0, TOP + ABOVE)),),
-        named={"white": "map_curve", "solid lines": "main", "dashed lines": "second"},
+        named={"solid lines": "main", "dashed lines": "second"},
         commands=(table.command("stability.csv"),),
         size=(WIDTH, HEIGHT),
     )
