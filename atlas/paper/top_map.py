@@ -12,8 +12,8 @@ EQUATIONS = (
         kind="theorem",
         says=r"The trace of the axis has cusps exactly if $\nu$ turns at some $\nu_c$ with $\dot\psi = 0$; it has "
         r"loops if $\dot\psi$ changes its sign inside the range of $\nu$, and waves otherwise",
-        tex=r"p=M_3\nu_c+k_2(1-\nu_c^2)\implies q(\nu_c)=(1-\nu_c^2)\left[g-2a\nu_c-A\nu_c^2-k_2^2(1-\nu_c^2)\right],"
-        r"\qquad (1-\nu^2)\dot\psi=(\nu-\nu_c)\left[k_2(\nu+\nu_c)-M_3\right]",
+        tex=r"\begin{aligned} p=M_3\nu_c+k_2(1-\nu_c^2)\implies q(\nu_c)&=(1-\nu_c^2)\left[g-2a\nu_c-A\nu_c^2-k_2^2"
+        r"(1-\nu_c^2)\right],\\ (1-\nu^2)\dot\psi&=(\nu-\nu_c)\left[k_2(\nu+\nu_c)-M_3\right] \end{aligned}",
         assumptions=(_TOP, r"$\dot\psi$ is the rate of the axis about $\mathbf{n}$", r"$|\nu_c| < 1$"),
     ),
     Equation(

@@ -70,7 +70,8 @@ def swings(request: Request) -> Data:
         for quadratic in (0.0, own):
             top = TopMotion((I2, I3), (b * I2, b * I3), (B2, B3), (0.0, -B2, -B3), 0.0, quadratic)
             rates.append(sqrt(abs((I3 - I2) * b * b + quadratic) / I2))
-            periods.append(float(top.period))
+            # a ball is free but for the rounding of its coupling
+            periods.append(float(top.period) if rates[-1] else 0.0)
         excess = (rates[1] / rates[0]) ** 2 if rates[0] else 0.0
         values = (2 * pi / b, rates[0], periods[0], rates[1], periods[1], excess)
         rows.append((record.title, *map(_three, values)))
