@@ -335,3 +335,10 @@ def test_three_numbers_in_the_place_of_omega2_are_taken_for_a_vector(omega: Any)
     assert ElementaryMotion(1.5, (1.0, 2.0), np.array(omega)).shape == (3,)
     assert ElementaryMotion(1.5, (1.0, 2.0), [0.3, 0.7]).shape == (2,)
     assert ElementaryMotion(1.5, (1.0, 2.0), [[0.3, 0.7, 0.2]]).shape == (1, 3)
+
+
+@pytest.mark.parametrize("rows", [(-1.0, 0.7), (0.7, -1.0)])
+def test_an_array_with_a_row_that_has_no_motion_is_refused(rows: tuple[float, ...]) -> None:
+    """Wherever the pole of (71) stands among others, its error is raised."""
+    with pytest.raises(AtlasError, match="is the pole of omega3"):
+        ElementaryMotion(1.5, (1.0, 2.0), np.array(rows))
