@@ -18,9 +18,9 @@ from atlas.report.search import index
 from atlas.report.templates import templates
 from atlas.report.versions import versions
 
-SCRIPTS = ("page.js", "minisearch.js", "scene.js")
-"""The page's own, the library of its search box, vendored so that a page opened from disk needs no network, and what
-turns figures in space."""
+SCRIPTS = ("page.js", "minisearch.js", "scene.js", "explorer.js")
+"""The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
+turns figures in space, and what moves an elementary motion."""
 
 
 class Card(NamedTuple):

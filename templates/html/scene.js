@@ -74,7 +74,7 @@ const points = packed => {
   return found;
 };
 // While it moves: how many pixels there are to one of the page.
-const SHARES = [0.25, 0.35, 0.5, 0.7, 1];
+const SHARES = [0.35, 0.5, 0.7, 1];
 const headOf = ([, , head, , tail, tip], scale) => {
   const way = add(tip, tail, -1), size = Math.hypot(...way);
   return [add(tip, way, -Math.min(head / scale, 0.5 * size) / (size || 1)), Math.min(head / scale, 0.5 * size)];
@@ -208,7 +208,7 @@ const svg = (tag, attributes) => {
 
 class Viewer {
   constructor(box, data, says, narrow) {
-    const shown = narrow && data.narrow ? {...data.wide, ...data.narrow} : data.wide; Object.assign(this, {box, data, shown, zoom: 1, move: [0, 0], pace: 2});
+    const shown = narrow && data.narrow ? {...data.wide, ...data.narrow} : data.wide; Object.assign(this, {box, data, shown, zoom: 1, move: [0, 0], pace: 1});
     const canvas = this.canvas = document.createElement("canvas"); canvas.tabIndex = 0;
     canvas.setAttribute("role", "application"); canvas.setAttribute("aria-label", says);
     const gl = this.gl = canvas.getContext("webgl2", {antialias: false});

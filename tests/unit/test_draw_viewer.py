@@ -111,8 +111,9 @@ def test_a_page_stays_light() -> None:
     assert len(script(recipes.load("flight_poster").scene())) < 140_000
 
 
-def test_the_viewer_asks_for_nothing() -> None:
-    """In the script there is no address but the name of SVG, and nothing that could send or fetch one."""
-    text = (HTML / "scene.js").read_text(encoding="utf-8")
+@pytest.mark.parametrize("name", ["scene.js", "explorer.js"])
+def test_the_scripts_ask_for_nothing(name: str) -> None:
+    """There is no address in them but the name of SVG, and nothing that could send or fetch one."""
+    text = (HTML / name).read_text(encoding="utf-8")
     assert re.findall(r"\w+://[^\"']*", text) == ["http://www.w3.org/2000/svg"]
     assert not re.search(r"fetch\(|XMLHttpRequest|WebSocket|sendBeacon|eval\(|innerHTML|import\(", text)

@@ -8,9 +8,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from atlas.report.blocks import bibliography, equation, figure, ledger, prose, reference, table
+from atlas.report.blocks import bibliography, equation, explorer, figure, ledger, prose, reference, table
 from atlas.report.blocks.bibliography import Bibliography
 from atlas.report.blocks.equation import Equation
+from atlas.report.blocks.explorer import Explorer
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.ledger import Errata, Ledger
 from atlas.report.blocks.prose import Note, Prose
@@ -23,6 +24,7 @@ __all__ = [
     "Block",
     "Equation",
     "Errata",
+    "Explorer",
     "Figure",
     "Kind",
     "Ledger",
@@ -36,7 +38,18 @@ __all__ = [
 ]
 
 Block: TypeAlias = (
-    Prose | Note | Equation | Figure | Table | Listing | Recorded | Ledger | Errata | Reference | Bibliography
+    Prose
+    | Note
+    | Equation
+    | Explorer
+    | Figure
+    | Table
+    | Listing
+    | Recorded
+    | Ledger
+    | Errata
+    | Reference
+    | Bibliography
 )
 
 
@@ -57,6 +70,7 @@ KINDS: Mapping[str, Kind] = {
     "prose": Kind(Prose, prose.view_prose, "prose"),
     "note": Kind(Note, prose.view_note, "note"),
     "equation": Kind(Equation, equation.view, "equation"),
+    "explorer": Kind(Explorer, explorer.view, "explorer"),
     "figure": Kind(Figure, figure.view, "figure"),
     "table": Kind(Table, table.view_computed, "table", table.outline),
     "listing": Kind(Listing, table.view_listing, "table"),
