@@ -253,7 +253,7 @@ class Viewer {
   }
   draw(fine = true) {
     const {gl, box} = this, {clientWidth, clientHeight} = box; if (!clientWidth || !clientHeight) return;
-    const sharp = devicePixelRatio || 1, ratio = fine ? Math.min(2 * sharp, Math.sqrt(4e6 / clientWidth / clientHeight)) : sharp * SHARES[this.pace];
+    const sharp = devicePixelRatio || 1, ratio = fine ? Math.min(2 * sharp, Math.sqrt((this.pace ? 4e6 : 1e6) / clientWidth / clientHeight)) : sharp * SHARES[this.pace];
     const width = Math.round(clientWidth * ratio), height = Math.round(clientHeight * ratio); this.target(width, height);
     for (const panel of this.panels) this.drawPanel(panel, width, height);
     for (const panel of this.panels) panel.names(clientWidth, clientHeight);
