@@ -27,7 +27,13 @@ const quadric = (I, B2, B3) => {
   return {beta, form: [B3, 0, 0, 0, B3, -I * B2 / 2, 0, 0, 0, (I - 1) * B2 * B2 * B3], axis: [0, Math.cos(half), Math.sin(half)], other: [0, -Math.sin(half), Math.cos(half)]};
 };
 const kind = I => I > 1 ? "two-sheet hyperboloid" : I < 1 ? "one-sheet hyperboloid" : "cone";
-root.atlasMotion = {motion, rotation, quadric, kind};
+// A motion from its table: R(t) = R_B(a t) Q(t) R_z(b t), where Q repeats itself.
+const tabled = ({period, a, b, columns}, B2, B3) => t => {
+  const place = (t / period - Math.floor(t / period)) * columns.length, i = Math.floor(place) % columns.length, next = columns[(i + 1) % columns.length], mixed = columns[i].map((x, j) => x + (place - Math.floor(place)) * (next[j] - x));
+  const unit = v => v.map(x => x / norm(...v)), z = unit(mixed.slice(3)), first = mixed.slice(0, 3), x = unit(add(first, z, -dot(first, z))), y = [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]];
+  return product(product(turn([0, B2 / norm(B2, B3), B3 / norm(B2, B3)], a * t), [0, 1, 2].map(j => [x[j], y[j], z[j]])), turn([0, 0, 1], b * t));
+};
+root.atlasMotion = {motion, rotation, quadric, kind, tabled};
 if (!root.document || !root.atlasViewer) return;
 
 const SCALE = 0.11, REACH = 0.42, INK = "#1a1a1a", RED = "#b01c2e", NAVY = "#16325c", PLUM = "#75459a", TEXTS = [["e₁", 12], ["e₂", 12], ["e₃", 12], ["B′", 13], ["ω", 10], ["B", 9], ["R₃", 15]];
@@ -57,15 +63,15 @@ const left = ({I, B2, B3, omega2}) => {
   if (norm(...point) < 1.2) { panel.arrows.push(arrow(PLUM, 2.6, O, point)); panel.dots.push(["#d4552b", 7, point]); panel.names.push([4, PLUM, point, O]); }
   panel.dots.push([RED, 4.4, [0, 0, 0]]); return panel;
 };
-// In space: a cylindrical shell with this I, its axis and the trace of that.
-const right = ({I, B2, B3, omega2}, t) => {
-  const panel = empty(20, 15), {k, phi} = motion(I, B2, B3, omega2), R = rotation(B2, B3, k, Number.isFinite(phi) ? phi : 0, t), [a, b, n] = [0, 1, 2].map(j => R.map(row => row[j])), less = n.map(x => -x);
+// In space: a cylindrical shell with this I, its axis and the trace of that over a span of time.
+const right = ({I, B2, B3, at, span}, t) => {
+  const panel = empty(20, 15), R = at(t), [a, b, n] = [0, 1, 2].map(j => R.map(row => row[j])), less = n.map(x => -x);
   const h = Math.sqrt(12 * Math.max(1 / I - 0.5, 0)), r = 0.34 / norm(1, h / 2), half = Math.max(r * h / 2, 0.012), wood = "#dfb578", bark = "#b07a35", seam = "#6b4517", low = [-0.6, -0.6, -0.6], high = [0.6, 0.6, 0.6];
   const P = (i, j) => (i === j ? 1 : 0) - n[i] * n[j], side = [P(0, 0), P(0, 1), P(0, 2), 0, P(1, 1), P(1, 2), 0, P(2, 2), 0, -r * r], ends = [...n, half, ...less, half], wedge = s => [...add(b.map(x => s * x), a, -0.25), 0];
   panel.surfaces.push([side, ends, [], wood, bark, 1, low, high], [side.slice(), [...ends, ...wedge(1), ...wedge(-1)], [], seam, seam, 1, low, high]);
   for (const s of [1, -1]) panel.lines.push([INK, 1.1, circle(n.map(x => s * half * x), a, b, r)]);
-  const B = [0, B2 / norm(B2, B3), B3 / norm(B2, B3)], gone = Math.max(-2 * Math.PI, Math.min(2 * Math.PI, k * t)), rod = 0.46;
-  const trace = Array.from({length: 97}, (_, i) => turn(B, k * t - gone * i / 96).map(row => rod * row[2])); if (gone) panel.lines.push(["#2a57a5", 2.6, trace]);
+  const B = [0, B2 / norm(B2, B3), B3 / norm(B2, B3)], gone = Math.min(t, span), rod = 0.46;
+  if (gone) panel.lines.push(["#2a57a5", 2.6, Array.from({length: 145}, (_, i) => at(t - gone * i / 144).map(row => rod * row[2]))]);
   panel.arrows.push(arrow(NAVY, 2.6, [0, 0, 0], n.map(x => rod * x)), arrow(RED, 3.6, [0, 0, 0], B.map(x => 0.5 * x)));
   panel.names.push([5, RED, B.map(x => 0.5 * x), [0, 0, 0]], [6, NAVY, n.map(x => rod * x), [0, 0, 0]]); return panel;
 };
@@ -82,40 +88,47 @@ const write = panel => {
 };
 for (const section of document.querySelectorAll(".explorer")) {
   const sliders = [...section.querySelectorAll("input[type=range]")], out = section.querySelector("output"), line = section.querySelector("code"), play = section.querySelector("button"), box = section.querySelector(".stage"), calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const state = () => { const {I, angle, omega2} = Object.fromEntries(sliders.map(one => [one.name, Number(one.value)])), turned = angle * Math.PI / 180, b = Number(section.dataset.field); return {I, omega2, B2: b * Math.cos(turned), B3: b * Math.sin(turned)}; };
-  let t = 0, last = null, asked, playing = !calm.matches, seen = false, viewer;
+  const all = section.dataset.tables && JSON.parse(section.dataset.tables), b = Number(section.dataset.field), value = name => Number(sliders.find(one => one.name === name).value), time = sliders.find(one => one.name === "t");
+  const state = () => {
+    if (all) {
+      const table = all[Math.round(value("omega1") / (Number(sliders[0].max) / (all.length - 1)))], [, I, B2, B3] = table.command.match(/--ratio (\S+) --field (\S+) (\S+)/).map(Number);
+      return {I, B2, B3, at: tabled(table, B2, B3), span: 6 * table.period, says: table.says, command: table.command};
+    }
+    const I = value("I"), angle = value("angle") * Math.PI / 180, omega2 = value("omega2"), B2 = b * Math.cos(angle), B3 = b * Math.sin(angle), {omega3, k, phi, stability} = motion(I, B2, B3, omega2), spin = Number.isFinite(phi) ? phi : 0;
+    const digits = x => Number.isFinite(x) ? x.toFixed(4).replace("-", "−") : "none, at the pole", says = `${kind(I)}; ω₃ = ${digits(omega3)}, k = ${digits(k)}, φ = ${digits(phi)}; ${stability > 0 ? "stable" : "unstable"}`;
+    return {I, B2, B3, omega2, at: t => rotation(B2, B3, k, spin, t), span: 2 * Math.PI / Math.abs(k || 1), says, command: `atlas motion --ratio ${I} --field ${B2.toFixed(6)} ${B3.toFixed(6)} --omega2 ${omega2}`};
+  };
+  let last = null, asked, playing = !calm.matches, seen = false, viewer;
   const read = () => {  // the state that the address names
     if (!location.hash.startsWith("#motion:")) return;
     for (const [name, value] of new URLSearchParams(location.hash.slice(8))) { const one = sliders.find(slider => slider.name === name); if (one && Number.isFinite(Number(value))) one.value = value; }
   };
-  const say = () => {
-    const now = state(), {omega3, k, phi, stability} = motion(now.I, now.B2, now.B3, now.omega2), digits = x => Number.isFinite(x) ? x.toFixed(4).replace("-", "−") : "none, at the pole";
-    for (const one of sliders) one.nextElementSibling.textContent = one.value;
-    out.textContent = `${kind(now.I)}; ω₃ = ${digits(omega3)}, k = ${digits(k)}, φ = ${digits(phi)}; ${stability > 0 ? "stable" : "unstable"}`;
-    line.textContent = `atlas motion --ratio ${now.I} --field ${now.B2.toFixed(6)} ${now.B3.toFixed(6)} --omega2 ${now.omega2}`;
-  };
-  const show = (which = [0, 1]) => { const now = state(), made = [() => left(now), () => right(now, t)]; which.forEach(i => viewer.panels[i].set(made[i]())); viewer.hurry(); };
-  const tick = now => {
+  const say = () => { const {says, command} = state(); for (const one of sliders) one.nextElementSibling.textContent = String(Number(Number(one.value).toFixed(2))); out.textContent = says; line.textContent = command; };
+  const panels = all ? [() => right(state(), value("t"))] : [() => left(state()), () => right(state(), value("t"))];
+  const show = which => { (which ?? panels.keys()).forEach(i => viewer.panels[i].set(panels[i]())); viewer.hurry(); };
+  let now = 0;
+  const tick = clock => {
     if (!playing || !seen) { last = null; return; }
-    t += last === null ? 0 : Math.min(now - last, 100) * 1e-3; last = now; show([1]); asked = requestAnimationFrame(tick);
+    now = last === null ? value("t") : now + Math.min(clock - last, 100) * 1e-3; now = now > Number(time.max) ? 0 : now;
+    last = clock; time.value = now; time.nextElementSibling.textContent = time.value; show([panels.length - 1]); asked = requestAnimationFrame(tick);
   };
   const go = wanted => { playing = wanted; play.textContent = playing ? "Pause" : "Play"; play.setAttribute("aria-pressed", String(playing)); cancelAnimationFrame(asked); last = null; if (playing) asked = requestAnimationFrame(tick); };
   read(); section.hidden = false;
   const narrow = matchMedia("(max-width: 36rem)"), half = (x, y, width, height) => [x, y, width, height, 300, 300, 300, 150, 150];
-  const places = () => narrow.matches ? [half(0, 0, 1, 0.5), half(0, 0.5, 1, 0.5)] : [half(0, 0, 0.5, 1), half(0.5, 0, 0.5, 1)];
+  const places = () => all ? [half(narrow.matches ? 0 : 0.25, 0, narrow.matches ? 1 : 0.5, 1)] : narrow.matches ? [half(0, 0, 1, 0.5), half(0, 0.5, 1, 0.5)] : [half(0, 0, 0.5, 1), half(0.5, 0, 0.5, 1)];
   try {
     const scene = box.appendChild(document.createElement("div")); scene.className = "scene";
-    viewer = new root.atlasViewer.Viewer(scene, {wide: {places: places(), panels: [left(state()), right(state(), 0)]}, texts: TEXTS.map(([letters, width]) => [width, 12, "", letters])}, box.dataset.says);
+    viewer = new root.atlasViewer.Viewer(scene, {wide: {places: places(), panels: panels.map(make => make())}, texts: TEXTS.map(([letters, width]) => [width, 12, "", letters])}, box.dataset.says);
   } catch (error) { section.hidden = true; console.warn(error.message); continue; }
-  narrow.addEventListener("change", () => { viewer.shown.places = places(); viewer.hurry(); });
+  box.classList.toggle("single", Boolean(all)); narrow.addEventListener("change", () => { viewer.shown.places = places(); viewer.hurry(); });
   for (const panel of viewer.panels) { panel.write = () => write(panel); panel.write(); }
   say(); viewer.hurry();
   for (const one of sliders) {
-    one.addEventListener("input", () => { t = 0; say(); show(); });
+    one.addEventListener("input", () => { if (one === time) { now = value("t"); last = null; } say(); show(); });
     one.addEventListener("change", () => history.replaceState(null, "", `#motion:${new URLSearchParams(sliders.map(slider => [slider.name, slider.value]))}`));
   }
   play.addEventListener("click", () => go(!playing)); calm.addEventListener("change", () => go(!calm.matches));
-  addEventListener("hashchange", () => { read(); t = 0; say(); show(); });
+  addEventListener("hashchange", () => { read(); say(); show(); });
   new IntersectionObserver(([{isIntersecting}]) => { seen = isIntersecting; if (seen) go(playing); }).observe(box);
 }
 })(globalThis);

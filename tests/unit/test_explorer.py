@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from atlas import ElementaryMotion, Hyperbola, Quadric
+from atlas import ElementaryMotion, GeneralMotion, Hyperbola, Quadric
 from atlas.families import FAMILIES
 from atlas.places import folder
-from atlas.report.blocks.explorer import Explorer, view
+from atlas.report.blocks.explorer import Explorer, tables, view
 from atlas.report.compose import compose
 from atlas.report.html import pages
 from atlas.report.load import load
@@ -78,6 +78,23 @@ def check_quadric(I: float, B2: float, B3: float, beta: float, axis: Any, form: 
     for omega in ((0.3, -1.2, 0.7), (2.0, 0.5, -3.0), (0.0, 0.0, 0.0)):
         y = np.array([*(np.array(omega) - q.centre), 1.0])
         assert abs(y @ full @ y - q.residual(np.array(omega))) <= 100.0 * WITHIN
+
+
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
+def test_tables_of_general_motions_give_the_motion() -> None:
+    """Over many periods R from the table of one is the motion's within 1/500 of its size, a fraction of a pixel."""
+    program = (
+        "require(process.argv[1]); const [table, B2, B3, times] = JSON.parse(require('fs').readFileSync(0, 'utf8'));"
+        "console.log(JSON.stringify(times.map(globalThis.atlasMotion.tabled(table, B2, B3))))"
+    )
+    for table in json.loads(tables())[1::3]:
+        ratio, B2, B3, *omega = (float(word) for word in table["command"].split() if word[0].isdigit())
+        times = np.linspace(0.0, 40.0, 97)
+        words = [str(node), "-e", program, str(SCRIPT)]
+        given = json.dumps([table, B2, B3, times.tolist()])
+        done = subprocess.run(words, input=given, capture_output=True, text=True, check=True)
+        off = np.abs(np.array(json.loads(done.stdout)) - GeneralMotion(ratio, (B2, B3), omega).rotation(times))
+        assert off.max() < 1 / 500
 
 
 def test_sliders_have_the_ranges_of_the_register() -> None:

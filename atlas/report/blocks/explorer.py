@@ -1,7 +1,9 @@
 """The elementary motions with sliders: the pages show them as they move, in print there is only a sentence."""
 
+import json
 from dataclasses import dataclass
 from math import atan2, degrees, hypot
+from typing import Any, Literal
 
 from atlas.families import FAMILIES
 from atlas.report.blocks.composer import Composer
@@ -9,12 +11,20 @@ from atlas.report.schema import StrictStruct
 
 _STEP, _OBLIQUE = 0.01, (1.0, 89.0)
 """Of all sliders; and the angle between field and e2 in degrees, for which (71) has a pole and both asymptotes."""
+_LAST = 60.0
+_PUSHES, _NODES, _PLACES = 9, 48, 4
+"""General motions: from so many starts, so many moments of a period, and decimals: what is drawn."""
 
 
 class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
-    """A sentence in Markdown with TeX, and below it the motion that the sliders choose."""
+    """A sentence in Markdown with TeX, and below it the motion that the sliders choose.
+
+    ``elementary`` motions have sliders for I, the angle of the field and omega2; ``general`` ones, of one body in one
+    field, for the omega1 that they start with.
+    """
 
     text: str
+    motion: Literal["elementary", "general"] = "elementary"
 
 
 @dataclass(frozen=True)
@@ -32,24 +42,89 @@ class Slider:
 
 @dataclass(frozen=True)
 class ExplorerView:
-    """The number of its text, its sliders, and the size of the field B'."""
+    """The number of its text, its sliders, and for the script the size of the field or the tables of motions."""
 
     text: int
+    motion: str
     sliders: tuple[Slider, ...]
     field: float
+    tables: str = ""
 
 
 def view(block: Explorer, composer: Composer) -> ExplorerView:
     """Take in the text; the ranges and starts of the sliders are those of the register."""
-    known = {one.name: one for one in FAMILIES["elementary"].parameters}
-    ratio, omega2, (B2, B3) = known["ratio"], known["omega2"], known["field"].default
+    text, (B2, B3) = composer.paragraphs(block.text), _parameter("elementary", "field").default
+    time = Slider("t", "t", "time", 0.0, _LAST, 0.0)
+    if block.motion == "general":
+        omega = _parameter("general", "omega")
+        high = omega.range[1]
+        sliders = (
+            Slider(
+                "omega1",
+                "ω₁",
+                "first component of the initial angular velocity",
+                0.0,
+                high,
+                high / 4.0,
+                high / (_PUSHES - 1),
+            ),
+            time,
+        )
+        return ExplorerView(text, block.motion, sliders, hypot(B2, B3), tables())
+    ratio, omega2 = _parameter("elementary", "ratio"), _parameter("elementary", "omega2")
     angle = round(degrees(atan2(B3, B2)), 2)
-    return ExplorerView(
-        composer.paragraphs(block.text),
-        (
-            Slider("I", "I", "ratio of the moments of inertia, I3/I2", *ratio.range, *ratio.default),
-            Slider("angle", "∠(e₂, B)", "angle of the field with e2, in degrees", *_OBLIQUE, angle),
-            Slider("omega2", "ω₂", "second component of the initial angular velocity", *omega2.range, *omega2.default),
-        ),
-        hypot(B2, B3),
+    sliders = (
+        Slider("I", "I", "ratio of the moments of inertia, I3/I2", *ratio.range, *ratio.default),
+        Slider("angle", "∠(e₂, B)", "angle of the field with e2, in degrees", *_OBLIQUE, angle),
+        Slider("omega2", "ω₂", "second component of the initial angular velocity", *omega2.range, *omega2.default),
+        time,
     )
+    return ExplorerView(text, block.motion, sliders, hypot(B2, B3))
+
+
+def tables() -> str:
+    """Return the general motions of the sliders: R(t) = R_B(a t) Q(t) R_z(b t) with Q of the period of nutation.
+
+    Each is {period, a, b, says, command, columns}; `columns` are the first and the third column of Q at `_NODES`
+    moments of a period.
+    """
+    import numpy as np
+
+    from atlas import GeneralMotion
+
+    ratio, field = _parameter("general", "ratio").default[0], _parameter("general", "field").default
+    _, *rest = _parameter("general", "omega").default
+    command = f"atlas general --ratio {ratio:g} --field {field[0]:g} {field[1]:g} --omega"
+    found = []
+    for omega1 in np.linspace(0.0, _parameter("general", "omega").range[1], _PUSHES).tolist():
+        motion = GeneralMotion(ratio, field, (omega1, *rest))
+        a, b = motion.precession_per_period / motion.period, motion.spin_per_period / motion.period
+        t = np.arange(_NODES) * (motion.period / _NODES)
+        Q = _turns((0.0, *field), -a * t) @ motion.rotation(t) @ _turns((0.0, 0.0, 1.0), -b * t)
+        low, high = motion.turning_points
+        found.append(
+            {
+                "period": float(motion.period),
+                "a": float(a),
+                "b": float(b),
+                "says": f"{motion.kind}; period {motion.period:.4f}, Ω₃ from {low:.4f} to {high:.4f}".replace("-", "−"),
+                "command": f"{command} {omega1:g} {rest[0]:g} {rest[1]:g}",
+                "columns": np.round(Q[:, :, [0, 2]].swapaxes(1, 2).reshape(_NODES, 6), _PLACES).tolist(),
+            }
+        )
+    return json.dumps(found, separators=(",", ":"), ensure_ascii=False)
+
+
+def _parameter(family: str, name: str) -> Any:
+    """Return a parameter of the register."""
+    return next(one for one in FAMILIES[family].parameters if one.name == name)
+
+
+def _turns(axis: tuple[float, ...], angles: Any) -> Any:
+    """Return the turns (N, 3, 3) about an axis."""
+    import numpy as np
+
+    n = np.array(axis) / hypot(*axis)
+    cross = np.cross(np.eye(3), n)
+    cos, sin = np.cos(angles)[:, None, None], np.sin(angles)[:, None, None]
+    return cos * np.eye(3) + (1.0 - cos) * np.outer(n, n) + sin * cross
