@@ -56,30 +56,18 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
     text, (B2, B3) = composer.paragraphs(block.text), _parameter("elementary", "field").default
     time = Slider("t", "t", "time", 0.0, _LAST, 0.0)
     if block.motion == "general":
-        omega = _parameter("general", "omega")
-        high = omega.range[1]
-        sliders = (
-            Slider(
-                "omega1",
-                "ω₁",
-                "first component of the initial angular velocity",
-                0.0,
-                high,
-                high / 4.0,
-                high / (_PUSHES - 1),
-            ),
-            time,
-        )
-        return ExplorerView(text, block.motion, sliders, hypot(B2, B3), tables())
+        high = _parameter("general", "omega").range[1]
+        says, step = "first component of the initial angular velocity", high / (_PUSHES - 1)
+        push = Slider("omega1", "ω₁", says, 0.0, high, high / 4.0, step)
+        return ExplorerView(text, block.motion, (push, time), hypot(B2, B3), tables())
     ratio, omega2 = _parameter("elementary", "ratio"), _parameter("elementary", "omega2")
     angle = round(degrees(atan2(B3, B2)), 2)
-    sliders = (
+    chosen = (
         Slider("I", "I", "ratio of the moments of inertia, I3/I2", *ratio.range, *ratio.default),
         Slider("angle", "∠(e₂, B)", "angle of the field with e2, in degrees", *_OBLIQUE, angle),
         Slider("omega2", "ω₂", "second component of the initial angular velocity", *omega2.range, *omega2.default),
-        time,
     )
-    return ExplorerView(text, block.motion, sliders, hypot(B2, B3))
+    return ExplorerView(text, block.motion, (*chosen, time), hypot(B2, B3))
 
 
 def tables() -> str:
