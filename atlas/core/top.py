@@ -1,5 +1,6 @@
 """Motions of a symmetric top in a uniform field, from any start (not in the paper)."""
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, Self
 
@@ -10,10 +11,12 @@ from atlas.core.body import SymmetricBody, moments
 from atlas.core.charge_moments import ChargeMoments
 from atlas.core.inputs import FloatArray, finite, number, plain, positive
 from atlas.core.motion import components
-from atlas.core.nutating import AloneMotion, ends_of, padded
+from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
 from atlas.core.nutation.cayley_klein import FIRST
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_top import SingleTop
+from atlas.core.nutation.top_rows import TopBlocks, TopRows
+from atlas.core.nutation.top_scalars import IN_ARRAYS, KINDS, TopScalars
 from atlas.core.quadric import TopQuadric
 from atlas.core.symmetric_top import given
 from atlas.core.units import system
@@ -38,7 +41,7 @@ def _rounded(x: fmpq) -> float:
         raise DomainError("A moment or the weight of this top is too large for a float: choose other units.") from error
 
 
-class TopMotion(AloneMotion[SingleTop]):
+class TopMotion(NutatingMotion[SingleTop]):
     """Motion R(t), R(0) = 1, of a symmetric top in a uniform field, from any start (not in the paper).
 
     `inertia` (I2, I3) across and along the axis; `coupling` (k2, k3), so that M = I Omega + k b, in the unit of inertia
@@ -59,10 +62,12 @@ class TopMotion(AloneMotion[SingleTop]):
       real roots" or "four real roots" of a quartic: elliptic functions of time;
     - "separatrix": nu tends to a double root; "separatrix, triple root"; "separatrix between n and -n".
 
-    Which it is, is decided exactly. The cost does not depend on t; arrays of tops are made one by one, some
-    milliseconds each. Entries of R are within 3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the largest rate.
-    Raises DomainError if I3 is not in (0, 2 I2], if n is zero, or at a separatrix between n and -n with kappa =
-    k2/I2 - k3/I3 not zero, where the turn about the axis has no rate; AtlasError for what is no finite number.
+    Which it is, is decided exactly. The cost does not depend on t. Arrays of tops at a few times each are evaluated
+    without a loop where kappa = k2/I2 - k3/I3 is zero, as of heavy tops; the others, and those next to a separatrix,
+    nearly steady, or with rates of very different sizes, are made one by one, some milliseconds each. Entries of R
+    are within 3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the largest rate.
+    Raises DomainError if I3 is not in (0, 2 I2], if n is zero, or at a separatrix between n and -n with kappa not
+    zero, where the turn about the axis has no rate; AtlasError for what is no finite number.
     """
 
     def __init__(
@@ -128,10 +133,46 @@ class TopMotion(AloneMotion[SingleTop]):
         linear, quadratic = -number(moment, "The moment") * size, -(a3 - a2) * size * size
         return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
 
+    def _alone(self, i: int) -> SingleTop:
+        """Make the i-th top by itself, once."""
+        if i not in self._made:
+            self._made[i] = super()._alone(i)
+        return self._made[i]
+
+    @cached_property
+    def _made(self) -> dict[int, SingleTop]:
+        """Tops that were made alone."""
+        return {}
+
+    @cached_property
+    def _blocks(self) -> TopBlocks:
+        """All tops by blocks."""
+        return TopBlocks(self._inputs, self.shape)
+
+    @cached_property
+    def _rows(self) -> TopRows:
+        """All tops in arrays, for a few times each."""
+        return TopRows(self._blocks)
+
     @cached_property
     def kind(self) -> Any:
         """Name of the kind of motion, a string, or an array of them."""
-        return self._each("kind", lambda exact: exact.kind)
+        return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(KINDS, dtype=NAME)[codes])
+
+    def _each(self, name: str, value: Callable[[Balls], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
+        """Return one value for each top: plain for one, else an array; what is not sure in arrays is made of balls."""
+        if self._turning or name not in IN_ARRAYS:
+            return super()._each(name, value)
+        values, sure = self._scalars[name]
+        found = np.moveaxis(shown(values), -1, 0)
+        for i in np.flatnonzero(~sure).tolist():
+            found[i] = value(balls(*self._row(i)))
+        return found.reshape(self.shape + found.shape[1:])
+
+    @cached_property
+    def _scalars(self) -> TopScalars:
+        """Scalars of all tops in arrays."""
+        return TopScalars(self._blocks)
 
     @cached_property
     def roots(self) -> Any:

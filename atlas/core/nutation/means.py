@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
-from atlas.core.nutation.roots import Roots, constant, part
+from atlas.core.nutation.roots import Turning, constant, part
 
 MEANS = 12
 """Steps of the means in two words."""
@@ -47,7 +47,7 @@ class Level:
 class Means:
     """Gauss's means of motions with these roots: rate M = pi/T, moduli and nome; the start."""
 
-    def __init__(self, roots: Roots) -> None:
+    def __init__(self, roots: Turning) -> None:
         self.roots = roots
         r, (f0, f1, f2) = roots, roots.f
         low, high = part(r.ends, 0), part(r.ends, 1)

@@ -25,47 +25,17 @@ ROUNDING = 2.0**-98
 
 
 @dataclass(frozen=True)
-class Roots:
+class Turning:
     """Turning points `low` <= 0 <= `high`, where `exact`, and the other factor of Q, f0, f1, f2; f < 0 between them.
 
-    `poles` (2, m) are where nu = K3/b is -1 and 1. `moving` and `steady` are where Omega3 is certain to vary, or to be
-    constant.
+    `poles` (2, m) are where nu, the cosine of the angle between axis and field, is -1 and 1; `rate` that of v at 0.
     """
 
-    I: DoubleDouble
-    less: DoubleDouble
-    B2: DoubleDouble
-    B3: DoubleDouble
-    omega: tuple[DoubleDouble, DoubleDouble, DoubleDouble]
-    c3: DoubleDouble
-    b: DoubleDouble
     rate: DoubleDouble
     low: DoubleDouble
     high: DoubleDouble
     f: tuple[DoubleDouble, DoubleDouble, DoubleDouble]
     poles: DoubleDouble
-    steady: Any
-    moving: Any
-
-    @cached_property
-    def free(self) -> Any:
-        """Where there is no field."""
-        return self.b.hi == 0
-
-    @cached_property
-    def ball(self) -> Any:
-        """Where I = 1."""
-        return self.less.hi == 0
-
-    @cached_property
-    def along(self) -> Any:
-        """Where the axis starts along the field."""
-        return self.B2.hi == 0
-
-    @cached_property
-    def still(self) -> Any:
-        """Where the body starts at rest."""
-        return np.logical_and.reduce([w.hi == 0 for w in self.omega])
 
     @cached_property
     def exact(self) -> Any:
@@ -110,6 +80,46 @@ class Roots:
         )
 
 
+@dataclass(frozen=True)
+class Roots(Turning):
+    """The turning points of general motions; `moving`, `steady` are where Omega3 is certain to vary, or not to."""
+
+    I: DoubleDouble
+    less: DoubleDouble
+    B2: DoubleDouble
+    B3: DoubleDouble
+    omega: tuple[DoubleDouble, DoubleDouble, DoubleDouble]
+    c3: DoubleDouble
+    b: DoubleDouble
+    steady: Any
+    moving: Any
+
+    @cached_property
+    def free(self) -> Any:
+        """Where there is no field."""
+        return self.b.hi == 0
+
+    @cached_property
+    def ball(self) -> Any:
+        """Where I = 1."""
+        return self.less.hi == 0
+
+    @cached_property
+    def along(self) -> Any:
+        """Where the axis starts along the field."""
+        return self.B2.hi == 0
+
+    @cached_property
+    def still(self) -> Any:
+        """Where the body starts at rest."""
+        return np.logical_and.reduce([w.hi == 0 for w in self.omega])
+
+    @property
+    def tilt(self) -> FloatArray:
+        """Cosine and sine of theta at the start, (2, m)."""
+        return np.array([(self.B3 / self.b).hi, abs(self.B2 / self.b).hi])
+
+
 def roots_of(
     I2: DoubleDouble,
     I3: DoubleDouble,
@@ -134,7 +144,17 @@ def roots_of(
     poles = stacked(chosen(B3.hi > 0, longer, -shorter), chosen(B3.hi > 0, shorter, -longer))
     still = q[0].hi == 0
     known = np.broadcast_to(q1.rel, q1.hi.shape) < 0.5
-    words = np.array([x.hi for x in q])
+    low, high, f = turning(q, poles)
+    steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
+    return Roots(rate, low, high, f, poles, I, less, B2, B3, (w1, w2, w3), c3, b, steady, moving)
+
+
+def turning(
+    q: tuple[DoubleDouble, ...], poles: DoubleDouble
+) -> tuple[DoubleDouble, DoubleDouble, tuple[DoubleDouble, DoubleDouble, DoubleDouble]]:
+    """Return the turning points and the other factor of quartics q0 + q1 v + ... between the poles."""
+    still = q[0].hi == 0
+    words = np.array([np.broadcast_to(x.hi, q[0].hi.shape) for x in q])
     low = _refined(-_first(words * ALTERNATING, -poles.hi[1], still), q)
     high = _refined(_first(words, poles.hi[0], still), q)
     s, t, f2 = low + high, low * high, q[4]
@@ -144,9 +164,7 @@ def roots_of(
     # t = 0 and s the other one, those of Q/v over -s
     f0 = better(f0, chosen(still, -(q[1] / s), q[0] / t))
     f1 = better(f1, chosen(still, (f0 - q[2]) / s, (q[1] + s * f0) / t))
-    f = f0, f1, f2
-    steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
-    return Roots(I, less, B2, B3, (w1, w2, w3), c3, b, rate, low, high, f, poles, steady, moving)
+    return low, high, (f0, f1, f2)
 
 
 ALTERNATING = np.array([1.0, -1.0, 1.0, -1.0, 1.0])[:, None]

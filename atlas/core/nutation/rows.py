@@ -21,7 +21,7 @@ from atlas.core.arithmetic.turnings import REACH
 from atlas.core.inputs import FloatArray, largest
 from atlas.core.nutation.means import Means
 from atlas.core.nutation.pair import TERMS, Pair, multiples
-from atlas.core.nutation.roots import Roots, roots_of
+from atlas.core.nutation.roots import roots_of
 from atlas.core.nutation.spheres import sphere_of_field, sphere_of_velocity
 
 SPREAD = 2.0**-60
@@ -42,7 +42,7 @@ class Block:
     """Motions `rows` of all; the exponents of the power of two that their frequencies are over; where that is fine."""
 
     rows: slice
-    roots: Roots
+    roots: Any
     exponents: Any
     fine: Any
 
@@ -69,9 +69,13 @@ class Blocks:
 
     def __iter__(self) -> Iterator[Block]:
         if self.count > BLOCK:
-            return _each_block(self.inputs, self.shape)
-        self._kept = self._kept or [*_each_block(self.inputs, self.shape)]
+            return self.each()
+        self._kept = self._kept or [*self.each()]
         return iter(self._kept)
+
+    def each(self) -> Iterator[Block]:
+        """Make the blocks."""
+        return _each_block(self.inputs, self.shape)
 
 
 def _each_block(inputs: Sequence[Any], shape: tuple[int, ...]) -> Iterator[Block]:
@@ -128,7 +132,7 @@ def _velocity(block: Block) -> tuple[Any, ...]:
     with np.errstate(all="ignore"):
         r = block.roots
         pair = Pair(block.means, sphere_of_velocity(r))
-        found, change, (cos, sin) = _constants(pair, block), pair.change, pair.means.start
+        found, change, (cos, sin) = constants_of(pair, block), pair.change, pair.means.start
         return *found._replace(sure=found.sure & (change.size.rel < KNOWN)), *Third(
             np.ldexp(r.omega[2].hi, block.exponents),
             np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
@@ -141,10 +145,10 @@ def _velocity(block: Block) -> tuple[Any, ...]:
 def _field(block: Block) -> Constants:
     """Return the constants of the axis and the field of a block."""
     with np.errstate(all="ignore"):
-        return _constants(block.pair, block)
+        return constants_of(block.pair, block)
 
 
-def _constants(pair: Pair, block: Block) -> Constants:
+def constants_of(pair: Pair, block: Block) -> Constants:
     """Return the constants of a block."""
     with np.errstate(all="ignore"):
         r, means, sphere = block.roots, pair.means, pair.sphere
@@ -166,7 +170,7 @@ def _constants(pair: Pair, block: Block) -> Constants:
             factor,
             np.array([cos.hi, sin.hi]),
             ((abs(even) + abs(odd)).sum(axis=0) * abs(factor)).sum(axis=0),
-            np.array([(r.B3 / r.b).hi, abs(r.B2 / r.b).hi]),
+            r.tilt,
             np.array(sphere.azimuth),
             np.ldexp(np.array(sphere.sizes), block.exponents),
             known & r.exact & block.fine & ~r.free,
@@ -249,9 +253,11 @@ class PairAt:
             cos, sin = _circles(c.words, t)
             start = cos[2] * c.start[0] - sin[2] * c.start[1], sin[2] * c.start[0] + cos[2] * c.start[1]
             self.turn = cos[2], sin[2]
+            self.circle = start
             circles = multiples(*start, c.terms.max(initial=1))
             sums = sum(a * x + 1j * (b * y) for a, b, (x, y) in zip(c.even, c.odd, circles, strict=False))
-            self.pair = sums * ((cos[:2] + 1j * sin[:2]) * c.factor)
+            self.turned = (cos[:2] + 1j * sin[:2]) * c.factor
+            self.pair = sums * self.turned
             self.square = (self.pair.real**2 + self.pair.imag**2).sum(axis=0)
             sizes = abs(c.rates)
             good = c.sure & (c.weight <= CANCELLING * np.sqrt(self.square)) & (abs(c.sizes) > 1 / REACH).all(axis=0)

@@ -4,6 +4,7 @@ What two words do not hold for certain is not `sure`, and is left to the motion 
 triple root, where Omega3 is all but constant, where the inputs are of very different sizes.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -43,15 +44,18 @@ class Scalars:
     def __getitem__(self, name: str) -> Found:
         """Return a scalar by its name."""
         if name not in self._known:
-            angles = name.endswith("per_period")
-            self._fill(_angles if angles else _scalars)
+            self._fill(self.values(name))
         return self._known[name]
 
-    def _fill(self, values: Any) -> None:
+    def values(self, name: str) -> Callable[[Block], dict[str, Found]]:
+        """Return what evaluates a scalar, with others, in a block."""
+        return _angles if name.endswith("per_period") else _scalars
+
+    def _fill(self, values: Callable[[Block], dict[str, Found]]) -> None:
         """Evaluate some scalars."""
         parts: dict[str, list[Found]] = {}
         count = self.blocks.count
-        for block in self.blocks if count else Blocks((1.0,) * 7, (1,)):
+        for block in self.blocks if count else type(self.blocks)((1.0,) * len(self.blocks.inputs), (1,)):
             for name, found in values(block).items():
                 parts.setdefault(name, []).append(found)
         for name, all_of_it in parts.items():
@@ -59,7 +63,7 @@ class Scalars:
             self._known[name] = Found(*columns)
 
 
-def _rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Found:
+def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Found:
     """Return numbers of a block, homogeneous of a degree in the frequencies, rounded once."""
     values, sure = x.nearest()
     values = np.ldexp(values, degree * block.exponents)
@@ -70,16 +74,20 @@ def _scalars(block: Block) -> dict[str, Found]:
     """Return kind, turning points, roots, period, moduli and nome of a block."""
     with np.errstate(all="ignore"):
         r = block.roots
-        means, known = block.means, r.exact & ~r.free
-        period, nome = HALF_TURN / means.rate, means.nome
-        one_by_one = {
-            "period": _rounded(period, block, -1),
-            "modulus": _rounded(means.moduli[0], block),
-            "complementary_modulus": _rounded(means.moduli[1], block),
-            "nome": _rounded(chosen(means.four, nome, nome * nome), block),
-        }
+        known, one_by_one = r.exact & ~r.free, of_period(block)
         found = {name: Found(x.values, x.sure & known) for name, x in one_by_one.items()}
         return found | _kinds(block) | _all_roots(block)
+
+
+def of_period(block: Block) -> dict[str, Found]:
+    """Return period, moduli and nome of a block."""
+    means, nome = block.means, block.means.nome
+    return {
+        "period": rounded(HALF_TURN / means.rate, block, -1),
+        "modulus": rounded(means.moduli[0], block),
+        "complementary_modulus": rounded(means.moduli[1], block),
+        "nome": rounded(chosen(means.four, nome, nome * nome), block),
+    }
 
 
 def _kinds(block: Block) -> dict[str, Found]:
@@ -95,9 +103,9 @@ def _all_roots(block: Block) -> dict[str, Found]:
     """Return the turning points, (2, m), and the roots of Q, (4, m)."""
     r = block.roots
     first, second, imaginary = r.others
-    low, high = (_rounded(r.omega[2] + x, block, 1) for x in (r.low, r.high))
+    low, high = (rounded(r.omega[2] + x, block, 1) for x in (r.low, r.high))
     ends = Found(np.array([low.values, high.values]), low.sure & high.sure & r.exact)
-    parts = [_rounded(x, block, 1) for x in (r.omega[2] + first, r.omega[2] + second, imaginary)]
+    parts = [rounded(x, block, 1) for x in (r.omega[2] + first, r.omega[2] + second, imaginary)]
     x, y, z = (part.values for part in parts)
     two = (r.discriminant.hi <= 0) & ~r.ball
     gone = r.ball | two
@@ -122,5 +130,5 @@ def _angles(block: Block) -> dict[str, Found]:
             "spin_per_period": chosen(r.ball & (sphere.torques.rel < 0.5).all(axis=0), whole, spin),
         }
         known = r.exact & ~r.free & ~(r.steady & r.along)
-        found = {name: _rounded(x, block) for name, x in both.items()}
+        found = {name: rounded(x, block) for name, x in both.items()}
         return {name: Found(x.values, x.sure & known) for name, x in found.items()}

@@ -12,7 +12,7 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.roots import Roots, better, constant, part, stacked
+from atlas.core.nutation.roots import Roots, Turning, better, constant, part, stacked
 
 ONE = DoubleDouble(np.float64(1.0))
 
@@ -27,7 +27,7 @@ class Sphere:
     and `sizes` what one stands for across the axis and along it, with its sign.
     """
 
-    roots: Roots
+    roots: Turning
     poles: DoubleDouble
     torques: DoubleDouble
     amplitudes: DoubleDouble

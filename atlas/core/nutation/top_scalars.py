@@ -1,0 +1,41 @@
+"""The scalars of many tops in arrays: kind, turning points, period, moduli and nome, for any kappa.
+
+What two words do not hold for certain is not `sure`, and is left to the top made alone, as are the roots and the angles
+of a period.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from atlas.core.nutation.rows import Block
+from atlas.core.nutation.scalars import Found, Scalars, of_period, rounded
+
+KINDS = "nutation, two real roots", "nutation, four real roots", "nutation, three real roots", "regular nutation"
+"""Kinds that are decided in arrays."""
+
+IN_ARRAYS = ("kind", "turning_points", "period", "modulus", "complementary_modulus", "nome")
+
+
+class TopScalars(Scalars):
+    """Scalars of many tops."""
+
+    def values(self, name: str) -> Callable[[Block], dict[str, Found]]:
+        """Return what evaluates a scalar, with others, in a block."""
+        del name
+        return _scalars
+
+
+def _scalars(block: Block) -> dict[str, Found]:
+    """Return them of a block."""
+    with np.errstate(all="ignore"):
+        r = block.roots
+        found = of_period(block)
+        low, high = (rounded(r.nu - x, block) for x in (r.high, r.low))
+        found["turning_points"] = Found(np.array([low.values, high.values]), low.sure & high.sure)
+        cubic, even = r.A.hi == 0, (r.a.hi == 0) & (r.A.hi == 0)
+        codes = np.select([even, cubic, r.discriminant.hi > 0], [3, 2, 1], 0)
+        certain = (cubic | (r.discriminant.rel < 0.5)) & r.moving
+        found["kind"] = Found(codes, block.fine & certain)
+        known = r.exact & r.moving
+        return {name: Found(x.values, x.sure & known) for name, x in found.items()}

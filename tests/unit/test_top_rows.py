@@ -1,0 +1,124 @@
+"""Arrays of tops without a loop: against tops made alone, whatever stands beside them, and against an integration."""
+
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from oracles.top import integrated
+
+import atlas
+from atlas.study.tops import TOPS, Top, rate_of
+
+EPS = 2.0**-52
+
+
+def drawn(name: str, count: int, seed: int = 3) -> list[Top]:
+    """Return tops with kappa = 0: half of them without coupling, half with k3 = I k2."""
+    random, found = Random(seed), list[Top]()  # noqa: S311  reproducible, not secret
+    while len(found) < count:
+        top = TOPS[name](random)
+        across = top.coupling[0] * (len(found) % 2)
+        top = top._replace(coupling=(across, across * top.inertia[1]))
+        if top.coupling[1] == across * top.inertia[1] and (across or not top.coupling[1]):
+            found.append(top)
+    return found
+
+
+def arrayed(tops: list[Top]) -> atlas.TopMotion:
+    """Return an array of tops."""
+    rows = [(*t.inertia, *t.coupling, *t.direction, *t.omega, t.linear, t.quadratic) for t in tops]
+    x = np.array(rows).T
+    return atlas.TopMotion(x[0:2], x[2:4], x[4:6], x[6:9], *x[9:])
+
+
+def evaluated(motion: atlas.TopMotion, times: Any, what: str) -> tuple[Any, Any]:
+    """Return what rows give of R, Omega or b, and which rows have to be made alone."""
+    rows, out = motion._rows.at(slice(None), times), np.empty((len(times), *((3, 3) if what == "rotation" else (3,))))
+    with np.errstate(all="ignore"):
+        getattr(rows, what)(times, out)
+    return out, rows.extreme
+
+
+@pytest.mark.parametrize("name", TOPS)
+def test_rows_are_within_16_ulp_of_tops_made_alone(name: str) -> None:
+    """R and b to 16 ulp of 1, Omega to 16 ulp of the largest rate, where a row is not left to be made alone."""
+    tops = drawn(name, 16)
+    motion, rates = arrayed(tops), np.array([rate_of(top) for top in tops])
+    times = np.tile([1.0, 10.0, 1e6, -3.0], 4) / rates
+    for what, unit in (("rotation", 1.0), ("angular_velocity", rates), ("field_in_body", 1.0)):
+        found, extreme = evaluated(motion, times, what)
+        for i in set(range(len(tops))) - set(extreme.tolist()):
+            alone = getattr(atlas.TopMotion(*tops[i]), what)(times[i])
+            assert np.abs(found[i] - alone).max() <= 16 * EPS * (unit if np.ndim(unit) == 0 else rates[i])
+
+
+def test_most_ordinary_heavy_tops_are_made_in_arrays() -> None:
+    """Of a hundred random ones without coupling at most one in five has to be made alone."""
+    tops = [top._replace(coupling=(0.0, 0.0), quadratic=0.0, linear=2.0) for top in drawn("top, ordinary", 100)]
+    _, extreme = evaluated(arrayed(tops), np.full(100, 1.5), "rotation")
+    assert len(extreme) <= 20
+
+
+def test_a_row_does_not_depend_on_those_beside_it() -> None:
+    """The bits of R and Omega in the whole array, in its halves and in reverse are the same."""
+    tops = [top for name in ("top, ordinary", "top, near the cubic", "top, sleeping") for top in drawn(name, 12)]
+    times = np.linspace(0.5, 9.0, len(tops))
+    for what in ("rotation", "angular_velocity"):
+        whole = getattr(arrayed(tops), what)(times)
+        halves = [getattr(arrayed(tops[i::2]), what)(times[i::2]) for i in (0, 1)]
+        np.testing.assert_array_equal(whole[0::2], halves[0])
+        np.testing.assert_array_equal(whole[1::2], halves[1])
+        np.testing.assert_array_equal(whole[::-1], getattr(arrayed(tops[::-1]), what)(times[::-1]))
+
+
+def test_rows_move_as_the_equations_say() -> None:
+    """Nu by DOP853 for heavy tops and charged ones with k3 = I k2, some of whose A is zero or nearly so."""
+    tops = drawn("top, ordinary", 6) + drawn("top, near the cubic", 6)
+    times = np.array([3.0 / rate_of(top) for top in tops])
+    nu = arrayed(tops).field_in_body(times)[:, 2]
+    for top, t, found in zip(tops, times, nu, strict=True):
+        case = top.inertia, top.coupling, top.direction, top.omega, top.linear, top.quadratic
+        assert found == pytest.approx(integrated(case, [t])[0], abs=1e-11)
+
+
+def test_tops_with_kappa_are_made_alone_with_their_own_bits() -> None:
+    """Beside heavy tops; and each is made but once."""
+    shell, heavy = drawn("top, ordinary", 1)[0]._replace(coupling=(0.5, 1.5)), drawn("top, ordinary", 1)[0]
+    motion = arrayed([shell, heavy])
+    alone = atlas.TopMotion(*shell)
+    np.testing.assert_array_equal(motion.rotation(2.5)[0], alone.rotation(2.5))
+    np.testing.assert_array_equal(motion.angular_velocity(2.5)[0], alone.angular_velocity(2.5))
+    assert motion._alone(0) is motion._alone(0)
+
+
+@pytest.mark.parametrize("name", ["top, ordinary", "top, near the cubic", "top, near the quadratic", "top, sleeping"])
+def test_scalars_in_arrays_are_those_of_single_tops_to_the_bit(name: str) -> None:
+    """Kind, period, modulus and turning points of tops with any kappa, and of two that start at a turning point."""
+    random = Random(11)  # noqa: S311  reproducible, not secret
+    tops = [TOPS[name](random) for _ in range(6)]
+    tops += [top._replace(omega=(0.0, *top.omega[1:])) for top in tops[:2]]
+    many = arrayed(tops)
+    for quantity in ("kind", "period", "modulus", "nome"):
+        single = [getattr(atlas.TopMotion(*top), quantity) for top in tops]
+        np.testing.assert_array_equal(getattr(many, quantity), single)
+    np.testing.assert_array_equal(np.transpose(many.turning_points), [atlas.TopMotion(*x).turning_points for x in tops])
+
+
+def test_most_ordinary_tops_have_their_period_in_arrays() -> None:
+    """Of thirty at least twenty-five, with kappa and without, starting at a turning point or not."""
+    random = Random(5)  # noqa: S311  reproducible, not secret
+    tops = [TOPS["top, ordinary"](random) for _ in range(30)]
+    still = [top._replace(omega=(0.0, *top.omega[1:])) for top in tops]
+    for given in (tops, still):
+        assert np.count_nonzero(arrayed(given)._scalars["period"].sure) >= 25
+
+
+def test_a_scale_of_moments_changes_no_bit() -> None:
+    """Moments, couplings and potential times 8 are the same top."""
+    tops = drawn("top, ordinary", 8)
+    larger = [
+        Top(*([8 * x for x in pair] for pair in top[:2]), *top[2:4], 8 * top.linear, 8 * top.quadratic)  # type: ignore[arg-type]
+        for top in tops
+    ]
+    np.testing.assert_array_equal(arrayed(tops).rotation(2.0), arrayed(larger).rotation(2.0))
