@@ -22,7 +22,7 @@ from atlas.draw.labels import Tag, along, place
 from atlas.draw.space import silhouette
 from atlas.draw.view import fit
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
-from atlas.scene.style import STYLES
+from atlas.scene.style import STYLES, WHITE
 
 IN_SPACE = ["ball", "cone", "hyp_a", "hyp_b", "loop", "lssc", "magn", "motion_sphere", "quadric"]
 
@@ -273,3 +273,14 @@ def test_every_style_can_be_drawn(role: str) -> None:
     assert 0.0 <= look.glass <= 1.0
     assert look.width > 0.0
     assert len(look.dash) % 2 == 0
+
+
+@pytest.mark.parametrize("mapped", [False, True])
+def test_dark_marks_stand_off_a_map_by_a_white_ring(mapped: bool) -> None:
+    """On a map of values the edge of a dark mark is white, so that it is seen in grey print; elsewhere its own."""
+    edges = np.array([0.0, 1.0, 2.0])
+    under = (Image(edges, edges, np.zeros((2, 2)), ""),) if mapped else ()
+    panel = Plane((*under, Points(np.array([[1.0, 1.0]]), "special")), "$x$", "$y$")
+    (mark,) = to_figure(Scene("a", "b", "c", (panel,))).axes[0].get_lines()
+    assert (mark.get_markeredgecolor() == WHITE) is mapped
+    assert mark.get_markerfacecolor() != WHITE
