@@ -43,13 +43,17 @@ def scene(
         raise DomainError(f"figure energy_momentum needs b > 0, or b = 0 and a weight linear, not {b} and {linear}.")
     panels = tuple(panel("abc"[k], *top, M3, reach, unit) for k, top in enumerate(tops))
     same = f"$b={tex(b[0])}$" if len(b) == 1 else "the fields and weights above"
+    there = {getattr(layer, "role", "") for one in panels for layer in one.layers}
+    rest = "stable (solid) or unstable (dashed)" if "unstable_line" in there else "all stable (solid)"
+    kinds = {"start": "stable (dots)", "special": "of focus-focus type (diamonds)"}
+    spins = " or ".join(words for role, words in kinds.items() if role in there)
     return Scene(
         title=title(__doc__),
         caption=(
             rf"Critical values of the energy $2H$ over the momentum $p$, at $M_3={tex(M3)}$ and {same}, for "
             rf"{listed([name(*top) for top in tops])}: steady precessions with their rate $w$ in Larmor's frame, "
-            "stable (solid) or unstable (dashed), and spins along the field or the vertical, "
-            r"stable (dots) or of focus-focus type (diamonds). Inside a swallowtail two stable precessions share $p$."
+            rf"{rest}, and spins along the field or the vertical, {spins}."
+            + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in there else "")
         ),
         alt=(
             f"Panels for I = {listed([plain(I) for I in ratios])} with the critical energies over p: a smooth curve, "
@@ -59,14 +63,14 @@ def scene(
         panels=panels,
         columns=len(panels),
         named={
-            role: kind
-            for role, kind in {
+            word: role
+            for word, role in {
                 "solid": "main",
                 "dashed": "unstable_line",
                 "dots": "start",
                 "diamonds": "special",
             }.items()
-            if any(getattr(layer, "role", "") == kind for one in panels for layer in one.layers)
+            if role in there
         },
         size=(WIDTH, HEIGHT),
     )
