@@ -11,6 +11,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "AtlasError": "atlas.errors",
     "DomainError": "atlas.errors",
+    "NotCertifiedError": "atlas.errors",
     "SymmetricBody": "atlas.core.body",
     "Field": "atlas.core.field",
     "LaboratoryFrame": "atlas.core.field",
@@ -20,6 +21,7 @@ _HOMES = {
     "FreeMotion": "atlas.core.elementary",
     "GeneralMotion": "atlas.core.general",
     "TopMotion": "atlas.core.top",
+    "AsymmetricMotion": "atlas.core.asymmetric",
     "EllipticMotion": "atlas.core.elliptic",
     "ChargeMoments": "atlas.core.charge_moments",
     "BallMotion": "atlas.core.ball",

@@ -15,6 +15,10 @@ class DomainError(AtlasError):
     """A physical argument outside the domain of the formula."""
 
 
+class NotCertifiedError(AtlasError):
+    """A value for which no enclosure was found; nothing is guessed in its place."""
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """Say which known word was probably meant, or nothing."""
     close = get_close_matches(word, list(known), 1, 0.5)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from atlas.errors import AtlasError
-from atlas.families import ball, elementary, elliptic, free, general, hyperbola, particle, quadric, top
+from atlas.families import asymmetric, ball, elementary, elliptic, free, general, hyperbola, particle, quadric, top
 from atlas.families.model import Command, Family, Parameter, Quantity, Sampled
 
 __all__ = ["FAMILIES", "Command", "Family", "Parameter", "Quantity", "Sampled", "family"]
@@ -15,7 +15,7 @@ __all__ = ["FAMILIES", "Command", "Family", "Parameter", "Quantity", "Sampled", 
 FAMILIES: Mapping[str, Family] = MappingProxyType(
     {
         one.FAMILY.name: one.FAMILY
-        for one in (elementary, general, top, elliptic, free, hyperbola, quadric, ball, particle)
+        for one in (elementary, general, top, elliptic, asymmetric, free, hyperbola, quadric, ball, particle)
     }
 )  # fmt: skip
 

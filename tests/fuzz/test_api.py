@@ -86,7 +86,7 @@ def test_general_motion(I: Any, field: Any, omega: Any, t: Any, step: float) -> 
 @st.composite
 def families(draw: Any) -> tuple[str, list[Any]]:
     """Draw a family of the register and its parameters: as they stand there, ordinary or extreme."""
-    one = draw(st.sampled_from(list(FAMILIES.values())))
+    one = draw(st.sampled_from([one for one in FAMILIES.values() if one.at_once > 1]))  # others take seconds
     given = []
     for p in one.parameters:
         component = st.one_of(st.floats(*p.range), st.floats(*p.range), numbers)

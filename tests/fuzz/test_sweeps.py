@@ -17,6 +17,7 @@ FAMILIES = {
         key: f"{x:g}" for p in swept.family.parameters if p.needed for key, x in zip(p.names, p.default, strict=True)
     }
     for name, swept in KNOWN.items()
+    if swept.family.at_once > 1  # a row alone takes seconds
 }
 """Every family with what it needs, at its defaults."""
 

@@ -26,7 +26,21 @@ MACHINERY = {
     "core": {"branches", "charge", "inputs", "motion", "nutating", "symmetric_top"},
     "exact": {
         *("cayley_klein", "digits", "euler", "inputs", "nutating", "nutation", "quartic", "spheres", "surd", "swing"),
+<<<<<<< HEAD
         *("elliptic_curve", "elliptic_quartic", "theta", "top_quartic", "top_steady", "two_turns"),
+=======
+        *(
+            "clebsch_flow",
+            "clebsch_periods",
+            "elliptic_curve",
+            "elliptic_quartic",
+            "euler_top",
+            "theta",
+            "torus",
+            "top_quartic",
+            "two_turns",
+        ),
+>>>>>>> 16190a7 (atlas.AsymmetricMotion: any motion of a body with three moments of inertia at any time, certified)
     },
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""
@@ -101,6 +115,13 @@ UNTIED = {
             "invariants is_plane is_steady kind modulus nome omega parameters period precession precession_per_period "
             "quaternion rate_of rotation rotation_grid solution sphere spin_per_period splitting stability "
             "steady_rates swings_evenly third_axis tilt trigonometric turning_rate v"
+        ).split()
+    },
+    **{
+        f"AsymmetricMotion.{name}": "compared with Taylor series of (12), (16) and with laws, in test_asymmetric"
+        for name in (
+            "F H MK angular_momentum angular_velocity column energy field_in_body invariants kind rotation "
+            "rotation_grid third_axis"
         ).split()
     },
     "ElementaryMotion.omega": GIVEN,

@@ -77,6 +77,7 @@ CASES = [
     Case("hyperbola --ratio 1.5 --field 1 2", "flint rich numpy"),
     Case("hyperbola --ratio 1.5 --field 1 2 --omega2 1 2", "flint rich"),
     Case("hyperbola --ratio 1.5 --field 1 2 --json", "flint numpy"),
+    Case("asymmetric --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --json", "flint numpy"),
     Case("elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7 --json", "flint numpy"),
     Case("top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3 --json", "flint numpy"),
     Case(f"motion {MOTION} --times 1", "flint rich"),

@@ -23,6 +23,7 @@ MADE: dict[str, Any] = {
     "TopMotion": atlas.TopMotion((1.0, 1.5), (0.1, 0.2), (0.0, 1.0), (0.1, 0.2, 0.3)),
     "ChargeMoments": atlas.ChargeMoments(1.0, 0.5),
     "EllipticMotion": atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7),
+    "AsymmetricMotion": atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)),
     "ParticleMotion": PARTICLE,
 }
 MADE["Flight"] = atlas.Flight(PARTICLE, atlas.ElementaryMotion(1.5, (0.0, 1.0), 0.0, 0.5), (1.0, 0.0, 0.0))

@@ -1,0 +1,279 @@
+"""The flow of a H + g F/2 on W = II^-1 M and K with the attitude it turns, by Taylor series, with a proven error.
+
+    W_i' = -(I_j - I_k) [(a/I_i + g) K_j K_k - (a/I_i) W_j W_k],    V_i = (a + g I_i) W_i,
+    K' = [K, V],    q' = q V/2 (a quaternion, scalar first; S' = S V^)
+
+with (i, j, k) cyclic; for a = 1, g = 0 this is the motion as seen from Larmor's frame.
+Numbers are integers in units of 2^-bits, and a step is any polynomial p(x), x from 0 to 1: what it is wrong by follows
+from its defect p' - h f(p), which is computed exactly. How errors of W and K grow from step to step follows from a
+fundamental matrix, which floats give well enough: with e = X w,
+
+    w(n+1) = w(n) + X(n+1)^-1 [(J X(n) - X(n+1)) w(n) + what the step adds],
+
+J the derivative of the step's flow, known to some ten digits, so that w hardly grows at all. q, of length 1, takes up
+half the errors of V, and its own.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import exp, isfinite, sqrt
+from operator import mul
+
+import numpy as np
+from flint import arb, fmpq, fmpz_poly
+from numpy.typing import NDArray
+
+from atlas.errors import NotCertifiedError
+from atlas.formulas.numbers import workprec
+
+Matrix = NDArray[np.float64]
+Series = list[list[int]]
+Rates = tuple[list[Fraction], list[Fraction], list[Fraction]]
+
+ORDER = 0.27
+"""Terms of a series for each bit: a step is what makes the last one less than a unit."""
+
+PARTS = 1 << 20
+"""The whole way is cut into steps that are multiples of this part."""
+
+TERMS = 40
+"""Terms of the derivative of a step, in floats."""
+
+ROUNDING = 1e-12
+"""Bound on the rounding errors of sums and products of floats in a step, as a part of the sums of their sizes."""
+
+PRECISE = 768
+"""Binary digits, beyond which a step takes too long."""
+
+MOST = 4000
+"""Steps of a way; a longer one is not gone."""
+
+STIFF = 40.0
+"""Largest Lipschitz constant of the right-hand side times a step."""
+
+CYCLE = ((1, 2), (2, 0), (0, 1))
+
+PRODUCTS = (
+    *((j, k) for j, k in CYCLE),  # W_j W_k
+    *((3 + j, 3 + k) for j, k in CYCLE),  # K_j K_k
+    *((3 + j, 10 + k) for j, k in CYCLE),  # K_j U_k, U = V
+    *((3 + k, 10 + j) for j, k in CYCLE),
+    *((7 + i, 10 + i) for i in range(3)),  # q_i U_i
+    *((6, 10 + i) for i in range(3)),  # q_0 U_i
+    *((7 + j, 10 + k) for j, k in CYCLE),
+    *((7 + k, 10 + j) for j, k in CYCLE),
+)
+"""Products of which the right-hand sides consist: rows are W, K, q and U, (i, j, k) cyclic."""
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """W, K and q at the end of a way, as balls."""
+
+    W: list[arb]
+    K: list[arb]
+    q: list[arb]
+
+
+class Flow:
+    """The flow from a state (W, K) with rational components, of a body with rational moments."""
+
+    def __init__(self, moments: Sequence[fmpq], W: Sequence[fmpq], K: Sequence[fmpq]) -> None:
+        self.moments = [Fraction(int(x.p), int(x.q)) for x in moments]
+        self.start = [Fraction(int(x.p), int(x.q)) for x in (*W, *K)]
+
+    def rates(self, a: Fraction, g: Fraction) -> Rates:
+        """Return V_i/W_i, and what stands before W_j W_k and K_j K_k in the rates of W."""
+        I = self.moments
+        across = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
+        return (
+            [a + g * x for x in I],
+            [a * x for x in across],
+            [-(a + g * x) * y for x, y in zip(I, across, strict=True)],
+        )
+
+    def go(self, a: Fraction, g: Fraction, bits: int, *, proven: bool = True) -> Arrival:
+        """Return where the flow of a H + g F/2 arrives at time 1; without an error unless `proven`.
+
+        Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
+        """
+        if bits > PRECISE:
+            raise NotCertifiedError(f"not certified: so many digits would take more than {PRECISE} binary ones.")
+        way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, proven=proven)
+        while way.left:
+            way.step()
+        with workprec(2 * bits):
+            return way.arrival()
+
+
+class _Way:
+    """The state of a flow under way, and the bound on its error."""
+
+    def __init__(self, rates: Rates, start: list[int], bits: int, *, proven: bool) -> None:
+        self.rates, self.bits, self.proven = rates, bits, proven
+        self.state = [*start, 1 << bits, 0, 0, 0]
+        self.left, self.steps = PARTS, 0
+        size = sum(abs(x) for x in start) / (1 << bits) + 1e-300
+        rate = float(max(abs(x) for row in rates for x in row)) * size
+        self.guess = max(1, min(PARTS, int(PARTS / max(rate, 1e-9))))
+        self.order = max(12, int(ORDER * bits))
+        self.X: Matrix = np.eye(6)
+        self.w = 6.0  # the start is rounded
+        self.q_error = 1.0
+
+    def step(self) -> None:
+        """Go one step, as long as the series allows."""
+        self.steps += 1
+        if self.steps > MOST:
+            raise NotCertifiedError(f"not certified: more than {MOST} steps of Taylor's series would be needed.")
+        h = Fraction(self.guess, PARTS)
+        rows = self._series(h)
+        last = max(abs(row[n]) for row in rows for n in (-1, -2, -3))
+        scale = 2.0 ** min(1.0, -last.bit_length() / self.order)  # the last terms become a unit
+        parts = max(1, min(self.left, int(self.guess * scale)))
+        factor = Fraction(parts, self.guess)
+        rows = [_scaled(row, factor) for row in rows]
+        if self.proven:
+            self._account(rows, Fraction(parts, PARTS))
+        self.state = [sum(row) for row in rows]
+        self.left -= parts
+        self.guess = parts
+
+    def _scaled_rates(self, h: Fraction) -> tuple[list[int], ...]:
+        """Return the rates times h, in units."""
+        return tuple([_units(h * x, self.bits) for x in row] for row in self.rates)
+
+    def _series(self, h: Fraction) -> Series:
+        """Return Taylor coefficients of W, K and q over a step h, in units."""
+        b = self.bits
+        V, first, second = self._scaled_rates(h)
+        rows = [[x] for x in (*self.state, *(v * w >> b for v, w in zip(V, self.state, strict=False)))]
+        for n in range(self.order):
+            back = [row[::-1] for row in rows]
+            c = [sum(map(mul, rows[x], back[y])) for x, y in PRODUCTS]
+            for i in range(3):
+                rows[i].append((first[i] * c[i] + second[i] * c[3 + i]) // ((n + 1) << 2 * b))
+                rows[3 + i].append((c[6 + i] - c[9 + i]) // ((n + 1) << b))
+                rows[7 + i].append((c[15 + i] + c[18 + i] - c[21 + i]) // ((n + 1) << b + 1))
+                rows[10 + i].append(V[i] * rows[i][-1] >> b)
+            rows[6].append(-(c[12] + c[13] + c[14]) // ((n + 1) << b + 1))
+        return rows[:10]
+
+    def _account(self, rows: Series, h: Fraction) -> None:
+        """Take the step's errors into the bounds."""
+        W, K, size_V, lipschitz = self._sizes(rows, h)
+        state, turn = self._defect(rows, h, W, K)
+        if not lipschitz < STIFF:
+            raise NotCertifiedError("not certified: a step of Taylor's series is too long for a bound on its error.")
+        spread = exp(lipschitz)
+        J, eta = self._derivative(rows, h, spread)
+        before = float(np.linalg.norm(self.X)) * self.w
+        if not (isfinite(before) and before < 2.0 ** (self.bits / 4)):
+            raise NotCertifiedError("not certified: the errors of Taylor's series grow beyond their bounds.")
+        added = (
+            state * spread + len(rows[0]) * 6 + 1
+        )  # the 1 is for terms of second order in errors below 2^(-3/4 bits)
+        following: Matrix = J @ self.X
+        inverse = _inverse_norm(following)
+        self.w += inverse * float((eta + ROUNDING * np.linalg.norm(J)) * float(np.linalg.norm(self.X)) * self.w + added)
+        self.X = following
+        self.q_error += turn + len(rows[0]) * 4 + size_V * (before + added) * spread
+
+    def _sizes(self, rows: Series, h: Fraction) -> tuple[float, float, float, float]:
+        """Return bounds on |W| and |K| in the step, on h max|V_i/W_i|, and on the Lipschitz constant times h."""
+        size = [float(sum(map(abs, row)) * Fraction(1, 1 << self.bits)) for row in rows[:6]]
+        W, K = 1.01 * sqrt(sum(x * x for x in size[:3])), 1.01 * sqrt(sum(x * x for x in size[3:]))
+        most, first, second = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
+        return W, K, most, 2 * first * W + 2 * second * K + most * (W + K)
+
+    def _defect(self, rows: Series, h: Fraction, W: float, K: float) -> tuple[float, float]:
+        """Return bounds in units on p' - h f(p) over the step, of (W, K) together and of q."""
+        b = self.bits
+        V, first, second = self._scaled_rates(h)
+        p = [fmpz_poly(row) for row in rows]
+        p += [v * x for v, x in zip(V, p, strict=False)]  # U in units of 2^-2b
+        c = [p[x] * p[y] for x, y in PRODUCTS]
+        one = 1 << 2 * b
+        found = [_size(p[i].derivative() * one - first[i] * c[i] - second[i] * c[3 + i], 2 * b) for i in range(3)]
+        found += [_size(p[3 + i].derivative() * one - c[6 + i] + c[9 + i], 2 * b) for i in range(3)]
+        turn = [_size(p[6].derivative() * (2 * one) + c[12] + c[13] + c[14], 2 * b + 1)]
+        turn += [
+            _size(p[7 + i].derivative() * (2 * one) - c[15 + i] - c[18 + i] + c[21 + i], 2 * b + 1) for i in range(3)
+        ]
+        rounded = 4 * (W + K) * (W + K) + 4  # the rates are rounded to a unit
+        return 1.01 * (sqrt(sum(x * x for x in found)) + rounded), 1.01 * (sqrt(sum(x * x for x in turn)) + 4 * W + 4)
+
+    def _derivative(self, rows: Series, h: Fraction, spread: float) -> tuple[Matrix, float]:
+        """Return the derivative of the step's flow of (W, K), and a bound on its error."""
+        floats = np.array([[_float(x, self.bits) for x in row] for row in rows[:6]])
+        jacobian = _jacobian(floats, *(np.array([float(h * x) for x in row]) for row in self.rates))
+        terms = min(TERMS, len(jacobian))
+        X = np.zeros((terms, 6, 6))
+        X[0] = np.eye(6)
+        for n in range(terms - 1):
+            X[n + 1] = np.einsum("nij,njk->ik", jacobian[: n + 1], X[n::-1]) / (n + 1)
+        sizes_J, sizes_X = np.linalg.norm(jacobian, axis=(1, 2)), np.linalg.norm(X, axis=(1, 2))
+        product = np.convolve(sizes_J, sizes_X)
+        defect = float(product[terms - 1 :].sum()) + 10 * ROUNDING * float(product.sum())
+        return X.sum(axis=0), 1.01 * defect * spread + ROUNDING * float(sizes_X.sum())
+
+    def arrival(self) -> Arrival:
+        """Return the state as balls."""
+        error = float(np.linalg.norm(self.X)) * self.w * 1.01
+        errors = [error * self.proven] * 6 + [self.q_error * 1.01 * self.proven] * 4
+        balls = [_ball(x, e, self.bits) for x, e in zip(self.state, errors, strict=True)]
+        return Arrival(balls[:3], balls[3:6], balls[6:])
+
+
+def _jacobian(state: Matrix, V: Matrix, first: Matrix, second: Matrix) -> Matrix:
+    """Return the coefficients (terms, 6, 6) of the derivative of the right-hand side along a series (6, terms)."""
+    W, K = state[:3], state[3:]
+    found = np.zeros((state.shape[1], 6, 6))
+    for i, (j, k) in enumerate(CYCLE):
+        found[:, i, j], found[:, i, k] = first[i] * W[k], first[i] * W[j]
+        found[:, i, 3 + j], found[:, i, 3 + k] = second[i] * K[k], second[i] * K[j]
+        found[:, 3 + i, 3 + j], found[:, 3 + i, 3 + k] = V[k] * W[k], -V[j] * W[j]
+        found[:, 3 + i, k], found[:, 3 + i, j] = V[k] * K[j], -V[j] * K[k]
+    return found
+
+
+def _inverse_norm(X: Matrix) -> float:
+    """Return a bound on the norm of X^-1."""
+    try:
+        Y = np.linalg.inv(X)
+    except np.linalg.LinAlgError as error:
+        raise NotCertifiedError("not certified: the errors of Taylor's series cannot be bounded.") from error
+    left = float(np.linalg.norm(np.eye(6) - X @ Y)) + ROUNDING * float(np.linalg.norm(X) * np.linalg.norm(Y))
+    if not left < 0.5:
+        raise NotCertifiedError("not certified: the errors of Taylor's series cannot be bounded.")
+    return 1.01 * float(np.linalg.norm(Y)) / (1 - left)
+
+
+def _units(x: Fraction, bits: int) -> int:
+    return (x.numerator << bits) // x.denominator
+
+
+def _scaled(row: list[int], factor: Fraction) -> list[int]:
+    """Return coefficients for an argument that is so many times larger."""
+    if factor == 1:
+        return row
+    p, q, found, up, down = factor.numerator, factor.denominator, [], 1, 1
+    for x in row:
+        found.append(x * up // down)
+        up, down = up * p, down * q
+    return found
+
+
+def _float(x: int, bits: int) -> float:
+    return float(Fraction(x, 1 << bits)) if bits > 900 else x / (1 << bits)
+
+
+def _size(polynomial: fmpz_poly, bits: int) -> float:
+    """Return the sum of the sizes of the coefficients in units of 2^bits, rounded up."""
+    return float((sum(abs(int(x)) for x in polynomial) >> bits) + 1)
+
+
+def _ball(value: int, error: float, bits: int) -> arb:
+    unit = arb(2) ** -bits
+    return arb(value) * unit + arb(0, error) * unit

@@ -1,0 +1,67 @@
+"""Any motion of a charged body with three different moments of inertia, certified."""
+
+from typing import Any
+
+from atlas.families.model import RATE, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.shared import OMEGA, rotation
+
+
+def _kernels() -> Any:
+    from atlas.core.asymmetric import AsymmetricMotion
+
+    return AsymmetricMotion
+
+
+def _balls() -> Any:
+    from atlas.exact.asymmetric import AsymmetricMotion
+
+    return AsymmetricMotion
+
+
+FAMILY = Family(
+    "asymmetric",
+    "any motion of a charged body of any three moments",
+    _kernels,
+    _balls,
+    (
+        Parameter(
+            "inertia", "Principal moments of inertia.", "inertia", (0.8, 1.0, 1.3), (0.5, 2.0),
+            columns=("I1", "I2", "I3"), metavar="I1 I2 I3",
+        ),
+        Parameter(
+            "field", "Components of B' = mu B/(2c) along the principal axes at t = 0.", RATE, (0.2, 1.0, 0.6),
+            (-3.0, 3.0), columns=("B1", "B2", "B3"), metavar="B1 B2 B3",
+        ),
+        OMEGA,
+    ),
+    (
+        Quantity("kind", "name of the kind"),
+        Quantity("H", "Hamiltonian", "inertia/time^2", "theorem-lie-poisson", certified=True),
+        Quantity("F", "integral of Clebsch", "(inertia/time)^2", "theorem-clebsch", certified=True),
+        Quantity("MK", "(M, K)", "inertia/time^2", "theorem-lie-poisson", certified=True),
+        Quantity("energy", "kinetic energy", "inertia/time^2", "theorem-kinetic-energy", certified=True),
+    ),
+    (
+        rotation("", ""),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, printed=False),
+        Sampled("m", "angular_momentum", "angular momentum", "inertia/time", symbol="m_i", printed=False),
+    ),
+    {},
+    Command(
+        "asymmetric",
+        "Compute any motion of a body with three different moments.",
+        "Rotation matrix R(t) and angular velocity of a charged body with any three moments of inertia, from any "
+        "initial angular velocity (not in the paper). Every digit is proven, at any time; what cannot be proved is "
+        "refused.",
+        (
+            "atlas asymmetric --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --times 0 1 100",
+            "atlas asymmetric --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --times 1e12 --digits 30",
+            "atlas asymmetric --inertia 0.8 1 1.3 --field 0 0 0 --omega 0.3 0.7 0.2 --times 1e6 --json",
+        ),
+        "motion of a body with three moments: ",
+        "kind",
+        undecided=True,
+    ),
+    at_once=1,
+)  # fmt: skip

@@ -1,0 +1,309 @@
+"""Any motion of a body with three moments: against Taylor series of (12), (16), and the laws that it obeys."""
+
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from flint import arb, ctx, fmpq
+from oracles.taylor import taylor
+
+import atlas
+from atlas.cli.app import atlas as command
+from atlas.exact import asymmetric, clebsch_flow, torus
+from atlas.exact.asymmetric import AsymmetricMotion as Balls
+from atlas.exact.digits import certified
+from atlas.exact.elliptic import EllipticMotion
+from atlas.exact.general import GeneralMotion
+
+EPS = 2.0**-52
+BODY, FIELD, OMEGA = ("0.8", "1", "1.3"), ("0.2", "1", "0.6"), ("0.3", "0.7", "0.2")
+QUICK = ("1", "0.7", "0.6"), ("1.2", "-0.8", "0.9"), ("0.5", "0.3", "0.2")
+"""A motion whose periods are short beside its rates."""
+
+
+def fractions(values: Any) -> list[Fraction]:
+    """Return numbers as fractions."""
+    return [Fraction(int(x.p), int(x.q)) if isinstance(x, fmpq) else Fraction(x) for x in values]
+
+
+def held(found: Any, true: mpmath.matrix, digits: int) -> bool:
+    """Whether balls are that narrow, and hold what an integration found to so many digits."""
+    near = arb(10) ** -digits
+    entries = [(arb(found[i][j]), arb(mpmath.nstr(true[i, j], digits + 8))) for i in range(3) for j in range(3)]
+    return all(x.rad() < near and abs(x - y) < near for x, y in entries)
+
+
+def overlap(first: Any, second: Any, error: float = 0.0) -> bool:
+    """Whether two matrices or vectors of balls have numbers in common, or come so near."""
+    rows = zip(np.ravel(np.array(first, object)), np.ravel(np.array(second, object)), strict=True)
+    return all((arb(x) + arb(0, error)).overlaps(arb(y)) for x, y in rows)
+
+
+def narrow(found: Any, radius: float = 1e-25) -> bool:
+    """Whether all balls are so narrow."""
+    return all(arb(x).rad() < radius for x in np.ravel(np.array(found, object)))
+
+
+def turn(axis: Any, angle: arb) -> Any:
+    """Return the matrix of the rotation about a vector."""
+    size = sum(arb(x) ** 2 for x in axis).sqrt()
+    n = np.array([arb(x) / size for x in axis], object)
+    cross = np.array([[arb(0), -n[2], n[1]], [n[2], arb(0), -n[0]], [-n[1], n[0], arb(0)]], object)
+    return np.array([[arb(int(i == j)) for j in range(3)] for i in range(3)], object) + (
+        angle.sin() * cross + (1 - angle.cos()) * cross.dot(cross)
+    )
+
+
+def test_thirty_digits_at_t_100_are_those_of_taylor_series() -> None:
+    """R(100), reduced modulo the periods, holds an integration of (12), (16) to 30 digits; so does R(3)."""
+    motion = Balls(BODY, FIELD, OMEGA)
+    states = taylor(fractions(BODY), fractions(FIELD), fractions(OMEGA), [3, 100], digits=34)
+    with ctx.workprec(112):
+        for state in states:
+            assert held(motion.rotation(state.t.numerator), state.R, 30)
+            assert overlap(motion.angular_velocity(int(state.t)), [arb(mpmath.nstr(x, 40)) for x in state.Omega], 1e-30)
+
+
+def test_digits_are_proven_at_a_trillion() -> None:
+    """Thirty digits of R at 1e12, R R^T = 1, and H, F and the Casimirs are those of the start."""
+    motion = Balls(*QUICK)
+    text = certified(lambda: motion.rotation(10**12), 30)
+    with ctx.workprec(240):
+        R, K, Omega = motion.rotation(10**12), motion.field_in_body(10**12), motion.angular_velocity(10**12)
+        assert all(abs(arb(text[i][j]) - R[i][j]) < arb("1e-29") for i in range(3) for j in range(3))
+        rows = np.array(R, object)
+        assert overlap(rows.dot(rows.T), np.eye(3, dtype=int))
+        assert narrow(R, 1e-60)
+        I = [arb(fmpq(*Fraction(x).as_integer_ratio())) for x in QUICK[0]]
+        M = [x * (w + k) for x, w, k in zip(I, Omega, K, strict=True)]
+        D = I[0] * I[1] * I[2]
+        H = sum(m * m / x + x * k * k for m, x, k in zip(M, I, K, strict=True)) / 2
+        F = sum(m * m - D * k * k / x for m, x, k in zip(M, I, K, strict=True))
+        c = sum(m * k for m, k in zip(M, K, strict=True))
+        assert overlap([H, F, c], [motion.H, motion.F, motion.MK])
+        B = [fmpq(*Fraction(x).as_integer_ratio()) for x in QUICK[1]]
+        assert overlap(rows.dot(np.array(K, object)), B)
+
+
+def test_a_motion_goes_on_from_where_it_is() -> None:
+    """R(t + s) = R(t) R(s) of the motion that starts with the state at t, rounded to 80 bits, t = 1e9."""
+    motion, t, s = Balls(*QUICK), 10**9, fmpq(7, 2)
+    with ctx.workprec(150):
+        K, Omega = motion.field_in_body(t), motion.angular_velocity(t)
+        state = [[fmpq(int((x * 2**80).mid().floor().unique_fmpz()), 2**80) for x in v] for v in (K, Omega)]
+        rest = Balls(QUICK[0], *state)
+        expected = np.array(motion.rotation(t), object).dot(np.array(rest.rotation(s), object))
+        assert overlap(motion.rotation(t + s), expected, 1e-21)
+        assert narrow(expected, 1e-20)
+
+
+def test_the_pair_of_a_motion_is_the_motion_back_in_time() -> None:
+    """From -2B' - omega: R(t) = R_B(-2bt) R(-t), theorem-pair."""
+    field, omega = fractions(QUICK[1]), fractions(QUICK[2])
+    other = Balls(QUICK[0], field, [-2 * b - w for b, w in zip(field, omega, strict=True)])
+    t = fmpq(40)
+    with ctx.workprec(110):
+        b = arb(fmpq(*sum(x * x for x in field).as_integer_ratio())).sqrt()
+        B = [fmpq(*x.as_integer_ratio()) for x in field]
+        expected = turn(B, -2 * b * t).dot(np.array(Balls(*QUICK).rotation(-t), object))
+        assert overlap(other.rotation(t), expected)
+        assert narrow(expected)
+
+
+@pytest.mark.parametrize("order", [(1, 2, 0), (2, 1, 0), (0, 2, 1)])
+def test_axes_may_come_in_any_order(order: tuple[int, ...]) -> None:
+    """R of axes in another order is P R P^T; in a left-handed one field and omega have the other sign."""
+    P = np.eye(3, dtype=int)[list(order)]
+    sign = round(float(np.linalg.det(P)))
+    inertia, field, omega = (np.array(fractions(x), object)[list(order)] for x in QUICK)
+    with ctx.workprec(110):
+        found = Balls(list(inertia), list(sign * field), list(sign * omega)).rotation(30)
+        expected = P.dot(np.array(Balls(*QUICK).rotation(30), object)).dot(P.T)
+        assert overlap(found, expected)
+        assert narrow(found)
+
+
+def test_the_symmetric_body_is_exact_and_the_limit_of_others() -> None:
+    """Two equal moments, in any place, give the general motion; R(30) for I2 = I1 (1 + 2^-n) tends to it as 2^-n."""
+    moments, field, omega = (1, 1, fmpq(3, 2)), (fmpq(1, 5), 1, fmpq(3, 5)), (fmpq(3, 10), fmpq(7, 10), fmpq(1, 5))
+    with ctx.workprec(110):
+        true = GeneralMotion.at_state(moments[2], omega, field).rotation(30)
+        for shift in range(3):
+            I, B, w = ([x[i - shift] for i in range(3)] for x in (moments, field, omega))
+            motion = Balls(I, B, w)
+            assert motion.kind == "symmetric body"
+            found = motion.rotation(30)
+            assert overlap([[found[i - 3 + shift][j - 3 + shift] for j in range(3)] for i in range(3)], true)
+        above, below = (
+            np.array(Balls((1, 1 + d, moments[2]), field, omega).rotation(30), object) - np.array(true, object)
+            for d in (fmpq(1, 2**40), -fmpq(1, 2**40))
+        )
+        largest = max(abs(float(x)) for x in np.ravel(above))
+        assert 1e-13 < largest < 1e-9
+        assert max(abs(float(x)) for x in np.ravel(above + below)) < 1e-9 * largest
+
+
+@pytest.mark.parametrize(
+    ("case", "kind"),
+    [
+        ((BODY, FIELD, (0, 0, 0)), "at rest"),
+        ((BODY, (0, 1, 0), (0, "0.7", 0)), "spin about an axis"),
+        (((1, 1, 1), FIELD, OMEGA), "ball"),
+        ((BODY, (0, 0, 0), OMEGA), "Euler's top"),
+        ((BODY, (0, 0, 0), ("1/2", "0", "1/3")), "Euler's top"),
+        ((BODY, (0, "1/2", "3/4"), (1, "-1/2", "-3/4")), "on the discriminant"),
+        ((BODY, FIELD, OMEGA), "on a torus"),
+    ],
+)
+def test_each_kind_has_its_name_and_is_the_motion(case: tuple[Any, ...], kind: str) -> None:
+    """R(5) of each case holds an integration of (12), (16) to 25 digits; Omega too."""
+    motion = Balls(*case)
+    assert motion.kind == kind
+    (state,) = taylor(*map(fractions, (case[0], case[1], case[2])), [5], digits=30)
+    with ctx.workprec(112):
+        assert held(motion.rotation(5), state.R, 25)
+        assert overlap(motion.angular_velocity(5), [arb(mpmath.nstr(x, 40)) for x in state.Omega], 1e-25)
+
+
+@pytest.mark.parametrize("v", [2, -2])
+def test_an_elliptic_motion_is_found_with_its_place(v: int) -> None:
+    """From the start of an elliptic motion with rational v, z = -4 of (1, 2, 3): that motion, to every digit."""
+    field = 1, -2, fmpq(1, 2)
+    omega = [-(1 + fmpq(v, -4 * I + 6)) * K for I, K in zip((1, 2, 3), field, strict=True)]
+    motion = Balls((1, 2, 3), field, omega)
+    assert motion.kind == "elliptic motion"
+    with ctx.workprec(150):
+        true = EllipticMotion((1, 2, 3), field, -4, v // 2)
+        assert overlap(motion.rotation(10**6), true.rotation(10**6))
+        assert narrow(motion.rotation(10**6))
+        assert overlap(motion.angular_velocity(10**6), true.angular_velocity(10**6))
+
+
+def test_a_pendulum_is_gone_directly_up_to_a_limit() -> None:
+    """On the discriminant there is an answer for a while, and then a line that says how long; R has its exact zeros."""
+    motion = Balls(BODY, (0, 0, 1), (1, 0, -1))
+    assert motion.kind == "on the discriminant"
+    assert motion.rotation(3)[2][0] == 0
+    with ctx.workprec(80), pytest.raises(atlas.NotCertifiedError, match=r"not certified: .* up to \|t\| = 128"):
+        motion.rotation(10**4)
+
+
+HOSTILE = {
+    "nearly symmetric": (("1.1", "1.100268", "1.36"), ("-0.53", "-1.03", "0.78"), ("1.23", "0.28", "0.87")),
+    "weak field": (("1.2", "0.9", "0.7"), ("0.01", "-0.02", "0.03"), ("1", "0.5", "-0.6")),
+    "flat": (("1", "2", "3"), ("0.3", "-0.2", "0.4"), ("0.5", "0.25", "0.75")),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_reduced_and_direct_ways_meet(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """R(40) by the periods and R(40) by Taylor series all the way have numbers in common, to 20 digits."""
+    with ctx.workprec(80):
+        reduced = Balls(*HOSTILE[name]).rotation(40)
+        monkeypatch.setattr(asymmetric, "DIRECT", 100)
+        assert overlap(reduced, Balls(*HOSTILE[name]).rotation(40))
+    assert narrow(reduced, 1e-18)
+
+
+def test_the_unit_of_time_changes_nothing() -> None:
+    """All frequencies times 2^k and the time over it: the same matrix, to the bit."""
+    motion = Balls(*QUICK)
+    scaled = Balls(QUICK[0], *([x * 2**300 for x in fractions(v)] for v in QUICK[1:]))
+    with ctx.workprec(80):
+        first, other = motion.rotation(25), scaled.rotation(fmpq(25, 2**300))
+    assert all(x.mid() == y.mid() for x, y in zip(np.ravel(first), np.ravel(other), strict=True))
+
+
+def test_a_period_that_is_none_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a period off by a millionth Newton's method in balls finds no proof, and says so."""
+    true = torus.real_periods
+    monkeypatch.setattr(torus, "real_periods", lambda x: [(a * (1 + arb(2) ** -20), b) for a, b in true(x)])
+    with ctx.workprec(80), pytest.raises(atlas.NotCertifiedError, match="not certified: that the motion's torus has"):
+        Balls(*QUICK).rotation(10**6)
+
+
+def test_no_periods_leave_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no periods are found a short time goes directly, a long one is refused in one line."""
+    monkeypatch.setattr(torus, "real_periods", lambda _: [])
+    with ctx.workprec(80):
+        assert narrow(Balls(*QUICK).rotation(20), 1e-15)
+        with pytest.raises(atlas.NotCertifiedError, match="no two periods"):
+            Balls(*QUICK).rotation(10**6)
+
+
+def test_a_slip_in_the_series_is_found_by_its_defect(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A coefficient of K that is a millionth off is in the bound of the error, or there is none."""
+    true = clebsch_flow._Way._series
+
+    def slipped(self: Any, h: Fraction) -> Any:
+        rows = true(self, h)
+        rows[4][2] += rows[4][2] >> 20
+        return rows
+
+    monkeypatch.setattr(clebsch_flow._Way, "_series", slipped)
+    with ctx.workprec(80):
+        try:
+            wide = max(x.rad() for x in np.ravel(Balls(*QUICK).rotation(2)))
+        except atlas.NotCertifiedError:
+            return
+    assert wide > 1e-8
+
+
+def test_floats_are_balls_rounded_and_arrays_are_motions_one_by_one() -> None:
+    """R, Omega, K and m of arrays, at times of any shape; grids at exact times."""
+    inertia, field, omega = ([float(x) for x in v] for v in QUICK)
+    motion = atlas.AsymmetricMotion((*inertia[:2], np.array([0.7, 0.9])), field, omega)
+    assert motion.kind.tolist() == ["on a torus", "symmetric body"]
+    times = np.array([[0.0], [1.5]])
+    R, Omega, K = motion.rotation(times), motion.angular_velocity(times), motion.field_in_body(times)
+    assert R.shape == (2, 2, 3, 3)
+    assert (R[0] == np.eye(3)).all()
+    exact = Balls(inertia, field, omega)
+    with ctx.workprec(120):
+        true = np.array([[float(arb(x)) for x in row] for row in exact.rotation(1.5)])
+    assert (R[1, 0] == true).all()
+    assert np.abs(np.vecmat(np.array(field), R) - K).max() <= 4 * EPS
+    assert np.abs(motion.angular_momentum(0.0) - np.array([*inertia[:2], 0.7]) * omega)[0].max() <= 4 * EPS
+    one = atlas.AsymmetricMotion(inertia, field, omega)
+    assert (one.rotation_grid(0.5, 0.5, 3)[2] == R[1, 0]).all()
+    assert one.energy == pytest.approx(sum(I * w * w for I, w in zip(inertia, omega, strict=True)) / 2, rel=4 * EPS)
+    assert np.abs(Omega[0] - omega).max() <= EPS
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        (((0.8, 1, 1.9), FIELD, OMEGA), "1.0, 1.9: the largest is at most the sum of the others"),
+        (((0.8, 0, 1.3), FIELD, OMEGA), "all three are positive"),
+        (((0.8, float("nan"), 1.3), FIELD, OMEGA), "must be finite|finite real number"),
+        (((0.8, 1), FIELD, OMEGA), "3 numbers"),
+        ((BODY, FIELD, (1, 2)), "3 numbers"),
+        ((BODY, FIELD, (1, 2, "far")), "real number"),
+    ],
+)
+def test_what_is_no_motion_is_refused_in_one_line(case: tuple[Any, ...], words: str) -> None:
+    """Errors say what is wrong and what would be right, in one line."""
+    with pytest.raises(atlas.AtlasError, match=words) as raised:
+        Balls(*case)
+    assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("more", "status", "words"),
+    [
+        (["--times", "1.5", "--digits", "25"], 0, "on a torus"),
+        (["--times", "1e30"], 2, "2^50"),
+        (["--times", "1.5", "--digits", "500"], 2, "not certified"),
+        (["--inertia", "1", "1", "3"], 2, "No body has the moments"),
+    ],
+)
+def test_the_command_prints_proven_digits_or_one_line(more: list[str], status: int, words: str) -> None:
+    """`atlas asymmetric`, status 2 and one line for what has no answer."""
+    words_of = [w for name, v in zip(("inertia", "field", "omega"), QUICK, strict=True) for w in (f"--{name}", *v)]
+    found = CliRunner().invoke(command, ["asymmetric", *words_of, *more])
+    assert found.exit_code == status
+    assert words in found.output
+    assert status == 0 or found.output.count("\n") == 1
