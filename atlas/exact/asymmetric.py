@@ -134,20 +134,20 @@ class OnTorus:
         return self._arrived[key]
 
     def _state(self, t: fmpq) -> tuple[Arrival, arb]:
-        bits = ctx.prec + GUARD + max(0, int(abs(t).p).bit_length() - int(t.q).bit_length() + 2)
-        with workprec(bits):
+        bits, more = ctx.prec + GUARD, max(0, int(abs(t).p).bit_length() - int(t.q).bit_length()) + 8
+        with workprec(bits + more):
             turn = -t * self.b
         if abs(t) <= DIRECT:
             return self.torus.flow.go(_fraction(t), Fraction(0), bits), turn
         if not self.is_regular:
             return self._directly(t, "the motion is one where two periods of its torus fall together"), turn
         try:
-            first, second = self.torus.periods(bits)
+            first, second = self.torus.periods(ctx.prec + more)
         except NotCertifiedError as reason:
             if abs(t) > FARTHEST:
                 raise
             return self._directly(t, str(reason)), turn
-        with workprec(bits + GUARD):
+        with workprec(bits + more):
             area = first.H * second.F - first.F * second.H
             n, m = (_nearest(x) for x in (t * second.F / area, -t * first.F / area))
             H, F = t - n * first.H - m * second.H, -n * first.F - m * second.F

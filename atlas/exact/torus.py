@@ -69,7 +69,7 @@ class Torus:
 
     def periods(self, bits: int) -> tuple[Period, Period]:
         """Return two periods with so many bits; NotCertifiedError where none are found."""
-        bits = -(-bits // 64) * 64
+        bits = -(-bits // 32) * 32
         if bits not in self._known:
             first, second = (self._enclosed(start, bits) for start in self._approximate())
             self._known[bits] = first, second
