@@ -49,6 +49,9 @@ PRECISE = 768
 MOST = 4000
 """Steps of a way; a longer one is not gone."""
 
+SMALL = 8
+"""Binary digits of a coefficient above which rounding does not matter to its size."""
+
 STIFF = 40.0
 """Largest Lipschitz constant of the right-hand side times a step."""
 
@@ -129,8 +132,10 @@ class _Way:
             raise NotCertifiedError(f"not certified: more than {MOST} steps of Taylor's series would be needed.")
         h = Fraction(self.guess, PARTS)
         rows = self._series(h)
-        last = max(abs(row[n]) for row in rows for n in (-1, -2, -3))
-        scale = 2.0 ** min(1.0, -last.bit_length() / self.order)  # the last terms become a unit
+        sizes = [max(abs(row[n]) for row in rows).bit_length() for n in range(self.order + 1)]
+        last = max((n for n, size in enumerate(sizes) if size > SMALL), default=0)
+        falls = (sizes[0] - sizes[last]) / last if last else 2.0 * sizes[0]
+        scale = 2.0 ** min(1.0, falls - sizes[0] / self.order)  # the last terms become a unit
         parts = max(1, min(self.left, int(self.guess * scale)))
         factor = Fraction(parts, self.guess)
         rows = [_scaled(row, factor) for row in rows]
