@@ -136,14 +136,14 @@ class _Way:
         last = max((n for n, size in enumerate(sizes) if size > SMALL), default=0)
         falls = (sizes[0] - sizes[last]) / last if last else 2.0 * sizes[0]
         scale = 2.0 ** min(1.0, falls - sizes[0] / self.order)  # the last terms become a unit
-        parts = max(1, min(self.left, int(self.guess * scale)))
+        parts = max(1, min(self.left, int(self.guess * min(1.0, scale))))  # larger ones would swell the roundings
         factor = Fraction(parts, self.guess)
         rows = [_scaled(row, factor) for row in rows]
         if self.proven:
             self._account(rows, Fraction(parts, PARTS))
         self.state = [sum(row) for row in rows]
         self.left -= parts
-        self.guess = parts
+        self.guess = max(1, min(PARTS, int(self.guess * scale)))
 
     def _scaled_rates(self, h: Fraction) -> tuple[list[int], ...]:
         """Return the rates times h, in units."""
