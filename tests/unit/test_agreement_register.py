@@ -26,21 +26,8 @@ MACHINERY = {
     "core": {"branches", "charge", "inputs", "motion", "nutating", "symmetric_top"},
     "exact": {
         *("cayley_klein", "digits", "euler", "inputs", "nutating", "nutation", "quartic", "spheres", "surd", "swing"),
-<<<<<<< HEAD
-        *("elliptic_curve", "elliptic_quartic", "theta", "top_quartic", "top_steady", "two_turns"),
-=======
-        *(
-            "clebsch_flow",
-            "clebsch_periods",
-            "elliptic_curve",
-            "elliptic_quartic",
-            "euler_top",
-            "theta",
-            "torus",
-            "top_quartic",
-            "two_turns",
-        ),
->>>>>>> 16190a7 (atlas.AsymmetricMotion: any motion of a body with three moments of inertia at any time, certified)
+        *("clebsch_flow", "clebsch_periods", "elliptic_curve", "elliptic_quartic", "euler_top", "theta", "torus"),
+        *("top_quartic", "top_steady", "two_turns"),
     },
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""
