@@ -37,8 +37,8 @@ OUT = Path("build/report")
 FORMATS = ("html", "pdf")
 UNFINISHED = ".atlas-"
 """How the folder begins that files stand in until all of them are written, on the disk that they are for."""
-LANGUAGES: Mapping[str, "Target"] = {"html": "html", "pdf": "typst"}
-"""In which language the texts of each format are set."""
+LANGUAGES: Mapping[str, "Target"] = {"html": "html", "pdf": "typst", "single": "html"}
+"""In which language the texts of each format are set; `single` is one page as one file, if it is asked for."""
 Progress = Callable[[int, int, str], None]
 
 
@@ -55,6 +55,11 @@ class Built:
     notes: tuple[str, ...] = ()
     reasons: tuple[tuple[str, str, str], ...] = ()
     costs: Path | None = None
+
+    @property
+    def single(self) -> Path:
+        """Where the one file is."""
+        return self.pdf.with_name(f"{self.name}.html")
 
     @property
     def ok(self) -> bool:
@@ -74,12 +79,13 @@ def build_report(
     """Build the report of that name or file into `out`: NAME/index.html and its pages, and NAME.pdf.
 
     `progress` is called with the steps done, their number, and what comes next; `formats` may leave out the pages or
-    the PDF, which then stay as they are; `style` is a style sheet of Matplotlib for the figures, a file or a name;
-    `jobs` workers draw them, one a core when it is not given. A figure that fails leaves a framed note in its place and
-    an entry in `failures`. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when
-    something can't be written; then the last report stays.
+    the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all that belongs to it; `style`
+    is a style sheet of Matplotlib for the figures, a file or a name; `jobs` workers draw them, one a core when it is
+    not given. A figure that fails leaves a framed note in its place and an entry in `failures`. Raises AtlasError, in
+    one sentence, for anything wrong with the file, and OSError when something can't be written; then the last report
+    stays.
     """
-    file, formats = find(str(name)), [one for one in FORMATS if one in formats]
+    file, formats = find(str(name)), [one for one in LANGUAGES if one in formats]
     cache = Cache(cache_folder(out))
     try:
         key = key_of(file, Sources(cache), style)
@@ -219,8 +225,13 @@ def _figures(
     """
     from atlas.build.figures import FigureBuild
 
-    pages = ("svg", "pdf", "png", "csv.gz", "narrow", "scene"), ("png", "csv.gz", "narrow", "scene")
-    lines, shaded = pages if "html" in formats else (("pdf",), ("png",))
+    pages: tuple[tuple[str, ...], ...] = (
+        ("svg", "pdf", "png", "csv.gz", "narrow", "scene"),
+        ("png", "csv.gz", "narrow", "scene"),
+    )
+    lines, shaded = pages if {"html", "single"} & set(formats) else (("pdf",), ("png",))
+    if "html" not in formats:  # what is mailed holds no picture twice
+        lines = tuple(kind for kind in lines if kind != "png")
     return {
         FigureBuild(one.recipe, one.parameters, one.renderer, kinds, style): one
         for one in found.values()
@@ -262,9 +273,11 @@ class _Texts(dict[str, str]):
 
 def _set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
     """Set the texts of a document; those that were set before are in the cache."""
-    name = f"texts of {document.report.name} by {sources.closure([PACKAGE / 'report' / 'texts.py'])}"
+    # pages of one object have most of their texts in common
+    which = "a page" if len(document.pages) == 1 else document.report.name
+    name = f"texts of {which} by {sources.closure([PACKAGE / 'report' / 'texts.py'])}"
     document.texts.memory = texts = _Texts(cache.load(name))
-    document.set(*(LANGUAGES[one] for one in formats))
+    document.set(*dict.fromkeys(LANGUAGES[one] for one in formats))
     cache.save(name, texts.used)
 
 
@@ -288,6 +301,17 @@ def _pages(
     return {f"{document.report.name}/{name}": content for name, content in files.items()}
 
 
+def _single(
+    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
+) -> dict[str, bytes]:
+    """Return the page of a report with all that belongs to it in one file."""
+    from atlas.report.single import single
+
+    name = document.report.name
+    files = _pages(document, figures, cache, sources)
+    return {f"{name}.html": single({place.removeprefix(f"{name}/"): files[place] for place in files}, name)}
+
+
 def _pdf(
     document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, _sources: Sources
 ) -> dict[str, bytes]:
@@ -304,7 +328,7 @@ def _pdf(
         return {f"{document.report.name}.pdf": pdf.Compiler(work).compile(source)}
 
 
-_MAKERS = {"html": _pages, "pdf": _pdf}
+_MAKERS = {"html": _pages, "pdf": _pdf, "single": _single}
 
 
 def _publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str) -> None:

@@ -68,6 +68,7 @@ def atlas() -> None:
 
 for name, says in {
     "report": "Build a report.",
+    "page": "Make a page of your own body and motion.",
     "data": "Write the data of a report, to be cited.",
     "diff": "Compare two built reports.",
     "figure": "Draw figures.",

@@ -61,26 +61,18 @@ def _made(family: Family, described: Described) -> click.Command:
     names = [p.name for p in family.parameters]
     given = [p for p in family.parameters if p.option]
     ways = family.name == "top"
-    decorators = [
-        *([body_options] if "ratio" in names else []),
-        *([field_options] if _in_plane(family) else []),
-        *(_option(p, needed=p.needed and not (ways and p.name in OTHERWISE)) for p in given),
-        *([top_options] if ways else []),
-        *([units_option] if "c" in names else []),
-        *([times_options] if family.sampled else []),
-        output_options,
-    ]
+    decorators = [*object_options(family), *([times_options] if family.sampled else []), output_options]
 
     def run(**options: Any) -> None:
         times = chosen_times(options) if family.sampled else []
         sampled = [s for s in family.sampled if s.printed]
 
         def floats() -> dict[str, Any]:
-            made = family.kernels()(*_values(family, options, exact=False))
+            made = family.kernels()(*values_of(family, options, exact=False))
             return _found(family, made, times, [along(s.at(made), times) for s in sampled], exact=False)
 
         def balls() -> dict[str, Any]:
-            made = family.balls()(*_values(family, options, exact=True))
+            made = family.balls()(*values_of(family, options, exact=True))
             at = [exactly(t, options) for t in times]
             return _found(family, made, times, [[s.at(made)(t) for t in at] for s in sampled], exact=True)
 
@@ -96,7 +88,19 @@ def _made(family: Family, described: Described) -> click.Command:
     return made(stack(*decorators)(run))
 
 
-def _in_plane(family: Family) -> bool:
+def object_options(family: Family) -> list[Callable[[Any], Any]]:
+    """Return the options that say which object of a family it is."""
+    names, ways = [p.name for p in family.parameters], family.name == "top"
+    return [
+        *([body_options] if "ratio" in names else []),
+        *([field_options] if in_plane(family) else []),
+        *(_option(p, needed=p.needed and not (ways and p.name in OTHERWISE)) for p in family.parameters if p.option),
+        *([top_options] if ways else []),
+        *([units_option] if "c" in names else []),
+    ]
+
+
+def in_plane(family: Family) -> bool:
     """Whether a family takes its field (0, B2, B3), which may be given as B and mu, by the options made for that."""
     return any(p.name == "field" and not p.option for p in family.parameters)
 
@@ -113,7 +117,7 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
     return click.option(f"--{p.name}", type=REAL, help=p.says, **more)
 
 
-def _values(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:
+def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterator[Any]:
     """Yield the parameters, as kernels or as balls take them."""
     if family.name == "top":
         if given_otherwise(options):

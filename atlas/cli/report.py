@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         "atlas report short_solenoid --explain",
         "atlas report --format html",
         "atlas report my_paper.toml --out paper",
+        "atlas report my_page.toml --format single pdf",
     ),
 )
 @click.argument("name", default="atlas", metavar="[NAME|FILE.toml]")
@@ -29,8 +30,9 @@ if TYPE_CHECKING:
     "--format",
     "formats",
     cls=Many,
-    type=click.Choice(["html", "pdf"]),
-    help="html, pdf; both when left out. What is left out stays as it is.",
+    type=click.Choice(["html", "pdf", "single"]),
+    help="html, pdf, both when left out; single is one page with all that belongs to it as one file. What is left out "
+    "stays as it is.",
 )
 @style_option
 @jobs_option
@@ -46,7 +48,7 @@ def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, j
 
     with bar("report") as tell:
         built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs)
-    for one, file in (("html", built.index), ("pdf", built.pdf)):
+    for one, file in (("html", built.index), ("pdf", built.pdf), ("single", built.single)):
         if one in (formats or FORMATS):
             click.echo(file)
     if explain:

@@ -3,7 +3,7 @@
 from typing import Any
 
 from atlas.families.model import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
-from atlas.families.shared import FIELD, RATIO, rotation
+from atlas.families.shared import FIELD, RATIO, integrals, rotation
 
 OMEGA3, PRECESSION, PROPER = (
     "third component of Omega, constant", "frequency of precession about B", "frequency of proper rotation",
@@ -51,6 +51,23 @@ def _exact_stability(made: Any) -> Any:
     return Hyperbola(made.I, (made.B2, made.B3)).stability(made.omega2)
 
 
+def _verdict(made: Any) -> str:
+    """Say whether the motion, one alone, is stable against nutation: decided without rounding."""
+    from atlas.exact.hyperbola import Hyperbola
+
+    return _stable(Hyperbola(made.ratio, made.field), made.omega2)
+
+
+def _exact_verdict(made: Any) -> str:
+    from atlas.exact.hyperbola import Hyperbola
+
+    return _stable(Hyperbola(made.I, (made.B2, made.B3)), made.omega2)
+
+
+def _stable(curve: Any, omega2: Any) -> str:
+    return "stable" if curve.stable(omega2) else "unstable"
+
+
 FAMILY = Family(
     "elementary",
     "steady precession of a charged symmetric body",
@@ -88,6 +105,9 @@ FAMILY = Family(
             "stability", "square of the frequency of small nutations", "1/time^2", "theorem-band", get=_stability,
             exact=_exact_stability, certified=True, printed=False,
         ),
+        Quantity("nutation", "against small nutations", "", "theorem-stability", get=_verdict,
+                 exact=_exact_verdict, certified=True, printed=False, tabled=False),
+        *integrals("m"),
     ),
     (
         rotation("(84)", "R"),
@@ -111,4 +131,5 @@ FAMILY = Family(
         "elementary motion: ",
         "case",
     ),
+    figures=("motion_sphere", "motion", "rolling_cones", "hyperbola", "quadric", "stability"),
 )  # fmt: skip

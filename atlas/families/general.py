@@ -3,7 +3,7 @@
 from typing import Any
 
 from atlas.families.model import RATE, TIME, Command, Family, Quantity, Sampled
-from atlas.families.shared import FIELD, OMEGA, RATIO, rotation
+from atlas.families.shared import FIELD, OMEGA, RATIO, integrals, rotation
 
 
 def _kernels() -> Any:
@@ -48,6 +48,7 @@ FAMILY = Family(
         Quantity("spin_per_period", "turn about the body's axis in one period", missing="no period", certified=True),
         Quantity("modulus", "of the elliptic functions", missing="triple root", certified=True),
         Quantity("nome", "of the elliptic functions", missing="triple root", certified=True),
+        *integrals("M"),
     ),
     (
         rotation("", "general R"),
@@ -73,4 +74,5 @@ FAMILY = Family(
         undecided=True,
     ),
     at_once=8192,
+    figures=("larmor_pair", "pseudo_oscillator", "quadric"),
 )  # fmt: skip

@@ -148,7 +148,7 @@ class Family:
 
     `kernels` and `balls` import and return the class of `atlas.core` and that of `atlas.exact`. `promises` holds the
     largest errors, in ulps, by the names of a stress run: of quantities and of what else is checked. Tables make so
-    many motions `at_once`.
+    many motions `at_once`. `figures` are recipes that draw one, from parameters by the same names.
     """
 
     name: str
@@ -161,3 +161,4 @@ class Family:
     promises: Mapping[str, float] = field(default_factory=dict)
     command: Command | None = None
     at_once: int = 50_000
+    figures: tuple[str, ...] = ()

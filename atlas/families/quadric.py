@@ -53,4 +53,5 @@ FAMILY = Family(
         "",
         "kind",
     ),
+    figures=("quadric", "hyperbola", "frequencies", "stability"),
 )  # fmt: skip

@@ -1,8 +1,9 @@
 """Parameters that several families share, and how values are written."""
 
+from functools import partial
 from typing import Any
 
-from atlas.families.model import RATE, Parameter, Sampled
+from atlas.families.model import RATE, Parameter, Quantity, Sampled
 
 RATIO = Parameter("ratio", "I = I3/I2, in (0, 2].", "", (1.5,), (0.05, 2.0), option=False)
 FIELD = Parameter(
@@ -27,3 +28,29 @@ def rotation(equation: str, checked: str) -> Sampled:
 def in_brackets(parts: Any) -> str:
     """Write a vector."""
     return f"({', '.join(parts)})"
+
+
+def integrals(letter: str) -> tuple[Quantity, ...]:
+    """Return the constants of a motion, with the momentum along the field, m or M = II (Omega + K)."""
+    momentum = "II (Omega + K) along the field, over I2" if letter == "M" else "momentum along the field, over I2"
+    return tuple(
+        Quantity(
+            name, says, unit, equation, get=partial(_kept, key), exact=partial(_constant, key), certified=True,
+            printed=False,
+        )
+        for key, name, says, unit, equation in (
+            ("E'", "energy", "energy 2 E/I2", "1/time^2", "(36)"),
+            ("K^2", "field_squared", "square of the field in the body", "1/time^2", "(37)"),
+            ("c3", "c3", "integral c3", RATE, "(40)"),
+            ("c5", "c5", "integral c5", "1/time^2", "(41)"),
+            (f"({letter},B')", "along_field", momentum, "1/time^2", "(88)" if letter == "m" else ""),
+        )
+    )  # fmt: skip
+
+
+def _kept(key: str, made: Any) -> Any:
+    return made.invariants()[key]
+
+
+def _constant(key: str, made: Any) -> Any:
+    return made.invariants[key]

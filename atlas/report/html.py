@@ -56,6 +56,8 @@ def pages(document: Document) -> dict[str, str]:
         page.file: anchored(template.render(page=page, before=before, after=after, **common))
         for before, page, after in _neighbours(document.pages)
     }
+    if len(set_pages) == 1:
+        set_pages = {name: _with_sections(page) for name, page in set_pages.items()}
     style = environment.get_template("style.css").render(faces=FACES)
     scripts = {name: (folder("templates") / "html" / name).read_text(encoding="utf-8") for name in SCRIPTS}
     return {"style.css": style, **scripts, "index.js": index(document, set_pages, texts), **set_pages}
@@ -80,6 +82,15 @@ def anchored(page: str) -> str:
         return f'<h{match[1]} id="{name}">{match[2]} {link}</h{match[1]}>'
 
     return re.sub(r"<h([23])>(.*?)</h\1>", heading, page, flags=re.DOTALL)
+
+
+def _with_sections(page: str) -> str:
+    """Let the contents of a report of one page be its sections."""
+    sections = re.findall(r'<h2 id="([^"]+)">(.*?) <a class="anchor"', page)
+    items = "\n".join(f'<li><span></span><a href="#{anchor}">{words}</a></li>' for anchor, words in sections)
+    return re.sub(
+        r'(<li class="here">.*?</li>\n)', lambda found: f"{found[1]}{items}\n", page, count=1, flags=re.DOTALL
+    )
 
 
 def cut(card: Card, document: Document) -> Card:

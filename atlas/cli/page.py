@@ -1,0 +1,178 @@
+"""``atlas page``: a page for one object in the user's own numbers, as one file to mail, and a PDF."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from atlas import files
+from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, points, system_of, units_of
+from atlas.cli.family import in_plane, object_options, values_of
+from atlas.cli.options import Command, examples, jobs_option, out_option, stack
+from atlas.cli.progress import bar
+from atlas.cli.top import top_units
+from atlas.errors import AtlasError
+from atlas.families import FAMILIES, Family
+
+HELP = """Make a page of one object: a body in a field, a motion, a top.
+
+It has the quantities of the object with their proven digits, the figures that fit it, the nearest closed motions,
+neighbours with the commands that make their pages, and how to get the same numbers. NAME.html is one file with all that
+belongs to it; NAME.pdf is the same to print, and NAME.toml the report that both are made from, to go on with.
+
+COMMAND is that of a family and takes its options; without it, it is the one that the options are of: --omega2 makes an
+elementary motion, --omega any motion, neither of them the quadric of the body in the field.
+"""
+
+
+def command_of(family: Family, name: str) -> click.Command:
+    """Make the command of a family."""
+    more = [
+        out_option("build/pages"),
+        click.option("--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Proven digits."),
+        click.option("--title", help="Title of the page."),
+        jobs_option,
+    ]
+
+    def run(**options: Any) -> int:
+        return make(asked(family, options), options["out"], options["jobs"])
+
+    made = click.command(name, cls=Command, help=f"Make a page: {family.says}.")
+    return made(stack(*object_options(family), *more)(run))
+
+
+COMMANDS = {one.command.name: command_of(one, one.command.name) for one in FAMILIES.values() if one.command}
+
+
+class ByOptions(click.Group):
+    """A group that finds the command by the options, where none is named."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Put the command in front of its options."""
+        named = not args or args[0] in self.commands or args[0] in ctx.help_option_names
+        return super().parse_args(ctx, args if named or not args[0].startswith("--") else [best(args), *args])
+
+
+def best(args: Sequence[str]) -> str:
+    """Return the command to which options belong: the fewest are strange to it, and the fewest of its own missing."""
+    given = dict(_counted(args))
+
+    def misfit(name: str) -> tuple[int, int]:
+        known = {opt: one for one in COMMANDS[name].params if isinstance(one, click.Option) for opt in one.opts}
+        strange = sum(opt not in known or known[opt].nargs != count for opt, count in given.items())
+        return strange, sum(one.required for opt, one in known.items() if opt not in given)
+
+    return min(COMMANDS, key=misfit)
+
+
+def _counted(args: Sequence[str]) -> Iterator[tuple[str, int]]:
+    """Yield the options, each with the number of words that follow it."""
+    starts = [i for i, word in enumerate(args) if word.startswith("--")]
+    for start, end in zip(starts, [*starts[1:], len(args)], strict=True):
+        option, equals, _ = args[start].partition("=")
+        yield option, end - start - 1 + bool(equals)
+
+
+command = ByOptions(
+    "page",
+    commands=COMMANDS,
+    help=HELP,
+    epilog=examples(
+        "atlas page --ratio 1.3 --field 1 2 --omega2 0.7",
+        "atlas page --ratio 1.3 --field 1 2 --omega 0.3 0.7 0.2 --digits 30",
+        "atlas page --shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --magnetic 0.75 1.3",
+        "atlas page top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3",
+        "atlas page elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7",
+    ),
+)
+
+
+def asked(family: Family, options: dict[str, Any]) -> Any:
+    """Return what a page is asked for by the options of its command."""
+    from atlas.report.page import Asked
+
+    context, own = click.get_current_context(), {"out", "digits", "title", "jobs"}
+    typed = {
+        one.opts[0].removeprefix("--"): _texts(options[one.name])
+        for one in context.command.params
+        if one.name in options.keys() - own
+        and context.get_parameter_source(one.name) is click.core.ParameterSource.COMMANDLINE
+    }
+    found = dict(
+        zip(
+            (p.name for p in family.parameters),
+            values_of(family, options | {"decimal": False}, exact=False),
+            strict=True,
+        )
+    )
+    values = {p.name: _plain(found[p.name]) for p in family.parameters if p.option and found[p.name] is not None}
+    values |= {"c": found["c"]} if "c" in found else {}
+    records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.name == "top" else {}
+    if "ratio" in found:
+        records = {"body": _body(options), "time": units_of(options).get("time", "time")}
+    if in_plane(family):
+        records["field"] = _field(options)
+    title, digits = options["title"] or "", options["digits"]
+    return Asked(family, typed, values, **records, digits=digits, title=title)
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    return tuple(getattr(x, "text", str(x)) for x in (value if isinstance(value, tuple) else (value,)))
+
+
+def _plain(value: Any) -> Any:
+    return [float(x) for x in value] if isinstance(value, tuple) else float(value)
+
+
+def _body(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the body as a report file has it."""
+    given = {name: _plain(value) for name, value in body_parameters(options).items() if _of_body(name, value)}
+    if options["points"] is not None:
+        found = points(options["points"])
+        given |= {"inertia": [found.body.I2, found.body.I3]}
+    if options["shape"] is not None:
+        given = {"shape": options["shape"].replace("-", "_"), "mass": 1.0} | given
+    title = options["shape"].replace("-", " ").replace("_", " ") if options["shape"] else "body"
+    return {"title": title, **given}
+
+
+def _of_body(name: str, value: Any) -> bool:
+    return name not in {"field", "magnetic", "mu", "units"} and not isinstance(value, str)
+
+
+def _field(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the field as a report file has it: as B where its axes are those of the report, else as B'."""
+    B2, B3 = chosen_field(options)
+    if not units_of(options) or B2 < 0:
+        shown = ", ".join(_texts(options["field"] or (B2, B3)))
+        return {"title": f"field ({shown})", "prime": [float(B2), float(B3)]}
+    system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[system_of(options)], options["magnetic"]
+    given = (
+        {} if options["mu"] is None and options["points"] is None else {"charge_to_mass": charge_to_mass_of(options)}
+    )
+    unit = {"SI": "T", "Gaussian": "G"}[system]
+    return {"title": f"field of ({x.text}, {y.text}) {unit}", "system": system, "B": [0.0, *_plain((x, y))], **given}
+
+
+def make(wanted: Any, out: Path, jobs: int | None) -> int:
+    """Write the report file of a page and build it. Raises AtlasError where the file was changed since it was made."""
+    from atlas.build.report import build_report
+    from atlas.report.page import edited, text
+
+    file = out / f"{wanted.name}.toml"
+    if file.exists() and edited(file.read_text(encoding="utf-8")):
+        raise AtlasError(
+            f"{file} was changed since it was made: build it by `atlas report {file} --format single pdf`, or move it."
+        )
+    with bar("page") as tell:
+        content = text(wanted, lambda name: (out / f"{name}.html").exists())
+        files.write(file, content.encode())
+        built = build_report(file, out, tell, formats=("single", "pdf"), jobs=jobs)
+    click.echo(built.single)
+    click.echo(built.pdf)
+    for note in built.notes:
+        click.echo(f"atlas: {note}", err=True)
+    for recipe, reason in built.failures:
+        click.echo(f"atlas: figure {recipe} failed: {reason}", err=True)
+    return 0 if built.ok else 1

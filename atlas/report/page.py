@@ -1,0 +1,307 @@
+"""The report of one object: its properties, figures, neighbours, and how to get the same numbers, as a report file."""
+
+import json
+import re
+import shlex
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from itertools import chain
+from typing import Any
+
+from atlas.errors import AtlasError
+from atlas.families import FAMILIES, Family
+from atlas.report.body_and_field import body_and_field
+from atlas.report.numbers import plain
+from atlas.report.parameters import Body, Field
+from atlas.report.schema import convert
+from atlas.report.tables import compute
+from atlas.report.tables.model import Request
+
+LONGEST = 100
+"""Characters of the name of a page; what is longer ends with a digest."""
+HEAD = (
+    "# Made by `{command}`, digest {digest}.\n"
+    "# Change it as you like, and build it by `atlas report {name}.toml --format single pdf`.\n\n"
+)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a page is asked for.
+
+    options   the options that say which object it is, each with what was typed, by name
+    body, field   their records in a report file, where the family has them; `time` is the unit of time
+    values    the other parameters of the family
+    """
+
+    family: Family
+    options: Mapping[str, tuple[str, ...]]
+    values: Mapping[str, Any]
+    body: Mapping[str, Any] | None = None
+    field: Mapping[str, Any] | None = None
+    time: str = "time"
+    digits: int = 10
+    title: str = ""
+
+    @property
+    def words(self) -> list[str]:
+        """The command's name and its options, as they are typed."""
+        command = self.family.command.name if self.family.command else self.family.name
+        return [command, *chain.from_iterable((f"--{name}", *texts) for name, texts in self.options.items())]
+
+    @property
+    def command(self) -> str:
+        """The command that makes the page."""
+        digits = ["--digits", str(self.digits)] if self.digits != 10 else []
+        return shlex.join(["atlas", "page", *self.words, *digits])
+
+    @property
+    def name(self) -> str:
+        """The name of its files, made of what was typed."""
+        name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in self.words)
+        return name if len(name) <= LONGEST else f"{name[:LONGEST]}-{sha256(name.encode()).hexdigest()[:8]}"
+
+    def changed(self, family: str, **options: Any) -> "Asked":
+        """Return what another object near it is asked for by; an option that is None is left out."""
+        new = {name: _texts(value) for name, value in options.items() if value is not None}
+        kept = {
+            name: new.get(name, texts) for name, texts in self.options.items() if name in new or name not in options
+        }
+        first = {name: new[name] for name in new if name == "ratio"}  # in the place of a shape
+        return replace(self, family=FAMILIES[family], options=kept | new if "ratio" in kept else first | kept | new)
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    return tuple(plain(x + 0.0) for x in (value if isinstance(value, list | tuple) else (value,)))
+
+
+def text(asked: Asked, there: Callable[[str], bool]) -> str:
+    """Return the report file; `there` says whether a page of that name lies beside it."""
+    content = "".join(_toml(definition(asked, there)))
+    digest = sha256(content.encode()).hexdigest()[:12]
+    return HEAD.format(command=asked.command, digest=digest, name=asked.name) + content
+
+
+def edited(file: str) -> bool:
+    """Whether a report file is no longer as it was made."""
+    head, _, content = file.partition("\n\n")
+    found = re.search(r"digest (\w+)\.", head)
+    return found is None or sha256(content.encode()).hexdigest()[:12] != found[1]
+
+
+def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
+    """Return the report as the values of its file."""
+    family, left_out = asked.family, list[str]()
+    given = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
+    figures = list(_figures(asked, left_out))
+    beside = [one for one in FAMILIES.values() if one is not family and one.name != "free" and _holds(family, one)]
+    blocks = [
+        _table(asked, "properties", family.name, asked.values),
+        *figures[:1],
+        *([_setting()] if asked.field and "B" in asked.field else []),
+        *(_table(asked, "properties", one.name, {"given": False}) for one in beside),
+        *([{"kind": "prose", "text": "## Figures"}, *figures[1:]] if figures[1:] else []),
+        *_closed(asked, left_out),
+        *_neighbours(asked, there),
+        {"kind": "prose", "text": _reproduce(asked)},
+        *([{"kind": "prose", "text": _missing(left_out)}] if left_out else []),
+    ]
+    case = f"{family.says[:1].upper()}{family.says[1:]}"
+    records = (("bodies", "body", asked.body), ("fields", "field", asked.field))
+    return {
+        "name": asked.name,
+        "title": asked.title or case,
+        "subtitle": given,
+        "abstract": "All digits of the tables are proven unless they say otherwise; figures are drawn to a fraction of "
+        "a pixel. The report file beside this page can be changed and built again.",
+        "parameters": {kind: {name: record} for kind, name, record in records if record},
+        "pages": [{"slug": "index", "title": "Properties", "blocks": blocks}],
+    }  # fmt: skip
+
+
+def _holds(family: Family, one: Family) -> bool:
+    """Whether an object of a family has one of another: what that is given is among what it is given."""
+    names = {p.name for p in family.parameters}
+    return "ratio" in names and {p.name for p in one.parameters} <= names
+
+
+def _calls(asked: Asked, family: Family) -> dict[str, str]:
+    """Return the keys of a block by which it calls the body and the field that a family has."""
+    return {
+        key: key
+        for key, name in (("body", "ratio"), ("field", "field"))
+        if asked.body and any(p.name == name and not p.option for p in family.parameters)
+    }
+
+
+def _table(asked: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    unit = {"time": asked.time} if asked.time != "time" else {}
+    return {
+        "kind": "table", "table": table, "id": f"{table}-{family}", **_calls(asked, FAMILIES[family]),
+        "digits": asked.digits, "parameters": {"family": family, **values, **unit},
+    }  # fmt: skip
+
+
+def _setting() -> dict[str, Any]:
+    return {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
+
+
+def _figures(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+    """Yield the figures that take the numbers, and note of the others why they don't."""
+    from atlas.scene import recipes
+
+    case = _case(asked)
+    for name in asked.family.figures:
+        recipe = recipes.load(name)
+        values = {key: value for key, value in asked.values.items() if key in recipe.parameters}
+        if recipe.parameters.get("unit") == "time":
+            values["unit"] = asked.time
+        at = {"ratio": case.ratio, "field": case.components} if asked.body else {}
+        try:
+            recipe.scene(**{key: value for key, value in at.items() if key in recipe.parameters} | values)
+        except AtlasError as reason:
+            left_out.append(f"The figure `{name}`: {reason}")
+        else:
+            yield {"kind": "figure", "recipe": name, "id": name.replace("_", "-"), **_calls(asked, asked.family),
+                   "parameters": values}  # fmt: skip
+    if not asked.family.figures:
+        left_out.append("A figure: no recipe draws this family from its parameters yet.")
+
+
+def _case(asked: Asked) -> Any:
+    """Return the body in the field as tables have it."""
+    body = convert(asked.body, Body) if asked.body else None
+    return body_and_field(body, convert(asked.field, Field) if asked.field else None)
+
+
+def _closed(asked: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+    """Yield the table of the nearest closed motions, if there are any."""
+    if asked.family.name == "elementary" or any(q.name == "precession_per_period" for q in asked.family.quantities):
+        block = _table(asked, "closed", asked.family.name, asked.values)
+        try:
+            compute("closed", Request([_case(asked)], block["parameters"], asked.digits))
+        except AtlasError as reason:
+            left_out.append(f"The nearest closed motions: {reason}")
+        else:
+            yield {"kind": "prose", "text": "## Nearest closed motions"}
+            yield block
+
+
+def _neighbours(asked: Asked, there: Callable[[str], bool]) -> Iterator[dict[str, Any]]:
+    """Yield the table of objects near by, each with the command that makes its page, or a link to it."""
+    rows = []
+    for words, one in near(asked):
+        rows.append([words, f"[`{one.command}`]({one.name}.html)" if there(one.name) else f"`{one.command}`"])
+    if rows:
+        yield {"kind": "prose", "text": "## Neighbours"}
+        yield {
+            "kind": "listing", "id": "neighbours", "rows": rows,
+            "columns": ["Neighbour", "Command that makes its page"],
+            "caption": "Objects near by. A page that lay beside this one when this one was made is linked.",
+        }  # fmt: skip
+
+
+def near(asked: Asked) -> Iterator[tuple[str, Asked]]:
+    """Yield objects near by, each in words."""
+    values, name = asked.values, asked.family.name
+    if not asked.body:
+        return
+    B2, B3 = _case(asked).components
+    if name == "elementary":
+        w2 = values["omega2"]
+        free = {"omega3": None} if "omega3" in values else {}
+        other = {
+            r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair": -2 * B2 - w2,
+            "at rest": 0.0,
+            r"$\phi=0$: it turns as a whole": -2 * B2,
+        }
+        for words, omega2 in other.items():
+            if B2 and omega2 not in {w2, -B2}:
+                yield words, asked.changed(name, omega2=omega2, **free)
+    if name == "general":
+        w1, w2, w3 = values["omega"]
+        pair = (-w1, -2 * B2 - w2, -2 * B3 - w3)
+        yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", asked.changed(name, omega=pair)
+        if B2 and w2 != -B2:
+            same = asked.changed("elementary", omega2=w2, omega=None)
+            yield r"the motion without nutation with this $\omega_2$", same
+    ratio = _case(asked).ratio
+    shape = dict.fromkeys(("inertia", "shape", "points", "radius", "height", "equatorial", "polar"))
+    for border, words in ((1.0, "the same in a ball, $I=1$"), (2.0, "the same in a disk or loop, $I=2$")):
+        if ratio != border and "points" not in asked.options:
+            yield words, asked.changed(name, **shape, ratio=border)
+    if name != "quadric":
+        yield "all motions of this body in this field", asked.changed("quadric", omega2=None, omega3=None, omega=None)
+
+
+def _reproduce(asked: Asked) -> str:
+    """Say how to get the same numbers from the command line and from Python."""
+    family = asked.family
+    name = family.kernels().__name__
+    made = ", ".join(f"{p.name}={_python(asked, p.name)}" for p in family.parameters if _python(asked, p.name))
+    shown = [q for q in family.quantities if not q.get and (q.certified or q.printed)]
+    digits = ["--digits", str(asked.digits)]
+    lines = ["import atlas", "", f"it = atlas.{name}({made})", *(f"print(it.{q.name})" for q in shown)]
+    return "\n".join(
+        [
+            "## The same numbers elsewhere", "", "On the command line, with the same digits:", "", "```console",
+            f"$ {shlex.join(['atlas', *asked.words, *digits])}", "```", "",
+            "In Python, as doubles next to them:", "", "```python", *lines, "```",
+        ]
+    )  # fmt: skip
+
+
+def _python(asked: Asked, name: str) -> str:
+    """Return a parameter as it is written in Python, nothing for one that is left out."""
+    body, field = asked.body or {}, asked.field or {}
+    if name == "ratio":
+        sizes = ", ".join(f"{key}={plain(body[key])}" for key in body if key not in {"title", "shape", "charge"})
+        if "shape" in body:
+            return f"atlas.SymmetricBody.{body['shape']}({sizes})"
+        return plain(body["ratio"]) if "ratio" in body else f"atlas.SymmetricBody{tuple(body['inertia'])}"
+    if name == "field" and field:
+        if "prime" in field:
+            return str(tuple(field["prime"]))
+        mu = field.get("charge_to_mass") or f"{body['charge']!r} / {body['mass']!r}"
+        return f"atlas.Field.{field['system'].lower()}(B={tuple(field['B'])}, mu={mu}).prime[1:]"
+    value = asked.values.get(name)
+    return "" if value is None else repr(tuple(value) if isinstance(value, list | tuple) else value)
+
+
+def _missing(left_out: list[str]) -> str:
+    return "\n".join(["## Left out", "", *(f"- {reason}" for reason in left_out)])
+
+
+def _toml(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
+    """Yield values as TOML: lists of tables are such, and so are tables, but for what is inside a block."""
+    tables = {
+        key: value if isinstance(value, list) else [value]
+        for key, value in values.items()
+        if isinstance(value, dict) != (isinstance(value, list) and bool(value) and isinstance(value[0], dict))
+        and not (isinstance(value, dict) and place.startswith("pages"))
+    }
+    for key, value in values.items():
+        if key not in tables and value is not None:
+            yield f"{key} = {_value(value)}\n"
+    for key, several in tables.items():
+        name = f"{place}.{key}".lstrip(".")
+        for one in several:
+            if isinstance(values[key], list):
+                yield f"\n[[{name}]]\n"
+            elif not all(isinstance(value, dict) for value in one.values()):
+                yield f"\n[{name}]\n"
+            yield from _toml(one, name)
+
+
+def _value(value: Any) -> str:
+    """Write a value; strings of JSON are strings of TOML."""
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{key} = {_value(one)}' for key, one in value.items() if one is not None)} }}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f"'''\n{value}\n'''" if "\n" in value and "'''" not in value else json.dumps(value, ensure_ascii=False)
+    return repr(int(value) if isinstance(value, int) else float(value))

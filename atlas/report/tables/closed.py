@@ -1,0 +1,107 @@
+"""Which closed motions lie nearest: best fractions of the number of turns that decides whether a motion closes."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from atlas.errors import DomainError
+from atlas.families import FAMILIES
+from atlas.report.numbers import Number
+from atlas.report.tables.model import Column, Data, Request, certified, column, quantity
+from atlas.report.tables.properties import Thing
+
+MANY, LARGEST = 6, 10_000
+"""As many fractions as are shown, and the largest denominator."""
+PRINTED = 12
+"""Digits that a double has for certain, and some to spare."""
+
+
+def closed(request: Request) -> Data:
+    """Give the best fractions p/q of phi/k and the closed motion of each, or of the turns in one nutation.
+
+    Raises DomainError for a motion that does not turn.
+    """
+    thing = Thing.of(request)
+    elementary = thing.family is FAMILIES["elementary"]
+    made = thing.balls()
+    if elementary and made.k == 0:
+        raise DomainError("With k = 0 there is no precession, and phi/k has no value.")
+    value = certified(lambda: _turns(made, elementary=elementary), request.digits)
+    fractions = list(convergents(value))
+    misses = [quantity(value - _ratio(p, q), 2) for p, q in fractions]
+    if elementary:
+        return _elementary(thing, value, fractions, misses, request.digits)
+    period = certified(lambda: made.period, request.digits)
+    times = column([q * period for _, q in fractions], request.digits)
+    return Data(
+        (
+            Column("Turns", ""), Column("Nutations"), Column("Time", thing.unit("time")),
+            Column("Turns a nutation, less the fraction"),
+        ),
+        tuple(
+            (Number(str(p)), Number(str(q)), time, miss)
+            for (p, q), time, miss in zip(fractions, times, misses, strict=True)
+        ),
+        f"When the trace of the axis nearly comes back: {quantity(value, request.digits).words()} turns about the "
+        "field in one nutation, and the best fractions of this number.",
+    )  # fmt: skip
+
+
+def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
+    """Give the closed motion of each fraction that has one."""
+    from atlas.core.closed import ClosedMotion
+
+    ratio, field, omega2, *_ = thing.floats
+    rows = []
+    for (p, q), miss in zip(fractions, misses, strict=True):
+        try:
+            one = ClosedMotion(ratio, field, p, q)
+        except DomainError:
+            continue  # no motion has this phi/k
+        shown = [Number(f"{x:.{min(digits, PRINTED)}g}") for x in (one.omega2, one.omega2 - omega2, one.period)]
+        rows.append((f"${p}/{q}$", *shown, miss))
+    if not rows:
+        raise DomainError("No closed motion of the hyperbola (67) lies near.")
+    rate = thing.unit("1/time")
+    return Data(
+        (
+            Column(r"$\phi/k$"), Column(r"$\omega_2$", rate), Column(r"$\omega_2$ less that of this motion", rate),
+            Column("Closes after", thing.unit("time")), Column(r"$\phi/k$ less the fraction"),
+        ),
+        tuple(rows),
+        rf"The nearest closed motions, @theorem-closed: best fractions of $\phi/k$ = "
+        f"{quantity(value, digits).words()}. "
+        "A motion with the fraction $p/q$ comes back after $q$ precessions.",
+        ("`Hyperbola.closed(p, q)` makes one; its numbers are rounded from the nearest doubles.",),
+    )  # fmt: skip
+
+
+def _turns(made: Any, *, elementary: bool) -> Any:
+    from flint import arb
+
+    return arb(made.phi) / arb(made.k) if elementary else made.precession_per_period / (2 * arb.pi())
+
+
+def convergents(value: Any) -> Iterator[tuple[int, int]]:
+    """Yield the first convergents of the continued fraction of a ball, as far as its radius tells them.
+
+    A value that is a fraction ends with it.
+    """
+    before, now = (0, 1), (1, 0)
+    for _ in range(MANY):
+        whole = value.floor().unique_fmpz()
+        if whole is None:
+            return
+        before, now = now, (int(whole) * now[0] + before[0], int(whole) * now[1] + before[1])
+        if now[1] > LARGEST:
+            return
+        yield now
+        value = value - whole
+        if value.contains(0):
+            return
+        value = 1 / value
+
+
+def _ratio(p: int, q: int) -> Any:
+    from flint import fmpq
+
+    return fmpq(p, q)

@@ -1,0 +1,208 @@
+"""What the register has of an object: each quantity with its proven digits, its unit, its equation, how sure it is."""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from atlas.errors import AtlasError, DomainError, unknown
+from atlas.families import FAMILIES, Family, Quantity
+from atlas.paper import EQUATIONS
+from atlas.report.numbers import MINUS, Number, plain
+from atlas.report.tables.layout import NONE
+from atlas.report.tables.model import Column, Data, Request
+
+SPARE = 1 << 12
+"""Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
+_LETTERS = re.compile(
+    r"(?<![\w\\])(?:(B)(')?(?![\w'])|(omega|Omega|alpha|beta|nu|mu|[A-Zekmn])('?)_?(\d)(?!\w)"
+    r"|(omega|Omega|alpha|beta|nu|mu|pi)(?!\w))"
+)
+"""Letters in plain words: a vector B or B', one with an index, a Greek one."""
+SPACE = "\N{NO-BREAK SPACE}"
+Row = tuple[str, str, str | Number, str, str, str]
+
+
+@dataclass(frozen=True)
+class Thing:
+    """An object of a family: the parameters as given, and how to make it of kernels and of balls.
+
+    `time` is the unit of time, and `described` whether what is given stands in a table.
+    """
+
+    family: Family
+    given: Mapping[str, Any]
+    floats: tuple[Any, ...]
+    exact: tuple[Any, ...]
+    time: str
+    described: bool
+
+    @classmethod
+    def of(cls, request: Request) -> "Thing":
+        """Read the family and its parameters. Raises AtlasError for what is unknown or missing."""
+        rest = dict(request.parameters)
+        name, time, described = rest.pop("family", None), rest.pop("time", "time"), rest.pop("given", True)
+        if name not in FAMILIES:
+            raise unknown("family", str(name), FAMILIES)
+        family, case = FAMILIES[name], request.case
+        given: dict[str, Any] = {}
+        floats, exact = [], []
+        for p in family.parameters:
+            value: Any
+            if p.name == "ratio":
+                value, balls = case.body, case.exact
+                given[p.name] = Number(plain(case.ratio)) if case.body_record and case.body_record.shape else case.ratio
+            elif p.name == "field" and not p.option:
+                value = balls = given[p.name] = case.components
+            else:
+                if p.needed and p.name not in rest:
+                    raise AtlasError(f"parameters: the family {name!r} lacks {p.name!r}.")
+                omitted = p.omitted if not p.columns else (p.omitted,) * len(p.names)
+                value = balls = rest.pop(p.name, omitted)
+                given[p.name] = value
+            floats.append(value)
+            exact.append(balls)
+        if rest:
+            raise unknown("parameter", next(iter(rest)), [p.name for p in family.parameters], f"of {name!r}")
+        return cls(family, given, tuple(floats), tuple(exact), str(time), bool(described))
+
+    def kernels(self) -> Any:
+        """Return the object of kernels."""
+        return self.family.kernels()(*self.floats)
+
+    def balls(self) -> Any:
+        """Return the object of balls."""
+        return self.family.balls()(*self.exact)
+
+    def unit(self, unit: str) -> str:
+        """Return a unit of the register in TeX, with the unit of time that was asked for."""
+        words = unit.replace("time", self.time)
+        if words.startswith("1/"):
+            base, _, power = words[2:].partition("^")
+            return f"{base}^{MINUS}{power or 1}^"
+        return re.sub(r"\^(\d)", r"^\1^", words) or "1"
+
+
+def properties(request: Request) -> Data:
+    """List the parameters and quantities of one object of a `family`; `time` is the unit of time.
+
+    With ``given = false`` what is given is left out.
+    """
+    thing = Thing.of(request)
+    rows = [*_given(thing)] if thing.described else []
+    rows += [row for q in thing.family.quantities for row in _rows(thing, q, request.digits)]
+    says, given = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
+    return Data(
+        (
+            Column("Quantity"), Column("Name"), Column("Value"), Column("Unit"), Column("Equation"),
+            Column("Proven"),
+        ),
+        tuple(rows),
+        f"{says[:1].upper()}{says[1:]}: {given}.",
+        ("Numbers that are given are taken as the doubles nearest to them, and these as exact.",),
+    )  # fmt: skip
+
+
+def _given(thing: Thing) -> Iterator[Row]:
+    """Go through what is given, a component a row."""
+    for p in thing.family.parameters:
+        value = thing.given[p.name]
+        parts = value if p.columns else (value,)
+        for place, (name, part) in enumerate(zip(p.names, parts, strict=True)):
+            if part is not None:
+                number = part if isinstance(part, Number) else Number.given(part)
+                says = "" if place else p.says.partition(".")[0]
+                yield lettered(says), f"`{name}`", number, thing.unit(p.unit), "", "given"
+
+
+def _rows(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
+    """Give a quantity, a component a row; where it has no value, the reason."""
+    try:
+        found = _texts(thing, q, digits)
+    except DomainError as reason:
+        yield lettered(q.says), f"`{q.name}`", NONE, "", _cited(q.equation), str(reason).removesuffix(".")
+        return
+    if found is None:
+        yield lettered(q.says), f"`{q.name}`", "none", "", _cited(q.equation), "exactly"
+        return
+    case = getattr(thing.kernels(), "case", "") if q.cases else ""
+    says, equation = q.cases.get(case, (q.says, q.equation))
+    for place, (name, words, text) in enumerate(_parts(q, found)):
+        value, sure = _sure(thing, q, text, place if isinstance(found, list | tuple) else None, digits)
+        unit = thing.unit(q.unit) if isinstance(value, Number) else ""
+        yield (
+            lettered(words or ("" if place else says)),
+            f"`{name}`",
+            value,
+            unit,
+            "" if place else _cited(equation),
+            sure,
+        )
+
+
+def _texts(thing: Thing, q: Quantity, digits: int) -> Any:
+    """Return the certified texts of a quantity, or what the kernels have where balls have none."""
+    from atlas.exact.digits import certified
+
+    if not (q.certified or q.printed or q.checked):
+        return q.of(thing.kernels())  # of kernels alone
+    made = thing.balls()
+    return certified(lambda: _plain(q.of(made, exact=True)), digits, spare=SPARE)
+
+
+def _plain(value: Any) -> Any:
+    """Return a ball, and a word where it is infinite."""
+    return "infinite" if str(value) in {"inf", "+inf", "[+/- inf]"} else value
+
+
+def _parts(q: Quantity, found: Any) -> Iterator[tuple[str, str, Any]]:
+    """Go through the components: name, words of its own, text."""
+    if q.name == "roots" or (isinstance(found, list | tuple) and found and isinstance(found[0], list | tuple)):
+        parts = [q.text(found)] if not q.lines else [q.text(part) for part in found]
+        symbols = [symbol for symbol, _ in q.lines] or [q.name]
+        yield from ((name, "", part) for name, part in zip(symbols, parts, strict=True))
+    elif isinstance(found, list | tuple):
+        names = q.columns or [f"{q.name}[{i}]" for i in range(len(found))]
+        words = [says for _, says in q.lines] or [f"{q.says}: {name}" if q.columns else "" for name in names]
+        yield from zip(names, words, found, strict=True)
+    else:
+        yield q.name, "", found
+
+
+def _sure(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
+    """Return a value as it is printed, and how sure it is."""
+    from atlas.exact.digits import MARK, NOT_CERTIFIED
+
+    if isinstance(text, float):
+        return Number.given(text), "float, not certified"
+    if text == NOT_CERTIFIED:
+        value = q.of(thing.kernels())
+        value = value if place is None else value[place]
+        promise = thing.family.promises.get(q.checked)
+        promised = f"{promise:g} ulp promised" if promise else "not certified"
+        return Number(plain(value), proven=False), f"float, {promised}"
+    if not re.fullmatch(r"-?\d[\d.]*(e[+-]\d+)?\??", text):
+        several = NOT_CERTIFIED if NOT_CERTIFIED in text else f"{digits}{SPACE}digits each"
+        return re.sub(r"-(?=\d)", MINUS, text), several if re.search(r"\d", text) else "exactly"
+    proven = text.removesuffix(MARK)
+    if text == "0":
+        return Number("0"), "exactly"
+    count = len(re.sub(r"e.*|[-.]", "", proven).lstrip("0"))
+    return Number(proven), f"{count}{SPACE}digits" + ", no more" * (MARK in text and count < digits)
+
+
+def lettered(words: str) -> str:
+    """Set the letters of the register's plain words as formulas: omega'_3, B2, beta."""
+    return re.sub(r"\^(-?\d)", r"^\1^", _LETTERS.sub(_letter, words))
+
+
+def _letter(found: re.Match[str]) -> str:
+    vector, prime, name, primed, place, alone = found.groups()
+    if vector:
+        return rf"$\mathbf{{{vector}}}{prime or ''}$"
+    letter = name or alone
+    return f"${'' if len(letter) == 1 else chr(92)}{letter}{primed or ''}{f'_{place}' if place else ''}$"
+
+
+def _cited(equations: str) -> str:
+    return ", ".join(f"@{name}" for name in equations.split(", ") if name in EQUATIONS)
