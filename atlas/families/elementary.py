@@ -105,7 +105,7 @@ FAMILY = Family(
             "stability", "square of the frequency of small nutations", "1/time^2", "theorem-band", get=_stability,
             exact=_exact_stability, certified=True, printed=False,
         ),
-        Quantity("nutation", "against small nutations", "", "theorem-stability", get=_verdict,
+        Quantity("nutation", "stable or not against small nutations", "", "theorem-stability", get=_verdict,
                  exact=_exact_verdict, certified=True, printed=False, tabled=False),
         *integrals("m"),
     ),

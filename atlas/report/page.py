@@ -17,6 +17,7 @@ from atlas.report.parameters import Body, Field
 from atlas.report.schema import convert
 from atlas.report.tables import compute
 from atlas.report.tables.model import Request
+from atlas.report.tables.properties import Thing
 
 LONGEST = 100
 """Characters of the name of a page; what is longer ends with a digest."""
@@ -91,8 +92,10 @@ def edited(file: str) -> bool:
 
 
 def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
-    """Return the report as the values of its file."""
+    """Return the report as the values of its file. Raises AtlasError where there is no such object."""
     family, left_out = asked.family, list[str]()
+    thing = Thing.of(Request([_case(asked)], {"family": family.name, **asked.values}, asked.digits))
+    thing.kernels(), thing.balls()
     given = ", ".join(f"{name} {' '.join(texts)}" for name, texts in asked.options.items())
     figures = list(_figures(asked, left_out))
     beside = [one for one in FAMILIES.values() if one is not family and one.name != "free" and _holds(family, one)]

@@ -23,7 +23,7 @@ _CITED = re.compile(
 DEEPEST = 10
 """How deeply parts of a text may stand in one another."""
 _OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
-_INSIDE = re.compile(r"[\w-]+\.html(?:#[\w.-]+)?|#[\w.-]+")
+_INSIDE = re.compile(r"\w[\w.+-]*\.html(?:#[\w.-]+)?|#[\w.-]+")
 _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 """How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
 _ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
@@ -237,7 +237,7 @@ class _Checked:
         if not _INSIDE.fullmatch(url):
             raise AtlasError(
                 f"{self.text.where}: a link to {url[:60]!r} is not allowed; it leads to http:, https:, mailto:, doi: "
-                "or to a page of the report, such as index.html."
+                "or to a page beside it, such as index.html."
             )
         return url
 

@@ -16,7 +16,7 @@ from values import share, watched
 from atlas.cli.app import atlas, main
 from atlas.families import FAMILIES
 
-BUILDERS = {"data", "report", "stress", "sweep", "tex"}
+BUILDERS = {"data", "page", "report", "stress", "sweep", "tex"}
 """Commands that write files or run for long: they have tests of their own."""
 
 COMMANDS: dict[str, click.Command] = {

@@ -19,7 +19,8 @@ _LETTERS = re.compile(
     r"|(omega|Omega|alpha|beta|nu|mu|pi)(?!\w))"
 )
 """Letters in plain words: a vector B or B', one with an index, a Greek one."""
-SPACE = "\N{NO-BREAK SPACE}"
+SPACE = "\\ "
+"""A space that breaks no line, in Markdown."""
 Row = tuple[str, str, str | Number, str, str, str]
 
 
@@ -127,6 +128,7 @@ def _rows(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
         return
     case = getattr(thing.kernels(), "case", "") if q.cases else ""
     says, equation = q.cases.get(case, (q.says, q.equation))
+    says = f"{q.name} {says}" if says.startswith("of ") else says
     for place, (name, words, text) in enumerate(_parts(q, found)):
         value, sure = _sure(thing, q, text, place if isinstance(found, list | tuple) else None, digits)
         unit = thing.unit(q.unit) if isinstance(value, Number) else ""
@@ -163,7 +165,8 @@ def _parts(q: Quantity, found: Any) -> Iterator[tuple[str, str, Any]]:
         yield from ((name, "", part) for name, part in zip(symbols, parts, strict=True))
     elif isinstance(found, list | tuple):
         names = q.columns or [f"{q.name}[{i}]" for i in range(len(found))]
-        words = [says for _, says in q.lines] or [f"{q.says}: {name}" if q.columns else "" for name in names]
+        of = q.symbol or q.says
+        words = [says for _, says in q.lines] or [f"{of}: {name}" if q.columns else "" for name in names]
         yield from zip(names, words, found, strict=True)
     else:
         yield q.name, "", found

@@ -1,0 +1,285 @@
+"""`atlas page`: the page of one object, its numbers, one file that asks for nothing, and what it refuses."""
+
+import base64
+import hashlib
+import re
+from collections.abc import Iterator
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+
+import mpmath
+import pytest
+from click.testing import CliRunner
+from lxml import html as reader
+
+from atlas import toml
+from atlas.cli.app import atlas as command
+from atlas.cli.app import main
+from atlas.cli.page import best
+from atlas.errors import AtlasError
+from atlas.families import FAMILIES
+from atlas.report.body_and_field import body_and_field
+from atlas.report.parameters import Body, Field
+from atlas.report.single import single
+from atlas.report.tables import compute
+from atlas.report.tables.closed import convergents
+from atlas.report.tables.model import Request
+from atlas.report.tables.properties import lettered
+from atlas.scene.recipes import load
+
+MOTION = "--ratio 1.3 --field 1 2 --omega2 0.7"
+NAME = "motion-ratio-1.3-field-1-2-omega2-0.7"
+BALL = "ball --larmor 0.5 --momentum 0.3 -0.7"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def few_figures() -> Iterator[None]:
+    """Leave pages one figure, for each takes half a second; all are drawn in the reports."""
+    kept = [(one, one.figures) for one in (FAMILIES["elementary"], FAMILIES["quadric"])]
+    for one, _ in kept:
+        object.__setattr__(one, "figures", ("hyperbola",) if one.name == "elementary" else ("stability",))
+    yield
+    for one, figures in kept:
+        object.__setattr__(one, "figures", figures)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Make the page of an elementary motion, once."""
+    return Path(page(MOTION, tmp_path_factory.mktemp("pages"))[0])
+
+
+def page(words: str, out: Path) -> list[str]:
+    """Make a page and return what is printed."""
+    result = CliRunner().invoke(command, ["page", *words.split(), "--out", str(out)], catch_exceptions=False)
+    assert result.exit_code == 0, result.output
+    return result.stdout.splitlines()
+
+
+def rows(file: Path, table: str) -> dict[str, list[str]]:
+    """Return the rows of a table of a page by the name in their second cell, the cells as plain text."""
+    found = reader.fromstring(file.read_bytes()).get_element_by_id(f"tab-{table}").xpath(".//tbody/tr")
+    texts = [[cell.text_content().strip() for cell in row.xpath("./td")] for row in found]
+    return {cells[1]: cells for cells in texts}
+
+
+def number(text: str) -> mpmath.mpf:
+    """Read a number of a table."""
+    return mpmath.mpf(re.sub(r"[\s\u202f]", "", text).replace("\N{MINUS SIGN}", "-"))
+
+
+def test_its_numbers_are_those_of_the_formulas(made: Path) -> None:
+    """Eight numbers of the page agree with the formulas at 40 digits, to the last one shown."""
+    found = rows(made, "properties-elementary")
+    with mpmath.workdps(40):
+        I, B2, B3, w2 = (mpmath.mpf(x) for x in (1.3, 1, 2, 0.7))
+        w3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
+        k = w2 * mpmath.sqrt(B2**2 + B3**2) / B2
+        expected = {
+            "omega3": w3,
+            "k": k,
+            "phi": w3 - B3 / B2 * w2,
+            "period": 2 * mpmath.pi / k,
+            "energy": w2**2 + I * w3**2,
+            "field_squared": B2**2 + B3**2,
+            "c3": w3 + B3,
+            "along_field": w2 * B2 + I * w3 * B3,
+        }
+        for name, value in expected.items():
+            assert abs(number(found[name][2]) - value) <= abs(value) * mpmath.mpf("6e-10"), name
+            assert found[name][5] == "10\N{NO-BREAK SPACE}digits"
+    assert found["case"][2] == "precession"
+    assert found["nutation"][2] == "stable"
+    assert [found[name][5] for name in ("case", "nutation", "ratio")] == ["exactly", "exactly", "given"]
+
+
+def test_the_nearest_closed_motions_are_convergents(made: Path) -> None:
+    """Each fraction is a convergent of phi/k, and the motion at its omega2 has that ratio of frequencies."""
+    table = reader.fromstring(made.read_bytes()).get_element_by_id("tab-closed-elementary")
+    with mpmath.workdps(40):
+        for row in table.xpath(".//tbody/tr"):
+            cells = [cell.text_content().strip() for cell in row.xpath("./td")]
+            p, q = map(int, cells[0].replace("\N{MINUS SIGN}", "-").split("/"))
+            I, B2, B3, w2 = mpmath.mpf(1.3), mpmath.mpf(1), mpmath.mpf(2), number(cells[1])
+            w3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
+            assert abs((w3 - 2 * w2) / (w2 * mpmath.sqrt(5)) - mpmath.mpf(p) / q) < mpmath.mpf("1e-8")
+            assert abs(number(cells[2]) - (w2 - mpmath.mpf(0.7))) < mpmath.mpf("1e-9")
+
+
+def test_it_stands_in_one_file(made: Path) -> None:
+    """Nothing is fetched: what is shown or saved is inside, links are anchors, and each script is allowed."""
+    tree = reader.fromstring(made.read_bytes())
+    shown = [*tree.xpath("//@src"), *tree.xpath("//@srcset"), *tree.xpath("//link/@href")]
+    assert shown
+    assert all(place.startswith("data:") for place in shown)
+    assert not re.findall(r"url\((?!\"data:)", made.read_text("utf-8"))
+    anchors = {node.get("id") for node in tree.xpath("//*[@id]")}
+    for link in tree.xpath("//a"):
+        place = link.get("href")
+        assert (place.startswith("#") and place[1:] in anchors) or re.match(
+            r"data:|https://|\w[\w.+-]*\.(pdf|html)$", place
+        )
+        assert not place.startswith("data:") or link.get("download")
+    policy = tree.xpath("//meta[@http-equiv]/@content")[0]
+    assert "default-src 'none'" in policy
+    script = re.search(r"script-src ([^;]*)", policy)
+    assert script
+    assert "unsafe" not in script[1]
+    scripts = tree.xpath("//script")
+    assert len(scripts) >= 3
+    for one in scripts:
+        digest = base64.b64encode(hashlib.sha256((one.text or "").encode()).digest()).decode()
+        assert f"'sha256-{digest}'" in script[1]
+
+
+def test_a_page_made_twice_is_the_same(tmp_path: Path) -> None:
+    """Another folder, the same bytes of page, PDF and report file."""
+    first, other = ([Path(x) for x in page(BALL, tmp_path / name)] for name in "ab")
+    assert [x.read_bytes() for x in first] == [x.read_bytes() for x in other]
+    files = [x[1].with_suffix(".toml").read_bytes() for x in (first, other)]
+    assert files[0] == files[1]
+
+
+def test_neighbours_are_linked_when_they_are_there(tmp_path: Path) -> None:
+    """A page beside this one is a link in the row of its command; an object of no body has none."""
+    (tmp_path / "classify-ratio-1-field-0-2.html").write_text("x", "utf-8")
+    made = Path(page("--ratio 1.5 --field 0 2", tmp_path)[0])
+    links = reader.fromstring(made.read_bytes()).xpath("//figure[@id='tab-neighbours']//a[@href]")
+    assert [link.get("href") for link in links] == ["classify-ratio-1-field-0-2.html"]
+    assert links[0].text_content() == "atlas page classify --ratio 1 --field 0 2"
+    left_out = "".join(reader.fromstring(made.read_bytes()).xpath("//main//li//text()"))
+    assert "The figure stability: With B2 = 0" in left_out
+
+
+def test_the_code_of_a_page_gives_its_numbers(made: Path) -> None:
+    """The lines of Python print doubles that round to the digits of the table."""
+    (code,) = reader.fromstring(made.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
+    with redirect_stdout(StringIO()) as out:
+        exec(code.text_content(), {})  # noqa: S102  what the page tells the reader to type
+    found = rows(made, "properties-elementary")
+    printed = dict(zip(("case", "omega3", "k", "phi"), out.getvalue().splitlines(), strict=True))
+    for name in ("omega3", "k", "phi"):
+        assert float(printed[name]) == pytest.approx(float(number(found[name][2])), rel=1e-9)
+
+
+def test_a_report_file_that_was_changed_is_not_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The page says what to do instead, in one line with status 2, and the good page stays."""
+    made = Path(page(BALL, tmp_path)[0])
+    good, file = made.read_bytes(), made.parent / f"{made.name.removesuffix('.html')}.toml"
+    assert file.read_text("utf-8").startswith("# Made by `atlas page ball --larmor 0.5 --momentum 0.3 -0.7`")
+    file.write_text(file.read_text("utf-8").replace("charged ball", "my ball"), "utf-8")
+    with pytest.raises(SystemExit) as ended:
+        main(["page", *BALL.split(), "--out", str(tmp_path)])
+    assert ended.value.code == 2
+    told = capsys.readouterr()
+    assert "was changed since it was made" in told.err
+    assert told.err.count("\n") == 1
+    assert made.read_bytes() == good
+    words = ["report", str(file), "--format", "single", "--out", str(tmp_path)]
+    assert CliRunner().invoke(command, words, catch_exceptions=False).exit_code == 0
+    assert b"my ball" in made.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        (MOTION, "motion"),
+        ("--ratio 1.3 --field 1 2", "classify"),
+        ("--ratio 1.3 --field 1 2 --omega 0.3 0.7 0.2", "general"),
+        ("--shape ring --radius=1 --mass 1 --charge 1 --magnetic 1 2 --omega 1 2 3", "general"),
+        ("--inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7", "elliptic"),
+        ("--inertia 1 0.5 --direction 0 1 --omega 0 0 1", "top"),
+        ("--inertia 1 0.5 --heavy 9.81 0.1 --mass 1 --direction 0 1 --omega 0 0 1", "top"),
+        ("--larmor 0.5 --momentum 0.3 -0.7", "ball"),
+        ("--mu 1 --velocity 1 0 0", "particle"),
+    ],
+)
+def test_the_family_is_that_of_the_options(words: str, name: str) -> None:
+    """Options that only one family takes choose it, by their names and by how many numbers they have."""
+    assert best(words.split()) == name
+
+
+@pytest.mark.parametrize(
+    ("words", "tells"),
+    [
+        ("--ratio 3 --field 1 2 --omega2 1", "at most 2"),
+        ("--ratio 1.3 --field 1 2 --omega2 -1", "pole"),
+        ("--ratio 1.3 --omega2 1", "the field is one of"),
+        ("--omega2 1", "the body is one of"),
+        ("--ratio 1.3 --field 1 2 --omega 1 2", "--omega"),
+        ("--ratio 1.3 --field 1 2 --omeg 1 2 3", "--omeg"),
+        ("motion --ratio 1.3 --field 1 2", "--omega2"),
+        ("nosuch --ratio 1", "nosuch"),
+        ("top --inertia 1 1 --omega 1 2 3", "--direction is missing"),
+    ],
+)
+def test_what_is_no_object_is_refused(
+    words: str, tells: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One line says why, with status 2, and nothing is written."""
+    with pytest.raises(SystemExit) as ended:
+        main(["page", *words.split(), *(["--out", str(tmp_path / "x")] if "nosuch" not in words else [])])
+    assert ended.value.code == 2
+    told = capsys.readouterr().err
+    assert tells in told
+    assert told.count("\n") == 1
+    assert not (tmp_path / "x").exists()
+
+
+def test_a_negative_field_keeps_its_sign_in_si(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """B' against e2 stays there, though the report's own frame would turn it round; rates are in 1/s."""
+
+    def build(*_: object, **__: object) -> None:
+        raise AtlasError("not built here")
+
+    monkeypatch.setattr("atlas.build.report.build_report", build)
+    words = "page --ratio 1.5 --mass 2 --charge -3 --magnetic 1 2 --out".split()
+    with pytest.raises(AtlasError, match="not built here"):
+        CliRunner().invoke(command, [*words, str(tmp_path)], catch_exceptions=False)
+    (file,) = tmp_path.glob("*.toml")
+    record = toml.loads(file.read_text("utf-8"))
+    assert record["parameters"]["fields"]["field"]["prime"] == [-0.75, -1.5]
+    assert record["pages"][0]["blocks"][0]["parameters"]["time"] == "s"
+
+
+def test_the_figures_of_a_family_draw_it() -> None:
+    """Each recipe of the register is there, and takes parameters of its family."""
+    for one in FAMILIES.values():
+        for name in one.figures:
+            assert set(load(name).parameters) & {p.name for p in one.parameters}
+
+
+def test_a_report_of_several_pages_is_not_one_file() -> None:
+    """It is an error that says so."""
+    with pytest.raises(AtlasError, match="the report has 2"):
+        single({"index.html": b"", "more.html": b""}, "x")
+
+
+def test_properties_say_what_is_not_proven() -> None:
+    """A float of kernels alone is not certified, a zero is exact, and a parameter that is missing is an error."""
+    case = [body_and_field(Body("b", ratio=1.5), Field("f", prime=(1.0, 2.0)))]
+    data = compute("properties", Request(case, {"family": "hyperbola", "given": False}, 8))
+    assert {row[1]: row[5] for row in data.rows}["`least_stability`"] == "float, not certified"
+    data = compute("properties", Request(case, {"family": "elementary", "omega2": -2.0}, 8))
+    assert {row[1]: row[5] for row in data.rows}["`phi`"] == "exactly"
+    for wrong, tells in (({}, "lacks 'omega2'"), ({"omega2": 1.0, "omega4": 1.0}, "omega4")):
+        with pytest.raises(AtlasError, match=tells):
+            compute("properties", Request(case, {"family": "elementary", **wrong}, 8))
+    with pytest.raises(AtlasError, match="nix"):
+        compute("properties", Request(case, {"family": "nix"}, 8))
+
+
+def test_convergents_are_best_fractions() -> None:
+    """Those of pi are the known ones, and a fraction ends with itself."""
+    from flint import arb, fmpq
+
+    assert list(convergents(arb.pi())) == [(3, 1), (22, 7), (333, 106), (355, 113)]
+    assert list(convergents(arb(fmpq(-7, 4)))) == [(-2, 1), (-7, 4)]
+
+
+def test_plain_words_get_their_letters() -> None:
+    """Letters of the register's words become formulas, powers are raised, and other words stay."""
+    assert lettered("semi-axis along omega'_2, 1/B2^2") == r"semi-axis along $\omega'_2$, 1/$B_2$^2^"
+    assert lettered("Components of B' = mu B/(2c)") == r"Components of $\mathbf{B}'$ = $\mu$ $\mathbf{B}$/(2c)"
+    assert lettered("number of the motion") == "number of the motion"
