@@ -15,16 +15,6 @@ from atlas.cli.top import top_units
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES, Family
 
-HELP = """Make a page of one object: a body in a field, a motion, a top.
-
-It has the quantities of the object with their proven digits, the figures that fit it, the nearest closed motions,
-neighbours with the commands that make their pages, and how to get the same numbers. NAME.html is one file with all that
-belongs to it; NAME.pdf is the same to print, and NAME.toml the report that both are made from, to go on with.
-
-COMMAND is that of a family and takes its options; without it, it is the one that the options are of: --omega2 makes an
-elementary motion, --omega any motion, neither of them the quadric of the body in the field.
-"""
-
 
 def command_of(family: Family, name: str) -> click.Command:
     """Make the command of a family."""
@@ -74,10 +64,10 @@ def _counted(args: Sequence[str]) -> Iterator[tuple[str, int]]:
         yield option, end - start - 1 + bool(equals)
 
 
-command = ByOptions(
+@click.command(
     "page",
+    cls=ByOptions,
     commands=COMMANDS,
-    help=HELP,
     epilog=examples(
         "atlas page --ratio 1.3 --field 1 2 --omega2 0.7",
         "atlas page --ratio 1.3 --field 1 2 --omega 0.3 0.7 0.2 --digits 30",
@@ -86,6 +76,16 @@ command = ByOptions(
         "atlas page elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7",
     ),
 )
+def command() -> None:
+    """Make a page of one object: a body in a field, a motion, a top.
+
+    It has the quantities of the object with their proven digits, the figures that fit it, the nearest closed motions,
+    neighbours with the commands that make their pages, and how to get the same numbers. NAME.html is one file with all
+    that belongs to it; NAME.pdf is the same to print, and NAME.toml the report that both are made from, to go on with.
+
+    COMMAND is that of a family and takes its options; without it, it is the one that the options are of: --omega2 makes
+    an elementary motion, --omega any motion, neither of them the quadric of the body in the field.
+    """
 
 
 def asked(family: Family, options: dict[str, Any]) -> Any:

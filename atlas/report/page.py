@@ -21,6 +21,7 @@ from atlas.report.tables.properties import Thing
 
 LONGEST = 100
 """Characters of the name of a page; what is longer ends with a digest."""
+FIGURES = "## Figures\n\nThose that fit it, each with the command that draws it."
 HEAD = (
     "# Made by `{command}`, digest {digest}.\n"
     "# Change it as you like, and build it by `atlas report {name}.toml --format single pdf`.\n\n"
@@ -104,7 +105,7 @@ def definition(asked: Asked, there: Callable[[str], bool]) -> dict[str, Any]:
         *figures[:1],
         *([_setting()] if asked.field and "B" in asked.field else []),
         *(_table(asked, "properties", one.name, {"given": False}) for one in beside),
-        *([{"kind": "prose", "text": "## Figures"}, *figures[1:]] if figures[1:] else []),
+        *([{"kind": "prose", "text": FIGURES}, *figures[1:]] if figures[1:] else []),
         *_closed(asked, left_out),
         *_neighbours(asked, there),
         {"kind": "prose", "text": _reproduce(asked)},

@@ -105,6 +105,7 @@ CASES = [
     Case("diff before/prose after/prose --json", "msgspec", status=1),
     Case("diff before/prose after/prose", "msgspec rich", status=1),
     Case("report nosuchreport", "msgspec", status=2),
+    Case("page --ratio 3 --field 1 2", "msgspec numpy flint", status=2),
     Case("tex prose.toml", "msgspec numpy flint multiprocessing jinja2"),
     Case("data prose.toml", "msgspec numpy flint pylatexenc multiprocessing"),
 ]
