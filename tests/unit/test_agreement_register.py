@@ -111,6 +111,9 @@ UNTIED = {
             "rotation_grid third_axis"
         ).split()
     },
+    **dict.fromkeys(
+        ("EllipticMotion.cancelled", "GeneralMotion.cancelled", "TopMotion.cancelled"), "a count of digits"
+    ),
     "ElementaryMotion.omega": GIVEN,
     "Quadric.of_top": "compared with the paper's quadric and with Taylor series of a top, in test_top_quadric",
     "Hyperbola.of_top": "compared with the paper's hyperbola and with Taylor series of a top, in test_top_quadric",
