@@ -28,7 +28,7 @@ from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, S
 from atlas.scene.narrow import narrowed
 from atlas.scene.style import Style, readable
 
-STEPS, GRID = 16000, 40
+STEPS, GRID = 16000, 16
 """To the unit of a panel, and to the point of letters."""
 _FLAT, _NEAR = 1e-6, 0.05
 _UPPER = np.triu_indices(4)

@@ -81,8 +81,8 @@ const write = panel => {
   const {names} = panel.data, SVG = "http://www.w3.org/2000/svg"; if (panel.letters.length === names.length && panel.letters[0].querySelector("text")) return;
   panel.letters.forEach(one => one.remove());
   panel.letters = names.map(([number, colour]) => {
-    const [letters, width] = TEXTS[number], made = document.createElementNS(SVG, "svg"), text = document.createElementNS(SVG, "text"); made.setAttribute("viewBox", [-width / 2 - 3, -9, width + 6, 18].map(x => 40 * x).join(" "));
-    for (const [name, value] of Object.entries({fill: colour, "font-size": 440, "font-weight": 700, "text-anchor": "middle", y: 150})) text.setAttribute(name, value);
+    const [letters, width] = TEXTS[number], made = document.createElementNS(SVG, "svg"), text = document.createElementNS(SVG, "text"); made.setAttribute("viewBox", [-width / 2 - 3, -9, width + 6, 18].map(x => 16 * x).join(" "));
+    for (const [name, value] of Object.entries({fill: colour, "font-size": 176, "font-weight": 700, "text-anchor": "middle", y: 60})) text.setAttribute(name, value);
     text.textContent = letters; made.append(text); panel.viewer.letters.append(made); return made;
   });
 };

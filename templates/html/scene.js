@@ -8,7 +8,7 @@
 // The light falls as in the shaded pictures: direction and strength of each lamp, which do not turn with the scene.
 const LAMPS = [[-0.55, 0.75, 0.9, 0.9], [0.9, 0.15, 0.8, 0.26], [0.1, 1, -0.5, 0.25], [0, -0.35, 1, 0.2]]
   .flatMap(([x, y, z, strength]) => [...unit([x, y, z]), strength]);
-const REACH = 2, STEPS = 16000, GRID = 40, PIECE = 11, FORMS = [1, 2, 3, 6], PIECES = [1, 4, 16], MOST = 16, TILE = 24;
+const REACH = 2, STEPS = 16000, GRID = 16, PIECE = 11, FORMS = [1, 2, 3, 6], PIECES = [1, 4, 16], MOST = 16, TILE = 24;
 
 const HEAD = "#version 300 es\nprecision highp float; precision highp int; precision highp sampler2D;\n";
 // Depth is linear in the distance to the eye: REACH in front of the middle is 0, REACH behind it 1.

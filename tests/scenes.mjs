@@ -1,0 +1,85 @@
+// The figures of a built report that turn, in headless Chromium, opened from disk under the policy of its pages: Enter
+// opens each, it looks as its still picture does, keys turn it, 0 and Escape bring it back; the sliders of
+// the explorer move the motion and the address; nothing is asked for but files of the report, and without WebGL 2 a
+// click follows the link. Run by `make accessibility`, which brings the package from npm.
+import { readdirSync } from "node:fs";
+import { createRequire } from "node:module";
+import { resolve } from "node:path";
+
+const [folder, packages] = process.argv.slice(2).map(path => resolve(path));
+const { chromium } = createRequire(`${packages}/`)("playwright-core");
+const launch = more => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", ...more] });
+let asked = 0, failed = 0, turned = 0;
+const holds = (right, ...words) => { asked += 1; if (!right) { failed += 1; console.log("not so:", ...words); } };
+// The mean difference of shades, of 255, from a shaded picture and from a line drawing, which has other tints.
+const NEAR = { png: 3, svg: 15 };
+
+const browser = await launch(["--enable-unsafe-swiftshader"]);
+const page = await (await browser.newContext({ viewport: { width: 1280, height: 1000 }, reducedMotion: "reduce" })).newPage();
+page.on("pageerror", error => holds(false, String(error)));
+page.on("request", request => holds(request.url().startsWith(`file://${folder}/`), "a request to", request.url()));
+// The panels in space as they are seen, small; pictures are read in a page of their own, which has no policy.
+const reader = await browser.newPage();
+const shades = async link => {
+  await link.evaluate(one => one.viewer?.draw());
+  const clip = await link.locator("img").boundingBox(), shot = (await page.screenshot({ clip, style: ".scene > div, .scene button, .turns::after { visibility: hidden; } canvas { outline: none !important; }" })).toString("base64");
+  return reader.evaluate(async ([shot, places]) => {
+    const picture = await createImageBitmap(await (await fetch(`data:image/png;base64,${shot}`)).blob()), width = 140, height = Math.round(140 * picture.height / picture.width), on = new OffscreenCanvas(width, height).getContext("2d");
+    on.drawImage(picture, 0, 0, width, height);
+    return places.flatMap(([left, top, w, h]) => [...on.getImageData(left * width, top * height, w * width, h * height).data]);
+  }, [shot, await link.evaluate(one => one.places)]);
+};
+const differ = (a, b) => a.reduce((sum, x, i) => sum + Math.abs(x - b[i]), 0) / a.length;
+for (const name of readdirSync(folder).filter(one => one.endsWith(".html"))) {
+  await page.goto(`file://${folder}/${name}`);
+  for (const link of await page.locator("a[data-scene]").all()) {
+    const file = await link.getAttribute("data-scene");
+    await link.scrollIntoViewIfNeeded();
+    await link.focus();
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(one => one.viewer, await link.elementHandle(), { timeout: 120000 });
+    await link.evaluate(one => { one.places = one.viewer.shown.places; });
+    const home = await shades(link);
+    await page.keyboard.press("Escape");
+    const off = differ(home, await shades(link));
+    holds(off < NEAR[(await link.getAttribute("href")).slice(-3)], file, "looks as its still picture does:", off);
+    if (process.env.TELL) console.log(file, off);
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(one => one.parentElement.querySelector(".scene button"), await link.elementHandle(), { timeout: 120000 });
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("ArrowDown");
+    holds(differ(home, await shades(link)) > 0.2, file, "is turned by keys");
+    await page.keyboard.press("0");
+    holds(differ(home, await shades(link)) < 0.1, file, "comes back");
+    await page.keyboard.press("Escape");
+    holds(await page.evaluate(() => document.activeElement.dataset.scene) === file, file, "is closed, and its link has the focus");
+    turned += 1;
+  }
+  const slider = page.locator(".explorer input[type=range]").first();
+  if (!await slider.count()) continue;
+  const said = await page.locator(".explorer output").innerText();
+  await slider.focus();
+  for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowLeft");
+  holds(await page.locator(".explorer output").innerText() !== said, name, "says what the slider chose");
+  holds(page.url().includes("#motion:"), name, "has it in its address");
+  const kept = await page.locator(".explorer output").innerText();
+  await page.reload();
+  holds(await page.locator(".explorer output").innerText() === kept, name, "opens with the motion of its address");
+}
+await browser.close();
+
+const old = await launch(["--disable-webgl", "--disable-webgl2", "--disable-3d-apis"]), still = await old.newPage();
+const first = readdirSync(folder).filter(one => one.endsWith(".html"));
+for (const name of first) {
+  await still.goto(`file://${folder}/${name}`);
+  const link = still.locator("a[data-scene]").first();
+  if (!await link.count()) continue;
+  const target = await link.evaluate(one => one.href);
+  await link.click();
+  await still.waitForURL(target);
+  holds(still.url() === target, name, "shows the still picture without WebGL 2");
+  break;
+}
+await old.close();
+console.log(`${folder}: ${turned} scenes, ${asked} questions, ${failed} failures`);
+process.exit(failed ? 1 : 0);
