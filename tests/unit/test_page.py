@@ -189,6 +189,8 @@ def test_a_report_file_that_was_changed_is_not_overwritten(tmp_path: Path, capsy
         ("--ratio 1.3 --field 1 2 --omega 0.3 0.7 0.2", "general"),
         ("--shape ring --radius=1 --mass 1 --charge 1 --magnetic 1 2 --omega 1 2 3", "general"),
         ("--inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7", "elliptic"),
+        ("--inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 1 2 3", "asymmetric"),
+        ("--inertia 1 1.5 --field 1 2 --omega 1 2 3", "general"),
         ("--inertia 1 0.5 --direction 0 1 --omega 0 0 1", "top"),
         ("--inertia 1 0.5 --heavy 9.81 0.1 --mass 1 --direction 0 1 --omega 0 0 1", "top"),
         ("--larmor 0.5 --momentum 0.3 -0.7", "ball"),
