@@ -106,7 +106,7 @@ class Charge:
         """Frame of figure Magn, rows e1, e2, e3, (..., 3, 3)."""
         self.needs_field("frame")
         if not _any(self._signs("crossed", 3)).all():
-            raise DomainError("The frame of figure Magn needs an electric field across B, but E is along B or zero.")
+            raise DomainError("There is no axis along [E, B]: the electric field is along B or zero.")
         found = self._over("axes", 9).T
         return found.reshape(*found.shape[:-1], 3, 3)
 
