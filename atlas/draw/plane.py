@@ -40,17 +40,22 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
     axes.set(**{key: at for key, at in (("xlim", panel.x_limits), ("ylim", panel.y_limits)) if at is not None})
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x_limits and panel.y_limits else "datalim")
-    for axis in (axes.xaxis, axes.yaxis):
-        if axis.get_scale() != "linear" and len(axis.get_major_locator()()) > _DECADES:
-            axis.set_minor_locator(NullLocator())
-        if type(axis.get_major_formatter()) is ScalarFormatter:
-            axis.set_major_formatter(_Formatter())
+    _ticks(axes)
     above = _factor(axes.yaxis) or mpl.rcParams["xtick.labeltop"]
     axes.set_title(typeset(panel.title), y=None if above else 1.0)  # None: it is measured what stands above the axes
     if panel.legend == "beside":
         axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     elif panel.legend and entries:
         axes.legend(handles=entries, loc="best").set_in_layout(False)
+
+
+def _ticks(axes: Axes) -> None:
+    """Leave out the ticks between many powers of ten, and write numbers in our way."""
+    for axis in (axes.xaxis, axes.yaxis):
+        if axis.get_scale() != "linear" and len(axis.get_major_locator()()) > _DECADES:
+            axis.set_minor_locator(NullLocator())
+        if type(axis.get_major_formatter()) is ScalarFormatter:
+            axis.set_major_formatter(_Formatter())
 
 
 def _scale(axes: Axes, panel: Plane) -> None:

@@ -19,7 +19,7 @@ import msgspec
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.plain import plain
-from atlas.report.blocks.table import Cell, TableView
+from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.document import Document
 from atlas.report.numbers import MINUS, THIN
 from atlas.report.texts import citations
@@ -95,34 +95,42 @@ def _tables(document: Document) -> Iterator[Resource]:
 
 def _table(table: TableView, texts: Sequence[str]) -> Resource:
     """Return a table; a number whose digits are not all proven is marked in a column of its own."""
-    heads = [words(texts[column.head]) for column in table.columns]
-    names = unique(ascii_name(head) or "column" for head in heads)
-    fields, columns, found = list[Mapping[str, Any]](), list[list[str]](), set[str]()
-    for place, (column, head, name) in enumerate(zip(table.columns, heads, names, strict=True)):
+    names = unique(ascii_name(words(texts[column.head])) or "column" for column in table.columns)
+    fields, columns = list[Mapping[str, Any]](), list[list[str]]()
+    for place, (name, column) in enumerate(zip(names, table.columns, strict=True)):
         cells = [row[place] for row in table.rows]
-        numbers = [cell for cell in cells if cell.text is None and cell.whole]
-        numeric = bool(numbers) and all(cell.text is None for cell in cells)
-        unit = words(texts[column.unit]) if column.unit is not None else ""
-        field: dict[str, Any] = {"name": name, "title": head, "type": "number" if numeric else "string"}
-        if unit:
-            field["unit"] = unit
-        values = [value(cell, texts) for cell in cells]
-        if numbers:
-            field["digits"] = max(digits(value(cell, texts)) for cell in numbers)
-        fields.append(field)
-        columns.append(values)
+        fields.append(_field(name, column, cells, texts))
+        columns.append([value(cell, texts) for cell in cells])
         if not all(cell.proven for cell in cells):
             says = f"whether all digits of {name} are proven"
             fields.append({"name": f"{name}_proven", "title": says, "type": "boolean"})
             columns.append(["true" if cell.proven else "false" for cell in cells])
-        found |= {name for n in (column.head, *(cell.text for cell in cells)) if n for name in citations(texts[n])}
-    caption = texts[table.caption]
-    equations = sorted((found | set(citations(caption))) & set(EQUATIONS), key=list(EQUATIONS).index)
-    facts: dict[str, Any] = {"title": f"Table {table.number}", "description": words(caption), "equations": equations}
+    said = [table.caption, *(column.head for column in table.columns)]
+    said += [cell.text for row in table.rows for cell in row if cell.text is not None]
+    cited = {name for number in said for name in citations(texts[number])}
+    facts: dict[str, Any] = {
+        "title": f"Table {table.number}",
+        "description": words(texts[table.caption]),
+        "equations": [name for name in EQUATIONS if name in cited],
+    }
     if table.note is not None:
         facts["note"] = words(texts[table.note])
     rows = [list(row) for row in zip(*columns, strict=True)]
     return Resource(f"tables/{table.id.removeprefix('tab-')}", facts, fields, rows)
+
+
+def _field(name: str, column: ColumnView, cells: Sequence[Cell], texts: Sequence[str]) -> dict[str, Any]:
+    """Return what is said of a column: a number only if all of its cells are, its unit, and its most digits."""
+    numbers = [cell for cell in cells if cell.text is None and cell.whole]
+    numeric = bool(numbers) and all(cell.text is None for cell in cells)
+    field: dict[str, Any] = {
+        "name": name, "title": words(texts[column.head]), "type": "number" if numeric else "string",
+    }  # fmt: skip
+    if column.unit is not None:
+        field["unit"] = words(texts[column.unit])
+    if numbers:
+        field["digits"] = max(digits(value(cell, texts)) for cell in numbers)
+    return field
 
 
 def _figures(document: Document, drawn: Mapping[str, str]) -> Iterator[Resource]:
