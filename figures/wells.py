@@ -19,14 +19,18 @@ RANGES = {"reach": (0.5, 50.0)}
 
 def scene(
     *,
-    M3: tuple[float, ...] = (0.0, 0.5, 1.0),
+    momenta: tuple[float, ...] = (0.0, 0.5, 1.0),
     cosines: tuple[float, ...] = (-0.6, -0.3, 0.0, 0.3, 0.6),
     reach: float = 4.0,
 ) -> Scene:
-    """Draw the plane up to ``reach`` p^2 for each momentum ``M3`` over p, with the lines of some ``cosines``."""
-    if not (1 <= len(M3) <= 3 and all(abs(nu) < 1 for nu in cosines)):
-        raise DomainError(f"figure wells takes 1 to 3 momenta M3 and cosines between -1 and 1, not {M3} and {cosines}.")
-    panels = tuple(panel("abc"[k], k == 0, k == len(M3) - 1, momentum, cosines, reach) for k, momentum in enumerate(M3))
+    """Draw the plane up to ``reach`` p^2 for each of ``momenta``, M3 over p, with the lines of some ``cosines``."""
+    if not (1 <= len(momenta) <= 3 and all(abs(nu) < 1 for nu in cosines)):
+        raise DomainError(
+            f"figure wells takes 1 to 3 momenta M3 and cosines between -1 and 1, not {momenta} and {cosines}."
+        )
+    panels = tuple(
+        panel("abc"[k], k == 0, k == len(momenta) - 1, momentum, cosines, reach) for k, momentum in enumerate(momenta)
+    )
     return Scene(
         title=title(__doc__),
         caption=(
@@ -35,7 +39,7 @@ def scene(
             r"two wells. Its border is their envelope, where $\nu_0$ is a triple root."
         ),
         alt=(
-            f"Planes of a and A for M3/p = {listed([plain(x) for x in M3])}: straight lines that touch a curve with a "
+            f"Planes of a and A for M3/p = {listed([plain(x) for x in momenta])}: straight lines that touch a curve with a "
             "cusp; the region below the curve, which lies below A = 0, is shaded and has two wells."
         ),
         panels=panels,

@@ -19,7 +19,7 @@ from atlas.draw.arrow import HEAD_WIDTH, head_base
 from atlas.draw.glass import AMBIENT, distinct, glass, lattice
 from atlas.draw.style import style_of
 from atlas.draw.text import typeset
-from atlas.draw.view import View, fit, named
+from atlas.draw.view import View, dashes, fit, named
 from atlas.errors import AtlasError
 from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface
 from atlas.scene.style import Style
@@ -176,21 +176,6 @@ def _ball(centre: FloatArray, look: Style, view: View) -> pv.PolyData:
     return pv.Sphere(
         radius=0.5 * look.tube / view.scale, center=centre, theta_resolution=_SIDES, phi_resolution=_SIDES // 2
     )
-
-
-def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
-    """Return the polyline (N, 3) itself, or the dashes of it, measured in points of the paper along the line."""
-    if not look.dash:
-        return [points]
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    pattern = np.array(look.dash) / view.scale
-    ends = np.cumsum(np.resize(pattern, len(pattern) * (1 + int(length[-1] / pattern.sum()))))
-    ends = np.minimum(np.concatenate([[0.0], ends]), length[-1])
-    pieces = []
-    for start, stop in zip(ends[::2], ends[1::2], strict=False):
-        s = np.concatenate([[start], length[(length > start) & (length < stop)], [stop]])
-        pieces.append(np.stack([np.interp(s, length, points[:, i]) for i in range(3)], axis=1))
-    return pieces
 
 
 def _set_up(plotter: pv.Plotter, view: View) -> None:

@@ -12,7 +12,7 @@ from atlas.draw.text import extent, points
 from atlas.errors import AtlasError
 from atlas.scene.camera import frame, shown
 from atlas.scene.layers import Arrow, Curve, FloatArray, Image, Label, Layer, Points, Region, Space, Surface
-from atlas.scene.style import readable
+from atlas.scene.style import Style, readable
 
 _MARGIN = 4.0
 _BEYOND = 4.5
@@ -137,3 +137,18 @@ def _reach(flat: FloatArray, tags: list[Tag], scale: float) -> tuple[FloatArray,
     low = np.concatenate([scale * flat, centres - half]).min(axis=0)
     high = np.concatenate([scale * flat, centres + half]).max(axis=0)
     return low, high
+
+
+def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
+    """Return the polyline (N, 3) itself, or the dashes of it, measured in points of the paper along the line."""
+    if not look.dash:
+        return [points]
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    pattern = np.array(look.dash) / view.scale
+    ends = np.cumsum(np.resize(pattern, len(pattern) * (1 + int(length[-1] / pattern.sum()))))
+    ends = np.minimum(np.concatenate([[0.0], ends]), length[-1])
+    pieces = []
+    for start, stop in zip(ends[::2], ends[1::2], strict=False):
+        s = np.concatenate([[start], length[(length > start) & (length < stop)], [stop]])
+        pieces.append(np.stack([np.interp(s, length, points[:, i]) for i in range(3)], axis=1))
+    return pieces

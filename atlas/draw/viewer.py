@@ -18,11 +18,10 @@ from matplotlib.textpath import TextPath
 from atlas.draw.arrow import HEAD_LENGTH, HEAD_WIDTH
 from atlas.draw.glass import distinct
 from atlas.draw.panels import laid_out
-from atlas.draw.shaded import dashes
 from atlas.draw.space import window
 from atlas.draw.style import context, style_of
 from atlas.draw.text import extent, line, points, typeset
-from atlas.draw.view import View, fit, named
+from atlas.draw.view import View, dashes, fit, named
 from atlas.scene.camera import frame, shown
 from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface
 from atlas.scene.narrow import narrowed

@@ -34,6 +34,7 @@ TIME: Mapping[str, int] = {
     "c": 1,
     "E": 2,
     "B": 2,
+    "linear": 2,
     "stop": -1,
 }
 """Powers of a unit of frequency in the parameters: velocities, with c, have one, E and B two, for a fixed mu."""

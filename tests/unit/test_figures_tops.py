@@ -29,7 +29,7 @@ def test_shaded_tops_have_two_wells_and_the_others_one(M3: tuple[float, ...]) ->
     Points closer to the border than 0.1 are left out; on |M3| = p a well may lie on the pole itself.
     """
     nu = np.sin(np.linspace(-0.4999, 0.4999, 4001) * np.pi)
-    for panel, momentum in zip(made("wells", M3=M3).panels, M3, strict=True):
+    for panel, momentum in zip(made("wells", momenta=M3).panels, M3, strict=True):
         (shaded,) = layers(panel, Region)
         (edge,) = layers(panel, Curve, "main")
         for a, A in np.random.default_rng(3).uniform(-4, 4, size=(60, 2)):
@@ -123,7 +123,7 @@ def test_the_quadrics_of_tops_are_those_of_the_class() -> None:
     ("name", "parameters"),
     [
         ("wells", {"cosines": (1.0,)}),
-        ("wells", {"M3": (0.0, 0.1, 0.2, 0.3)}),
+        ("wells", {"momenta": (0.0, 0.1, 0.2, 0.3)}),
         ("cusps", {"linear": -1.0}),
         ("cusps", {"omega2": (-0.5, 0.0, 0.25, 0.3)}),
         ("monodromy", {"ratio": 0.5}),
