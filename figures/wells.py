@@ -39,8 +39,8 @@ def scene(
             r"two wells. Its border is their envelope, where $\nu_0$ is a triple root."
         ),
         alt=(
-            f"Planes of a and A for M3/p = {listed([plain(x) for x in momenta])}: straight lines that touch a curve with a "
-            "cusp; the region below the curve, which lies below A = 0, is shaded and has two wells."
+            f"Planes of a and A for M3/p = {listed([plain(x) for x in momenta])}: straight lines that touch a curve "
+            "with a cusp; the region below the curve, which lies below A = 0, is shaded and has two wells."
         ),
         panels=panels,
         columns=len(panels),
