@@ -101,20 +101,6 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
         finite(found, "omega")
         return (found[..., 0], found[..., 1], found[..., 2]) if self.shape else tuple(found)
 
-    def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body; shape (..., 3).
-
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
-        """
-        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
-
-    def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' in the body; shape (..., 3).
-
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
-        """
-        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
-
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
 

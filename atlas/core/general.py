@@ -134,20 +134,6 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         """All motions in arrays, for a few times each."""
         return GeneralRows(self._blocks)
 
-    def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body; shape (..., 3); within 16 ulp of its largest component.
-
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
-        """
-        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
-
-    def field_in_body(self, t: Any) -> FloatArray:
-        """Field K(t) = R^T B' in the body, (32); shape (..., 3); within 1.8e-15 of |B'|.
-
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
-        """
-        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
-
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R (Omega1, Omega2, I Omega3) in the laboratory; shape (..., 3).
 

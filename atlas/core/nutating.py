@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from flint import arb
 
-from atlas.core.inputs import FloatArray
+from atlas.core.inputs import FloatArray, finite
 from atlas.core.motion import Motion
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.errors import DomainError
@@ -64,6 +64,20 @@ class NutatingMotion(Motion[Nutation]):
     def nome(self) -> Any:
         """Nome q = exp(-pi K'/K) of the elliptic functions."""
         return self._scalar("nome")
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body; shape (..., 3); within the bound that the class states.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body, (32); shape (..., 3); within the bound that the class states.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
 
     def _scalar(self, name: str) -> Any:
         """Return a number for each motion, in an array NaN for a motion that has none."""

@@ -227,13 +227,6 @@ class TopMotion(NutatingMotion[SingleTop]):
         """The quadric of starts with nu'' = 0 of this top, whatever omega, theorem-top-quadric."""
         return TopQuadric(self.inertia, self.coupling, self.direction, self.linear, self.quadratic)
 
-    def angular_velocity(self, t: Any) -> FloatArray:
-        """Angular velocity Omega(t) in the body; shape (..., 3).
-
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
-        """
-        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
-
     def field_in_body(self, t: Any) -> FloatArray:
         """Direction b(t) = R^T n in the body, a unit vector; shape (..., 3).
 
