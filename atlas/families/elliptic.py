@@ -3,7 +3,7 @@
 from typing import Any
 
 from atlas.families.model import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
-from atlas.families.shared import in_brackets, rotation
+from atlas.families.shared import MOMENTS, PRINCIPAL_FIELD, in_brackets, rotation
 
 
 def _kernels() -> Any:
@@ -24,14 +24,8 @@ FAMILY = Family(
     _kernels,
     _balls,
     (
-        Parameter(
-            "inertia", "Principal moments of inertia.", "inertia", (0.8, 1.0, 1.3), (0.5, 2.0),
-            columns=("I1", "I2", "I3"), metavar="I1 I2 I3",
-        ),
-        Parameter(
-            "field", "Components of B' = mu B/(2c) along the principal axes at t = 0.", RATE, (0.2, 1.0, 0.6),
-            (-3.0, 3.0), columns=("B1", "B2", "B3"), metavar="B1 B2 B3",
-        ),
+        MOMENTS,
+        PRINCIPAL_FIELD,
         Parameter("z", "Place on the curve v^2 = prod(z + D/I_i), D = I1 I2 I3.", "inertia^2", (1.7,), (-0.2, 4.0)),
         Parameter("branch", "Sign of v, 1 or -1.", "", (1.0,), (-1.0, 1.0), needed=False, omitted=1.0),
     ),

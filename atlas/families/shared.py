@@ -18,6 +18,24 @@ OMEGA = Parameter(
     columns=("omega1", "omega2", "omega3"),
     metavar="W1 W2 W3",
 )
+MOMENTS = Parameter(
+    "inertia",
+    "Principal moments of inertia.",
+    "inertia",
+    (0.8, 1.0, 1.3),
+    (0.5, 2.0),
+    columns=("I1", "I2", "I3"),
+    metavar="I1 I2 I3",
+)
+PRINCIPAL_FIELD = Parameter(
+    "field",
+    "Components of B' = mu B/(2c) along the principal axes at t = 0.",
+    RATE,
+    (0.2, 1.0, 0.6),
+    (-3.0, 3.0),
+    columns=("B1", "B2", "B3"),
+    metavar="B1 B2 B3",
+)
 
 
 def rotation(equation: str, checked: str) -> Sampled:

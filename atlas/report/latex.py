@@ -9,16 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 import atlas
-from atlas.places import folder
 from atlas.report.blocks.equation import EquationView
 from atlas.report.blocks.figure import FigureView
 from atlas.report.blocks.prose import ProseView
 from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.data_package import ascii_name, digits, unique, value, words
 from atlas.report.document import Document
+from atlas.report.templates import typesetting
 from atlas.report.versions import versions
 
 COLUMN, PAGE = 86.0, 178.0
@@ -47,19 +45,7 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
     `pictures` are the files of its figures, by name: ``figures/ID.pdf`` or ``.png``.
     """
     markdown, texts = [text.markdown for text in document.texts.texts], document.written["latex"]
-    environment = Environment(
-        loader=FileSystemLoader(folder("templates") / "latex"),
-        autoescape=False,  # noqa: S701  what is filled in is LaTeX
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        keep_trailing_newline=True,
-        variable_start_string="<$",
-        variable_end_string="$>",
-        block_start_string="<%",
-        block_end_string="%>",
-        comment_start_string="<#",
-        comment_end_string="#>",
-    )
+    environment = typesetting("latex")
     common = {"report": document.report, "versions": versions()}
     computed = [table for table in document.listed("table") if table.name]
     numbers = [one for table in computed for one in _numbers(table, markdown)]

@@ -5,13 +5,11 @@ import re
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 from atlas.errors import AtlasError
-from atlas.places import folder
 from atlas.report import fonts
 from atlas.report.blocks.table import Cell
 from atlas.report.document import Document
+from atlas.report.templates import typesetting
 from atlas.report.versions import versions
 
 TEXT_FONT = "STIXGeneral"
@@ -21,22 +19,9 @@ MATH_FONT = "STIX Two Math"
 
 def source(document: Document) -> str:
     """Write the Typst source of a document whose texts are set."""
-    environment = Environment(
-        loader=FileSystemLoader(folder("templates") / "typst"),
-        autoescape=False,  # noqa: S701  the filters below escape for Typst
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        variable_start_string="<$",
-        variable_end_string="$>",
-        block_start_string="<%",
-        block_end_string="%>",
-        comment_start_string="<#",
-        comment_end_string="#>",
+    environment = typesetting(
+        "typst", string=_string, content=_content, bool=lambda value: str(bool(value)).lower(), number=_number
     )
-    environment.filters["string"] = _string
-    environment.filters["content"] = _content
-    environment.filters["bool"] = lambda value: str(bool(value)).lower()
-    environment.filters["number"] = _number
     return environment.get_template("report.typ").render(
         document=document,
         report=document.report,

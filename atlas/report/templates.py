@@ -1,4 +1,4 @@
-"""The templates of pages, opened where nothing of a report is loaded: a comparison takes one too."""
+"""The templates of pages and of what is typeset, opened where nothing of a report is loaded."""
 
 from collections.abc import Callable
 from typing import Any
@@ -16,6 +16,25 @@ def templates(**filters: Callable[..., Any]) -> Environment:
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
+    )
+    environment.filters |= filters
+    return environment
+
+
+def typesetting(kind: str, **filters: Callable[..., Any]) -> Environment:
+    """Return the templates for Typst or LaTeX, in which braces and percent signs have a meaning of their own."""
+    environment = Environment(
+        loader=FileSystemLoader(folder("templates") / kind),
+        autoescape=False,  # noqa: S701  what is filled in is escaped for its language
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        keep_trailing_newline=kind == "latex",
+        variable_start_string="<$",
+        variable_end_string="$>",
+        block_start_string="<%",
+        block_end_string="%>",
+        comment_start_string="<#",
+        comment_end_string="#>",
     )
     environment.filters |= filters
     return environment
