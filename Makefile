@@ -92,7 +92,7 @@ lint: setup
 	@$(BIN)/lint-imports --no-cache
 
 test: lint
-	@echo 'the tests: about 5 minutes on two cores'
+	@echo 'the tests: about 5.5 minutes on two cores'
 	@$(BIN)/python -m pytest -n $(JOBS)
 
 # The sdist and the wheel of a tag, from what the tag holds and nothing else.
