@@ -190,3 +190,11 @@ def test_heads_become_names() -> None:
     assert [ascii_name(head) for head in ("ω_2", "Ω_3", "B'_2", "ϕ/k", "E′", "What it is", "𝕀", "ν_n^2")] == [
         "omega2", "Omega3", "B_prime2", "phi_k", "E_prime", "What_it_is", "I", "nu_n_2",
     ]  # fmt: skip
+
+
+def test_a_link_to_data_of_ours_is_refused(data: Path, tmp_path: Path) -> None:
+    """What a link leads to is not replaced, even if it was made here."""
+    (tmp_path / "small").symlink_to(data)
+    with pytest.raises(AtlasError, match="holds something else than was made here"):
+        build_data(data.parents[1] / "small.toml", tmp_path)
+    assert (tmp_path / "small").is_symlink()

@@ -13,8 +13,8 @@ from atlas.build.tex import build_tex
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion as Balls
-from atlas.report.blocks.table import Cell
-from atlas.report.latex import _format, _with_unit
+from atlas.report.blocks.table import Cell, ColumnView, TableView
+from atlas.report.latex import _format, _numbers, _with_unit
 
 REPORT = r"""
 name = "small"
@@ -206,3 +206,10 @@ def test_latex_rounds_a_number_and_refuses_more_than_is_proven(
         status, log, _ = compiled(made, "wrong.tex")
         assert status != 0
         assert reason in log.replace("\n", "")
+
+
+def test_a_number_that_is_not_proven_has_no_key() -> None:
+    """Of two numbers of a column only the proven one can be printed by its key."""
+    cells = [(Cell(None, "1", ".5"),), (Cell(None, "2", ".5", "", proven=False),)]
+    table = TableView(1, "tab-x", (ColumnView(0, None, numeric=True),), tuple(cells), 0, 0, None, "x")
+    assert [one.value for one in _numbers(table, ["k"])] == ["1.5"]
