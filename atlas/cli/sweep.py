@@ -99,40 +99,62 @@ def command(
     """Compute quantities of a family over parameters, and write the table."""
     from atlas.study.sweep.run import sweep
 
-    wanted: dict[str, Any] = {"digits": digits, "rows": rows} if toml is None else {}
-    if toml is not None:
-        if family or settings or listing or quantities or digits or rows or body_parameters(options):
-            raise click.UsageError("with --file only --out and --jobs are left to say.")
-        recipe = read(toml)
-        family, quantities = recipe.family, tuple(recipe.quantities)
-        out = out or (None if recipe.out is None else OUT.convert(_beside(toml, recipe.out), None, None))
-        listing = None if recipe.listing is None else Path(_beside(toml, recipe.listing))
-        settings_read = {name: _values(name, value) for name, value in recipe.parameters.items()}
-        wanted = {"digits": recipe.digits, "rows": recipe.rows}
-    else:
-        pairs = [_setting(text) for text in settings]
-        body = _body(options)
-        settings_read = body | dict(pairs)
-        _once([*body, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(body))
+    said = bool(family or settings or listing or quantities or digits or rows or body_parameters(options))
+    if toml is not None and said:
+        raise click.UsageError("with --file only --out and --jobs are left to say.")
+    wanted = (
+        _of_options(family, settings, listing, quantities, out, digits, rows, options)
+        if toml is None
+        else _of_file(toml, out)
+    )
+    with bar("sweep") as tell:
+        path = sweep(**wanted, jobs=jobs, progress=lambda done, total: tell(done, total, ""))
+    click.echo(str(path))
+
+
+def _of_options(
+    family: str | None,
+    settings: Sequence[str],
+    listing: Path | None,
+    quantities: Sequence[str],
+    out: str | None,
+    digits: int | None,
+    rows: int | None,
+    options: dict[str, Any],
+) -> dict[str, Any]:
+    """Return the arguments of a sweep that the command line says."""
     if family is None:
         raise click.UsageError(f"name the family to sweep: {NAMES}.")
+    pairs, body = [_setting(text) for text in settings], _body(options)
+    _once([*body, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(body))
+    table = _table(listing, body | dict(pairs))
+    return _arguments(family, table, quantities, out, digits, rows) | {"time": units_of(options).get("time", "time")}
+
+
+def _of_file(toml: Path, out: str | None) -> dict[str, Any]:
+    """Return the arguments of a sweep that a TOML file says; out, if given, stands before the file's."""
+    recipe = read(toml)
+    listing = None if recipe.listing is None else Path(_beside(toml, recipe.listing))
+    table = _table(listing, {name: _values(name, value) for name, value in recipe.parameters.items()})
+    if out is None and recipe.out is not None:
+        out = OUT.convert(_beside(toml, recipe.out), None, None)
+    return _arguments(recipe.family, table, recipe.quantities, out, recipe.digits, recipe.rows)
+
+
+def _table(listing: Path | None, settings: dict[str, Any]) -> dict[str, Any]:
+    """Return the parameters of a list and those beside it, each once, and whether there is a list."""
+    columns = columns_of(listing) if listing else {}
+    _once([*columns, *settings], f"{listing} and elsewhere")
+    return {"parameters": columns | settings, "listed": listing is not None}
+
+
+def _arguments(
+    family: str, table: dict[str, Any], quantities: Sequence[str], out: str | None, digits: int | None, rows: int | None
+) -> dict[str, Any]:
+    """Return the arguments of a sweep."""
     if out is None:
         raise click.UsageError("--out says which file the table goes to.")
-    columns = columns_of(listing) if listing else {}
-    _once([*columns, *settings_read], f"{listing} and elsewhere")
-    with bar("sweep") as tell:
-        path = sweep(
-            family,
-            columns | settings_read,
-            quantities,
-            out,
-            listed=listing is not None,
-            jobs=jobs,
-            progress=lambda done, total: tell(done, total, ""),
-            time=units_of(options).get("time", "time"),
-            **{name: value for name, value in wanted.items() if value is not None},
-        )
-    click.echo(str(path))
+    return table | {"family": family, "quantities": tuple(quantities), "out": out, "digits": digits, "rows": rows}
 
 
 def _body(options: dict[str, Any]) -> dict[str, float]:
