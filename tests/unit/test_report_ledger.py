@@ -228,9 +228,10 @@ def test_links_lead_somewhere_and_no_markup_is_left(pages: dict[str, reader.Html
 
 
 def test_the_pdf_holds_every_entry(built: Built) -> None:
-    """Every name is printed, and every link of the PDF leads to a place in it."""
-    pdf = PdfReader(built.pdf)
-    text = re.sub(r"\s+", "", "".join(page.extract_text() for page in pdf.pages)).replace("\xad", "")
+    """Every name is printed, none is broken before its corrected form."""
+    pages = [page.extract_text() for page in PdfReader(built.pdf).pages]
+    assert [page[-200:] for page in pages if re.search(r"Corrected:\s*\d*\s*$", page)] == []
+    text = re.sub(r"\s+", "", "".join(pages)).replace("\xad", "")
     assert [name for name in EQUATIONS if name not in text] == []
     assert text.count("Counterexample") >= 2 * sum(v.verdict == "refuted" for v in recorded.load().values())
 
