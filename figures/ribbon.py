@@ -56,16 +56,17 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The surface (51) for {tex_setting(ratio, field)}, pale to dark by the rate $\lvert\omega_1B'_2\rvert$ "
-            rf"at which $\Omega_3$ departs there, in {BANDS} steps up to ${tex(round(widest * field[0], 2))}$. "
+            rf"The surface (51) for {tex_setting(ratio, field)}, the more strongly tinted the larger the rate "
+            rf"$\lvert\omega_1B'_2\rvert$ at which $\Omega_3$ departs there, in {BANDS} steps up to "
+            rf"${tex(round(widest * field[0], 2))}$. "
             r"From the heavy line it does not depart; its width shows four "
             rf"classes of $\nu_n/b$ from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$.{band} "
             r"Arrows at the bodies: $\boldsymbol{\omega}$."
         ),
         alt=(
-            f"The quadric of {plain_setting(ratio, field)} in five colours, palest in a band along the hyperbola, with "
-            "small bodies beside three points of that line, which is thin and light near the bends of its branches and "
-            "wide and dark away from them."
+            f"The quadric of {plain_setting(ratio, field)} in five tints, the faintest in a band along the hyperbola, "
+            "with small bodies beside three points of that line, which is thin near the bends of its branches and "
+            "wide away from them."
         ),
         panels=(Space(tuple(layers), azimuth, elevation),),
         named={"heavy": "nutation_3"},
