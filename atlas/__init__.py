@@ -32,6 +32,7 @@ _HOMES = {
     "simulate": "atlas.study.simulate",
     "figure": "atlas.draw",
     "plotter": "atlas.draw",
+    "animate": "atlas.draw.animation",
 }
 
 __all__ = [*_HOMES, "__version__"]  # noqa: PLE0604  the names are strings

@@ -4,6 +4,7 @@ Inside the unstable band an elementary motion that is pushed a little leaves alo
 stable motions in turn, and comes back: its period grows with the logarithm of the push, its reach hardly at all.
 """
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.movement import along
 from atlas.scene.sample import flat
 from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
@@ -59,7 +61,19 @@ def scene(
         columns=2,
         named={"dashed": "reference"},
         size=(WIDTH, HEIGHT),
+        paths={f"{push:g}": partial(moved, motion) for push, motion in zip(pushes, motions, strict=True)},
+        lasts=1.6 * max(motion.period for motion in motions),
     )
+
+
+def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
+    """Return time and Omega3, shape (N, 2)."""
+    return np.stack([t, motion.angular_velocity(t)[..., 2]], axis=-1)
+
+
+def moved(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how the dot of a motion goes along its curve."""
+    return along(point(motion, t), point(motion, np.zeros(1))[0])
 
 
 def course(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: float, unit: str) -> Plane:
@@ -71,14 +85,11 @@ def course(motions: list[GeneralMotion], pushes: tuple[float, ...], omega3: floa
     view = ((0.0, last), (low - pad, high + 2.2 * pad))
     layers: list[Layer] = [Curve(np.array([[0.0, omega3], [last, omega3]]), "reference")]
     for motion, push, role in zip(motions, pushes, ROLES, strict=False):
-
-        def point(t: FloatArray, motion: GeneralMotion = motion) -> FloatArray:
-            return np.stack([t, motion.angular_velocity(t)[..., 2]], axis=-1)
-
-        line = flat(point, 0.0, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=96)
+        line = flat(partial(point, motion), 0.0, last, view, (WIDTH / 2 - MARGIN, HEIGHT - MARGIN), pieces=96)
         layers += [
             Curve(line, role),
             Label(peaks(line, omega3), rf"$\omega_1={written(push)}$", role, (0.0, 5.0)),
+            Points(point(motion, np.zeros(1)), role, rides=f"{push:g}"),
         ]
     return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title="(a) leaving and returning")
 

@@ -4,14 +4,17 @@ A body drawn at equal steps of one turn of its precession k about the field, (84
 the painted seam shows the proper rotation phi on top of it.
 """
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
+from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, quadric_panel, solids
 from atlas.scene.bodies import drawn_body, row
+from atlas.scene.movement import about, riding
 from atlas.scene.narrow import stacked
 from atlas.scene.words import plain, plain_setting, quotient, tex, tex_setting, title
 
@@ -40,13 +43,14 @@ def scene(
     angle = float(np.arctan2(field[0], field[1]))
     fine = quadric_panel.tolerance(STEP * count / 2)
     cells: list[list[Layer]] = []
-    for i, (centre, R) in enumerate(zip(row(count, STEP, azimuth), motion.rotation(times), strict=True)):
+    places = row(count, STEP, azimuth)
+    for i, (centre, R) in enumerate(zip(places, motion.rotation(times), strict=True)):
         ring = solids.circle(centre + 1.35 * np.cos(angle) * axis, axis, 1.35 * abs(np.sin(angle)), fine)
         cells.append(
             [
-                *drawn_body(quotient(ratio), R, centre, 1.0, fine),
+                *riding([*drawn_body(quotient(ratio), R, centre, 1.0, fine)], f"{i}"),
                 Curve(ring, "trace"),
-                Arrow(centre, centre + 1.35 * R[:, 2], "body_axis"),
+                Arrow(centre, centre + 1.35 * R[:, 2], "body_axis", rides=f"{i}"),
                 Arrow(centre, centre + 1.9 * axis, "field", r"$\mathbf{B}$" if i == 0 else ""),
                 Label(centre - 1.35 * quadric_panel.E3, rf"${i}/{count - 1}$", "note", (0.0, -5.0)),
             ]
@@ -66,4 +70,11 @@ def scene(
         panels=stacked(cells, 1, azimuth, elevation),
         narrow=stacked(cells, 2, azimuth, elevation),
         size=(WIDTH, HEIGHT),
+        paths={f"{i}": partial(turned, motion, times[i], places[i]) for i in range(count)},
+        lasts=float(times[-1]),
     )
+
+
+def turned(motion: ElementaryMotion, start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how a body goes on from the moment at which it is drawn."""
+    return about(centre, motion.rotation(start + t) @ motion.rotation(start).T)

@@ -4,7 +4,9 @@ The path y_N(t) = y_0(t) + R(t) x_N(0), as below (18): the centre of mass flies 
 body turns about it by the elementary motion (84). Both feel one magnetic field, B = 2 c B'/mu, (32).
 """
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -17,6 +19,7 @@ from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
 from atlas.scene.camera import frame
 from atlas.scene.hyperbola_plane import components
+from atlas.scene.movement import along
 from atlas.scene.sample import curve, quarter_pixel
 from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
@@ -77,7 +80,29 @@ def scene(
         columns=2,
         named={"Thin lines": "guide"},
         size=(WIDTH, HEIGHT),
+        paths={
+            "centre": partial(carried, particle.position, np.eye(3)),
+            "point": partial(carried, flight.position, np.eye(3)),
+            "centre below": partial(carried, particle.position, axes),
+            "point below": partial(carried, flight.position, axes),
+            "arm": partial(swung, flight),
+        },
+        lasts=stop,
     )
+
+
+def carried(
+    position: Callable[[FloatArray], FloatArray], axes: FloatArray, t: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return how a mark goes along a path, as it is seen along these axes (columns)."""
+    return along(position(t) @ axes, position(np.zeros(1))[0] @ axes)
+
+
+def swung(flight: Flight, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how what is fixed in the body flies: its centre goes along, and it turns."""
+    start = flight.particle.position(np.zeros(1))[0]
+    turns = flight.motion.rotation(t)
+    return turns, flight.particle.position(t) - turns @ start
 
 
 def across(flight: Flight, B: FloatArray) -> FloatArray:
@@ -110,6 +135,7 @@ def paths(flight: Flight, axes: FloatArray, view: Space, stop: float) -> Paths:
 def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths) -> Space:
     """Panel (a): the paths in space, with the directions of the fields to the left of them."""
     layers, seen = bundle(*drawn)
+    layers.append(Curve(drawn[2][0], "velocity", rides="arm"))
     eye = frame(view)
     flat = seen @ eye.T
     length = 0.25 * float(np.ptp(flat, axis=0).max())
@@ -125,7 +151,7 @@ def space(flight: Flight, B: FloatArray, view: Space, drawn: Paths) -> Space:
 def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Plane:
     """Panel (b): the paths on the plane across B."""
     centre, point, arms = (path @ axes for path in drawn)
-    layers, _ = bundle(centre, point, arms, ("centre of mass", "point"))
+    layers, _ = bundle(centre, point, arms, ("centre of mass", "point"), " below")
     drifts = bool(flight.particle.drift.any())
     along = r"[\mathbf{E},\mathbf{B}]" if drifts else r"\mathbf{e}_1"
     across = r"\mathbf{E}_\perp" if drifts else r"[\hat{\mathbf{B}},\mathbf{e}_1]"
@@ -140,9 +166,14 @@ def projection(flight: Flight, axes: FloatArray, drawn: Paths, unit: str) -> Pla
 
 
 def bundle(
-    centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", "")
+    centre: FloatArray, point: FloatArray, arms: FloatArray, names: tuple[str, str] = ("", ""), where: str = ""
 ) -> tuple[list[Layer], FloatArray]:
     """Return the layers of the two paths and the arms between them, and all their points."""
     layers: list[Layer] = [Curve(arm, "guide") for arm in arms]
-    layers += [Curve(centre, "fourth", names[0]), Curve(point, "trajectory", names[1]), Points(point[:1], "start")]
+    layers += [
+        Curve(centre, "fourth", names[0]),
+        Curve(point, "trajectory", names[1]),
+        Points(point[:1], "start", rides=f"point{where}"),
+        Points(centre[:1], "fourth", rides=f"centre{where}"),
+    ]
     return layers, np.concatenate([centre, point])

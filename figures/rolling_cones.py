@@ -6,6 +6,7 @@ same k, (87), rolls on a cone about its angular momentum.
 """
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.camera import frame
+from atlas.scene.movement import about, riding
 from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 
@@ -35,10 +37,8 @@ def scene(
         )
     free = motion.beside
     axis = quadric_panel.in_plane(*field) / np.hypot(*field)
-    panels = (
-        cones("(a) in the field", motion, axis, (azimuth, elevation)),
-        cones("(b) free", free, axis, (azimuth, elevation)),
-    )
+    both = {"(a) in the field": motion, "(b) free": free}
+    panels = tuple(cones(name, one, axis, (azimuth, elevation)) for name, one in both.items())
     return Scene(
         title=title(__doc__),
         caption=(
@@ -55,7 +55,27 @@ def scene(
         panels=panels,
         columns=2,
         size=(160.0, 92.0),
+        paths={
+            f"{what} {name}": partial(path, one)
+            for name, one in both.items()
+            for what, path in (("body", rolled), ("line", swung))
+        },
+        lasts=float(2 * np.pi / abs(motion.k)),
     )
+
+
+def rolled(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how the body turns, and its cone with it."""
+    return about(quadric_panel.O, motion.rotation(t))
+
+
+def swung(motion: ElementaryMotion | FreeMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how the line of contact turns about the axis of the space cone: R without the proper rotation, (85)."""
+    spin = motion.phi * t
+    back = np.zeros((len(t), 3, 3))
+    back[:, 0, 0], back[:, 1, 1], back[:, 2, 2] = np.cos(spin), np.cos(spin), 1.0
+    back[:, 0, 1], back[:, 1, 0] = np.sin(spin), -np.sin(spin)
+    return about(quadric_panel.O, motion.rotation(t) @ back)
 
 
 def angles(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> tuple[float, float]:
@@ -109,21 +129,28 @@ def cones(name: str, motion: ElementaryMotion | FreeMotion, axis: FloatArray, vi
         (quadric_panel.E3, angles(motion, axis)[1], "body", "body"),
     )
     for line, angle, part, word in sides:
-        towards = line * np.sign(line @ omega)
+        towards = line * np.copysign(1.0, line @ omega)
         cone = solids.cone(quadric_panel.O, towards, angle, 1.0, fine)
-        layers += [
+        at, offset = beside(cone.rims[0], omega, view, narrow=angle == min(one[1] for one in sides))
+        found: list[Layer] = [
             replace(cone, role=part),
             Curve(np.stack([quadric_panel.O, 1.12 * np.cos(angle) * towards]), "construction"),
+            Label(at, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", offset),
         ]
-        at, offset = beside(cone.rims[0], omega, view, narrow=angle == min(one[1] for one in sides))
-        layers.append(Label(at, f"{word} ${np.degrees(angle):.1f}^\\circ$", "note", offset))
+        layers += riding(found, f"body {name}") if part == "body" else found
     free = isinstance(motion, FreeMotion)
     role, letter = ("momentum", r"$\mathbf{m}$") if free else ("field", r"$\mathbf{B}$")
     along = axis * (np.sign(axis @ omega) if free else 1.0)  # m = I2 omega + (I3 - I2) Omega_3 R_3 is along the axis
     layers += [
         Arrow(quadric_panel.O, reach(along, omega) * along, role, letter),
-        Arrow(quadric_panel.O, reach(quadric_panel.E3, omega) * quadric_panel.E3, "body_axis", r"$\mathbf{R}_3$"),
-        Arrow(quadric_panel.O, 1.35 * omega, "velocity", r"$\boldsymbol{\omega}$"),
+        Arrow(
+            quadric_panel.O,
+            reach(quadric_panel.E3, omega) * quadric_panel.E3,
+            "body_axis",
+            r"$\mathbf{R}_3$",
+            rides=f"body {name}",
+        ),
+        Arrow(quadric_panel.O, 1.35 * omega, "velocity", r"$\boldsymbol{\omega}$", rides=f"line {name}"),
         Points(quadric_panel.O[None], "origin"),
     ]
     return Space(tuple(layers), azimuth=view[0], elevation=view[1], title=name)

@@ -8,6 +8,7 @@ Pushed a little, its axis leaves the field, reaches a greatest angle and comes b
 -B3 it rests in Larmor's frame and never turns back: the axis goes round, through both ends of the field's.
 """
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, quadric_panel
 from atlas.scene.bodies import drawn_body, row
+from atlas.scene.movement import about, along, riding
 from atlas.scene.narrow import stacked
 from atlas.scene.sample import flat
 from atlas.scene.words import plain, quotient, tex, title
@@ -50,6 +52,7 @@ def scene(
     motion = GeneralMotion(ratio, (0.0, B3), (push, 0.0, omega3))
     times = moments(motion, count)
     cells, below = strip(motion, I, times, azimuth), course(motion, times, unit)
+    places = row(count, STEP, azimuth)
     far = float(np.degrees(angle(motion.third_axis(np.array([motion.period / 2]))))[0])
     return Scene(
         title=title(__doc__),
@@ -72,7 +75,28 @@ def scene(
         narrow=(*stacked(cells, 2, azimuth, elevation), below),
         named={"dots": "start"},
         size=(WIDTH, HEIGHT),
+        paths={
+            f"{what} {i}": partial(path, motion, time, place)
+            for i, (time, place) in enumerate(zip(times, places, strict=True))
+            for what, path in (("body", turned), ("dot", moved))
+        },
+        lasts=2.0 * float(motion.period),
     )
+
+
+def turned(motion: GeneralMotion, start: float, centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how a body goes on from the moment at which it is drawn."""
+    return about(centre, motion.rotation(start + t) @ motion.rotation(start).T)
+
+
+def moved(motion: GeneralMotion, start: float, _centre: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how its dot goes on along the curve."""
+    return along(point(motion, start + t), point(motion, np.array([start]))[0])
+
+
+def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
+    """Return time and angle in degrees, shape (N, 2)."""
+    return np.stack([t, np.degrees(angle(motion.third_axis(t)))], axis=-1)
 
 
 def angle(axis: FloatArray) -> FloatArray:
@@ -94,8 +118,8 @@ def strip(motion: GeneralMotion, I: float, times: FloatArray, azimuth: float) ->
     for i, (centre, R) in enumerate(zip(row(len(times), STEP, azimuth), motion.rotation(times), strict=True)):
         cells.append(
             [
-                *drawn_body(I, R, centre, 1.0, fine),
-                Arrow(centre, centre + 1.15 * R[:, 2], "body_axis"),
+                *riding([*drawn_body(I, R, centre, 1.0, fine)], f"body {i}"),
+                Arrow(centre, centre + 1.15 * R[:, 2], "body_axis", rides=f"body {i}"),
                 Arrow(centre, centre + 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$" if i == 0 else ""),
                 Label(centre - 1.15 * quadric_panel.E3, f"{i + 1}", "note", (0.0, -4.0)),
             ]
@@ -106,15 +130,11 @@ def strip(motion: GeneralMotion, I: float, times: FloatArray, azimuth: float) ->
 def course(motion: GeneralMotion, times: FloatArray, unit: str) -> Plane:
     """Return the angle of the axis over three periods, with the moments above as dots."""
     view = ((0.0, 3.0 * motion.period), (0.0, 195.0))
-
-    def point(t: FloatArray) -> FloatArray:
-        return np.stack([t, np.degrees(angle(motion.third_axis(t)))], axis=-1)
-
-    line = flat(point, *view[0], view, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN), pieces=96)
+    line = flat(partial(point, motion), *view[0], view, (WIDTH - MARGIN, HEIGHT / 2 - MARGIN), pieces=96)
     layers = (
         Curve(np.array([[0.0, 90.0], [view[0][1], 90.0]]), "reference"),
         Curve(line, "main"),
-        Points(point(times), "start"),
+        *(Points(point(motion, times[i : i + 1]), "start", rides=f"dot {i}") for i in range(len(times))),
     )
     return Plane(
         layers,

@@ -72,11 +72,16 @@ def shown(panel: Panel, *, noise: bool = False) -> Iterator[str]:
     yield from written(
         (
             f"{type(layer).__name__} {getattr(layer, 'role', '')}".strip(),
-            "".join(f" {text!r}" for name, text in vars(layer).items() if isinstance(text, str) and name != "role"),
+            "".join(f" {text!r}" for name, text in vars(layer).items() if _said(name, text)),
             {} if noise else measured(layer),
         )
         for layer in panel.layers
     )
+
+
+def _said(name: str, value: Any) -> bool:
+    """Tell whether a field of a layer is words; most layers ride on nothing."""
+    return isinstance(value, str) and name != "role" and (name, value) != ("rides", "")
 
 
 def _parted(settings: dict[str, Any], *, noise: bool) -> tuple[str, Numbers]:

@@ -72,6 +72,7 @@ for name, says in {
     "data": "Write the data of a report, to be cited.",
     "diff": "Compare two built reports.",
     "figure": "Draw figures.",
+    "animate": "Let a figure move: mp4, gif or apng.",
     "list": "Name the figures, reports and shapes.",
     "hyperbola": "Sample the hyperbola (67).",
     "sweep": "Tabulate quantities over parameters.",

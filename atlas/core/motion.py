@@ -3,6 +3,7 @@
 import reprlib
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
+from importlib import import_module
 from math import prod
 from numbers import Integral
 from typing import Any, Generic, Protocol, TypeVar
@@ -120,6 +121,16 @@ class Motion(Generic[Turning]):
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
         return self.column(3, t)
+
+    def animate(self, times: Any = None, *, fps: float = 20.0, style: Any = None) -> Any:
+        """Return the motion at these times, or over one period, as an animation of Matplotlib's.
+
+        It shows the body, its axis with the trace of that, and the field; `fps` are its frames a second, `style` is as
+        for `atlas.figure`; ``.save("x.gif")`` writes it. Raises AtlasError for an array of motions, and for times as
+        `rotation` does.
+        """
+        moments = None if times is None else real(times, "The time").ravel()
+        return import_module("atlas.draw.animation").of_motion(self, moments, fps=number(fps, "fps"), style=style)
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrices on the uniform grid start + i step, i = 0 .. count - 1, shape (..., count, 3, 3).

@@ -1,7 +1,7 @@
 """A scene as a `matplotlib.figure.Figure` or as a `pyvista.Plotter`, and into files.
 
-`figure` and `plotter` take a recipe's name, `to_figure` and `to_plotter` a scene; `save` writes files. The libraries
-that draw are loaded by the first call.
+`figure`, `animate` and `plotter` take a recipe's name, `to_figure` and `to_plotter` a scene; `save` writes files. The
+libraries that draw are loaded by the first call.
 """
 
 from importlib import import_module
@@ -12,13 +12,14 @@ if TYPE_CHECKING:
     from pyvista import Plotter
 
 _HOMES = {
+    "animate": "atlas.draw.animation",
     "context": "atlas.draw.style",
     "save": "atlas.draw.files",
     "to_figure": "atlas.draw.panels",
     "to_plotter": "atlas.draw.shaded",
 }
 
-__all__ = ["context", "figure", "plotter", "save", "to_figure", "to_plotter"]
+__all__ = ["animate", "context", "figure", "plotter", "save", "to_figure", "to_plotter"]
 
 
 def figure(name: str, style: Any = None, **parameters: Any) -> "Figure":

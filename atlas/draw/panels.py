@@ -1,24 +1,25 @@
 """A scene as a Matplotlib figure: one axes a panel, row by row."""
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
-from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from atlas.draw import names
 from atlas.draw.plane import draw_plane
-from atlas.draw.space import draw_shaded, draw_space
+from atlas.draw.space import draw_shaded, draw_space, window
 from atlas.draw.style import context
 from atlas.draw.text import typeset
+from atlas.draw.view import Held
 from atlas.scene.layers import Panel, Plane, Scene
 
 _INCH = 25.4
 _FONTS = ("pdf.fonttype", "ps.fonttype")
+Hold: TypeAlias = Callable[[int, tuple[float, float]], Held]
 
 
 class SceneFigure(Figure):
@@ -35,7 +36,9 @@ class SceneFigure(Figure):
             super().savefig(*args, **options)
 
 
-def to_figure(scene: Scene, style: Any = None, *, shaded: bool = False) -> Figure:
+def to_figure(
+    scene: Scene, style: Any = None, *, shaded: bool = False, figure: Figure | None = None, held: Hold | None = None
+) -> Figure:
     """Return a scene as a figure of its size, with one ordinary axes for each panel.
 
     A panel with two axes has lines, markers, patches, a colorbar and a legend as Matplotlib makes them; a panel in
@@ -43,24 +46,29 @@ def to_figure(scene: Scene, style: Any = None, *, shaded: bool = False) -> Figur
     VTK with its names over it. Names are annotations. The group id of what is drawn for a layer, ``artist.get_gid()``,
     is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
     picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for `atlas.draw.figure`.
+    An empty ``figure`` is drawn into if one is given, and ``held`` tells the view of a panel in space in a window.
     Raises AtlasError where a panel cannot hold one of its layers.
     """
     with context(style):
-        figure, panels = laid_out(scene)
+        figure, panels = laid_out(scene, figure)
         for number, (axes, panel) in enumerate(panels, 1):
             if isinstance(panel, Plane):
                 names.write(axes, panel)
             elif shaded:
                 draw_shaded(axes, panel)
             else:
-                draw_space(axes, panel, number)
+                draw_space(axes, panel, number, held and held(number - 1, window(axes)))
     return figure
 
 
-def laid_out(scene: Scene) -> tuple[Figure, list[tuple[Axes, Panel]]]:
-    """Return a figure and its axes in their places, each with its panel; those in space are still empty."""
-    figure = SceneFigure([length / _INCH for length in scene.size])
-    figure.fonts = {name: mpl.rcParams[name] for name in _FONTS}
+def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[tuple[Axes, Panel]]]:
+    """Return a figure, or this one when it is empty, and its axes in their places, each with its panel.
+
+    Those in space are still empty.
+    """
+    if figure is None:
+        figure = SceneFigure([length / _INCH for length in scene.size])
+        figure.fonts = {name: mpl.rcParams[name] for name in _FONTS}
     framed = any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
     rows = -(-len(scene.panels) // scene.columns)
     edges = {} if framed else {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
@@ -73,7 +81,8 @@ def laid_out(scene: Scene) -> tuple[Figure, list[tuple[Axes, Panel]]]:
             axes.set_title(typeset(panel.title), y=1.0)
             axes.set_axis_off()
     if framed:
+        canvas = figure.canvas
         FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once
         ConstrainedLayoutEngine().execute(figure)
-        FigureCanvasBase(figure)
+        figure.set_canvas(canvas)
     return figure, panels

@@ -18,7 +18,7 @@ from atlas.draw.labels import along, place, write
 from atlas.draw.outline import Edge, areas, facing, shadows
 from atlas.draw.plane import gid, marker
 from atlas.draw.style import style_of
-from atlas.draw.view import View, fit
+from atlas.draw.view import Held, View, fit
 from atlas.scene import conics
 from atlas.scene.layers import Arrow, Curve, FloatArray, Layer, Points, Space, Surface
 from atlas.scene.style import Style
@@ -34,9 +34,12 @@ _SHADES, _DEPTH = ("#333333", "#003366"), 5.0 / 255.0
 """Layers of shade, by turns: a browser blends in whole parts of 255, and at five of them keeps fifths of a colour."""
 
 
-def draw_space(axes: Axes, panel: Space, number: int = 1) -> None:
-    """Draw the panel of that number with hidden lines, and its names. The axes must have their place in the figure."""
-    view = fit(panel, window(axes))
+def draw_space(axes: Axes, panel: Space, number: int = 1, held: Held | None = None) -> None:
+    """Draw the panel of that number with hidden lines, and its names. The axes must have their place in the figure.
+
+    Its scale is the largest at which it fits, or the one that is `held`.
+    """
+    view = fit(panel, window(axes), held)
     axes.set(xlim=(0.0, view.window[0]), ylim=(0.0, view.window[1]))
     drawing = _Drawing(axes, view)
     for order, layer in enumerate(view.panel.layers):

@@ -1,6 +1,6 @@
 """The projection of a panel in space: the direction of view, the scale at which all fits, and the names to write."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -52,30 +52,61 @@ class View:
         return self.scale * (points @ self.frame[:2].T) + self.shift
 
 
-def fit(panel: Space, window: tuple[float, float]) -> View:
-    """Fit a panel into a window (width, height) in points: the largest scale at which drawing and names stay inside."""
-    width, height = window
-    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
-    low, high = seen.min(axis=0), seen.max(axis=0)
+@dataclass(frozen=True)
+class Held:
+    """The scale of a panel, and where its origin is on paper: what all pictures of one movement share, as in `View`."""
+
+    centre: FloatArray
+    size: float
+    scale: float
+    shift: FloatArray
+
+
+def hold(panels: Sequence[Space], window: tuple[float, float]) -> Held:
+    """Fit panels into one window (width, height) in points: the largest scale at which each stays inside, names too."""
+    ends = np.array([_ends(panel) for panel in panels])
+    low, high = ends[:, 0].min(axis=0), ends[:, 1].max(axis=0)
     centre, size = 0.5 * low + 0.5 * high, float(np.max(high - low)) or 1.0
-    panel, seen = scaled(panel, centre, size), (seen - centre) / size
-    eye = frame(panel)
-    flat = seen @ eye[:2].T
-    wide = 0.5 * np.maximum(np.array(panel.span) / size, np.ptp(flat, axis=0))
-    middle = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
-    flat = np.concatenate([flat, [middle - wide, middle + wide]])
-    tags = [tag for layer in panel.layers for tag in _tags(layer, eye)]
-    inside = np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN])
-    scale = _fit(flat, tags, inside)
+    flats, tags = [], []
+    for one in panels:
+        panel = scaled(one, centre, size)
+        eye = frame(panel)
+        flat = _seen(panel) @ eye[:2].T
+        wide = 0.5 * np.maximum(np.array(panel.span) / size, np.ptp(flat, axis=0))
+        middle = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
+        flats += [flat, np.stack([middle - wide, middle + wide])]
+        tags += [tag for layer in panel.layers for tag in _tags(layer, eye)]
+    width, height = window
+    flat = np.concatenate(flats)
+    scale = _fit(flat, tags, np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN]))
     left, right = _reach(flat, tags, scale)
-    shift = 0.5 * (np.array([width, height]) - left - right)
+    return Held(centre, size, scale, 0.5 * (np.array([width, height]) - left - right))
+
+
+def fit(panel: Space, window: tuple[float, float], held: Held | None = None) -> View:
+    """Return a panel as it appears in a window (width, height) in points: as it fits there best, or as it is held."""
+    held = held or hold([panel], window)
+    panel = scaled(panel, held.centre, held.size)
+    eye = frame(panel)
 
     def moved(at: tuple[float, float]) -> tuple[float, float]:
-        x, y = scale * np.array(at) + shift
+        x, y = held.scale * np.array(at) + held.shift
         return float(x), float(y)
 
+    tags = (tag for layer in panel.layers for tag in _tags(layer, eye))
     placed = (replace(tag, anchor=moved(tag.anchor), elsewhere=tuple(map(moved, tag.elsewhere))) for tag in tags)
-    return View(panel, eye, scale, shift, (width, height), tuple(placed), centre, size)
+    return View(panel, eye, held.scale, held.shift, window, tuple(placed), held.centre, held.size)
+
+
+def _seen(panel: Space) -> FloatArray:
+    """Return all the points of a panel that must be seen, (N, 3)."""
+    return np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in _parts(layer)])
+
+
+def _ends(panel: Space) -> FloatArray:
+    """Return the lowest and the highest corner of a panel, (2, 3)."""
+    seen = _seen(panel)
+    return np.stack([seen.min(axis=0), seen.max(axis=0)])
 
 
 def _parts(layer: Layer) -> Iterator[FloatArray]:

@@ -1,10 +1,11 @@
 """A figure as data: what is in it and which role each part plays, never how it is drawn.
 
 A recipe in ``figures/`` returns a `Scene`; the two back ends in `atlas.draw` draw it. Coordinates are those of the
-quantity shown (angular velocities in 1/time, unit vectors on the sphere). Text may hold TeX between dollar signs.
+quantity shown (angular velocities in 1/time, unit vectors on the sphere). Text may hold TeX between dollar signs. What
+moves in time ``rides`` on a path of the scene, by its name.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
@@ -12,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
+Path: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+"""A rigid motion of times (N,): the matrices R (N, D, D) and shifts s (N, D) of x -> R x + s, at t = 0 the identity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +24,7 @@ class Curve:
     points: FloatArray
     role: str
     label: str = ""
+    rides: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +34,7 @@ class Points:
     points: FloatArray
     role: str
     label: str = ""
+    rides: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +49,7 @@ class Arrow:
     role: str
     label: str = ""
     offset: tuple[float, float] | None = None
+    rides: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +63,7 @@ class Label:
     text: str
     role: str = "label"
     offset: tuple[float, float] = (0.0, 0.0)
+    rides: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +84,7 @@ class Surface:
     within: tuple[FloatArray, ...] = ()
     role: str = "surface"
     label: str = ""
+    rides: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +160,8 @@ class Scene:
     made with, in the order of the recipe. ``named`` tells which role a word of the caption means, as in
     {"dashed": "asymptote"}: a line that a caption names is one that can be seen.
     ``commands`` make tables of the numbers that are drawn. ``narrow`` holds the panels for a narrow screen, one below
-    the other, each as high as a row of the figure, where those of the figure would only become smaller.
+    the other, each as high as a row of the figure, where those of the figure would only become smaller. ``paths`` tell
+    how the layers move in time that ride on one, by its name in their ``rides``, for a time that ``lasts``.
     """
 
     title: str
@@ -165,3 +174,5 @@ class Scene:
     named: Mapping[str, str] = field(default_factory=dict)
     commands: tuple[str, ...] = ()
     narrow: tuple[Panel, ...] = ()
+    paths: Mapping[str, Path] = field(default_factory=dict)
+    lasts: float = 0.0

@@ -114,6 +114,10 @@ UNTIED = {
     **dict.fromkeys(
         ("EllipticMotion.cancelled", "GeneralMotion.cancelled", "TopMotion.cancelled"), "a count of digits"
     ),
+    **{
+        f"{kind}Motion.animate": "a moving picture, in test_animate"
+        for kind in ("Elementary", "Free", "General", "Top", "Elliptic", "Asymmetric", "Ball")
+    },
     "ElementaryMotion.omega": GIVEN,
     "Quadric.of_top": "compared with the paper's quadric and with Taylor series of a top, in test_top_quadric",
     "Hyperbola.of_top": "compared with the paper's hyperbola and with Taylor series of a top, in test_top_quadric",

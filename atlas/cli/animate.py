@@ -1,0 +1,92 @@
+"""``atlas animate``: a figure over the values of one of its parameters, as a moving picture."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from atlas.cli.figure import FigureCommand, setting
+from atlas.cli.options import Many, examples, out_option, style_option
+from atlas.cli.progress import bar
+
+
+@click.command(
+    "animate",
+    cls=FigureCommand,
+    epilog=examples(
+        "atlas animate motion --over omega2=0:2:60",
+        "atlas animate film_strip --format mp4 --fps 30",
+        "atlas animate quadric --over azimuth=0:360:90 --set ratio=0.5",
+        "atlas animate stability --over field=1,0.1:1,2:40 --format apng --out movies",
+        "atlas animate rolling_cones --help",
+    ),
+)
+@click.argument("name")
+@click.option(
+    "--over",
+    metavar="KEY=FROM:TO:COUNT",
+    help="The parameter that moves, its ends, and how many frames; when left out, the figure's time t.",
+)
+@click.option("--set", "settings", cls=Many, metavar="KEY=VALUE [...]", help="Other parameters; a list is a,b,c.")
+@click.option(
+    "--format",
+    "kind",
+    type=click.Choice(["mp4", "gif", "apng"]),
+    default="gif",
+    show_default=True,
+    help="The kind of file; mp4 needs the program ffmpeg.",
+)
+@click.option("--fps", type=click.FloatRange(1, 60), default=20.0, show_default=True, help="Frames a second.")
+@click.option("--dpi", type=click.IntRange(20, 600), default=120, show_default=True, help="Pixels to the inch.")
+@out_option("build/figures")
+@style_option
+def command(
+    name: str,
+    over: str | None,
+    settings: tuple[str, ...],
+    kind: str,
+    fps: float,
+    dpi: int,
+    out: Path,
+    style: str | None,
+) -> None:
+    """Let a figure move: its recipe over the values of one parameter, every frame in one view and at one scale.
+
+    Figures that show a motion, such as film_strip and rolling_cones, have a time t: t=0:10:100, say, or as long as the
+    motion lasts when nothing is asked for. The file is OUT/NAME.FORMAT, written whole or not at all. With a NAME,
+    --help tells its parameters.
+    """
+    from atlas.draw import animation
+    from atlas.places import settle_matplotlib
+
+    settle_matplotlib()
+    animation.check(kind, fps)
+    parameters = dict(setting(text) for text in settings)
+    moves = through(over) if over else ("t", None)
+    with bar("frames") as tell:
+        moving = animation.animate(name, *moves, fps=fps, style=style, progress=tell, **parameters)
+        file = out / f"{Path(name).stem}.{kind}"
+        animation.save(moving, file, kind, fps, dpi)
+    click.echo(file)
+
+
+def through(text: str) -> tuple[str, list[Any]]:
+    """Read KEY=FROM:TO:COUNT: numbers, or lists of numbers of one length, at equal steps.
+
+    Raises click.UsageError for anything else.
+    """
+    import numpy as np
+
+    key, _, values = text.partition("=")
+    parts = values.split(":")
+    if len(parts) != 3 or not parts[2].isdecimal():
+        raise click.UsageError(f"--over takes KEY=FROM:TO:COUNT, such as omega2=0:2:60, not {text!r}.")
+    (_, start), (_, stop) = (setting(f"{key}={part}") for part in parts[:2])
+    try:
+        steps = np.linspace(start, stop, int(parts[2]))
+    except (TypeError, ValueError):
+        wrong = f"not from {parts[0]!r} to {parts[1]!r}."
+        raise click.UsageError(
+            f"--over goes from a number to a number, or from a list to one as long, {wrong}"
+        ) from None
+    return key, [tuple(map(float, one)) if np.ndim(one) else float(one) for one in steps]

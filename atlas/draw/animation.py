@@ -1,0 +1,177 @@
+"""A figure that moves: one scene after the other in one figure, all frames in one view and at one scale."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, TypeAlias
+
+import numpy as np
+from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
+
+from atlas.draw.panels import laid_out, to_figure
+from atlas.draw.style import context
+from atlas.draw.view import Held, hold, named
+from atlas.errors import AtlasError
+from atlas.scene import movement, recipes, turning
+from atlas.scene.camera import frame, shown
+from atlas.scene.layers import Label, Panel, Plane, Points, Scene, Space
+
+FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
+"""Kinds of files, and how many frames a second each can have."""
+FPS, DPI, FRAMES, MOST = 20.0, 120, 60, 2000
+Progress: TypeAlias = Callable[[int, int, str], None]
+Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
+"""What of a panel decides its view: extreme points and names of one in space, the limits of one with two axes."""
+
+
+class Frames:
+    """The frames of a moving figure, drawn into one; `make` gives the scene of each, from 0 up to `count`.
+
+    Scenes are made twice, first for the view that holds all of them, so that none stays in memory.
+    """
+
+    def __init__(self, make: Callable[[int], Scene], count: int, style: Any, progress: Progress) -> None:
+        self.make, self.count, self.style, self.progress = make, count, style, progress
+        self.extents: list[tuple[Extent, ...]] = []
+        for k in range(count):
+            scene = make(k)
+            with context(style):
+                self.extents.append(tuple(_extents(scene)))
+            if [*map(type, self.extents[k])] != [*map(type, self.extents[0])]:
+                raise AtlasError("the panels of this figure change, so that it can't be one that moves")
+            progress(k + 1, 2 * count, "view")
+        self.figure = to_figure(self._scene(0), style)
+        self._held: dict[tuple[int, tuple[float, float]], Held] = {}
+
+    def draw(self, k: int) -> None:
+        """Draw a frame."""
+        self.figure.clear()
+        to_figure(self._scene(k), self.style, figure=self.figure, held=self._hold)
+        self.progress(self.count + k + 1, 2 * self.count, "frames")
+
+    def _scene(self, k: int) -> Scene:
+        """Return the scene of a frame, its panels with two axes with the limits that hold all frames."""
+        scene = self.make(k)
+        return replace(scene, panels=tuple(self._limited(i, panel) for i, panel in enumerate(scene.panels)))
+
+    def _limited(self, i: int, panel: Panel) -> Panel:
+        if isinstance(panel, Space):
+            return panel
+        ends = np.array([one[i] for one in self.extents])
+        x, y = ((float(ends[:, j].min()), float(ends[:, j].max())) for j in (0, 1))
+        return replace(panel, x_limits=x, y_limits=y)
+
+    def _hold(self, i: int, window: tuple[float, float]) -> Held:
+        """Return the view of a panel in space that all frames have."""
+        if (i, window) not in self._held:
+            self._held[i, window] = hold([one[i] for one in self.extents], window)
+        return self._held[i, window]
+
+
+def _extents(scene: Scene) -> Iterator[Extent]:
+    """Yield what decides the view of each panel; limits that the recipe leaves open are Matplotlib's."""
+    free = any(isinstance(one, Plane) and not (one.x_limits and one.y_limits) for one in scene.panels)
+    drawn = [axes for axes, _ in laid_out(scene)[1]] if free else [None] * len(scene.panels)
+    for panel, axes in zip(scene.panels, drawn, strict=True):
+        if isinstance(panel, Space):
+            yield _reduced(panel)
+        else:
+            yield (axes.get_xlim(), axes.get_ylim()) if axes else (panel.x_limits, panel.y_limits)
+
+
+def _reduced(panel: Space) -> Space:
+    """Return a panel of the same extent: the points that are farthest along the axes and on paper, and its names."""
+    eye = frame(panel)
+    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in shown(layer)])
+    along = seen @ np.concatenate([np.eye(3), eye[:2]]).T
+    far = seen[np.unique(np.concatenate([along.argmin(axis=0), along.argmax(axis=0)]))]
+    names = filter(None, (named(layer, eye) for layer in panel.layers))
+    labels = (Label(at, text, role, offset) for text, at, offset, role in names)
+    return replace(panel, layers=(Points(far, "origin"), *labels))
+
+
+def animation(
+    make: Callable[[int], Scene],
+    count: int,
+    *,
+    fps: float = FPS,
+    style: Any = None,
+    progress: Progress = lambda _done, _total, _what: None,
+) -> FuncAnimation:
+    """Return so many scenes as an animation of Matplotlib's. Raises AtlasError for fewer than two, or too many."""
+    if not 2 <= count <= MOST:
+        raise AtlasError(f"an animation has from 2 to {MOST} frames, not {count}")
+    frames = Frames(make, count, style, progress)
+    more = {"init_func": lambda: None, "interval": 1000.0 / fps, "blit": False}
+    return FuncAnimation(frames.figure, frames.draw, frames=count, **more)
+
+
+def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **options: Any) -> FuncAnimation:
+    """Return a recipe's figure as an animation over the `values` of one of its parameters, or of the time t.
+
+    A figure that shows a motion has a time; without values it is the time that its motion lasts. ``style``, ``fps`` and
+    ``progress`` are as for `animation`, and what else is given are parameters of the recipe. The result is
+    Matplotlib's: ``.save("x.gif")`` writes it, ``.to_jshtml()`` shows it in a notebook. Raises AtlasError for an
+    unknown name or parameter, and for a value out of its range, and DomainError where the recipe has no picture.
+    """
+    parameters, options = _split(options)
+    recipe = recipes.load(name)
+    if over == "t" and "t" not in recipe.parameters:
+        scene = recipe.scene(**parameters)
+        return animation(*_in_time(scene, recipe, values), **options)
+    if values is None:
+        raise AtlasError(f"say through which values {over} goes")
+    if over in parameters:
+        raise AtlasError(f"{over} is what the animation goes over; it can't have the value {parameters[over]!r} too")
+
+    def make(k: int) -> Scene:
+        try:
+            return recipe.scene(**parameters, **{over: values[k]})
+        except AtlasError as error:
+            raise type(error)(f"{over} = {values[k]}: {error}") from error
+
+    return animation(make, len(values), **options)
+
+
+def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> FuncAnimation:
+    """Return a motion at these times, or over one period, as an animation; `options` are those of `animation`."""
+    length = turning.period(motion)
+    moments = np.linspace(0.0, length, FRAMES, endpoint=False) if times is None else times
+    return animation(lambda k: turning.turning(motion, float(moments[k]), length), len(moments), **options)
+
+
+def _split(options: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the parameters of a recipe and the options of `animation`."""
+    own = {"fps", "style", "progress"}
+    return {k: v for k, v in options.items() if k not in own}, {k: v for k, v in options.items() if k in own}
+
+
+def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None) -> tuple[Callable[[int], Scene], int]:
+    """Return the function that makes the frames of a scene that moves, and their number."""
+    if not scene.paths:
+        raise AtlasError(
+            f"the figure {recipe.name!r} has no time t; say which of its parameters moves, such as omega2, and through "
+            f"which values. It has {', '.join(recipe.parameters)}."
+        )
+    moments = np.linspace(0.0, scene.lasts, FRAMES, endpoint=False) if times is None else times
+    return lambda k: movement.at(scene, float(moments[k])), len(moments)
+
+
+def save(moving: FuncAnimation, path: Path, kind: str, fps: float = FPS, dpi: float = DPI) -> None:
+    """Write an animation as an mp4, gif or apng, whole or not at all. Raises AtlasError where `check` does."""
+    check(kind, fps)
+    writer = FFMpegWriter(fps=fps, codec="h264") if kind == "mp4" else PillowWriter(fps=fps)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(prefix=f".{path.name}.", dir=path.parent) as folder:
+        part = Path(folder) / f"part.{kind}"
+        moving.save(part, writer=writer, dpi=dpi)
+        part.replace(path)
+
+
+def check(kind: str, fps: float) -> None:
+    """Raise AtlasError for a kind of file that can't be written here, or not with so many frames a second."""
+    if not 1 <= fps <= FASTEST[kind]:
+        raise AtlasError(f"{kind} has from 1 to {FASTEST[kind]} frames a second, not {fps:g}")
+    if kind == "mp4" and not FFMpegWriter.isAvailable():
+        raise AtlasError("an mp4 is written by the program ffmpeg, which is not installed; gif and apng need nothing")

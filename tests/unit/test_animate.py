@@ -1,0 +1,207 @@
+"""Moving figures: what rides on a path goes as the kernels say, frames share one view, files are whole or not there."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+import atlas
+from atlas import AtlasError, ElementaryMotion
+from atlas.cli.app import atlas as command_line
+from atlas.draw import animation
+from atlas.scene import Arrow, Plane, Points, Surface, movement, recipes
+
+MOVING = ["escape", "film_strip", "flight", "rolling_cones", "tipping_disk"]
+
+
+def layers(scene: atlas.scene.Scene, kind: type[Any]) -> list[Any]:
+    """Return the layers of a kind in all panels of a scene."""
+    return [one for panel in scene.panels for one in panel.layers if isinstance(one, kind)]
+
+
+def test_bodies_of_the_film_strip_go_on_as_the_motion_says() -> None:
+    """At the time t the i-th axis is R_3(t_i + t), in the wide and in the narrow figure."""
+    scene = recipes.load("film_strip").scene()
+    motion = ElementaryMotion(0.5, (1.0, 1.2), 0.8)
+    starts = np.linspace(0.0, 2 * np.pi / abs(motion.k), 8)
+    later = movement.at(scene, 3.7)
+    for panels in (later.panels, later.narrow):
+        axes = [one for panel in panels for one in panel.layers if getattr(one, "role", "") == "body_axis"]
+        assert len(axes) == 8
+        for axis, start in zip(axes, starts, strict=True):
+            assert np.allclose(axis.tip - axis.tail, 1.35 * motion.third_axis(start + 3.7), atol=1e-13)
+
+
+def test_cones_touch_along_omega_at_every_time() -> None:
+    """The arrow of omega lies on the cone of the body and on that of space, and is along R(t) Omega."""
+    scene, motion = recipes.load("rolling_cones").scene(), ElementaryMotion(1.5, (1.0, 2.0), -1.4)
+    for t in (0.9, 4.0):
+        panel = movement.at(scene, t).panels[0]
+        (omega,) = (one.tip for one in panel.layers if getattr(one, "role", "") == "velocity")
+        true = motion.rotation(t) @ motion.angular_velocity(t)
+        assert np.linalg.norm(np.cross(omega, true)) < 1e-12 * np.linalg.norm(true)
+        for cone in (one for one in panel.layers if isinstance(one, Surface)):
+            assert abs(np.array([*omega, 1.0]) @ cone.quadric @ [*omega, 1.0]) < 1e-12
+
+
+@pytest.mark.parametrize("name", MOVING)
+def test_what_rides_has_a_path_and_starts_where_it_is_drawn(name: str) -> None:
+    """Each path is followed by a layer and is rigid; at t = 0 nothing is moved; surfaces take their form along."""
+    scene = recipes.load(name).scene()
+    rides = {one.rides for panel in (*scene.panels, *scene.narrow) for one in panel.layers if hasattr(one, "rides")}
+    assert rides - {""} == {*scene.paths}
+    assert scene.lasts > 0.0
+    for path in scene.paths.values():
+        R, s = path(np.array([0.0, 0.3 * scene.lasts]))
+        assert np.abs(R[0] - np.eye(len(s[0]))).max() < 1e-13
+        assert np.abs(s[0]).max() < 1e-12
+        assert np.abs(R @ R.swapaxes(1, 2) - np.eye(len(s[0]))).max() < 1e-13
+    for surface in layers(movement.at(scene, 0.3 * scene.lasts), Surface):
+        grid = np.concatenate([np.reshape(one, (-1, 3)) for one in surface.grids])
+        full = np.concatenate([grid, np.ones((len(grid), 1))], axis=1)
+        assert np.abs(np.einsum("ni,ij,nj->n", full, surface.quadric, full)).max() < 1e-9
+        assert (grid @ surface.clip[:, :3].T <= surface.clip[:, 3] + 1e-9).all()
+
+
+def test_dots_stay_on_their_curves() -> None:
+    """At any time the dots of the tipping disk are at the angle of its axis then."""
+    scene = recipes.load("tipping_disk").scene()
+    motion = atlas.GeneralMotion(2.0, (0.0, 1.0), (1e-3, 0.0, -1.0))
+    dots = [one for one in movement.at(scene, 7.0).panels[-1].layers if isinstance(one, Points)]
+    for dot in dots:
+        ((t, degrees),) = dot.points
+        x, y, z = motion.third_axis(t)
+        assert degrees == pytest.approx(np.degrees(np.arctan2(np.hypot(x, y), z)), abs=1e-9)
+
+
+def test_a_cone_as_flat_as_a_disk_is_drawn() -> None:
+    """With omega3 = 0 the body's cone has a right angle: it is the disk across its axis."""
+    scene = recipes.load("rolling_cones").scene(omega2=-0.5)
+    disk = next(one for one in layers(scene, Surface) if one.within)
+    assert np.abs(disk.rims[0][:, 2]).max() < 1e-12
+    assert np.linalg.norm(disk.rims[0], axis=1).min() == pytest.approx(1.0)
+
+
+def test_frames_share_one_view() -> None:
+    """Over omega2 the arrow of the field, which is the same in all frames, is drawn at the same place in all."""
+    moving = animation.Frames(
+        lambda k: recipes.load("rolling_cones").scene(omega2=-1.2 - 0.3 * k), 3, None, lambda *_: None
+    )
+    places = []
+    for k in range(3):
+        moving.draw(k)
+        (head,) = moving.figure.findobj(
+            lambda one: str(one.get_gid()).startswith("field-1-") and hasattr(one, "get_xy")
+        )
+        places.append(head.get_xy())
+    assert np.ptp(places, axis=0).max() < 1e-9
+    own = [atlas.figure("rolling_cones", omega2=-1.2 - 0.3 * k) for k in (0, 2)]
+    heads = [
+        one.findobj(lambda o: str(o.get_gid()).startswith("field-1-") and hasattr(o, "get_xy"))[0].get_xy()
+        for one in own
+    ]
+    assert np.ptp(heads, axis=0).max() > 1.0
+
+
+def test_axes_do_not_jump() -> None:
+    """Limits that a recipe chooses for each value are those that hold all of them."""
+    moving = animation.Frames(
+        lambda k: recipes.load("frequencies").scene(field=(1.0, 0.2 + k)), 2, None, lambda *_: None
+    )
+    limits = []
+    for k in range(2):
+        moving.draw(k)
+        limits.append([(one.get_xlim(), one.get_ylim()) for one in moving.figure.axes])
+    assert limits[0] == limits[1]
+    for k in range(2):
+        scene = recipes.load("frequencies").scene(field=(1.0, 0.2 + k))
+        for panel, (x, y) in zip(scene.panels, limits[0], strict=True):
+            assert isinstance(panel, Plane)
+            for given, held in ((panel.x_limits, x), (panel.y_limits, y)):
+                assert given is None or (held[0] <= given[0] and given[1] <= held[1])
+
+
+def run(words: str, folder: Path) -> Any:
+    """Run `atlas animate` in process; its output goes to a folder."""
+    return CliRunner().invoke(command_line, ["animate", *words.split(), "--dpi", "40", "--out", str(folder)])
+
+
+@pytest.mark.parametrize("kind", ["gif", "apng"])
+def test_a_file_has_the_frames(tmp_path: Path, kind: str) -> None:
+    """So many frames as asked for, which differ, and nothing else in the folder."""
+    done = run(f"cone --over azimuth=0:80:3 --fps 10 --format {kind}", tmp_path)
+    assert done.output == f"{tmp_path / f'cone.{kind}'}\n"
+    assert [one.name for one in tmp_path.iterdir()] == [f"cone.{kind}"]
+    with Image.open(tmp_path / f"cone.{kind}") as picture:
+        assert picture.n_frames == 3
+        frames = []
+        for k in range(3):
+            picture.seek(k)
+            frames.append(np.asarray(picture.convert("RGB"), dtype=int))
+        assert picture.info["duration"] == 100
+    assert np.abs(frames[0] - frames[1]).mean() > 0.5
+
+
+def test_an_mp4_is_what_ffmpeg_makes_of_the_frames(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Matplotlib's writer gives raw frames to the program; here one that keeps them stands for it."""
+    program, out = tmp_path / "ffmpeg", tmp_path / "out"
+    program.write_text('#!/bin/sh\nfor last; do :; done\ncat > "$last"\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    done = run("cone --over azimuth=0:80:2 --format mp4", out)
+    assert done.exit_code == 0, done.exception
+    (file,) = out.iterdir()
+    width, height = (2 * int(length / 25.4 * 40 / 2) for length in recipes.load("cone").scene().size)
+    assert abs(file.stat().st_size / (2 * 4 * width * height) - 1) < 0.05
+
+
+def test_without_ffmpeg_one_line_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An mp4 is refused before anything is drawn."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(AtlasError, match="ffmpeg, which is not installed"):
+        animation.check("mp4", 20)
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("cone", "'cone' has no time t"),
+        ("cone --over azimuth=0:720:5", "azimuth must lie between -360 and 360, not 540"),
+        ("cone --over azimuth=0:90", "KEY=FROM:TO:COUNT"),
+        ("cone --over azimuth=0:x:5", "from a number to a number"),
+        ("cone --over azimuth=0:90:1", "from 2 to 2000 frames, not 1"),
+        ("cone --over tilt=0:90:4", "no parameter 'tilt'"),
+        ("cone --over azimuth=0:90:4 --set azimuth=3", "it can't have the value 3 too"),
+        ("rolling_cones --over omega2=-1:1:3", "omega2 = -1.0: omega2 = -B2 = -1.0 is the pole"),
+        ("cone --over azimuth=0:90:4 --fps 55", "gif has from 1 to 50 frames a second, not 55"),
+        ("no_such --over azimuth=0:90:4", "no figure 'no_such'"),
+    ],
+)
+def test_errors_are_one_line_and_leave_nothing(tmp_path: Path, words: str, says: str) -> None:
+    """What is wrong is said, and no file is written."""
+    done = run(words, tmp_path / "out")
+    assert says in (str(done.exception) + done.output).replace("\n", " ")
+    assert done.exit_code != 0
+    assert not (tmp_path / "out").exists() or not list((tmp_path / "out").iterdir())
+
+
+def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
+    """`animate` of a symmetric body, of a top and of one with three moments; of an array it says why not."""
+    motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)
+    scene = animation.turning.turning(motion, 0.8, 1.0)
+    (axis,) = (one for one in layers(scene, Arrow) if one.role == "body_axis")
+    assert np.allclose(axis.tip / np.linalg.norm(axis.tip), motion.third_axis(0.8))
+    corners = np.unique(np.round(np.concatenate([one.rims[0] for one in layers(scene, Surface)]), 9), axis=0)
+    second = np.einsum("ni,nj->ij", corners, corners)  # of a brick along its axes, as its moments are
+    in_body = motion.rotation(0.8).T @ second @ motion.rotation(0.8)
+    spread = np.diag(in_body)
+    assert np.allclose(in_body, np.diag(spread), atol=1e-8)
+    own = spread.sum() - spread
+    assert np.allclose(own / own[1], np.array([0.8, 1.0, 1.3]), atol=1e-8)
+    moving = atlas.TopMotion((1, 0.5), (0, 0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=3.0).animate([0.0, 0.4])
+    animation.save(moving, tmp_path / "top.gif", "gif", dpi=30)
+    with pytest.raises(AtlasError, match="not an array"):
+        ElementaryMotion(1.5, (1.0, 2.0), [0.1, 0.2]).animate()
