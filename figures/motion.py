@@ -4,19 +4,19 @@ The body precesses about the field with the frequency k, (79), while it turns ab
 phi, (72): the body at the start with the way of that axis, (84); Omega(t), (73); and m(t), (88).
 """
 
-from typing import Any
-
 import numpy as np
 
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import positive
-from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space
+from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
 from atlas.scene.bodies import drawn_body
+from atlas.scene.course import course
 from atlas.scene.sample import curve, quarter_pixel
 from atlas.scene.words import plain, plain_setting, quotient, tex, tex_equals, tex_setting, title
 
-WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
+WIDTH, HEIGHT = 178.0, 62.0
 COLUMNS = 3
+PANEL = (WIDTH / COLUMNS, HEIGHT)
 FEW = 25.0
 BODY, SPOKES = 0.75, 24
 """Size of the drawn body, whose axis goes round on the unit sphere, and how many places of the axis are marked."""
@@ -100,7 +100,7 @@ def velocity(motion: ElementaryMotion, stop: float, unit: str) -> Plane:
     """Panel (b): Omega(t)."""
     names = tuple(rf"$\Omega_{i}$" for i in (1, 2, 3))
     y_label = rf"$\boldsymbol{{\Omega}}$ (1/{unit})"
-    return course(motion.angular_velocity, names, stop, f"$t$ ({unit})", y_label, "(b) angular velocity")
+    return course(motion.angular_velocity, names, stop, f"$t$ ({unit})", y_label, "(b) angular velocity", size=PANEL)
 
 
 def momentum(motion: ElementaryMotion, stop: float, unit: str) -> Plane:
@@ -109,34 +109,7 @@ def momentum(motion: ElementaryMotion, stop: float, unit: str) -> Plane:
     y_label = rf"$\mathbf{{m}}/I_2$ (1/{unit})"
     size = float(np.hypot(*motion.field))
     level = motion.invariants()["(m,B')"] / size if size else None
-    return course(motion.angular_momentum, names, stop, f"$t$ ({unit})", y_label, "(c) angular momentum", level)
-
-
-def course(
-    vector: Any,
-    names: tuple[str, ...],
-    stop: float,
-    x_label: str,
-    y_label: str,
-    heading: str,
-    level: float | None = None,
-) -> Plane:
-    """Return a panel with the three components of a vector over time, each with its name."""
-    rough = vector(np.linspace(0.0, stop, 257))
-    marks = rough if level is None else np.append(rough, level)
-    low, high = float(marks.min()), float(marks.max())
-    pad = (0.14 if level is None else 0.2) * (high - low) or 0.5 * abs(high) or 1.0
-    limits = (low - pad, high + pad)
-    wide, high = (WIDTH / COLUMNS - MARGIN) / stop, (HEIGHT - MARGIN) / (limits[1] - limits[0])
-    scale, fine = np.array([wide, high, high, high]), quarter_pixel(1.0, 1.0)
-    path = curve(lambda t: np.column_stack([t, vector(t)]), 0.0, stop, fine, pieces=32, scale=scale)
-    layers: list[Layer] = [Curve(np.array([[0.0, 0.0], [stop, 0.0]]), "guide")]
-    if level is not None:
-        layers.append(Curve(np.array([[0.0, level], [stop, level]]), "reference"))
-        layers.append(Label(np.array([0.3 * stop, level]), r"$(\mathbf{m},\hat{\mathbf{B}})$", "reference", (0.0, 3.0)))
-    for i, (name, role) in enumerate(zip(names, ("main", "second", "third"), strict=True), 1):
-        line = path[:, [0, i]]
-        at = line[0.86 * stop <= line[:, 0]][0]
-        below = level is not None and 0.0 <= level - at[1] < 3.0 * pad
-        layers += [Curve(line, role), Label(at, name, role, (0.0, -4.0 if below else 4.0))]
-    return Plane(tuple(layers), x_label, y_label, (0.0, stop), limits, title=heading)
+    return course(
+        motion.angular_momentum, names, stop, f"$t$ ({unit})", y_label, "(c) angular momentum", size=PANEL,
+        level=level, level_name=r"$(\mathbf{m},\hat{\mathbf{B}})$",
+    )  # fmt: skip

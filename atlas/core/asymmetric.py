@@ -98,7 +98,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     no finite number.
     """
 
+    family = "asymmetric"
+
     def __init__(self, inertia: Any, field: Any, omega: Any) -> None:
+        self.arguments = {"inertia": inertia, "field": field, "omega": omega}
         parts = [
             *components(inertia, ("I1", "I2", "I3"), "The inertia"),
             *components(field, ("B1", "B2", "B3"), "The field"),

@@ -37,10 +37,12 @@ class BallMotion(Motion[Ball]):
     DomainError for an inertia that is not positive, AtlasError for what is no number.
     """
 
+    family = "ball"
     _unit = slice(1, 4)
     _inverse = True
 
     def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
+        self.arguments = {"inertia": inertia, "larmor": larmor, "momentum": momentum}
         m2, m3 = components(momentum, ("m2", "m3"), "The momentum")
         inertia = real(inertia, "The inertia")
         if (inertia <= 0).any():

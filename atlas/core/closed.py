@@ -61,6 +61,7 @@ class ClosedMotion(ElementaryMotion):
     """
 
     def __init__(self, ratio: Any, field: Any, p: int, q: int) -> None:
+        self.arguments = {"ratio": ratio, "field": field, "p": p, "q": q}
         if not all(isinstance(x, Real) and x == x // 1 for x in (p, q)) or not q:
             raise AtlasError(f"phi/k = p/q takes two whole numbers, the second not 0, not {p!r} and {q!r}.")
         I2, I3 = moments(ratio)

@@ -82,10 +82,12 @@ class ElementaryMotion(Motion[Elementary]):
     the phases stay within 2^50. AtlasError is raised for what is no number.
     """
 
+    family = "elementary"
     _unit = slice(2, 6)
 
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
         self.ratio = ratio
+        self.arguments = {"ratio": ratio, "field": field, "omega2": omega2, "omega3": omega3}
         if isinstance(omega2, tuple | list) and len(omega2) == 3 and not any(np.ndim(x) for x in omega2):
             raise AtlasError(
                 f"omega2 is one number, or an array of them, but {tuple(omega2)} reads as a vector: "
@@ -246,9 +248,11 @@ class FreeMotion(Motion[Free]):
     DomainError for a ratio that no body has, AtlasError for what is no number.
     """
 
+    family = "free"
     _unit = slice(2, 5)
 
     def __init__(self, ratio: Any, omega: Any) -> None:
+        self.arguments = {"ratio": ratio, "omega": omega}
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity")
         super().__init__(Free, *moments(ratio), *omega)
 

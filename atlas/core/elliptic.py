@@ -48,7 +48,10 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
     number.
     """
 
+    family = "elliptic"
+
     def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
+        self.arguments = {"inertia": inertia, "field": field, "z": z, "branch": branch}
         parts = [
             *components(inertia, ("I1", "I2", "I3"), "The inertia"),
             *components(field, ("B1", "B2", "B3"), "The field"),

@@ -9,6 +9,7 @@ import numpy as np
 from atlas.core import units
 from atlas.core.arithmetic.words import exact
 from atlas.core.inputs import FloatArray, finite, number, positive, real, vector, vectors
+from atlas.core.shown import called
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.numbers import cross, dot, nearest, root, unit, workprec
 
@@ -36,6 +37,10 @@ class Field:
         object.__setattr__(self, "mu", number(self.mu, "mu"))
         object.__setattr__(self, "c", positive(self.c, "c"))
         object.__setattr__(self, "prime", units.prime(self.mu, self.B, self.c))
+
+    def __repr__(self) -> str:
+        made = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
+        return f"{made}  # B' = {self.prime.tolist()}"
 
     @classmethod
     def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
@@ -106,6 +111,10 @@ class LaboratoryFrame:
         object.__setattr__(self, "alignment", alignment)
         object.__setattr__(self, "field", finite(field, "A length or a frequency"))
         object.__setattr__(self, "matrix", matrix)
+
+    def __repr__(self) -> str:
+        made = called("LaboratoryFrame", {"axis": self.axis, "B": self.B})
+        return f"{made}  # {self.alignment}, (B2, B3) = {self.field}"
 
     def to_laboratory(self, v: Any) -> FloatArray:
         """Components (..., 3) in the laboratory of vectors given in the user's frame.

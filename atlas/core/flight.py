@@ -8,6 +8,7 @@ from atlas.core.euler_poisson import bracket
 from atlas.core.field import LaboratoryFrame
 from atlas.core.inputs import FloatArray, vectors
 from atlas.core.particle import ParticleMotion
+from atlas.core.shown import Shown
 from atlas.errors import AtlasError
 
 AGREEMENT = 1e-9
@@ -24,7 +25,7 @@ class Rotation(Protocol):
         """Omega(t), shape (..., 3), in the body."""
 
 
-class Flight:
+class Flight(Shown):
     """Path of the point N of a body, y_N(t) = y_0(t) + R(t) x_N(0), as below (18), in the user's frame.
 
     `particle` moves as the centre of mass, in the user's frame. `motion` is the body's rotation, in the laboratory
@@ -39,6 +40,7 @@ class Flight:
     def __init__(
         self, particle: ParticleMotion, motion: Rotation, point: Any, frame: LaboratoryFrame | None = None
     ) -> None:
+        self.arguments = {"particle": particle, "motion": motion, "point": point, "frame": frame}
         self.particle, self.motion, self.point = particle, motion, vectors(point, "The point")
         self._to_user = np.eye(3) if frame is None else frame.matrix.T
         self._arm = self.point @ self._to_user

@@ -61,8 +61,11 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
     raised for what is no number.
     """
 
+    family = "general"
+
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
         self.ratio = ratio
+        self.arguments = {"ratio": ratio, "field": field, "omega": omega}
         I2, I3 = moments(ratio)
         B2, B3 = components(field, ("B2", "B3"), "The field")
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity")
@@ -84,6 +87,10 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         B, w = (_transposed(start, vector(x, name)) for x, name in ((field, "The field"), (angular_velocity, "omega")))
         motion = cls.__new__(cls)
         motion.ratio, motion.shape = ratio, ()
+        motion.made_by = "GeneralMotion.in_laboratory"
+        motion.arguments = {
+            "ratio": ratio, "field": field, "attitude": attitude, "angular_velocity": angular_velocity,
+        }  # fmt: skip
         body = ratio_of(SymmetricBody(I2, float(I3)))
         matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
         motion._turning = SingleGeneral(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class

@@ -14,6 +14,7 @@ from atlas.core.branches import Branch, halves
 from atlas.core.closed import ClosedMotion
 from atlas.core.inputs import FloatArray, plain, positive, real, whole
 from atlas.core.motion import components
+from atlas.core.shown import Shown
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.hyperbola import frequencies, least_stability, ordinate, stability
 from atlas.formulas.numbers import Number, length, nearest, root, workprec
@@ -26,7 +27,7 @@ MOST = 10**8
 """Points of a curve that are sampled in one call."""
 
 
-class Hyperbola:
+class Hyperbola(Shown):
     """The curve (67) in the plane omega1 = 0: B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
@@ -41,7 +42,10 @@ class Hyperbola:
     DomainError for a ratio that no body has, AtlasError for what is no number.
     """
 
+    family = "hyperbola"
+
     def __init__(self, ratio: Any, field: Any) -> None:
+        self.arguments = {"ratio": ratio, "field": field}
         I2, I3 = moments(ratio)
         B2, B3 = components(field, ("B2", "B3"), "The field")
         self.I2, self.I3, self.B2, self.B3 = I2, I3, plain(B2), plain(B3)

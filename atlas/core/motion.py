@@ -14,6 +14,7 @@ from atlas.core.arithmetic.grid import fill_grid
 from atlas.core.arithmetic.rotation import target
 from atlas.core.arithmetic.turnings import Group, Turnings
 from atlas.core.inputs import FloatArray, common_shape, number, real, whole
+from atlas.core.shown import Shown, notebook
 from atlas.errors import AtlasError
 
 
@@ -49,7 +50,7 @@ def components(value: Any, names: Sequence[str], what: str) -> list[Any]:
     return [real(x, name) for x, name in zip(parts, names, strict=True)]
 
 
-class Motion(Generic[Turning]):
+class Motion(Shown, Generic[Turning]):
     """Motions R(t) = R_n(k t) R_z(phi t), (85), of the shape of the parameters, which broadcasts with the times."""
 
     _unit = slice(0)
@@ -131,6 +132,15 @@ class Motion(Generic[Turning]):
         """
         moments = None if times is None else real(times, "The time").ravel()
         return import_module("atlas.draw.animation").of_motion(self, moments, fps=number(fps, "fps"), style=style)
+
+    def trace(self, periods: float = 1.0, *, stop: float | None = None, tolerance: float = 1e-4) -> Any:
+        """Curve that the third axis draws on the unit sphere: times (N,) and points R_3(t), (N, 3), of one motion.
+
+        It is drawn over so many `periods`, or from t = 0 to the time `stop`; the points lie as near to each other as
+        keeps all chords within `tolerance` of the curve. Raises AtlasError where there is no finite period, for several
+        motions, and times as `rotation` does.
+        """
+        return notebook("curves").trace(self, periods, stop, tolerance)
 
     def rotation_grid(self, start: float, step: float, count: int, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrices on the uniform grid start + i step, i = 0 .. count - 1, shape (..., count, 3, 3).

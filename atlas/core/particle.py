@@ -9,10 +9,11 @@ import numpy as np
 from atlas.core.charge import BLOCK, Charge
 from atlas.core.field import Field
 from atlas.core.inputs import FloatArray, common_shape, plain, real, vectors
+from atlas.core.shown import Shown
 from atlas.errors import DomainError
 
 
-class ParticleMotion:
+class ParticleMotion(Shown):
     """Motion of a particle of charge-to-mass ratio mu from its position and velocity at t = 0, (89).
 
     `mu` of either sign, or 0; `E`, `B`, `position`, `velocity` (..., 3); `c` > 0 as in `atlas.Field`. The inputs are
@@ -20,7 +21,10 @@ class ParticleMotion:
     B, zero too; the phase omega t up to 2^50, AtlasError beyond.
     """
 
+    family = "particle"
+
     def __init__(self, mu: Any, E: Any, B: Any, position: Any, velocity: Any, c: Any = 1.0) -> None:
+        self.arguments = {"mu": mu, "E": E, "B": B, "position": position, "velocity": velocity, "c": c}
         mu_, c_ = real(mu, "mu"), real(c, "c")
         if (c_ <= 0).any():
             raise DomainError(f"c must be positive, not {c_.min()}.")

@@ -9,6 +9,7 @@ from atlas.core.arithmetic.double_double import BLOCK, over
 from atlas.core.body import moments
 from atlas.core.inputs import FloatArray, common_shape, plain, vectors
 from atlas.core.motion import components
+from atlas.core.shown import Shown
 from atlas.core.symmetric_top import given
 from atlas.errors import DomainError
 from atlas.exact.top_quadric import TopQuadric as Exact
@@ -18,7 +19,7 @@ from atlas.formulas.numbers import nearest, workprec
 KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "one-sheet hyperboloid")
 
 
-class Quadric:
+class Quadric(Shown):
     """The surface (51): omega1^2 + (omega2+B2)^2 - (I B2/B3)(omega2+B2)(omega3+B3) = (1-I) B2^2.
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' in 1/time, of either sign; arrays
@@ -34,7 +35,10 @@ class Quadric:
     no number.
     """
 
+    family = "quadric"
+
     def __init__(self, ratio: Any, field: Any) -> None:
+        self.arguments = {"ratio": ratio, "field": field}
         B2, B3 = components(field, ("B2", "B3"), "The field")
         self._inputs = (*moments(ratio), plain(B2), plain(B3))
         self.shape = common_shape(*map(np.shape, self._inputs))
@@ -167,8 +171,14 @@ class TopQuadric(Quadric):
     potential makes D and the semi-axes infinite: DomainError.
     """
 
+    family = ""
+    made_by = "Quadric.of_top"
+
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0) -> None:
         self._top = given(inertia, coupling, direction, linear, quadratic)
+        self.arguments = {
+            "inertia": inertia, "coupling": coupling, "direction": direction, "linear": linear, "quadratic": quadratic,
+        }  # fmt: skip
         self._inputs = tuple(plain(self._top[i]) for i in (0, 1, 4, 5))  # n in the place of B'
         self.shape = common_shape(*map(np.shape, self._top))
         self.direction = self._inputs[2:]

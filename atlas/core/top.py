@@ -70,6 +70,8 @@ class TopMotion(NutatingMotion[SingleTop]):
     zero, where the turn about the axis has no rate; AtlasError for what is no finite number.
     """
 
+    family = "top"
+
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
     ) -> None:
@@ -79,6 +81,8 @@ class TopMotion(NutatingMotion[SingleTop]):
         self.inertia, self.coupling, self.direction, self.omega, (self.linear, self.quadratic) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
         )
+        names = ("inertia", "coupling", "direction", "omega", "linear", "quadratic")
+        self.arguments = {name: getattr(self, name) for name in names}
 
     @classmethod
     def heavy(

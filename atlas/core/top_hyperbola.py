@@ -9,6 +9,7 @@ from atlas.core.arithmetic.double_double import over
 from atlas.core.branches import Branch, halves
 from atlas.core.inputs import FloatArray, number, plain, positive, real
 from atlas.core.quadric import TopQuadric
+from atlas.core.shown import Shown
 from atlas.core.symmetric_top import given
 from atlas.core.top import TopMotion
 from atlas.errors import DomainError
@@ -21,7 +22,7 @@ BITS = 64
 """Digits of the ends of a band, before they are rounded once."""
 
 
-class TopHyperbola:
+class TopHyperbola(Shown):
     """The curve omega1 = 0 of `TopQuadric`: n3 w^2 - I n2 w v + n2^2 n3 D = 0, each point a steady precession.
 
     The inputs are those of `TopMotion` without omega, of one top with n2 not zero; w, v and D as in `TopQuadric`. The
@@ -29,9 +30,14 @@ class TopHyperbola:
     Its pole w = 0, omega2 = -n2 k3/I3, is left out. Raises DomainError for n2 = 0, AtlasError as `TopMotion` does.
     """
 
+    made_by = "Hyperbola.of_top"
+
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, linear: float = 0.0, quadratic: float = 0.0
     ) -> None:
+        self.arguments = {
+            "inertia": inertia, "coupling": coupling, "direction": direction, "linear": linear, "quadratic": quadratic,
+        }  # fmt: skip
         linear, quadratic = number(linear, "linear"), number(quadratic, "quadratic")
         self._top = [number(x, "A parameter") for x in given(inertia, coupling, direction, linear, quadratic)]
         I2, I3, k2, k3, n2, n3, *_ = self._top

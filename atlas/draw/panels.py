@@ -1,6 +1,7 @@
 """A scene as a Matplotlib figure: one axes a panel, row by row."""
 
 from collections.abc import Callable, Mapping
+from io import BytesIO
 from typing import Any, TypeAlias
 
 import matplotlib as mpl
@@ -15,9 +16,10 @@ from atlas.draw.space import draw_shaded, draw_space, window
 from atlas.draw.style import context
 from atlas.draw.text import typeset
 from atlas.draw.view import Held
-from atlas.scene.layers import Panel, Plane, Scene
+from atlas.errors import AtlasError
+from atlas.scene.layers import Panel, Plane, Scene, Space
 
-_INCH = 25.4
+_INCH, _SCREEN = 25.4, 96
 _FONTS = ("pdf.fonttype", "ps.fonttype")
 Hold: TypeAlias = Callable[[int, tuple[float, float]], Held]
 
@@ -34,6 +36,13 @@ class SceneFigure(Figure):
         """Save as any figure is saved."""
         with mpl.rc_context(dict(self.fonts)):
             super().savefig(*args, **options)
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
+        """Return the picture that a notebook shows, at the size on paper, with twice the pixels of a screen."""
+        file, dots = BytesIO(), 2 * _SCREEN
+        self.savefig(file, format="png", dpi=dots)
+        width, height = (round(_SCREEN * length) for length in self.get_size_inches())
+        return file.getvalue(), {"width": width, "height": height}
 
 
 def to_figure(
@@ -52,13 +61,38 @@ def to_figure(
     with context(style):
         figure, panels = laid_out(scene, figure)
         for number, (axes, panel) in enumerate(panels, 1):
-            if isinstance(panel, Plane):
-                names.write(axes, panel)
-            elif shaded:
+            if isinstance(panel, Space) and shaded:
                 draw_shaded(axes, panel)
             else:
-                draw_space(axes, panel, number, held and held(number - 1, window(axes)))
+                _complete(axes, panel, number, held)
     return figure
+
+
+def into(axes: Axes, panel: Panel, style: Any = None) -> None:
+    """Draw a panel into axes of the user's own. Raises AtlasError for axes with three dimensions."""
+    if axes.name == "3d":
+        raise AtlasError("ax must be ordinary axes: a panel in space has its own perspective and hidden lines.")
+    with context(style):
+        _begin(axes, panel)
+        axes.figure.draw_without_rendering()  # which gives them their place
+        _complete(axes, panel)
+
+
+def _begin(axes: Axes, panel: Panel, number: int = 1) -> None:
+    """Draw what may move the axes: all of a panel with two axes but for its names, of one in space the title."""
+    if isinstance(panel, Plane):
+        draw_plane(axes, panel, number)
+    else:
+        axes.set_title(typeset(panel.title), y=1.0)
+        axes.set_axis_off()
+
+
+def _complete(axes: Axes, panel: Panel, number: int = 1, held: Hold | None = None) -> None:
+    """Draw the rest of a panel whose axes have their place."""
+    if isinstance(panel, Plane):
+        names.write(axes, panel)
+    else:
+        draw_space(axes, panel, number, held and held(number - 1, window(axes)))
 
 
 def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[tuple[Axes, Panel]]]:
@@ -75,11 +109,7 @@ def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[t
     grid = figure.add_gridspec(rows, scene.columns, **edges)
     panels = [(figure.add_subplot(grid[divmod(k, scene.columns)]), panel) for k, panel in enumerate(scene.panels)]
     for number, (axes, panel) in enumerate(panels, 1):
-        if isinstance(panel, Plane):
-            draw_plane(axes, panel, number)
-        else:
-            axes.set_title(typeset(panel.title), y=1.0)
-            axes.set_axis_off()
+        _begin(axes, panel, number)
     if framed:
         canvas = figure.canvas
         FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once

@@ -1,8 +1,8 @@
-"""A scene as a PyVista plotter, to be turned, or as a still picture with its translucent surfaces in exact order.
+"""A panel in space as a shaded still picture, with its translucent surfaces in exact order.
 
 Depth peeling and antialiasing exclude each other: with multisampling translucent surfaces vanish, with SSAA or FXAA
-their order is silently wrong. So a plotter that may be turned is peeled without antialiasing; a still picture is
-antialiased, and its surfaces are cut and sorted by `atlas.draw.glass`.
+their order is silently wrong. So a still picture is antialiased, and its surfaces are cut and sorted by
+`atlas.draw.glass`; a plotter that may be turned, `atlas.draw.turning`, is peeled without antialiasing.
 """
 
 from collections import defaultdict
@@ -14,14 +14,11 @@ import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 
-from atlas.draw import gl
 from atlas.draw.arrow import HEAD_WIDTH, head_base
-from atlas.draw.glass import AMBIENT, distinct, glass, lattice
+from atlas.draw.glass import AMBIENT, distinct, glass
 from atlas.draw.style import style_of
-from atlas.draw.text import typeset
-from atlas.draw.view import View, dashes, fit, named
-from atlas.errors import AtlasError
-from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface
+from atlas.draw.view import View, dashes
+from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Surface
 from atlas.scene.style import Style
 
 _LIGHTS = (
@@ -35,36 +32,8 @@ _GLASS = {"ambient": AMBIENT, "diffuse": 0.46, "specular": 0.28, "specular_power
 _MATT = _GLASS | {"specular": 0.0, "ambient": 0.72, "diffuse": 0.34}
 """Of surfaces whose colours are classes of a value, which a glare would falsify."""
 _SHINE = (1.0, 1.0, 1.0)
-_SAMPLES, _PEELS, _SIDES = 4, 10, 20
+_SAMPLES, _SIDES = 4, 20
 _SHARP = float(np.cos(np.radians(25.0)))
-_DOTS, _LABEL = 150.0 / 25.4, 20
-
-
-def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
-    """Return the panels in space of a scene as a plotter, side by side, in the coordinates of the scene.
-
-    It may be turned: translucent surfaces are depth-peeled, without antialiasing. Raises AtlasError for a scene without
-    a panel in space, and where no GL library can draw.
-    """
-    panels = [panel for panel in scene.panels if isinstance(panel, Space)]
-    if not panels:
-        raise AtlasError("the scene has no panel in space; draw it with to_figure")
-    if gl.prepare() is None:
-        raise AtlasError(gl.advice())
-    size = [round(length * _DOTS) for length in scene.size]
-    share = (size[0] * 72.0 / 25.4 / _DOTS / len(panels), size[1] * 72.0 / 25.4 / _DOTS)
-    plotter = pv.Plotter(off_screen=off_screen, shape=(1, len(panels)), window_size=size, lighting="none", border=False)
-    for column, panel in enumerate(panels):
-        plotter.subplot(0, column)
-        view = fit(panel, share)
-        _add_solids(plotter, view)
-        for surface in view.surfaces:
-            _add_surface(plotter, surface, view)
-        _add_names(plotter, view)
-        _set_up(plotter, view)
-        plotter.disable_anti_aliasing()
-        plotter.enable_depth_peeling(number_of_peels=_PEELS, occlusion_ratio=0.0)
-    return plotter
 
 
 def still(view: View, width: int, height: int) -> NDArray[np.uint8]:
@@ -96,16 +65,6 @@ def _add(plotter: pv.Plotter, mesh: pv.PolyData, view: View, **options: Any) -> 
     return actor
 
 
-def _add_surface(plotter: pv.Plotter, surface: Surface, view: View) -> None:
-    """Add the meshes of a surface, each side in its colour."""
-    look = style_of(surface.role)
-    for grid in surface.grids:
-        rows, columns = grid.shape[:2]
-        mesh = pv.PolyData.from_regular_faces(grid.reshape(-1, 3), lattice(rows, columns)).clean().compute_normals()
-        back = {**_GLASS, "color": look.back or look.colour, "opacity": look.glass}
-        _add(plotter, mesh, view, color=look.colour, opacity=look.glass, backface_params=back, **_GLASS)
-
-
 def _add_solids(plotter: pv.Plotter, view: View) -> None:
     """Add lines, arrows and marked points, those of one colour as one mesh."""
     groups: defaultdict[str, list[pv.PolyData]] = defaultdict(list)
@@ -125,19 +84,6 @@ def _add_solids(plotter: pv.Plotter, view: View) -> None:
     for colour, meshes in groups.items():
         if meshes:
             _add(plotter, meshes[0].append_polydata(*meshes[1:]), view, color=colour, **_SOLID)
-
-
-def _add_names(plotter: pv.Plotter, view: View) -> None:
-    """Add the names as labels that keep their size and stay in front; formulas are set by Matplotlib."""
-    import vtkmodules.vtkRenderingMatplotlib  # noqa: F401  without it TeX is shown as it is
-
-    found = [named(layer, view.frame) for layer in view.panel.layers]
-    places = [view.centre + view.size * np.atleast_2d(at)[0] for _, at, _, _ in filter(None, found)]
-    texts = [typeset(text) for text, _, _, _ in filter(None, found)]
-    if texts:
-        plotter.add_point_labels(
-            places, texts, font_size=_LABEL, show_points=False, shape=None, always_visible=True, reset_camera=False
-        )
 
 
 def _tubes(points: FloatArray, look: Style, view: View) -> Iterator[pv.PolyData]:

@@ -58,4 +58,5 @@ FAMILY = Family(
         undecided=True,
     ),
     at_once=1,
+    figures=("asymmetric_motion",),
 )  # fmt: skip

@@ -53,4 +53,5 @@ FAMILY = Family(
         ("atlas ball --larmor 0.5 --momentum 0.3 -0.7 --times 0 1 10",),
         "charged ball, B along e3",
     ),
+    figures=("ball_motion", "ball"),
 )  # fmt: skip

@@ -76,4 +76,5 @@ FAMILY = Family(
         undecided=True,
     ),
     at_once=200,
+    figures=("elliptic_motion",),
 )  # fmt: skip

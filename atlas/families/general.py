@@ -74,5 +74,5 @@ FAMILY = Family(
         undecided=True,
     ),
     at_once=8192,
-    figures=("larmor_pair", "pseudo_oscillator", "quadric"),
+    figures=("general_motion", "larmor_pair", "pseudo_oscillator", "quadric"),
 )  # fmt: skip

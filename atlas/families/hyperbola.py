@@ -36,4 +36,5 @@ FAMILY = Family(
         "omega3 of the hyperbola": 4, "stability": 4, "k of the hyperbola": 4, "phi of the hyperbola": 4,
         "points of the hyperbola": 4,
     },
+    figures=("hyperbola", "frequencies", "stability"),
 )  # fmt: skip

@@ -71,4 +71,5 @@ FAMILY = Family(
         ("atlas particle --mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1 2",),
         "point charge in constant fields",
     ),
+    figures=("particle_motion",),
 )

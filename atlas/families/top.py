@@ -103,4 +103,5 @@ FAMILY = Family(
         undecided=True,
     ),
     at_once=200,
+    figures=("top_motion",),
 )  # fmt: skip

@@ -1,6 +1,6 @@
 """A sphere with the line that the body's axis draws on it, between the parallels that it touches."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from atlas.scene.sample import curve
 
 def sphere(
     name: str,
-    upright: tuple[float, float],
+    upright: Sequence[float],
     third_axis: Callable[[FloatArray], FloatArray],
     length: float,
     pieces: int,
@@ -20,13 +20,13 @@ def sphere(
     label: str,
     elevation: float,
 ) -> Space:
-    """Return one sphere, turned about e1 so that the vector (0, *upright) stands upright, under that label.
+    """Return one sphere, turned so that the vector `upright` stands upright, under that label.
 
-    `third_axis` is R_3 as a function of time, drawn from 0 to `length` in so many pieces at first.
+    `upright` has its components along e2 and e3, or all three. `third_axis` is R_3 as a function of time, drawn from 0
+    to `length` in so many pieces at first.
     """
     fine = quadric_panel.tolerance(1.4)
-    across, along = np.array(upright) / np.hypot(*upright)
-    turn = np.array([[1.0, 0.0, 0.0], [0.0, along, -across], [0.0, across, along]])
+    turn = _turn(*(upright if len(upright) == 3 else (0.0, *upright)))
 
     def axis(t: FloatArray) -> FloatArray:
         return np.asarray(third_axis(t) @ turn.T)
@@ -47,3 +47,13 @@ def sphere(
         Points(trace[:1], "start"),
     ]
     return Space(tuple(layers), azimuth=-60.0, elevation=elevation, title=name)
+
+
+def _turn(x: float, y: float, z: float) -> FloatArray:
+    """Return the rotation that takes a vector to e3: about e3 into the plane of e2 and e3, then about e1."""
+    level = float(np.hypot(x, y))
+    cos, sin = (y / level, x / level) if level and x else (1.0, 0.0)
+    across, along = np.array((level if x else y, z)) / np.hypot(level, z)
+    first = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    second = np.array([[1.0, 0.0, 0.0], [0.0, along, -across], [0.0, across, along]])
+    return second @ first if x else second

@@ -91,7 +91,7 @@ def properties(request: Request) -> Data:
     """
     thing = Thing.of(request)
     rows = [*_given(thing)] if thing.described else []
-    rows += [row for q in thing.family.quantities for row in _rows(thing, q, request.digits)]
+    rows += [row for q in thing.family.quantities for row in rows_of(thing, q, request.digits)]
     says, given = lettered(thing.family.says), "what is given, and what follows" if rows else "what follows"
     return Data(
         (
@@ -116,7 +116,7 @@ def _given(thing: Thing) -> Iterator[Row]:
                 yield lettered(says), f"`{name}`", number, thing.unit(p.unit), "", "given"
 
 
-def _rows(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
+def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     """Give a quantity, a component a row; where it has no value, the reason."""
     try:
         found = _texts(thing, q, digits)

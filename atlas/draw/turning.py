@@ -1,0 +1,87 @@
+"""A scene as a PyVista plotter, to be turned in a window or in a notebook.
+
+Translucent surfaces are depth-peeled, without antialiasing: both together leave them out or falsify their order.
+"""
+
+from typing import Any
+
+import numpy as np
+import pyvista as pv
+
+from atlas.draw import gl
+from atlas.draw.embedded import mimebundle
+from atlas.draw.glass import lattice
+from atlas.draw.shaded import _GLASS, _add, _add_solids, _set_up
+from atlas.draw.style import style_of
+from atlas.draw.text import typeset
+from atlas.draw.view import View, fit, named
+from atlas.errors import AtlasError
+from atlas.scene.layers import Scene, Space, Surface
+
+_DOTS, _LABEL, _PEELS = 150.0 / 25.4, 20, 10
+
+
+class ScenePlotter(pv.Plotter):
+    """A plotter that a notebook shows as the scene it was made of, in the viewer of the pages, which turns it there.
+
+    What is added to the plotter afterwards is seen by ``show`` and ``screenshot``, but not there.
+    """
+
+    scene: Scene | None = None
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        """Return what a notebook shows."""
+        return mimebundle(self.scene)
+
+
+def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
+    """Return the panels in space of a scene as a plotter, side by side, in the coordinates of the scene.
+
+    It may be turned: translucent surfaces are depth-peeled, without antialiasing. Raises AtlasError for a scene without
+    a panel in space, and where no GL library can draw.
+    """
+    panels = [panel for panel in scene.panels if isinstance(panel, Space)]
+    if not panels:
+        raise AtlasError("the scene has no panel in space; draw it with to_figure")
+    if gl.prepare() is None:
+        raise AtlasError(gl.advice())
+    size = [round(length * _DOTS) for length in scene.size]
+    share = (size[0] * 72.0 / 25.4 / _DOTS / len(panels), size[1] * 72.0 / 25.4 / _DOTS)
+    plotter = ScenePlotter(
+        off_screen=off_screen, shape=(1, len(panels)), window_size=size, lighting="none", border=False
+    )
+    plotter.scene = scene
+    for column, panel in enumerate(panels):
+        plotter.subplot(0, column)
+        view = fit(panel, share)
+        _add_solids(plotter, view)
+        for surface in view.surfaces:
+            _add_surface(plotter, surface, view)
+        _add_names(plotter, view)
+        _set_up(plotter, view)
+        plotter.disable_anti_aliasing()
+        plotter.enable_depth_peeling(number_of_peels=_PEELS, occlusion_ratio=0.0)
+    return plotter
+
+
+def _add_surface(plotter: pv.Plotter, surface: Surface, view: View) -> None:
+    """Add the meshes of a surface, each side in its colour."""
+    look = style_of(surface.role)
+    for grid in surface.grids:
+        rows, columns = grid.shape[:2]
+        mesh = pv.PolyData.from_regular_faces(grid.reshape(-1, 3), lattice(rows, columns)).clean().compute_normals()
+        back = {**_GLASS, "color": look.back or look.colour, "opacity": look.glass}
+        _add(plotter, mesh, view, color=look.colour, opacity=look.glass, backface_params=back, **_GLASS)
+
+
+def _add_names(plotter: pv.Plotter, view: View) -> None:
+    """Add the names as labels that keep their size and stay in front; formulas are set by Matplotlib."""
+    import vtkmodules.vtkRenderingMatplotlib  # noqa: F401  without it TeX is shown as it is
+
+    found = [named(layer, view.frame) for layer in view.panel.layers]
+    places = [view.centre + view.size * np.atleast_2d(at)[0] for _, at, _, _ in filter(None, found)]
+    texts = [typeset(text) for text, _, _, _ in filter(None, found)]
+    if texts:
+        plotter.add_point_labels(
+            places, texts, font_size=_LABEL, show_points=False, shape=None, always_visible=True, reset_camera=False
+        )

@@ -1,0 +1,68 @@
+"""Objects as a pandas data frame: a row an object, or a row a time."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from atlas.core.inputs import real
+from atlas.core.shown import Shown
+from atlas.errors import AtlasError, DomainError, unknown
+from atlas.study.sweep.families import FAMILIES, Swept
+
+
+def frame(shown: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
+    """Return the data frame, see `Shown.to_dataframe`."""
+    swept = FAMILIES.get(shown.family)
+    if swept is None:
+        raise AtlasError(f"The register has no table of a {type(shown).__name__}.")
+    columns = dict(_quantities(shown, swept, quantities) if times is None else _times(shown, swept, times, quantities))
+    found = _pandas().DataFrame(columns)
+    found.attrs["units"] = {name: swept.units.get(name, "") for name in columns}
+    return found
+
+
+def _pandas() -> Any:
+    try:
+        return import_module("pandas")
+    except ImportError as error:
+        raise AtlasError("pandas is not installed: pip install 'atlas-charged-body[sweep]' brings it.") from error
+
+
+def _quantities(shown: Shown, swept: Swept, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:
+    """Go through parameters and quantities, each a value an object."""
+    known = {name: swept.quantities[name] for q in swept.family.quantities for name in q.names}
+    shape = getattr(shown, "shape", ())
+    if not shown.made_by and len(shown.arguments) == len(swept.family.parameters):
+        for p, value in zip(swept.family.parameters, shown.arguments.values(), strict=True):
+            if value is not None:
+                parts = np.moveaxis(np.asarray(value), -1, 0) if p.last else value if p.columns else [value]
+                for name, part in zip(p.names, parts, strict=True):
+                    yield name, np.broadcast_to(getattr(part, "ratio", part), shape).ravel()
+    for name in known if names is None else names:
+        if name not in known:
+            raise unknown("quantity", name, known, f"of a {type(shown).__name__}")
+        value = np.nan
+        with suppress(DomainError):  # where the register says that there may be none
+            value = known[name].of(shown, {})
+        yield name, np.broadcast_to(np.nan if value is None else value, shape).ravel()
+
+
+def _times(shown: Shown, swept: Swept, times: Any, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:
+    """Go through what one object has at each time."""
+    if getattr(shown, "shape", ()):
+        raise AtlasError(f"Rows by time are of one {type(shown).__name__}: make one with numbers in place of arrays.")
+    known = {name: s for s in swept.family.sampled for name in s.columns}
+    if not known:
+        raise AtlasError(f"A {type(shown).__name__} has nothing that depends on time.")
+    t = np.ravel(real(times, "The time"))
+    for name in names or ():
+        if name not in known:
+            raise unknown("quantity", name, known, f"at a time of a {type(shown).__name__}")
+    wanted = tuple(known if names is None else names)
+    found = {s.name: s.at(shown)(t).reshape(t.size, -1) for s in swept.family.sampled if {*s.columns} & {*wanted}}
+    yield "t", t
+    for name in wanted:
+        yield name, found[known[name].name][:, [*known[name].columns].index(name)]

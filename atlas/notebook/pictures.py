@@ -1,0 +1,59 @@
+"""The picture of an object, by a recipe that takes what it was made of."""
+
+from dataclasses import replace
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from atlas.core.shown import Shown
+from atlas.draw.panels import into, to_figure
+from atlas.errors import AtlasError, unknown
+from atlas.families import FAMILIES
+from atlas.scene import recipes
+from atlas.scene.layers import Scene
+
+
+def plot(
+    shown: Shown, figure: str | None, panel: int | None, ax: Any, style: Any, parameters: dict[str, Any]
+) -> Figure:
+    """Draw an object, see `Shown.plot`; without axes all panels, or the one asked for."""
+    scene = scene_of(shown, figure, parameters)
+    if panel is not None and not 1 <= panel <= len(scene.panels):
+        raise AtlasError(f"The figure has the panels 1 to {len(scene.panels)}, and no panel {panel}.")
+    if ax is not None:
+        into(ax, scene.panels[(panel or 1) - 1], style)
+        drawn: Figure = ax.figure
+        return drawn
+    return to_figure(scene if panel is None else alone(scene, panel), style)
+
+
+def scene_of(shown: Shown, figure: str | None, parameters: dict[str, Any]) -> Scene:
+    """Return the scene of an object. Raises AtlasError where no recipe takes it."""
+    family = FAMILIES.get(shown.family)
+    known = family.figures if family else ()
+    name = type(shown).__name__
+    if family is None or not known:
+        raise AtlasError(f"There is no picture of a {name} yet.")
+    if getattr(shown, "shape", ()):
+        raise AtlasError(f"A picture is of one {name}, not of several: make one with numbers in place of arrays.")
+    if figure is not None and figure not in known:
+        raise unknown("figure", figure, known, f"of a {name}")
+    recipe = recipes.load(figure or known[0])
+    own = {p.name: value for p in family.parameters if (value := _value(shown, p.name, p.needed)) is not None}
+    for key in parameters:
+        if key in own:
+            raise AtlasError(f"{key} is that of the {name}; make another one for another {key}.")
+    return recipe.scene(**{key: value for key, value in own.items() if key in recipe.parameters} | parameters)
+
+
+def alone(scene: Scene, panel: int) -> Scene:
+    """Return a scene of one panel."""
+    rows = -(-len(scene.panels) // scene.columns)
+    size = scene.size[0] / min(scene.columns, len(scene.panels)), scene.size[1] / rows
+    return replace(scene, panels=(scene.panels[panel - 1],), columns=1, size=size, narrow=())
+
+
+def _value(shown: Shown, name: str, needed: bool) -> Any:
+    """Return a parameter of an object, as it was given, or as it has it."""
+    value = shown.arguments.get(name)
+    return getattr(shown, name) if value is None and needed else value

@@ -1,0 +1,70 @@
+"""The motion of a body with three moments.
+
+From any initial angular velocity the motion of a charged body with three different moments of inertia is one of two
+commuting flows on a torus. The lines are drawn through an integration to 1e-10, good to far below a pixel.
+"""
+
+from dataclasses import dataclass
+from math import pi
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
+
+from atlas.core.asymmetric import AsymmetricMotion
+from atlas.core.inputs import FloatArray, positive
+from atlas.scene import Scene, any_motion
+from atlas.scene.any_motion import Upright
+from atlas.scene.words import plain_vector, tex_vector, title
+from atlas.study.simulate import simulate
+
+RANGES = {"turns": (1e-3, 50.0)}
+STEPS = 120
+"""Points a turn through which the lines are drawn: what lies between is good to 1e-7."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """R_3(t) and Omega(t) as smooth lines through the integrated points."""
+
+    axis: Any
+    Omega: Any
+
+    def third_axis(self, t: Any) -> FloatArray:
+        """R_3(t)."""
+        axis = np.asarray(self.axis(t))
+        return axis / np.linalg.norm(axis, axis=-1, keepdims=True)
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Omega(t)."""
+        return np.asarray(self.Omega(t))
+
+
+def scene(
+    *,
+    inertia: tuple[float, float, float] = (0.8, 1.0, 1.3),
+    field: tuple[float, float, float] = (0.2, 1.0, 0.6),
+    omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
+    turns: float = 6.0,
+    elevation: float = 25.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw R_3(t) and Omega(t) from ``omega`` over ``turns`` times 2 pi over the larger of |omega|, |B'|."""
+    motion = AsymmetricMotion(inertia, field, omega)
+    rate = float(max(np.linalg.norm(omega), np.linalg.norm(field))) or 1.0
+    period = 2 * pi / rate
+    times = np.linspace(0.0, positive(turns, "turns") * period, int(STEPS * turns) + 2)
+    found = simulate(inertia, field, omega, times)
+    e1, e2 = np.moveaxis(found.R, -1, 0)[:2]
+    speed = found.Omega[:, 1:2] * e1 - found.Omega[:, :1] * e2  # dR_3/dt = Omega2 R_1 - Omega1 R_2, (12)
+    drawn = Drawn(CubicHermiteSpline(times, found.R[..., 2], speed), CubicSpline(times, found.Omega))
+    of, words = any_motion.start(omega)
+    setting = (
+        rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$ from {of}: {motion.kind}",
+        f"The motion of a body with the moments {plain_vector(inertia)} from {words}",
+    )
+    momentum = np.array(inertia) * omega
+    upright = Upright.field_or_momentum(field, momentum.tolist())
+    return any_motion.picture(
+        title(__doc__), drawn, upright, setting, period, turns, word="", elevation=elevation, unit=unit
+    )

@@ -1,0 +1,35 @@
+"""The motion of a charged ball.
+
+Two turns with constant rates, (28): about the constant vector k with the frequency gamma, and about the field with
+Larmor's. A point of the ball draws a trochoid on the sphere.
+"""
+
+from math import pi
+
+from atlas.core.ball import BallMotion
+from atlas.scene import Scene, any_motion
+from atlas.scene.any_motion import Upright
+from atlas.scene.words import tex, title
+
+RANGES = {"periods": (1e-3, 1e3)}
+
+
+def scene(
+    *,
+    inertia: float = 1.0,
+    larmor: float = 0.5,
+    momentum: tuple[float, float] = (0.3, -0.7),
+    periods: float = 4.0,
+    elevation: float = 25.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw R_3(t) and Omega(t) of the ball, given as to ``BallMotion``, over ``periods`` of the turn about k."""
+    motion = BallMotion(inertia, larmor, momentum)
+    period = 2 * pi / motion.gamma if motion.gamma else 0.0
+    m2, m3 = momentum
+    values = rf"$\alpha={tex(larmor)}$, $\mathbf{{m}}=(0,{tex(m2)},{tex(m3)})$, $\gamma={tex(motion.gamma)}$"
+    setting = f"A ball with {values}", f"The motion of a ball with the momentum (0, {m2:g}, {m3:g})"
+    return any_motion.picture(
+        title(__doc__), motion, Upright((0.0, 0.0, 1.0), r"\mathbf{B}", "B"), setting, period, periods,
+        word=r"turn about $\hat{\mathbf{k}}$", elevation=elevation, unit=unit,
+    )  # fmt: skip

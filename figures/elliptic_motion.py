@@ -1,0 +1,36 @@
+"""An elliptic motion.
+
+The paper's family for three different moments of inertia: the field in the body goes round a curve, and the angular
+velocity is a constant matrix times it.
+"""
+
+from atlas.core.elliptic import EllipticMotion
+from atlas.scene import Scene, any_motion
+from atlas.scene.any_motion import Upright
+from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
+
+RANGES = {"periods": (1e-3, 1e3)}
+
+
+def scene(
+    *,
+    inertia: tuple[float, float, float] = (0.8, 1.0, 1.3),
+    field: tuple[float, float, float] = (0.2, 1.0, 0.6),
+    z: float = 1.7,
+    branch: float = 1.0,
+    periods: float = 1.0,
+    elevation: float = 25.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw R_3(t) and Omega(t) of the motion, given as to ``EllipticMotion``, over ``periods`` of the field in it."""
+    motion = EllipticMotion(inertia, field, z, branch)
+    body = rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$"
+    setting = (
+        rf"{body}, with $z={tex(z)}$: {motion.kind}",
+        f"The motion of a body with the moments {plain_vector(inertia)} with z = {plain(z)}",
+    )
+    upright = Upright.field_or_momentum(field, motion.angular_momentum(0.0).tolist())
+    return any_motion.picture(
+        title(__doc__), motion, upright, setting, motion.period, periods, word="field in the body",
+        elevation=elevation, unit=unit,
+    )  # fmt: skip

@@ -1,0 +1,36 @@
+"""A general motion.
+
+From any initial angular velocity the body's axis nods between two parallels while it goes round the field, and the
+components of Omega(t) are elliptic functions of time.
+"""
+
+from typing import Any
+
+from atlas.core.general import GeneralMotion
+from atlas.scene import Scene, any_motion
+from atlas.scene.any_motion import Upright
+from atlas.scene.words import plain_setting, tex_setting, title
+
+RANGES = {"periods": (1e-3, 1e3)}
+
+
+def scene(
+    *,
+    ratio: Any = 1.5,
+    field: tuple[float, float] = (1.0, 2.0),
+    omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
+    periods: float = 5.0,
+    elevation: float = 25.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the nutation."""
+    motion = GeneralMotion(ratio, field, omega)
+    upright = Upright.field_or_momentum((0.0, *field), motion.angular_momentum(0.0).tolist())
+    of, words = any_motion.start(omega)
+    setting = (
+        f"{tex_setting(ratio, field, first='A')} from {of}: {motion.kind}",
+        f"The motion of {plain_setting(ratio, field)} from {words}",
+    )
+    return any_motion.picture(
+        title(__doc__), motion, upright, setting, motion.period, periods, elevation=elevation, unit=unit
+    )

@@ -1,0 +1,75 @@
+"""The motion of a charged particle.
+
+The path in constant fields, (93) to (99): round the magnetic field with the frequency mu |B|/c, along it with constant
+acceleration, and adrift across both fields.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray, positive
+from atlas.core.particle import ParticleMotion
+from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space
+from atlas.scene.course import course
+from atlas.scene.quadric_panel import tolerance
+from atlas.scene.sample import curve
+from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
+
+SIZE = (124.0, 66.0)
+Vector = tuple[float, float, float]
+
+
+def scene(
+    *,
+    mu: float = 1.0,
+    electric: Vector = (0.2, 0.5, 0.03),
+    magnetic: Vector = (0.0, 0.0, 1.0),
+    position: Vector = (0.0, 0.0, 0.0),
+    velocity: Vector = (1.0, 0.0, 0.0),
+    c: float = 1.0,
+    turns: float = 3.0,
+    azimuth: float = 32.0,
+    elevation: float = 18.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw path and velocity over ``turns`` turns; without a magnetic field, while E doubles or makes the speed."""
+    particle = ParticleMotion(mu, electric, magnetic, position, velocity, c)
+    stop = positive(turns, "turns") * _unit_of_time(particle)
+    pieces = max(32, round(12 * turns))
+    rough = particle.position(np.linspace(0.0, stop, 8 * pieces + 1))
+    middle, span = (rough.min(axis=0) + rough.max(axis=0)) / 2, float(np.ptp(rough, axis=0).max()) or 1.0
+
+    def path(t: FloatArray) -> FloatArray:
+        return np.asarray((particle.position(t) - middle) / span)
+
+    line = curve(path, 0.0, stop, tolerance(1.0), pieces=pieces)
+    layers: list[Layer] = [Curve(line, "trajectory"), Points(line[:1], "start")]
+    for vector, role, name in ((magnetic, "field", r"$\mathbf{B}$"), (electric, "electric", r"$\mathbf{E}$")):
+        if any(vector):
+            layers.append(Arrow(line[0], line[0] + 0.4 * np.array(vector) / np.linalg.norm(vector), role, name))
+    fields = rf"$\mathbf{{E}}={tex_vector(electric)}$, $\mathbf{{B}}={tex_vector(magnetic)}$"
+    time = plain(float(f"{stop:.3g}"))
+    return Scene(
+        title=title(__doc__),
+        caption=rf"A particle with $\mu={tex(mu)}$ in {fields}, with the velocity ${tex_vector(velocity)}$ at the dot: "
+        rf"{particle.case}, {particle.kind}. (a) Its path up to $t={time}$; the arrows are not to scale. (b) Its "
+        "velocity.",
+        alt=f"The path in space of a particle with mu = {plain(mu)} in E = {plain_vector(electric)} and B = "
+        f"{plain_vector(magnetic)}, and the three components of its velocity over time.",
+        panels=(
+            Space(tuple(layers), azimuth=azimuth, elevation=elevation, title="(a) path"),
+            course(
+                particle.velocity, tuple(f"$v_{i}$" for i in (1, 2, 3)), stop, f"$t$ ({unit})",
+                rf"$\mathbf{{v}}$ (length/{unit})", "(b) velocity", size=(SIZE[0] / 2, SIZE[1]), pieces=pieces,
+            ),
+        ),
+        columns=2,
+        size=SIZE,
+    )  # fmt: skip
+
+
+def _unit_of_time(particle: ParticleMotion) -> float:
+    """Return the period of the turn about B; without one, the time in which E makes the speed that there is, or 1."""
+    if particle.cyclotron_frequency:
+        return abs(float(particle.period))
+    acceleration, speed = abs(particle.mu) * float(np.linalg.norm(particle.E)), float(np.linalg.norm(particle.v0))
+    return (speed / acceleration if speed else acceleration**-0.5) if acceleration else 1.0

@@ -1,0 +1,47 @@
+"""The motion of a top.
+
+The axis of a symmetric top nods between two parallels about the field or the vertical n while it goes round it, and
+the components of Omega(t) are elliptic functions of time.
+"""
+
+from atlas.core.top import TopMotion
+from atlas.scene import Scene, any_motion
+from atlas.scene.any_motion import Upright
+from atlas.scene.words import plain, tex, title
+
+RANGES = {"periods": (1e-3, 1e3)}
+
+
+def scene(
+    *,
+    inertia: tuple[float, float] = (1.0, 0.5),
+    coupling: tuple[float, float] = (0.0, 0.0),
+    direction: tuple[float, float] = (0.6, 0.8),
+    omega: tuple[float, float, float] = (0.1, 0.2, 5.0),
+    linear: float = 3.0,
+    quadratic: float = 0.0,
+    periods: float = 4.0,
+    elevation: float = 25.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw R_3(t) and Omega(t) of the top, given as to ``TopMotion``, over ``periods`` of the nutation."""
+    motion = TopMotion(inertia, coupling, direction, omega, linear, quadratic)
+    of, words = any_motion.start(omega)
+    has = [
+        text
+        for text, there in (
+            (rf"$(k_2,k_3)=({tex(coupling[0])},{tex(coupling[1])})$", any(coupling)),
+            (rf"$a_0={tex(linear)}$", linear),
+            (rf"$A_0={tex(quadratic)}$", quadratic),
+        )
+        if there
+    ]
+    ratio = inertia[1] / inertia[0]
+    setting = (
+        f"A top with {', '.join([rf'$I={tex(ratio)}$', *has])} from {of}: {motion.kind}",
+        f"The motion of a top with I = {plain(ratio)} from {words}",
+    )
+    return any_motion.picture(
+        title(__doc__), motion, Upright((0.0, *direction), r"\mathbf{n}", "n"), setting, motion.period, periods,
+        elevation=elevation, unit=unit,
+    )  # fmt: skip

@@ -1,0 +1,269 @@
+"""What objects, figures and plotters say of themselves in a terminal and in a notebook."""
+
+import re
+import struct
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb, ctx
+from matplotlib.figure import Figure
+
+import atlas
+from atlas import (
+    AsymmetricMotion,
+    AtlasError,
+    BallMotion,
+    ElementaryMotion,
+    EllipticMotion,
+    Field,
+    Flight,
+    FreeMotion,
+    GeneralMotion,
+    Hyperbola,
+    ParticleMotion,
+    Quadric,
+    SymmetricBody,
+    TopMotion,
+)
+from atlas.draw.embedded import mimebundle
+from atlas.families import FAMILIES
+from atlas.scene import Curve, recipes
+
+TOP = {"inertia": (1.0, 0.5), "coupling": (0.0, 0.0), "direction": (0.6, 0.8), "omega": (0.1, 0.2, 5.0), "linear": 3.0}
+ONE: list[Any] = [
+    Quadric(1.5, (1.0, 2.0)),
+    Quadric.of_top((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), 1.0),
+    Hyperbola(1.5, (1.0, 2.0)),
+    Hyperbola.of_top((1.0, 0.5), (1.0, 0.5), (0.6, 0.8)),
+    ElementaryMotion(SymmetricBody.ring(1.0, 1.0), (1.0, 2.0), 0.7),
+    GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)),
+    GeneralMotion.in_laboratory(1.5, (0.0, 1.0, 2.0), [[1, 0, 0], [0, 1, 0], [0, 0, 1]], (0.3, 0.7, 0.2)),
+    TopMotion(**TOP),
+    EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7),
+    AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)),
+    FreeMotion(1.5, (0.3, 0.7, 0.2)),
+    BallMotion(1.0, 0.5, (0.3, -0.7)),
+    ParticleMotion(1.0, (0.0, 0.5, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)),
+    Flight(
+        ParticleMotion(1.0, (0.0, 0.5, 0.0), (0.0, 2.0, 4.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)),
+        ElementaryMotion(1.5, (1.0, 2.0), 0.7),
+        (0.0, 0.3, 0.2),
+    ),
+    Field.si((0.0, 1.0, 2.0), mu=2.0),
+    Field.si((0.0, 1.0, 2.0), mu=2.0).frame((0.0, 0.0, 1.0)),
+    SymmetricBody.disk(1.0, 2.0),
+]
+TABLED = [one for one in ONE if getattr(one, "family", "") not in {"", "asymmetric"} and not one.made_by]
+"""What the register has a table of; the balls of a body with three moments take seconds."""
+
+
+def name(one: Any) -> str:
+    """Return what a case is called."""
+    return getattr(one, "made_by", "") or type(one).__name__
+
+
+@pytest.mark.parametrize("one", ONE, ids=name)
+def test_a_repr_is_one_line_that_makes_the_same_again(one: Any) -> None:
+    """Typed in, it gives an object that says the same of itself."""
+    said = repr(one)
+    again = eval(said, vars(atlas) | {public: getattr(atlas, public) for public in atlas.__all__})  # noqa: S307
+    assert "\n" not in said
+    assert type(again) is type(one)
+    assert repr(again) == said
+
+
+@pytest.mark.parametrize(
+    ("one", "kind"),
+    [
+        (ONE[0], "two-sheet hyperboloid"),
+        (ONE[4], "precession"),
+        (ONE[5], "nutation, four real roots"),
+        (ONE[12], "crossed fields, cycloid"),
+        (Quadric([1.5, 1.0, 0.5, 0.5], (1, 2)), "shape (4,): 1 cone, 2 one-sheet hyperboloid, 1 two-sheet hyperboloid"),
+        (ElementaryMotion(1.5, (1, 2), np.linspace(0, 1, 5000)), "shape (5000,)"),
+    ],
+    ids=lambda value: str(value)[:30],
+)
+def test_a_repr_says_of_which_kind_it_is(one: Any, kind: str) -> None:
+    """Behind a #, in the words of its attribute; of an array how many there are of each; of a large one its shape."""
+    assert repr(one).endswith(f"  # {kind}")
+
+
+@pytest.mark.parametrize("one", TABLED, ids=name)
+def test_html_shows_what_the_register_has_of_it(one: Any) -> None:
+    """Each quantity that has a value stands in the table, by its name or those of its components."""
+    shown, table = one._repr_html_(), one._repr_latex_()
+    for q in FAMILIES[one.family].quantities:
+        assert any(f"<code>{part}" in shown for part in (q.name, *q.columns, *(x for x, _ in q.lines))), q.name
+    assert ("data:image/png" in shown) == bool(FAMILIES[one.family].figures)
+    assert "://" not in shown
+    assert table.count("{") == table.count("}")
+    assert table.count(r"\\") + 1 >= len(FAMILIES[one.family].quantities)
+
+
+def test_html_has_proven_digits() -> None:
+    """The period of a precession by Machin's own pi: 2 pi/(omega2/B2hat), B2hat = B2/|B|, (79)."""
+    with_precision = ctx.prec
+    ctx.prec = 200
+    period = 2 * arb.pi() * arb(1) / (arb("0.75") * arb(5).sqrt())
+    digits = period.str(10, radius=False)
+    ctx.prec = with_precision
+    shown = ElementaryMotion(1.5, (1.0, 2.0), 0.75)._repr_html_()
+    assert f"<code>period</code></td><td>{digits}</td><td>time</td><td></td><td>10" in shown.replace("\xa0", " ")
+
+
+def test_arrays_and_what_has_no_family_have_a_line() -> None:
+    """The table is of one object of the register."""
+    for one in (Quadric([1.5, 0.5], (1, 2)), ONE[1], ONE[6]):
+        assert "<table>" not in one._repr_html_()
+        assert one._repr_latex_() is None
+
+
+def test_a_figure_shows_itself_without_pyplot() -> None:
+    """Its picture has twice the pixels of the size that it is shown in, and nothing loads pyplot."""
+    code = (
+        "import atlas, sys\n"
+        "png, size = atlas.figure('hyperbola')._repr_png_()\n"
+        "assert 'matplotlib.pyplot' not in sys.modules\n"
+        "sys.stdout.buffer.write(png[16:24])\n"
+        "sys.stdout.buffer.write(size['width'].to_bytes(4, 'big') + size['height'].to_bytes(4, 'big'))"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout
+    width, height, shown, high = struct.unpack(">4I", found)
+    assert abs(width - 2 * shown) <= 2
+    assert abs(height - 2 * high) <= 2
+    assert shown > 200
+
+
+def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
+    """The frame is sandboxed, its policy lets nothing in, and it has still, scene and script in it."""
+    scene = recipes.load("quadric").scene()
+    bundle = mimebundle(scene)
+    assert scene.alt in bundle["text/plain"]
+    frame = bundle["text/html"]
+    assert re.match(r'<iframe [^>]*sandbox="allow-scripts"[^>]*srcdoc="[^"]*"></iframe>$', frame)
+    assert "default-src &#x27;none&#x27;" in frame
+    assert "http://www.w3.org/2000/svg" in frame  # a name, and the only address
+    assert not set(re.findall(r"https?://[^&;\"`]+", frame)) - {"http://www.w3.org/2000/svg"}
+    assert "atlasViewer" in frame
+
+
+@pytest.mark.parametrize(
+    ("one", "figure", "axis"),
+    [
+        (ONE[5], "general_motion", (0.0, 1.0, 2.0)),
+        (ONE[7], "top_motion", (0.0, 0.6, 0.8)),
+        (ONE[8], "elliptic_motion", (0.2, 1.0, 0.6)),
+        (ONE[9], "asymmetric_motion", (0.2, 1.0, 0.6)),
+        (ONE[11], "ball_motion", (0.0, 0.0, 1.0)),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_the_picture_of_a_motion_is_the_way_of_its_axis(one: Any, figure: str, axis: tuple[float, ...]) -> None:
+    """On the unit sphere; heights along the upright vector are those of R_3(t), and Omega(t) is the motion's own."""
+    own = {p.name: one.arguments[p.name] for p in FAMILIES[one.family].parameters}
+    sphere, course = recipes.load(figure).scene(**own).panels
+    (trace,) = (layer.points for layer in sphere.layers if isinstance(layer, Curve) and layer.role == "trace")
+    assert np.abs(np.linalg.norm(trace, axis=1) - 1.0).max() < 1e-14
+    upright = np.array(axis) / np.linalg.norm(axis)
+    assert abs(trace[0, 2] - upright[2]) < 1e-14
+    lines = [layer.points for layer in course.layers if isinstance(layer, Curve) and layer.role != "guide"]
+    times = lines[0][[len(lines[0]) // 3, -1], 0]
+    Omega = one.angular_velocity(times)
+    for i, line in enumerate(lines):
+        assert np.abs(line[[len(line) // 3, -1], 1] - Omega[:, i]).max() < 1e-6
+    low, high = trace[:, 2].min() - 1e-4, trace[:, 2].max() + 1e-4
+    heights = one.third_axis(times) @ upright
+    assert low < heights.min() <= heights.max() < high
+
+
+def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
+    """The panel asked for, into one of two axes; the figure that comes back is theirs."""
+    figure = Figure((8, 4))
+    first, second = figure.subplots(1, 2)
+    motion = ONE[5]
+    assert motion.plot(ax=first) is figure
+    assert motion.plot(panel=2, ax=second, periods=2.0) is figure
+    assert first.get_title(loc="left") == "(a) third axis"
+    assert second.get_xlim()[1] == pytest.approx(2.0 * motion.period)
+    assert len(motion.plot().axes) == 2
+    assert len(motion.plot(panel=2).axes) == 1
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        (lambda: ONE[5].plot(ratio=2.0), "ratio is that of the GeneralMotion"),
+        (lambda: ONE[5].plot("hyperbola"), "no figure 'hyperbola' of a GeneralMotion"),
+        (lambda: ONE[5].plot(panel=3), "panels 1 to 2"),
+        (lambda: ONE[5].plot(ax=Figure().add_subplot(projection="3d")), "ordinary axes"),
+        (lambda: FreeMotion(1.5, (1, 2, 3)).plot(), "no picture of a FreeMotion"),
+        (lambda: ElementaryMotion(1.5, (1, 2), [0.1, 0.2]).plot(), "one ElementaryMotion"),
+        (lambda: ElementaryMotion(1.5, (1, 2), [0.1, 0.2]).trace(), "one ElementaryMotion"),
+        (lambda: BallMotion(1.0, 0.5, (0.3, -0.7)).trace(), "say stop="),
+        (lambda: ONE[5].trace(0), "periods must be positive"),
+        (lambda: ONE[5].to_dataframe(quantities=["perod"]), "did you mean 'period'"),
+        (lambda: ONE[5].to_dataframe([0.0], quantities=["R14"]), "no quantity 'R14'"),
+        (lambda: ElementaryMotion(1.5, (1, 2), [0.1, 0.2]).to_dataframe([0.0]), "one ElementaryMotion"),
+        (lambda: Quadric(1.5, (1, 2)).to_dataframe([0.0]), "nothing that depends on time"),
+        (ONE[13].to_dataframe, "no table of a Flight"),
+    ],
+)
+def test_what_cannot_be_shown_says_so(wrong: Any, says: str) -> None:
+    """In one line, with what would be right."""
+    with pytest.raises(AtlasError, match=re.escape(says)) as told:
+        wrong()
+    assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize("one", [ONE[4], ONE[5], ONE[7]], ids=name)
+def test_a_trace_is_the_way_of_the_axis(one: Any) -> None:
+    """From the start to the last period, its points those of R_3, each chord's middle within the tolerance."""
+    t, axis = one.trace(10, tolerance=1e-3)
+    frame = one.to_dataframe()
+    assert t[0] == 0.0
+    assert t[-1] == pytest.approx(10 * frame["period"][0], rel=1e-15)
+    assert np.array_equal(axis, one.third_axis(t))
+    way, chord = one.third_axis((t[1:] + t[:-1]) / 2) - axis[:-1], axis[1:] - axis[:-1]
+    share = np.sum(way * chord, axis=1, keepdims=True) / np.sum(chord * chord, axis=1, keepdims=True)
+    assert np.linalg.norm(way - share * chord, axis=1).max() < 1e-3
+
+
+def test_a_data_frame_has_a_row_for_each_motion() -> None:
+    """Periods over many omega2 as the motions one by one have them; units stand beside."""
+    omega2 = np.linspace(0.0, 3.0, 7)
+    motions = ElementaryMotion(1.5, (1.0, 2.0), omega2)
+    frame = motions.to_dataframe(quantities=["k", "period", "case"])
+    assert [*frame.columns] == ["ratio", "B2", "B3", "omega2", "k", "period", "case"]
+    assert frame["period"][0] == np.inf
+    for i in (1, 6):
+        assert frame["k"][i] == ElementaryMotion(1.5, (1.0, 2.0), omega2[i]).k
+        assert frame["period"][i] == pytest.approx(2 * np.pi / frame["k"][i], rel=1e-15)
+    assert [*frame["case"][:2]] == ["at rest", "precession"]
+    assert frame.attrs["units"]["period"] == "time"
+
+
+def test_a_data_frame_has_a_row_for_each_time() -> None:
+    """The entries of R and the components of Omega, K and m at these times."""
+    times = [0.0, 1.0, 1e6]
+    frame = ONE[5].to_dataframe(times)
+    R = ONE[5].rotation(times)
+    assert np.array_equal(frame[["R11", "R12", "R13"]].to_numpy(), R[:, 0])
+    assert np.array_equal(frame[["Omega1", "Omega2", "Omega3"]].to_numpy(), ONE[5].angular_velocity(times))
+    assert [*ONE[12].to_dataframe(times, quantities=["velocity2"]).columns] == ["t", "velocity2"]
+
+
+def test_a_separatrix_has_an_empty_cell() -> None:
+    """Where a quantity has no value, there is no number."""
+    resting = TopMotion((1.0, 0.5), (0.0, 0.0), (0.0, 1.0), (0.0, 0.0, 0.0), 3.0)
+    assert np.isnan(resting.to_dataframe()["precession_per_period"][0])
+
+
+def test_without_pandas_one_line_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The extra brings it."""
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(AtlasError, match=r"pip install 'atlas-charged-body\[sweep\]'"):
+        ONE[5].to_dataframe()
