@@ -10,6 +10,7 @@ from flint import arb
 from atlas.core.arithmetic.rotation import target
 from atlas.core.inputs import FloatArray, finite, plain, real
 from atlas.core.motion import Motion, components
+from atlas.core.quantities import INERTIA, RATE
 from atlas.errors import AtlasError
 from atlas.exact.asymmetric import AsymmetricMotion as Balls
 from atlas.exact.digits import numbers
@@ -101,15 +102,15 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     family = "asymmetric"
 
     def __init__(self, inertia: Any, field: Any, omega: Any) -> None:
-        self.arguments = {"inertia": inertia, "field": field, "omega": omega}
         parts = [
-            *components(inertia, ("I1", "I2", "I3"), "The inertia"),
-            *components(field, ("B1", "B2", "B3"), "The field"),
-            *components(omega, ("omega1", "omega2", "omega3"), "The initial angular velocity"),
+            *components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA),
+            *components(field, ("B1", "B2", "B3"), "The field", RATE),
+            *components(omega, ("omega1", "omega2", "omega3"), "The initial angular velocity", RATE),
         ]
         super().__init__(lambda *row: SingleAsymmetric(Balls(row[0:3], row[3:6], row[6:9])), *parts)
         self._turnings  # noqa: B018  what is no motion is refused here
         self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
+        self.arguments = {"inertia": self.inertia, "field": self.field, "omega": self.omega}
 
     @cached_property
     def kind(self) -> Any:

@@ -11,6 +11,7 @@ from atlas.core.arithmetic.turnings import Group
 from atlas.core.arithmetic.words import ONE, ZERO, exact
 from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.motion import Motion, components
+from atlas.core.quantities import INERTIA, MOMENTUM, RATE
 from atlas.errors import DomainError
 from atlas.formulas.ball import rates, turning
 from atlas.formulas.numbers import alone, direction, workprec
@@ -42,12 +43,13 @@ class BallMotion(Motion[Ball]):
     _inverse = True
 
     def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
-        self.arguments = {"inertia": inertia, "larmor": larmor, "momentum": momentum}
-        m2, m3 = components(momentum, ("m2", "m3"), "The momentum")
-        inertia = real(inertia, "The inertia")
+        m2, m3 = components(momentum, ("m2", "m3"), "The momentum", MOMENTUM)
+        inertia = real(inertia, "The inertia", INERTIA)
         if (inertia <= 0).any():
             raise DomainError(f"The inertia of a ball must be positive, not {inertia.min()}.")
-        super().__init__(Ball, inertia, real(larmor, "The Larmor frequency"), m2, m3)
+        larmor = real(larmor, "The Larmor frequency", RATE)
+        super().__init__(Ball, inertia, larmor, m2, m3)
+        self.arguments = {"inertia": plain(inertia), "larmor": plain(larmor), "momentum": (plain(m2), plain(m3))}
 
     @cached_property
     def gamma(self) -> Any:

@@ -14,6 +14,7 @@ from atlas.core.inertia import (
     mass_matrix_of_points,
 )
 from atlas.core.inputs import FloatArray, number, positive, real
+from atlas.core.quantities import INERTIA, LENGTH, MASS
 from atlas.errors import AtlasError, DomainError
 
 __all__ = ["SHAPES", "SymmetricBody", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia", "moments"]
@@ -58,7 +59,7 @@ class SymmetricBody:
 
     def __post_init__(self) -> None:
         """Check that such a body exists."""
-        I2, I3 = number(self.I2, "I2"), number(self.I3, "I3")
+        I2, I3 = number(self.I2, "I2", INERTIA), number(self.I3, "I3", INERTIA)
         if I2 <= 0:
             raise DomainError(f"I2 must be positive, not {I2}: about an axis across it, every body has some inertia.")
         if I3 < 0:
@@ -89,7 +90,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        across = positive(mass, "The mass") * _square(radius, "The radius") / 2
+        across = positive(mass, "The mass", MASS) * _square(radius, "The radius") / 2
         return cls(across, 2 * across)
 
     @classmethod
@@ -98,7 +99,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        across = positive(mass, "The mass") * _square(radius, "The radius") / 4
+        across = positive(mass, "The mass", MASS) * _square(radius, "The radius") / 4
         return cls(across, 2 * across)
 
     @classmethod
@@ -107,7 +108,11 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2, h2 = positive(mass, "The mass"), _square(radius, "The radius"), _square(height, "The height", zero=True)
+        m, R2, h2 = (
+            positive(mass, "The mass", MASS),
+            _square(radius, "The radius"),
+            _square(height, "The height", zero=True),
+        )
         return cls(m * (R2 / 2 + h2 / 12), m * R2)
 
     @classmethod
@@ -116,7 +121,11 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2, h2 = positive(mass, "The mass"), _square(radius, "The radius"), _square(height, "The height", zero=True)
+        m, R2, h2 = (
+            positive(mass, "The mass", MASS),
+            _square(radius, "The radius"),
+            _square(height, "The height", zero=True),
+        )
         return cls(m * (R2 / 4 + h2 / 12), m * (R2 / 2))
 
     @classmethod
@@ -125,7 +134,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        return cls(positive(mass, "The mass") * _square(length, "The length") / 12, 0.0)
+        return cls(positive(mass, "The mass", MASS) * _square(length, "The length") / 12, 0.0)
 
     @classmethod
     def sphere(cls, mass: float, radius: float) -> Self:
@@ -133,7 +142,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        moment = 2 * positive(mass, "The mass") * _square(radius, "The radius") / 5
+        moment = 2 * positive(mass, "The mass", MASS) * _square(radius, "The radius") / 5
         return cls(moment, moment)
 
     @classmethod
@@ -142,7 +151,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        moment = 2 * positive(mass, "The mass") * _square(radius, "The radius") / 3
+        moment = 2 * positive(mass, "The mass", MASS) * _square(radius, "The radius") / 3
         return cls(moment, moment)
 
     @classmethod
@@ -152,7 +161,7 @@ class SymmetricBody:
         Raises AtlasError unless all are positive numbers.
         """
         m, a2, c2 = (
-            positive(mass, "The mass"),
+            positive(mass, "The mass", MASS),
             _square(equatorial, "The equatorial radius"),
             _square(polar, "The polar radius", zero=True),
         )
@@ -229,9 +238,8 @@ def from_shape(name: str, **dimensions: Any) -> SymmetricBody:
 
 def _square(length: Any, name: str, *, zero: bool = False) -> float:
     """Return the square of a length that must be positive (or may be zero)."""
-    if zero and number(length, name) == 0:
-        return 0.0
-    return positive(length, name) * float(length)
+    given = number(length, name, LENGTH)
+    return 0.0 if zero and given == 0 else positive(given, name) * given
 
 
 def _frame(axis: FloatArray) -> FloatArray:

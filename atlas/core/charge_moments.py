@@ -7,8 +7,10 @@ import numpy as np
 
 from atlas.core.body import from_shape
 from atlas.core.inputs import number, real, vectors
+from atlas.core.quantities import CHARGE, LENGTH
 from atlas.errors import AtlasError, DomainError
 
+CHARGE_MOMENT = "C m**2"
 SYMMETRIC = 1e-9
 """By how much moments about the axis may differ from symmetric ones, in parts of the largest."""
 
@@ -28,8 +30,8 @@ class ChargeMoments:
 
     def __post_init__(self) -> None:
         """Check the numbers."""
-        object.__setattr__(self, "J2", number(self.J2, "J2"))
-        object.__setattr__(self, "J3", number(self.J3, "J3"))
+        object.__setattr__(self, "J2", number(self.J2, "J2", CHARGE_MOMENT))
+        object.__setattr__(self, "J3", number(self.J3, "J3", CHARGE_MOMENT))
 
     def __add__(self, other: "ChargeMoments") -> "ChargeMoments":
         return ChargeMoments(self.J2 + other.J2, self.J3 + other.J3)
@@ -41,7 +43,7 @@ class ChargeMoments:
         `dimensions` are those of the shape without its mass, e.g. radius. Raises AtlasError for another shape or other
         dimensions, DomainError for one that is not positive.
         """
-        charge = number(charge, "The charge")
+        charge = number(charge, "The charge", CHARGE)
         whole = from_shape(name, mass=abs(charge) or 1.0, **dimensions)
         sign = float(np.sign(charge))
         return cls(sign * whole.I2, sign * whole.I3)
@@ -53,7 +55,7 @@ class ChargeMoments:
         Raises DomainError if their centre is not the centre of mass (the sum of e x is not zero), or if their moments
         are not symmetric about e3, to 1e-9 of the largest; AtlasError for wrong shapes.
         """
-        e, x = real(charges, "The charges"), vectors(positions, "The positions")
+        e, x = real(charges, "The charges", CHARGE), vectors(positions, "The positions", LENGTH)
         if e.ndim != 1 or x.shape != (*e.shape, 3):
             raise AtlasError(f"Point charges are given by (N,) charges and (N, 3) positions, not {e.shape}, {x.shape}.")
         dipole, reach = e @ x, np.abs(e) @ np.linalg.norm(x, axis=1)

@@ -12,6 +12,7 @@ from atlas.core.body import moments
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import number
 from atlas.core.motion import components
+from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
 from atlas.formulas.numbers import nearest, root, workprec
@@ -60,18 +61,20 @@ class ClosedMotion(ElementaryMotion):
     in its frequencies by an ulp or so, and does not close.
     """
 
+    made_by = "ClosedMotion"  # not from the parameters of its family
+
     def __init__(self, ratio: Any, field: Any, p: int, q: int) -> None:
-        self.arguments = {"ratio": ratio, "field": field, "p": p, "q": q}
         if not all(isinstance(x, Real) and x == x // 1 for x in (p, q)) or not q:
             raise AtlasError(f"phi/k = p/q takes two whole numbers, the second not 0, not {p!r} and {q!r}.")
         I2, I3 = moments(ratio)
-        B2, B3 = components(field, ("B2", "B3"), "The field")
+        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         I3, B2, B3 = number(I3, "The ratio I"), number(B2, "B2"), number(B3, "B3")
         self.winding = Fraction(int(p), int(q))
         """phi/k = p/q in lowest terms."""
         inputs = [fmpq(*x.as_integer_ratio()) for x in (I2, I3, B2, B3, self.winding)]
         _check(*inputs)
         self.ratio, self.field, self.shape = ratio, (B2, B3), ()
+        self.arguments = {"ratio": ratio, "field": self.field, "p": p, "q": q}
         self._closed = Closed(*inputs)
         self._turning = self._closed  # type: ignore[assignment]  # it has all that one elementary motion has
 

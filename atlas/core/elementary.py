@@ -16,6 +16,7 @@ from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.invariants import NAMES, invariants
 from atlas.core.motion import Motion, components
+from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.elementary import CASES, FREE, constants, free, quotient, scalars, turning
 from atlas.formulas.numbers import direction, nearest, workprec
@@ -87,17 +88,19 @@ class ElementaryMotion(Motion[Elementary]):
 
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
         self.ratio = ratio
-        self.arguments = {"ratio": ratio, "field": field, "omega2": omega2, "omega3": omega3}
         if isinstance(omega2, tuple | list) and len(omega2) == 3 and not any(np.ndim(x) for x in omega2):
             raise AtlasError(
                 f"omega2 is one number, or an array of them, but {tuple(omega2)} reads as a vector: "
                 "GeneralMotion(ratio, field, omega) takes all three components; for three motions write np.array."
             )
         I2, I3 = moments(ratio)
-        B2, B3 = components(field, ("B2", "B3"), "The field")
-        given = np.array(None) if omega3 is None else real(omega3, "omega3")
-        super().__init__(Elementary, I2, I3, B2, B3, real(omega2, "omega2"), given)
+        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
+        omega2 = real(omega2, "omega2", RATE)
+        given = np.array(None) if omega3 is None else real(omega3, "omega3", RATE)
+        super().__init__(Elementary, I2, I3, B2, B3, omega2, given)
         self.field = (plain(B2), plain(B3))
+        free = None if omega3 is None else plain(given)
+        self.arguments = {"ratio": ratio, "field": self.field, "omega2": plain(omega2), "omega3": free}
         if self.shape:
             self._refuse((self._codes == len(CASES)) | ((self._codes < FREE) & (omega3 is None)))
             if omega3 is not None:
@@ -252,9 +255,9 @@ class FreeMotion(Motion[Free]):
     _unit = slice(2, 5)
 
     def __init__(self, ratio: Any, omega: Any) -> None:
-        self.arguments = {"ratio": ratio, "omega": omega}
-        omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity")
+        omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
         super().__init__(Free, *moments(ratio), *omega)
+        self.arguments = {"ratio": ratio, "omega": tuple(map(plain, omega))}
 
     @cached_property
     def k(self) -> Any:

@@ -13,6 +13,7 @@ from atlas.core.nutating import AloneMotion
 from atlas.core.nutation.cayley_klein import FIRST
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_elliptic import SingleElliptic
+from atlas.core.quantities import INERTIA, RATE
 from atlas.exact.digits import enclosed
 from atlas.exact.elliptic import EllipticMotion as Balls
 from atlas.formulas.numbers import workprec
@@ -51,10 +52,9 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
     family = "elliptic"
 
     def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
-        self.arguments = {"inertia": inertia, "field": field, "z": z, "branch": branch}
         parts = [
-            *components(inertia, ("I1", "I2", "I3"), "The inertia"),
-            *components(field, ("B1", "B2", "B3"), "The field"),
+            *components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA),
+            *components(field, ("B1", "B2", "B3"), "The field", RATE),
             *components((z, branch), ("z", "branch"), "The point of the curve"),
         ]
         super().__init__(lambda *row: SingleElliptic(balls(*row)), *parts)
@@ -63,6 +63,7 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
         self.inertia, self.field, (self.z, self.branch) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 3), (3, 6), (6, 8))
         )
+        self.arguments = {"inertia": self.inertia, "field": self.field, "z": self.z, "branch": self.branch}
 
     @cached_property
     def kind(self) -> Any:

@@ -9,6 +9,7 @@ import numpy as np
 from atlas.core import units
 from atlas.core.arithmetic.words import exact
 from atlas.core.inputs import FloatArray, finite, number, positive, real, vector, vectors
+from atlas.core.quantities import NO_FIELDS, RATE, SI_FIELDS
 from atlas.core.shown import called
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.numbers import cross, dot, nearest, root, unit, workprec
@@ -32,10 +33,11 @@ class Field:
 
     def __post_init__(self) -> None:
         """Check the numbers, and make B'."""
-        object.__setattr__(self, "B", vector(self.B, "B"))
-        object.__setattr__(self, "E", vector(self.E, "E"))
-        object.__setattr__(self, "mu", number(self.mu, "mu"))
         object.__setattr__(self, "c", positive(self.c, "c"))
+        unit = SI_FIELDS if self.c == 1 else NO_FIELDS
+        object.__setattr__(self, "B", vector(self.B, "B", unit["B"]))
+        object.__setattr__(self, "E", vector(self.E, "E", unit["E"]))
+        object.__setattr__(self, "mu", number(self.mu, "mu", unit["mu"]))
         object.__setattr__(self, "prime", units.prime(self.mu, self.B, self.c))
 
     def __repr__(self) -> str:
@@ -88,7 +90,7 @@ class LaboratoryFrame:
 
     def __post_init__(self) -> None:
         """Find the frame in rational numbers, where nearly parallel vectors lose no digits."""
-        axis, B = vector(self.axis, "The axis"), vector(self.B, "B")
+        axis, B = vector(self.axis, "The axis"), vector(self.B, "B", RATE)
         n, b = exact(*axis), exact(*B)
         n2, b2, along, across = dot(n, n), dot(b, b), dot(n, b), cross(b, n)
         if n2 == 0:

@@ -8,6 +8,7 @@ from atlas.core.euler_poisson import bracket
 from atlas.core.field import LaboratoryFrame
 from atlas.core.inputs import FloatArray, vectors
 from atlas.core.particle import ParticleMotion
+from atlas.core.quantities import LENGTH
 from atlas.core.shown import Shown
 from atlas.errors import AtlasError
 
@@ -41,7 +42,7 @@ class Flight(Shown):
         self, particle: ParticleMotion, motion: Rotation, point: Any, frame: LaboratoryFrame | None = None
     ) -> None:
         self.arguments = {"particle": particle, "motion": motion, "point": point, "frame": frame}
-        self.particle, self.motion, self.point = particle, motion, vectors(point, "The point")
+        self.particle, self.motion, self.point = particle, motion, vectors(point, "The point", LENGTH)
         self._to_user = np.eye(3) if frame is None else frame.matrix.T
         self._arm = self.point @ self._to_user
         self._compare_fields()

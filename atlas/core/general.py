@@ -17,6 +17,7 @@ from atlas.core.nutation.rows import Blocks, GeneralRows
 from atlas.core.nutation.scalars import KINDS, Scalars
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_general import SingleGeneral
+from atlas.core.quantities import RATE
 from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
 from atlas.exact.digits import enclosed
@@ -65,12 +66,12 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
         self.ratio = ratio
-        self.arguments = {"ratio": ratio, "field": field, "omega": omega}
         I2, I3 = moments(ratio)
-        B2, B3 = components(field, ("B2", "B3"), "The field")
-        omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity")
+        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
+        omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
         super().__init__(standing, I2, I3, B2, B3, *omega)
         self.field, self.omega = (plain(B2), plain(B3)), tuple(plain(w) for w in omega)
+        self.arguments = {"ratio": ratio, "field": self.field, "omega": self.omega}
 
     @classmethod
     def in_laboratory(cls, ratio: Any, field: Any, attitude: Any, angular_velocity: Any) -> Self:
@@ -84,7 +85,8 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         """
         I2, I3 = moments(ratio)
         start = exact_attitude(attitude)
-        B, w = (_transposed(start, vector(x, name)) for x, name in ((field, "The field"), (angular_velocity, "omega")))
+        field, angular_velocity = vector(field, "The field", RATE), vector(angular_velocity, "omega", RATE)
+        B, w = _transposed(start, field), _transposed(start, angular_velocity)
         motion = cls.__new__(cls)
         motion.ratio, motion.shape = ratio, ()
         motion.made_by = "GeneralMotion.in_laboratory"
@@ -94,7 +96,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         body = ratio_of(SymmetricBody(I2, float(I3)))
         matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
         motion._turning = SingleGeneral(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class
-        motion.field, motion.omega = tuple(vector(field, "The field").tolist()), tuple(int(x.p) / int(x.q) for x in w)
+        motion.field, motion.omega = tuple(field.tolist()), tuple(int(x.p) / int(x.q) for x in w)
         return motion
 
     @cached_property

@@ -14,6 +14,7 @@ from atlas.core.branches import Branch, halves
 from atlas.core.closed import ClosedMotion
 from atlas.core.inputs import FloatArray, plain, positive, real, whole
 from atlas.core.motion import components
+from atlas.core.quantities import RATE
 from atlas.core.shown import Shown
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.hyperbola import frequencies, least_stability, ordinate, stability
@@ -45,11 +46,11 @@ class Hyperbola(Shown):
     family = "hyperbola"
 
     def __init__(self, ratio: Any, field: Any) -> None:
-        self.arguments = {"ratio": ratio, "field": field}
         I2, I3 = moments(ratio)
-        B2, B3 = components(field, ("B2", "B3"), "The field")
+        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         self.I2, self.I3, self.B2, self.B3 = I2, I3, plain(B2), plain(B3)
         self._ratio = ratio
+        self.arguments = {"ratio": ratio, "field": (self.B2, self.B3)}
 
     @classmethod
     def of_top(
@@ -255,7 +256,7 @@ class Hyperbola(Shown):
 
     def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
         """Return what a formula of I2, I3, B2, B3 and omega2 gives, where (71) holds."""
-        omega2 = real(omega2, "omega2")
+        omega2 = real(omega2, "omega2", RATE)
         if np.any(np.equal(self.B2, 0)):
             raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
         pole = omega2 == self.pole

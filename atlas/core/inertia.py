@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import FloatArray, real
+from atlas.core.quantities import LENGTH, MASS
 from atlas.errors import AtlasError, DomainError
 
 ROUNDING = 16 * float(np.finfo(float).eps)
@@ -43,7 +44,7 @@ def mass_matrix_of_points(masses: Any, positions: Any) -> FloatArray:
 
     `masses` (N,), all positive; `positions` (N, 3) in any frame and from any origin. Returns (3, 3).
     """
-    m, x = real(masses, "The masses"), real(positions, "The positions")
+    m, x = real(masses, "The masses", MASS), real(positions, "The positions", LENGTH)
     if m.ndim != 1 or x.shape != (m.size, 3) or not m.size:
         raise AtlasError(f"Point masses need masses (N,) and positions (N, 3), not {m.shape} and {x.shape}.")
     if m.min() <= 0:

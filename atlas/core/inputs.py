@@ -8,13 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.core.quantities import bare
 from atlas.errors import AtlasError, DomainError
 
 FloatArray = NDArray[np.float64]
 
 
-def real(value: Any, name: str) -> FloatArray:
-    """Return `value` as a float64 array of any shape, finite everywhere; `-0.0` becomes `0.0`."""
+def real(value: Any, name: str, unit: str = "") -> FloatArray:
+    """Return `value` as a float64 array of any shape, finite everywhere; `-0.0` becomes `0.0`.
+
+    A quantity of pint or astropy is taken in that `unit` of SI, and refused where it has none.
+    """
+    if type(value) is not np.ndarray:
+        value = bare(value, name, unit)
     if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
         raise AtlasError(f"{name} must be a number or an array without masked entries; fill or drop them first.")
     try:
@@ -38,19 +44,19 @@ def _not_real(value: Any, name: str) -> AtlasError:
     return AtlasError(f"{name} must be a real number or an array of them, not {reprlib.repr(value)}.")
 
 
-def number(value: Any, name: str) -> float:
+def number(value: Any, name: str, unit: str = "") -> float:
     """Return `value` as one finite float."""
     if type(value) is float and isfinite(value):
         return value + 0.0
-    array = real(value, name)
+    array = real(value, name, unit)
     if array.ndim:
         raise AtlasError(f"{name} must be one number, not an array of shape {array.shape}.")
     return float(array)
 
 
-def positive(value: Any, name: str) -> float:
+def positive(value: Any, name: str, unit: str = "") -> float:
     """Return `value` as one finite float above zero."""
-    result = number(value, name)
+    result = number(value, name, unit)
     if result <= 0:
         raise DomainError(f"{name} must be positive, not {result}.")
     return result
@@ -66,17 +72,17 @@ def whole(value: Any, name: str, least: int = 0) -> int:
     return int(result)
 
 
-def vector(value: Any, name: str) -> FloatArray:
+def vector(value: Any, name: str, unit: str = "") -> FloatArray:
     """Return `value` as three finite floats, shape (3,)."""
-    array = real(value, name)
+    array = real(value, name, unit)
     if array.shape != (3,):
         raise AtlasError(f"{name} must have three components, not the shape {array.shape}.")
     return array
 
 
-def vectors(value: Any, name: str) -> FloatArray:
+def vectors(value: Any, name: str, unit: str = "") -> FloatArray:
     """Return `value` as finite vectors, shape (..., 3)."""
-    array = real(value, name)
+    array = real(value, name, unit)
     if array.shape[-1:] != (3,):
         raise AtlasError(f"{name} must have three components last, shape (..., 3), not {array.shape}.")
     return array

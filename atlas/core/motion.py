@@ -14,6 +14,7 @@ from atlas.core.arithmetic.grid import fill_grid
 from atlas.core.arithmetic.rotation import target
 from atlas.core.arithmetic.turnings import Group, Turnings
 from atlas.core.inputs import FloatArray, common_shape, number, real, whole
+from atlas.core.quantities import TIME, bare
 from atlas.core.shown import Shown, notebook
 from atlas.errors import AtlasError
 
@@ -37,8 +38,8 @@ BLOCK = 4096
 """Matrices of several motions made at once."""
 
 
-def components(value: Any, names: Sequence[str], what: str) -> list[Any]:
-    """Return the components of a vector, each a finite number or array, by name for the errors."""
+def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> list[Any]:
+    """Return the components of a vector in that unit, each a finite number or array, by name for the errors."""
     try:
         parts = list(value)
     except TypeError:
@@ -47,7 +48,7 @@ def components(value: Any, names: Sequence[str], what: str) -> list[Any]:
         raise AtlasError(
             f"{what} must have the {len(names)} components ({', '.join(names)}), not {reprlib.repr(value)}."
         )
-    return [real(x, name) for x, name in zip(parts, names, strict=True)]
+    return [real(x, name, unit) for x, name in zip(parts, names, strict=True)]
 
 
 class Motion(Shown, Generic[Turning]):
@@ -130,7 +131,7 @@ class Motion(Shown, Generic[Turning]):
         for `atlas.figure`; ``.save("x.gif")`` writes it. Raises AtlasError for an array of motions, and for times as
         `rotation` does.
         """
-        moments = None if times is None else real(times, "The time").ravel()
+        moments = None if times is None else real(times, "The time", TIME).ravel()
         return import_module("atlas.draw.animation").of_motion(self, moments, fps=number(fps, "fps"), style=style)
 
     def trace(self, periods: float = 1.0, *, stop: float | None = None, tolerance: float = 1e-4) -> Any:
@@ -149,7 +150,7 @@ class Motion(Shown, Generic[Turning]):
         functions never slower than `rotation`, from 10 000 times on faster, from 100 000 on three times as fast. Raises
         AtlasError for a count that is no whole number, an `out` of another shape, and times as `rotation` does.
         """
-        start, step = number(start, "The start of the grid"), number(step, "The step of the grid")
+        start, step = number(start, "The start of the grid", TIME), number(step, "The step of the grid", TIME)
         count = whole(count, "The count of the grid")
         out = target(out, (*self.shape, count, 3, 3))
         if self._turning:
@@ -167,6 +168,7 @@ class Motion(Shown, Generic[Turning]):
         self, evaluate: Callable[..., FloatArray], t: Any, shape: tuple[int, ...], out: FloatArray | None = None
     ) -> FloatArray:
         """Evaluate every motion at the times that meet it."""
+        t = bare(t, "The time", TIME)
         if self._turning:
             return evaluate(self._turning, t, out)
         times = real(t, "The time")

@@ -9,6 +9,7 @@ import numpy as np
 from atlas.core.charge import BLOCK, Charge
 from atlas.core.field import Field
 from atlas.core.inputs import FloatArray, common_shape, plain, real, vectors
+from atlas.core.quantities import NO_FIELDS, SI_FIELDS, TIME
 from atlas.core.shown import Shown
 from atlas.errors import DomainError
 
@@ -24,20 +25,22 @@ class ParticleMotion(Shown):
     family = "particle"
 
     def __init__(self, mu: Any, E: Any, B: Any, position: Any, velocity: Any, c: Any = 1.0) -> None:
-        self.arguments = {"mu": mu, "E": E, "B": B, "position": position, "velocity": velocity, "c": c}
-        mu_, c_ = real(mu, "mu"), real(c, "c")
+        c_ = real(c, "c")
         if (c_ <= 0).any():
             raise DomainError(f"c must be positive, not {c_.min()}.")
+        units = SI_FIELDS if (c_ == 1).all() else NO_FIELDS
+        mu_ = real(mu, "mu", units["mu"])
         E_, B_, y, v = (
-            vectors(E, "E"),
-            vectors(B, "B"),
-            vectors(position, "The position"),
-            vectors(velocity, "The velocity"),
+            vectors(E, "E", units["E"]),
+            vectors(B, "B", units["B"]),
+            vectors(position, "The position", units["length"]),
+            vectors(velocity, "The velocity", units["velocity"]),
         )
         self.shape = common_shape(mu_.shape, c_.shape, *(x.shape[:-1] for x in (E_, B_, y, v)))
         inputs = [mu_, c_, *(x[..., i] for x in (E_, B_, v, y) for i in range(3))]
         self._all = Charge([np.broadcast_to(x, self.shape).reshape(-1) if self.shape else float(x) for x in inputs])
         self.mu, self.E, self.B, self.y0, self.v0, self.c = plain(mu_), E_, B_, y, v, plain(c_)
+        self.arguments = {"mu": self.mu, "E": E_, "B": B_, "position": y, "velocity": v, "c": self.c}
 
     @classmethod
     def in_field(cls, field: Field, position: Any, velocity: Any) -> Self:
@@ -141,7 +144,7 @@ class ParticleMotion(Shown):
 
     def _spread(self, fill: Callable[[Charge, FloatArray, FloatArray], None], t: Any) -> FloatArray:
         """Return vectors (..., 3) that `fill` writes for times (m,) into an array (m, 3)."""
-        times = real(t, "t")
+        times = real(t, "t", TIME)
         full = common_shape(self.shape, times.shape)
         times, out = np.broadcast_to(times, full), np.empty((*full, 3))
         rows = out.reshape(-1, 3)

@@ -9,8 +9,9 @@ from atlas.core.arithmetic.double_double import BLOCK, over
 from atlas.core.body import moments
 from atlas.core.inputs import FloatArray, common_shape, plain, vectors
 from atlas.core.motion import components
+from atlas.core.quantities import RATE
 from atlas.core.shown import Shown
-from atlas.core.symmetric_top import given
+from atlas.core.symmetric_top import arguments_of, given
 from atlas.errors import DomainError
 from atlas.exact.top_quadric import TopQuadric as Exact
 from atlas.formulas import quadric, top
@@ -38,11 +39,11 @@ class Quadric(Shown):
     family = "quadric"
 
     def __init__(self, ratio: Any, field: Any) -> None:
-        self.arguments = {"ratio": ratio, "field": field}
-        B2, B3 = components(field, ("B2", "B3"), "The field")
+        B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         self._inputs = (*moments(ratio), plain(B2), plain(B3))
         self.shape = common_shape(*map(np.shape, self._inputs))
         self.field = self._inputs[2:]
+        self.arguments = {"ratio": ratio, "field": self.field}
 
     @classmethod
     def of_top(
@@ -124,7 +125,7 @@ class Quadric(Shown):
 
         Raises AtlasError for what are no vectors.
         """
-        omega = vectors(omega, "omega")
+        omega = vectors(omega, "omega", RATE)
         common_shape(self.shape, omega.shape[:-1])
         # the difference and its turn may be larger than the coordinates: a quarter of each is not
         part = -2 if max(np.abs(omega).max(initial=0.0), np.abs(self.centre).max(initial=0.0)) > 1.0 else 0
@@ -138,7 +139,7 @@ class Quadric(Shown):
         B3 (omega1^2 + omega2^2) - I B2 omega2 omega3 + (2-I) B2 B3 omega2 - I B2^2 omega3. Raises AtlasError for what
         are no vectors.
         """
-        points = np.moveaxis(vectors(omega, "omega"), -1, 0)
+        points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
         return over(quadric.residual, *self._inputs, *points, unit=slice(2, 7), degree=3)
 
     def _directed(self) -> tuple[Any, ...]:
@@ -176,9 +177,7 @@ class TopQuadric(Quadric):
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0) -> None:
         self._top = given(inertia, coupling, direction, linear, quadratic)
-        self.arguments = {
-            "inertia": inertia, "coupling": coupling, "direction": direction, "linear": linear, "quadratic": quadratic,
-        }  # fmt: skip
+        self.arguments = arguments_of(self._top)
         self._inputs = tuple(plain(self._top[i]) for i in (0, 1, 4, 5))  # n in the place of B'
         self.shape = common_shape(*map(np.shape, self._top))
         self.direction = self._inputs[2:]
@@ -219,7 +218,7 @@ class TopQuadric(Quadric):
 
         Zero on the surface only. Raises AtlasError for what are no vectors.
         """
-        points = np.moveaxis(vectors(omega, "omega"), -1, 0)
+        points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
         return self._over(top.residual, lambda exact, *w: (exact.residual(w),), *points)
 
     def _over(self, formula: Any, exact: Any, *more: Any, degree: Any = 1, along: bool = False) -> Any:

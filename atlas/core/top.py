@@ -18,6 +18,7 @@ from atlas.core.nutation.single_top import SingleTop
 from atlas.core.nutation.top_rows import TopBlocks, TopRows
 from atlas.core.nutation.top_scalars import IN_ARRAYS, KINDS, TopScalars
 from atlas.core.quadric import TopQuadric
+from atlas.core.quantities import LENGTH, MASS, RATE, SI_FIELDS
 from atlas.core.symmetric_top import given
 from atlas.core.units import system
 from atlas.errors import AtlasError, DomainError
@@ -76,7 +77,7 @@ class TopMotion(NutatingMotion[SingleTop]):
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
     ) -> None:
         *top, a0, A0 = given(inertia, coupling, direction, linear, quadratic)
-        parts = [*top, *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity"), a0, A0]
+        parts = [*top, *components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE), a0, A0]
         super().__init__(lambda *row: SingleTop(balls(*row), np.eye(3)), *parts)
         self.inertia, self.coupling, self.direction, self.omega, (self.linear, self.quadratic) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9), (9, 11))
@@ -96,7 +97,8 @@ class TopMotion(NutatingMotion[SingleTop]):
         Raises AtlasError for what is no body or no number, DomainError for a mass that is not positive or a negative g.
         """
         I2, I3 = moments(body)
-        m, g, l = positive(mass, "The mass"), number(gravity, "The gravity g"), number(length, "The length")
+        m, l = positive(mass, "The mass", MASS), number(length, "The length", LENGTH)
+        g = number(gravity, "The gravity g", "m / s**2")
         if g < 0:
             raise DomainError(f"The gravity g must not be negative, but is {g}: turn the direction round instead.")
         i2, m_, g_, l_ = (fmpq(*float(x).as_integer_ratio()) for x in (I2, m, g, l))
@@ -127,14 +129,15 @@ class TopMotion(NutatingMotion[SingleTop]):
         no direction: use `FreeMotion`.
         """
         I2, I3 = moments(body)
-        B2, B3 = (number(x, "A component of the field") for x in components(field, ("B2", "B3"), "The field"))
         c = c if units is None else system(units).c
+        parts = components(field, ("B2", "B3"), "The field", SI_FIELDS["B"] if c == 1 else "")
+        B2, B3 = (number(x, "A component of the field") for x in parts)
         size = float(np.hypot(B2, B3))
         if not size:
             raise DomainError("Without a field a charged top has no direction: it is a free body, FreeMotion.")
         half, (a2, a3) = size / (2 * positive(c, "c")), components(polarizability, ("a2", "a3"), "The polarizability")
         coupling = charges.J2 * half, charges.J3 * half
-        linear, quadratic = -number(moment, "The moment") * size, -(a3 - a2) * size * size
+        linear, quadratic = -number(moment, "The moment", "J/T") * size, -(a3 - a2) * size * size
         return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
 
     def _alone(self, i: int) -> SingleTop:

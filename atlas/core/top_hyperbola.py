@@ -9,8 +9,9 @@ from atlas.core.arithmetic.double_double import over
 from atlas.core.branches import Branch, halves
 from atlas.core.inputs import FloatArray, number, plain, positive, real
 from atlas.core.quadric import TopQuadric
+from atlas.core.quantities import ENERGY, RATE
 from atlas.core.shown import Shown
-from atlas.core.symmetric_top import given
+from atlas.core.symmetric_top import arguments_of, given
 from atlas.core.top import TopMotion
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
@@ -35,11 +36,9 @@ class TopHyperbola(Shown):
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, linear: float = 0.0, quadratic: float = 0.0
     ) -> None:
-        self.arguments = {
-            "inertia": inertia, "coupling": coupling, "direction": direction, "linear": linear, "quadratic": quadratic,
-        }  # fmt: skip
-        linear, quadratic = number(linear, "linear"), number(quadratic, "quadratic")
+        linear, quadratic = number(linear, "linear", ENERGY), number(quadratic, "quadratic", ENERGY)
         self._top = [number(x, "A parameter") for x in given(inertia, coupling, direction, linear, quadratic)]
+        self.arguments = arguments_of(self._top)
         I2, I3, k2, k3, n2, n3, *_ = self._top
         self.given = (I2, I3), (k2, k3), (n2, n3), linear, quadratic
         self.quadric = TopQuadric(*self.given)
@@ -81,7 +80,7 @@ class TopHyperbola(Shown):
 
         DomainError at the pole; AtlasError for what is no number.
         """
-        values = real(omega2, "omega2")
+        values = real(omega2, "omega2", RATE)
         found = np.array([self._exact.stable(float(x)) for x in values.flat], dtype=bool).reshape(values.shape)
         return found if found.ndim else bool(found)
 
@@ -141,5 +140,5 @@ class TopHyperbola(Shown):
                 found = [nearest(x) for x in exact(row[8])]
             return found if isinstance(degree, tuple) else found[0]
 
-        values = real(omega2, "omega2")
+        values = real(omega2, "omega2", RATE)
         return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=alone)

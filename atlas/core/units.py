@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import FloatArray, finite, number, plain, positive, real
+from atlas.core.quantities import CHARGE, MASS, NO_FIELDS, SI_FIELDS
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.numbers import nearest, rational
 
@@ -84,7 +85,7 @@ def system(name: str | System) -> System:
 
 def charge_to_mass(charge: Any, mass: Any) -> float:
     """Charge-to-mass ratio mu = e/m, (89), of either sign, in units of charge over mass."""
-    return number(charge, "The charge") / positive(mass, "The mass")
+    return number(charge, "The charge", CHARGE) / positive(mass, "The mass", MASS)
 
 
 def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
@@ -93,7 +94,9 @@ def larmor_field(mu: Any, B: Any, units: str | System = SI) -> Any:
     `mu` and `B` (any shape) in the units of that system. |B'| is Larmor's frequency (27); for mu < 0 the vector B' is
     opposite to B.
     """
-    return plain(prime(number(mu, "mu"), real(B, "B"), system(units).c))
+    c = system(units).c
+    unit = SI_FIELDS if c == 1 else NO_FIELDS
+    return plain(prime(number(mu, "mu", unit["mu"]), real(B, "B", unit["B"]), c))
 
 
 def cyclotron_frequency(mu: Any, B: Any, units: str | System = SI) -> Any:

@@ -3,12 +3,13 @@
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from atlas.core.shown import Shown
 from atlas.draw.panels import into, to_figure
 from atlas.errors import AtlasError, unknown
-from atlas.families import FAMILIES
+from atlas.families import FAMILIES, Family
 from atlas.scene import recipes
 from atlas.scene.layers import Scene
 
@@ -39,7 +40,7 @@ def scene_of(shown: Shown, figure: str | None, parameters: dict[str, Any]) -> Sc
     if figure is not None and figure not in known:
         raise unknown("figure", figure, known, f"of a {name}")
     recipe = recipes.load(figure or known[0])
-    own = {p.name: value for p in family.parameters if (value := _value(shown, p.name, p.needed)) is not None}
+    own = _own(shown, family)
     for key in parameters:
         if key in own:
             raise AtlasError(f"{key} is that of the {name}; make another one for another {key}.")
@@ -53,7 +54,14 @@ def alone(scene: Scene, panel: int) -> Scene:
     return replace(scene, panels=(scene.panels[panel - 1],), columns=1, size=size, narrow=())
 
 
-def _value(shown: Shown, name: str, needed: bool) -> Any:
-    """Return a parameter of an object, as it was given, or as it has it."""
-    value = shown.arguments.get(name)
-    return getattr(shown, name) if value is None and needed else value
+def _own(shown: Shown, family: Family) -> dict[str, Any]:
+    """Return the parameters of an object by the names of its family: as it was given them, or as it has them."""
+    if not shown.made_by and len(shown.arguments) == len(family.parameters):
+        given = dict(zip((p.name for p in family.parameters), shown.arguments.values(), strict=True))
+    else:
+        given = {p.name: getattr(shown, p.name) for p in family.parameters if p.needed}
+    return {
+        name: tuple(value.tolist()) if isinstance(value, np.ndarray) else value
+        for name, value in given.items()
+        if value is not None
+    }

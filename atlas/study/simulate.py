@@ -11,6 +11,7 @@ from atlas.core.clebsch import Clebsch, body_tensor, clebsch
 from atlas.core.euler_poisson import field_in_body, hat
 from atlas.core.inertia import mass_matrix
 from atlas.core.inputs import FloatArray, positive, real, vector
+from atlas.core.quantities import RATE, TIME
 from atlas.errors import AtlasError, DomainError
 
 SMALLEST_RTOL = 100 * float(np.finfo(float).eps)
@@ -86,7 +87,7 @@ def simulate(
     """
     from scipy.integrate import solve_ivp
 
-    given, B, start, t = body_tensor(inertia), _field(field), vector(omega, "omega"), _times(times)
+    given, B, start, t = body_tensor(inertia), _field(field), vector(omega, "omega", RATE), _times(times)
     tensor = given / np.abs(given).max()
     if method not in METHODS:
         raise AtlasError(f"The method must be one of {', '.join(METHODS)}, not {method!r}.")
@@ -125,7 +126,7 @@ def simulate(
 
 def _field(field: Any) -> FloatArray:
     """Return B' (3,) from itself or from (B2, B3)."""
-    B = real(field, "The field")
+    B = real(field, "The field", RATE)
     if B.shape not in {(2,), (3,)}:
         raise AtlasError(f"The field must be B' (3,) or (B2, B3), not of shape {B.shape}.")
     return B if B.shape == (3,) else np.array([0.0, *B])
@@ -133,7 +134,7 @@ def _field(field: Any) -> FloatArray:
 
 def _times(times: Any) -> FloatArray:
     """Return the times (N,), sorted away from 0."""
-    t = np.atleast_1d(real(times, "The times"))
+    t = np.atleast_1d(real(times, "The times", TIME))
     if t.ndim != 1 or not t.size:
         raise AtlasError(f"The times must be one list, not of shape {t.shape}.")
     if (np.diff(np.abs(t)) < 0).any() or (t.min() < 0 < t.max()):

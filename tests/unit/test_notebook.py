@@ -180,6 +180,21 @@ def test_the_picture_of_a_motion_is_the_way_of_its_axis(one: Any, figure: str, a
     assert low < heights.min() <= heights.max() < high
 
 
+def test_the_picture_of_a_particle_is_its_path() -> None:
+    """From its own fields, whose names in the recipe are others; the path is in units of its span, about its middle."""
+    fields = ((0.0, 0.5, 0.0), (0.0, 0.0, 2.0), (1.0, 2.0, 3.0), (0.4, 0.0, 0.1))
+    particle = ParticleMotion(1.0, *fields)
+    mine = particle.plot(turns=2.0)
+    given = dict(zip(("electric", "magnetic", "position", "velocity"), fields, strict=True))
+    scene = recipes.load("particle_motion").scene(**given, turns=2.0)
+    assert mine.axes[1].get_xlim()[1] == pytest.approx(2.0 * particle.period)
+    (path,) = (layer.points for layer in scene.panels[0].layers if isinstance(layer, Curve))
+    y = particle.position(np.linspace(0.0, 2.0 * particle.period, 2000))
+    span = np.ptp(y, axis=0)
+    assert np.abs(np.ptp(path, axis=0) - span / span.max()).max() < 1e-3
+    assert np.abs((path[-1] - path[0]) - (y[-1] - y[0]) / span.max()).max() < 1e-4
+
+
 def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
     """The panel asked for, into one of two axes; the figure that comes back is theirs."""
     figure = Figure((8, 4))
@@ -254,6 +269,16 @@ def test_a_data_frame_has_a_row_for_each_time() -> None:
     assert np.array_equal(frame[["R11", "R12", "R13"]].to_numpy(), R[:, 0])
     assert np.array_equal(frame[["Omega1", "Omega2", "Omega3"]].to_numpy(), ONE[5].angular_velocity(times))
     assert [*ONE[12].to_dataframe(times, quantities=["velocity2"]).columns] == ["t", "velocity2"]
+
+
+def test_a_closed_motion_is_not_taken_for_another() -> None:
+    """It is made of p and q, which are no omega2 and omega3: its quantities are its own, and so is its picture."""
+    closed = Hyperbola(1.5, (1.0, 2.0)).closed(1, 3)
+    frame = closed.to_dataframe(quantities=["k", "phi"])
+    assert [*frame.columns] == ["k", "phi"]
+    assert frame["phi"][0] / frame["k"][0] == pytest.approx(1 / 3)
+    assert "<table>" not in closed._repr_html_()
+    assert closed.plot("motion", panel=2, turns=1.0).axes[0].get_xlim()[1] == pytest.approx(closed.period / 3)
 
 
 def test_a_separatrix_has_an_empty_cell() -> None:

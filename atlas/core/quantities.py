@@ -1,0 +1,51 @@
+"""Numbers with a unit, of pint or of astropy, as plain numbers in SI.
+
+They are known by what they can do: neither library is loaded here. What is plain beside them is in SI, and so is what
+comes out: rates in rad/s, times in s.
+"""
+
+import reprlib
+from typing import Any
+
+import numpy as np
+
+from atlas.errors import AtlasError
+
+RATE, TIME, MASS, LENGTH, CHARGE = "rad/s", "s", "kg", "m", "C"
+INERTIA, MOMENTUM, ENERGY = "kg m**2", "kg m**2 / s", "kg m**2 / s**2"
+SI_FIELDS = {"mu": "C/kg", "B": "T", "E": "V/m", "length": LENGTH, "velocity": "m/s"}
+NO_FIELDS = dict.fromkeys(SI_FIELDS, "")
+"""Units of a charge in fields where c = 1, and where it is not: Gaussian ones are given as plain numbers."""
+_OTHER = {RATE: "1/s"}
+"""Another unit of the same quantity, for a library that counts radians among the dimensions."""
+_HERTZ = "hertz", "hz"
+
+
+def is_quantity(value: Any) -> bool:
+    """Whether a value has a unit, of pint or of astropy."""
+    return (hasattr(value, "to_value") and hasattr(value, "unit")) or (
+        hasattr(value, "magnitude") and hasattr(value, "units")
+    )
+
+
+def bare(value: Any, name: str, unit: str) -> Any:
+    """Return what was given in that unit of SI, a number or an array; lists are gone through, the rest stays.
+
+    Raises AtlasError for another dimension, for a rate in hertz, and, without a unit, for what has a dimension.
+    """
+    if isinstance(value, tuple | list):
+        some = bool(value) and any(is_quantity(part) for part in value[:3])
+        return [bare(part, name, unit) for part in value] if some else value
+    if not is_quantity(value):
+        return value
+    given = str(getattr(value, "units", None) or getattr(value, "unit", ""))
+    if unit == RATE and any(word in given.lower() for word in _HERTZ):
+        raise AtlasError(f"{name} is an angular frequency: give it in rad/s, since 1 Hz may mean 2 pi rad/s.")
+    for target in (unit, _OTHER.get(unit, unit)):
+        try:
+            found = value.to_value(target) if hasattr(value, "to_value") else value.to(target).magnitude
+        except (TypeError, ValueError, AttributeError):
+            continue
+        return np.asarray(found) if np.ndim(found) else found
+    wanted = f"in {unit.replace('**', '^')}" if unit else "a number without a unit"
+    raise AtlasError(f"{name} must be {wanted}, or what can be made of it, not {reprlib.repr(str(value))}.")
