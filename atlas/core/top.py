@@ -64,9 +64,9 @@ class TopMotion(NutatingMotion[SingleTop]):
     - "separatrix": nu tends to a double root; "separatrix, triple root"; "separatrix between n and -n".
 
     Which it is, is decided exactly. The cost does not depend on t. Arrays of tops at a few times each are evaluated
-    without a loop where kappa = k2/I2 - k3/I3 is zero, as of heavy tops; the others, and those next to a separatrix,
-    nearly steady, or with rates of very different sizes, are made one by one, some milliseconds each. Entries of R
-    are within 3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the largest rate.
+    without a loop; those next to a separatrix, nearly steady, or with rates of very different sizes are made one by
+    one, some milliseconds each. Entries of R are within 3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the
+    largest rate.
     Raises DomainError if I3 is not in (0, 2 I2], if n is zero, or at a separatrix between n and -n with kappa not
     zero, where the turn about the axis has no rate; AtlasError for what is no finite number.
     """

@@ -102,6 +102,6 @@ FAMILY = Family(
         "kind",
         undecided=True,
     ),
-    at_once=200,
+    at_once=8192,
     figures=("top_motion",),
 )  # fmt: skip

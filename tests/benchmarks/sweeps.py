@@ -24,19 +24,23 @@ from typing import Any
 
 import atlas
 
+GENERAL, OF_FIELD = ("kind", "period", "spin_per_period", "R13"), ("ratio", "B3", "omega2")
+TOP = {"I2": 1.0, "k2": 1.0, "n2": 0.6, "n3": 0.8, "linear": 1.5, "t": 7.0, "omega1": 0.3, "omega3": 0.2}
 FAMILIES = {
-    "elementary": ({"B2": 1.0, "t": 7.0}, ("omega3", "k", "phi", "R13")),
-    "general": ({"B2": 1.0, "t": 7.0, "omega1": 0.3, "omega3": 0.2}, ("kind", "period", "spin_per_period", "R13")),
+    "elementary": ({"B2": 1.0, "t": 7.0}, OF_FIELD, ("omega3", "k", "phi", "R13")),
+    "general": ({"B2": 1.0, "t": 7.0, "omega1": 0.3, "omega3": 0.2}, OF_FIELD, GENERAL),
+    "top": (TOP, ("I3", "k3", "omega2"), GENERAL),
 }
-"""What is the same in all rows of a family, and what is computed."""
+"""What is the same in all rows of a family, what is swept, and what is computed."""
 RATIOS, FIELDS = 20, 50
 
 
 def swept(family: str, rows: int, jobs: int, dask: bool) -> dict[str, Any]:
     """Sweep at least so many rows in this process and say what it took."""
     count = -(-rows // (RATIOS * FIELDS))
-    same, quantities = FAMILIES[family]
-    parameters = {"ratio": _even(0.1, 2.0, RATIOS), "B3": _even(0.1, 3.0, FIELDS), "omega2": _even(-0.9, 3.0, count)}
+    same, names, quantities = FAMILIES[family]
+    values = _even(0.1, 2.0, RATIOS), _even(0.1, 3.0, FIELDS), _even(-0.9, 3.0, count)
+    parameters = dict(zip(names, values, strict=True))
     with tempfile.TemporaryDirectory() as folder, _executor(jobs, dask) as executor:
         out, start = Path(folder) / "table.npz", perf_counter()
         atlas.sweep(family, same | parameters, quantities, out, jobs=jobs, executor=executor)

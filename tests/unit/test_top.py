@@ -190,9 +190,9 @@ def test_arrays_of_tops_are_the_tops_one_by_one() -> None:
     assert tops.rotation(times).shape == (2, 3, 3, 3)
     assert tops.kind.shape == tops.period.shape == (2, 3)
     one = atlas.TopMotion((1.0, 1.5), (0.5, 0.25), (0.6, 0.8), (0.1, 0.2, 1.0), linear=-1.0)
-    assert (tops.rotation(times)[1, 2] == one.rotation(2.5)).all()
+    assert np.abs(tops.rotation(times)[1, 2] - one.rotation(2.5)).max() <= 16 * EPS
     assert tops.period[1, 2] == one.period
-    assert (tops.angular_velocity(1.0)[1, 2] == one.angular_velocity(1.0)).all()
+    assert np.abs(tops.angular_velocity(1.0)[1, 2] - one.angular_velocity(1.0)).max() <= 16 * EPS
 
 
 def test_digits_of_a_heavy_top_are_proven_at_any_time() -> None:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import BLOCK, blocks
+from atlas.core.arithmetic.double_double import BLOCK, DoubleDouble, blocks
 from atlas.core.arithmetic.frequencies import LOST, PER_RADIAN
 from atlas.core.arithmetic.phase import LIMIT, Phases
 from atlas.core.arithmetic.turnings import REACH
@@ -152,17 +152,19 @@ def constants_of(pair: Pair, block: Block) -> Constants:
     """Return the constants of a block."""
     with np.errstate(all="ignore"):
         r, means, sphere = block.roots, pair.means, pair.sphere
-        turns, (cos, sin), (even, odd, terms, *_) = pair.rates * PER_RADIAN, means.start, pair.sums
+        (words, lack), (cos, sin), (even, odd, terms, *_) = (
+            in_half_turns(pair.rates, block.exponents),
+            means.start,
+            pair.sums,
+        )
         factor, lost = pair.factors
         known = ((lost < KNOWN) & (pair.zeros.growth.rel < KNOWN)).all(axis=0) & (means.nome.rel < KNOWN)
         known &= (
-            np.isfinite(turns.rel).all(axis=0)
-            & (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel < KNOWN)
-            & (terms <= TERMS)
+            np.isfinite(lack).all(axis=0) & (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel < KNOWN) & (terms <= TERMS)
         )
         return Constants(
-            np.ldexp(np.array([turns.hi, turns.low]), block.exponents),
-            np.ldexp(abs(turns.hi) * turns.rel, block.exponents),
+            words,
+            lack,
             np.ldexp(pair.rates.hi, block.exponents),
             even,
             odd,
@@ -175,6 +177,12 @@ def constants_of(pair: Pair, block: Block) -> Constants:
             np.ldexp(np.array(sphere.sizes), block.exponents),
             known & r.exact & block.fine & ~r.free,
         )
+
+
+def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
+    """Return frequencies over a power of two as words in half turns, and what they may be off."""
+    turns = rates * PER_RADIAN
+    return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
 
 
 class GeneralRows:
@@ -250,7 +258,7 @@ class PairAt:
     def __init__(self, constants: Constants, t: FloatArray) -> None:
         self.of = c = constants
         with np.errstate(all="ignore"):
-            cos, sin = _circles(c.words, t)
+            cos, sin, self.half = _circles(c.words, t)
             start = cos[2] * c.start[0] - sin[2] * c.start[1], sin[2] * c.start[0] + cos[2] * c.start[1]
             self.turn = cos[2], sin[2]
             self.circle = start
@@ -299,8 +307,11 @@ class PairAt:
         return np.asarray(2 * (v[i] * v[j] + (across if (i - j) % 3 == 1 else -across)) / self.square)
 
 
-def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return cosines and sines of phases, frequencies in half turns and two words (2, n, m), at times (m,)."""
+def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
+    """Return cosines and sines of phases, frequencies in half turns and two words (2, n, m), at times (m,).
+
+    Half the last phase, less whole quarter turns, comes after them, and what rounding left out of it.
+    """
     half, rest, sign, _ = Phases.of_words(words).angles(t, np.empty((8, *words.shape[1:])))
     cos, sin = np.cos(2 * half), np.sin(2 * half)
-    return (cos - 2 * rest * sin) * sign, (sin + 2 * rest * cos) * sign
+    return (cos - 2 * rest * sin) * sign, (sin + 2 * rest * cos) * sign, (half[-1], rest[-1])

@@ -1,20 +1,30 @@
-"""The scalars of many tops in arrays: kind, turning points, period, moduli and nome, for any kappa.
+"""The scalars of many tops in arrays: kind, turning points, period, moduli, nome and the angles of a period.
 
-What two words do not hold for certain is not `sure`, and is left to the top made alone, as are the roots and the angles
-of a period.
+What two words do not hold for certain is not `sure`, and is left to the top made alone, as are the roots.
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
+from atlas.core.nutation.roots import part
 from atlas.core.nutation.rows import Block
-from atlas.core.nutation.scalars import Found, Scalars, of_period, rounded
+from atlas.core.nutation.scalars import HALF_TURN, Found, Scalars, of_period, rounded
 
 KINDS = "nutation, two real roots", "nutation, four real roots", "nutation, three real roots", "regular nutation"
 """Kinds that are decided in arrays."""
 
-IN_ARRAYS = ("kind", "turning_points", "period", "modulus", "complementary_modulus", "nome")
+IN_ARRAYS = (
+    "kind",
+    "turning_points",
+    "period",
+    "modulus",
+    "complementary_modulus",
+    "nome",
+    "precession_per_period",
+    "spin_per_period",
+)
 
 
 class TopScalars(Scalars):
@@ -22,8 +32,7 @@ class TopScalars(Scalars):
 
     def values(self, name: str) -> Callable[[Block], dict[str, Found]]:
         """Return what evaluates a scalar, with others, in a block."""
-        del name
-        return _scalars
+        return _angles if name.endswith("per_period") else _scalars
 
 
 def _scalars(block: Block) -> dict[str, Found]:
@@ -39,3 +48,17 @@ def _scalars(block: Block) -> dict[str, Found]:
         found["kind"] = Found(codes, block.fine & certain)
         known = r.exact & r.moving
         return {name: Found(x.values, x.sure & known) for name, x in found.items()}
+
+
+def _angles(block: Any) -> dict[str, Found]:
+    """Return the angles of precession and of spin in one period."""
+    with np.errstate(all="ignore"):
+        r = block.roots
+        first, second = part(block.pair.angles, 0), part(block.pair.angles, 1)
+        half = (HALF_TURN / block.means.rate).scaled(-1)
+        both = {
+            "precession_per_period": half * (first + second - r.k2.scaled(1)),
+            "spin_per_period": half * (first - second + (r.spin + block.swing_rate).scaled(1)),
+        }
+        found = {name: rounded(x, block) for name, x in both.items()}
+        return {name: Found(x.values, x.sure & r.exact & r.moving) for name, x in found.items()}
