@@ -13,6 +13,7 @@ from atlas.scene.words import tex, tex_setting, title
 from atlas.study.maps import ErrorMap, over_omega2, over_ratio
 
 LIMITS = (1e-17, 1.0)
+NARROWEST = 139.0
 TIME = r"$t\,|\mathbf{B}'|$"
 
 

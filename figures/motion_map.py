@@ -19,6 +19,7 @@ from atlas.scene.words import body_name, listed, tex, tex_vector, title
 from atlas.study.sweep.ranges import Range, Tabulation
 
 WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0
+NARROWEST = 139.0
 
 
 def scene(

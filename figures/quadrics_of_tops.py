@@ -15,6 +15,7 @@ from atlas.scene.quadric_row import Member
 from atlas.scene.words import tex, title
 
 WIDTH, HEIGHT = 178.0, 134.0
+NARROWEST = 150.0
 REACH = 1.9
 RANGES = {"weight": (0.01, 2.0), "moment": (0.01, 2.0), "outside": (0.01, 3.0)}
 

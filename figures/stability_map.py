@@ -21,6 +21,7 @@ WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))
 TOP = 0.6
 CELLS = (240, 144)
+NARROWEST = 130.0
 BODIES = ((0.0, "needle"), (0.5, "long solenoid"), (1.0, "sphere"), (1.5, "short solenoid"), (2.0, "loop"))
 ABOVE, ASIDE = 0.045, 0.09
 """Room for the names above the map, and how far the outermost stand inside, in units of tau and I."""

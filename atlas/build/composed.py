@@ -24,9 +24,16 @@ Progress = Callable[[int, int, str], None]
 
 
 def composed(
-    name: str | Path, out: Path, kinds: "Callable[[Picture], tuple[str, ...]]", progress: Progress, jobs: int | None
+    name: str | Path,
+    out: Path,
+    kinds: "Callable[[Picture], tuple[str, ...]]",
+    progress: Progress,
+    jobs: int | None,
+    targets: tuple[str, ...] = (),
 ) -> "tuple[Document, dict[str, FigureBuild]]":
     """Return a report, its tables computed, and its figures by the stems of their pictures, drawn in these formats.
+
+    Each figure is made for the first of the targets that is wide enough.
 
     Raises AtlasError for a mistake in the report and for a figure that fails.
     """
@@ -42,7 +49,7 @@ def composed(
     report = load(file)
     cache, wanted = Cache(cache_folder(out)), pictures(report)
     builds = {
-        FigureBuild(one.recipe, one.parameters, one.renderer, kinds(one)): one
+        FigureBuild(one.recipe, one.parameters, one.renderer, kinds(one), None, targets): one
         for one in wanted.values()
         if not one.failure
     }

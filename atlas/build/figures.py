@@ -33,6 +33,8 @@ class FigureBuild:
     The kinds are svg, pdf, png, pgf, csv, csv.gz, and two that may be empty: narrow, an SVG for a narrow screen, a PNG
     of what is shaded, where the figure itself won't do; and scene, a script for the viewer of the pages.
 
+    It is made for the first of its `targets` that is wide enough, see `atlas.scene.arrange.suited`.
+
     `keys` are those of its files in the cache, `contents` the files, `facts` what is known of it since it was drawn.
     """
 
@@ -41,6 +43,7 @@ class FigureBuild:
     renderer: str
     kinds: tuple[str, ...]
     style: str | None = None
+    targets: tuple[str, ...] = ()
     parts: Mapping[str, str] = field(default_factory=dict)
     keys: Mapping[str, str] = field(default_factory=dict)
     contents: dict[str, bytes] = field(default_factory=dict)
@@ -60,7 +63,8 @@ class FigureBuild:
         from atlas.report.numbers import shown
 
         settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
-        return f"{self.stem}({settings})" + (" shaded" if self.renderer == "shaded" else "")
+        where = f" for {' or '.join(self.targets)}" if self.targets else ""
+        return f"{self.stem}({settings})" + (" shaded" if self.renderer == "shaded" else "") + where
 
     @property
     def reason(self) -> str:
@@ -94,6 +98,7 @@ def parts_of(figure: FigureBuild, sources: Sources, gl: str | None) -> dict[str,
         "records": sources.closure(folder("reports") / "data" / name for name in records),
         "drawing code": sources.closure([PACKAGE / "build" / "worker.py", *filter(Path.is_file, drawing)]),
         "style": sources.named(figure.style),
+        "target": digest(figure.targets),
         "libraries": digest(sys.version_info[:2], versions()),
         "renderer": digest(figure.renderer, gl if figure.renderer == "shaded" else None),
     }
@@ -136,7 +141,7 @@ def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[
     """
     settle_matplotlib()
     waiting = {
-        one: worker.Task(one.recipe, one.parameters, one.renderer, one.style, one.missing(), cache.folder)
+        one: worker.Task(one.recipe, one.parameters, one.renderer, one.style, one.targets, one.missing(), cache.folder)
         for one in figures
     }
     workers = min(jobs, len(waiting))
@@ -195,10 +200,13 @@ def build_figures(
     renderer: str = "vector",
     parameters: Mapping[str, Any] | None = None,
     style: str | None = None,
+    target: str | None = None,
     jobs: int | None = None,
     progress: Progress = lambda _done, _total, _name: None,
 ) -> list[Files]:
     """Put each of the recipes into out/NAME.FORMAT for each format, each file whole or not at all.
+
+    With a target, see `atlas.targets`, each is laid out anew for it and put into out/NAME-TARGET.FORMAT.
 
     A name with the ending .py is that of a recipe's file, wherever it is.
     `style` is a style sheet of Matplotlib, a file or a name, applied on top of the package's own. `jobs` of them are
@@ -214,7 +222,8 @@ def build_figures(
     cache = Cache(cache_folder(out))
     cache.prune()
     places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names]
-    figures = [FigureBuild(place, parameters or {}, renderer, tuple(formats), style) for place in places]
+    targets = () if target is None else (target,)
+    figures = [FigureBuild(place, parameters or {}, renderer, tuple(formats), style, targets) for place in places]
     find(figures, cache, Sources(cache), gl.library())
     draw(figures, cache, jobs or cores(), progress)
     return [_put(figure, out) for figure in figures]
@@ -225,7 +234,8 @@ def _put(figure: FigureBuild, out: Path) -> Files:
     name = figure.stem
     if figure.failure:
         return Files(name, reason=figure.reason, failure=figure.failure)
-    paths = {kind: out / f"{name}.{kind}" for kind in figure.kinds}
+    stem = "-".join([name, *figure.targets])
+    paths = {kind: out / f"{stem}.{kind}" for kind in figure.kinds}
     for kind, path in paths.items():
         if not path.is_file() or path.read_bytes() != figure.contents[kind]:
             files.write(path, figure.contents[kind])

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from atlas.report.blocks.figure import FigureView
 
 OUT = Path("build/tex")
+TARGETS = ("aps", "aps-double")
+"""What the figures of a paper in REVTeX are made for: a column, or both."""
 
 
 def build_tex(
@@ -29,7 +31,7 @@ def build_tex(
     place = out / find(str(name)).stem
     check_place(place, PAPER)
     document, figures = composed(
-        name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs
+        name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs, TARGETS
     )
     document.set("latex")
     pictures = {}

@@ -20,17 +20,20 @@ from atlas.errors import AtlasError
 from atlas.places import settle_matplotlib
 from atlas.processes import end_with_parent
 from atlas.scene import Curve, Image, Points, Region, Scene, Surface, data, recipes
+from atlas.scene.arrange import arranged, suited
 from atlas.scene.narrow import narrowed
+from atlas.targets import find
 
 
 @dataclass(frozen=True)
 class Task:
-    """A figure to be drawn: its recipe, parameters and style, and for each kind of file its key in the cache."""
+    """A figure to be drawn: recipe, parameters, style and targets, and for each kind of file its key in the cache."""
 
     recipe: str
     parameters: Mapping[str, Any]
     renderer: str
     style: str | None
+    targets: tuple[str, ...]
     keys: Mapping[str, str]
     cache: Path
 
@@ -63,10 +66,11 @@ def _draw(task: Task) -> None:
     computed = time.perf_counter()
     cache = Cache(task.cache)
     renderer, note = choose(scene, task.renderer)
+    target = suited(scene, [find(name) for name in task.targets]) if task.targets else None
     with cache.temporary() as folder:
         paths = {kind: folder / f"figure.{kind}" for kind in task.keys if kind in FORMATS}
         if paths:
-            save(scene, {path: kind for kind, path in paths.items()}, task.renderer, task.style)
+            save(scene, {path: kind for kind, path in paths.items()}, task.renderer, task.style, target)
         small = narrowed(scene)
         if "narrow" in task.keys:
             paths["narrow"] = folder / "narrow"
@@ -88,7 +92,7 @@ def _draw(task: Task) -> None:
         "caption": scene.caption,
         "commands": list(scene.commands),
         "alt": scene.alt,
-        "size": scene.size,
+        "size": arranged(scene, target).size if target else scene.size,
         "narrow": bool(small),
         "scene": bool(contents.get("scene")),
         "parameters": scene.parameters,

@@ -10,6 +10,7 @@ from atlas.cli.options import Command, Many, Typed, examples, jobs_option, out_o
 from atlas.cli.present import explained, show
 from atlas.cli.progress import bar
 from atlas.errors import AtlasError
+from atlas.targets import TARGETS, find
 
 if TYPE_CHECKING:
     from atlas.build.figures import Files
@@ -35,6 +36,7 @@ class FigureCommand(Command):
         from atlas.scene.parameters import MEANINGS, described, typed
 
         recipe = recipes.load(name)
+        at_least = f"; it needs a page of {recipe.narrowest:g} mm" if recipe.narrowest else ""
         hints, rows = recipe.hints(), []
         for key, default in recipe.parameters.items():
             ends = recipe.ranges.get(key)
@@ -42,7 +44,9 @@ class FigureCommand(Command):
             takes += "; left out, the recipe chooses" if default is None else ""
             means = f"{MEANINGS[key]}: " if key in MEANINGS else ""
             rows.append((key if default is None else f"{key}={typed(default)}", means + takes))
-        with formatter.section(f"{recipe.title}. Parameters of {recipe.name}, after --set, with their defaults"):
+        with formatter.section(
+            f"{recipe.title}{at_least}. Parameters of {recipe.name}, after --set, with their defaults"
+        ):
             formatter.write_dl(rows or [("none", "")])
 
 
@@ -54,6 +58,7 @@ class FigureCommand(Command):
         "atlas figure quadric --set ratio=0.5 field=1,0.1 --format pdf --out plots",
         "atlas figure quadric --renderer shaded",
         "atlas figure hyperbola --format csv",
+        "atlas figure hyperbola --for aps --format pdf pgf",
         "atlas figure ./my_recipe.py --set ratio=0.5 --format pdf",
         "atlas figure cone --help",
     ),
@@ -75,6 +80,12 @@ class FigureCommand(Command):
     show_default=True,
     help="On paper with hidden lines, or shaded (PNG).",
 )
+@click.option(
+    "--for",
+    "target",
+    metavar="TARGET",
+    help=f"Laid out anew for a journal's column, a slide, a poster: {', '.join(TARGETS)}.",
+)
 @out_option("build/figures")
 @style_option
 @jobs_option
@@ -85,6 +96,7 @@ def command(
     settings: tuple[str, ...],
     formats: tuple[str, ...],
     renderer: str,
+    target: str | None,
     out: Path,
     style: str | None,
     jobs: int | None,
@@ -94,6 +106,9 @@ def command(
 
     A NAME that ends with .py is a recipe's file of your own, anywhere. With a NAME, --help tells its parameters.
 
+    --for makes NAME-TARGET with the width, type, lines and resolution that are asked there; the guide has the table. A
+    figure that can't be read at that width says so; `atlas list` tells which need more than a column.
+
     What was drawn before from the same code and parameters is not drawn again. A figure that fails does not stop the
     others; then the exit status is 1.
     """
@@ -102,6 +117,8 @@ def command(
 
     if everything == bool(names):
         raise click.UsageError("name the figures, or say --all; `atlas list` names them.")
+    if target is not None:
+        find(target)
     wanted = recipes.names() if everything else list(dict.fromkeys(names))
     for name in wanted:
         recipes.source(name)  # says which there are, before anything is drawn
@@ -112,7 +129,15 @@ def command(
     parameters = dict(setting(text) for text in settings)
     with bar("figures") as tell:
         figures = build_figures(
-            wanted, tuple(kinds), out, renderer=renderer, parameters=parameters, style=style, jobs=jobs, progress=tell
+            wanted,
+            tuple(kinds),
+            out,
+            renderer=renderer,
+            parameters=parameters,
+            style=style,
+            target=target,
+            jobs=jobs,
+            progress=tell,
         )
     if len(wanted) == 1 and figures[0].failure:
         raise AtlasError(figures[0].failure)

@@ -24,7 +24,8 @@ def command(as_json: bool) -> int:
     """Name the figures with titles and parameters, the reports, and the shapes of bodies with their dimensions.
 
     Each parameter of a figure stands with its default, and with its range if it has one; `atlas figure NAME --help`
-    says what it takes. A recipe or a report that cannot be read does not hide the others; then the exit status is 1.
+    says what it takes. A figure that is too wide for a journal's column says how much it needs. A recipe or a report
+    that cannot be read does not hide the others; then the exit status is 1.
     """
     from atlas.report import find
     from atlas.scene import recipes
@@ -35,6 +36,7 @@ def command(as_json: bool) -> int:
     record: dict[str, Any] = {
         "figures": figures,
         "parameters": {name: parameters(recipe) for name, recipe in known.items()},
+        "narrowest": {name: recipe.narrowest for name, recipe in known.items() if recipe.narrowest},
         "reports": reports,
         "shapes": shapes(),
     }
@@ -54,6 +56,7 @@ def lay_out(record: dict[str, Any]) -> None:
     for name, title in record["figures"].items():
         figures.append([name, title])
         words = [_shown(*one) for one in record["parameters"].get(name, {}).items()]
+        words += [f"(needs {record['narrowest'][name]:g} mm)"] if name in record["narrowest"] else []
         figures += [["", line] for line in _lines(words)]
     for heading, rows in (
         (("figure", "title; parameters with defaults and [ranges]"), figures),

@@ -22,18 +22,23 @@ _HOMES = {
 __all__ = ["animate", "context", "figure", "plotter", "save", "to_figure", "to_plotter"]
 
 
-def figure(name: str, style: Any = None, **parameters: Any) -> "Figure":
+def figure(name: str, style: Any = None, target: str | None = None, **parameters: Any) -> "Figure":
     """Return the Matplotlib figure of a recipe in figures/, with these parameters and the defaults for the rest.
+
+    With a ``target``, such as "aps" or "beamer", see `atlas.targets`, it is laid out anew at that width, with the sizes
+    of type, widths of lines, fonts and resolution that are asked there, which `savefig` keeps.
 
     ``style`` is what `matplotlib.style.use` takes (a name, a file, a dict, or a list of them), applied on top of the
     package's own sheet; a list that begins with "default" replaces it. The figure is one as any other: it is saved by
-    ``f.savefig(...)``. Raises AtlasError for an unknown name, parameter or style, DomainError where the recipe has no
-    picture.
+    ``f.savefig(...)``. Raises AtlasError for an unknown name, parameter, style or target, and for a figure that can't
+    be read at its target, DomainError where the recipe has no picture.
     """
     from atlas.draw.panels import to_figure
     from atlas.scene import recipes
+    from atlas.targets import find
 
-    return to_figure(recipes.load(name).scene(**parameters), style)
+    place = None if target is None else find(target)
+    return to_figure(recipes.load(name).scene(**parameters), style, target=place)
 
 
 def plotter(name: str, *, off_screen: bool = True, **parameters: Any) -> "Plotter":

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from atlas.errors import AtlasError
 from atlas.files import replacing
 from atlas.scene.layers import Image, Scene, Space
+from atlas.targets import Target
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,13 +24,20 @@ _FOR_TYPESETTERS = ["GPOS", "GSUB", "GDEF", "MATH"]
 """Tables of a font that place its glyphs, which in a PDF have their places: to subset them takes half of the time."""
 
 
-def save(scene: Scene, files: Mapping[Path, str], renderer: str = "vector", style: Any = None) -> None:
-    """Draw a scene once and write it into each path in its kind: svg, pdf, png or pgf.
+def save(
+    scene: Scene,
+    files: Mapping[Path, str],
+    renderer: str = "vector",
+    style: Any = None,
+    target: Target | None = None,
+) -> None:
+    """Draw a scene once, for a target if one is given, and write it into each path in its kind: svg, pdf, png or pgf.
 
-    ``renderer`` is "vector" or "shaded", and ``style`` as for `atlas.draw.figure`. Where no GL library can draw, and
-    for scenes without a panel in space, the vector renderer takes over; see `choose`. Missing folders are made. Raises
-    AtlasError for an unknown kind or renderer, for a shaded figure that is not a PNG, for a map of values as PGF, and
-    for a style that cannot be used; OSError where a file cannot be written.
+    ``renderer`` is "vector" or "shaded", and ``style`` as for `atlas.draw.figure`. A PNG for a target has no alpha.
+    Where no GL library can draw, and for scenes without a panel in space, the vector renderer takes over; see `choose`.
+    Missing folders are made. Raises AtlasError for an unknown kind or renderer, for a shaded figure that is not a PNG,
+    for a map of values as PGF, for a style that cannot be used, and for a scene that can't be read at its target;
+    OSError where a file cannot be written.
     """
     from atlas.draw.panels import to_figure
     from atlas.draw.style import context
@@ -44,10 +52,13 @@ def save(scene: Scene, files: Mapping[Path, str], renderer: str = "vector", styl
             raise AtlasError(
                 f"a map of values is no PGF, which holds no pixels; ask for a PDF instead of {path.name!r}"
             )
-    with context(style), _formulas_parsed_once(), ExitStack() as stack:
-        figure = to_figure(scene, style, shaded=used == "shaded")
+    with context(style, target), _formulas_parsed_once(), ExitStack() as stack:
+        figure = to_figure(scene, style, shaded=used == "shaded", target=target)
         for path, kind in files.items():
-            _write(figure, stack.enter_context(replacing(path)), kind, scene)
+            place = stack.enter_context(replacing(path))
+            _write(figure, place, kind, scene)
+            if target and kind == "png":
+                _opaque(place)
 
 
 def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:
@@ -76,6 +87,19 @@ def _write(figure: "Figure", path: Path, kind: str, scene: Scene) -> None:
     tables = [*Options._drop_tables_default, *_FOR_TYPESETTERS]  # noqa: SLF001  there is no public way to leave them out
     with _replaced(Options, "_drop_tables_default", tables):
         figure.savefig(path, format=kind, metadata=metadata[kind])
+
+
+def _opaque(path: Path) -> None:
+    """Write a PNG without its alpha again, with the words and the resolution that it has."""
+    from PIL import Image as Pictures
+    from PIL.PngImagePlugin import PngInfo
+
+    with Pictures.open(path) as picture:
+        words = PngInfo()
+        for name, word in picture.info.items():
+            if isinstance(word, str):
+                words.add_itxt(name, word)
+        picture.convert("RGB").save(path, format="png", pnginfo=words, dpi=picture.info["dpi"])
 
 
 def _write_pgf(figure: "Figure", path: Path) -> None:

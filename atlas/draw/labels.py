@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from atlas.draw.style import zoom
 from atlas.draw.text import line, typeset
 from atlas.scene.layers import FloatArray
 
@@ -164,12 +165,12 @@ def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray], *, b
     from matplotlib.patheffects import Stroke
 
     corner = axes.get_window_extent().p0
-    scale = axes.figure.dpi / 72.0
+    scale = zoom() * axes.figure.dpi / 72.0
     anchors = axes.transData.inverted().transform([corner + scale * np.array(tag.anchor) for tag in tags])
     for tag, anchor, centre in zip(tags, anchors, centres, strict=True):
         _, ascent, descent = line(tag.text, tag.size)
-        offset = centre - tag.anchor - (0.0, 0.5 * (ascent - descent))
-        outline = [] if boxed else [(_HEIGHT, [Stroke(linewidth=_HALO, foreground="#ffffff")])]
+        offset = zoom() * (centre - tag.anchor - (0.0, 0.5 * (ascent - descent)))
+        outline = [] if boxed else [(_HEIGHT, [Stroke(linewidth=zoom() * _HALO, foreground="#ffffff")])]
         for height, effects in (*outline, (_HEIGHT + 1.0, [])):
             axes.annotate(
                 typeset(tag.text),
@@ -178,10 +179,10 @@ def write(axes: "Axes", tags: Sequence[Tag], centres: Sequence[FloatArray], *, b
                 textcoords="offset points",
                 ha="center",
                 va="baseline",
-                fontsize=tag.size,
+                fontsize=zoom() * tag.size,
                 color=tag.colour,
                 zorder=height,
                 path_effects=effects,
                 annotation_clip=False,
-                bbox={"fc": "#ffffff", "alpha": _BOX, "lw": 0.0, "pad": 0.8} if boxed else None,
+                bbox={"fc": "#ffffff", "alpha": _BOX, "lw": 0.0, "pad": 0.8 * zoom()} if boxed else None,
             )

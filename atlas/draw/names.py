@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from atlas.draw.labels import Tag, along, place
 from atlas.draw.labels import write as write_tags
-from atlas.draw.style import style_of
+from atlas.draw.style import style_of, zoom
 from atlas.draw.text import extent, points
 from atlas.scene.layers import Arrow, Curve, FloatArray, Image, Label, Layer, Plane, Points, Region
 from atlas.scene.style import readable
@@ -28,7 +28,7 @@ _FRAME = 1.5
 def write(axes: "Axes", panel: Plane) -> None:
     """Write the names of a panel where they cover nothing; the axes must have their place in the figure."""
     axes.apply_aspect()
-    box, scale = axes.get_window_extent(), 72.0 / axes.figure.dpi
+    box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)
     size = (float(box.width * scale), float(box.height * scale))
 
     def places(points: FloatArray) -> FloatArray:

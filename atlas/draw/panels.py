@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from io import BytesIO
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import matplotlib as mpl
@@ -17,24 +18,27 @@ from atlas.draw.style import context
 from atlas.draw.text import typeset
 from atlas.draw.view import Held
 from atlas.errors import AtlasError
+from atlas.scene.arrange import arranged
 from atlas.scene.layers import Panel, Plane, Scene, Space
+from atlas.targets import Target
 
 _INCH, _SCREEN = 25.4, 96
-_FONTS = ("pdf.fonttype", "ps.fonttype")
+_KEPT = ("pdf.fonttype", "ps.fonttype")
 Hold: TypeAlias = Callable[[int, tuple[float, float]], Held]
 
 
 class SceneFigure(Figure):
     """A figure of Matplotlib that is saved with the kind of fonts it was made for, whatever the settings are then.
 
-    `fonts` holds ``pdf.fonttype`` and ``ps.fonttype``: 42, TrueType, which journals take, unless its style says other.
+    `kept` holds ``pdf.fonttype`` and ``ps.fonttype``: 42, TrueType, which journals take, unless its style says other;
+    of a figure for a target ``savefig.dpi`` too.
     """
 
-    fonts: Mapping[str, Any] = {}
+    kept: Mapping[str, Any] = MappingProxyType({})
 
     def savefig(self, *args: Any, **options: Any) -> None:
         """Save as any figure is saved."""
-        with mpl.rc_context(dict(self.fonts)):
+        with mpl.rc_context(dict(self.kept)):
             super().savefig(*args, **options)
 
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
@@ -46,9 +50,15 @@ class SceneFigure(Figure):
 
 
 def to_figure(
-    scene: Scene, style: Any = None, *, shaded: bool = False, figure: Figure | None = None, held: Hold | None = None
+    scene: Scene,
+    style: Any = None,
+    *,
+    shaded: bool = False,
+    target: Target | None = None,
+    figure: Figure | None = None,
+    held: Hold | None = None,
 ) -> Figure:
-    """Return a scene as a figure of its size, with one ordinary axes for each panel.
+    """Return a scene as a figure of its size, or laid out anew for a target, with one ordinary axes for each panel.
 
     A panel with two axes has lines, markers, patches, a colorbar and a legend as Matplotlib makes them; a panel in
     space is drawn with exact hidden lines on axes whose unit is the printer's point, or, if ``shaded``, is a picture by
@@ -56,10 +66,12 @@ def to_figure(
     is ROLE-PANEL-LAYER with the numbers that the data as CSV have, such as ``hyperbola-1-3``, so that a curve can be
     picked and recoloured, here by ``figure.findobj`` and in SVG by its id. ``style`` is as for `atlas.draw.figure`.
     An empty ``figure`` is drawn into if one is given, and ``held`` tells the view of a panel in space in a window.
-    Raises AtlasError where a panel cannot hold one of its layers.
+    Raises AtlasError where a panel cannot hold one of its layers, and for a scene that can't be read at the target.
     """
-    with context(style):
-        figure, panels = laid_out(scene, figure)
+    with context(style, target):
+        figure, panels = laid_out(arranged(scene, target) if target else scene, figure)
+        if target and isinstance(figure, SceneFigure):
+            figure.kept = {**figure.kept, "savefig.dpi": target.dpi}
         for number, (axes, panel) in enumerate(panels, 1):
             if isinstance(panel, Space) and shaded:
                 draw_shaded(axes, panel)
@@ -102,17 +114,18 @@ def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[t
     """
     if figure is None:
         figure = SceneFigure([length / _INCH for length in scene.size])
-        figure.fonts = {name: mpl.rcParams[name] for name in _FONTS}
+        figure.kept = {name: mpl.rcParams[name] for name in _KEPT}
     framed = any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
     rows = -(-len(scene.panels) // scene.columns)
     edges = {} if framed else {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
-    grid = figure.add_gridspec(rows, scene.columns, **edges)
+    grid = figure.add_gridspec(rows, scene.columns, height_ratios=scene.rows or None, **edges)
     panels = [(figure.add_subplot(grid[divmod(k, scene.columns)]), panel) for k, panel in enumerate(scene.panels)]
     for number, (axes, panel) in enumerate(panels, 1):
         _begin(axes, panel, number)
     if framed:
         canvas = figure.canvas
         FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once
-        ConstrainedLayoutEngine().execute(figure)
+        for _ in range(2 if scene.rows else 1):  # at another size there are other ticks
+            ConstrainedLayoutEngine().execute(figure)
         figure.set_canvas(canvas)
     return figure, panels

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import NullLocator, ScalarFormatter
 
-from atlas.draw.style import style_of
+from atlas.draw.style import dashes, stroke, style_of, zoom
 from atlas.draw.text import typeset
 from atlas.errors import AtlasError
 from atlas.scene.layers import Arrow, Curve, Image, Label, Layer, Plane, Points, Region
@@ -50,8 +50,9 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
 
 
 def _ticks(axes: Axes) -> None:
-    """Leave out the ticks between many powers of ten, and write numbers in our way."""
+    """Leave out the ticks between many powers of ten, and write numbers in our way, as many as their size allows."""
     for axis in (axes.xaxis, axes.yaxis):
+        axis.set_tick_params(labelsize=mpl.rcParams[f"{axis.axis_name}tick.labelsize"])
         if axis.get_scale() != "linear" and len(axis.get_major_locator()()) > _DECADES:
             axis.set_minor_locator(NullLocator())
         if type(axis.get_major_formatter()) is ScalarFormatter:
@@ -75,8 +76,8 @@ def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
         return _map(axes, layer)
     look = style_of(layer.role)
     if isinstance(layer, Curve):
-        dashes = (0, look.dash) if look.dash else "-"
-        return axes.plot(*layer.points.T, color=look.colour, lw=look.width, ls=dashes, zorder=_LINES + rise)[0]
+        line = {"color": look.colour, "lw": stroke(look.width), "ls": dashes(look.dash)}
+        return axes.plot(*layer.points.T, zorder=_LINES + rise, **line)[0]
     if isinstance(layer, Points):
         return axes.plot(*np.atleast_2d(layer.points).T, ls="", zorder=_MARKS + rise, **marker(layer.role, edge))[0]
     if isinstance(layer, Region):
@@ -84,8 +85,9 @@ def _draw(axes: Axes, layer: Layer, rise: float, edge: str = "") -> Any:
         return axes.add_patch(shape)
     if isinstance(layer, Arrow):
         axes.update_datalim([layer.tail, layer.tip])
-        arrow = {"arrowstyle": "-|>,head_length=0.42,head_width=0.16", "mutation_scale": 10, "shrinkA": 0, "shrinkB": 0}
-        return axes.annotate("", layer.tip, layer.tail, arrowprops={**arrow, "color": look.colour, "lw": look.width})
+        arrow = {"arrowstyle": "-|>,head_length=0.42,head_width=0.16", "shrinkA": 0, "shrinkB": 0}
+        arrow |= {"mutation_scale": 10 * zoom(), "color": look.colour, "lw": stroke(look.width)}
+        return axes.annotate("", layer.tip, layer.tail, arrowprops=arrow)
     raise AtlasError(f"a plane panel cannot hold a {type(layer).__name__}; put it in a Space")
 
 
@@ -100,7 +102,7 @@ def marker(role: str, ring: str = "") -> dict[str, Any]:
     look = style_of(role)
     edge = INK if look.colour == WHITE else ring or look.colour
     shape, size = ("o", 0.5 * look.size) if look.marker == "." else (look.marker or "o", look.size)
-    return {"marker": shape, "ms": size, "mfc": look.colour, "mec": edge, "mew": 0.7}
+    return {"marker": shape, "ms": zoom() * size, "mfc": look.colour, "mec": edge, "mew": stroke(0.7)}
 
 
 def _map(axes: Axes, image: Image) -> Any:

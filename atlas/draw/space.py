@@ -17,7 +17,7 @@ from atlas.draw.hidden import hidden, split
 from atlas.draw.labels import along, place, write
 from atlas.draw.outline import Edge, areas, facing, shadows
 from atlas.draw.plane import gid, marker
-from atlas.draw.style import style_of
+from atlas.draw.style import dashes, stroke, style_of, zoom
 from atlas.draw.view import Held, View, fit
 from atlas.scene import conics
 from atlas.scene.layers import Arrow, Curve, FloatArray, Layer, Points, Space, Surface
@@ -58,8 +58,8 @@ def draw_space(axes: Axes, panel: Space, number: int = 1, held: Held | None = No
 
 
 def window(axes: Axes) -> tuple[float, float]:
-    """Return width and height of axes in points."""
-    box, scale = axes.get_window_extent(), 72.0 / axes.figure.dpi
+    """Return width and height of axes in points before the target enlarges them."""
+    box, scale = axes.get_window_extent(), 72.0 / (zoom() * axes.figure.dpi)
     return float(box.width * scale), float(box.height * scale)
 
 
@@ -90,7 +90,7 @@ class _Drawing:
         """Put the lines into the axes, those of one layer and look together."""
         for (colour, width, dash, height), lines in self._lines.items():
             cap = "butt" if dash else "round"
-            look = {"colors": colour, "linewidths": width, "linestyles": [(0, dash or None)], "zorder": height}
+            look = {"colors": colour, "linewidths": stroke(width), "linestyles": [dashes(dash)], "zorder": height}
             look["gid"] = self._name[colour, width, dash, height]
             self.axes.add_collection(LineCollection(lines, capstyle=cap, joinstyle="round", **look), autolim=False)
 
@@ -144,7 +144,7 @@ class _Drawing:
         corners = np.stack([point, foot + side, foot + 0.12 * run, foot - side])
         seen = not hidden(tip[None], view.surfaces, view.towards)[0]
         face, width = (look.colour, 0.3) if seen else ("#ffffff", 0.5)
-        head = {"fc": face, "ec": look.colour, "lw": width, "joinstyle": "miter", "clip_on": False}
+        head = {"fc": face, "ec": look.colour, "lw": stroke(width), "joinstyle": "miter", "clip_on": False}
         head["gid"] = next(self._names)
         self.axes.add_artist(Polygon(corners, zorder=_HEAD + self.rise, **head))
 
@@ -190,7 +190,7 @@ def draw_shaded(axes: Axes, panel: Space) -> None:
 
     view = fit(panel, window(axes))
     dpi = mpl.rcParams["savefig.dpi"]
-    dpi = axes.figure.dpi if dpi == "figure" else float(dpi)
+    dpi = zoom() * (axes.figure.dpi if dpi == "figure" else float(dpi))
     width, height = (max(1, round(length * dpi / 72.0)) for length in view.window)
     right, top = width * 72.0 / dpi, height * 72.0 / dpi  # so that a pixel of the picture is one of the file
     picture = still(replace(view, window=(right, top)), width, height)

@@ -4,6 +4,7 @@ import logging
 import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from dataclasses import replace
 from functools import cache
 from math import isfinite
@@ -12,15 +13,28 @@ from typing import Any
 
 from atlas.errors import AtlasError
 from atlas.scene.style import LINES, Style, style
+from atlas.targets import Target
 
 _NO_LATEX = "the style asks for it (text.usetex); with SciencePlots say science,no-latex"
 _DASHES = {"--": (3.7, 1.6), "-.": (6.4, 1.6, 1.0, 1.6), ":": (1.0, 1.65)}
 SHEET = Path(__file__).with_name("atlas.mplstyle")
+_TARGET: ContextVar[Target | None] = ContextVar("_TARGET", default=None)
+_SIDES = ("xtick", "ytick")
+_TEXTS = ("font.size", "axes.labelsize", "axes.titlesize", "legend.fontsize", *(f"{side}.labelsize" for side in _SIDES))
+_WIDTHS = ("axes.linewidth", *(f"{side}.{kind}.width" for side in _SIDES for kind in ("major", "minor")))
+_LENGTHS = (
+    "axes.labelpad",
+    "axes.titlepad",
+    *(f"{side}.{kind}.{what}" for side in _SIDES for kind in ("major", "minor") for what in ("size", "pad")),
+    *(f"figure.constrained_layout.{side}_pad" for side in "hw"),
+)
 
 
 @contextmanager
-def context(style: Any = None) -> Iterator[None]:
+def context(style: Any = None, target: Target | None = None) -> Iterator[None]:
     """Draw with Matplotlib's defaults, the package's sheet and ``style`` on top; at exit the settings are as before.
+
+    What is asked by a ``target`` comes last: size of type, width of lines, kind of fonts, resolution.
 
     ``style`` is a name, a file, a dict of settings, or a list of them, as for `matplotlib.style.use`, or names with
     commas between them; the names of SciencePlots are known where it is installed. Raises AtlasError for a style that
@@ -35,7 +49,9 @@ def context(style: Any = None) -> Iterator[None]:
             style = style.split(",")
         if style is not None:
             _use([style] if isinstance(style, Path | dict) else style)
+        token = _TARGET.set(target)
         try:
+            mpl.rcParams.update(_asked(target) if target else {})
             yield
         except RuntimeError as error:
             if not mpl.rcParams["text.usetex"]:
@@ -48,6 +64,40 @@ def context(style: Any = None) -> Iterator[None]:
             if style is None:
                 raise
             raise AtlasError(f"the figure can't be drawn with this style: {error}") from error
+        finally:
+            _TARGET.reset(token)
+
+
+def _asked(target: Target) -> dict[str, Any]:
+    """Return the settings that a target asks for, from those that are."""
+    import matplotlib as mpl
+
+    now = mpl.rcParams
+    return {
+        **dict.fromkeys(_TEXTS, target.type),
+        **{name: stroke(now[name]) for name in _WIDTHS},
+        **{name: zoom() * now[name] for name in _LENGTHS},
+        "savefig.dpi": target.dpi,
+        "pdf.fonttype": 42,
+        "ps.fonttype": 42,
+    }
+
+
+def zoom() -> float:
+    """Return how much larger than in a journal's figure all is that is measured in points."""
+    target = _TARGET.get()
+    return target.zoom if target else 1.0
+
+
+def stroke(width: float) -> float:
+    """Return the width on paper of a line whose role has this width, in points: within what the target allows."""
+    target = _TARGET.get()
+    return width if target is None else min(max(target.zoom * width, target.lines[0]), target.lines[1])
+
+
+def dashes(pattern: Sequence[float]) -> Any:
+    """Return a pattern of dashes as Matplotlib takes it, on paper."""
+    return (0, [zoom() * length for length in pattern]) if pattern else "-"
 
 
 @contextmanager

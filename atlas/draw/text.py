@@ -3,6 +3,8 @@
 import re
 from functools import cache
 
+from atlas.draw.style import zoom
+
 _MATH = re.compile(r"\$[^$]*\$")
 
 
@@ -12,11 +14,11 @@ def typeset(text: str) -> str:
 
 
 def points(setting: str) -> float:
-    """Return a font size of the style sheet, such as ``axes.labelsize``, in points."""
+    """Return a font size of the style sheet, such as ``axes.labelsize``, in points before the target enlarges them."""
     import matplotlib as mpl
     from matplotlib.font_manager import FontProperties
 
-    return float(FontProperties(size=mpl.rcParams[setting]).get_size_in_points())
+    return float(FontProperties(size=mpl.rcParams[setting]).get_size_in_points()) / zoom()
 
 
 def line(text: str, size: float) -> tuple[float, float, float]:

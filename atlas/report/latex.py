@@ -18,9 +18,8 @@ from atlas.report.data_package import ascii_name, digits, unique, value, words
 from atlas.report.document import Document
 from atlas.report.templates import typesetting
 from atlas.report.versions import versions
+from atlas.targets import TARGETS
 
-COLUMN, PAGE = 86.0, 178.0
-"""Widths of a column and of a page of REVTeX, in millimetres."""
 LETTERS, BOTH, LONG = 46, 115, 30
 """Letters of a table that fit in a column and across the page; more of a cell than that are broken into lines."""
 ANY = 99
@@ -175,12 +174,11 @@ def _entry(cell: Cell, texts: Sequence[str], *, numeric: bool) -> str:
 
 
 def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, bytes]) -> str:
-    """Return a figure as an environment of its own, as wide as it was drawn, and no wider than the page."""
+    """Return a figure as an environment of its own, of the width that it was made for: a column or both."""
     name = figure.id.removeprefix("fig-")
     files = [file for file in pictures if re.fullmatch(rf"figures/{re.escape(name)}(-\d+)?\.\w+", file)]
-    kind = "figure" if figure.width <= COLUMN + 1 else "figure*"
-    width = min(figure.width, COLUMN if kind == "figure" else PAGE)
-    graphics = "\n".join(rf"\includegraphics[width={width:g}mm]{{{file}}}" for file in files)
+    kind = "figure*" if any(one.size[0] > TARGETS["aps"].width for one in figure.pictures) else "figure"
+    graphics = "\n".join(rf"\includegraphics{{{file}}}" for file in files)
     return (
         f"\\begin{{{kind}}}[tb]\n\\centering\n{graphics}\n"
         f"\\caption{{{texts[figure.caption]}}}\\label{{{figure.id}}}\n\\end{{{kind}}}\n"

@@ -162,6 +162,8 @@ class Scene:
     ``commands`` make tables of the numbers that are drawn. ``narrow`` holds the panels for a narrow screen, one below
     the other, each as high as a row of the figure, where those of the figure would only become smaller. ``paths`` tell
     how the layers move in time that ride on one, by its name in their ``rides``, for a time that ``lasts``.
+    ``narrowest`` is the width in millimetres below which it can't be read, as its recipe declares it; ``rows`` are the
+    heights of the rows, of which all have one if it is empty.
     """
 
     title: str
@@ -176,3 +178,5 @@ class Scene:
     narrow: tuple[Panel, ...] = ()
     paths: Mapping[str, Path] = field(default_factory=dict)
     lasts: float = 0.0
+    narrowest: float = 0.0
+    rows: tuple[float, ...] = ()

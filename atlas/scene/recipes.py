@@ -25,7 +25,8 @@ class Recipe:
     """A figure that can be made: its name, title, parameters with their defaults, and where it is written.
 
     `records` are the files of reports/data that it reads, as it declares them: ``RECORDS = ("bench.json",)``; `ranges`
-    are the ends of its numbers, those that all recipes share and its own: ``RANGES = {"count": (2, 24)}``.
+    are the ends of its numbers, those that all recipes share and its own: ``RANGES = {"count": (2, 24)}``; `narrowest`
+    is the width in millimetres below which the figure can't be read: ``NARROWEST = 140.0``.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Recipe:
     source: Path
     records: tuple[str, ...] = ()
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    narrowest: float = 0.0
 
     def scene(self, **parameters: Any) -> Scene:
         """Make the scene with these parameters, the defaults for the rest, and note them all in it."""
@@ -53,7 +55,7 @@ class Recipe:
             raise _broken(self.source, error) from error
         if not isinstance(scene, Scene):
             raise AtlasError(f"{_short(self.source)}: scene() must return a Scene, not {type(scene).__name__}")
-        return replace(scene, parameters=used)
+        return replace(scene, parameters=used, narrowest=self.narrowest)
 
     def hints(self) -> dict[str, Any]:
         """Return what its parameters are annotated with; its file is run for it."""
@@ -115,7 +117,8 @@ def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
     parameters = {place.arg: _default(source, place.arg, value) for place, value in zip(places, values, strict=True)}
     records = tuple(map(str, _declared("RECORDS", source, tree, ())))
     ranges = {**RANGES, **_declared("RANGES", source, tree, {})}
-    return Recipe(source.stem, _title(source, tree), parameters, source, records, ranges)
+    narrowest = _declared("NARROWEST", source, tree, 0.0)
+    return Recipe(source.stem, _title(source, tree), parameters, source, records, ranges, narrowest)
 
 
 def _tree(source: Path) -> ast.Module:
@@ -144,7 +147,7 @@ def _declared(constant: str, source: Path, tree: ast.Module, standard: Any) -> A
     return standard
 
 
-_KINDS = {"RECORDS": "tuple of names", "RANGES": "dictionary of pairs"}
+_KINDS = {"RECORDS": "tuple of names", "RANGES": "dictionary of pairs", "NARROWEST": "number"}
 
 
 def _default(source: Path, parameter: str, value: ast.expr | None) -> Any:

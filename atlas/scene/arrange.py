@@ -1,0 +1,119 @@
+"""A scene laid out anew for a target: its panels in other rows and columns, as large as the place allows."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import log
+
+from atlas.errors import AtlasError
+from atlas.scene.layers import Panel, Plane, Scene
+from atlas.scene.narrow import extent
+from atlas.targets import TARGETS, Target
+
+_TALL, _PAPER = 2.2, 0.3
+"""A figure is at most so many times as high as it is wide, and so much larger must panels be for each time."""
+_LOW, _LARGER, _LEAST = 0.9, 1.25, 0.01
+"""Curves made narrower keep this ratio of height to width if they have room; all else grows so much at most."""
+_SMALLEST = 0.4
+"""Panels of a smaller part of their size can't be read."""
+_FITS = 0.7
+"""A figure is given a column if that is as wide as this part of it."""
+_AXES, _NAMES = (16.0, 12.0), (10.0, 14.0)
+"""Millimetres beside and below two axes for their labels, and about a drawing in space for its names."""
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """Panels in columns of a width, rows of these heights, in millimetres of a journal, and how large beside before."""
+
+    panels: tuple[Panel, ...]
+    columns: int
+    rows: tuple[float, ...]
+    scale: float
+
+
+def arranged(scene: Scene, target: Target) -> Scene:
+    """Return a scene as wide as a target, its panels in the rows and columns that leave them largest.
+
+    Raises AtlasError for a scene that can't be read at this width.
+    """
+    width = target.width / target.zoom
+    if width < scene.narrowest:
+        wide = [name for name, one in TARGETS.items() if one.width / one.zoom >= scene.narrowest]
+        raise AtlasError(
+            f"{scene.title}: it can't be read at {target.width:g} mm, for it needs {scene.narrowest:g} mm of a page; "
+            f"targets that are wide enough: {', '.join(wide)}."
+        )
+    height = min(target.height / target.zoom, _TALL * width)
+    best = max(
+        _arrangements(scene, width, height), key=lambda one: log(min(one.scale, 1.0)) - _PAPER * sum(one.rows) / width
+    )
+    if best.scale < _SMALLEST:
+        raise AtlasError(
+            f"{scene.title}: it can't be read in {target.width:g} mm x {target.height:g} mm; its panels would have "
+            f"only {best.scale:.2f} of their size."
+        )
+    size = (target.width, target.zoom * sum(best.rows))
+    return replace(scene, panels=best.panels, columns=best.columns, rows=best.rows, size=size)
+
+
+def suited(scene: Scene, targets: Sequence[Target]) -> Target:
+    """Return the first of some targets, the narrowest first, where a scene is not much smaller than by itself."""
+    for target in targets[:-1]:
+        if target.width / target.zoom >= max(scene.narrowest, _FITS * scene.size[0]):
+            return target
+    return targets[-1]
+
+
+def _arrangements(scene: Scene, width: float, height: float) -> Iterator[Arrangement]:
+    """Yield the ways to lay out a scene in so much room; panels for a narrow screen are another set to choose from."""
+    count = len(scene.panels)
+    before = scene.size[0] / scene.columns, scene.size[1] / -(-count // scene.columns)
+    for columns in range(1, count + 1):
+        if count % columns == 0 or columns == scene.columns:
+            yield _fitted(_labelled(scene, columns), columns, before, (width, height))
+    if scene.narrow:
+        yield _fitted(scene.narrow, 1, (before[0] / (len(scene.narrow) - count + 1), before[1]), (width, height))
+
+
+def _labelled(scene: Scene, columns: int) -> tuple[Panel, ...]:
+    """Return the panels with the labels that their axes shared with a neighbour who will stand elsewhere."""
+    panels = list(scene.panels)
+    for k, one in enumerate(scene.panels):
+        if isinstance(one, Plane):
+            left = [panel.y_label for panel in scene.panels[k - k % scene.columns : k + 1] if isinstance(panel, Plane)]
+            below = [panel.x_label for panel in scene.panels[k :: scene.columns] if isinstance(panel, Plane)]
+            y_label = one.y_label if k % columns else next(filter(None, reversed(left)), "")
+            x_label = one.x_label if k + columns < len(panels) else next(filter(None, below), "")
+            panels[k] = replace(one, x_label=x_label, y_label=y_label)
+    return tuple(panels)
+
+
+def _fitted(
+    panels: Sequence[Panel], columns: int, before: tuple[float, float], room: tuple[float, float]
+) -> Arrangement:
+    """Return an arrangement in so many columns, in a room (width, height)."""
+    wide = room[0] / columns
+    rows = [max(_high(one, wide, before) for one in panels[k : k + columns]) for k in range(0, len(panels), columns)]
+    part = min(1.0, room[1] / sum(rows))
+    rows = [part * row for row in rows]
+    scale = min(_scale(one, (wide, rows[k // columns]), before) for k, one in enumerate(panels))
+    shown = [replace(one, legend=True) if isinstance(one, Plane) and one.legend == "beside" else one for one in panels]
+    return Arrangement(tuple(panels if wide >= before[0] else shown), columns, tuple(rows), scale)
+
+
+def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
+    """Return how high a panel would be at its best; drawings in space and equal scales keep their shape."""
+    high = before[1] * wide / before[0]
+    if not isinstance(panel, Plane):
+        right, up = extent(panel)
+        high = min(high, (wide - _NAMES[0]) * float(up / right) + _NAMES[1]) if right > 0.0 else high
+    elif not panel.equal:
+        return min(before[1], max(high, _LOW * wide))
+    return min(high, _LARGER * before[1])
+
+
+def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float]) -> float:
+    """Return how large a panel is beside before, without the room of its labels."""
+    labels = _AXES if isinstance(panel, Plane) else (0.0, 0.0)
+    sizes = zip(cell, (before[0], _high(panel, before[0], before)), labels, strict=True)
+    return max(min((now - label) / (then - label) for now, then, label in sizes), _LEAST)
