@@ -141,7 +141,7 @@ def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[
     """
     settle_matplotlib()
     waiting = {
-        one: worker.Task(one.recipe, one.parameters, one.renderer, one.style, one.targets, one.missing(), cache.folder)
+        one: worker.Task(one.recipe, one.parameters, one.renderer, one.style, one.missing(), cache.folder, one.targets)
         for one in figures
     }
     workers = min(jobs, len(waiting))

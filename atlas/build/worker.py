@@ -33,9 +33,9 @@ class Task:
     parameters: Mapping[str, Any]
     renderer: str
     style: str | None
-    targets: tuple[str, ...]
     keys: Mapping[str, str]
     cache: Path
+    targets: tuple[str, ...] = ()
 
 
 def draw(task: Task) -> str:

@@ -1,0 +1,88 @@
+"""What a figure puts on paper: its texts with their boxes and sizes, the widths of its lines; and the law of both."""
+
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from matplotlib.backend_bases import RendererBase
+from matplotlib.figure import Figure
+from matplotlib.mathtext import MathTextParser
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
+
+from atlas.targets import Target
+
+_INCH, _POINTS = 25.4, 72.0
+_FORMULAS: Any = MathTextParser("path")
+
+
+class Marks(RendererBase):
+    """A renderer that draws nothing and notes texts and the widths of strokes, in points."""
+
+    def __init__(self, figure: Figure) -> None:
+        """Look at everything that is drawn."""
+        super().__init__()
+        self.figure = figure
+        self.texts: list[tuple[Text, Bbox]] = []
+        self.widths: list[float] = []
+        figure.draw(self)
+
+    def get_canvas_width_height(self) -> tuple[float, float]:
+        """Return the size in pixels."""
+        return self.figure.bbox.width, self.figure.bbox.height
+
+    def points_to_pixels(self, points: float) -> float:
+        """Return a length in pixels."""
+        return points * self.figure.dpi / _POINTS
+
+    def draw_path(self, gc: Any, path: Any, _transform: Any, _face: Any = None) -> None:
+        """Note the width of a line; the white outlines of names are none."""
+        if gc.get_linewidth() > 0.0 and len(path.vertices) and gc.get_rgb()[:3] != (1.0, 1.0, 1.0):
+            self.widths.append(gc.get_linewidth())
+
+    def draw_image(self, *_: Any) -> None:
+        """Pass over a picture."""
+
+    def draw_text(self, _gc: Any, _x: float, _y: float, s: str, *_: Any, mtext: Text | None = None, **__: Any) -> None:
+        """Note a text."""
+        if mtext is not None and s.strip():
+            self.texts.append((mtext, mtext.get_window_extent(self)))
+
+    @property
+    def types(self) -> list[float]:
+        """The sizes of all letters in points, those in formulas too."""
+        sizes = [text.get_fontsize() for text, _ in self.texts]
+        formulas = [text for text, _ in self.texts if text.get_text().count("$") > 1]
+        parsed = [_FORMULAS.parse(one.get_text(), _POINTS, one.get_fontproperties()) for one in formulas]
+        return [*sizes, *(glyph[1] for formula in parsed for glyph in formula.glyphs)]
+
+
+def faults(figure: Figure, target: Target) -> list[str]:
+    """Return what of a figure breaks the law of its target: size, type, lines, names off the page, names that meet."""
+    marks, found = Marks(figure), []
+    width, height = _INCH * np.asarray(figure.get_size_inches())
+    if abs(width - target.width) > 0.05 or height > target.height + 0.05:
+        found.append(f"it is {width:.1f} mm x {height:.1f} mm")
+    if min(marks.types) < 0.7 * target.type - 1e-9 or min(marks.types) < 6.0:
+        found.append(f"its least type has {min(marks.types):.2f} pt")
+    if min(marks.widths) < target.lines[0] - 1e-9 or max(marks.widths) > target.lines[1] + 1e-9:
+        found.append(f"its lines have {min(marks.widths):.2f} to {max(marks.widths):.2f} pt")
+    pixel = figure.dpi / _POINTS
+    page = Bbox.from_bounds(0.0, 0.0, figure.bbox.width, figure.bbox.height).padded(pixel)
+    found += [f"{text.get_text()!r} leaves the page" for text, box in marks.texts if not _within(box, page)]
+    return found + [
+        f"{one.get_text()!r} covers {other.get_text()!r}"
+        for (one, a), (other, b) in combinations(marks.texts, 2)
+        if _meet(a, b, pixel * min(one.get_fontsize(), other.get_fontsize()))
+    ]
+
+
+def _within(box: Bbox, page: Bbox) -> bool:
+    """Whether a box is within another."""
+    return bool(box.x0 >= page.x0 and box.y0 >= page.y0 and box.x1 <= page.x1 and box.y1 <= page.y1)
+
+
+def _meet(a: Bbox, b: Bbox, size: float) -> bool:
+    """Whether letters of this size meet: a box is as high as a line, of which letters fill two thirds."""
+    across, up = min(a.x1, b.x1) - max(a.x0, b.x0), min(a.y1, b.y1) - max(a.y0, b.y0)
+    return bool(across > 0.1 * size and up > 0.35 * size)

@@ -1,0 +1,176 @@
+"""Figures for journals, slides and posters: of the width that is asked, with its type and lines, no names that meet."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from marks import faults
+from PIL import Image
+from pypdf import PdfReader
+
+import atlas
+from atlas import AtlasError
+from atlas.build.figures import build_figures
+from atlas.draw import save, to_figure
+from atlas.scene import Curve, Plane, Scene, Space, recipes
+from atlas.scene.arrange import arranged, suited
+from atlas.targets import TARGETS, TYPE, find
+
+NARROWEST = min(TARGETS, key=lambda name: TARGETS[name].width)
+WIDE = ["quadrics_of_tops", "stability_map"]
+MILLIMETRE = 72.0 / 25.4
+
+
+@pytest.mark.parametrize(
+    ("name", "target"),
+    [("flight", target) for target in ("aps", "aps-double", "elsevier", "iop", "beamer", "poster")]
+    + [(name, NARROWEST) for name in ("hyperbolas", "kinds_of_quadric", "loop", "two_turns")],
+)
+def test_a_figure_keeps_the_law_of_its_target(name: str, target: str) -> None:
+    """It has the width, the type and the lines that are asked; no name leaves the page or covers another.
+
+    All recipes for all targets are tried by tests/fuzz/test_targets_all.py, in `make stress`.
+    """
+    assert faults(to_figure(recipes.load(name).scene(), target=find(target)), find(target)) == []
+
+
+def test_a_fault_is_found() -> None:
+    """A figure of its own size, with names too small and one over another, is told to break the law."""
+    figure = to_figure(recipes.load("trochoids").scene(), {"xtick.labelsize": 5.0, "axes.linewidth": 0.2})
+    for place in (0.5, 0.505):
+        figure.text(place, 0.5, "a name")
+    figure.text(0.99, 0.5, "off the page")
+    found = " ".join(faults(figure, TARGETS["aps-double"]))
+    for words in ("86.0 mm x", "5.00 pt", "0.20 to", "'a name' covers 'a name'", "'off the page' leaves the page"):
+        assert words in found
+
+
+def test_capitals_are_two_millimetres_high() -> None:
+    """Letters of the least type have the height that the APS asks for, their subscripts 6 pt, as Elsevier does."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import TextPath
+
+    height = TextPath((0.0, 0.0), "E", size=TYPE, prop=FontProperties(family="STIXGeneral")).get_extents().height
+    assert height >= 2.0 * MILLIMETRE
+    assert 0.7 * TYPE >= 6.0
+    assert all(target.type >= TYPE for target in TARGETS.values())
+
+
+@pytest.mark.parametrize("name", WIDE)
+def test_what_needs_the_page_says_so(name: str) -> None:
+    """A recipe that can't be read in a column is refused there with the targets that will do, and made for those."""
+    recipe = recipes.load(name)
+    with pytest.raises(AtlasError, match=rf"can't be read at 86 mm, for it needs {recipe.narrowest:g} mm.*aps-double"):
+        arranged(recipe.scene(), find("aps"))
+    assert arranged(recipe.scene(), find("aps-double")).size[0] == 178.0
+
+
+def test_what_is_too_high_for_a_slide_says_so() -> None:
+    """Three panels of many curves would be too small in the height of a slide."""
+    with pytest.raises(AtlasError, match=r"can't be read in 140 mm x 68 mm; its panels would have only 0\.19"):
+        arranged(recipes.load("horizon").scene(), find("beamer"))
+
+
+def test_panels_of_a_row_stand_below_one_another_with_their_labels() -> None:
+    """In a column an axis has the label that it shared with its neighbour in the row."""
+    before = recipes.load("kinds_of_quadric").scene()
+    after = arranged(before, find("aps"))
+    assert (before.columns, after.columns) == (3, 1)
+    assert {panel.y_label for panel in after.panels if isinstance(panel, Plane)} == {r"$\beta$ (degrees)"}
+    assert [panel.layers for panel in after.panels] == [panel.layers for panel in before.panels]
+
+
+def test_a_shared_label_below_comes_along() -> None:
+    """Panels that stood below one another have their label each when they stand side by side."""
+    after = arranged(recipes.load("frequencies").scene(), find("beamer"))
+    assert after.columns == 2
+    assert len({panel.x_label for panel in after.panels if isinstance(panel, Plane)}) == 1
+
+
+def test_a_drawing_keeps_its_shape_and_leaves_no_empty_rows() -> None:
+    """A row of bodies is as high as they are at its width, with their names."""
+    after = arranged(recipes.load("film_strip").scene(), find("aps"))
+    assert len(after.panels) == 2
+    assert all(isinstance(panel, Space) for panel in after.panels)
+    assert sum(after.rows) == after.size[1] < 80.0
+
+
+def test_a_poster_has_all_larger() -> None:
+    """Type, lines, marks and the page grow together: a line is as wide beside a letter as in a journal."""
+    x = np.linspace(0.0, 1.0, 9)
+    scene = Scene("A line", "A caption.", "A line.", (Plane((Curve(np.stack([x, x], axis=1), "main"),), "$x$", "$y$"),))
+    zoom = TARGETS["poster"].zoom
+    poster, paper = (to_figure(scene, target=TARGETS[name]).axes[0] for name in ("poster", "aps"))
+    assert poster.xaxis.label.get_fontsize() == TARGETS["poster"].type
+    assert poster.lines[0].get_linewidth() == pytest.approx(zoom * paper.lines[0].get_linewidth())
+    assert poster.xaxis.get_major_ticks()[0].tick1line.get_markersize() == pytest.approx(3.0 * zoom)
+
+
+@pytest.mark.parametrize(("name", "target"), [("hyperbola", "aps"), ("motion", "aps-double"), ("cone", "aps")])
+def test_a_figure_of_a_report_gets_the_place_that_suits_it(name: str, target: str) -> None:
+    """What is not much wider than a column by itself is given one, the rest both."""
+    assert suited(recipes.load(name).scene(), [find("aps"), find("aps-double")]) is find(target)
+
+
+@pytest.mark.parametrize("name", WIDE)
+def test_what_needs_the_page_gets_it(name: str) -> None:
+    """Where there is a choice, a recipe that can't be read in a column is not put into one."""
+    assert suited(recipes.load(name).scene(), [find("aps"), find("aps-double")]).width == 178.0
+
+
+def test_files_have_the_size_the_fonts_and_the_resolution(tmp_path: Path) -> None:
+    """A PDF of 86 mm with TrueType fonts alone; a PNG of 600 dots an inch without alpha, with its words; PGF too."""
+    (made,) = build_figures(["hyperbola"], ["pdf", "png", "pgf"], tmp_path, target="aps")
+    assert [file.name for file in made.files] == ["hyperbola-aps.pdf", "hyperbola-aps.png", "hyperbola-aps.pgf"]
+    pdf, png, _ = made.files
+    (page,) = PdfReader(pdf).pages
+    assert float(page.mediabox.width) == pytest.approx(86.0 * MILLIMETRE, abs=0.01)
+    fonts = [font.get_object() for font in page["/Resources"]["/Font"].values()]
+    assert {font["/Subtype"] for font in fonts} <= {"/TrueType", "/Type0"}
+    with Image.open(png) as picture:
+        assert picture.mode == "RGB"
+        assert picture.width == pytest.approx(86.0 / 25.4 * 600.0, abs=1.0)
+        assert picture.info["dpi"] == pytest.approx((600.0, 600.0), abs=0.1)
+        assert picture.info["Title"] == recipes.title("hyperbola")
+
+
+def test_savefig_keeps_what_the_target_asks(tmp_path: Path) -> None:
+    """A user's own savefig writes TrueType fonts and 600 dots an inch, whatever Matplotlib's settings are."""
+    figure = atlas.figure("cone", target="iop")
+    figure.savefig(tmp_path / "a.pdf")
+    figure.savefig(tmp_path / "a.png")
+    (page,) = PdfReader(tmp_path / "a.pdf").pages
+    assert all(font.get_object()["/Subtype"] != "/Type3" for font in page["/Resources"]["/Font"].values())
+    with Image.open(tmp_path / "a.png") as picture:
+        assert picture.width == pytest.approx(85.0 / 25.4 * 600.0, abs=1.0)
+
+
+def test_a_style_of_the_user_does_not_break_the_law(tmp_path: Path) -> None:
+    """What a target asks comes after the style: small type, thin lines and Type 3 fonts are put right."""
+    style = {"font.size": 4.0, "xtick.labelsize": 4.0, "axes.linewidth": 0.1, "pdf.fonttype": 3}
+    scene = recipes.load("trochoids").scene()
+    assert faults(to_figure(scene, style, target=find("aps")), find("aps")) == []
+    save(scene, {tmp_path / "a.pdf": "pdf"}, style=style, target=find("aps"))
+    (page,) = PdfReader(tmp_path / "a.pdf").pages
+    assert all(font.get_object()["/Subtype"] != "/Type3" for font in page["/Resources"]["/Font"].values())
+
+
+def test_an_unknown_target_is_named() -> None:
+    """The error tells which there are."""
+    with pytest.raises(AtlasError, match=r"there is no target 'elsewier'.*elsevier"):
+        atlas.figure("cone", target="elsewier")
+
+
+def test_a_recipe_declares_a_number(tmp_path: Path) -> None:
+    """The least width is a number written out."""
+    file = tmp_path / "mine.py"
+    file.write_text('"""Mine."""\nNARROWEST = "wide"\ndef scene(): ...\n', encoding="utf-8")
+    with pytest.raises(AtlasError, match=r"NARROWEST in mine\.py is not a number"):
+        recipes.load(str(file))
+
+
+def test_a_scene_without_a_name_is_laid_out_too() -> None:
+    """A scene that no recipe made has no least width."""
+    scene = replace(recipes.load("stability_map").scene(), narrowest=0.0)
+    assert arranged(scene, find("aps")).size[0] == 86.0
