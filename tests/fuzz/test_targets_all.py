@@ -1,4 +1,4 @@
-"""Every recipe for every target: of the width that is asked, with its type and lines, no names that meet, or refused."""
+"""Every recipe for every target: of the width that is asked, with its type and lines, and no names that meet."""
 
 import pytest
 from marks import faults
