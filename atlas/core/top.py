@@ -67,8 +67,7 @@ class TopMotion(NutatingMotion[SingleTop]):
     without a loop; those next to a separatrix, nearly steady, or with rates of very different sizes are made one by
     one, some milliseconds each. Entries of R are within 3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the
     largest rate.
-    Raises DomainError if I3 is not in (0, 2 I2], if n is zero, or at a separatrix between n and -n with kappa not
-    zero, where the turn about the axis has no rate; AtlasError for what is no finite number.
+    Raises DomainError if I3 is not in (0, 2 I2] or if n is zero; AtlasError for what is no finite number.
     """
 
     family = "top"

@@ -137,7 +137,8 @@ class Nutating:
         if found.swing is None:
             return a, b, da, db
         turn = acb(0, (found.swing.at(arb(t), s) - found.swing.at(arb(0), found.origin)) / 2).exp()
-        up, down = abs(a) ** 2, abs(b) ** 2
+        # a square as a product: a power of a ball about zero is no number
+        up, down = (x.real * x.real + x.imag * x.imag for x in (a, b))
         rate = acb(0, found.swing.kappa * (up - down) / (up + down) / 2)
         return a * turn, b / turn, (da + rate * a) * turn, (db - rate * b) / turn
 

@@ -48,6 +48,26 @@ class Swing:
         return bent(self.odd.at(s)[0].real, self.even.at(s)[0].real, self.A)
 
 
+@dataclass(frozen=True)
+class Crossing:
+    """kappa times the integral of nu = sense tanh(slope s), on the separatrix between n and -n, where it has no rate.
+
+    It is kappa sense (|s| + log((1 + exp(-2 slope |s|))/2)/slope): kappa the one way before s = 0 and the other after.
+    """
+
+    kappa: arb
+    slope: arb
+    origin: arb
+    sense: int
+    rate = 1
+    """Size of the rate of the integral long before and after."""
+
+    def at(self, _: arb, s: arb) -> arb:
+        """Return kappa times the integral of nu from s = 0."""
+        x = self.slope * abs(s)
+        return self.kappa * self.sense * (x + ((1 + (-2 * x).exp()) / 2).log()) / self.slope
+
+
 def bent(odd: arb, even: arb, A: arb) -> arb:
     """Return 2 at(odd/even sqrt(|A|))/sqrt(|A|)."""
     if A == 0:
@@ -59,7 +79,7 @@ def bent(odd: arb, even: arb, A: arb) -> arb:
 
 
 def swing(of: Nutation, quartic: TopQuartic) -> Swing:
-    """Return the constants of the integral of nu for a motion of that quartic, but for one between n and -n."""
+    """Return the constants of the integral of nu for a motion of that quartic, but for the `crossing` of n and -n."""
     lattice, A = of.lattice, arb(quartic.A)
     sense = 1 if of.start.place == quartic.low else -1
     depth = arb(0)
@@ -81,6 +101,11 @@ def swing(of: Nutation, quartic: TopQuartic) -> Swing:
     if lattice.form == "hyperbolic" and not infinite(lattice.half):
         twist = -bent(odd.at(lattice.half)[0].real, even.at(lattice.half)[0].real, A) / lattice.half
     return Swing(lattice, arb(quartic.kappa), A, whole - twist, twist, odd, even, depth)
+
+
+def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
+    """Return the constants for the motion between n and -n that passes the equator at the time -origin."""
+    return Crossing(arb(quartic.kappa), arb(quartic.A).sqrt(), origin, -quartic.sense)
 
 
 def _apart(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:

@@ -14,14 +14,13 @@ from typing import Any
 
 from flint import acb, arb, ctx, fmpq
 
-from atlas.errors import DomainError
 from atlas.exact import top_steady, two_turns
 from atlas.exact.cayley_klein import Parameter, Solution, matrix
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.spheres import POLES, Sphere
-from atlas.exact.swing import swing
+from atlas.exact.swing import crossing, swing
 from atlas.exact.theta import Lattice, constant
 from atlas.exact.top_quadric import given
 from atlas.exact.top_quartic import TopQuartic
@@ -122,13 +121,12 @@ class TopMotion(Nutating):
 
     def _nutation(self, *, trigonometric: bool = False) -> Solution:
         nutation = Nutation(self.quartic, self.sphere)
-        if self.kind.endswith("between n and -n") and self.quartic.kappa != 0:
-            raise DomainError(
-                "This top turns over from n to -n once, on a separatrix, and with kappa = k2/I2 - k3/I3 not zero its "
-                "turn about its own axis has another rate before and after: no closed form is given here."
-            )
         found = nutation.solution(trigonometric=trigonometric)
-        return found if self.quartic.kappa == 0 else replace(found, swing=swing(nutation, self.quartic))
+        if self.quartic.kappa == 0:
+            return found
+        if self.kind.endswith("between n and -n"):
+            return replace(found, swing=crossing(self.quartic, found.origin))
+        return replace(found, swing=swing(nutation, self.quartic))
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
         """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""

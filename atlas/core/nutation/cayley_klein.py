@@ -17,8 +17,9 @@ from atlas.core.arithmetic.threads import shared
 from atlas.core.arithmetic.words import ZERO, middle
 from atlas.core.inputs import FloatArray, real
 from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric
-from atlas.core.nutation.swing import Swing
+from atlas.core.nutation.swing import Crossing, Swing
 from atlas.exact.cayley_klein import Solution
+from atlas.exact.swing import Crossing as ExactCrossing
 from atlas.exact.theta import infinite
 from atlas.formulas.numbers import workprec
 
@@ -72,7 +73,7 @@ class CayleyKlein:
                 return False
             kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
             self.functions = kind(found, [x.sum for x in pair])
-            self.swing = Swing(found.swing) if found.swing else None
+            self.swing = _swing(found.swing)
             tables = _weights(found, self.functions, slopes=self.sloping)
             largest = max(abs(x).mid() for row in tables[0] for x in row)
             if not all(_known(x, largest) for table in tables for row in table for x in row):
@@ -80,7 +81,7 @@ class CayleyKlein:
             if self.swing and not self.swing.is_known:
                 return False
             self.frequencies = [middle(x) for x in turns]
-            self.origins = [ZERO, ZERO, middle(origin)] if self.periodic else None
+            self.origins = [ZERO, ZERO, middle(origin)] if self.periodic else _crossed(found)
             self.phases = self._phases()
             self.values = np.concatenate([_real_parts(table, largest) for table in tables])
             self.lost = self._lost(tables[0])
@@ -103,6 +104,20 @@ class CayleyKlein:
         phases = Phases(self.frequencies, self.origins, np.array([EVEN, EVEN, ROUNDER])[:, None])
         phases.near = -1.0
         return phases
+
+
+def _swing(exact: Any) -> Any:
+    """Return what the integral of nu adds to the turn about the axis, None for nothing."""
+    if exact is None:
+        return None
+    return Crossing(exact) if isinstance(exact, ExactCrossing) else Swing(exact)
+
+
+def _crossed(found: Solution) -> list[arb] | None:
+    """Return the phases at t = 0 on a separatrix: of kappa s between n and -n, else None."""
+    if not isinstance(found.swing, ExactCrossing):
+        return None
+    return [ZERO, middle(found.swing.kappa * found.swing.origin / (2 * arb.pi()))]
 
 
 def _turns(found: Solution, periodic: bool) -> tuple[list[arb], arb]:
@@ -206,7 +221,7 @@ class Evaluation:
         x, rest = functions.line.at(near, 0.0 if low is None else low)
         functions.fill(rows, x, rest)
         if self.of.swing:
-            u[1] += self.of.swing.half_on_line(x, rest)
+            u[1] = self.of.swing.along(u[1], x, rest)
         return np.asarray(u)
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:

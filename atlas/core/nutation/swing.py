@@ -11,6 +11,7 @@ from flint import arb
 from numpy.typing import NDArray
 
 from atlas.core.inputs import FloatArray
+from atlas.exact.swing import Crossing as ExactCrossing
 from atlas.exact.swing import Swing as Exact
 from atlas.exact.theta import infinite
 
@@ -32,6 +33,9 @@ HALF_TURN = 4 * np.arctan(np.longdouble(1))
 
 LARGE = 2.0
 """Angle from which on a double is too coarse, and extended precision is taken where the processor has it."""
+
+
+LOG2 = float(np.log(2.0))
 
 
 class Swing:
@@ -82,6 +86,10 @@ class Swing:
         """Return it from half phases and what rounding left out of them, 2v being a multiple, rounded once."""
         v = multiple * self._sum(half, rest)
         return self._rounded(self.of_circle(np.cos(v), np.sin(v)))
+
+    def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return half of the whole turn where there is no period: `half` is that of its rate, x + rest = rate s."""
+        return half + self.half_on_line(x, rest)
 
     def half_on_line(
         self, x: FloatArray, rest: FloatArray, v: FloatArray | float = 0.0, left: FloatArray | float = 0.0
@@ -140,6 +148,21 @@ class Swing:
         if self.sign < 0:
             return np.asarray(self.factor * np.arctan2(odd, even))
         return np.asarray(self.factor * (np.arctanh(odd / even) if self.sign else odd / even))
+
+
+class Crossing:
+    """Half of the turn on the separatrix between n and -n: its rate changes sign where x = slope s/2 does."""
+
+    is_known, is_large = True, False
+
+    def __init__(self, exact: ExactCrossing) -> None:
+        self.sense, self.factor = exact.sense, float((exact.kappa / (2 * exact.slope)).mid())
+
+    def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return it from `half`, half of kappa s less whole half turns, and from x + rest = slope s/2."""
+        s = x + rest
+        bent = self.factor * (np.log1p(np.exp(-4 * np.abs(s))) - LOG2)
+        return np.asarray(self.sense * (np.where(s < 0, -half, half) + bent))
 
 
 def _known(x: arb, largest: arb) -> bool:
