@@ -9,10 +9,11 @@ the other is a pair of complex times (T_H, T_F) after which M and K are back, so
 times. What is found here is a start for `atlas.exact.asymmetric`, which proves that it is one, and nothing else.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import ceil, log
+from typing import Any
 
 from flint import acb, acb_series, arb, fmpq, fmpq_poly, fmpz_mat
 
@@ -27,7 +28,7 @@ LEAST = 0.05
 PATHS = 12
 """Paths that are gone, the quickest of each pair of zeros first."""
 
-FINE, ONE = 60, 15
+FINE, ONE = 90, 46
 """Bits of the periods in a search for integer relations, and of an integer there: a relation is one to their half."""
 
 Pair = tuple[arb, arb]
@@ -75,12 +76,13 @@ class Integrals:
 def real_periods(motion: Integrals) -> list[Pair]:
     """Return two approximate pairs of real times, as short as can be; fewer where the paths are too long."""
     with workprec(BITS):
-        curve = _Curve(motion)
+        curve = Curve(motion)
         found = [curve.along(*path) for path in curve.paths()]
-        return _basis([(2 * x.real, 2 * y.real) for x, y in found])
+        pairs = [[2 * x.real, 2 * y.real] for x, y, _ in found]
+        return [(x.mid(), y.mid()) for x, y in sums(pairs, generating(pairs))]
 
 
-class _Curve:
+class Curve:
     """The zeros of Psi on the torus of u, and integrals between them."""
 
     def __init__(self, motion: Integrals) -> None:
@@ -90,7 +92,7 @@ class _Curve:
         m, size = arb((middle - low) / (high - low)), arb(high - low).sqrt()
         self.real = 2 * acb(m).elliptic_k().real / size
         self.imaginary = acb(0, 2 * acb(1 - m).elliptic_k().real / size)
-        self.tau = _middle(self.imaginary / self.real)
+        self.tau = centre(self.imaginary / self.real)
         self.zeros = [self._place(z, v) for z, v in self._zeros()]
 
     def _zeros(self) -> Iterator[tuple[acb, acb]]:
@@ -112,24 +114,28 @@ class _Curve:
 
     def _place(self, z: acb, v: acb) -> acb:
         """Return the u of a point of the curve, in the cell about zero."""
-        u = _middle(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
+        u = centre(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
         _, found = self.at(u)
         if _far(found - v) > _far(found + v):
             u = -u
         y = round(float(u.imag.mid()) / float(self.imaginary.imag.mid()))
         u -= y * self.imaginary
-        return _middle(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
+        return centre(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
 
-    def paths(self) -> list[tuple[acb, acb, float]]:
-        """Return straight paths between zeros with the rates at which their sums converge, quickest first."""
+    def paths(self, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
+        """Return straight paths between zeros with the rates at which their sums converge, quickest first.
+
+        With `poles`, those of z count as well: the third integral of `along` has them.
+        """
         shifts = [(m * self.real, n * self.imaginary) for m, n in product(range(-2, 3), repeat=2)]
-        images = [[_complex(zero + x + y) for x, y in shifts] for zero in self.zeros]
+        images = [[complex_of(zero + x + y) for x, y in shifts] for zero in self.zeros]
         everywhere = [place for row in images for place in row]
+        everywhere += [complex_of(x + y) for x, y in shifts] if poles else []
         found: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
         for i, j in product(range(len(self.zeros)), repeat=2):
             for x, y in shifts:
                 start, stop = self.zeros[i], self.zeros[j] + x + y
-                a, b = _complex(start), _complex(stop)
+                a, b = complex_of(start), complex_of(stop)
                 if j < i or abs(b - a) < 1e-12:
                     continue
                 rate = min(_rate(a, b, place) for place in everywhere if min(abs(place - a), abs(place - b)) > 1e-9)
@@ -139,42 +145,52 @@ class _Curve:
         chosen = sorted((path for row in rows for path in row[:3]), key=lambda path: -path[0])
         return [(start, stop, rate) for rate, start, stop in chosen[:PATHS]]
 
-    def along(self, start: acb, stop: acb, rate: float) -> tuple[acb, acb]:
-        """Return the pair of times of a path, by the midpoint rule in s, u = start + (stop - start)(1 - cos s)/2."""
+    def along(self, start: acb, stop: acb, rate: float) -> tuple[acb, acb, acb]:
+        """Return -2i times the integral of (D, z, v) du/eta along a path.
+
+        That is done by the midpoint rule in s, u = start + (stop - start)(1 - cos s)/2.
+        """
         count, way = ceil(BITS * log(2) / 2 / rate) + 8, stop - start
-        first, second, before = acb(0), acb(0), None
+        first, second, third, before = acb(0), acb(0), acb(0), None
         for k in range(count):
             s = arb.pi() * (2 * k + 1) / (2 * count)
             z, v = self.at(start + way * (1 - s.cos()) / 2)
-            root = _middle((_polynomial(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2).sqrt()
+            root = centre((_polynomial(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2).sqrt()
             if before is not None and _far(root - before) > _far(root + before):
                 root = -root
             before = root
             first += 1 / root
             second += z / root
+            third += v / root
         weight = acb(0, -1) * way * arb.pi() / count
-        return _middle(first * weight * self.motion.D), _middle(second * weight)
+        return centre(first * weight * self.motion.D), centre(second * weight), centre(third * weight)
 
 
-def _basis(pairs: list[Pair]) -> list[Pair]:
-    """Return what generates all that sums of some pairs make, reduced; integer relations are found by LLL."""
-    sizes = [max((abs(float(pair[k])) for pair in pairs), default=0.0) for k in (0, 1)]
-    if not all(sizes):
+def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
+    """Return the weights of sums that generate all sums of some real vectors, by integer relations that LLL finds."""
+    width = len(vectors[0]) if vectors else 0
+    sizes = [max(abs(float(x[k].mid())) for x in vectors) for k in range(width)]
+    if not (sizes and all(sizes)):
         return []
-    count = len(pairs)
+    count = len(vectors)
     rows = [
-        [*(_nearest(pair[k] / sizes[k] * arb(2) ** FINE) for k in (0, 1)), *(int(i == j) << ONE for j in range(count))]
-        for i, pair in enumerate(pairs)
+        [*(nearest(x / size * arb(2) ** FINE) for x, size in zip(row, sizes, strict=True)), *(int(i == j) << ONE for j in range(count))]
+        for i, row in enumerate(vectors)
     ]
     reduced = fmpz_mat(rows).lll().tolist()
-    weights = [
-        [int(x) >> ONE for x in row[2:]] for row in reduced if max(abs(int(x)) for x in row[:2]) > 1 << FINE // 2
+    large = [row for row in reduced if max(abs(int(x)) for x in row[:width]) > 1 << FINE // 2]
+    return [[int(x) >> ONE for x in row[width:]] for row in large]
+
+
+def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> list[list[Any]]:
+    """Return sums of vectors with whole weights."""
+    return [
+        [sum((n * x for n, x in zip(row, column, strict=True) if n), 0 * column[0]) for column in zip(*vectors, strict=True)]
+        for row in weights
     ]
-    sums = [[sum((n * pair[k] for n, pair in zip(row, pairs, strict=True)), arb(0)) for k in (0, 1)] for row in weights]
-    return [(x.mid(), y.mid()) for x, y in sums]
 
 
-def _nearest(x: arb) -> int:
+def nearest(x: arb) -> int:
     return int((x.mid() + 0.5).floor().unique_fmpz())
 
 
@@ -193,13 +209,13 @@ def _rate(a: complex, b: complex, place: complex) -> float:
     return abs(log(size))
 
 
-def _middle(x: acb) -> acb:
+def centre(x: acb) -> acb:
     return acb(x.real.mid(), x.imag.mid())
 
 
-def _complex(x: acb) -> complex:
+def complex_of(x: acb) -> complex:
     return complex(float(x.real.mid()), float(x.imag.mid()))
 
 
 def _far(x: acb) -> float:
-    return abs(_complex(x))
+    return abs(complex_of(x))

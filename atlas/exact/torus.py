@@ -13,12 +13,14 @@ components are then those of the start, since H, F and both Casimirs are, and th
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
 
 from flint import arb, arb_mat, fmpq
 
 from atlas.errors import NotCertifiedError
 from atlas.exact.clebsch_flow import Arrival, Flow
+from atlas.exact.clebsch_lattice import Lattice, lattice
 from atlas.exact.clebsch_periods import Integrals, real_periods
 from atlas.formulas.numbers import Vector, cross, dot, workprec
 
@@ -77,11 +79,19 @@ class Torus:
 
     def _approximate(self) -> list[tuple[Fraction, Fraction]]:
         if self._starts is None:
-            found = real_periods(self.integrals)
+            try:
+                found = [(x.real, y.real) for x, y, _ in self.lattice.real]
+            except NotCertifiedError:  # fewer will do here
+                found = real_periods(self.integrals)
             if len(found) != 2:
                 raise NotCertifiedError("not certified: no two periods of the motion's torus were found.")
             self._starts = [(_fraction(x), _fraction(y)) for x, y in found]
         return self._starts
+
+    @cached_property
+    def lattice(self) -> Lattice:
+        """All periods, approximate; NotCertifiedError where they are not found."""
+        return lattice(self.integrals)
 
     def _enclosed(self, start: tuple[Fraction, Fraction], bits: int) -> Period:
         """Prove a period; where its start is too rough for that, improve it first, each round with twice the bits."""

@@ -1,0 +1,115 @@
+"""The motion of a body with three moments by theta functions, at many times.
+
+Times go to two phases of the torus and one about the field, each reduced to less than a turn without loss; on the torus
+M, K and N = S^T (e_x + i e_y) are quotients of sums of exponentials, see `atlas.exact.theta_sums`. With x the phases
+in turns, n the whole ones that are left out of f t, and theta_k the angles of the periods,
+
+    R^T (e_x + i e_y) = exp(i alpha) exp(-i theta x) N(x),    alpha = (theta f - b) t.
+"""
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+from flint import acb, arb
+
+from atlas.core.arithmetic.phase import EVEN, Phases
+from atlas.core.arithmetic.words import TURN, middle
+from atlas.core.inputs import FloatArray
+from atlas.core.nutation.cayley_klein import combined, evaluate
+from atlas.exact.clebsch_periods import complex_of
+from atlas.exact.clebsch_theta import ThetaMotion, frame
+from atlas.exact.theta_sums import Array, Form, Sums
+from atlas.exact.torus import Period
+from atlas.formulas.numbers import workprec
+
+Fill: TypeAlias = Callable[[FloatArray, FloatArray], None]
+
+PART = 768
+"""Times whose sums are made at once, so that they stay in the second-level cache."""
+
+CELL = 40
+"""Points along each phase at which rounding errors are bounded."""
+
+BITS = 200
+
+
+class ThetaKernel:
+    """R, K and W = II^-1 M of one motion at many times; `periods` are those of its torus, `rate` the unit 1/time."""
+
+    def __init__(self, theta: ThetaMotion, periods: tuple[Period, Period], rate: float) -> None:
+        with workprec(BITS):
+            motion, X = theta.motion, theta.X.inv()
+            area = periods[0].H * periods[1].F - periods[0].F * periods[1].H
+            f = [periods[1].F / area, -periods[0].F / area]
+            into = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
+            lines = [theta.l[0] * into[0][k] + theta.l[1] * into[1][k] for k in range(2)]
+            # the angles of the periods are known but for whole turns: those nearest to what N turns by
+            angles = [p.angle + TURN * round(float(((x.real - p.angle) / TURN).mid())) for p, x in zip(periods, lines, strict=True)]
+            self.b = arb(motion.square).sqrt()
+            about = angles[0] * f[0] + angles[1] * f[1] - self.b
+            self.frequencies = [x * arb(rate) for x in (TURN * f[0], TURN * f[1], about)]
+            self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
+            self.into = np.array([[complex_of(2 * into[0][k]), complex_of(into[1][k])] for k in range(2)]).T / np.pi
+            self.turning = np.array([complex_of(x - a) for x, a in zip(lines, angles, strict=True)]) / np.pi
+            start = (2 * theta.start[0], theta.start[1])
+            factor = (acb(0, 1) * (theta.l[0] * theta.start[0] + theta.l[1] * theta.start[1])).exp()
+            shift = (2 * theta.w[0], theta.w[1])
+            N = [Form(x.place, (x.weights[0] * factor, x.weights[1] * factor), shift) for x in theta.N]
+            unit = [1 / I for I in motion.moments]
+            W = [Form(x.place, (x.weights[0] * u, x.weights[1] * u)) for x, u in zip(theta.M, unit, strict=True)]
+            line = np.linspace(-np.pi / 2, np.pi / 2, CELL + 1)
+            self.cell = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
+            forms = [*N, theta.denominator, *theta.K, *W]
+            self.sums = Sums(theta.hat, forms, start, self.into @ self.cell)
+            ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
+            n = [float((x / self.b).mid()) for x in theta.field]
+        self.rate = rate
+        self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey) for j in range(3)])
+        along = np.array([np.outer(n, np.eye(3)[j]).ravel() for j in range(3)]) / float(self.b.mid())
+        self.entries = np.concatenate([self.entries, along])
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+        return evaluate(t, (3, 3), out, lambda _: self._attitude(self.entries))
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
+        return evaluate(t, (3,), out, lambda _: self._attitude(self.entries[:, j - 1 :: 3]))
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K(t), shape (..., 3)."""
+        return evaluate(t, (3,), out, lambda _: self._vectors(slice(3, 7), np.eye(3)))
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t) = W - K, shape (..., 3)."""
+        return evaluate(t, (3,), out, lambda _: self._vectors(slice(3, 10), np.concatenate([-np.eye(3), np.eye(3)])))
+
+    def _attitude(self, weights: FloatArray) -> Fill:
+        """Return what fills rows with combinations of Re N, Im N and K of the motion."""
+
+        def fill(t: FloatArray, rows: FloatArray) -> None:
+            for i in range(0, t.size, PART):
+                half, rest = self._phases(t[i : i + PART])
+                x, y, z, D, *K = self.sums.at(self.into @ half[:2], self.into @ rest[:2], slice(0, 7))
+                angle = self.turning @ half[:2]
+                N = np.array([x, y, z]) * (np.exp(1j * (2 * half[2] + angle)) / D)
+                combined(np.concatenate([N.real, N.imag, (np.array(K) / D).real]), weights, rows[i : i + PART])
+
+        return fill
+
+    def _vectors(self, part: slice, weights: FloatArray) -> Fill:
+        """Return what fills rows with combinations of K, or of K and W."""
+
+        def fill(t: FloatArray, rows: FloatArray) -> None:
+            for i in range(0, t.size, PART):
+                half, rest = self._phases(t[i : i + PART])
+                D, *found = self.sums.at(self.into @ half[:2], self.into @ rest[:2], part)
+                combined((np.array(found) / D).real * self.rate, weights, rows[i : i + PART])
+
+        return fill
+
+    def _phases(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return half the phases less whole turns, in radians, and what rounding left out of them."""
+        half, rest, *_ = self.phases.reduced(t, np.empty((8, 3, t.size)))
+        return half, rest

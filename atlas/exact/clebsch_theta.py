@@ -1,0 +1,349 @@
+"""Clebsch's motion on its torus by theta functions of two variables: their constants, approximate to many digits.
+
+With zeta = X^-1 (t, g), t and g the times of the flows of H and F/2 from an origin where M_i = K_i = 0 for one i,
+
+    K_j, M_j = (n0 theta[0,e_j; 0,d_j] + n1 theta[1,e_j; 0,d_j]) / (d0 theta[0,e_0; 0,d_0] + d1 theta[1,e_0; 0,d_0]),
+    N = S^T (e_x + i e_y) = exp(i l zeta) (the same form at zeta - w) / (the same denominator),
+
+e_x, e_y and B' being a right-handed system and the argument (2 zeta_1, zeta_2) with [[2 tau11, tau12], [tau12,
+tau22/2]]: one pair of characteristics for the denominator and one for each axis. Origins are algebraic; the constants
+follow by a linear fit to Taylor's series there, and the place of the start by Newton's method. That the functions are
+of that form rests on a count of dimensions, not on a proof: see `agreement` of `atlas.core.asymmetric`.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from operator import mul
+
+import numpy as np
+from flint import acb, acb_mat, acb_poly, arb, fmpq, fmpq_poly
+from numpy.typing import NDArray
+
+from atlas.errors import NotCertifiedError
+from atlas.exact.clebsch_lattice import Lattice
+from atlas.exact.clebsch_periods import BITS, Integrals, centre, complex_of
+from atlas.exact.theta_sums import CHARACTERISTICS, Array, Form, Sums
+from atlas.formulas.numbers import cross, dot, workprec
+
+POINTS, TERMS = 7, 140
+"""Points of a fit, and terms of Taylor's series there."""
+
+NEAR = 3
+"""They lie on a circle that is so many times smaller than that of convergence."""
+
+GRID, CANDIDATES = 48, 24
+"""Points along each real period among which the start is looked for, and those of them that are tried."""
+
+NEWTON = 12
+"""Steps of Newton's method."""
+
+FITTED = 1e-18
+"""Largest residual of a fit, beside its values."""
+
+Vector = list[acb]
+Pair = tuple[acb, acb]
+
+
+@dataclass(frozen=True)
+class State:
+    """M and K, and N where it is asked for, as a point of the complex torus."""
+
+    M: Vector
+    K: Vector
+    N: Vector
+
+    @property
+    def all(self) -> Vector:
+        """The components in a row."""
+        return [*self.M, *self.K, *self.N]
+
+
+def origins(motion: Integrals) -> list[tuple[int, State]]:
+    """Return the states with the integrals of a motion at which M_i = K_i = 0, with i: one of each four by symmetry."""
+    found = list[tuple[int, State]]()
+    I, D, b2, c = motion.moments, motion.D, motion.square, motion.c
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        # with A = K_j^2 and s = K_j M_k - K_k M_j, F gives s^2 and H gives the product s K_j K_k
+        A, rest = fmpq_poly([0, 1]), fmpq_poly([b2, -1])
+        s2 = b2 * (motion.F + D / I[k] * b2) - c * c + b2 * (D / I[j] - D / I[k]) * A
+        less = (c * c * A + s2 * rest) / I[j] + (c * c * rest + s2 * A) / I[k]
+        less = less + b2 * b2 * (I[j] * A + I[k] * rest - 2 * motion.H)
+        across = c * (1 / I[j] - 1 / I[k])
+        quartic = less * less - 4 * across * across * s2 * A * rest if c else less
+        for root, _ in quartic.complex_roots():
+            a, d, s = (centre(_value(x, root)).sqrt() for x in (A, rest, s2))
+            if abs(complex_of(2 * across * s * a * d - _value(less, root))) > abs(
+                complex_of(2 * across * s * a * d + _value(less, root))
+            ):
+                s = -s
+            K, M = [acb(0)] * 3, [acb(0)] * 3
+            K[j], K[k] = a, d
+            M[j], M[k] = (c * a - s * d) / b2, (c * d + s * a) / b2
+            found.append((i, State([centre(x) for x in M], [centre(x) for x in K], [])))
+    return sorted(found, key=lambda x: sum(abs(complex_of(z)) ** 2 for z in x[1].all))
+
+
+def _value(polynomial: fmpq_poly, x: acb) -> acb:
+    found = acb(0)
+    for c in reversed(polynomial.coeffs()):
+        found = found * x + c
+    return found
+
+
+def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
+    """Return Taylor coefficients of M, K and N along the flow of H, nine or six rows."""
+    rows = [[x] for x in start.all]
+    A = [1 / I for I in moments]
+    for n in range(TERMS):
+        back = [row[::-1] for row in rows]
+        new = list[acb]()
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            new.append(_product(rows, back, j, k) * (A[k] - A[j]) + _product(rows, back, 3 + j, 3 + k) * (moments[k] - moments[j]))
+        for first in range(3, len(rows), 3):
+            for i in range(3):
+                j, k = (i + 1) % 3, (i + 2) % 3
+                new.append(_product(rows, back, first + j, k) * A[k] - _product(rows, back, first + k, j) * A[j])
+        for row, x in zip(rows, new, strict=True):
+            row.append(centre(x / (n + 1)))
+    return rows
+
+
+def _product(rows: list[Vector], back: list[Vector], x: int, y: int) -> acb:
+    """Return a coefficient of the product of two rows."""
+    return sum(map(mul, rows[x], back[y]), acb(0))
+
+
+def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
+    """Return times on a circle about zero and the states at them along the flow of H."""
+    rows = series(moments, start)
+    growth = max(abs(complex_of(row[n])) ** (1 / n) for row in rows for n in (TERMS, TERMS - 1, TERMS - 2))
+    found = list[tuple[acb, State]]()
+    for k in range(POINTS):
+        t = centre((acb(0, 2 * arb.pi() * k / POINTS)).exp() / arb(growth) / NEAR)
+        values = [centre(acb_poly(row)(t)) for row in rows]
+        found.append((t, State(values[:3], values[3:6], values[6:])))
+    return found
+
+
+class ThetaMotion:
+    """The constants of one motion: `denominator`, forms of K, M and N, `start` zeta at t = 0, `l` and `w`."""
+
+    def __init__(self, motion: Integrals, W: Sequence[fmpq], K: Sequence[fmpq], lattice: Lattice) -> None:
+        self.motion, self.field, self.lattice = motion, K, lattice
+        with workprec(BITS):
+            self.X, self.tau = lattice.X, lattice.tau
+            t = self.tau
+            self.hat = acb_mat([[2 * t[0, 0], t[0, 1]], [t[0, 1], t[1, 1] / 2]])
+            self.denominator, self.K, self.M = self._fitted()
+            e = frame(K)
+            N = [acb(x, y) for x, y in zip(*e, strict=True)]
+            M = [acb(I * w) for I, w in zip(motion.moments, W, strict=True)]
+            self.at_start = State(M, [acb(x) for x in K], N)
+            self.start = self._place()
+            self.l, self.w = self._quasi_periods()
+            self.N = self._turned()
+
+    def zeta(self, T: Sequence[acb]) -> Vector:
+        """Return X^-1 T."""
+        found = self.X.solve(acb_mat([[T[0]], [T[1]]]))
+        return [centre(found[0, 0]), centre(found[1, 0])]
+
+    def pairs(self, zeta: Sequence[acb]) -> list[Pair]:
+        """Return the four pairs of theta functions at zeta."""
+        found = self.hat.theta(acb_mat([[2 * zeta[0]], [zeta[1]]]))
+        return [(found[0, 4 * e + d], found[0, 8 + 4 * e + d]) for e, d in CHARACTERISTICS]
+
+    def state(self, zeta: Sequence[acb]) -> State:
+        """Return M and K at zeta."""
+        pairs = self.pairs(zeta)
+        D = self.denominator.of(pairs)
+        M, K = ([centre(form.of(pairs) / D) for form in forms] for forms in (self.M, self.K))
+        return State(M, K, [])
+
+    def _fitted(self) -> tuple[Form, list[Form], list[Form]]:
+        """Return the forms of the denominator, of K and of M."""
+        axis, origin = origins(self.motion)[0]
+        points = around(self.motion.moments, origin)
+        pairs = [self.pairs(self.zeta((t, acb(0)))) for t, _ in points]
+        j = (axis + 1) % 3
+        tried = list[tuple[float, Form]]()
+        for place in range(3):
+            for other in range(3):
+                if other != place:
+                    rows = [
+                        [state.K[j] * p[place][0], state.K[j] * p[place][1], -p[other][0], -p[other][1]]
+                        for p, (_, state) in zip(pairs, points, strict=True)
+                    ]
+                    null, error = _null(rows)
+                    tried.append((error, Form(place, (null[0], null[1]))))
+        error, denominator = min(tried, key=lambda x: x[0])
+        self.error = error
+        D = [denominator.of(p) for p in pairs]
+        free = [n for n in range(3) if n != denominator.place]
+        forms: dict[str, list[Form]] = {"K": [], "M": []}
+        for i in range(3):
+            for name in forms:
+                values = [getattr(state, name)[i] * d for (_, state), d in zip(points, D, strict=True)]
+                forms[name].append(self._form(pairs, values, (3,) if i == axis else free))
+        return denominator, forms["K"], forms["M"]
+
+    def _form(self, pairs: list[list[Pair]], values: Vector, places: Sequence[int]) -> Form:
+        """Return the form that has some values."""
+        tried = list[tuple[float, Form]]()
+        for place in places:
+            weights, error = _least_squares([list(p[place]) for p in pairs], values)
+            tried.append((error, Form(place, (weights[0], weights[1]))))
+        error, form = min(tried, key=lambda x: x[0])
+        self.error = max(self.error, error)
+        if not error < FITTED:
+            raise NotCertifiedError(f"not certified: theta functions do not fit the motion, by {error:.1g}.")
+        return form
+
+    def _place(self) -> Vector:
+        """Return zeta at the start, by Newton's method from the nearest points of a grid.
+
+        Conjugation takes origins to origins, which are half a period apart: so the imaginary part of the times between
+        them and the start is a fourth of that of a period.
+        """
+        motion, target = self.motion, np.array([complex_of(x) for x in self.at_start.all[:6]])
+        real, others = (
+            np.array([[complex_of(x) for x in T[:2]] for T in pair])
+            for pair in (self.lattice.real, self.lattice.others)
+        )
+        steps = np.stack(np.meshgrid(*[np.arange(GRID) / GRID] * 2, indexing="ij"), -1).reshape(-1, 2)
+        quarters = np.stack(np.meshgrid(*[np.arange(4) / 4] * 2, indexing="ij"), -1).reshape(-1, 1, 2)
+        times = ((steps @ real) + (quarters @ others)).reshape(-1, 2)
+        rough = Rough(self)
+        far = np.linalg.norm(rough.states(times) - target, axis=1)
+        for T in times[np.argsort(far)[:CANDIDATES]]:
+            found = rough.near(T, target)
+            if found is not None:
+                return self._improved(found, _fields(motion.moments, target))
+        raise NotCertifiedError("not certified: the place of the start on the motion's torus was not found.")
+
+    def _improved(self, T: Array, fields: Array) -> Vector:
+        """Return zeta at the start to all digits, from times near it."""
+        i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(fields[list(p)])))
+        start = self.at_start.all
+        a, b, c, d = (acb(complex(fields[p, q])) for p, q in ((i, 0), (i, 1), (j, 0), (j, 1)))
+        times = [acb(complex(x)) for x in T]
+        for _ in range(NEWTON):
+            found = self.state(self.zeta(times)).all
+            f, g = start[i] - found[i], start[j] - found[j]
+            times = [
+                centre(times[0] + (f * d - g * b) / (a * d - b * c)),
+                centre(times[1] + (g * a - f * c) / (a * d - b * c)),
+            ]
+        self.error = max(abs(complex_of(x - y)) for x, y in zip(self.state(self.zeta(times)).all, start[:6], strict=True))
+        return self.zeta(times)
+
+    def _quasi_periods(self) -> tuple[Vector, Vector]:
+        """Return l and w: under a period N gets the factor exp(-i b T_c), which is known but for whole turns."""
+        b, i = arb(self.motion.square).sqrt(), acb(0, 1)
+        angles = [-b * T[2] for T in (*self.lattice.a, *self.lattice.b)]
+        tau, Y = self.tau, np.array([[complex_of(self.tau[j, k]).imag for k in range(2)] for j in range(2)])
+        # w = (angle_b - tau l)/(4 pi), and l may change by (2 pi m, pi n)
+        l = [angles[0], angles[1] / 2]
+        w = [(angles[2 + k] - l[0] * tau[0, k] - l[1] * tau[1, k]) / (4 * arb.pi()) for k in range(2)]
+        m, n = (round(float(x)) for x in np.linalg.solve(Y * np.array([1 / 2, 1 / 4]), [complex_of(x).imag for x in w]))
+        l = [centre(l[0] + 2 * arb.pi() * m), centre(l[1] + arb.pi() * n)]
+        w = [centre((angles[2 + k] - l[0] * tau[0, k] - l[1] * tau[1, k]) / (4 * arb.pi())) for k in range(2)]
+        del i
+        return l, w
+
+    def _turned(self) -> list[Form]:
+        """Return the forms of N."""
+        points = around(self.motion.moments, self.at_start)
+        shifted, factors = list[list[Pair]](), Vector()
+        for t, _ in points:
+            zeta = [x + y for x, y in zip(self.zeta((t, acb(0))), self.start, strict=True)]
+            shifted.append(self.pairs([x - y for x, y in zip(zeta, self.w, strict=True)]))
+            factors.append(self.denominator.of(self.pairs(zeta)) / (acb(0, 1) * dot(self.l, zeta)).exp())
+        return [
+            self._form(shifted, [s.N[j] * x for (_, s), x in zip(points, factors, strict=True)], range(4))
+            for j in range(3)
+        ]
+
+
+class Rough:
+    """M and K by the same forms in doubles, at many places anywhere."""
+
+    def __init__(self, motion: ThetaMotion) -> None:
+        self.moments = motion.motion.moments
+        self.hat, X = (
+            np.array([[complex_of(x[i, j]) for j in range(2)] for i in range(2)]) for x in (motion.hat, motion.X)
+        )
+        self.inverse, self.into = np.linalg.inv(self.hat.imag), np.linalg.inv(X) * np.array([[2], [1]])
+        cell = np.array([[x, y] for x in (-1, 0, 1) for y in (-1, 0, 1)])
+        forms = [motion.denominator, *motion.M, *motion.K]
+        self.sums = Sums(motion.hat, forms, (acb(0), acb(0)), 1j * (cell @ self.hat.imag).T)
+
+    def states(self, times: Array) -> Array:
+        """Return M and K at pairs of times (m, 2), shape (m, 6)."""
+        v = times @ self.into.T
+        # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
+        v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
+        D, *values = self.sums.at(v.T)
+        return np.asarray((np.array(values) / D).T)
+
+    def near(self, T: Array, target: Array) -> Array | None:
+        """Return times at which the state is the target, by Newton's method; None where it leads astray."""
+        size, before = np.linalg.norm(target), np.inf
+        for _ in range(NEWTON):
+            state = self.states(T[None])[0]
+            far = np.linalg.norm(state - target)
+            if far < 1e-9 * size:
+                return T
+            if not far < 4 * before:
+                return None
+            before = far
+            T = T + np.linalg.lstsq(_fields(self.moments, state), target - state, rcond=None)[0]
+        return None
+
+
+def _fields(moments: Sequence[fmpq], state: Array) -> Array:
+    """Return the rates of M and K along the flows of H and of F/2, (6, 2)."""
+    I = np.array([int(x.p) / int(x.q) for x in moments])
+    M, K = state[:3], state[3:]
+    J = -I.prod() / I
+    first = np.concatenate([np.cross(M, M / I) + np.cross(K, I * K), np.cross(K, M / I)])
+    return np.stack([first, np.concatenate([np.cross(K, J * K), np.cross(K, M)])], -1)
+
+
+def frame(K: Sequence[fmpq]) -> tuple[Vector, Vector]:
+    """Return e_x and e_y, which with the direction of K are a right-handed system."""
+    size = arb(dot(K, K)).sqrt()
+    n = [x / size for x in K]
+    least = min(range(3), key=lambda i: abs(float(n[i].mid())))
+    e = [arb(int(i == least)) for i in range(3)]
+    x = cross(n, e)
+    length = dot(x, x).sqrt()
+    ex = [a / length for a in x]
+    return ex, list(cross(n, ex))
+
+
+def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
+    """Return the solution of more equations than unknowns, and its residual beside the values."""
+    A, B = acb_mat(rows), acb_mat([[x] for x in values])
+    adjoint = A.transpose().conjugate()
+    found = (adjoint * A).solve(adjoint * B)
+    rest = A * found - B
+    size = max(abs(complex_of(x)) for x in values) or 1.0
+    return [centre(found[i, 0]) for i in range(len(rows[0]))], max(
+        abs(complex_of(rest[i, 0])) for i in range(len(rows))
+    ) / size
+
+
+def _null(rows: list[Vector]) -> tuple[Vector, float]:
+    """Return the vector that rows are orthogonal to, with the best of its components 1, and the residual."""
+    found = list[tuple[float, Vector]]()
+    for k in range(2):
+        others = [n for n in range(len(rows[0])) if n != k]
+        part, error = _least_squares([[row[n] for n in others] for row in rows], [-row[k] for row in rows])
+        part.insert(k, acb(1))
+        found.append((error, part))
+    error, vector = min(found, key=lambda x: x[0])
+    return vector, error

@@ -1,0 +1,109 @@
+"""Theta functions of two variables in doubles: finite sums of exponentials over a region, as one table of weights.
+
+A theta function with characteristics [c, e; 0, d] of the argument v is, with k = (P/2, Q/2), P = c and Q = e modulo 2,
+
+    sum over P, Q of exp(i pi (k hat k + k_2 d)) exp(i pi (P v_1 + Q v_2)).
+
+Several of them share their powers of exp(i pi v_1) and exp(i pi v_2): a matrix product sums over Q, and another pass
+over P. Only quotients are wanted, so that one exponential may be left out of all of them.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from flint import acb, acb_mat, arb
+from numpy.typing import NDArray
+
+from atlas.exact.clebsch_periods import complex_of
+
+CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
+"""Pairs (e, d): theta[c,e; 0,d] for c = 0, 1."""
+
+LEFT_OUT = 46.0
+"""Logarithm of what terms that are left out are smaller by than the largest one, wherever they are summed."""
+
+Array: TypeAlias = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Form:
+    """n0 theta[0,e;0,d] + n1 theta[1,e;0,d] of v - shift, by the place of (e, d) among CHARACTERISTICS."""
+
+    place: int
+    weights: tuple[acb, acb]
+    shift: tuple[acb, acb] = (acb(0), acb(0))
+
+    def of(self, pairs: Sequence[tuple[acb, acb]]) -> acb:
+        """Return the value, from those of all pairs of theta functions at v - shift."""
+        (n0, n1), (first, second) = self.weights, pairs[self.place]
+        return n0 * first + n1 * second
+
+
+class Sums:
+    """Forms at v = origin + region, as functions of `region` (2, m) in doubles, over a common exponential.
+
+    `table` (forms, P, Q) are their weights; `region` tells which of them matter, within LEFT_OUT of the largest.
+    """
+
+    def __init__(self, hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array) -> None:
+        entries = np.array([[complex_of(hat[i, j]) for j in range(2)] for i in range(2)])
+        shifts = np.array([[complex_of(x) for x in form.shift] for form in forms])
+        v0 = np.array([complex_of(x) for x in origin])
+        away = (v0[:, None] + region).imag[None] - shifts.imag[:, :, None]
+        places = _needed(entries, away)
+        self.low, self.high = places.min(axis=0), places.max(axis=0)
+        self.centre = np.round((self.low + self.high) / 2).astype(int)
+        self.table = np.zeros((len(forms), *(self.high - self.low + 1)), complex)
+        for f, form in enumerate(forms):
+            e, d = CHARACTERISTICS[form.place]
+            v = [x - y for x, y in zip(origin, form.shift, strict=True)]
+            for P in range(int(self.low[0]), int(self.high[0]) + 1):
+                for Q in range(int(self.low[1]), int(self.high[1]) + 1):
+                    if (Q - e) % 2 == 0:
+                        x, y = arb(P) / 2, arb(Q) / 2
+                        square = hat[0, 0] * x * x + 2 * hat[0, 1] * x * y + hat[1, 1] * y * y
+                        exponent = acb(0, 1) * arb.pi() * (square + 2 * (x * v[0] + y * v[1]) + y * d)
+                        weight = form.weights[P % 2] * exponent.exp()
+                        self.table[f, P - self.low[0], Q - self.low[1]] = complex_of(weight)
+
+    def at(self, region: Array, rest: Array | None = None, part: slice = slice(None)) -> Array:  # noqa: B008  constant
+        """Return the forms at places region + rest (2, m), the rest being tiny: shape (forms, m)."""
+        w = np.exp(1j * np.pi * region)
+        if rest is not None:
+            w += w * (1j * np.pi * rest)
+        first, second = (self._powers(x, k) for k, x in enumerate(w))
+        table = self.table[part]
+        F, P, Q = table.shape
+        found = (table.reshape(F * P, Q) @ second).reshape(F, P, -1)
+        found *= first
+        return np.asarray(found.sum(axis=1))
+
+    def _powers(self, w: Array, k: int) -> Array:
+        """Return the powers of w from the lowest to the highest, less the central one."""
+        below, above = int(self.centre[k] - self.low[k]), int(self.high[k] - self.centre[k])
+        found = np.empty((below + above + 1, len(w)), complex)
+        found[below] = 1.0
+        for n in range(below + 1, below + above + 1):
+            np.multiply(found[n - 1], w, out=found[n])
+        if below:
+            inverse = 1 / w
+            for n in range(below - 1, -1, -1):
+                np.multiply(found[n + 1], inverse, out=found[n])
+        return found
+
+
+def _needed(hat: Array, away: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the places (P, Q) of terms that matter where Im v is `away`, (forms, 2, m)."""
+    Y = hat.imag
+    reach = int(np.ceil(2 * np.sqrt(LEFT_OUT / np.pi / np.linalg.eigvalsh(Y)[0]))) + 1
+    peaks = -2 * np.einsum("ij,fjm->fim", np.linalg.inv(Y), away)  # where terms are largest
+    low, high = np.floor(peaks.min(axis=(0, 2))).astype(int) - reach, np.ceil(peaks.max(axis=(0, 2))).astype(int) + reach
+    grid = np.stack(np.meshgrid(*[np.arange(a, b + 1) for a, b in zip(low, high, strict=True)], indexing="ij"), -1).reshape(-1, 2)
+    flat = peaks.transpose(0, 2, 1).reshape(-1, 2)
+    kept = np.zeros(len(grid), bool)
+    for peak in np.unique(np.round(flat, 1), axis=0):
+        far = grid - peak
+        kept |= np.pi / 4 * np.einsum("ni,ij,nj->n", far, Y, far) < LEFT_OUT
+    return np.asarray(grid[kept])
