@@ -106,7 +106,19 @@ class Command(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Repeat the option's name before each of its values, which is what click understands."""
         many = {name for param in self.params if isinstance(param, Many) for name in param.opts}
+        if any(param.name == "inertia" and param.nargs == 2 for param in self.params) and _are_three(args, "--inertia"):
+            raise click.UsageError(
+                "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that of "
+                "atlas asymmetric, which takes --inertia I1 I2 I3, and --field with three components, too."
+            )
         return super().parse_args(ctx, list(_spread(args, many)))
+
+
+def _are_three(args: Sequence[str], option: str) -> bool:
+    """Return whether three numbers follow an option."""
+    at = args.index(option) + 1 if option in args else len(args)
+    following = args[at : at + 3]
+    return len(following) == 3 and all(re.fullmatch(r"[+-]?\.?\d[\d.eE+-]*", word) for word in following)
 
 
 def _spread(args: Sequence[str], many: set[str]) -> Iterator[str]:

@@ -8,22 +8,24 @@ in turns, n the whole ones that are left out of f t, and theta_k the angles of t
 """
 
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from flint import acb, arb
 
+from atlas.core.arithmetic.grid import HUGE
 from atlas.core.arithmetic.phase import EVEN, Phases
 from atlas.core.arithmetic.words import TURN, middle
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.cayley_klein import combined, evaluate
+from atlas.core.nutation.cayley_klein import BLOCK, combined, evaluate
+from atlas.core.nutation.grid import moments
+from atlas.errors import AtlasError, NotCertifiedError
+from atlas.exact.asymmetric import AsymmetricMotion
 from atlas.exact.clebsch_periods import complex_of
 from atlas.exact.clebsch_theta import ThetaMotion, frame
 from atlas.exact.theta_sums import Array, Form, Sums
 from atlas.exact.torus import Period
 from atlas.formulas.numbers import workprec
-
-Fill: TypeAlias = Callable[[FloatArray, FloatArray], None]
 
 PART = 768
 """Times whose sums are made at once, so that they stay in the second-level cache."""
@@ -31,13 +33,23 @@ PART = 768
 CELL = 40
 """Points along each phase at which rounding errors are bounded."""
 
+EXPONENTIAL = 4.0
+"""Units of 2^-53 by which an exponential is wrong, but for what its argument is; that is a sum of two products."""
+
 BITS = 200
+"""Precision of the constants."""
+
+PERIODS = 128
+"""Bits to which the real periods are proved: those that the certified twin needs, too."""
+
+LOST = 2e-13
+"""Largest bound on rounding errors: those that are seen are some twenty times smaller."""
 
 
 class ThetaKernel:
     """R, K and W = II^-1 M of one motion at many times; `periods` are those of its torus, `rate` the unit 1/time."""
 
-    def __init__(self, theta: ThetaMotion, periods: tuple[Period, Period], rate: float) -> None:
+    def __init__(self, theta: ThetaMotion, periods: tuple[Period, Period], rate: float, size: float) -> None:
         with workprec(BITS):
             motion, X = theta.motion, theta.X.inv()
             area = periods[0].H * periods[1].F - periods[0].F * periods[1].H
@@ -45,12 +57,15 @@ class ThetaKernel:
             into = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
             lines = [theta.l[0] * into[0][k] + theta.l[1] * into[1][k] for k in range(2)]
             # the angles of the periods are known but for whole turns: those nearest to what N turns by
-            angles = [p.angle + TURN * round(float(((x.real - p.angle) / TURN).mid())) for p, x in zip(periods, lines, strict=True)]
+            angles = [
+                p.angle + TURN * round(float(((x.real - p.angle) / TURN).mid()))
+                for p, x in zip(periods, lines, strict=True)
+            ]
             self.b = arb(motion.square).sqrt()
             about = angles[0] * f[0] + angles[1] * f[1] - self.b
             self.frequencies = [x * arb(rate) for x in (TURN * f[0], TURN * f[1], about)]
             self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
-            self.into = np.array([[complex_of(2 * into[0][k]), complex_of(into[1][k])] for k in range(2)]).T / np.pi
+            self.into: Array = np.array([[complex_of(2 * into[0][k]), complex_of(into[1][k])] for k in range(2)]).T
             self.turning = np.array([complex_of(x - a) for x, a in zip(lines, angles, strict=True)]) / np.pi
             start = (2 * theta.start[0], theta.start[1])
             factor = (acb(0, 1) * (theta.l[0] * theta.start[0] + theta.l[1] * theta.start[1])).exp()
@@ -59,15 +74,31 @@ class ThetaKernel:
             unit = [1 / I for I in motion.moments]
             W = [Form(x.place, (x.weights[0] * u, x.weights[1] * u)) for x, u in zip(theta.M, unit, strict=True)]
             line = np.linspace(-np.pi / 2, np.pi / 2, CELL + 1)
-            self.cell = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
+            cell = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
             forms = [*N, theta.denominator, *theta.K, *W]
-            self.sums = Sums(theta.hat, forms, start, self.into @ self.cell)
+            self.sums = Sums(theta.hat, forms, start, self.into @ cell)
             ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
             n = [float((x / self.b).mid()) for x in theta.field]
-        self.rate = rate
+        self.rate, self.size = rate, size / rate
         self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey) for j in range(3)])
         along = np.array([np.outer(n, np.eye(3)[j]).ravel() for j in range(3)]) / float(self.b.mid())
         self.entries = np.concatenate([self.entries, along])
+        self.accuracy = self._accuracy(cell)
+        self.riemann_matrix = np.array([[complex_of(theta.tau[i, j]) for j in range(2)] for i in range(2)])
+
+    def _accuracy(self, cell: FloatArray) -> float:
+        """Return a bound, at some points of the torus, on errors of R, and of K and Omega beside the largest rate."""
+        x = self.into @ cell
+        values, (errors, slopes) = self.sums.at(x), self.sums.rounding(x)
+        D, quotients = abs(values[3]), values / values[3]
+        changes = abs(slopes - quotients * slopes[:, 3:4]) / D
+        wrong = (errors + abs(quotients) * errors[3]) / D + 6 * abs(quotients)
+        wrong += ((EXPONENTIAL + 2 * abs(x))[:, None] * changes).sum(axis=0)
+        turning = np.exp(-(self.turning @ cell).imag)
+        b, size = float(self.b.mid()), self.size
+        attitude = np.hypot(wrong[:3] * turning, wrong[4:7] / b).max(axis=0)  # e_x, e_y and B' are orthogonal
+        vectors = (wrong[4:7] + wrong[7:10]).max(axis=0) / size
+        return float(np.maximum(attitude + 8, vectors).max()) * 2.0**-53
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
@@ -85,12 +116,26 @@ class ThetaKernel:
         """Return Omega(t) = W - K, shape (..., 3)."""
         return evaluate(t, (3,), out, lambda _: self._vectors(slice(3, 10), np.concatenate([-np.eye(3), np.eye(3)])))
 
-    def _attitude(self, weights: FloatArray) -> Fill:
+    def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
+        """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
+        count, reach, rows = len(out), self.phases.reach, out.reshape(-1, 9)
+        last = start + step * max(count - 1, 0)
+        if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
+            raise AtlasError(
+                f"The grid from {start} by {step} to {last} leaves the phases up to 2^50, |t| <= {reach:.6g}."
+            )
+        fill = self._attitude(self.entries)
+        for i in range(0, count, BLOCK):
+            index = np.arange(float(i), float(min(i + BLOCK, count)))
+            t, low = moments(self.phases, start, step, index)
+            fill(t, rows[i : i + BLOCK], low)
+
+    def _attitude(self, weights: FloatArray) -> Callable[..., None]:
         """Return what fills rows with combinations of Re N, Im N and K of the motion."""
 
-        def fill(t: FloatArray, rows: FloatArray) -> None:
+        def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, PART):
-                half, rest = self._phases(t[i : i + PART])
+                half, rest = self._phases(t[i : i + PART], None if low is None else low[i : i + PART])
                 x, y, z, D, *K = self.sums.at(self.into @ half[:2], self.into @ rest[:2], slice(0, 7))
                 angle = self.turning @ half[:2]
                 N = np.array([x, y, z]) * (np.exp(1j * (2 * half[2] + angle)) / D)
@@ -98,7 +143,7 @@ class ThetaKernel:
 
         return fill
 
-    def _vectors(self, part: slice, weights: FloatArray) -> Fill:
+    def _vectors(self, part: slice, weights: FloatArray) -> Callable[..., None]:
         """Return what fills rows with combinations of K, or of K and W."""
 
         def fill(t: FloatArray, rows: FloatArray) -> None:
@@ -109,7 +154,25 @@ class ThetaKernel:
 
         return fill
 
-    def _phases(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
         """Return half the phases less whole turns, in radians, and what rounding left out of them."""
-        half, rest, *_ = self.phases.reduced(t, np.empty((8, 3, t.size)))
+        half, rest, *_ = self.phases.reduced(t, np.empty((8, 3, t.size)), low)
         return half, rest
+
+
+def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
+    """Return the closed form of a motion with rates of some size; NotCertifiedError says why there is none."""
+    motion = exact.on_torus
+    if motion is None:
+        raise NotCertifiedError(f"not certified: the kind of motion is {exact.kind!r}, not 'on a torus'.")
+    torus = motion.torus
+    try:
+        theta = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
+        found = ThetaKernel(theta, torus.periods(PERIODS), int(motion.rate.p) / int(motion.rate.q), size)
+    except NotCertifiedError:
+        raise
+    except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:  # infinite, or not a number, or singular
+        raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
+    if not found.accuracy <= LOST:
+        raise NotCertifiedError(f"not certified: rounding would be wrong by up to {found.accuracy:.1e} in its sums.")
+    return found

@@ -227,6 +227,11 @@ class AsymmetricMotion:
         elliptic = motion.elliptic()
         return ("elliptic motion", elliptic) if elliptic else ("on the discriminant", motion)
 
+    @property
+    def on_torus(self) -> OnTorus | None:
+        """What a motion "on a torus" is made of, in units in which its numbers are near one; None for other kinds."""
+        return self._motion if isinstance(self._motion, OnTorus) and self._motion.is_regular else None
+
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
         if rational(t, "the time") == 0:

@@ -20,11 +20,14 @@ from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
-from atlas.exact.clebsch_periods import BITS, FINE, ONE, Curve, Integrals, complex_of, generating, nearest, sums
+from atlas.exact.clebsch_periods import BITS, FINE, LEAST, ONE, Curve, Integrals, complex_of, generating, nearest, sums
 from atlas.formulas.numbers import workprec
 
 WHOLE = 1e-9
 """How near to whole numbers the coefficients of a conjugate period are."""
+
+SLOW = 0.003
+"""Least rate at which sums of paths converge that are gone where the quicker ones do not give all periods."""
 
 TURNS = 60
 """Rounds of Siegel's reduction at most."""
@@ -61,16 +64,23 @@ def lattice(motion: Integrals) -> Lattice:
     """Return the periods of a motion's torus; NotCertifiedError where they cannot be told."""
     with workprec(BITS):
         curve = Curve(motion)
-        ways = [list(curve.along(*path)) for path in curve.paths(poles=True)]
-        periods = sums(ways, generating([_real(way) for way in ways]))
-        if len(periods) != 4:
-            raise NotCertifiedError(f"not certified: {len(periods)} periods of the motion's torus were found, not four.")
-        conjugation = _conjugation(periods)
-        periods = sums(periods, _real_first(conjugation))
-        basis = _reduced(periods, _symplectic(_polarization(periods)))
-        a1, a2, b1, b2 = sums(periods, basis.tolist())
-        first, second = sums(periods[:2], _shortest(periods, basis))
-        return Lattice((first, second), (periods[2], periods[3]), (a1, a2), (b1, b2))
+        try:
+            return _of_paths(curve, LEAST)
+        except NotCertifiedError:
+            return _of_paths(curve, SLOW)
+
+
+def _of_paths(curve: Curve, least: float) -> Lattice:
+    """Return the periods that integrals along paths make whose sums converge at some rate at least."""
+    ways = [list(curve.along(*path)) for path in curve.paths(least, poles=True)]
+    periods = sums(ways, generating([_real(way) for way in ways]))
+    if len(periods) != 4:
+        raise NotCertifiedError(f"not certified: {len(periods)} periods of the motion's torus were found, not four.")
+    periods = sums(periods, _real_first(_conjugation(periods)))
+    basis = _reduced(periods, _symplectic(_polarization(periods)))
+    a1, a2, b1, b2 = sums(periods, basis.tolist())
+    first, second = sums(periods[:2], _shortest(periods, basis))
+    return Lattice((first, second), (periods[2], periods[3]), (a1, a2), (b1, b2))
 
 
 def _real(period: Sequence[acb]) -> list[arb]:
@@ -85,13 +95,18 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
     found = conjugate * rows.inv()
     whole = np.array([[round(float(found[i, j].mid())) for j in range(4)] for i in range(4)])
     if not all(abs(float(found[i, j].mid()) - whole[i, j]) < WHOLE for i in range(4) for j in range(4)):
-        raise NotCertifiedError("not certified: the periods found for the motion's torus are no lattice with conjugates.")
+        raise NotCertifiedError(
+            "not certified: the periods found for the motion's torus are no lattice with conjugates."
+        )
     return whole
 
 
 def _real_first(conjugation: Whole) -> list[list[int]]:
     """Return a basis of the lattice whose first two are a basis of its real periods."""
-    rows = [[*(int(x) << FINE for x in row), *(int(i == j) for j in range(4))] for i, row in enumerate(conjugation - np.eye(4, dtype=int))]
+    rows = [
+        [*(int(x) << FINE for x in row), *(int(i == j) for j in range(4))]
+        for i, row in enumerate(conjugation - np.eye(4, dtype=int))
+    ]
     reduced = [[int(x) for x in row] for row in fmpz_mat(rows).lll().tolist()]
     real = [row[4:] for row in reduced if not any(row[:4])]
     if len(real) != 2:
@@ -137,7 +152,9 @@ def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
             form[i, j] = sign * n[other[0], other[1]]
         if abs(pfaffian) == 2:
             return np.array(form - form.T)
-    raise NotCertifiedError("not certified: the periods found for the motion's torus have no polarization of type (1,2).")
+    raise NotCertifiedError(
+        "not certified: the periods found for the motion's torus have no polarization of type (1,2)."
+    )
 
 
 def _symplectic(form: Whole) -> Whole:

@@ -122,10 +122,10 @@ class Curve:
         u -= y * self.imaginary
         return centre(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
 
-    def paths(self, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
-        """Return straight paths between zeros with the rates at which their sums converge, quickest first.
+    def paths(self, least: float = LEAST, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
+        """Return straight paths between zeros with the rates at which their sums converge, `least` at least.
 
-        With `poles`, those of z count as well: the third integral of `along` has them.
+        The quickest come first. With `poles`, those of z count as well: the third integral of `along` has them.
         """
         shifts = [(m * self.real, n * self.imaginary) for m, n in product(range(-2, 3), repeat=2)]
         images = [[complex_of(zero + x + y) for x, y in shifts] for zero in self.zeros]
@@ -139,7 +139,7 @@ class Curve:
                 if j < i or abs(b - a) < 1e-12:
                     continue
                 rate = min(_rate(a, b, place) for place in everywhere if min(abs(place - a), abs(place - b)) > 1e-9)
-                if rate > LEAST:
+                if rate > least:
                     found.setdefault((i, j), []).append((rate, start, stop))
         rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
         chosen = sorted((path for row in rows for path in row[:3]), key=lambda path: -path[0])
@@ -174,7 +174,10 @@ def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
         return []
     count = len(vectors)
     rows = [
-        [*(nearest(x / size * arb(2) ** FINE) for x, size in zip(row, sizes, strict=True)), *(int(i == j) << ONE for j in range(count))]
+        [
+            *(nearest(x / size * arb(2) ** FINE) for x, size in zip(row, sizes, strict=True)),
+            *(int(i == j) << ONE for j in range(count)),
+        ]
         for i, row in enumerate(vectors)
     ]
     reduced = fmpz_mat(rows).lll().tolist()
@@ -185,12 +188,16 @@ def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
 def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> list[list[Any]]:
     """Return sums of vectors with whole weights."""
     return [
-        [sum((n * x for n, x in zip(row, column, strict=True) if n), 0 * column[0]) for column in zip(*vectors, strict=True)]
+        [
+            sum((n * x for n, x in zip(row, column, strict=True) if n), 0 * column[0])
+            for column in zip(*vectors, strict=True)
+        ]
         for row in weights
     ]
 
 
 def nearest(x: arb) -> int:
+    """Return the whole number nearest to the middle of a ball."""
     return int((x.mid() + 0.5).floor().unique_fmpz())
 
 
@@ -210,10 +217,12 @@ def _rate(a: complex, b: complex, place: complex) -> float:
 
 
 def centre(x: acb) -> acb:
+    """Return the middle of a complex ball, as a ball without radius."""
     return acb(x.real.mid(), x.imag.mid())
 
 
 def complex_of(x: acb) -> complex:
+    """Return the middle of a complex ball in doubles."""
     return complex(float(x.real.mid()), float(x.imag.mid()))
 
 

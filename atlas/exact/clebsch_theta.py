@@ -18,7 +18,6 @@ from operator import mul
 
 import numpy as np
 from flint import acb, acb_mat, acb_poly, arb, fmpq, fmpq_poly
-from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
 from atlas.exact.clebsch_lattice import Lattice
@@ -101,7 +100,10 @@ def series(moments: Sequence[fmpq], start: State) -> list[Vector]:
         new = list[acb]()
         for i in range(3):
             j, k = (i + 1) % 3, (i + 2) % 3
-            new.append(_product(rows, back, j, k) * (A[k] - A[j]) + _product(rows, back, 3 + j, 3 + k) * (moments[k] - moments[j]))
+            new.append(
+                _product(rows, back, j, k) * (A[k] - A[j])
+                + _product(rows, back, 3 + j, 3 + k) * (moments[k] - moments[j])
+            )
         for first in range(3, len(rows), 3):
             for i in range(3):
                 j, k = (i + 1) % 3, (i + 2) % 3
@@ -180,15 +182,14 @@ class ThetaMotion:
                     null, error = _null(rows)
                     tried.append((error, Form(place, (null[0], null[1]))))
         error, denominator = min(tried, key=lambda x: x[0])
-        self.error = error
         D = [denominator.of(p) for p in pairs]
         free = [n for n in range(3) if n != denominator.place]
-        forms: dict[str, list[Form]] = {"K": [], "M": []}
-        for i in range(3):
-            for name in forms:
-                values = [getattr(state, name)[i] * d for (_, state), d in zip(points, D, strict=True)]
-                forms[name].append(self._form(pairs, values, (3,) if i == axis else free))
-        return denominator, forms["K"], forms["M"]
+        rows = [[x * d for x in state.all] for (_, state), d in zip(points, D, strict=True)]
+        places = [(3,) if i % 3 == axis else free for i in range(6)]
+        forms = [
+            self._form(pairs, list(column), near) for column, near in zip(zip(*rows, strict=True), places, strict=True)
+        ]
+        return denominator, forms[3:], forms[:3]
 
     def _form(self, pairs: list[list[Pair]], values: Vector, places: Sequence[int]) -> Form:
         """Return the form that has some values."""
@@ -197,7 +198,6 @@ class ThetaMotion:
             weights, error = _least_squares([list(p[place]) for p in pairs], values)
             tried.append((error, Form(place, (weights[0], weights[1]))))
         error, form = min(tried, key=lambda x: x[0])
-        self.error = max(self.error, error)
         if not error < FITTED:
             raise NotCertifiedError(f"not certified: theta functions do not fit the motion, by {error:.1g}.")
         return form
@@ -237,12 +237,14 @@ class ThetaMotion:
                 centre(times[0] + (f * d - g * b) / (a * d - b * c)),
                 centre(times[1] + (g * a - f * c) / (a * d - b * c)),
             ]
-        self.error = max(abs(complex_of(x - y)) for x, y in zip(self.state(self.zeta(times)).all, start[:6], strict=True))
-        return self.zeta(times)
+        zeta = self.zeta(times)
+        if not max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).all, start, strict=False)) < FITTED:
+            raise NotCertifiedError("not certified: Newton's method does not find the start on the motion's torus.")
+        return zeta
 
     def _quasi_periods(self) -> tuple[Vector, Vector]:
         """Return l and w: under a period N gets the factor exp(-i b T_c), which is known but for whole turns."""
-        b, i = arb(self.motion.square).sqrt(), acb(0, 1)
+        b = arb(self.motion.square).sqrt()
         angles = [-b * T[2] for T in (*self.lattice.a, *self.lattice.b)]
         tau, Y = self.tau, np.array([[complex_of(self.tau[j, k]).imag for k in range(2)] for j in range(2)])
         # w = (angle_b - tau l)/(4 pi), and l may change by (2 pi m, pi n)
@@ -251,7 +253,6 @@ class ThetaMotion:
         m, n = (round(float(x)) for x in np.linalg.solve(Y * np.array([1 / 2, 1 / 4]), [complex_of(x).imag for x in w]))
         l = [centre(l[0] + 2 * arb.pi() * m), centre(l[1] + arb.pi() * n)]
         w = [centre((angles[2 + k] - l[0] * tau[0, k] - l[1] * tau[1, k]) / (4 * arb.pi())) for k in range(2)]
-        del i
         return l, w
 
     def _turned(self) -> list[Form]:
@@ -279,22 +280,22 @@ class Rough:
         self.inverse, self.into = np.linalg.inv(self.hat.imag), np.linalg.inv(X) * np.array([[2], [1]])
         cell = np.array([[x, y] for x in (-1, 0, 1) for y in (-1, 0, 1)])
         forms = [motion.denominator, *motion.M, *motion.K]
-        self.sums = Sums(motion.hat, forms, (acb(0), acb(0)), 1j * (cell @ self.hat.imag).T)
+        self.sums = Sums(motion.hat, forms, (acb(0), acb(0)), 1j * np.pi * (cell @ self.hat.imag).T)
 
     def states(self, times: Array) -> Array:
         """Return M and K at pairs of times (m, 2), shape (m, 6)."""
         v = times @ self.into.T
         # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
         v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
-        D, *values = self.sums.at(v.T)
+        D, *values = self.sums.at(np.pi * v.T)
         return np.asarray((np.array(values) / D).T)
 
     def near(self, T: Array, target: Array) -> Array | None:
         """Return times at which the state is the target, by Newton's method; None where it leads astray."""
-        size, before = np.linalg.norm(target), np.inf
+        size, before = float(np.linalg.norm(target)), np.inf
         for _ in range(NEWTON):
             state = self.states(T[None])[0]
-            far = np.linalg.norm(state - target)
+            far = float(np.linalg.norm(state - target))
             if far < 1e-9 * size:
                 return T
             if not far < 4 * before:

@@ -24,6 +24,11 @@ CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
 LEFT_OUT = 46.0
 """Logarithm of what terms that are left out are smaller by than the largest one, wherever they are summed."""
 
+PRODUCT, WEIGHT = 2.24, 4.0
+"""Units of 2^-53 by which a complex product is wrong beside itself, and a weight and its product with a power."""
+
+ALL = slice(None)
+
 Array: TypeAlias = NDArray[np.complex128]
 
 
@@ -42,16 +47,16 @@ class Form:
 
 
 class Sums:
-    """Forms at v = origin + region, as functions of `region` (2, m) in doubles, over a common exponential.
+    """Forms at v = origin + x/pi, as functions of x (2, m) in doubles, over a common exponential.
 
-    `table` (forms, P, Q) are their weights; `region` tells which of them matter, within LEFT_OUT of the largest.
+    `table` (forms, P, Q) are their weights; `region`, places x, tells which of them matter.
     """
 
     def __init__(self, hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array) -> None:
         entries = np.array([[complex_of(hat[i, j]) for j in range(2)] for i in range(2)])
         shifts = np.array([[complex_of(x) for x in form.shift] for form in forms])
         v0 = np.array([complex_of(x) for x in origin])
-        away = (v0[:, None] + region).imag[None] - shifts.imag[:, :, None]
+        away = (v0[:, None] + region / np.pi).imag[None] - shifts.imag[:, :, None]
         places = _needed(entries, away)
         self.low, self.high = places.min(axis=0), places.max(axis=0)
         self.centre = np.round((self.low + self.high) / 2).astype(int)
@@ -68,17 +73,32 @@ class Sums:
                         weight = form.weights[P % 2] * exponent.exp()
                         self.table[f, P - self.low[0], Q - self.low[1]] = complex_of(weight)
 
-    def at(self, region: Array, rest: Array | None = None, part: slice = slice(None)) -> Array:  # noqa: B008  constant
-        """Return the forms at places region + rest (2, m), the rest being tiny: shape (forms, m)."""
-        w = np.exp(1j * np.pi * region)
+    def at(self, x: Array, rest: Array | None = None, part: slice = ALL) -> Array:
+        """Return the forms at places x + rest (2, m), the rest being tiny: shape (forms, m)."""
+        w = np.exp(1j * x)
         if rest is not None:
-            w += w * (1j * np.pi * rest)
+            w += w * (1j * rest)
+        return self._summed(self.table[part], w)
+
+    def _summed(self, table: Array, w: Array) -> Array:
+        """Return the sums over powers of w (2, m) with some weights."""
         first, second = (self._powers(x, k) for k, x in enumerate(w))
-        table = self.table[part]
         F, P, Q = table.shape
         found = (table.reshape(F * P, Q) @ second).reshape(F, P, -1)
         found *= first
         return np.asarray(found.sum(axis=1))
+
+    def rounding(self, x: Array) -> tuple[NDArray[np.float64], Array]:
+        """Return bounds on the errors of the forms at places x, in units of 2^-53, and their slopes, (2, forms, m).
+
+        Errors of exp(i x) are common to all forms: they are as if x were another, and count by the slopes of quotients.
+        Others are first those of its powers, one product each, of the weights, and of a sum of P times Q terms.
+        """
+        P, Q = (np.arange(a, b + 1) - c for a, b, c in zip(self.low, self.high, self.centre, strict=True))
+        w, slopes = np.exp(1j * x), np.array([self.table * P[:, None], self.table * Q])
+        steps = WEIGHT + PRODUCT * (abs(P)[:, None] + abs(Q)) + len(P) + len(Q) / 2  # every other Q has no weight
+        errors = self._summed(abs(self.table) * steps, abs(w).astype(complex)).real
+        return np.asarray(errors), np.array([self._summed(table, w) for table in slopes])
 
     def _powers(self, w: Array, k: int) -> Array:
         """Return the powers of w from the lowest to the highest, less the central one."""
@@ -99,8 +119,13 @@ def _needed(hat: Array, away: NDArray[np.float64]) -> NDArray[np.int64]:
     Y = hat.imag
     reach = int(np.ceil(2 * np.sqrt(LEFT_OUT / np.pi / np.linalg.eigvalsh(Y)[0]))) + 1
     peaks = -2 * np.einsum("ij,fjm->fim", np.linalg.inv(Y), away)  # where terms are largest
-    low, high = np.floor(peaks.min(axis=(0, 2))).astype(int) - reach, np.ceil(peaks.max(axis=(0, 2))).astype(int) + reach
-    grid = np.stack(np.meshgrid(*[np.arange(a, b + 1) for a, b in zip(low, high, strict=True)], indexing="ij"), -1).reshape(-1, 2)
+    low, high = (
+        np.floor(peaks.min(axis=(0, 2))).astype(int) - reach,
+        np.ceil(peaks.max(axis=(0, 2))).astype(int) + reach,
+    )
+    grid = np.stack(
+        np.meshgrid(*[np.arange(a, b + 1) for a, b in zip(low, high, strict=True)], indexing="ij"), -1
+    ).reshape(-1, 2)
     flat = peaks.transpose(0, 2, 1).reshape(-1, 2)
     kept = np.zeros(len(grid), bool)
     for peak in np.unique(np.round(flat, 1), axis=0):

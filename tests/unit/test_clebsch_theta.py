@@ -1,0 +1,229 @@
+"""The closed form of bodies with three moments: against the certified twin, and the laws that it obeys."""
+
+from functools import cache
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from flint import acb, arb, ctx, fmpq
+
+import atlas
+from atlas.cli.app import atlas as command
+from atlas.core import asymmetric as kernels
+from atlas.core import clebsch_theta as core
+from atlas.core.asymmetric import SingleAsymmetric
+from atlas.core.clebsch_theta import ThetaKernel, closed_form
+from atlas.exact import clebsch_theta, torus
+from atlas.exact.asymmetric import AsymmetricMotion as Balls
+from atlas.exact.clebsch_lattice import Lattice
+
+EPS = 2.0**-52
+QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
+"""A motion whose periods are short beside its rates."""
+WEAK = (1.25, 0.9375, 0.7), (0.01, -0.02, 0.03), (1.0, 0.5, -0.6)
+TIMES = np.array([0.7, -2.0e3, 8.0e11])
+
+Three = tuple[float, float, float]
+
+
+@cache
+def motion() -> atlas.AsymmetricMotion:
+    """Return the quick motion."""
+    return atlas.AsymmetricMotion(*QUICK)
+
+
+@cache
+def kernel(inertia: Three, field: Three, omega: Three) -> ThetaKernel:
+    """Return the closed form of a motion; but for the quick one it was compared with nothing."""
+    if (inertia, field, omega) == QUICK:
+        return motion()._turnings[0].theta
+    return closed_form(Balls(inertia, field, omega), max(map(abs, (*field, *omega))))
+
+
+def turn(axis: Any, angle: float) -> Any:
+    """Return the matrix of the rotation about a vector."""
+    n = np.array(axis) / np.linalg.norm(axis)
+    cross = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+@pytest.mark.parametrize("case", [QUICK, WEAK])
+def test_the_closed_form_is_the_certified_twin(case: tuple[Three, Three, Three]) -> None:
+    """R, K and Omega up to t = 8e11 are those of proven digits, within 8 ulp of 1 and the motion's own bound."""
+    closed = kernel(*case)
+    twin = (motion()._turnings[0] if case is QUICK else SingleAsymmetric(Balls(*case))).certified
+    size = max(map(abs, (*case[1], *case[2])))
+    worst = max(
+        np.abs(closed.rotation(TIMES) - twin.rotation(TIMES)).max(),
+        np.abs(closed.field_in_body(TIMES) - twin.field_in_body(TIMES)).max() / size,
+        np.abs(closed.angular_velocity(TIMES) - twin.angular_velocity(TIMES)).max() / size,
+    )
+    assert worst <= min(8 * EPS, closed.accuracy)
+    assert closed.accuracy < 1e-13
+
+
+def test_columns_fields_and_grids_are_parts_of_the_matrix() -> None:
+    """R is orthogonal, R_j its columns, K = R^T B'; a grid has the matrices at its exact times, not rounded."""
+    closed, B = kernel(*QUICK), np.array(QUICK[1])
+    times = np.linspace(-1e9, 1e9, 3001)
+    R = closed.rotation(times)
+    assert np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max() < 16 * EPS
+    for j in (1, 2, 3):
+        assert np.abs(closed.column(j, times) - R[..., j - 1]).max() < 8 * EPS
+    assert np.abs(np.vecmat(B, R) - closed.field_in_body(times)).max() < 16 * EPS
+    step, out = 0.1, np.empty((3, 3, 3))
+    closed.fill_grid(3e6, step, out)
+    twin = Balls(*QUICK)
+    exact = [
+        kernels.rounded(lambda i=i: twin.rotation(fmpq(3000000) + i * fmpq(*step.as_integer_ratio())), 1.0)
+        for i in range(3)
+    ]  # type: ignore[misc]
+    assert np.abs(out.reshape(3, 9) - exact).max() < 8 * EPS
+
+
+def test_a_motion_goes_on_from_where_it_is_with_axes_in_another_order() -> None:
+    """R(t + s) = R(t) P^T R'(s) P, R' that of the state at t with the axes in cyclic order, t = 1000, s = 40."""
+    closed, order = kernel(*QUICK), [1, 2, 0]
+    t, s = 1000.0, 40.0
+    state = ([float(x[i]) for i in order] for x in (QUICK[0], closed.field_in_body(t), closed.angular_velocity(t)))
+    inertia, field, omega = (tuple(x) for x in state)
+    P = np.eye(3)[order]
+    rest = P.T @ kernel(inertia, field, omega).rotation(s) @ P  # type: ignore[arg-type]
+    # the state is rounded to floats, an ulp of which grows with s
+    assert np.abs(closed.rotation(t + s) - closed.rotation(t) @ rest).max() < 400 * EPS
+
+
+def test_the_pair_of_a_motion_is_the_motion_back_in_time() -> None:
+    """From -2B' - omega: R(t) = R_B(-2bt) R(-t), theorem-pair, at |t| up to 300."""
+    inertia, field, omega = QUICK
+    closed = kernel(*QUICK)
+    other = kernel(inertia, field, tuple(-2 * b - w for b, w in zip(field, omega, strict=True)))  # type: ignore[arg-type]
+    b = float(np.linalg.norm(field))
+    for t in (3.0, -50.0, 300.0):
+        expected = turn(field, -2 * b * t) @ closed.rotation(-t)
+        assert np.abs(other.rotation(t) - expected).max() < (16 + 2 * b * abs(t)) * EPS
+
+
+def test_it_tends_to_the_symmetric_body() -> None:
+    """R(30) for I2 = I1 (1 + d) less `GeneralMotion` is twice as large for d = 2^-19 as for d = 2^-20."""
+    field, omega, t = (0.25, 1.0, 0.5), (0.25, 0.75, 0.125), 30.0
+    true = atlas.GeneralMotion.in_laboratory(1.25, field, np.eye(3), omega).rotation(t)
+    d = 2.0**-20
+    first, second = (np.abs(kernel((1.0, 1 + x, 1.25), field, omega).rotation(t) - true).max() for x in (d, 2 * d))
+    assert d / 10 < first < 1000 * d
+    assert abs(second / first - 2) < 1e-3
+
+
+def test_frequencies_are_those_of_the_motion() -> None:
+    """K at 2000 times up to 1e6 is a sum of cosines and sines of n1 f1 + n2 f2 alone, |n| <= 9, to 8 digits."""
+    closed = kernel(*WEAK)
+    f1, f2, _ = (float(x.mid()) for x in closed.frequencies)
+    times = np.random.default_rng(3).uniform(0, 1e6, 2000)
+    K = closed.field_in_body(times)
+    pairs = [(m, n) for m, n in product(range(10), range(-9, 10)) if m or n >= 0]
+    angles = np.outer(times, [m * f1 + n * f2 for m, n in pairs])
+    table = np.concatenate([np.cos(angles), np.sin(angles)], axis=1)
+    rest = K - table @ np.linalg.lstsq(table, K, rcond=None)[0]
+    assert np.abs(rest).max() < 1e-8 * np.abs(K).max()
+
+
+def test_the_riemann_matrix_is_reduced_and_a_lattice_of_type_1_2_stands_behind_it() -> None:
+    """Tau is symmetric, Im tau > 0, |tau11| >= 1, |tau22| >= 2; proven periods are sums of the approximate ones."""
+    balls = motion()._turnings[0].exact.on_torus
+    assert balls is not None
+    tau = kernel(*QUICK).riemann_matrix
+    assert (tau == tau.T).all()
+    assert np.linalg.eigvalsh(tau.imag).min() > 0
+    assert abs(tau[0, 0]) > 1 - 1e-5
+    assert abs(tau[1, 1]) > 2 - 2e-5
+    assert np.abs(tau.real).max() <= 1
+    with ctx.workprec(160):
+        for true, found in zip(balls.torus.periods(core.PERIODS), balls.torus.lattice.real, strict=True):
+            assert all(abs(x - y.real) < 1e-25 for x, y in zip((true.H, true.F), found, strict=False))
+            turns = (true.angle + balls.b * found[2].real) / (2 * arb.pi())
+            assert abs(turns - round(float(turns))) < 1e-25
+
+
+def _slipped(monkeypatch: pytest.MonkeyPatch, slip: str) -> None:
+    """Plant a slip in a formula of the closed form."""
+    if slip == "characteristic":
+        monkeypatch.setattr(clebsch_theta, "CHARACTERISTICS", ((0, 1), (0, 0), (1, 0), (1, 1)))
+    elif slip == "sign of T_c":
+        true = torus.lattice
+
+        def turned(motion: Any) -> Lattice:
+            found = true(motion)
+            rows = (tuple([x, y, -z] for x, y, z in pair) for pair in (found.real, found.others, found.a, found.b))
+            return Lattice(*rows)  # type: ignore[arg-type]
+
+        monkeypatch.setattr(torus, "lattice", turned)
+    elif slip == "T_c of one period":
+        true = torus.lattice
+
+        def longer(motion: Any) -> Lattice:
+            found = true(motion)
+            found.b[0][2] += acb(arb(2) ** -30)
+            return found
+
+        monkeypatch.setattr(torus, "lattice", longer)
+    elif slip == "sign of b t":
+        monkeypatch.setattr(core, "PERIODS", 160)
+        true_periods = torus.Torus.periods
+
+        def mirrored(self: torus.Torus, bits: int) -> Any:
+            found = true_periods(self, bits)
+            return found if bits != core.PERIODS else tuple(torus.Period(p.H, p.F, -p.angle) for p in found)
+
+        monkeypatch.setattr(torus.Torus, "periods", mirrored)
+
+
+@pytest.mark.parametrize(
+    ("slip", "words"),
+    [
+        ("characteristic", "the place of the start on the motion's torus was not found"),
+        ("sign of T_c", "theta functions do not fit the motion"),
+        ("T_c of one period", "theta functions do not fit the motion"),
+        ("sign of b t", "differ from the certified twin by"),
+    ],
+)
+def test_a_slip_is_noticed_and_the_certified_twin_answers(
+    slip: str, words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With a slip in characteristics, T_c or an angle there is no closed form; `agreement` says why, R is proved."""
+    _slipped(monkeypatch, slip)
+    monkeypatch.setattr(kernels, "CHECKED", (5.3,))
+    one = atlas.AsymmetricMotion(*QUICK)
+    assert words in one.agreement
+    assert one.agreement.startswith("certified at each time")
+    assert (one.rotation(2.5) == motion()._turnings[0].certified.rotation(2.5)).all()
+    with pytest.raises(atlas.AtlasError, match="no closed form; it is certified"):
+        _ = one.riemann_matrix
+
+
+def test_a_motion_says_what_is_known_of_it() -> None:
+    """`agreement` names the difference from the twin at four times; at t = 0 all is exact; times have an end."""
+    one = motion()
+    assert "agrees with the certified twin within" in one.agreement
+    assert "at 4 times up to |t| = 6.48e+11" in one.agreement
+    assert one.accuracy < 1e-13
+    assert one.frequencies.shape == (3,)
+    assert one.riemann_matrix.shape == (2, 2)
+    R = one.rotation([0.0, -0.0, 1.0])
+    assert (R[:2] == np.eye(3)).all()
+    assert (one.angular_velocity(0.0) == QUICK[2]).all()
+    grid = one.rotation_grid(-1.0, 0.5, 3)
+    assert (grid[2] == np.eye(3)).all()
+    assert np.abs(grid[1] - one.rotation(-0.5)).max() < 8 * EPS
+    for call in (lambda: one.rotation(1e17), lambda: one.rotation_grid(0.0, 1e16, 3)):
+        with pytest.raises(atlas.AtlasError, match=r"2\^50"):
+            call()
+
+
+def test_three_moments_are_sent_to_their_command() -> None:
+    """`atlas general --inertia` with three numbers names `atlas asymmetric`, in one line."""
+    words = "general --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2".split()
+    found = CliRunner().invoke(command, words)
+    assert found.exit_code == 2
+    assert "atlas asymmetric" in found.output
