@@ -236,6 +236,11 @@ class GeneralMotion(Nutating):
         q = self.quartic
         return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
+    @property
+    def _is_ball(self) -> bool:
+        """Whether the body is a ball in a field."""
+        return self.kind == "ball"
+
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
         if rational(t, "the time") == 0:

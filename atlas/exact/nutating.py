@@ -49,6 +49,11 @@ class Nutating:
         raise NotImplementedError
 
     @property
+    def _is_ball(self) -> bool:
+        """Whether seen from a frame that turns about the field the body is a ball without any force."""
+        return False
+
+    @property
     def b(self) -> Real:
         """Length of the field, or of the direction."""
         raise NotImplementedError
@@ -123,7 +128,9 @@ class Nutating:
             T * x.own + pi * x.turn if self.is_steady or self.quartic.sign_beside(pole) else arb(0)
             for x, pole in ((found.alpha, -1), (found.beta, 1))
         )
-        if self.swings_evenly:
+        # a ball turns once about an axis: alpha and beta go half round zero each, with the signs of their torques
+        same = self.quartic.sign_beside(-1) == self.quartic.sign_beside(1)
+        if self.swings_evenly or (self._is_ball and not self.is_steady and same):
             return T * found.precession + first + second, arb(0)
         further = found.swing.kappa * found.swing.rate * T if found.swing else arb(0)
         return T * found.precession + first + second, T * found.spin + first - second + further

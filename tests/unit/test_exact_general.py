@@ -16,6 +16,7 @@ from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.free import FreeMotion
 from atlas.exact.general import GeneralMotion
+from atlas.exact.top import TopMotion
 
 KINDS: dict[str, tuple[float, tuple[float, float], tuple[float, float, float]]] = {
     "at rest": (1.5, (1, 2), (0, 0, 0)),
@@ -204,6 +205,18 @@ def test_two_turns_are_the_matrix_of_the_parameters(inputs: Any) -> None:
     motion = GeneralMotion(*inputs)
     two, one = motion.rotation(2.7), matrix(motion.from_frame(*motion.parameters(2.7)[:2]))
     assert largest(arb(x) - arb(y) for a, b in zip(two, one, strict=True) for x, y in zip(a, b, strict=True)) < 1e-90
+
+
+@pytest.mark.parametrize(("omega3", "turns"), [(0.25, 0), (16, 1), (-16, -1)])
+def test_a_ball_turns_about_its_axis_by_nothing_or_by_a_whole_turn(omega3: float, turns: int) -> None:
+    """In a period, seen from the frame: exactly zero, and printed so, where |M3| < |p|; a top that is a ball too."""
+    for ball in (
+        GeneralMotion(1, (1, 2), (0.5, 0.75, omega3)),
+        TopMotion((1, 1), (5, 5), (3, 4), (0.5, 0.75, omega3 - 4)),
+    ):
+        assert (ball.spin_per_period - 2 * turns * arb.pi()).contains(0)
+        if not turns:
+            assert ball.spin_per_period == 0
 
 
 @pytest.mark.parametrize("omega1", [1, 1.999, 2.01, 2.5, 3, 10])
