@@ -36,13 +36,13 @@ class Target:
         return self.type / TYPE
 
 
-_ANY = 100.0
+ANY = 100.0
 """Points: as wide as lines may be where nobody says how wide."""
 _APS = Target(
     86.0,
     225.0,
     TYPE,
-    (0.52, _ANY),
+    (0.52, ANY),
     600.0,
     "a column of 8.6 cm, 17.8 cm across both; letters and figures at least 2 mm high, lines at least 0.18 mm (0.5 pt), "
     "600 dpi; the height is that of a page of REVTeX with room for a caption",
@@ -62,7 +62,7 @@ _IOP = Target(
     85.0,
     225.0,
     TYPE,
-    (0.3, _ANY),
+    (0.3, ANY),
     600.0,
     "8.5 cm and 15 cm; type 8 to 12 pt; no rule found on lines, resolution and height: 0.3 pt, 600 dpi, 225 mm ours",
     "https://publishingsupport.iopscience.iop.org/questions/figures-journal-articles/",
@@ -71,7 +71,7 @@ _SPRINGER = Target(
     84.0,
     234.0,
     TYPE,
-    (0.3, _ANY),
+    (0.3, ANY),
     600.0,
     "84 mm, 174 mm across both columns, at most 234 mm high; type 8 to 12 pt; lines at least 0.1 mm (0.3 pt); 600 dpi "
     "where pictures and letters meet",
@@ -92,7 +92,7 @@ TARGETS: Mapping[str, Target] = MappingProxyType(
             140.0,
             68.0,
             10.0,
-            (0.6, _ANY),
+            (0.6, ANY),
             300.0,
             "the text of a slide of 160 mm x 90 mm (16:9) is 140 mm wide; the rest is ours: type of 10 pt, "
             "lines of 0.6 pt, 68 mm below a title",
@@ -102,10 +102,10 @@ TARGETS: Mapping[str, Target] = MappingProxyType(
             390.0,
             560.0,
             24.0,
-            (1.0, _ANY),
+            (1.0, ANY),
             300.0,
             "nobody's rule, all ours: half of A0 upright, type of 24 pt to be read from two metres",
-            "none",
+            "",
         ),
     }
 )

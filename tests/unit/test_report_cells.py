@@ -269,7 +269,7 @@ def test_the_cells_of_radiation() -> None:
 def test_no_table_is_left_out() -> None:
     """Each table has a test of its cells above, or in another file."""
     tested = {"points", "quadric", "sheet", "motion", "samples", "particle", "flight", "ball", "body_and_field"}
-    words = {"quantities"}  # a table of words: see test_guide
+    words = {"quantities", "targets"}  # tables of words: see test_guide and test_targets
     tested |= {"charges", "companions", "diamagnetism", "sizes", "radiation"}
     elsewhere = {"tops", "monodromy", "coats", "swings", "properties", "closed"}  # test_report_tables, test_page
     assert set(TABLES) - words == tested | elsewhere

@@ -13,6 +13,8 @@ import atlas
 from atlas import AtlasError
 from atlas.build.figures import build_figures
 from atlas.draw import save, to_figure
+from atlas.report.tables import compute
+from atlas.report.tables.model import Request
 from atlas.scene import Curve, Plane, Scene, Space, recipes
 from atlas.scene.arrange import arranged, suited
 from atlas.targets import TARGETS, TYPE, find
@@ -174,3 +176,12 @@ def test_a_scene_without_a_name_is_laid_out_too() -> None:
     """A scene that no recipe made has no least width."""
     scene = replace(recipes.load("stability_map").scene(), narrowest=0.0)
     assert arranged(scene, find("aps")).size[0] == 86.0
+
+
+def test_the_guide_has_what_each_target_asks() -> None:
+    """Its table names every target with its sizes, what is asked, and every source, which is an address or a class."""
+    data = compute("targets", Request((), {}, 3))
+    assert [row[0] for row in data.rows] == [f"`{name}`" for name in TARGETS]
+    assert data.rows[0][1:6] == ("86", "225", "8.6", "0.52", "600")
+    assert all(one.source in data.notes[0] for one in TARGETS.values())
+    assert [name for name, one in TARGETS.items() if not one.source.startswith("https://")] == ["beamer", "poster"]

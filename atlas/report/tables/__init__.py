@@ -21,6 +21,7 @@ from atlas.report.tables import (
     quantities,
     sheet,
     sizes,
+    targets,
     tops,
 )
 from atlas.report.tables.model import Data, Maker, Request
@@ -43,6 +44,7 @@ TABLES: Mapping[str, Maker] = MappingProxyType(
         "particle": particle.particle,
         "flight": flight.flight,
         "sizes": sizes.sizes,
+        "targets": targets.targets,
         "radiation": sizes.radiation,
         "coats": observed.coats,
         "swings": observed.swings,
