@@ -40,7 +40,7 @@ ANY = 100.0
 """Points: as wide as lines may be where nobody says how wide."""
 _APS = Target(
     86.0,
-    225.0,
+    215.0,
     TYPE,
     (0.52, ANY),
     600.0,
@@ -60,11 +60,11 @@ _ELSEVIER = Target(
 )
 _IOP = Target(
     85.0,
-    225.0,
+    215.0,
     TYPE,
     (0.3, ANY),
     600.0,
-    "8.5 cm and 15 cm; type 8 to 12 pt; no rule found on lines, resolution and height: 0.3 pt, 600 dpi, 225 mm ours",
+    "8.5 cm and 15 cm; type 8 to 12 pt; no rule found on lines, resolution and height: 0.3 pt, 600 dpi, 215 mm ours",
     "https://publishingsupport.iopscience.iop.org/questions/figures-journal-articles/",
 )
 _SPRINGER = Target(

@@ -11,7 +11,7 @@ from atlas.targets import TARGETS, Target
 
 _TALL, _PAPER = 2.2, 0.3
 """A figure is at most so many times as high as it is wide, and so much larger must panels be for each time."""
-_LOW, _LARGER, _LEAST = 0.9, 1.25, 0.01
+_LOW, _LARGER, _LEAST = 0.9, 1.1, 0.01
 """Curves made narrower keep this ratio of height to width if they have room; all else grows so much at most."""
 _SMALLEST = 0.4
 """Panels of a smaller part of their size can't be read."""

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from pypdf import PdfReader
 
 from atlas.build.tex import build_tex
 from atlas.errors import AtlasError
@@ -67,6 +68,11 @@ id = "curves"
 parameters.ratio = 1.5
 
 [[pages.blocks]]
+kind = "figure"
+recipe = "flight"
+id = "wide"
+
+[[pages.blocks]]
 kind = "bibliography"
 """
 WORK = """@article{clebsch1871, author = {Clebsch, Alfred}, title = {Ueber die Bewegung}, journal = {Math. Ann.},
@@ -122,8 +128,17 @@ def test_words_formulas_and_citations_are_latex(made: Path) -> None:
     assert "Clebsch" in (made / "references.bib").read_text("utf-8")
     figure = (made / "figures" / "curves.tex").read_text("utf-8")
     assert r"\label{fig-curves}" in figure
-    assert "{figures/curves.pdf}" in figure
     assert (made / "figures" / "curves.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize(("name", "kind", "width"), [("curves", "figure", 86.0), ("wide", "figure*", 178.0)])
+def test_a_figure_is_made_for_its_place(made: Path, name: str, kind: str, width: float) -> None:
+    """A column or both, and put there at the size it has: LaTeX scales nothing."""
+    text = (made / "figures" / f"{name}.tex").read_text("utf-8")
+    assert f"\\begin{{{kind}}}" in text
+    assert f"\\includegraphics{{figures/{name}.pdf}}" in text
+    (page,) = PdfReader(made / "figures" / f"{name}.pdf").pages
+    assert float(page.mediabox.width) * 25.4 / 72.0 == pytest.approx(width, abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -185,6 +200,7 @@ def test_the_paper_compiles(made: Path, numbers: dict[str, tuple[int, str, str]]
     status, log, text = compiled(made, "paper.tex")
     assert status == 0, log[-2000:]
     assert "Overfull \\hbox" not in log
+    assert "Float too large" not in log
     assert numbers["numbers/k"][1] in re.sub(r"[\s\u2009\u202f]", "", text).replace("\N{MINUS SIGN}", "-")
 
 
