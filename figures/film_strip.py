@@ -67,8 +67,8 @@ def scene(
             "cylinder whose axis goes once round the field on a cone, and whose painted seam turns about the axis "
             "meanwhile."
         ),
-        panels=stacked(cells, 1, azimuth, elevation),
-        narrow=stacked(cells, 2, azimuth, elevation),
+        panels=stacked(cells, 1, azimuth, elevation, STEP),
+        narrow=stacked(cells, 2, azimuth, elevation, STEP),
         size=(WIDTH, HEIGHT),
         paths={f"{i}": partial(turned, motion, times[i], places[i]) for i in range(count)},
         lasts=float(times[-1]),

@@ -80,7 +80,7 @@ def scene(
             for i, (time, place) in enumerate(zip(times, places, strict=True))
             for what, path in (("body", turned), ("dot", moved))
         },
-        lasts=2.0 * float(motion.period),
+        lasts=float(motion.period),
     )
 
 

@@ -31,7 +31,8 @@ class FigureBuild:
     The recipe is a name, or the place of a file.
 
     The kinds are svg, pdf, png, pgf, csv, csv.gz, and two that may be empty: narrow, an SVG for a narrow screen, a PNG
-    of what is shaded, where the figure itself won't do; and scene, a script for the viewer of the pages.
+    of what is shaded, where the figure itself won't do; and scene, a script for the viewer of the pages, and moves, one
+    that tells how it moves.
 
     It is made for the first of its `targets` that is wide enough, see `atlas.scene.arrange.suited`.
 

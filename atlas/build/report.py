@@ -226,8 +226,8 @@ def _figures(
     from atlas.build.figures import FigureBuild
 
     pages: tuple[tuple[str, ...], ...] = (
-        ("svg", "pdf", "png", "csv.gz", "narrow", "scene"),
-        ("png", "csv.gz", "narrow", "scene"),
+        ("svg", "pdf", "png", "csv.gz", "narrow", "scene", "moves"),
+        ("png", "csv.gz", "narrow", "scene", "moves"),
     )
     lines, shaded = pages if {"html", "single"} & set(formats) else (("pdf",), ("png",))
     if "html" not in formats:  # what is mailed holds no picture twice
@@ -255,6 +255,7 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
         files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds}
         picture.narrow = f"figures/{picture.stem}-narrow.{kind}" if files.pop("narrow", "") and facts["narrow"] else ""
         picture.scene = f"figures/{picture.stem}.js" if files.pop("scene", "") and facts["scene"] else ""
+        picture.moves = f"figures/{picture.stem}-moves.js" if files.pop("moves", "") and facts["moves"] else ""
         picture.files = files
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
 
@@ -292,7 +293,7 @@ def _pages(
     drawn = {
         name: figure.contents[kind]
         for figure, picture in figures.items()
-        for kind, name in (*picture.files.items(), ("narrow", picture.narrow), ("scene", picture.scene))
+        for kind, name in (*picture.files.items(), *picture.beside.items())
         if name
     }
     files = {name: page.encode() for name, page in pages.items()} | drawn

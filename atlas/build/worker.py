@@ -83,6 +83,10 @@ def _draw(task: Task) -> None:
         from atlas.draw import viewer
 
         contents["scene"] = viewer.script(scene, task.style).encode()
+    if "moves" in task.keys:
+        from atlas.draw import moves
+
+        contents["moves"] = moves.script(scene, task.style).encode()
     if "csv" in task.keys:
         contents["csv"] = data.table(scene).encode()
     if "csv.gz" in task.keys:
@@ -95,6 +99,7 @@ def _draw(task: Task) -> None:
         "size": arranged(scene, target).size if target else scene.size,
         "narrow": bool(small),
         "scene": bool(contents.get("scene")),
+        "moves": bool(contents.get("moves")),
         "parameters": scene.parameters,
         "renderer": renderer,
         "note": note,

@@ -81,7 +81,7 @@ def _panel(view: View, texts: dict[tuple[str, float], int]) -> dict[str, Any]:
     found["surfaces"] = [_surface(surface) for surface in view.surfaces]
     found |= {kind: [] for kind in ("lines", "wires", "arrows", "dots", "names")}
     for layer in view.panel.layers:
-        for kind, entry in _solids(layer, view):
+        for kind, entry in solids(layer, view):
             found[kind].append(entry)
         request = named(layer, view.frame)
         if request:
@@ -116,7 +116,7 @@ def _surface(surface: Surface) -> list[Any]:
     ]
 
 
-def _solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
+def solids(layer: Any, view: View) -> Iterator[tuple[str, list[Any]]]:
     """Yield the lines, wires, arrows and dots of a layer, each with its kind."""
     if isinstance(layer, Surface):
         yield from (

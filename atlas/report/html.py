@@ -18,9 +18,9 @@ from atlas.report.search import index
 from atlas.report.templates import templates
 from atlas.report.versions import versions
 
-SCRIPTS = ("page.js", "minisearch.js", "scene.js", "explorer.js")
+SCRIPTS = ("page.js", "minisearch.js", "scene.js", "motion.js", "explorer.js")
 """The page's own, the library of its search box, vendored so that a page opened from disk needs no network, what
-turns figures in space, and what moves an elementary motion."""
+turns figures in space, what lets figures move in time, and what moves an elementary motion."""
 
 
 class Card(NamedTuple):

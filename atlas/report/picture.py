@@ -19,6 +19,7 @@ class Picture:
     tables      the commands that make tables of the numbers that it shows
     narrow      the place of the same for a narrow screen, if that is another picture
     scene       the place of the script with which the page turns it, if it is in space
+    moves       the place of the script that tells how it moves, if it does
     failure     why there is none, or nothing; `remark` what the reader should know of how it was drawn
     """
 
@@ -35,9 +36,15 @@ class Picture:
     files: Mapping[str, str] = field(default_factory=dict)
     narrow: str = ""
     scene: str = ""
+    moves: str = ""
     tables: tuple[str, ...] = ()
     failure: str = ""
     remark: str = ""
+
+    @property
+    def beside(self) -> dict[str, str]:
+        """The places of what else the page shows it with, by kind; "" of what there is not."""
+        return {"narrow": self.narrow, "scene": self.scene, "moves": self.moves}
 
     @property
     def called(self) -> str:

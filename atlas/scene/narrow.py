@@ -34,11 +34,17 @@ def narrowed(scene: Scene) -> Scene | None:
     return replace(scene, columns=columns, size=(WIDTH, scale * height * -(-panels // columns) / rows))
 
 
-def stacked(cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float) -> tuple[Space, ...]:
-    """Return groups of layers that stand side by side in space as so many panels at one scale."""
+def stacked(
+    cells: Sequence[Sequence[Layer]], rows: int, azimuth: float, elevation: float, room: float = 0.0
+) -> tuple[Space, ...]:
+    """Return groups of layers that stand side by side in space as so many panels at one scale.
+
+    Each group has at least so much ``room`` to the right.
+    """
     each = -(-len(cells) // rows)
     panels = [Space(tuple(chain(*cells[i : i + each])), azimuth, elevation) for i in range(0, len(cells), each)]
-    return tuple(replace(one, span=tuple(np.max([extent(panel) for panel in panels], axis=0))) for one in panels)
+    span = tuple(np.max([(each * room, 0.0), *(extent(panel) for panel in panels)], axis=0))
+    return tuple(replace(one, span=span) for one in panels)
 
 
 def extent(panel: Space) -> FloatArray:

@@ -1,7 +1,7 @@
 // Scenes that turn: a click or Enter on a still picture puts the scene over it, in which lines and arrows are meshes and
 // every surface is a piece of a quadric that is met by a ray through each pixel, so that outlines and the order of glass
 // are exact. Names are placed anew at each turn. Only the scene's own file is asked for, by a script element; without
-// WebGL 2 the still picture stays.
+// WebGL 2 the still stays.
 "use strict";
 (() => {
 
@@ -24,10 +24,13 @@ void main() { vec3 q = F * point; vec2 u = M.zw * (F * way).xy / half_width; u /
   gl_Position = vec4(M.xy + M.zw * q.xy + side * vec2(-u.y, u.x) * half_width, -q.z / ${REACH}.0, 1); }`;
 const WIRE_FRAGMENT = `${HEAD}void main() {}`;
 // Along x + t d, with d to the eye, F = A t^2 + 2 B t + C: a ray meets each quadric twice, and what it meets is laid over
-// what is behind. For speed without a graphics card all pieces are written one after the other, and a condition is a loop
-// that ends at once. What is opaque has its place among the solids by its depth.
+// what is behind. For speed without a graphics card few pieces are written one after the other, and a condition is a loop
+// that ends at once. What is opaque stands among the solids.
 const FULL_VERTEX = `${HEAD}in vec2 at; out vec2 P; void main() { P = at; gl_Position = vec4(at, 0, 1); }`;
 const times = (count, text) => Array.from({length: count}, (_, i) => text(i)).join("\n");
+const piece = k => `{ bool on = all(lessThanEqual(D[${k} + 9].xyz, y)) && all(lessThanEqual(y, D[${k} + 10].xyz)) ${times(4, i => `&& dot(D[${k} + ${i}].xyz, y) <= D[${k} + ${i}].w + 1e-5`)};
+for (bool now = on && D[${k} + 6].z > 0.0; now; now = false) on = dot(form(D[${k} + 4], D[${k} + 5], D[${k} + 6], v), v) <= 1e-6;
+front = on ? D[${k} + 7] : front; back = on ? D[${k} + 8] : back; }`;
 const cast = (forms, pieces, opaque) => `${HEAD}in vec2 P; out vec4 o; uniform highp sampler2D wire, depth; uniform mat3 F; uniform vec4 M, L[4], thread, Q[${3 * forms}], D[${PIECE * forms * pieces}]; uniform float texel; uniform bool matt;
 vec4 form(vec4 a, vec4 b, vec4 c, vec4 v) { return vec4(dot(a, v), dot(vec4(a.y, b.xyz), v), dot(vec4(a.z, b.y, b.w, c.x), v), dot(vec4(a.w, b.z, c.xy), v)); }
 vec4 shade(vec3 n, vec3 tint, float clear, float off) {
@@ -47,9 +50,7 @@ vec4 a = Q[${3 * f}], b = Q[${3 * f + 1}], c = Q[${3 * f + 2}], Qd = form(a, b, 
 float A = dot(Qd.xyz, d), B = dot(Qd, vec4(x, 1)), C = dot(Qx, vec4(x, 1)), S = B * B - A * C, r = -(B + (B < 0.0 ? -1.0 : 1.0) * sqrt(max(S, 0.0)));
 for (int j = S >= 0.0 ? 0 : 2; j < 2; j++) {
 float t = j == 0 ? C / r : abs(A) > 1e-7 ? r / A : 9.0; vec3 y = x + t * d; vec4 front = vec4(0), back = front, v = vec4(y, 1);
-${times(pieces, p => { const k = PIECE * (pieces * f + p); return `{ bool on = all(lessThanEqual(D[${k + 9}].xyz, y)) && all(lessThanEqual(y, D[${k + 10}].xyz)) ${times(4, i => `&& dot(D[${k + i}].xyz, y) <= D[${k + i}].w + 1e-5`)};
-for (bool now = on && D[${k + 6}].z > 0.0; now; now = false) on = dot(form(D[${k + 4}], D[${k + 5}], D[${k + 6}], v), v) <= 1e-6;
-front = on ? D[${k + 7}] : front; back = on ? D[${k + 8}] : back; }`; })}
+${pieces > 4 ? `for (int k = ${PIECE * pieces * f}; k < ${PIECE * pieces * (f + 1)}; k += ${PIECE}) ${piece("k")}` : times(pieces, p => piece(PIECE * (pieces * f + p)))}
 for (bool keep = front.a > 0.0 && t > z && abs(t) < ${REACH}.0; keep; keep = false) {
 vec3 g = form(a, b, c, v).xyz; bool outer = dot(g, d) > 0.0; vec4 h = shade(F * normalize(outer ? g : -g), outer ? front.rgb : back.rgb, front.a, abs(t - zw));
 ${times(2 * forms, m => `{ bool less = t < t${m}; float u = less ? t${m} : t; vec4 w = less ? p${m} : h; t${m} = less ? t : t${m}; p${m} = less ? h : p${m}; t = u; h = w; }`)}
@@ -66,15 +67,15 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const across = a => unit(cross(a, Math.abs(a[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]));
 const rgb = colour => [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16));
-// Points of a line: as they are, or as 16-bit numbers in base 64.
+// A line's points, or 16-bit numbers in base 64.
 const points = packed => {
   if (Array.isArray(packed)) return packed;
   const steps = new Int16Array(Uint8Array.from(atob(packed), letter => letter.charCodeAt(0)).buffer), found = [];
   for (let i = 0; i < steps.length; i += 3) found.push([steps[i] / STEPS, steps[i + 1] / STEPS, steps[i + 2] / STEPS]);
   return found;
 };
-// While it moves: how many pixels there are to one of the page.
-const SHARES = [0.35, 0.5, 0.7, 1];
+// While it moves: pixels to one of the page.
+const SHARES = [0.18, 0.25, 0.35, 0.5, 0.7, 1];
 const headOf = ([, , head, , tail, tip], scale) => {
   const way = add(tip, tail, -1), size = Math.hypot(...way);
   return [add(tip, way, -Math.min(head / scale, 0.5 * size) / (size || 1)), Math.min(head / scale, 0.5 * size)];
@@ -118,7 +119,7 @@ class Mesh {
   }
 }
 
-// Where names may stand, and what each place costs: as in the still pictures.
+// Where names may stand, and at what cost, as in the stills.
 const TURNS = [0, 20, -20, 40, -40, 65, -65, 90, -90, 120, -120, 150, -150, 180].map(turn => turn * Math.PI / 180);
 const PLACES = TURNS.flatMap(turn => [0, 3, 7, 12].map(step => [turn, step, 1.6 * Math.abs(turn) + 0.35 * step]));
 
@@ -208,7 +209,7 @@ const svg = (tag, attributes) => {
 
 class Viewer {
   constructor(box, data, says, narrow) {
-    const shown = narrow && data.narrow ? {...data.wide, ...data.narrow} : data.wide; Object.assign(this, {box, data, shown, zoom: 1, move: [0, 0], pace: 1});
+    const shown = narrow && data.narrow ? {...data.wide, ...data.narrow} : data.wide; Object.assign(this, {box, data, shown, zoom: 1, move: [0, 0], pace: 3});
     const canvas = this.canvas = document.createElement("canvas"); canvas.tabIndex = 0;
     canvas.setAttribute("role", "application"); canvas.setAttribute("aria-label", says);
     const gl = this.gl = canvas.getContext("webgl2", {antialias: false});
@@ -253,7 +254,7 @@ class Viewer {
   }
   draw(fine = true) {
     const {gl, box} = this, {clientWidth, clientHeight} = box; if (!clientWidth || !clientHeight) return;
-    const sharp = devicePixelRatio || 1, ratio = fine ? Math.min(2 * sharp, Math.sqrt((this.pace ? 4e6 : 1e6) / clientWidth / clientHeight)) : sharp * SHARES[this.pace];
+    const sharp = devicePixelRatio || 1, ratio = fine ? Math.min(2 * sharp, Math.sqrt(2e5 * 2 ** this.pace / clientWidth / clientHeight)) : sharp * SHARES[this.pace];
     const width = Math.round(clientWidth * ratio), height = Math.round(clientHeight * ratio); this.target(width, height);
     for (const panel of this.panels) this.drawPanel(panel, width, height);
     for (const panel of this.panels) panel.names(clientWidth, clientHeight);
@@ -345,7 +346,7 @@ const open = async link => {
     const viewer = new Viewer(box, data, `${still.alt} Arrow keys turn it, plus and minus zoom, 0 goes back, Escape closes it.`, still.currentSrc.includes("-narrow."));
     const end = () => { viewer.close(); link.removeAttribute("tabindex"); link.focus(); };
     close.textContent = "×"; close.setAttribute("aria-label", "Back to the still picture"); close.addEventListener("click", end); box.append(close);
-    still.addEventListener("load", end, {once: true});  // another picture for another width
+    still.addEventListener("load", () => { if (box.isConnected) { end(); open(link); } }, {once: true});  // of another width
     box.addEventListener("keydown", event => { if (event.key === "Escape") { event.stopPropagation(); end(); } });
     link.tabIndex = -1; viewer.hurry(); viewer.canvas.focus({preventScroll: true}); link.viewer = viewer;
   } catch (error) { box.remove(); throw error; }
@@ -359,5 +360,5 @@ for (const link of document.querySelectorAll("a[data-scene]")) {
     open(link).catch(error => console.warn(error.message));
   });
 }
-window.atlasViewer = {Viewer, add, cross, dot, unit};
+window.atlasViewer = {Viewer, add, cross, dot, unit, load, open, points, webgl};
 })();

@@ -1,0 +1,102 @@
+"""Tables of how a scene moves, and the script that carries a scene by them, beside the scene at that time."""
+
+import json
+import shutil
+import subprocess
+from base64 import b64decode
+from typing import Any
+
+import numpy as np
+import pytest
+
+from atlas.draw import moves, viewer
+from atlas.places import folder
+from atlas.scene import movement, recipes
+
+SCRIPT = folder("templates") / "html" / "motion.js"
+PROGRAM = """
+require(process.argv[1]);
+const {data, scene, u} = JSON.parse(require("fs").readFileSync(0, "utf8"));
+const {rigid, within, carry, form, planes} = globalThis.atlasMoves;
+const numbers = packed => new Int16Array(Uint8Array.from(atob(packed), letter => letter.charCodeAt(0)).buffer);
+const how = {
+  surfaces: (move, one) => [form(move, one[0]), planes(move, one[1])], dots: (move, one) => [carry(move, one[2]), []],
+  arrows: (move, one) => [carry(move, one[4]), carry(move, one[5])],
+};
+console.log(JSON.stringify(data.wide.spaces.map(([frame, riders], k) => riders.flatMap(([kind, from, to, path]) => {
+  const [size, packed] = data.paths[path], move = within(rigid([size, numbers(packed)], u), frame);
+  return scene.wide.panels[k][kind].slice(from, to).map(one => [kind, ...how[kind]?.(move, one) ?? []]);
+}))));
+"""
+node = shutil.which("node")
+
+
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
+@pytest.mark.parametrize("name", ["film_strip", "flight", "rolling_cones", "tipping_disk"])
+def test_the_script_carries_a_scene_as_the_paths_do(name: str) -> None:
+    """Between two moments of the table forms, planes, arrows and dots are those of the scene at that time."""
+    scene = recipes.load(name).scene()
+    u = 0.37123
+    given = json.dumps({"data": moves.data(scene), "scene": viewer.data(scene), "u": u})
+    done = subprocess.run(
+        [str(node), "-e", PROGRAM, str(SCRIPT)], input=given, capture_output=True, text=True, check=True
+    )
+    later, held = movement.at(scene, u * scene.lasts), moves.data(scene)["wide"]["spaces"]
+    for panel, (frame, riders), found in zip(later.panels, held, json.loads(done.stdout), strict=False):
+        compare(viewed(panel, frame), riders, found)
+
+
+def viewed(panel: Any, frame: list[float]) -> dict[str, list[Any]]:
+    """Return what the viewer has of a panel, in the view that another one has."""
+    found: dict[str, list[Any]] = {"surfaces": [], "arrows": [], "dots": []}
+    centre, size = np.array(frame[:3]), frame[3]
+    for layer in panel.layers:
+        if hasattr(layer, "quadric"):
+            move = np.diag([size, size, size, 1.0])
+            move[:3, 3] = centre
+            form = (move.T @ layer.quadric @ move)[np.triu_indices(4)]
+            clip = [[*n, (d - np.array(n) @ centre) / size] for *n, d in layer.clip]
+            found["surfaces"].append((form / np.abs(form).max(), np.ravel(clip)))
+        elif hasattr(layer, "tail"):
+            found["arrows"].append(((layer.tail - centre) / size, (layer.tip - centre) / size))
+        elif type(layer).__name__ == "Points":
+            found["dots"] += [((point - centre) / size, []) for point in np.atleast_2d(layer.points)]
+    return found
+
+
+def compare(true: dict[str, list[Any]], riders: list[Any], found: list[Any]) -> None:
+    """Compare what rides, in the order of the riders: to a thousandth of a panel, a fraction of a pixel."""
+    wanted = [(kind, true[kind][i]) for kind, first, last, _ in riders for i in range(first, last) if kind in true]
+    carried = [one for one in found if one[0] in true]
+    assert len(wanted) == len(carried) > 0
+    for (kind, (first, second)), (_, one, b) in zip(wanted, carried, strict=True):
+        a = np.array(one)
+        same = np.sign(a @ first) / np.abs(a).max() if kind == "surfaces" else 1.0
+        assert np.allclose(same * a, first, atol=3e-3)
+        assert np.allclose(b, second, atol=1e-3)
+
+
+def test_marks_start_where_the_figure_has_them() -> None:
+    """The first place of each mark, a part of the figure, is that of its point; all stay in the figure."""
+    scene = recipes.load("tipping_disk").scene()
+    found = moves.data(scene)
+    for layout in ("wide", "narrow"):
+        assert len(found[layout]["marks"]) == 8
+        for _, diameter, packed in found[layout]["marks"]:
+            table = np.frombuffer(b64decode(packed), "<i2").reshape(-1, 2) / moves.FINE
+            assert diameter > 0.0
+            assert (np.abs(table - 0.5) <= 0.5).all()
+            assert np.ptp(table[:, 0]) > 0.2
+    starts = np.array([np.frombuffer(b64decode(m[2]), "<i2")[:2] for m in found["wide"]["marks"]])
+    assert (np.diff(starts[:, 0]) > 0).all()
+    assert (np.diff(starts[:, 1]) < 0).all()
+
+
+def test_what_does_not_move_has_no_script() -> None:
+    """A figure without paths has none; one that is flat has marks alone; the program is small and asks for nothing."""
+    assert not moves.script(recipes.load("cone").scene())
+    flat = moves.data(recipes.load("escape").scene())
+    assert (flat["paths"], flat["wide"]["spaces"], len(flat["wide"]["marks"])) == ({}, [], 3)
+    text = SCRIPT.read_text(encoding="utf-8")
+    assert len(text) < 12_000
+    assert not any(word in text for word in ("fetch(", "XMLHttpRequest", "eval(", "innerHTML", "import("))
