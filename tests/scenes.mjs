@@ -9,7 +9,7 @@ import { resolve } from "node:path";
 const [folder, packages] = process.argv.slice(2).map(path => resolve(path));
 const { chromium } = createRequire(`${packages}/`)("playwright-core");
 const launch = more => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", ...more] });
-let asked = 0, failed = 0, turned = 0;
+let asked = 0, failed = 0, turned = 0, moved = 0;
 const holds = (right, ...words) => { asked += 1; if (!right) { failed += 1; console.log("not so:", ...words); } };
 // The mean difference of shades, of 255, from a shaded picture and from a line drawing, which has other tints.
 const NEAR = { png: 3, svg: 15 };
@@ -21,7 +21,7 @@ page.on("request", request => holds(request.url().startsWith(`file://${folder}/`
 // The panels in space as they are seen, small; pictures are read in a page of their own, which has no policy.
 const reader = await browser.newPage();
 const shades = async link => {
-  await link.evaluate(one => one.viewer?.draw());
+  await link.evaluate(one => { if (one.viewer) { one.viewer.pace = 3; one.viewer.draw(); } });
   const clip = await link.locator("img").boundingBox(), shot = (await page.screenshot({ clip, style: ".scene > div, .scene button, .turns::after { visibility: hidden; } canvas { outline: none !important; }" })).toString("base64");
   return reader.evaluate(async ([shot, places]) => {
     const picture = await createImageBitmap(await (await fetch(`data:image/png;base64,${shot}`)).blob()), width = 140, height = Math.round(140 * picture.height / picture.width), on = new OffscreenCanvas(width, height).getContext("2d");
@@ -55,6 +55,22 @@ for (const name of readdirSync(folder).filter(one => one.endsWith(".html"))) {
     holds(await page.evaluate(() => document.activeElement.dataset.scene) === file, file, "is closed, and its link has the focus");
     turned += 1;
   }
+  for (const link of await page.locator("a[data-moves]").all()) {
+    const bar = page.locator(".motion", { has: page.locator("button") }).nth(moved), file = await link.getAttribute("data-moves"), out = bar.locator("output");
+    holds(await out.innerText() === "", file, "stays still until it is asked to move");
+    await bar.locator("input").focus();
+    await page.keyboard.press("ArrowRight");
+    await page.waitForFunction(one => one.textContent.startsWith("t = "), await out.elementHandle(), { timeout: 120000 });
+    const first = await out.innerText();
+    await bar.locator("button").focus();
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(([one, before]) => one.textContent !== before, [await out.elementHandle(), first], { timeout: 120000 });
+    await page.keyboard.press("Enter");
+    holds(await bar.locator("button").innerText() === "Play", file, "pauses, and keeps the focus");
+    await page.keyboard.press("Escape");
+    moved += 1;
+  }
+  moved = 0;
   const slider = page.locator(".explorer input[type=range]").first();
   if (!await slider.count()) continue;
   const said = await page.locator(".explorer output").innerText();

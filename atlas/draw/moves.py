@@ -42,12 +42,11 @@ def data(scene: Scene, style: Any = None) -> dict[str, Any]:
     paths = {name: path for name, path in scene.paths.items() if name in deep}
     steps = max([_PLAIN, *(_steps(path, scene.lasts) for path in paths.values())])
     with context(style):
-        return {
-            "lasts": scene.lasts,
-            "paths": {name: _table(path, np.linspace(0.0, scene.lasts, steps + 1)) for name, path in paths.items()},
-            "wide": _laid_out(scene),
-            "narrow": small and _laid_out(small),
-        }
+        wide, narrow = _laid_out(scene), small and _laid_out(small)
+    if small and narrow and small.panels == scene.panels:  # the viewer has what is in them once
+        narrow["spaces"] = wide["spaces"]
+    tables = {name: _table(path, np.linspace(0.0, scene.lasts, steps + 1)) for name, path in paths.items()}
+    return {"lasts": scene.lasts, "paths": tables, "wide": wide, "narrow": narrow}
 
 
 def _riders(panel: Any) -> Iterator[Any]:

@@ -43,8 +43,8 @@ def stacked(
     """
     each = -(-len(cells) // rows)
     panels = [Space(tuple(chain(*cells[i : i + each])), azimuth, elevation) for i in range(0, len(cells), each)]
-    span = tuple(np.max([(each * room, 0.0), *(extent(panel) for panel in panels)], axis=0))
-    return tuple(replace(one, span=span) for one in panels)
+    span = np.max([extent(panel) for panel in panels], axis=0)
+    return tuple(replace(one, span=(max(span[0], each * room), span[1])) for one in panels)
 
 
 def extent(panel: Space) -> FloatArray:

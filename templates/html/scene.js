@@ -5,7 +5,7 @@
 "use strict";
 (() => {
 
-// The light falls as in the shaded pictures: direction and strength of each lamp, which do not turn with the scene.
+// The light falls as in the shaded pictures: direction and strength of each lamp; they do not turn.
 const LAMPS = [[-0.55, 0.75, 0.9, 0.9], [0.9, 0.15, 0.8, 0.26], [0.1, 1, -0.5, 0.25], [0, -0.35, 1, 0.2]]
   .flatMap(([x, y, z, strength]) => [...unit([x, y, z]), strength]);
 const REACH = 2, STEPS = 16000, GRID = 16, PIECE = 11, FORMS = [1, 2, 3, 6], PIECES = [1, 4, 16], MOST = 16, TILE = 24;
@@ -81,7 +81,7 @@ const headOf = ([, , head, , tail, tip], scale) => {
   return [add(tip, way, -Math.min(head / scale, 0.5 * size) / (size || 1)), Math.min(head / scale, 0.5 * size)];
 };
 
-// Meshes of rings about a line: [centre, radius, slope of the normal along the line].
+// Meshes of rings about a line: [centre, radius, slope of the normal].
 class Mesh {
   points = []; normals = []; tints = []; faces = [];
   rings(rings, axes, colour, sides = 8) {
@@ -169,7 +169,7 @@ class Panel {
     const [r, u, t] = [0, 3, 6].map(i => [c * f[i] + s * f[i + 1], c * f[i + 1] - s * f[i], f[i + 2]]);
     this.frame = [...r, ...add(u.map(x => x * Math.cos(up)), t, -Math.sin(up)), ...add(t.map(x => x * Math.cos(up)), u, Math.sin(up))];
   }
-  // On the canvas, in units of its own: lower left corner and size in pixels; from the scene to -1..1; pixels to a point.
+  // On the canvas: lower left corner and size in pixels; from the scene to -1..1; pixels to a point.
   measure(width, height) {
     const {left, top, width: w, height: h, W, H, scale, shift} = this.place, {zoom, move} = this.viewer;
     const box = [left * width, (1 - top - h) * height, w * width, h * height].map(Math.round), fit = box[2] / W;

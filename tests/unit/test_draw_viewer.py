@@ -111,7 +111,7 @@ def test_a_page_stays_light() -> None:
     assert len(script(recipes.load("flight_poster").scene())) < 140_000
 
 
-@pytest.mark.parametrize("name", ["scene.js", "explorer.js"])
+@pytest.mark.parametrize("name", ["scene.js", "explorer.js", "motion.js"])
 def test_the_scripts_ask_for_nothing(name: str) -> None:
     """There is no address in them but the name of SVG, and nothing that could send or fetch one."""
     text = (HTML / name).read_text(encoding="utf-8")

@@ -92,6 +92,17 @@ def test_marks_start_where_the_figure_has_them() -> None:
     assert (np.diff(starts[:, 1]) < 0).all()
 
 
+@pytest.mark.parametrize("name", ["film_strip", "rolling_cones", "flight"])
+def test_what_rides_is_there_on_both_screens(name: str) -> None:
+    """The entries that are to be moved are among those that the viewer has for each screen."""
+    scene = recipes.load(name).scene()
+    given, found = viewer.data(scene), moves.data(scene)
+    for layout in ("wide", "narrow"):
+        shown = {**given["wide"], **given[layout]}["panels"]
+        for panel, (_, riders) in zip(shown, found[layout]["spaces"], strict=True):
+            assert all(last <= len(panel[kind]) for kind, _, last, _ in riders)
+
+
 def test_what_does_not_move_has_no_script() -> None:
     """A figure without paths has none; one that is flat has marks alone; the program is small and asks for nothing."""
     assert not moves.script(recipes.load("cone").scene())
