@@ -101,7 +101,8 @@ def key_of(file: Path, sources: Sources, style: str | None = None) -> str:
     from atlas.draw import gl
 
     text = file.read_bytes()
-    beside = (path for path in file.absolute().parent.glob("*.py") if os.fsencode(path.name) in text)
+    near = (path for kind in ("*.py", "*.md") for path in file.absolute().parent.glob(kind))
+    beside = (path for path in near if os.fsencode(path.name) in text)
     code = [PACKAGE / "build" / "report.py", *folder("figures").glob("*.py"), *beside]
     places = folder("templates"), folder("reports") / "data", PACKAGE
     extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})

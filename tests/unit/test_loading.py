@@ -37,7 +37,7 @@ HEAVY: Mapping[str, str] = {
     "heyoka": "heyoka",
 }
 """The libraries of pyproject.toml but the smallest, and the modules that show their use."""
-WATCHED = (*HEAVY.values(), "multiprocessing")
+WATCHED = (*HEAVY.values(), "multiprocessing", "pandas", "pint", "astropy", "IPython")
 
 WATCH = f'''
 import atexit, os, sys
@@ -284,6 +284,7 @@ def test_help_is_there_at_once() -> None:
         ("import atlas.paper", ""),
         ("import atlas.core", ""),
         ("import atlas.scene", "numpy"),
+        ("import atlas; print(atlas.GeneralMotion(1.5, (1, 2), (0.3, 0.7, 0.2)))", "numpy flint"),
         ("from atlas import Quadric, Hyperbola, ElementaryMotion, BallMotion, ParticleMotion, Flight", "numpy flint"),
     ],
 )

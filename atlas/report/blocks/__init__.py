@@ -14,7 +14,7 @@ from atlas.report.blocks.equation import Equation
 from atlas.report.blocks.explorer import Explorer
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.ledger import Errata, Ledger
-from atlas.report.blocks.prose import Note, Prose
+from atlas.report.blocks.prose import Note, Notebook, Prose
 from atlas.report.blocks.reference import Reference
 from atlas.report.blocks.table import Listing, Recorded, Table
 
@@ -30,6 +30,7 @@ __all__ = [
     "Ledger",
     "Listing",
     "Note",
+    "Notebook",
     "Prose",
     "Recorded",
     "Reference",
@@ -40,6 +41,7 @@ __all__ = [
 Block: TypeAlias = (
     Prose
     | Note
+    | Notebook
     | Equation
     | Explorer
     | Figure
@@ -69,6 +71,7 @@ class Kind:
 KINDS: Mapping[str, Kind] = {
     "prose": Kind(Prose, prose.view_prose, "prose"),
     "note": Kind(Note, prose.view_note, "note"),
+    "notebook": Kind(Notebook, prose.view_notebook, "prose"),
     "equation": Kind(Equation, equation.view, "equation"),
     "explorer": Kind(Explorer, explorer.view, "explorer"),
     "figure": Kind(Figure, figure.view, "figure"),

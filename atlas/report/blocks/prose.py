@@ -1,9 +1,15 @@
-"""Paragraphs, and a remark set apart from them."""
+"""Paragraphs, a remark set apart from them, and a notebook as paragraphs."""
 
 from dataclasses import dataclass
+from pathlib import PurePath
 
+from atlas.errors import AtlasError
+from atlas.places import folder
 from atlas.report.blocks.composer import Composer
 from atlas.report.schema import StrictStruct
+
+CELL = "```{code-cell} ipython3"
+"""How a cell with code begins."""
 
 
 class Prose(StrictStruct, frozen=True, tag_field="kind", tag="prose"):
@@ -20,6 +26,12 @@ class Note(StrictStruct, frozen=True, tag_field="kind", tag="note"):
 
     text: str
     title: str = "Remark"
+
+
+class Notebook(StrictStruct, frozen=True, tag_field="kind", tag="notebook"):
+    """A notebook of the folder ``reports/`` in MyST Markdown, as paragraphs and code; what a cell prints is in it."""
+
+    file: str
 
 
 @dataclass(frozen=True)
@@ -40,6 +52,15 @@ class NoteView:
 def view_prose(block: Prose, composer: Composer) -> ProseView:
     """Take in the text."""
     return ProseView(composer.paragraphs(block.text))
+
+
+def view_notebook(block: Notebook, composer: Composer) -> ProseView:
+    """Take in the text. Raises AtlasError for a file that is not there."""
+    path = folder("reports") / PurePath(block.file).name
+    if not path.is_file():
+        raise AtlasError(f"{block.file}: there is no such notebook in {folder('reports')}.")
+    _, _, text = path.read_text(encoding="utf-8").removeprefix("---\n").partition("\n---\n")
+    return ProseView(composer.paragraphs(text.replace(CELL, "```python")))
 
 
 def view_note(block: Note, composer: Composer) -> NoteView:

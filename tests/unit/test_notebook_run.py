@@ -1,0 +1,57 @@
+"""The guide's notebook runs as it is written, and prints what stands in it."""
+
+from pathlib import Path
+from typing import Any
+
+import jupytext
+import nbclient
+import nbformat
+import pytest
+
+from atlas.places import folder
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """Run it, in a folder of its own, and ask at the end what was loaded."""
+    patch, home = pytest.MonkeyPatch(), tmp_path_factory.mktemp("home")
+    for name in ("IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR"):
+        patch.setenv(name, str(home))
+    notebook = jupytext.read(folder("reports") / "notebook.md")
+    notebook.cells.append(nbformat.v4.new_code_cell("import sys; print('matplotlib.pyplot' in sys.modules)"))
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(home)}}).execute()
+    patch.undo()
+    return notebook
+
+
+def outputs(ran: Any) -> list[tuple[str, list[Any], str]]:
+    """Return each cell with code, what it gave, and the text below it."""
+    below = [cell.source if cell.cell_type == "markdown" else "" for cell in ran.cells[1:]] + [""]
+    return [(cell.source, cell.outputs, text) for cell, text in zip(ran.cells, below, strict=True) if "outputs" in cell]
+
+
+def test_cells_print_what_stands_below_them(ran: Any) -> None:
+    """A block of text below a cell is what it prints."""
+    printed = 0
+    for source, given, below in outputs(ran)[:-1]:
+        text = "".join(one.text for one in given if one.output_type == "stream" and one.name == "stdout")
+        assert bool(text) == below.startswith("```text\n"), source
+        if text:
+            assert text.split() == below.removeprefix("```text\n").partition("```")[0].split()
+            printed += 1
+    assert printed >= 5
+
+
+def test_objects_and_figures_show_themselves(ran: Any) -> None:
+    """A motion as a table and as LaTeX, a figure as a picture: without %matplotlib, and without pyplot."""
+    shown = {source.splitlines()[-1]: given for source, given, _ in outputs(ran)}
+    assert {*shown["motion"][0].data} >= {"text/plain", "text/html", "text/latex"}
+    assert "<table>" in shown["motion"][0].data["text/html"]
+    assert "image/png" in shown["motion.plot(turns=10)"][0].data
+    (last,) = (one.text for one in outputs(ran)[-1][1] if one.output_type == "stream" and one.name == "stdout")
+    assert last == "False\n"
+
+
+def test_the_guide_holds_it() -> None:
+    """It is a page of the guide."""
+    assert 'kind = "notebook"\nfile = "notebook.md"' in Path(folder("reports") / "guide.toml").read_text("utf-8")
