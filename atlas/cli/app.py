@@ -75,6 +75,7 @@ for name, says in {
     "animate": "Let a figure move: mp4, gif or apng.",
     "list": "Name the figures, reports and shapes.",
     "hyperbola": "Sample the hyperbola (67).",
+    "monodromy": "Carry a top's periods round a loop.",
     "sweep": "Tabulate quantities over parameters.",
     "check": "Grade a trajectory of your own.",
     "tex": "Write a report as LaTeX.",

@@ -64,9 +64,7 @@ def monodromy(
     Raises DomainError for a value that no motion has, or that is critical, and for a loop so coarse that an angle
     changes by more than a quarter of a turn in one step: give it more points, or keep it from critical values.
     """
-    k2, k3 = coupling
-    A, a = k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear
-    wells = Wells(M3, A, a)
+    wells = Wells.at(M3, I, coupling, linear, quadratic)
     whole(len(loop), "The number of points", 3)
     rows = []
     with workprec(PRECISION):

@@ -52,6 +52,12 @@ class Wells:
         A = (k3 / I3 * k3 - k2 / I2 * k2 + top.quadratic) / I2
         return cls(M3, A, M3 * (k2 / I2 - k3 / I3) + top.linear / I2)
 
+    @classmethod
+    def at(cls, M3: float, I: float, coupling: tuple[float, float], linear: float, quadratic: float) -> "Wells":
+        """Return the potentials of a top in units of I2 at this M3."""
+        k2, k3 = coupling
+        return cls(M3, k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear)
+
     def potential(self, p: Any, nu: Any) -> Any:
         """Return V <= g of motions with the momentum p, theorem-every-top; DomainError unless |nu| < 1."""
         p, nu = real(p, "p"), real(nu, "nu")

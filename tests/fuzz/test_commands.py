@@ -39,6 +39,7 @@ EXAMPLES = {
 BASES = EXAMPLES | {
     "asymmetric": ["--inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2"],
     "hyperbola": ["--ratio 1.5 --field 1 2"],
+    "monodromy": ["--inertia 1 0.5 --linear 1 --M3 0.5 --points 12"],
     "check": ["FILE --ratio 1.5 --field 1 2 --omega2 0.7"],
     "figure": [""],
     "list": [""],

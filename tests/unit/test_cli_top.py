@@ -110,3 +110,45 @@ def test_what_does_not_go_together_is_said_in_one_line(words: str, says: str) ->
     assert found.exit_code != 0
     assert says in told
     assert "\n" not in told
+
+
+def carried(words: str) -> Any:
+    """Return what the command for monodromy makes of words."""
+    from atlas.cli.monodromy import command as monodromy
+
+    return CliRunner().invoke(monodromy, words.split())
+
+
+@pytest.mark.parametrize(
+    ("words", "third"),
+    [
+        ("--inertia 1 0.5 --linear 1 --M3 0.5", [-1, 1, 1]),
+        ("--inertia 2 3 --coupling 2 3 --M3 0 --p 0", [-2, 0, 1]),
+        ("--inertia 1e-46 5e-47 --linear 1e-46 --M3 5e-47", [-1, 1, 1]),
+    ],
+)
+def test_the_matrix_of_monodromy_does_not_depend_on_the_unit_of_inertia(words: str, third: list[int]) -> None:
+    """Lagrange's top and the disk at M3 = 0, as `test_monodromy` has them; with the loop and the width of the balls."""
+    found = json.loads(carried(f"{words} --points 32 --json").stdout)
+    assert found["matrix"] == [[1, 0, 0], [0, 1, 0], third]
+    assert len(found["loop"]["p"]) == len(found["turns"]) == 33
+    assert found["loop"]["p"][0] == found["loop"]["p"][-1]
+    assert found["radius"] < 1e-30
+    assert found["step"] < 0.25
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("--inertia 1 0.5 --linear 1 --M3 3", "no isolated one"),
+        ("--inertia 1 3 --M3 1", "I3 is at most 2 I2"),
+        ("--inertia 0 0 --M3 1", "both are positive"),
+        ("--inertia 1 1 --M3 1e308 --linear 1e308", "too large or too small"),
+        ("--inertia 1 1 --M3 0 --linear 5e-324", "too large or too small"),
+        ("--inertia 1 0.5 --linear 1 --M3 0.5 --points 3", "give more points"),
+    ],
+)
+def test_a_loop_that_says_nothing_is_refused(words: str, says: str) -> None:
+    """Round a stable spin, of no body, in units that floats do not hold, of too few points: a sentence, no matrix."""
+    with pytest.raises(atlas.DomainError, match=says):
+        raise carried(words).exception

@@ -80,6 +80,8 @@ CASES = [
     Case("asymmetric --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --json", "flint numpy"),
     Case("elliptic --inertia 0.8 1 1.3 --field 0.2 1 0.6 --z 1.7 --json", "flint numpy"),
     Case("top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3 --json", "flint numpy"),
+    Case("monodromy --inertia 1 0.5 --linear 1 --M3 0.5 --json", "flint numpy"),
+    Case("monodromy --inertia 1 0.5 --linear 1 --M3 0.5", "flint numpy rich"),
     Case(f"motion {MOTION} --times 1", "flint rich"),
     Case(f"motion {MOTION} --grid 0 1 9 --json", "flint numpy"),
     Case(f"general {GENERAL} --times 1", "flint rich"),

@@ -88,10 +88,7 @@ def loops(request: Request) -> Data:
     asked = request.take(MonodromyParameters)
     rows: list[tuple[str | Number, ...]] = []
     for one in asked.loops:
-        k2, k3 = one.coupling
-        wells = Wells(
-            one.M3, k3 * k3 / one.ratio - k2 * k2 + one.quadratic, one.M3 * (k2 - k3 / one.ratio) + one.linear
-        )
+        wells = Wells.at(one.M3, one.ratio, one.coupling, one.linear, one.quadratic)
         loop = around(wells, one.p, asked.points)
         found = monodromy(one.ratio, one.coupling, one.M3, loop, one.linear, one.quadratic)
         matrix = r"\\".join("&".join(map(str, row)) for row in found.matrix)
