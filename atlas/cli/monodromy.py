@@ -61,15 +61,20 @@ def command(
 
     middle = along if p is None else p
     given(inertia, coupling, (0.0, 1.0), linear, quadratic)
-    unit, I3, k2, k3, *potential = (float(x) for x in (*inertia[:2], *coupling, linear, quadratic))
-    top = I3 / unit, (k2 / unit, k3 / unit), *(x / unit for x in potential)
+    unit = float(inertia[0])
+    I, twist, weight, lean = (
+        inertia[1] / unit,
+        (coupling[0] / unit, coupling[1] / unit),
+        linear / unit,
+        quadratic / unit,
+    )
     M3 = along / unit
-    wells = Wells.at(M3, *top)
+    wells = Wells.at(M3, I, twist, weight, lean)
     size = 4 * (abs(wells.A) + abs(wells.a)) + M3 * M3
     if size and not LEAST < max(size, abs(middle / unit)) < math.inf:
         raise DomainError("The rates of this top are too large or too small for floats: choose another unit of time.")
     loop = around(wells, middle / unit, points)
-    found = monodromy(top[0], top[1], M3, loop, *top[2:])
+    found = monodromy(I, twist, M3, loop, weight, lean)
     if as_json:
         dump({
             "matrix": found.matrix,
