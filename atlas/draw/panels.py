@@ -125,7 +125,6 @@ def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[t
     if framed:
         canvas = figure.canvas
         FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once
-        for _ in range(2 if scene.rows else 1):  # at another size there are other ticks
-            ConstrainedLayoutEngine().execute(figure)
+        ConstrainedLayoutEngine().execute(figure)
         figure.set_canvas(canvas)
     return figure, panels

@@ -9,7 +9,7 @@ from atlas.scene.layers import Panel, Plane, Scene
 from atlas.scene.narrow import extent
 from atlas.targets import TARGETS, Target
 
-_TALL, _PAPER = 2.2, 0.3
+_TALL, _PAPER = 2.2, 0.35
 """A figure is at most so many times as high as it is wide, and so much larger must panels be for each time."""
 _LOW, _LARGER, _LEAST = 0.9, 1.1, 0.01
 """Curves made narrower keep this ratio of height to width if they have room; all else grows so much at most."""
@@ -94,8 +94,9 @@ def _fitted(
     """Return an arrangement in so many columns, in a room (width, height)."""
     wide = room[0] / columns
     rows = [max(_high(one, wide, before) for one in panels[k : k + columns]) for k in range(0, len(panels), columns)]
-    part = min(1.0, room[1] / sum(rows))
-    rows = [part * row for row in rows]
+    words = [max(_words(one)[1] for one in panels[k : k + columns]) for k in range(0, len(panels), columns)]
+    part = min(1.0, (room[1] - sum(words)) / (sum(rows) - sum(words)))
+    rows = [word + part * (row - word) for row, word in zip(rows, words, strict=True)]
     scale = min(_scale(one, (wide, rows[k // columns]), before) for k, one in enumerate(panels))
     shown = [replace(one, legend=True) if isinstance(one, Plane) and one.legend == "beside" else one for one in panels]
     return Arrangement(tuple(panels if wide >= before[0] else shown), columns, tuple(rows), scale)
@@ -106,14 +107,20 @@ def _high(panel: Panel, wide: float, before: tuple[float, float]) -> float:
     high = before[1] * wide / before[0]
     if not isinstance(panel, Plane):
         right, up = extent(panel)
-        high = min(high, (wide - _NAMES[0]) * float(up / right) + _NAMES[1]) if right > 0.0 else high
+        beside, below = _words(panel)
+        high = min(high, (wide - beside) * float(up / right) + below) if right > 0.0 else high
     elif not panel.equal:
         return min(before[1], max(high, _LOW * wide))
     return min(high, _LARGER * before[1])
 
 
 def _scale(panel: Panel, cell: tuple[float, float], before: tuple[float, float]) -> float:
-    """Return how large a panel is beside before, without the room of its labels."""
-    labels = _AXES if isinstance(panel, Plane) else (0.0, 0.0)
-    sizes = zip(cell, (before[0], _high(panel, before[0], before)), labels, strict=True)
-    return max(min((now - label) / (then - label) for now, then, label in sizes), _LEAST)
+    """Return how large a panel is beside before, without the room of its words."""
+    words = _AXES if isinstance(panel, Plane) else (0.0, 0.0)  # names go along with a drawing
+    sizes = zip(cell, (before[0], _high(panel, before[0], before)), words, strict=True)
+    return max(min((now - word) / (then - word) for now, then, word in sizes), _LEAST)
+
+
+def _words(panel: Panel) -> tuple[float, float]:
+    """Return the room beside and below a panel for what does not shrink with it."""
+    return _AXES if isinstance(panel, Plane) else _NAMES
