@@ -24,7 +24,7 @@ OUT = Path("build/bench.json")
     "cases",
     cls=Many,
     metavar="NAME [...]",
-    help="elementary, general, ball, particle, heavy; all when left out.",
+    help="elementary, general, ball, particle, heavy, asymmetric; all when left out.",
 )
 @click.option("--quick", is_flag=True, help="The short form, under half a minute.")
 @click.option("--read", type=click.Path(dir_okay=False, path_type=Path), help="Show this record instead of measuring.")

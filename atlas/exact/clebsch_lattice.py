@@ -20,14 +20,26 @@ from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
-from atlas.exact.clebsch_periods import BITS, FINE, LEAST, ONE, Curve, Integrals, complex_of, generating, nearest, sums
+from atlas.exact.clebsch_periods import (
+    BITS,
+    FINE,
+    LEAST,
+    ONE,
+    PATHS,
+    Curve,
+    Integrals,
+    complex_of,
+    generating,
+    nearest,
+    sums,
+)
 from atlas.formulas.numbers import workprec
 
 WHOLE = 1e-9
 """How near to whole numbers the coefficients of a conjugate period are."""
 
-SLOW = 0.003
-"""Least rate at which sums of paths converge that are gone where the quicker ones do not give all periods."""
+SLOW, MORE = 0.003, 24
+"""Least rate at which sums of paths converge, and paths, where fewer and quicker ones do not give all periods."""
 
 TURNS = 60
 """Rounds of Siegel's reduction at most."""
@@ -65,14 +77,14 @@ def lattice(motion: Integrals) -> Lattice:
     with workprec(BITS):
         curve = Curve(motion)
         try:
-            return _of_paths(curve, LEAST)
+            return _of_paths(curve, LEAST, PATHS)
         except NotCertifiedError:
-            return _of_paths(curve, SLOW)
+            return _of_paths(curve, SLOW, MORE)
 
 
-def _of_paths(curve: Curve, least: float) -> Lattice:
-    """Return the periods that integrals along paths make whose sums converge at some rate at least."""
-    ways = [list(curve.along(*path)) for path in curve.paths(least, poles=True)]
+def _of_paths(curve: Curve, least: float, most: int) -> Lattice:
+    """Return the periods that integrals along some paths make whose sums converge at some rate at least."""
+    ways = [list(curve.along(*path)) for path in curve.paths(least, most, poles=True)]
     periods = sums(ways, generating([_real(way) for way in ways]))
     if len(periods) != 4:
         raise NotCertifiedError(f"not certified: {len(periods)} periods of the motion's torus were found, not four.")

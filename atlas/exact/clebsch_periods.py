@@ -122,10 +122,10 @@ class Curve:
         u -= y * self.imaginary
         return centre(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
 
-    def paths(self, least: float = LEAST, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
-        """Return straight paths between zeros with the rates at which their sums converge, `least` at least.
+    def paths(self, least: float = LEAST, most: int = PATHS, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
+        """Return so many straight paths between zeros at most, whose sums converge at rates of `least` at least.
 
-        The quickest come first. With `poles`, those of z count as well: the third integral of `along` has them.
+        Each comes with its rate, the quickest come first. With `poles`, those of z count as well: the third integral of `along` has them.
         """
         shifts = [(m * self.real, n * self.imaginary) for m, n in product(range(-2, 3), repeat=2)]
         images = [[complex_of(zero + x + y) for x, y in shifts] for zero in self.zeros]
@@ -143,7 +143,7 @@ class Curve:
                     found.setdefault((i, j), []).append((rate, start, stop))
         rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
         chosen = sorted((path for row in rows for path in row[:3]), key=lambda path: -path[0])
-        return [(start, stop, rate) for rate, start, stop in chosen[:PATHS]]
+        return [(start, stop, rate) for rate, start, stop in chosen[:most]]
 
     def along(self, start: acb, stop: acb, rate: float) -> tuple[acb, acb, acb]:
         """Return -2i times the integral of (D, z, v) du/eta along a path.

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from atlas.study.bench import ball, elementary, general, heavy, particle
+from atlas.study.bench import asymmetric, ball, elementary, general, heavy, particle
 from atlas.study.bench.case import Case, Method, grid
 from atlas.study.bench.integrators import Integrator, integrators
 from atlas.study.bench.reference import check, reference
@@ -22,6 +22,11 @@ STEPPING = [(case, integrator) for case in CASES for integrator in integrators()
 def test_reference_obeys_the_equations_of_motion(case: Case) -> None:
     """The closed form in balls meets a Taylor integration of the equations to 1e-40."""
     assert check(case, 2.0) < 1e-40
+
+
+def test_reference_of_three_moments_obeys_the_equations_of_motion() -> None:
+    """So does that of a body with three moments, for a while: its true values take longer than others."""
+    assert check(asymmetric.case(), 0.25) < 1e-40
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)

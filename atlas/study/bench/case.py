@@ -65,6 +65,8 @@ class Case:
     closed: tuple[Method, ...]
     base: Callable[[], Solve] | None = None
     """What times are compared with, if none of the closed forms is plain NumPy."""
+    samples: int | None = None
+    """How many times there are at most up to a horizon, where true values take long."""
 
     @property
     def size(self) -> int:

@@ -25,6 +25,7 @@ CASES = {
     "ball": "charged ball",
     "particle": "charged particle",
     "heavy": "heavy top",
+    "asymmetric": "three moments",
 }
 
 SCALARS, SURFACE, MATRIX = "omega3, k, phi of a curve", "quadric with its axes", "R at one time of each motion"

@@ -42,7 +42,8 @@ class Bench:
     @classmethod
     def of(cls, case: Case, plan: Plan) -> "Bench":
         """Compute what all methods share."""
-        grids = {horizon: grid(horizon, plan.samples) for horizon in plan.horizons}
+        count = min(plan.samples, case.samples or plan.samples)
+        grids = {horizon: grid(horizon, count) for horizon in plan.horizons}
         truths = {horizon: reference(case, g) for horizon, g in grids.items()}
         plain = case.base or next(method for method in case.closed if method.name == "plain").prepare
         return cls(case, plan, grids, truths, plain())
@@ -90,7 +91,7 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
         yield Setup(case.name, integrator.name, "done", tolerance, setup)
         pace = 0.0
         for horizon in plan.horizons:
-            run = Run(case.name, integrator.name, horizon, plan.samples, "done", tolerance)
+            run = Run(case.name, integrator.name, horizon, bench.grids[horizon].count, "done", tolerance)
             if beaten and not pace:
                 yield _unmeasured(run, "skipped", f"out of time at {beaten:.0e} already, so at longer horizons")
                 break

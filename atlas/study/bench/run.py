@@ -8,7 +8,7 @@ from typing import TypeAlias, TypeVar
 from msgspec.structs import replace
 
 from atlas.errors import AtlasError
-from atlas.study.bench import arrays, ball, dense, elementary, general, heavy, particle
+from atlas.study.bench import arrays, asymmetric, ball, dense, elementary, general, heavy, particle
 from atlas.study.bench.case import Case
 from atlas.study.bench.cost import costs
 from atlas.study.bench.integrators import Integrator, integrators
@@ -22,6 +22,7 @@ CASES = {
     "ball": ball.case,
     "particle": particle.case,
     "heavy": heavy.case,
+    "asymmetric": asymmetric.case,
 }
 
 Row = TypeVar("Row", ReferenceCheck, Run, Setup, Cost, Rows)
