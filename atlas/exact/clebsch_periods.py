@@ -125,7 +125,8 @@ class Curve:
     def paths(self, least: float = LEAST, most: int = PATHS, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
         """Return so many straight paths between zeros at most, whose sums converge at rates of `least` at least.
 
-        Each comes with its rate, the quickest come first. With `poles`, those of z count as well: the third integral of `along` has them.
+        Each comes with its rate, the quickest come first. With `poles`, those of z count as well: the third integral of
+        `along` has them.
         """
         shifts = [(m * self.real, n * self.imaginary) for m, n in product(range(-2, 3), repeat=2)]
         images = [[complex_of(zero + x + y) for x, y in shifts] for zero in self.zeros]
@@ -212,8 +213,8 @@ def _polynomial(polynomial: fmpq_poly, z: acb) -> acb:
 def _rate(a: complex, b: complex, place: complex) -> float:
     """Return the logarithm of the ellipse with foci a and b through a place, 0 on the path between them."""
     w = (2 * place - a - b) / (b - a)
-    size = abs(w + (w * w - 1) ** 0.5)
-    return abs(log(size))
+    root = (w * w - 1) ** 0.5
+    return log(max(abs(w + root), abs(w - root)))
 
 
 def centre(x: acb) -> acb:
