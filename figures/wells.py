@@ -16,6 +16,9 @@ from atlas.scene.words import listed, plain, tex, title
 WIDTH, HEIGHT = 178.0, 78.0
 RANGES = {"reach": (0.5, 50.0)}
 
+GAP = 0.07
+"""Half the height, in parts of the view's, that a line leaves free for the number that it bears."""
+
 
 def scene(
     *,
@@ -62,10 +65,13 @@ def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float,
         line = within(c, nu, reach)
         if not len(line):
             continue
-        layers.append(Curve(line, "reference"))
-        if np.ptp(line[:, 1]) > 0.4 * reach:
-            down = 0.11 if line[1, 1] == reach else 0.25
-            layers.append(Label(down * line[0] + (1 - down) * line[1], f"${tex(nu)}$", "note", (0.0, 0.0)))
+        if np.ptp(line[:, 1]) <= 0.4 * reach:
+            layers.append(Curve(line, "reference"))
+            continue
+        down = 0.11 if line[1, 1] == reach else 0.25
+        at, gap = down * line[0] + (1 - down) * line[1], GAP * reach * (line[1] - line[0]) / np.ptp(line[:, 1])
+        layers += [Curve(np.stack([line[0], at - gap]), "reference"), Curve(np.stack([at + gap, line[1]]), "reference")]
+        layers.append(Label(at, f"${tex(nu)}$", "note", (0.0, 0.0)))
     layers.append(Curve(envelope(M3, reach), "main"))
     if last:
         layers += [

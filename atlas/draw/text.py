@@ -5,12 +5,17 @@ from functools import cache
 
 from atlas.draw.style import zoom
 
-_MATH = re.compile(r"\$[^$]*\$")
+_SET = re.compile(r"\$[^$]*\$|'")
 
 
 def typeset(text: str) -> str:
-    """Write primes as the character: mathtext's own superscript stands too far from its letter."""
-    return _MATH.sub(lambda math: math[0].replace(r"^{\prime}", "′").replace(r"^\prime", "′").replace("'", "′"), text)
+    """Write primes as the character, as mathtext's own superscript stands too far from its letter, and apostrophes."""
+
+    def character(found: re.Match[str]) -> str:
+        math = found[0].replace(r"^{\prime}", "′").replace(r"^\prime", "′")
+        return "’" if math == "'" else math.replace("'", "′")
+
+    return _SET.sub(character, text)
 
 
 def points(setting: str) -> float:

@@ -17,6 +17,7 @@ import atlas
 from atlas import AtlasError
 from atlas.draw import context, gl, save, to_figure, to_plotter
 from atlas.draw.style import style_of
+from atlas.draw.text import typeset
 from atlas.scene import Curve, Image, Plane, Scene, recipes
 from atlas.scene.style import LINES, STYLES, Style, readable
 
@@ -253,3 +254,8 @@ def test_what_stands_behind_two_walls_is_seen(role: str) -> None:
     """
     fill = STYLES[role].fill
     assert 0.4 <= (1.0 - fill) * (1.0 - 0.5 * fill) <= 0.9
+
+
+def test_words_have_apostrophes_and_formulas_primes() -> None:
+    """A straight quotation mark is neither: in words it is an apostrophe, in a formula a prime."""
+    assert typeset(r"the paper's body in $\mathbf{B}'$ and $B^\prime$") == r"the paper’s body in $\mathbf{B}′$ and $B′$"
