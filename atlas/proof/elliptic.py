@@ -3,10 +3,11 @@
 from functools import cache
 
 import sympy
+from sympy.polys.matrices import DomainMatrix
 
-from atlas.proof.clebsch import AXES, MOMENTS, K, determinant
-from atlas.proof.model import Model, cross
-from atlas.proof.trial import Falsehood, Trial
+from atlas.proof.clebsch import AXES, MOMENTS, K, M, determinant
+from atlas.proof.model import Model, cross, dot
+from atlas.proof.trial import Falsehood, Part, Trial
 
 
 @cache
@@ -19,6 +20,48 @@ def elliptic_model() -> Model:
     letters["g"] = AXES.trace() / 2 * sympy.eye(3) - AXES
     letters["P"] = sympy.prod(z + D / moment for moment in MOMENTS)
     return Model(letters, flow=dict(zip(K, cross(K, E * K), strict=True)))
+
+
+@cache
+def integrals_model() -> Model:
+    """Model any M and K of a body with principal moments, any z and v, and the integrals H and F."""
+    z, v = sympy.symbols("z v", real=True)
+    D = determinant(AXES)
+    x = sympy.diag(*(z + D / moment for moment in MOMENTS))
+    P = sympy.expand(x.det())
+    letters = {"M": M, "K": K, "J": AXES, "D": D, "z": z, "v": v, "x": x, "P": P, "P1": P.diff(z), "P2": P.diff(z, 2)}
+    letters |= {"e2": sum(D / moment for moment in MOMENTS), "s": dot(K, x.inv() * K), "elliptic": -v * x.inv() * K}
+    letters["H"] = lambda M: dot(M, AXES.inv() * M) / 2 + dot(K, AXES * K) / 2
+    letters["F"] = lambda M: dot(M, M) - D * dot(K, AXES.inv() * K)
+    letters |= dict(zip(("x1", "x2", "x3"), x.diagonal(), strict=True))
+    return Model(letters)
+
+
+@cache
+def critical_model() -> Model:
+    """Model the values of F and 2 D H on the elliptic motions as functions of z, with v' = P'/2v, at any b and c."""
+    whole = integrals_model().letters
+    b, c = sympy.symbols("b c", real=True)
+    letters = {name: whole[name] for name in ("z", "v", "D", "e2", "P", "P1", "P2")} | {"b": b, "c": c}
+    return Model(letters, flow={whole["z"]: sympy.Integer(1), whole["v"]: whole["P1"] / (2 * whole["v"])})
+
+
+@cache
+def linear_model() -> Model:
+    """Model the flow of half the sum of squares, linear about x_i M_i = -v K_i.
+
+    Here x_i = w_i^2, v = w1 w2 w3 and K_i = w_i k_i, which makes all of it polynomials.
+    """
+    w, k, lam = sympy.symbols("w1:4"), sympy.symbols("k1:4"), sympy.Symbol("lam")
+    first, second, third = (root**2 for root in w)
+    x, y = sympy.diag(first, second, third), sympy.diag(second * third, first * third, first * second)
+    rates = sympy.Matrix([*(cross(M, x * M) + cross(K, y * K)), *cross(K, x * M)])
+    start = {M[i]: -k[i] * w[i - 1] * w[i - 2] for i in range(3)} | {K[i]: k[i] * w[i] for i in range(3)}
+    flow = DomainMatrix.from_Matrix(rates.jacobian([*M, *K]).subs(start, simultaneous=True))
+    letters = {"lam": lam, "rates": rates.subs(start, simultaneous=True)}
+    letters["char"] = sum(flow.domain.to_sympy(c) * lam**n for n, c in enumerate(reversed(flow.charpoly())))
+    letters["C"] = sum(k[i] ** 2 * (y.trace() - 2 * y[i, i]) ** 2 for i in range(3))
+    return Model(letters)
 
 
 TRIALS = (
@@ -35,6 +78,58 @@ TRIALS = (
             "Any $v$ will do",
             "(1 - v^2/P)*cross(J*K,K)",
             "0*cross(J*K,K)",
+        ),
+    ),
+    Trial(
+        name="theorem-splitting",
+        printed="x1*(M[1] + v*K[1]/x1)^2 + x2*(M[2] + v*K[2]/x2)^2 + x3*(M[3] + v*K[3]/x3)^2"
+        " = 2*D*H(M) + z*F(M) + 2*v*dot(M,K) + dot(K,K)*z*(z + e2) + (v^2 - P)*s",
+        model=integrals_model,
+        follows=r"$H$ and $F$; for $v^2=P$ the last term vanishes",
+        also=(
+            Part(line="rates[n] = 0; char = lam^4*(lam^2 + C)", model=linear_model),
+            Part(
+                line="4*dot(K,K)*P + s*(P1^2 - 2*P*P2) = K[1]^2/x1*(x1*x2 + x1*x3 - x2*x3)^2"
+                " + K[2]^2/x2*(x2*x1 + x2*x3 - x1*x3)^2 + K[3]^2/x3*(x3*x1 + x3*x2 - x1*x2)^2;"
+                " P1^2 - 2*P*P2 = (x2*x3)^2 - 2*x2*x3*x1*(x2 + x3) + x1^2*(x2 - x3)^2",
+                model=integrals_model,
+            ),
+        ),
+        note="The sum of squares is conserved, whatever the motion, because $H$, $F$ and the Casimirs are. If all "
+        "$x_i>0$, on the unbounded oval, it is small only near the motions with $x_iM_i=-vK_i$: these are stable, but "
+        r"for those whose $\mathbf{K}$ runs along a separatrix to another place of their curve. On the bounded oval "
+        "let $x_1>0>x_2,x_3$: there the last identity has positive terms only, and $C=4b^2P+s(P'^2-2PP'')>0$ wherever "
+        r"$s=-(\mathbf{M},\mathbf{K})/v>0$. For $C>0$ the squares are of one sign across the curve of the motion, for "
+        "$C<0$ they are not, and the flow of $DH+zF/2$ has a saddle. Not proved is that neighbours leave *in time* at "
+        "those single places of an unstable stretch where the rate in time is zero.",
+        false=Falsehood(
+            "The flow of $DH+zF/2$ has no eigenvalue but 0, so that stability is never decided by it",
+            "lam^4*(lam^2 + C)",
+            "lam^6",
+        ),
+    ),
+    Trial(
+        name="theorem-bifurcation",
+        printed="F = -c*P1/v - 2*b^2*z - e2*b^2; G = -2*c*v - b^2*z^2 - z*(F + e2*b^2);"
+        " C = 4*b^2*v^2 - c/v*(P1^2 - 2*v^2*P2); d(F) = -C/(2*v^2); d(G) = -z*d(F); d(-z/(2*D))/d(F) = v^2/(D*C)",
+        model=critical_model,
+        follows=r"$v^2=P$, of which $dv/dz=P'/2v$ is used; $G=2DH$",
+        defines=("F", "G", "C"),
+        also=(
+            Part(
+                line="c = dot(elliptic,K) = -v*s; F(elliptic) = -c*P1/v - 2*dot(K,K)*z - e2*dot(K,K)"
+                " + (v^2 - P)*dot(inv(x)*K,inv(x)*K); 2*D*H(elliptic) = -2*c*v - dot(K,K)*z^2"
+                " - z*(F(elliptic) + e2*dot(K,K)) - (v^2 - P)*s",
+                model=integrals_model,
+                defines=("c",),
+            ),
+        ),
+        note="The second line is that an elliptic motion has these $F$ and $H$. The curve turns back in a cusp where "
+        "$C=0$, and is convex, as $H$ over $F$, where $C>0$.",
+        false=Falsehood(
+            "The slope does not depend on the place on the curve",
+            "d(G) = -z*d(F)",
+            "d(G) = -e2*d(F)",
         ),
     ),
 )

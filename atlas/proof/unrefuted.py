@@ -6,6 +6,7 @@ _SYMMETRIC = "The indices of a symmetric matrix are exchanged, which changes not
 _CONSTANTS = "A constant of integration is arbitrary: its sign, a factor or a shift gives another one."
 _FIRST_K = r"At $t = 0$ the first component of $\mathbf{K}$ is 0, whatever multiplies it."
 _ZERO = "A number that is 0 remains so, whatever multiplies it."
+_EVEN = r"$H$ and $F$ are even in $\mathbf{M}$."
 _AT_REST = "At rest the rate of every component is 0, so one may stand for another."
 
 REASONS: dict[str, tuple[tuple[str, str], ...]] = {
@@ -90,6 +91,8 @@ REASONS: dict[str, tuple[tuple[str, str], ...]] = {
         (r"(at|slope|bend)\((-|2 \* )q, r\) = 0", _ZERO),
         ("bend.*third", r"The third derivative of $(p - M_3 \nu)^2$ is 0, and its second one is free of $p$."),
     ),
+    "theorem-splitting": ((r"[HF]\(-M\)", _EVEN),),
+    "theorem-bifurcation": ((r"[HF]\(-elliptic\)", _EVEN),),
     "theorem-top-quadric": ((r"b \* n3", r"$\kappa = 0$ for the paper's body, whatever multiplies it."),),
 }
 """For each entry, patterns of changed lines with the reason why these are true; the first that is found counts."""

@@ -26,12 +26,18 @@ def sphere(
     to `length` in so many pieces at first.
     """
     fine = quadric_panel.tolerance(1.4)
-    turn = _turn(*(upright if len(upright) == 3 else (0.0, *upright)))
+    trace = curve(lambda t: turned(third_axis(t), upright), 0.0, length, fine, pieces=pieces)
+    return drawn(name, trace, label=label, elevation=elevation)
 
-    def axis(t: FloatArray) -> FloatArray:
-        return np.asarray(third_axis(t) @ turn.T)
 
-    trace = curve(axis, 0.0, length, fine, pieces=pieces)
+def turned(points: FloatArray, upright: Sequence[float]) -> FloatArray:
+    """Return points (N, 3) turned so that a vector, of components along e2 and e3 or all three, stands upright."""
+    return np.asarray(points @ _turn(*(upright if len(upright) == 3 else (0.0, *upright))).T)
+
+
+def drawn(name: str, trace: FloatArray, *, label: str = r"$\mathbf{B}$", elevation: float) -> Space:
+    """Return the sphere with a trace (N, 3) that is turned already."""
+    fine = quadric_panel.tolerance(1.4)
     height = trace[:, 2].min(), trace[:, 2].max()
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine),

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from atlas import DomainError, Hyperbola, SymmetricBody, simulate
-from atlas.scene import Arrow, Curve, Label, Points, Surface, quadrics, recipes
+from atlas.scene import Arrow, Curve, Label, Points, Surface, quadrics, recipes, torus
 
 FloatArray = NDArray[np.float64]
 
@@ -178,10 +178,9 @@ def test_of_a_line_on_the_torus_is_drawn_what_no_part_of_it_hides() -> None:
 @pytest.mark.parametrize("elevation", [52.0, 12.0, -30.0])
 def test_a_point_of_the_torus_is_hidden_where_its_ray_meets_the_tube(elevation: float) -> None:
     """From any height of the eye; points that all but graze the tube are left out."""
-    names = recipes._function(recipes.load("ball_torus").source)[0].__globals__
     points = on_torus(*np.random.default_rng(4).uniform(0.0, 2.0 * np.pi, (2, 2000)))
-    with patch.dict(names, {"VIEW": (25.0, elevation)}):
-        hidden = names["hidden"](points)
+    with patch.object(torus, "VIEW", (25.0, elevation)):
+        hidden = torus.hidden(points)
     behind = depth(points, 25.0, elevation)
     clear = np.abs(behind) > 1e-2
     assert (hidden == (behind > 0.0))[clear].all()

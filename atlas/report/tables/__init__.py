@@ -22,6 +22,7 @@ from atlas.report.tables import (
     sheet,
     sizes,
     targets,
+    three_moments,
     tops,
 )
 from atlas.report.tables.model import Data, Maker, Request
@@ -50,6 +51,9 @@ TABLES: Mapping[str, Maker] = MappingProxyType(
         "swings": observed.swings,
         "tops": tops.tops,
         "monodromy": tops.loops,
+        "elliptic": three_moments.elliptic,
+        "periods": three_moments.periods,
+        "asymmetric": three_moments.asymmetric,
     }
 )
 

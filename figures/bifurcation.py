@@ -1,0 +1,117 @@
+"""Edges and walls of all motions.
+
+At given b and c = (M, K) a motion of a body with three moments is a point of the plane of H and F, and a torus. The
+critical values, where tori shrink, are those of the elliptic motions, theorem-bifurcation: the edge of what exists, and
+the walls inside, which are unstable, but for a swallowtail at small c.
+"""
+
+import numpy as np
+
+from atlas.core.bifurcation import Bifurcation, Stretch
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene.sample import curve, quarter_pixel
+from atlas.scene.words import listed, plain, tex, tex_vector, title
+
+WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 13.0
+NEAR = 1e-4
+"""Where a stretch begins that runs to infinity, as a part of it."""
+ROLES = {"stable": "start", "saddle": "special", "focus-focus": "special"}
+OFFSETS = ((1.0, 8.0), (-8.0, -5.0), (7.0, -5.0))
+"""Where the names of the three spins stand, in the order of F."""
+
+
+def scene(
+    *,
+    inertia: tuple[float, float, float] = (0.5, 1.0, 1.4),
+    b: float = 1.0,
+    c: tuple[float, ...] = (1.6, 0.8, 0.2),
+    reach: float = 2.2,
+) -> Scene:
+    """Draw the critical values of the body for each of ``c``; ``reach`` is the width in that of the three spins."""
+    if not 0 < len(c) <= 3:
+        raise DomainError(f"figure bifurcation takes one to three values c, not {c}.")
+    maps = [Bifurcation(inertia, b, one) for one in c]
+    across = WIDTH / 3 - MARGIN
+    panels = tuple(
+        panel(rf"({letter}) $(\mathbf{{M}},\mathbf{{K}})={tex(one.c)}$", one, reach, across)
+        for letter, one in zip("abc", maps, strict=False)
+    )
+    there = {getattr(layer, "role", "") for one in panels for layer in one.layers}
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$ and $b={tex(b)}$: elliptic motions of "
+            "the unbounded oval (dark) and of the bounded one (pale), unstable ones dashed; spins about an axis along "
+            "the field that are stable (dots) or not (diamonds). Motions exist in the shaded region."
+            + (" The open circle is the body at rest." if "rest" in there else "")
+        ),
+        alt=(
+            f"Planes of F and H for (M, K) = {listed([plain(x) for x in c])}: a region that opens to the right between "
+            "two convex curves from one corner, with a dashed curve inside that begins on the lower one, and an "
+            "isolated diamond or a small triangle at a dashed curve in the others."
+        ),
+        panels=panels,
+        columns=len(panels),
+        named={"dark": "main", "pale": "third", "dashed": "unstable_line", "dots": "start", "diamonds": "special"}
+        | {"shaded": "region"}
+        | ({"open circle": "rest"} if "rest" in there else {}),
+        size=(WIDTH * len(panels) / 3, HEIGHT),
+    )
+
+
+def panel(name: str, one: Bifurcation, reach: float, across: float) -> Plane:
+    """Return the plane of one c; upwards stands H less F over twice the middle moment."""
+    middle = int(np.argsort(one.inertia)[1])
+    slope = 1 / (2 * float(one.inertia[middle]))
+    spins = np.array([(spin.F, spin.H - slope * spin.F) for spin in one.spins])
+    start, spread = float(spins[:, 0].min()), float(np.ptp(spins[:, 0]))
+    x_limits = start - 0.12 * spread, start + reach * spread
+    sizes = across / (x_limits[1] - x_limits[0]), (HEIGHT - MARGIN) / float(np.ptp(spins[:, 1]))
+    lines = [(stretch, line(one, stretch, slope, x_limits, sizes)) for stretch in one.stretches()]
+    edge = outline([(stretch, points) for stretch, points in lines if stretch.branch * one.c < 0], x_limits[1])
+    low, high = float(edge[:, 1].min()), float(edge[:, 1].max())
+    y_limits = low - 0.05 * (high - low), high + 0.05 * (high - low)
+    layers: list[Layer] = [Region(edge, "region")]
+    for stretch, points in lines:
+        role = "main" if stretch.oval == "unbounded" else "third"
+        layers.append(Curve(points, role if stretch.stable else "unstable_line"))
+    for rank, which in enumerate(np.argsort(spins[:, 0])):
+        layers.append(Points(spins[which : which + 1], ROLES[one.spins[which].kind]))
+        layers.append(Label(spins[which], rf"$\mathbf{{e}}_{which + 1}$", "label", OFFSETS[rank]))
+    if one.rest is not None:
+        at = one.rest - [0.0, slope * one.rest[0]]
+        layers += [Points(at[None], "rest"), Label(at, "rest" if one.c > 0 else r"$-2\mathbf{K}$", "rest", (-4, -6))]
+    return Plane(tuple(layers), "$F$", rf"$H-F/2I_{middle + 1}$", x_limits, y_limits, title=name)
+
+
+def line(
+    one: Bifurcation, stretch: Stretch, slope: float, x_limits: tuple[float, float], sizes: tuple[float, float]
+) -> FloatArray:
+    """Return a stretch (N, 2) as it is drawn; ``sizes`` are millimetres to a unit of both axes."""
+    poles = set((-one.a).tolist())
+    first, last = (NEAR if end in poles else 0.0 for end in (stretch.low, stretch.high))
+
+    def points(u: FloatArray) -> FloatArray:
+        z = stretch.low + (stretch.high - stretch.low) * np.sin(np.pi / 2 * u) ** 2
+        found = one.values(z, stretch.branch)
+        return found - [[0.0, slope]] * found[:, :1]
+
+    box = np.array([x_limits[0], -np.inf]), np.array([x_limits[1], np.inf])
+    return curve(points, first, 1 - last, quarter_pixel(1.0, 1.0), pieces=32, box=box, scale=np.array(sizes))
+
+
+def outline(lines: list[tuple[Stretch, FloatArray]], stop: float) -> FloatArray:
+    """Return the border (N, 2) of what exists, from the upper right to the corner and to the lower right.
+
+    Motions with values H and F exist if the sum of squares of theorem-splitting is nowhere negative on the unbounded
+    oval and somewhere not positive on the bounded one, so that these are the stretches with s > 0.
+    """
+    sides = []
+    for oval in ("bounded", "unbounded"):
+        points = np.concatenate([points for stretch, points in lines if stretch.oval == oval])
+        points = points[np.argsort(points[:, 0], kind="stable")]
+        last = [stop, float(np.interp(stop, *points.T))]
+        sides.append(np.array([*points[points[:, 0] < stop], last]))
+    return np.concatenate([sides[0][::-1], sides[1]])

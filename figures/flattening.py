@@ -1,0 +1,66 @@
+"""From symmetric to flat.
+
+One launch of bodies whose first moment goes from that of a symmetric body, I1 = I2, to that of a flat one,
+I1 = I3 - I2. While the body is symmetric each loop that the axis R_3 draws is as the one before it, from one parallel
+about the field to the other; then a second period comes in, and no two loops are the same.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+from atlas.errors import DomainError
+from atlas.scene import Scene, axis_trace
+from atlas.scene.words import listed, plain, plain_vector, tex, tex_vector, title
+from atlas.study.simulate import simulate
+
+SIZE, COLUMNS = 56.0, 3
+STEPS = 40
+"""Points of a trace for each radian of the fastest of the rates at the start."""
+RANGES = {"stop": (0.1, 200.0)}
+
+
+def scene(
+    *,
+    first: tuple[float, ...] = (1.0, 0.95, 0.85, 0.75, 0.62, 0.5),
+    ratio: float = 1.5,
+    field: tuple[float, float] = (1.0, 0.5),
+    omega: tuple[float, float, float] = (0.0, 0.9, 3.0),
+    stop: float = 13.0,
+    elevation: float = 40.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw R_3(t) of the bodies (``first``, 1, ``ratio``) up to the time ``stop``; B stands upright."""
+    if not 0 < len(first) <= 6 or not any(field):
+        raise DomainError(f"figure flattening takes one to six values of I1 and a field, not {first} and {field}.")
+    panels = tuple(
+        axis_trace.drawn(
+            f"({letter}) $I_1={tex(I1)}$",
+            axis_trace.turned(trace((I1, 1.0, ratio), field, omega, stop), field),
+            elevation=elevation,
+        )
+        for letter, I1 in zip("abcdef", first, strict=False)
+    )
+    columns = min(COLUMNS, len(panels))
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and $I_1$ from a symmetric body's to a flat "
+            rf"one's, all launched with $\boldsymbol{{\omega}}={tex_vector(omega)}$ in "
+            rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ (1/{unit}), $\mathbf{{B}}$ upright, up to $t={tex(stop)}$. "
+            "Dashed: the parallels between which the trace stays; in (a) every loop touches both."
+        ),
+        alt=(
+            f"Unit spheres with the trace of an axis for I1 = {listed([plain(I1) for I1 in first])}, all launched with "
+            f"{plain_vector(omega)}: a row of even loops between two parallels that becomes uneven."
+        ),
+        panels=panels,
+        columns=columns,
+        named={"Dashed": "reference"},
+        size=(SIZE * columns, (SIZE + 6.0) * -(-len(panels) // columns)),
+    )
+
+
+def trace(inertia: tuple[float, ...], field: tuple[float, float], omega: tuple[float, ...], stop: float) -> FloatArray:
+    """Return R_3 (N, 3) up to a time, by SciPy's integrator."""
+    fastest = float(np.abs([*field, *omega]).sum())
+    return simulate(inertia, field, omega, np.linspace(0.0, stop, int(STEPS * fastest * stop) + 2)).R[..., 2]

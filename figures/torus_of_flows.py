@@ -1,0 +1,109 @@
+"""A torus with two flows.
+
+Where H, F and the Casimirs of a body with three moments have given values, its M and K run over a torus, and the flows
+of H and of F/2, which commute, are straight lines on it. The motion winds round for ever; but from any of its states
+the flow of H for a time T_H, and then that of F/2 for T_F, lead back.
+"""
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray, vector
+from atlas.errors import DomainError, NotCertifiedError
+from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.torus import VIEW, net, on_torus, seen
+from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
+from atlas.study.flows import flow
+
+WIDTH, HEIGHT = 178.0, 80.0
+FINE = 150
+"""Points of a line for each of its turns round the torus."""
+MOST = 200.0
+
+
+def scene(
+    *,
+    inertia: tuple[float, float, float] = (0.5, 1.0, 1.4),
+    field: tuple[float, float, float] = (0.6, 0.6, 0.5),
+    omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
+    stop: float = 150.0,
+) -> Scene:
+    """Draw the motion that starts with ``omega`` up to the time ``stop``, and one way back to its start."""
+    first, second = periods(inertia, field, omega)
+    area = first[0] * second[1] - first[1] * second[0]
+    rates = np.array([[second[1], -first[1]], [-second[0], first[0]]]) * 2 * np.pi / area  # of both angles, H and F/2
+    turns = float(np.abs(rates[0]).max()) * stop / (2 * np.pi)
+    if not 0 < turns <= MOST:
+        raise DomainError(
+            f"figure torus_of_flows: up to stop = {stop:g} the motion makes {turns:.0f} turns of {MOST:g}."
+        )
+    K = vector(field, "field")
+    W, I = vector(omega, "omega") + K, vector(inertia, "inertia")
+    orbit = flow(I, W, K, 1.0, 0.0, np.linspace(0.0, stop, int(FINE * turns) + 2))[1]
+    there = np.linspace(0.0, 1.0, 3 * FINE)
+    out = flow(I, W, K, first[0], 0.0, there)
+    back = flow(I, out[0][-1], out[1][-1], 0.0, first[1], there)[1]
+    angles = (
+        np.linspace(0.0, stop, 2 * len(orbit))[:, None] * rates[0],
+        there[:, None] * first[0] * rates[0],
+        first[0] * rates[0] + there[:, None] * first[1] * rates[1],
+    )
+    return Scene(
+        title=title(__doc__),
+        caption=(
+            rf"The motion of a body with $I_i={tex_vector(inertia)}$ from $\boldsymbol{{\omega}}={tex_vector(omega)}$ "
+            rf"in $\mathbf{{B}}'={tex_vector(field)}$ up to $t={tex(stop)}$ (thin line), in (a) on its torus, the "
+            rf"angles those of its two periods, in (b) as the way of $\mathbf{{K}}$ in the body. From the start, "
+            rf"$T_H={tex(round(first[0], 4))}$ along the motion (teal) and $T_F={tex(round(first[1], 4))}$ along "
+            "the other flow (plum) lead back."
+        ),
+        alt=(
+            f"A torus with a line wound round it many times, and a sphere with the trace that the same motion of a "
+            f"body with moments {plain_vector(inertia)} draws on it up to t = {plain(stop)}, a net that fills a zone. "
+            "On both a closed curve of two arcs through the start."
+        ),
+        panels=(winding(*angles), sphere(orbit, out[1], back)),
+        columns=2,
+        named={"thin line": "second_trace", "teal": "trajectory", "plum": "turn"},
+        size=(WIDTH, HEIGHT),
+    )
+
+
+def periods(
+    inertia: tuple[float, ...], field: tuple[float, ...], omega: tuple[float, ...]
+) -> list[tuple[float, float]]:
+    """Return two pairs of times (T_H, T_F) that generate all after which M and K are back."""
+    from atlas.exact.asymmetric import AsymmetricMotion
+    from atlas.exact.clebsch_periods import real_periods
+
+    motion = AsymmetricMotion(inertia, field, omega)
+    if motion.kind != "on a torus":
+        raise DomainError(f"figure torus_of_flows: this motion is of the kind {motion.kind!r}, not on a torus.")
+    found = sorted((float(H.mid()), float(F.mid())) for H, F in real_periods(motion.invariants))
+    if len(found) != 2:
+        raise NotCertifiedError("figure torus_of_flows: no two periods of this motion's torus were found.")
+    return found
+
+
+def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
+    """Return the torus with lines by their two angles (N, 2)."""
+    roles = ("second_trace", "trajectory", "turn")
+    layers = net()
+    for line, role in zip((orbit, out, back), roles, strict=True):
+        layers += seen(on_torus(*line.T), role)
+    return Space((*layers, Points(on_torus(*orbit[:1].T), "start")), *VIEW, title="(a) torus of the motion")
+
+
+def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
+    """Return the sphere of K with the same lines."""
+    b = float(np.linalg.norm(orbit[0]))
+    fine = quadric_panel.tolerance(1.4)
+    layers = [
+        solids.sphere(quadric_panel.O, 1.0, fine),
+        Curve(orbit / b, "second_trace"),
+        Curve(out / b, "trajectory"),
+        Curve(back / b, "turn"),
+        Points(orbit[:1] / b, "start"),
+        *(Arrow(axis, 1.35 * axis, "body_axis", rf"$\mathbf{{e}}_{n}$") for n, axis in enumerate(np.eye(3), 1)),
+        Label(orbit[0] / b, r"$\mathbf{K}(0)$", "label", (6, -4)),
+    ]
+    return Space(tuple(layers), 62.0, 18.0, title=r"(b) $\mathbf{K}$ in the body")
