@@ -25,14 +25,17 @@ LETTERS, BOTH, LONG = 46, 115, 30
 ANY = 99
 """Digits of an exact zero."""
 NUMBERS, PAPER, REFERENCES = "atlas-numbers.tex", "paper.tex", "references.bib"
+_CELL = re.compile(r"\\atlascell\{([^{}]*)\}\{([^{}]*)\}")
+_TITLE = re.compile(r"(title\s*=\s*)(\{[^\n]*\})(,\n(?:(?!^@|^\}).*\n)*?\s*langid)", re.MULTILINE)
 _POWER = re.compile(r"\$?10\^\{?(-?\d+)\}?\$? *")
 
 
 @dataclass(frozen=True)
 class Numeral:
-    """A number by its key: its digits, all proven, how many they are, and its unit for siunitx."""
+    """A number by its key: its digits, all proven, how many they are, its unit for siunitx, and where it stands."""
 
     key: str
+    cell: str
     digits: int
     value: str
     unit: str
@@ -43,11 +46,13 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
 
     `pictures` are the files of its figures, by name: ``figures/ID.pdf`` or ``.png``.
     """
-    markdown, texts = [text.markdown for text in document.texts.texts], document.written["latex"]
+    markdown = [text.markdown for text in document.texts.texts]
     environment = typesetting("latex")
     common = {"report": document.report, "versions": versions()}
     computed = [table for table in document.listed("table") if table.name]
     numbers = [one for table in computed for one in _numbers(table, markdown)]
+    keys = {one.cell: one.key for one in numbers}
+    texts = [_CELL.sub(lambda cell: _by_key(cell, keys), text) for text in document.written["latex"]]
     made = {NUMBERS: environment.get_template("numbers.tex").render(numbers=numbers, **common)}
     for table in document.listed("table"):
         made[f"tables/{table.id.removeprefix('tab-')}.tex"] = _table(table, markdown, texts)
@@ -71,7 +76,7 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
     at = {name: place for place, name in enumerate(heads)}
     rows = [[value(cell, markdown) for cell in row] for row in table.rows]
     names = unique(_row_name(row, at, numeric, number) for number, row in enumerate(rows, 1))
-    for name, row, cells in zip(names, rows, table.rows, strict=True):
+    for number, (name, row, cells) in enumerate(zip(names, rows, table.rows, strict=True), 1):
         for place in numeric:
             if cells[place].text is None and row[place] and cells[place].proven:
                 column = table.columns[place]
@@ -80,7 +85,13 @@ def _numbers(table: TableView, markdown: Sequence[str]) -> Iterator[Numeral]:
                 last = [heads[place] or str(place)] if len(numeric) > 1 else []
                 key = "/".join([table.id.removeprefix("tab-"), name, *last])
                 unit = "" if said is None else markdown[said]
-                yield Numeral(key, digits(row[place]) or ANY, *_with_unit(row[place], unit))
+                cell = f"{table.id.removeprefix('tab-')}-{number}-{place + 1}"
+                yield Numeral(key, cell, digits(row[place]) or ANY, *_with_unit(row[place], unit))
+
+
+def _by_key(cell: re.Match[str], keys: Mapping[str, str]) -> str:
+    """Return the macro of a number that a sentence takes from a table; what has no key stays as it is printed."""
+    return rf"\atlas{{{keys[cell[1]]}}}" if cell[1] in keys else cell[2]
 
 
 def _row_name(row: Sequence[str], at: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
@@ -193,15 +204,23 @@ def _references(document: Document) -> str:
   version = {{{atlas.__version__}}},
 }}
 """
-    return "\n".join(filter(None, [document.bibliography.source.strip(), own]))
+    kept = _TITLE.sub(r"\1{\2}\3", document.bibliography.source.strip())  # BibTeX makes other words small
+    return "\n".join(filter(None, [kept.replace("eprinttype", "archivePrefix"), own]))
 
 
 def _body(document: Document, texts: Sequence[str]) -> Iterator[str]:
-    """Yield the blocks of all pages; what has no place in a paper is named in a comment."""
+    """Yield the sections; what has no place in a paper is named in a comment.
+
+    A display belongs to the paragraph before it, and so does what goes on after it with a small letter.
+    """
     for page in document.pages:
-        yield rf"\section{{{_escaped(page.title)}}}"
+        made, before = rf"\section{{{_escaped(page.title)}}}" + "\n", None
         for name, block in zip(page.templates, page.blocks, strict=True):
-            yield _block(name, block, texts)
+            text = _block(name, block, texts)
+            goes_on = isinstance(before, EquationView) and re.match(r"(\\emph\{)?[a-z]", text) is not None
+            made += ("\n" if goes_on or (isinstance(block, EquationView) and before) else "\n\n") + text
+            before = block
+        yield made
 
 
 def _block(name: str, block: Any, texts: Sequence[str]) -> str:

@@ -219,6 +219,8 @@ class _Checked:
         """Return one link of a citation, at its anchor where it is the first to the name."""
         name, words = part["citationId"], _words(link.bracketed if bracketed and link.bracketed else link.words)
         if self.target == "latex":  # figures and tables are numbered by the paper that they stand in
+            if name.startswith("cell:"):  # a number of a table is written by its key
+                return [{"t": "RawInline", "c": ["latex", rf"\atlascell{{{name[5:]}}}{{{link.words}}}"]}]
             counted = f"{link.words.partition(' ')[0]}~\\ref{{{link.anchor}}}"
             return [{"t": "RawInline", "c": ["latex", counted]}] if name.startswith(("fig:", "tab:")) else words
         says = link.says if self.target == "html" else ""

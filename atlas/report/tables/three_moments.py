@@ -49,7 +49,7 @@ def elliptic(request: Request) -> Data:
             for (z, _), row, m in zip(asked.places, zip(*columns, strict=True), motions, strict=True)
         ),
         rf"Elliptic motions of a body with $I_i={_row(asked.inertia)}$ in $\mathbf{{B}}'={_row(asked.field)}$: the "
-        r"place $(z,v)$, initial angular velocity, what decides on stability @theorem-splitting, the period $T$ of "
+        r"place $(z,v)$, initial angular velocity, what decides on stability, the period $T$ of "
         r"$\mathbf{K}$, and the turn $\Theta$ about the field in it.",
     )
 

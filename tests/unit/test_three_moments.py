@@ -1,0 +1,89 @@
+"""The letter on three different moments: a report that is whole, whose numbers are those of its data, into LaTeX."""
+
+import re
+from decimal import Decimal
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from atlas.build.tex import build_tex
+from atlas.exact.asymmetric import AsymmetricMotion
+from atlas.exact.clebsch_periods import real_periods
+from atlas.exact.digits import certified
+from atlas.exact.elliptic import EllipticMotion
+from atlas.report.blocks.figure import Figure
+from atlas.report.blocks.table import Table
+from atlas.report.find import find
+from atlas.report.load import load
+from atlas.report.numbers import Number
+from atlas.report.tables import compute
+from atlas.report.tables.model import Request
+from atlas.scene import recipes
+
+REPORT = load(find("three_moments"))
+BLOCKS = [block for page in REPORT.pages for block in page.blocks]
+DATA = [0.5, 1.0, 1.25], [0.5, 0.75, 0.5], [0.25, 0.5, 0.25]
+
+
+def small(source: str) -> str:
+    """Return the file of the report with the section of the family alone, without figures."""
+    first, *pages = re.split(r"(?m)^(?=\[\[pages\]\]$)", source)
+    kept = [page for page in pages if 'slug = "family"' in page]
+    text = re.sub(
+        r"(?m)^\[\[pages\.blocks\]\]\nkind = \"figure\"\n(?:.+\n)*",
+        "",
+        first + kept[0].replace('"family"', '"index"', 1),
+    )
+    text = text.replace("@fig:family", "a figure")
+    said = "Here $v=$ @cell:family-4-2, as @clebsch1871."
+    return f'{text}\n[[pages.blocks]]\nkind = "prose"\ntext = "{said}"\n\n[[pages.blocks]]\nkind = "bibliography"\n'
+
+
+def test_the_letter_is_about_one_body() -> None:
+    """Four figures, of recipes that are there; each table has the body and the field that the sentences speak of."""
+    figures = [block for block in BLOCKS if isinstance(block, Figure)]
+    assert [block.id for block in figures] == ["torus", "family", "diagram", "phase"]
+    assert {block.recipe for block in figures} <= set(recipes.names())
+    tables = [block for block in BLOCKS if isinstance(block, Table)]
+    assert [block.parameters["inertia"] for block in tables] == 3 * [DATA[0]]
+    assert [block.parameters["field"] for block in tables] == 3 * [DATA[1]]
+
+
+@pytest.mark.parametrize("moment", [1.25, 1.125])
+def test_a_number_changed_in_the_file_goes_through_to_the_paper(moment: float, tmp_path: Path) -> None:
+    """The largest moment in the file: the keys have the digits of balls, and the sentence the number by its key."""
+    source = find("three_moments")
+    text = small(source.read_text("utf-8")).replace("1.25]", f"{moment}]")
+    (tmp_path / "letter.toml").write_text(text, encoding="utf-8")
+    (tmp_path / "references.bib").write_bytes((source.parent / "references.bib").read_bytes())
+    made = build_tex(tmp_path / "letter.toml", tmp_path / "out").parent
+    numbers = dict(re.findall(r"\\atlasnumber\{([^}]+)\}\{\d+\}\{([^}]+)\}", (made / "atlas-numbers.tex").read_text()))
+    motion = EllipticMotion((0.5, 1.0, moment), DATA[1], -0.75, 1)
+    true = certified(lambda: {"v": motion.v, "T": motion.period}, 20)
+    for name in ("v", "T"):
+        value = Decimal(numbers[f"family/4/{name}"])
+        assert abs(value - Decimal(true[name])) <= Decimal(1).scaleb(int(value.as_tuple().exponent))
+    paper, works = (made / "paper.tex").read_text("utf-8"), (made / "references.bib").read_text("utf-8")
+    assert r"Here \(v=\) \atlas{family/4/v}, as \citet{clebsch1871}." in paper
+    assert "title   = {{Ueber die Bewegung eines Körpers in einer Flüssigkeit}}," in works
+    assert "archivePrefix = {arXiv}" in works
+    assert re.search(r"exceed \\\(E_2b\^2\\\)\. Then\n\\atlasequation\{", paper)
+    assert re.search(r"\n\nwith real|\n\\emph\{with real", paper).group() == "\n\\emph{with real"  # type: ignore[union-attr]
+
+
+def test_the_tables_of_the_letter_are_proven_to_the_last_digit() -> None:
+    """The motion at t = 2 has the digits of balls; the pairs of times are those of the integrals, to 8 digits."""
+    inertia, field, omega = DATA
+    asked = {"inertia": inertia, "field": field, "omega": omega}
+    (row,) = compute("asymmetric", Request((), asked | {"times": [2.0]}, 12)).rows
+    exact = AsymmetricMotion(inertia, field, omega)
+    true = certified(lambda: {str(i): x for i, x in enumerate(exact.column(3, 2.0))}, 20)
+    for number, value in zip(row[1:4], true.values(), strict=True):
+        assert isinstance(number, Number)
+        assert number.proven
+        assert abs(Decimal(number.digits) - Decimal(value)) <= Decimal(10) ** -12
+    rows = compute("periods", Request((), asked, 8)).rows
+    found = sorted(tuple(float(x.digits) for x in row[1:3] if isinstance(x, Number)) for row in rows)
+    true_pairs = sorted((float(H.mid()), float(F.mid())) for H, F in real_periods(exact.invariants))
+    assert np.abs(np.array(found) - true_pairs).max() <= 1e-6
