@@ -21,6 +21,7 @@ from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from atlas.core.inertia import inertia_tensor
 from atlas.core.inputs import FloatArray, number, positive, vector
@@ -93,10 +94,10 @@ class Bifurcation:
         first, second, third = np.moveaxis(x, -1, 0)
         return np.maximum(first * second * third, 0.0), first * second + second * third + third * first, x
 
-    def _roots(self, axis: int) -> FloatArray:
+    def _roots(self, axis: int) -> NDArray[np.complex128]:
         """Return the places (2,), complex perhaps, at which the curve has the values of a spin about an axis."""
         own, (j, k), fourth = self.a[axis], (self.a[axis - 1], self.a[axis - 2]), self.b**4
-        return np.roots([fourth, fourth * (j + k) - self.c**2, fourth * j * k - self.c**2 * own])
+        return np.asarray(np.roots([fourth, fourth * (j + k) - self.c**2, fourth * j * k - self.c**2 * own]), complex)
 
     @cached_property
     def spins(self) -> tuple[Spin, ...]:
@@ -152,4 +153,5 @@ class Bifurcation:
         moment = abs(self.c) / self.b**2
         if not self.inertia.min() <= moment <= self.inertia.max():
             return None
-        return self.values(np.zeros(1), int(-np.sign(self.c)))[0]
+        (found,) = self.values(np.zeros(1), int(-np.sign(self.c)))
+        return np.asarray(found)
