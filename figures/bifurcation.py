@@ -1,8 +1,8 @@
 """Edges and walls of all motions.
 
-At given b and c = (M, K) a motion of a body with three moments is a point of the plane of H and F, and a torus. The
+At given b and p = (M, K)/b a motion of a body with three moments is a point of the plane of H and F, and a torus. The
 critical values, where tori shrink, are those of the elliptic motions, theorem-bifurcation: the edge of what exists, and
-the walls inside, which are unstable, but for a swallowtail at small c.
+the walls inside, which are unstable, but for a swallowtail at small p.
 """
 
 import numpy as np
@@ -26,31 +26,35 @@ def scene(
     *,
     inertia: tuple[float, float, float] = (0.5, 1.0, 1.4),
     b: float = 1.0,
-    c: tuple[float, ...] = (1.6, 0.8, 0.2),
+    momentum: tuple[float, ...] = (1.6, 0.8, 0.2),
     reach: float = 2.2,
 ) -> Scene:
-    """Draw the critical values of the body for each of ``c``; ``reach`` is the width in that of the three spins."""
-    if not 0 < len(c) <= 3:
-        raise DomainError(f"figure bifurcation takes one to three values c, not {c}.")
-    maps = [Bifurcation(inertia, b, one) for one in c]
+    """Draw the critical values of the body for each ``momentum`` along the field, (M, K)/b.
+
+    ``reach`` is the width of a panel in that of the three spins.
+    """
+    if not 0 < len(momentum) <= 3:
+        raise DomainError(f"figure bifurcation takes one to three values of the momentum, not {momentum}.")
+    maps = [Bifurcation(inertia, b, one * b) for one in momentum]
     across = WIDTH / 3 - MARGIN
     panels = tuple(
-        panel(rf"({letter}) $(\mathbf{{M}},\mathbf{{K}})={tex(one.c)}$", one, reach, across)
+        panel(rf"({letter}) $p={tex(one.c / one.b)}$", one, reach, across)
         for letter, one in zip("abc", maps, strict=False)
     )
     there = {getattr(layer, "role", "") for one in panels for layer in one.layers}
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$ and $b={tex(b)}$: elliptic motions of "
-            "the unbounded oval (dark) and of the bounded one (pale), unstable ones dashed; spins about an axis along "
-            "the field that are stable (dots) or not (diamonds). Motions exist in the shaded region."
+            rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$, $b={tex(b)}$ and momenta "
+            r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the unbounded oval (dark) and of the "
+            "bounded one (pale), unstable ones dashed; spins about an axis along the field that are stable (dots) or "
+            "not (diamonds). Motions exist in the shaded region."
             + (" The open circle is the body at rest." if "rest" in there else "")
         ),
         alt=(
-            f"Planes of F and H for (M, K) = {listed([plain(x) for x in c])}: a region that opens to the right between "
-            "two convex curves from one corner, with a dashed curve inside that begins on the lower one, and an "
-            "isolated diamond or a small triangle at a dashed curve in the others."
+            f"Planes of F and H for p = {listed([plain(x) for x in momentum])}: a region that opens to the right "
+            "between two convex curves from one corner, with a dashed curve inside that begins on the lower one, and "
+            "an isolated diamond or a small triangle at a dashed curve in the others."
         ),
         panels=panels,
         columns=len(panels),

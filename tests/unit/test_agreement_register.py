@@ -46,6 +46,7 @@ MACHINERY = {
 ELSEWHERE = {
     "core": {
         "axial": "test_separatrix.py",
+        "bifurcation": "test_bifurcation.py",
         "clebsch": "test_clebsch.py",
         "closed": "test_closed.py",
         "invariants": "test_elementary.py",

@@ -213,7 +213,7 @@ def test_the_axis_of_a_flattened_body_is_that_of_the_certified_motion() -> None:
 @pytest.mark.parametrize(
     ("name", "parameters"),
     [
-        ("bifurcation", {"c": (1.0, 2.0, 3.0, 4.0)}),
+        ("bifurcation", {"momentum": (1.0, 2.0, 3.0, 4.0)}),
         ("torus_of_flows", {"stop": 1e5}),
         ("torus_of_flows", {"omega": (0.0, 0.0, 0.0)}),
         ("flattening", {"field": (0.0, 0.0)}),
