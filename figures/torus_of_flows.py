@@ -8,7 +8,7 @@ the flow of H for a time T_H, and then that of F/2 for T_F, lead back.
 import numpy as np
 
 from atlas.core.inputs import FloatArray, vector
-from atlas.errors import DomainError, NotCertifiedError
+from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.torus import VIEW, net, on_torus, seen
 from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
@@ -25,7 +25,7 @@ def scene(
     inertia: tuple[float, float, float] = (0.5, 1.0, 1.4),
     field: tuple[float, float, float] = (0.6, 0.6, 0.5),
     omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
-    stop: float = 150.0,
+    stop: float = 75.0,
 ) -> Scene:
     """Draw the motion that starts with ``omega`` up to the time ``stop``, and one way back to its start."""
     first, second = periods(inertia, field, omega)
@@ -71,17 +71,16 @@ def scene(
 def periods(
     inertia: tuple[float, ...], field: tuple[float, ...], omega: tuple[float, ...]
 ) -> list[tuple[float, float]]:
-    """Return two pairs of times (T_H, T_F) that generate all after which M and K are back."""
+    """Return two pairs (T_H, T_F) that generate all times after which M and K are back, the least T_H first."""
     from atlas.exact.asymmetric import AsymmetricMotion
-    from atlas.exact.clebsch_periods import real_periods
+    from atlas.exact.torus import Torus
 
     motion = AsymmetricMotion(inertia, field, omega)
     if motion.kind != "on a torus":
         raise DomainError(f"figure torus_of_flows: this motion is of the kind {motion.kind!r}, not on a torus.")
-    found = sorted((float(H.mid()), float(F.mid())) for H, F in real_periods(motion.invariants))
-    if len(found) != 2:
-        raise NotCertifiedError("figure torus_of_flows: no two periods of this motion's torus were found.")
-    return found
+    W = tuple(w + k for w, k in zip(motion.omega, motion.field, strict=True))
+    found = Torus(motion.inertia, W, motion.field).lattice.real
+    return sorted(((float(H.real.mid()), float(F.real.mid())) for H, F, _ in found), key=lambda pair: abs(pair[0]))
 
 
 def winding(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:

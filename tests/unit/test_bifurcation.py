@@ -96,7 +96,7 @@ def test_no_motion_of_the_unbounded_oval_is_unstable_but_on_a_separatrix() -> No
 
 
 def test_random_motions_lie_in_the_shaded_region_and_fill_it() -> None:
-    """All of 40 000 motions at each c, as finely as it is drawn; every cell of a grid that lies inside holds one; rest is on the edge."""
+    """Of 40 000 motions at each c none is outside as drawn, each cell inside holds one; rest is on the edge."""
     for panel, c in zip(recipes.load("bifurcation").scene().panels, MOMENTA, strict=False):
         (region,) = (layer for layer in panel.layers if isinstance(layer, Region))
         M, K = states(1.0, c, 40_000, 0.6)
@@ -162,7 +162,7 @@ def test_the_loop_on_the_torus_closes_and_turns_the_body_by_its_rate_less_an_are
     field, W = (fmpq(3, 5), fmpq(3, 5), fmpq(1, 2)), (fmpq(9, 10), fmpq(13, 10), fmpq(7, 10))
     moments = fmpq(1, 2), fmpq(1), fmpq(7, 5)
     with workprec(96):
-        found = min(Torus(moments, W, field).periods(96), key=lambda one: float(one.H.mid()))
+        found = min(Torus(moments, W, field).periods(96), key=lambda one: abs(float(one.H.mid())))
         H, F, angle = (float(x.mid()) for x in (found.H, found.F, found.angle))
     K, start = (np.array([float(x) for x in row]) for row in (field, W))
     b = float(np.linalg.norm(K))
