@@ -73,6 +73,7 @@ for name, says in {
     "diff": "Compare two built reports.",
     "figure": "Draw figures.",
     "animate": "Let a figure move: mp4, gif or apng.",
+    "explore": "Turn bodies, move sliders, in the browser.",
     "list": "Name the figures, reports and shapes.",
     "hyperbola": "Sample the hyperbola (67).",
     "monodromy": "Carry a top's periods round a loop.",

@@ -7,6 +7,7 @@ of lines are 16-bit multiples of 1/`STEPS`, and numbers have seven digits: to le
 import json
 from base64 import b64encode
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -36,9 +37,14 @@ _WORDS = {Path.MOVETO: "m", Path.LINETO: "l", Path.CURVE3: "q", Path.CURVE4: "c"
 
 def script(scene: Scene, style: Any = None) -> str:
     """Return the script that hands a scene to the viewer; nothing for one that is flat, with nothing to turn."""
-    if not any(isinstance(panel, Space) and _deep(panel) for panel in scene.panels):
+    if not deep(scene):
         return ""
     return f"atlasScene({json.dumps(data(scene, style), ensure_ascii=False, separators=(',', ':'))});\n"
+
+
+def deep(scene: Scene) -> bool:
+    """Tell whether there is something to turn in a scene."""
+    return any(isinstance(panel, Space) and _deep(panel) for panel in scene.panels)
 
 
 def data(scene: Scene, style: Any = None) -> dict[str, Any]:
@@ -186,7 +192,12 @@ def _outline(text: str, size: float) -> str:
     """Return the outline of a text about its middle as the data of an SVG path, in points over `GRID`; y goes down."""
     import matplotlib as mpl
 
-    font = FontProperties(family=mpl.rcParams["font.family"], math_fontfamily=mpl.rcParams["mathtext.fontset"])
+    return _outlined(text, size, tuple(mpl.rcParams["font.family"]), mpl.rcParams["mathtext.fontset"])
+
+
+@lru_cache
+def _outlined(text: str, size: float, family: tuple[str, ...], formulas: str) -> str:
+    font = FontProperties(family=list(family), math_fontfamily=formulas)
     path = TextPath((0.0, 0.0), typeset(text), size=size, prop=font)
     width, ascent, descent = line(text, size)
     parts, start, pen = [], np.zeros(2, dtype=int), np.zeros(2, dtype=int)

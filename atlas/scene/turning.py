@@ -8,7 +8,7 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.scene import quadric_panel, solids
 from atlas.scene.bodies import drawn_body
-from atlas.scene.layers import Arrow, Curve, Layer, Scene, Space
+from atlas.scene.layers import Arrow, Curve, Label, Layer, Scene, Space
 from atlas.scene.sample import curve
 from atlas.scene.words import quotient
 
@@ -29,6 +29,7 @@ def turning(motion: Any, t: float, length: float) -> Scene:
     if along.any():
         name = r"$\mathbf{n}$" if hasattr(motion, "direction") else r"$\mathbf{B}$"
         layers.append(Arrow(quadric_panel.O, _FIELD * along / np.linalg.norm(along), "field", name))
+    layers.append(Label(_FIELD * np.concatenate([np.eye(3), -np.eye(3)]), ""))  # as far as it reaches at any time
     panel = Space(tuple(layers), azimuth=20.0, elevation=15.0, span=(2.0 * _FIELD, 2.0 * _FIELD))
     return Scene(
         title="A motion",

@@ -105,6 +105,7 @@ CASES = [
     Case("figure hyp_a --format pdf", DRAWING),
     Case("figure flight --renderer shaded", f"{DRAWING} pyvista vtkmodules"),
     Case("animate hyperbola --over ratio=0.5:1.5:2 --dpi 30", DRAWING.replace(" multiprocessing", "")),
+    Case("explore nosuchthing", "numpy flint", status=2),
     Case("diff before/prose after/prose --json", "msgspec", status=1),
     Case("diff before/prose after/prose", "msgspec rich", status=1),
     Case("report nosuchreport", "msgspec", status=2),

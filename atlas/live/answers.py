@@ -1,0 +1,114 @@
+"""What the explorer answers: the picture of a subject, its numbers with how sure each is, and its command."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from threading import Lock
+from typing import Any
+
+import numpy as np
+
+from atlas.errors import AtlasError, DomainError
+from atlas.exact.digits import MARK, NOT_CERTIFIED, certified
+from atlas.families.model import Quantity
+from atlas.live.subjects import OfFamily, Subject
+
+DIGITS, SPARE = 10, 1 << 10
+"""Digits that are proven when the sliders rest, and bits beyond them in which a proof is looked for."""
+EXACT = "decided exactly"
+"""How sure a name is, as of a case or a kind."""
+DRAWING = Lock()
+"""Matplotlib's settings are one for all threads."""
+FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}
+
+
+def values_of(subject: Subject, given: Mapping[str, str]) -> dict[str, float]:
+    """Return the values of the sliders, their starts for those not given. Raises AtlasError for what is no number."""
+    known = {one.name: one for one in subject.sliders}
+    found = {name: one.start for name, one in known.items()}
+    for name, text in given.items():
+        if name not in known:
+            raise AtlasError(f"{subject.name} has no parameter {name!r}; it has {', '.join(known)}.")
+        try:
+            found[name] = float(text)
+        except ValueError:
+            found[name] = math.nan
+        if not math.isfinite(found[name]):
+            raise AtlasError(f"{name} must be a finite number, not {text!r}.")
+    return found
+
+
+def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dict[str, Any]:
+    """Return picture, numbers and command; the numbers are certified if `proven`, else of doubles."""
+    with DRAWING:
+        from atlas.draw import viewer
+
+        scene = subject.scene(values)
+        deep = bool(viewer.deep(scene))
+        found = {"scene": viewer.data(scene) if deep else None, "size": scene.size}
+    numbers = list(_numbers(subject, values, proven=proven)) if isinstance(subject, OfFamily) else []
+    return found | {"alt": scene.alt, "numbers": numbers, "command": subject.command(values)}
+
+
+def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
+    """Return the picture as a file of a kind of `FILES`."""
+    from atlas.draw import save
+
+    with DRAWING, TemporaryDirectory() as folder:
+        file = Path(folder) / f"figure.{kind}"
+        save(subject.scene(values), {file: kind})
+        return file.read_bytes()
+
+
+def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) -> Iterator[dict[str, str]]:
+    """Yield the quantities of a family, each with how sure it is: balls where they have it and it is asked for."""
+    family, arguments = subject.family, subject.arguments(values).values()
+    kernels, balls = family.kernels()(*arguments), family.balls()(*arguments) if proven else None
+    for q in family.quantities:
+        try:
+            if balls is not None and _has(balls, q):
+                text, sure = _certified(q, balls)
+            else:
+                text, sure = _double(q, kernels, family.promises.get(q.checked, 0.0))
+        except DomainError as reason:
+            text, sure = "none", str(reason)
+        yield {"name": q.symbol or q.name, "says": q.says, "value": text, "sure": sure, "unit": q.unit}
+
+
+def _has(balls: Any, q: Quantity) -> bool:
+    """Whether balls have a quantity."""
+    return bool(q.certified or q.printed or q.checked) and bool(q.exact or q.get or hasattr(balls, q.name))
+
+
+def _certified(q: Quantity, made: Any) -> tuple[str, str]:
+    """Return a quantity in proven digits, and how many there are."""
+    text = _joined(q, certified(lambda: q.of(made, exact=True), DIGITS, spare=SPARE))
+    if NOT_CERTIFIED in text or MARK in text:
+        return text, "no digit is proven" if NOT_CERTIFIED in text else f"fewer than {DIGITS} digits are proven"
+    return text, f"{DIGITS} digits proven" if re.search(r"\d", text) else EXACT
+
+
+def _double(q: Quantity, made: Any, ulps: float) -> tuple[str, str]:
+    """Return a quantity as doubles give it, and what is promised of it."""
+    text = _joined(q, _written(q.of(made)))
+    if not re.search(r"\d", text):
+        return text, EXACT
+    return text, f"double, within {ulps:g} ulp" if ulps else "double, no promise"
+
+
+def _joined(q: Quantity, found: Any) -> str:
+    """Return the texts of a quantity as one."""
+    if found is None:
+        return "none"
+    return "; ".join(map(str, map(q.text, found))) if q.lines else str(q.text(found))
+
+
+def _written(value: Any) -> Any:
+    """Return the text of a number, of each of several; a name stays."""
+    if isinstance(value, complex):
+        return [_written(value.real), _written(value.imag)]
+    if isinstance(value, tuple | list) or np.ndim(value):
+        return [_written(one) for one in value]
+    return value if isinstance(value, str | None) else f"{float(value):.6g}"

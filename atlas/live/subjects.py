@@ -1,0 +1,199 @@
+"""What can be explored: each family of the register and each recipe, with sliders for its numbers."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import log10
+from typing import Any
+
+from atlas.errors import AtlasError, nearest
+from atlas.families import FAMILIES, Family
+from atlas.scene import recipes
+from atlas.scene.layers import Scene
+from atlas.scene.parameters import MEANINGS
+from atlas.scene.recipes import Recipe
+
+STEPS = 300
+"""About so many has a slider from end to end, each a power of ten."""
+LAST = 60.0
+"""Units of time on the slider of t."""
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A number to choose: its name, what it is, its ends, its step and where it starts."""
+
+    name: str
+    says: str
+    low: float
+    high: float
+    step: float
+    start: float
+
+
+FIGURE = "figure:"
+TIME = Slider("t", "time", 0.0, LAST, 0.05, 0.0)
+
+
+@dataclass(frozen=True)
+class OfFamily:
+    """A family: sliders are its parameters, the picture is the moving body, or the first figure that fits it."""
+
+    family: Family
+
+    @property
+    def name(self) -> str:
+        """Its name in the register."""
+        return self.family.name
+
+    @property
+    def title(self) -> str:
+        """What it is, in a few words."""
+        return self.family.says
+
+    @property
+    def moves(self) -> bool:
+        """Whether it has a rotation matrix, so that a body can be shown at a time."""
+        return any(one.name == "R" for one in self.family.sampled)
+
+    @cached_property
+    def sliders(self) -> list[Slider]:
+        """The sliders of all parameters that have a start in the register, and of the time."""
+        found = [
+            Slider(name, p.says, *p.range, _step(*p.range), start)
+            for p in self.family.parameters
+            for name, start in zip(p.names, p.default, strict=bool(p.default))
+        ]
+        return [*found, *([TIME] if self.moves else [])]
+
+    def arguments(self, values: Mapping[str, float]) -> dict[str, Any]:
+        """Return the parameters of the class, in its order."""
+        return dict(self._arguments(values))
+
+    def _arguments(self, values: Mapping[str, float]) -> Iterator[tuple[str, Any]]:
+        for p in self.family.parameters:
+            if not p.default:
+                yield p.name, (p.omitted,) * len(p.names) if p.columns else p.omitted
+            else:
+                given = tuple(values[name] for name in p.names)
+                yield p.name, given if p.columns else given[0]
+
+    def scene(self, values: Mapping[str, float]) -> Scene:
+        """Return the picture: the body at the time t, or the figure."""
+        arguments = self.arguments(values)
+        if self.moves:
+            from atlas.scene.turning import period, turning
+
+            motion = self.family.kernels()(*arguments.values())
+            return turning(motion, values["t"], period(motion))
+        recipe = recipes.load(self.family.figures[0])
+        return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
+
+    def command(self, values: Mapping[str, float]) -> str:
+        """Return the command line that gives the same numbers, or the line of Python where there is none."""
+        arguments = self.arguments(values)
+        if self.family.command is None:
+            made = ", ".join(f"{key}={value!r}" for key, value in arguments.items() if value is not None)
+            return f"atlas.{self.family.kernels().__name__}({made})"
+        words = ["atlas", self.family.command.name]
+        for p in self.family.parameters:
+            value = arguments[p.name]
+            if p.default and p.name != "c":
+                words += [f"--{p.name}", *map(repr, value if isinstance(value, tuple) else (value,))]
+        return " ".join([*words, *(["--times", repr(values["t"])] if self.moves else [])])
+
+
+@dataclass(frozen=True)
+class OfRecipe:
+    """A recipe: sliders are its parameters that are numbers, the picture is its scene."""
+
+    recipe: Recipe
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self.recipe.name
+
+    @property
+    def title(self) -> str:
+        """The title of the figure."""
+        return self.recipe.title
+
+    @cached_property
+    def sliders(self) -> list[Slider]:
+        """The sliders of all numbers and lists of numbers that have a default."""
+        return [one for key, default in self.recipe.parameters.items() for one in self._of(key, default)]
+
+    def _of(self, key: str, default: Any) -> Iterator[Slider]:
+        parts = default if isinstance(default, tuple) else (default,)
+        if not parts or not all(type(x) in {int, float} for x in parts):
+            return
+        names = [key] if not isinstance(default, tuple) else [f"{key}.{i}" for i in range(1, len(parts) + 1)]
+        low, high = self.recipe.ranges.get(key) or KNOWN.get(key) or _around(parts)
+        low, high = min(low, *parts), max(high, *parts)
+        for name, start in zip(names, parts, strict=True):
+            step = 1 if type(start) is int else _step(low, high)
+            yield Slider(name, MEANINGS.get(key, key), low, high, step, start)
+
+    def parameters(self, values: Mapping[str, float]) -> dict[str, Any]:
+        """Return the parameters of the recipe."""
+        found: dict[str, Any] = {}
+        for key, default in self.recipe.parameters.items():
+            parts = default if isinstance(default, tuple) else (default,)
+            names = [one.name for one in self._of(key, default)]
+            if names:
+                given = tuple(type(x)(values[name]) for name, x in zip(names, parts, strict=True))
+                found[key] = given if isinstance(default, tuple) else given[0]
+        return found
+
+    def scene(self, values: Mapping[str, float]) -> Scene:
+        """Return its scene."""
+        return self.recipe.scene(**self.parameters(values))
+
+    def command(self, values: Mapping[str, float]) -> str:
+        """Return the command line that draws the same."""
+        from atlas.scene.parameters import typed
+
+        settings = [f"{key}={typed(value)}" for key, value in self.parameters(values).items()]
+        return " ".join(["atlas figure", self.name, *(["--set", *settings] if settings else [])])
+
+
+KNOWN = {
+    p.name: p.range for name in ("top", "particle", "general", "elementary") for p in FAMILIES[name].parameters
+}  # the last ones are those that recipes mean
+Subject = OfFamily | OfRecipe
+
+
+def _step(low: float, high: float) -> float:
+    """Return the step of a slider."""
+    return float(10.0 ** round(log10((high - low) / STEPS)))
+
+
+def _around(parts: tuple[float, ...]) -> tuple[float, float]:
+    """Return the ends of a slider for a number that has no range: from zero, or as far below it."""
+    size = 3.0 * max(1.0, *(abs(x) for x in parts))
+    return (-size if any(isinstance(x, float) for x in parts) else 1.0), size
+
+
+def subject(name: str) -> Subject:
+    """Return the family or recipe of a name, or of a recipe's file; figure:NAME is the recipe where both have one name.
+
+    Raises AtlasError where there is none.
+    """
+    if name in FAMILIES:
+        return OfFamily(FAMILIES[name])
+    name, known = name.removeprefix(FIGURE), recipes.names()
+    if name not in known and not name.endswith(".py"):
+        options = [*FAMILIES, *known]
+        raise AtlasError(
+            f"there is no family or figure {name!r}{nearest(name, options)}; `atlas list` names the figures"
+        )
+    return OfRecipe(recipes.load(name))
+
+
+def everything() -> dict[str, list[tuple[str, str]]]:
+    """Return name and title of all families and all figures."""
+    return {
+        "families": [(one.name, one.says) for one in FAMILIES.values()],
+        "figures": [(FIGURE * (name in FAMILIES) + name, recipes.title(name)) for name in recipes.names()],
+    }

@@ -1,0 +1,73 @@
+// The explorer on the user's own machine: sliders for a family or a figure, whose picture and numbers the server on this
+// machine computes: doubles while a slider moves, proven digits when it rests. The state stands in the address.
+"use strict";
+(() => {
+const REST = 350, byId = id => document.getElementById(id), [title, choice, stage, form, error, numbers, command] = ["title", "subject", "stage", "sliders", "error", "numbers", "command"].map(byId);
+const make = (tag, attributes, ...inside) => { const made = document.createElement(tag); Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value)); made.append(...inside); return made; };
+const ask = async (place, query = {}) => { const answer = await fetch(`${place}?${new URLSearchParams(query)}`); if (!answer.ok) throw new Error(await answer.text()); return answer.json(); };
+let sliders = [], viewer, busy = false, wanted = false, rest, playing = false, shown = 0;
+
+const values = () => ({subject: choice.value, ...Object.fromEntries(sliders.map(one => [one.name, one.value]))});
+const show = ({scene, alt, size, numbers: rows, command: line}) => {
+  error.textContent = ""; command.textContent = line; stage.style.aspectRatio = `${size[0]} / ${size[1]}`;
+  if (scene && viewer?.panels.length === scene.wide.panels.length) {
+    viewer.data = scene; viewer.shown = scene.wide; viewer.panels.forEach((panel, i) => { panel.set(scene.wide.panels[i]); }); viewer.hurry();
+  } else {
+    viewer?.close(); viewer = null; stage.replaceChildren();
+    if (scene) {
+      const box = make("div", {class: "scene"}); stage.append(box);
+      try { viewer = new window.atlasViewer.Viewer(box, scene, `${alt} Arrow keys turn it, plus and minus zoom, 0 goes back.`, false); viewer.hurry(); } catch { box.remove(); }
+    }
+  }
+  if (!viewer) { const still = stage.querySelector("img") ?? stage.appendChild(make("img", {})); still.alt = alt; still.src = `figure?${new URLSearchParams({...values(), format: "svg"})}`; }
+  numbers.hidden = !rows.length;
+  numbers.tBodies[0].replaceChildren(...rows.map(({name, says, value, unit, sure}) => make("tr", {}, make("th", {scope: "row", title: says}, name), make("td", {}, value), make("td", {}, unit), make("td", {}, sure))));
+  for (const link of document.querySelectorAll("#save a")) { const {format} = link.dataset; link.href = `figure?${new URLSearchParams({...values(), format})}`; link.download = `${choice.value}.${format}`; }
+  shown += 1; document.documentElement.dataset.shown = shown;
+};
+// One question at a time: what has changed meanwhile is asked for when the answer is there.
+const update = async (proven = 0) => {
+  clearTimeout(rest);
+  if (busy) { wanted = true; return; }
+  busy = true;
+  try {
+    const state = values(), found = await ask("state", {...state, proven});
+    if (state.subject === choice.value) { if (found.error) error.textContent = found.error; else show(found); }
+  } catch (problem) { error.textContent = `The server does not answer: ${problem.message}`; playing = false; }
+  busy = false;
+  if (wanted) { wanted = false; update(); } else if (!proven && !playing) rest = setTimeout(() => { update(1); keep(); }, REST);
+};
+const keep = () => history.replaceState(null, "", `#${new URLSearchParams(values())}`);
+const control = ({name, says, low, high, step, start}) => {
+  const range = make("input", {type: "range", min: low, max: high, step: "any", "aria-label": says}), exact = make("input", {type: "number", step: "any", "aria-label": `${says}, typed`});
+  const one = {name, value: start, set(value) { one.value = value; range.value = value; exact.value = Number(Number(value).toPrecision(12)); }};
+  range.step = step; one.set(start);
+  range.addEventListener("input", () => { one.set(Number(range.value)); update(); });
+  exact.addEventListener("change", () => { if (exact.value !== "") { one.value = Number(exact.value); range.value = exact.value; update(); } });
+  form.append(make("label", {title: says}, make("span", {}, name), range, exact));
+  return one;
+};
+const open = async given => {
+  const found = await ask("sliders", {subject: choice.value});
+  if (found.error) { error.textContent = found.error; return; }
+  title.textContent = found.title; document.title = `${found.title} · atlas explore`; form.replaceChildren(); playing = false;
+  sliders = found.sliders.map(control);
+  for (const one of sliders) if (given.has(one.name) && Number.isFinite(Number(given.get(one.name)))) one.set(Number(given.get(one.name)));
+  const time = sliders.find(one => one.name === "t");
+  if (time) {
+    const button = make("button", {type: "button"}, "Play"), last = Number(found.sliders.at(-1).high); let clock = null;
+    const tick = now => { if (!playing) return; if (clock !== null) { time.set(Math.round((time.value + Math.min(now - clock, 200) * 1e-3) % last * 1e3) / 1e3); update(); } clock = now; requestAnimationFrame(tick); };
+    button.addEventListener("click", () => { playing = !playing; button.textContent = playing ? "Pause" : "Play"; clock = null; if (playing) requestAnimationFrame(tick); else update(); });
+    form.append(button);
+  }
+  viewer?.close(); viewer = null; stage.replaceChildren(); update();
+};
+form.addEventListener("submit", event => event.preventDefault());
+choice.addEventListener("change", () => open(new URLSearchParams()));
+ask("subjects").then(({start, ...groups}) => {
+  for (const [label, entries] of Object.entries(groups)) choice.append(make("optgroup", {label}, ...entries.map(([name, says]) => make("option", {value: name}, `${name}: ${says}`))));
+  const given = new URLSearchParams(location.hash.slice(1)), name = given.get("subject") ?? start;
+  if (![...choice.options].some(one => one.value === name)) choice.append(make("option", {value: name}, name));
+  choice.value = name; return open(given);
+}).catch(problem => { error.textContent = problem.message; });
+})();

@@ -1,0 +1,205 @@
+"""`atlas explore`: who is answered and who is not, numbers that are those of the commands, sliders of everything."""
+
+import json
+import re
+import shlex
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from http.client import HTTPConnection, HTTPResponse
+from threading import Thread
+from typing import Any
+from urllib.parse import urlencode
+
+import pytest
+from click.testing import CliRunner
+
+from atlas import AtlasError, GeneralMotion
+from atlas.cli.app import atlas as command_line
+from atlas.families import FAMILIES
+from atlas.live import answers
+from atlas.live.server import HEADERS, PAGES, Explorer
+from atlas.live.subjects import OfFamily, OfRecipe, everything, subject
+from atlas.places import folder
+from atlas.scene import recipes
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Explorer]:
+    """Run a server on a free port."""
+    with Explorer("general") as made:
+        thread = Thread(target=made.serve_forever)
+        thread.start()
+        yield made
+        made.shutdown()
+        thread.join()
+
+
+def ask(server: Explorer, place: str, method: str = "GET", **headers: str) -> tuple[HTTPResponse, bytes]:
+    """Ask for a place below the address, with headers of one's own."""
+    port = server.server_address[1]
+    connection = HTTPConnection("127.0.0.1", port, timeout=60)
+    connection.request(method, place, headers={"Host": f"127.0.0.1:{port}"} | headers)
+    answer = connection.getresponse()
+    content = answer.read()
+    connection.close()
+    return answer, content
+
+
+def own(server: Explorer, place: str, **query: Any) -> dict[str, Any]:
+    """Ask as the page does, and read the answer."""
+    answer, content = ask(server, f"/{server.token}/{place}?{urlencode(query)}")
+    assert answer.status == 200
+    found: dict[str, Any] = json.loads(content)
+    return found
+
+
+def test_it_answers_on_this_machine_only(server: Explorer) -> None:
+    """The address is one of this machine, and has a token of 192 bits."""
+    assert server.server_address[0] == "127.0.0.1"
+    assert re.fullmatch(r"http://127\.0\.0\.1:\d+/[\w-]{32}/", server.address)
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Host": "evil.example"},
+        {"Host": "127.0.0.1.evil.example:{port}"},
+        {"Host": "127.0.0.1"},
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"Origin": "https://127.0.0.1:{port}.evil.example"},
+        {"Origin": "http://127.0.0.1:1"},
+    ],
+)
+def test_foreign_hosts_and_origins_are_refused(server: Explorer, headers: dict[str, str]) -> None:
+    """A name that another site has let point here, and a page of another origin, get nothing, token or not."""
+    filled = {name: value.format(port=server.server_address[1]) for name, value in headers.items()}
+    for place in ("", "state?subject=general", "scene.js"):
+        answer, content = ask(server, f"/{server.token}/{place}", **filled)
+        assert answer.status == 403
+        assert server.token.encode() not in content
+
+
+def test_without_the_token_nothing_is_answered(server: Explorer) -> None:
+    """Neither the page nor a number; its own origin and the name localhost do with the token."""
+    port = server.server_address[1]
+    for place in ("/", "/state?subject=general", f"/{server.token[:-1]}/", f"/{server.token}x/", "/scene.js", "//"):
+        assert ask(server, place)[0].status == 403
+    for headers in ({"Origin": f"http://127.0.0.1:{port}"}, {"Host": f"localhost:{port}"}):
+        assert ask(server, f"/{server.token}/", **headers)[0].status == 200
+    assert ask(server, f"/{server.token}/", "POST")[0].status == 501
+    assert ask(server, f"/{server.token}/nothing")[0].status == 404
+    assert ask(server, f"/{server.token}/../../etc/passwd")[0].status == 404
+
+
+def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
+    """Every answer has it, refusals too; the page has no script or style of its own that it would stop."""
+    for place in (f"/{server.token}/", f"/{server.token}/state?subject=ball", "/"):
+        answer, _ = ask(server, place)
+        assert {name: answer.getheader(name) for name in HEADERS} == HEADERS
+    assert "unsafe" not in HEADERS["Content-Security-Policy"]
+    assert "default-src 'none'" in HEADERS["Content-Security-Policy"]
+    page = (folder("templates") / "html" / "explore.html").read_text(encoding="utf-8")
+    assert not re.search(r"<script>|<style|style=|\son\w+=|https?:", page)
+    for place in PAGES:
+        assert ask(server, f"/{server.token}/{place}")[0].status == 200
+    assert b"{%" not in ask(server, f"/{server.token}/style.css")[1]
+
+
+@pytest.mark.parametrize("name", ["elementary", "general", "top", "elliptic", "quadric", "ball", "particle"])
+def test_its_command_gives_the_same_numbers(server: Explorer, name: str) -> None:
+    """The command that is shown, asked for as many digits, prints what the page shows as proven."""
+    found = own(server, "state", subject=name, proven=1)
+    words = shlex.split(found["command"])[1:]
+    done = CliRunner().invoke(command_line, [*words, "--digits", "10", "--json"])
+    printed = json.loads(done.output)
+    shown = {q.name: entry for q, entry in zip(FAMILIES[name].quantities, found["numbers"], strict=True)}
+    same = [key for key in shown if isinstance(printed.get(key), str)]
+    assert same
+    for key in same:
+        assert shown[key]["value"] == printed[key]
+        assert shown[key]["sure"] == ("10 digits proven" if re.search(r"\d", printed[key]) else "decided exactly")
+
+
+def test_doubles_are_the_kernels_and_say_what_is_promised(server: Explorer) -> None:
+    """While a slider moves the numbers are doubles: the period is that of the class, and no digit is called proven."""
+    found = own(server, "state", subject="general", ratio=0.9, omega1=0.4)
+    numbers = {one["name"]: one for one in found["numbers"]}
+    period = GeneralMotion(0.9, (1.0, 2.0), (0.4, 0.7, 0.2)).period
+    assert float(numbers["period"]["value"]) == pytest.approx(period, rel=1e-5)
+    assert {one["sure"] for one in found["numbers"]} <= {"decided exactly", "double, no promise"}
+    assert numbers["kind"]["sure"] == "decided exactly"
+    assert own(server, "state", subject="ball")["numbers"][0]["sure"] == "double, within 4 ulp"
+
+
+def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
+    """The arrow of the axis is along R_3(t), and the view is the same at all times."""
+    for t in (0.0, 3.7):
+        panel = own(server, "state", subject="general", t=t)["scene"]["wide"]["panels"][0]
+        tail, tip = (panel["arrows"][0][i] for i in (4, 5))
+        axis = GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).third_axis(t)
+        found = [(b - a) / 1.35 * 3.2 for a, b in zip(tail, tip, strict=True)]
+        assert found == pytest.approx(list(axis), abs=1e-5)
+
+
+def test_figures_are_saved(server: Explorer) -> None:
+    """PDF, SVG and PNG of what is shown; another format is refused in a sentence."""
+    for kind, head in (("pdf", b"%PDF"), ("svg", b"<?xml"), ("png", b"\x89PNG")):
+        answer, content = ask(server, f"/{server.token}/figure?subject=hyperbola&format={kind}")
+        assert answer.getheader("Content-Type").startswith(answers.FILES[kind])
+        assert content.startswith(head)
+    assert "no figure can be saved as 'exe'" in own(server, "figure", subject="hyperbola", format="exe")["error"]
+
+
+@pytest.mark.parametrize(
+    ("query", "says"),
+    [
+        ({"subject": "general", "ratio": "3"}, "No body has I = I3/I2 = 3.0"),
+        ({"subject": "general", "ratio": "nan"}, "ratio must be a finite number, not 'nan'"),
+        ({"subject": "general", "ratio": "x"}, "ratio must be a finite number, not 'x'"),
+        ({"subject": "general", "spin": "1"}, "general has no parameter 'spin'; it has ratio, B2"),
+        ({"subject": "generall"}, "did you mean 'general'?"),
+        ({}, "there is no family or figure ''"),
+    ],
+)
+def test_what_is_wrong_is_said(server: Explorer, query: dict[str, str], says: str) -> None:
+    """In a sentence for the page, which goes on with the picture before."""
+    assert says in own(server, "state", **query)["error"]
+
+
+def test_everything_has_sliders_that_start_within_their_ends() -> None:
+    """All families but those without a start, with the ranges of the register; all figures, with theirs."""
+    known = everything()
+    assert [name for name, _ in known["families"]] == [*FAMILIES]
+    assert [name.removeprefix("figure:") for name, _ in known["figures"]] == recipes.names()
+    assert all(subject(name).title == title for entries in known.values() for name, title in entries)
+    for one in [*map(OfFamily, FAMILIES.values()), *(OfRecipe(recipes.load(name)) for name in recipes.names())]:
+        for slider in one.sliders:
+            assert slider.low <= slider.start <= slider.high
+            assert 0 < slider.step <= slider.high - slider.low
+    ranges = {one.name: (one.low, one.high) for one in subject("film_strip").sliders}
+    assert ranges["field.2"] == next(p.range for p in FAMILIES["elementary"].parameters if p.name == "field")
+    assert (
+        type(OfRecipe(recipes.load("film_strip")).parameters(answers.values_of(subject("film_strip"), {}))["count"])
+        is int
+    )
+
+
+def test_what_is_not_there_is_said_before_a_server_starts() -> None:
+    """An unknown name is told with the nearest one."""
+    with pytest.raises(AtlasError, match="no family or figure 'hyp_c'"):
+        subject("hyp_c")
+
+
+def test_ctrl_c_ends_it() -> None:
+    """It prints its address, and an interrupt ends it in peace."""
+    words = [sys.executable, "-m", "atlas", "explore", "ball", "--no-browser"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+        assert program.stdout is not None
+        assert program.stdout.readline().startswith("http://127.0.0.1:")
+        program.send_signal(signal.SIGINT)
+        _, said = program.communicate(timeout=60)
+    assert program.returncode in {0, 130}
+    assert said in {"ended\n", "atlas: interrupted\n"}
