@@ -34,6 +34,7 @@ PAGES = {
     "scene.js": ("scene.js", "text/javascript"),
     "style.css": ("style.css", "text/css"),
     "explore.css": ("explore.css", "text/css"),
+    "icon.svg": ("icon.svg", "image/svg+xml"),
 }
 JSON = "application/json"
 Content = tuple[bytes, str]
@@ -65,7 +66,7 @@ class Explorer(ThreadingHTTPServer):
 class Handler(BaseHTTPRequestHandler):
     """One request: refused if it is not from this page on this machine, else answered."""
 
-    protocol_version = "HTTP/1.1"
+    protocol_version, disable_nagle_algorithm = "HTTP/1.1", True
     server: Explorer
 
     def do_GET(self) -> None:

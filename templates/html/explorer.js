@@ -91,7 +91,8 @@ for (const section of document.querySelectorAll(".explorer")) {
   const all = section.dataset.tables && JSON.parse(section.dataset.tables), b = Number(section.dataset.field), value = name => Number(sliders.find(one => one.name === name).value), time = sliders.find(one => one.name === "t");
   const state = () => {
     if (all) {
-      const table = all[Math.round(value("omega1") / (Number(sliders[0].max) / (all.length - 1)))], [, I, B2, B3] = table.command.match(/--ratio (\S+) --field (\S+) (\S+)/).map(Number);
+      const off = ([I, , , omega1]) => Math.abs(I - value("I")) + Math.abs(omega1 - value("omega1")), of = ({command}) => command.match(/-?[\d.]+(e-?\d+)?(?= |$)/g).map(Number);
+      const table = all.reduce((best, one) => off(of(one)) < off(of(best)) ? one : best), [I, B2, B3] = of(table);
       return {I, B2, B3, at: tabled(table, B2, B3), span: 6 * table.period, says: table.says, command: table.command};
     }
     const I = value("I"), angle = value("angle") * Math.PI / 180, omega2 = value("omega2"), B2 = b * Math.cos(angle), B3 = b * Math.sin(angle), {omega3, k, phi, stability} = motion(I, B2, B3, omega2), spin = Number.isFinite(phi) ? phi : 0;

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass
+from itertools import product
 from math import atan2, degrees, hypot
 from typing import Any, Literal
 
@@ -11,16 +12,16 @@ from atlas.report.schema import StrictStruct
 
 _STEP, _OBLIQUE = 0.01, (1.0, 89.0)
 """Of all sliders; and the angle between field and e2 in degrees, for which (71) has a pole and both asymptotes."""
-_LAST = 60.0
-_PUSHES, _NODES, _PLACES = 9, 48, 4
-"""General motions: from so many starts, so many moments of a period, and decimals: what is drawn."""
+_LAST, RATIO = 60.0, "ratio of the moments of inertia, I3/I2"
+_BODIES, _PUSHES, _NODES, _PLACES = (0.5, 1.0, 1.5, 2.0), 6, 60, 4
+"""General motions: of these I, from so many starts, so many moments of a period, and decimals: what is drawn."""
 
 
 class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
     """A sentence in Markdown with TeX, and below it the motion that the sliders choose.
 
-    ``elementary`` motions have sliders for I, the angle of the field and omega2; ``general`` ones, of one body in one
-    field, for the omega1 that they start with.
+    ``elementary`` motions have sliders for I, the angle of the field and omega2; ``general`` ones, of a few bodies in
+    one field, for I and the omega1 that they start with.
     """
 
     text: str
@@ -58,12 +59,13 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
     if block.motion == "general":
         high = _parameter("general", "omega").range[1]
         says, step = "first component of the initial angular velocity", high / (_PUSHES - 1)
-        push = Slider("omega1", "ω₁", says, 0.0, high, high / 4.0, step)
-        return ExplorerView(text, block.motion, (push, time), hypot(B2, B3), tables())
+        body = Slider("I", "I", RATIO, _BODIES[0], _BODIES[-1], 1.5, _BODIES[1] - _BODIES[0])
+        push = Slider("omega1", "ω₁", says, 0.0, high, 2.0 * step, step)
+        return ExplorerView(text, block.motion, (body, push, time), hypot(B2, B3), tables())
     ratio, omega2 = _parameter("elementary", "ratio"), _parameter("elementary", "omega2")
     angle = round(degrees(atan2(B3, B2)), 2)
     chosen = (
-        Slider("I", "I", "ratio of the moments of inertia, I3/I2", *ratio.range, *ratio.default),
+        Slider("I", "I", RATIO, *ratio.range, *ratio.default),
         Slider("angle", "∠(e₂, B)", "angle of the field with e2, in degrees", *_OBLIQUE, angle),
         Slider("omega2", "ω₂", "second component of the initial angular velocity", *omega2.range, *omega2.default),
     )
@@ -80,11 +82,10 @@ def tables() -> str:
 
     from atlas import GeneralMotion
 
-    ratio, field = _parameter("general", "ratio").default[0], _parameter("general", "field").default
-    _, *rest = _parameter("general", "omega").default
-    command = f"atlas general --ratio {ratio:g} --field {field[0]:g} {field[1]:g} --omega"
-    found = []
-    for omega1 in np.linspace(0.0, _parameter("general", "omega").range[1], _PUSHES).tolist():
+    field, (_, *rest) = _parameter("general", "field").default, _parameter("general", "omega").default
+    pushes, found = np.linspace(0.0, _parameter("general", "omega").range[1], _PUSHES).tolist(), []
+    for ratio, omega1 in product(_BODIES, pushes):
+        command = f"atlas general --ratio {ratio:g} --field {field[0]:g} {field[1]:g} --omega"
         motion = GeneralMotion(ratio, field, (omega1, *rest))
         a, b = motion.precession_per_period / motion.period, motion.spin_per_period / motion.period
         t = np.arange(_NODES) * (motion.period / _NODES)
