@@ -90,7 +90,8 @@ def _read(path: Path, content: bytes) -> dict[str, Any]:
     tree = _tree(content) if path.suffix == ".py" else None
     if tree is None:
         return {"digest": hashlib.sha256(content).hexdigest(), "imports": []}
-    return {"digest": hashlib.sha256(ast.dump(tree).encode()).hexdigest(), "imports": sorted(set(_names(tree)))}
+    said, imports = _said(tree)
+    return {"digest": hashlib.sha256(said.encode()).hexdigest(), "imports": sorted(imports)}
 
 
 def _tree(content: bytes) -> ast.AST | None:
@@ -101,13 +102,33 @@ def _tree(content: bytes) -> ast.AST | None:
         return None
 
 
-def _names(tree: ast.AST) -> Iterator[str]:
-    """Go through the dotted names of ours that a module imports, anywhere in it."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (name for alias in node.names for name in _bound(alias) if name.split(".")[0] in OURS)
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] in OURS:
-            yield from (f"{node.module}.{alias.name}".removesuffix(".*") for alias in node.names)
+def _said(tree: ast.AST) -> tuple[str, set[str]]:
+    """Return all that a syntax tree says but for places, and the dotted names of ours that it imports anywhere.
+
+    Each node is a line with its kind, then what is in it; `ast.dump` and `ast.walk` do that in twice the time.
+    """
+    lines, imports, waiting = list[str](), set[str](), list[Any]([tree])
+    while waiting:
+        one = waiting.pop()
+        if isinstance(one, ast.AST):
+            lines.append(type(one).__name__)
+            waiting += [getattr(one, field, None) for field in one._fields]
+            if isinstance(one, ast.Import | ast.ImportFrom):
+                imports.update(_names(one))
+        elif isinstance(one, list):
+            lines.append(f"[{len(one)}")
+            waiting += one
+        else:
+            lines.append(repr(one))
+    return "\n".join(lines), imports
+
+
+def _names(node: ast.Import | ast.ImportFrom) -> Iterator[str]:
+    """Go through the dotted names of ours that a statement imports."""
+    if isinstance(node, ast.Import):
+        yield from (name for alias in node.names for name in _bound(alias) if name.split(".")[0] in OURS)
+    elif (node.module or "").split(".")[0] in OURS:
+        yield from (f"{node.module}.{alias.name}".removesuffix(".*") for alias in node.names)
 
 
 def _bound(alias: ast.alias) -> Iterator[str]:
