@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 from atlas.errors import NotCertifiedError
 from atlas.exact.clebsch_periods import (
     BITS,
+    EACH,
     FINE,
     LEAST,
     ONE,
-    PATHS,
     Curve,
     Integrals,
     complex_of,
@@ -38,8 +38,8 @@ from atlas.formulas.numbers import workprec
 WHOLE = 1e-9
 """How near to whole numbers the coefficients of a conjugate period are."""
 
-SLOW, MORE = 0.003, 24
-"""Least rate at which sums of paths converge, and paths, where fewer and quicker ones do not give all periods."""
+SLOW, MORE = 0.003, 8
+"""Least rate at which sums converge, and paths for each zero, where fewer and quicker ones do not give all periods."""
 
 TURNS = 60
 """Rounds of Siegel's reduction at most."""
@@ -77,14 +77,14 @@ def lattice(motion: Integrals) -> Lattice:
     with workprec(BITS):
         curve = Curve(motion)
         try:
-            return _of_paths(curve, LEAST, PATHS)
+            return _of_paths(curve, LEAST, EACH)
         except NotCertifiedError:
             return _of_paths(curve, SLOW, MORE)
 
 
-def _of_paths(curve: Curve, least: float, most: int) -> Lattice:
+def _of_paths(curve: Curve, least: float, each: int) -> Lattice:
     """Return the periods that integrals along some paths make whose sums converge at some rate at least."""
-    ways = [list(curve.along(*path)) for path in curve.paths(least, most, poles=True)]
+    ways = [list(curve.along(*path)) for path in curve.paths(least, each, poles=True)]
     periods = sums(ways, generating([_real(way) for way in ways]))
     if len(periods) != 4:
         raise NotCertifiedError(f"not certified: {len(periods)} periods of the motion's torus were found, not four.")

@@ -25,8 +25,8 @@ BITS = 200
 LEAST = 0.05
 """Least rate at which the sums of a path converge: the logarithm of the ellipse round it that holds no other zero."""
 
-PATHS = 12
-"""Paths that are gone, the quickest of each pair of zeros first."""
+EACH = 3
+"""Paths that are gone for each of the four zeros, the quickest of each pair first."""
 
 FINE, ONE = 90, 46
 """Bits of the periods in a search for integer relations, and of an integer there: a relation is one to their half."""
@@ -122,11 +122,11 @@ class Curve:
         u -= y * self.imaginary
         return centre(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
 
-    def paths(self, least: float = LEAST, most: int = PATHS, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
-        """Return so many straight paths between zeros at most, whose sums converge at rates of `least` at least.
+    def paths(self, least: float = LEAST, each: int = EACH, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
+        """Return straight paths between zeros whose sums converge at some rate at least, so many for each of four.
 
-        Each comes with its rate, the quickest come first. With `poles`, those of z count as well: the third integral of
-        `along` has them.
+        Each comes with its rate, the quickest come first, and of the same two zeros so many at most. With `poles`,
+        those of z count as well: the third integral of `along` has them.
         """
         shifts = [(m * self.real, n * self.imaginary) for m, n in product(range(-2, 3), repeat=2)]
         images = [[complex_of(zero + x + y) for x, y in shifts] for zero in self.zeros]
@@ -143,8 +143,8 @@ class Curve:
                 if rate > least:
                     found.setdefault((i, j), []).append((rate, start, stop))
         rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
-        chosen = sorted((path for row in rows for path in row[:3]), key=lambda path: -path[0])
-        return [(start, stop, rate) for rate, start, stop in chosen[:most]]
+        chosen = sorted((path for row in rows for path in row[:each]), key=lambda path: -path[0])
+        return [(start, stop, rate) for rate, start, stop in chosen[: 4 * each]]
 
     def along(self, start: acb, stop: acb, rate: float) -> tuple[acb, acb, acb]:
         """Return -2i times the integral of (D, z, v) du/eta along a path.

@@ -1,5 +1,6 @@
 """The closed form of bodies with three moments: against the certified twin, and the laws that it obeys."""
 
+from dataclasses import replace
 from functools import cache
 from itertools import product
 from typing import Any
@@ -23,7 +24,7 @@ EPS = 2.0**-52
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
 """A motion whose periods are short beside its rates."""
 WEAK = (1.25, 0.9375, 0.7), (0.01, -0.02, 0.03), (1.0, 0.5, -0.6)
-TIMES = np.array([0.7, -2.0e3, 8.0e11])
+TIMES = np.array([-2.0e3, 8.0e11])
 
 Three = tuple[float, float, float]
 
@@ -107,13 +108,12 @@ def test_the_pair_of_a_motion_is_the_motion_back_in_time() -> None:
 
 
 def test_it_tends_to_the_symmetric_body() -> None:
-    """R(30) for I2 = I1 (1 + d) less `GeneralMotion` is twice as large for d = 2^-19 as for d = 2^-20."""
+    """R(30) for I2 = I1 (1 + d), d = 2^-20, is that of `GeneralMotion` but for some multiple of d."""
     field, omega, t = (0.25, 1.0, 0.5), (0.25, 0.75, 0.125), 30.0
     true = atlas.GeneralMotion.in_laboratory(1.25, field, np.eye(3), omega).rotation(t)
     d = 2.0**-20
-    first, second = (np.abs(kernel((1.0, 1 + x, 1.25), field, omega).rotation(t) - true).max() for x in (d, 2 * d))
-    assert d / 10 < first < 1000 * d
-    assert abs(second / first - 2) < 1e-3
+    apart = np.abs(kernel((1.0, 1 + d, 1.25), field, omega).rotation(t) - true).max()
+    assert d / 10 < apart < 1000 * d
 
 
 def test_frequencies_are_those_of_the_motion() -> None:
@@ -146,37 +146,28 @@ def test_the_riemann_matrix_is_reduced_and_a_lattice_of_type_1_2_stands_behind_i
             assert abs(turns - round(float(turns))) < 1e-25
 
 
-def _slipped(monkeypatch: pytest.MonkeyPatch, slip: str) -> None:
-    """Plant a slip in a formula of the closed form."""
+def _slipped(monkeypatch: pytest.MonkeyPatch, slip: str) -> SingleAsymmetric:
+    """Return the quick motion with a slip in a formula of its closed form."""
+    balls = motion()._turnings[0].exact
+    assert balls.on_torus is not None
+    known = balls.on_torus.torus.lattice
     if slip == "characteristic":
         monkeypatch.setattr(clebsch_theta, "CHARACTERISTICS", ((0, 1), (0, 0), (1, 0), (1, 1)))
     elif slip == "sign of T_c":
-        true = torus.lattice
-
-        def turned(motion: Any) -> Lattice:
-            found = true(motion)
-            rows = (tuple([x, y, -z] for x, y, z in pair) for pair in (found.real, found.others, found.a, found.b))
-            return Lattice(*rows)  # type: ignore[arg-type]
-
-        monkeypatch.setattr(torus, "lattice", turned)
+        pairs = (known.real, known.others, known.a, known.b)
+        rows = (tuple([x, y, -z] for x, y, z in pair) for pair in pairs)
+        monkeypatch.setitem(balls.on_torus.torus.__dict__, "lattice", Lattice(*rows))  # type: ignore[arg-type]
     elif slip == "T_c of one period":
-        true = torus.lattice
-
-        def longer(motion: Any) -> Lattice:
-            found = true(motion)
-            found.b[0][2] += acb(arb(2) ** -30)
-            return found
-
-        monkeypatch.setattr(torus, "lattice", longer)
-    elif slip == "sign of b t":
-        monkeypatch.setattr(core, "PERIODS", 160)
-        true_periods = torus.Torus.periods
-
-        def mirrored(self: torus.Torus, bits: int) -> Any:
-            found = true_periods(self, bits)
-            return found if bits != core.PERIODS else tuple(torus.Period(p.H, p.F, -p.angle) for p in found)
-
-        monkeypatch.setattr(torus.Torus, "periods", mirrored)
+        (x, y, z), second = known.b
+        other = replace(known, b=([x, y, z + acb(arb(2) ** -30)], second))
+        monkeypatch.setitem(balls.on_torus.torus.__dict__, "lattice", other)
+    elif slip == "sign of an angle":
+        true = core.ThetaKernel
+        mirrored = lambda theta, periods, *more: true(  # noqa: E731
+            theta, tuple(torus.Period(p.H, p.F, -p.angle) for p in periods), *more
+        )
+        monkeypatch.setattr(core, "ThetaKernel", mirrored)
+    return SingleAsymmetric(balls)
 
 
 @pytest.mark.parametrize(
@@ -185,21 +176,20 @@ def _slipped(monkeypatch: pytest.MonkeyPatch, slip: str) -> None:
         ("characteristic", "the place of the start on the motion's torus was not found"),
         ("sign of T_c", "theta functions do not fit the motion"),
         ("T_c of one period", "theta functions do not fit the motion"),
-        ("sign of b t", "differ from the certified twin by"),
+        ("sign of an angle", "differ from the certified twin by"),
     ],
 )
 def test_a_slip_is_noticed_and_the_certified_twin_answers(
     slip: str, words: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """With a slip in characteristics, T_c or an angle there is no closed form; `agreement` says why, R is proved."""
-    _slipped(monkeypatch, slip)
+    one = _slipped(monkeypatch, slip)
     monkeypatch.setattr(kernels, "CHECKED", (5.3,))
-    one = atlas.AsymmetricMotion(*QUICK)
     assert words in one.agreement
     assert one.agreement.startswith("certified at each time")
-    assert (one.rotation(2.5) == motion()._turnings[0].certified.rotation(2.5)).all()
+    assert (one.rotation(2.5) == one.certified.rotation(2.5)).all()
     with pytest.raises(atlas.AtlasError, match="no closed form; it is certified"):
-        _ = one.riemann_matrix
+        _ = one.theta
 
 
 def test_a_motion_says_what_is_known_of_it() -> None:
