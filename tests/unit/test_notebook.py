@@ -164,7 +164,7 @@ def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
 def test_the_picture_of_a_motion_is_the_way_of_its_axis(one: Any, figure: str, axis: tuple[float, ...]) -> None:
     """On the unit sphere; heights along the upright vector are those of R_3(t), and Omega(t) is the motion's own."""
     own = {p.name: one.arguments[p.name] for p in FAMILIES[one.family].parameters}
-    own |= {"turns": 2.0} if figure == "asymmetric_motion" else {}
+    own |= {"turns": 2.0} if figure == "asymmetric_motion" else {"periods": 0.5}
     sphere, course = recipes.load(figure).scene(**own).panels
     (trace,) = (layer.points for layer in sphere.layers if isinstance(layer, Curve) and layer.role == "trace")
     assert np.abs(np.linalg.norm(trace, axis=1) - 1.0).max() < 1e-14
@@ -175,6 +175,7 @@ def test_the_picture_of_a_motion_is_the_way_of_its_axis(one: Any, figure: str, a
     Omega = one.angular_velocity(times)
     for i, line in enumerate(lines):
         assert np.abs(line[[len(line) // 3, -1], 1] - Omega[:, i]).max() < 1e-6
+    assert abs(trace[-1, 2] - one.third_axis(course.x_limits[1]) @ upright) < 1e-6
     low, high = trace[:, 2].min() - 1e-4, trace[:, 2].max() + 1e-4
     heights = one.third_axis(times) @ upright
     assert low < heights.min() <= heights.max() < high
