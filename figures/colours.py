@@ -10,6 +10,7 @@ from atlas.scene.narrow import stacked
 from atlas.scene.words import title
 
 COLUMN, ROW, LENGTH = 6.2, 1.0, 1.4
+NARROWEST = 139.0
 VECTORS = (
     ("field", r"$\mathbf{B}$ and $\mathbf{B}'$"),
     ("field_inverse", r"$\mathrm{I\!I}^{-1}\mathbf{B}'$"),
