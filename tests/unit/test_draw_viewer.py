@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from atlas.draw import viewer
 from atlas.draw.style import style_of
 from atlas.draw.viewer import GRID, STEPS, data, script
 from atlas.places import folder
@@ -57,16 +58,18 @@ def test_points_of_surfaces_obey_what_is_handed_over() -> None:
 
 
 def test_lines_and_marks_are_all_there() -> None:
-    """A line has no more points than the curve, none twice, and its extent; marks are there; the eye is the scene's."""
+    """A line has no point twice, no more than the curve, and its extent as it is thinned; marks and eye are there."""
     scene = recipes.load("nutation_traces").scene()
-    for panel, given in zip(scene.panels, data(scene)["wide"]["panels"], strict=True):
+    wide = data(scene)["wide"]
+    for panel, given, place in zip(scene.panels, wide["panels"], wide["places"], strict=True):
+        near = viewer._NEAR / place[6]  # of what was thinned, at either end
         assert isinstance(panel, Space)
         assert np.allclose(np.reshape(given["frame"], (3, 3)), frame(panel), atol=1e-6)
         curves = [layer for layer in panel.layers if isinstance(layer, Curve) and not style_of(layer.role).dash]
         marks = [layer for layer in panel.layers if isinstance(layer, Points)]
         lines = [line(packed) for _, _, packed in given["lines"]]
         for curve in curves:
-            (same,) = (one for one in lines if np.allclose(shape(one), shape(curve.points), atol=2e-4))
+            (same,) = (one for one in lines if np.allclose(shape(one), shape(curve.points), atol=2.0 * near))
             assert len(same) <= len(curve.points)
             assert np.any(np.diff(same, axis=0), axis=1).all()
         assert len(given["dots"]) == sum(len(np.atleast_2d(one.points)) for one in marks)
