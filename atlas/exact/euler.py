@@ -8,7 +8,9 @@ with signs such that the product of the three terms is -G/2, G = a0^2 a3 - 3 a0 
 of the discriminant says, exactly. Roots that are close cost digits, and no time as in an isolation by iteration.
 """
 
+from collections.abc import Callable, Sequence
 from itertools import combinations, product
+from typing import Any
 
 from flint import acb, arb, ctx, fmpq, fmpq_poly
 
@@ -31,30 +33,70 @@ def quartic_roots(polynomial: fmpq_poly) -> list[acb]:
         precision *= 2
 
 
-def _roots(a0: fmpq, a1: fmpq, a2: fmpq, a3: fmpq, a4: fmpq) -> list[acb]:
+def _roots(*a: fmpq) -> list[acb]:
     """Return the roots at the precision of the moment, which may not suffice."""
+    return four_roots(a, lambda x: int(x > 0) - int(x < 0), arb)
+
+
+def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
+    """Return the roots of a0 x^4 + 4 a1 x^3 + 6 a2 x^2 + 4 a3 x + a4, exact numbers, none of them a double one.
+
+    `sign` and `ball` are what to make of these. At the precision of the moment, which may not suffice.
+    """
+    a0, a1, a2, a3, a4 = a
     g2 = a0 * a4 - 4 * a1 * a3 + 3 * a2 * a2
-    g3 = a0 * a2 * a4 + 2 * a1 * a2 * a3 - a2**3 - a0 * a3**2 - a1**2 * a4
-    H, G = a1 * a1 - a0 * a2, a0 * a0 * a3 - 3 * a0 * a1 * a2 + 2 * a1**3
-    discriminant = g2**3 - 27 * g3**2
-    sign = -1 if G > 0 else 1
-    if G == 0:
-        inner = arb(12 * H * H - a0 * a0 * g2).sqrt()
-        z = [s * _root(3 * H + r * inner) for r, s in product((1, -1), (1, -1))]
+    g3 = a0 * a2 * a4 + 2 * a1 * a2 * a3 - a2 * a2 * a2 - a0 * a3 * a3 - a1 * a1 * a4
+    H, G = a1 * a1 - a0 * a2, a0 * a0 * a3 - 3 * a0 * a1 * a2 + 2 * a1 * a1 * a1
+    discriminant = g2 * g2 * g2 - 27 * g3 * g3
+    lead, h, side = ball(a0), ball(H), -1 if sign(G) > 0 else 1
+    if not sign(G):
+        inner = _root(ball(12 * H * H - a0 * a0 * g2))
+        squares = [3 * h + r * inner for r in (1, -1)]
+        z = [s * (_root(x.real) if x.imag.is_zero() else x.sqrt()) for x, s in product(squares, (1, -1))]
         z.sort(key=lambda x: not x.imag.is_zero())
-    elif discriminant > 0:
-        angle, size = arb.atan2((arb(discriminant) / 27).sqrt(), arb(g3)) / 3, (arb(g2) / 3).sqrt()
-        x, y, w = ((H - a0 * size * (angle - 2 * k * arb.pi() / 3).cos()).sqrt() for k in range(3))
-        z = [acb(s * x + r * y + s * r * sign * w) for s, r in product((1, -1), (1, -1))]
+    elif sign(discriminant) > 0:
+        angle, size = arb.atan2((ball(discriminant) / 27).sqrt(), ball(g3)) / 3, (ball(g2) / 3).sqrt()
+        x, y, w = (_root(h - lead * size * (angle - 2 * k * arb.pi() / 3).cos()) for k in range(3))
+        # the product of the three is that of their sizes, or less it if two are imaginary
+        side *= 1 if all(v.imag.is_zero() for v in (x, y, w)) else -1
+        z = [s * x + r * y + s * r * side * w for s, r in product((1, -1), (1, -1))]
     else:
-        w = arb(abs(g3)) / 8
-        outer = (w + (-arb(discriminant) / 1728).sqrt()) ** (arb(1) / 3)
-        other = arb(g2) / 12 / outer
-        real = (outer + other) * (1 if g3 >= 0 else -1)
+        w = abs(ball(g3)) / 8
+        outer = (w + (-ball(discriminant) / 1728).sqrt()) ** (arb(1) / 3)
+        other = ball(g2) / 12 / outer
+        real = (outer + other) * (1 if sign(g3) >= 0 else -1)
         pair = acb(-real / 2, (outer - other) * arb(3).sqrt() / 2)
-        first, second = sign * (H - a0 * real).sqrt(), (H - a0 * pair).sqrt() * 2
+        first, second = side * (h - lead * real).sqrt(), (h - lead * pair).sqrt() * 2
         z = [acb(first + second.real), acb(first - second.real), acb(-first, second.imag), acb(-first, -second.imag)]
-    return [(x - a1) / a0 for x in z]
+    return [(x - ball(a1)) / lead for x in z]
+
+
+def three_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
+    """Return the roots of b0 x^3 + 3 b1 x^2 + 3 b2 x + b3, real ones first, as `four_roots` does."""
+    b0, b1, b2, b3 = b
+    H, G = b1 * b1 - b0 * b2, b0 * b0 * b3 - 3 * b0 * b1 * b2 + 2 * b1 * b1 * b1
+    discriminant, h = 4 * H * H * H - G * G, ball(H)
+    if not sign(G):
+        z = [acb(0), _root(3 * h), -_root(3 * h)]
+    elif sign(discriminant) > 0:
+        angle = arb.atan2(ball(discriminant).sqrt(), -ball(G))
+        z = [acb(2 * h.sqrt() * ((angle + 2 * k * arb.pi()) / 3).cos()) for k in range(3)]
+    else:
+        outer = ((abs(ball(G)) + (-ball(discriminant)).sqrt()) / 2) ** (arb(1) / 3)
+        other = h / outer
+        real, imaginary = -sign(G) * (outer + other), arb(3).sqrt() / 2 * (outer - other)
+        z = [acb(real), acb(-real / 2, imaginary), acb(-real / 2, -imaginary)]
+    return [(x - ball(b1)) / ball(b0) for x in z]
+
+
+def two_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
+    """Return the roots of b0 x^2 + 2 b1 x + b2, as `four_roots` does; of two the one that does not cancel first."""
+    b0, b1, b2 = b
+    root = _root(ball(b1 * b1 - b0 * b2))
+    if root.imag.is_zero() and sign(b1):
+        larger = -ball(b1) - sign(b1) * root
+        return [larger / ball(b0), ball(b2) / larger]
+    return [(s * root - ball(b1)) / ball(b0) for s in (1, -1)]
 
 
 def _root(x: arb) -> acb:

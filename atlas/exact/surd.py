@@ -1,14 +1,16 @@
 """Numbers a + b sqrt(N) with rational a, b, N, exactly: what the length of a rational vector makes of others."""
 
 from dataclasses import dataclass
+from itertools import combinations
 from typing import TypeAlias
 
-from flint import acb, acb_poly, arb, ctx, fmpq
+from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
+from atlas.exact.euler import four_roots, three_roots, two_roots
 from atlas.formulas.numbers import root, workprec
 
-MOST = 1 << 22
+MOST = 1 << 17
 """Bits at which the search for roots is given up, after less than a second."""
 
 Polynomial: TypeAlias = tuple["Surd", ...]
@@ -123,35 +125,46 @@ def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
 def roots(p: Polynomial) -> list[acb]:
     """Return the roots of a polynomial that has no double one, the real ones first, ascending; no two balls overlap.
 
-    They are as accurate as the precision of the moment. DomainError where they are too many orders of magnitude apart:
-    flint's iteration halves the distance to a small one, in as many steps as the root of the precision.
+    Of degree four at most. They are as accurate as the precision of the moment, which is
+    raised as far as it takes. DomainError where they are too many orders of magnitude apart.
     """
     if len(p) == 2:
         return [acb((-(p[0] / p[1])).value)]
-    digits, fine = ctx.prec, ctx.prec
-    while fine < MOST:
-        with workprec(2 * fine + 64):
-            found = _isolated(acb_poly([acb(c.value) for c in p]), arb(2) ** -fine)
-        if found and all(z.rel_accuracy_bits() >= digits for z in found):
-            return found
-        fine *= 2
+    if p[0].is_zero:
+        return _sorted([acb(0), *roots(p[1:])])
+    digits = precision = ctx.prec
+    while precision < MOST:
+        precision *= 2
+        with workprec(precision):
+            found = _closed(p)
+            apart = not any(x.overlaps(y) for x, y in combinations(found, 2))
+            if apart and all(z.is_finite() and z.rel_accuracy_bits() >= digits for z in found):
+                return _sorted(found)
     raise DomainError(
         "The roots of Q are too many orders of magnitude apart to be found: make the components more alike."
     )
 
 
-def _isolated(p: acb_poly, radius: arb) -> list[acb]:
-    """Return the roots within so much, real ones first; none where the precision of the moment is too low."""
-    try:
-        found = p.roots(tol=radius, maxprec=ctx.prec)
-    except ValueError:
-        return []
-    mirrored = [acb(z.real, -z.imag) for z in found]
-    if any(sum(z.overlaps(y) for y in mirrored) != 1 for z in found):
-        return []
-    real = [acb(z.real) for z, y in zip(found, mirrored, strict=True) if z.overlaps(y)]
-    real.sort(key=lambda z: z.real.mid())
-    return real + [z for z, y in zip(found, mirrored, strict=True) if not z.overlaps(y)]
+def _sorted(found: list[acb]) -> list[acb]:
+    real = sorted((z for z in found if z.imag.is_zero()), key=lambda z: z.real.mid())
+    return real + [z for z in found if not z.imag.is_zero()]
+
+
+def _closed(p: Polynomial) -> list[acb]:
+    """Return the roots in closed form at the precision of the moment, which may not suffice."""
+    if len(p) == 5:
+        return four_roots((p[4], p[3] / 4, p[2] / 6, p[1] / 4, p[0]), _sign, _ball)
+    if len(p) == 4:
+        return three_roots((p[3], p[2] / 3, p[1] / 3, p[0]), _sign, _ball)
+    return two_roots((p[2], p[1] / 2, p[0]), _sign, _ball)
+
+
+def _sign(x: Surd) -> int:
+    return x.sign
+
+
+def _ball(x: Surd) -> arb:
+    return arb(x.value)
 
 
 def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:

@@ -211,7 +211,7 @@ def test_digits_of_a_heavy_top_are_proven_at_any_time() -> None:
         (((1, 1), (0, float("nan")), (0, 1), (0, 0, 0)), "k3 must be finite"),
         (((1, 1), (0, 0), (0, 1), (0, 0)), "must have the 3 components"),
         (((1, 1), (0, 0), (0, 1), (0, 0, 0), "up"), "linear must be a real number"),
-        (((1, 0.5), (0, 0), (0.6, 0.8), (1e250, 0.2, 5.0), 3.0), "too many orders of magnitude apart"),
+        (((1, 0.5), (0, 0), (0.6, 0.8), (1e250, 0.2, 5.0), 3.0), None),
         (((1, 1.5), (0, 1), (1, 0), (1, 0, -0.0), 0, -2.0 / 3.0), None),
     ],
 )
