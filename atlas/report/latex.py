@@ -205,7 +205,7 @@ def _references(document: Document) -> str:
 }}
 """
     kept = _TITLE.sub(r"\1{\2}\3", document.bibliography.source.strip())  # BibTeX makes other words small
-    return "\n".join(filter(None, [kept.replace("eprinttype", "archivePrefix"), own]))
+    return "\n".join(filter(None, [kept.replace("eprinttype", "archivePrefix").replace("@online{", "@misc{"), own]))
 
 
 def _body(document: Document, texts: Sequence[str]) -> Iterator[str]:
