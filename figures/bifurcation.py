@@ -19,7 +19,8 @@ NEAR = 1e-4
 """Where a stretch begins that runs to infinity, as a part of it."""
 ROLES = {"stable": "start", "saddle": "special", "focus-focus": "special"}
 OFFSETS = ((1.0, 8.0), (-8.0, -5.0), (7.0, -5.0))
-"""Where the names of the three spins stand, in the order of F."""
+"""Where the names of the three spins stand, in the order of F, and of a stable one on the lower edge."""
+UPRIGHT = (4.0, 6.0)
 
 
 def scene(
@@ -83,7 +84,8 @@ def panel(name: str, one: Bifurcation, reach: float, across: float) -> Plane:
         layers.append(Curve(points, role if stretch.stable else "unstable_line"))
     for rank, which in enumerate(np.argsort(spins[:, 0])):
         layers.append(Points(spins[which : which + 1], ROLES[one.spins[which].kind]))
-        layers.append(Label(spins[which], rf"$\mathbf{{e}}_{which + 1}$", "label", OFFSETS[rank]))
+        offset = UPRIGHT if rank and one.spins[which].kind == "stable" else OFFSETS[rank]
+        layers.append(Label(spins[which], rf"$\mathbf{{e}}_{which + 1}$", "label", offset))
     if one.rest is not None:
         at = one.rest - [0.0, slope * one.rest[0]]
         layers += [Points(at[None], "rest"), Label(at, "rest" if one.c > 0 else r"$-2\mathbf{K}$", "rest", (-4, -6))]
