@@ -89,7 +89,8 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
         """Squared frequency of small departures in the flow of H + (z/D) F/2, theorem-splitting; negative: unstable.
 
         It is [4 b^2 P + s (P'^2 - 2 P P'')]/D^2, in 1/time^2, with P = v^2 as a polynomial in z and
-        s = sum K_i^2/(z + D/I_i). For I1 = I2 = 1 it is (1 + z/D)^2 times the squared frequency of nutation of `Hyperbola.stability`.
+        s = sum K_i^2/(z + D/I_i). For I1 = I2 = 1 that is (1 + z/D)^2 times the squared frequency of nutation of
+        `Hyperbola.stability`.
         """
         return finite(self._scalar("splitting"), "splitting")
 
