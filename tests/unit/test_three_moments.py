@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.special import ellipk
 
 from atlas.build.tex import build_tex
 from atlas.exact.asymmetric import AsymmetricMotion
@@ -70,6 +71,25 @@ def test_a_number_changed_in_the_file_goes_through_to_the_paper(moment: float, t
     assert "archivePrefix = {arXiv}" in works
     assert re.search(r"exceed \\\(E_2b\^2\\\)\. Then\n\\atlasequation\{", paper)
     assert re.search(r"\n\nwith real|\n\\emph\{with real", paper).group() == "\n\\emph{with real"  # type: ignore[union-attr]
+
+
+def test_the_rows_of_the_family_are_those_of_the_formulas_of_the_letter() -> None:
+    """v, omega, C/D^2 as the sum of squares, and T = 4 K(k)/lambda, 1e-9; who is stable."""
+    (I, B, _), D = DATA, 0.625
+    places = [[1.0, 1], [-0.25, -1], [-0.75, 1]]
+    rows = compute("elliptic", Request((), {"inertia": I, "field": B, "places": places}, 12)).rows
+    for (z, branch), row in zip(places, rows, strict=True):
+        x = np.array([z + D / moment for moment in I])
+        v = branch * np.sqrt(x.prod())
+        E, square, twice = -v / (I * x), float(np.dot(B, B)), float(np.dot(B, -v / (I * x) * B))
+        e = np.sort(E) if twice > np.median(E) * square else -np.sort(-E)
+        rate = np.sqrt((e[2] - e[1]) * (twice - e[0] * square))
+        modulus = (e[1] - e[0]) * (e[2] * square - twice) / rate**2
+        C = np.sum(np.square(B) / x * (x * (x.sum() - x) - x.prod() / x) ** 2)
+        true = [z, v, *((E - 1) * B), C / D**2, 4 * ellipk(modulus) / rate]
+        found = [float(cell.digits) for cell in row if isinstance(cell, Number)]
+        assert np.abs(np.array(found[:-1]) - true).max() <= 1e-9
+        assert row[-1] == ("stable" if C > 0 else "unstable")
 
 
 def test_the_tables_of_the_letter_are_proven_to_the_last_digit() -> None:
