@@ -206,9 +206,10 @@ def test_a_motion_says_what_is_known_of_it() -> None:
     grid = one.rotation_grid(-1.0, 0.5, 3)
     assert (grid[2] == np.eye(3)).all()
     assert np.abs(grid[1] - one.rotation(-0.5)).max() < 8 * EPS
-    for call in (lambda: one.rotation(1e17), lambda: one.rotation_grid(0.0, 1e16, 3)):
-        with pytest.raises(atlas.AtlasError, match=r"2\^50"):
-            call()
+    with pytest.raises(atlas.AtlasError, match=r"^A time is 1e\+17, but .* 2\^50"):
+        one.rotation(1e17)
+    with pytest.raises(atlas.AtlasError, match=r"^The grid from 0.0 by 1e\+16 .* 2\^50"):
+        one.rotation_grid(0.0, 1e16, 3)
 
 
 def test_three_moments_are_sent_to_their_command() -> None:
