@@ -26,7 +26,7 @@ OUT = Path("build/bench.json")
     metavar="NAME [...]",
     help="elementary, general, ball, particle, heavy, asymmetric; all when left out.",
 )
-@click.option("--quick", is_flag=True, help="The short form, under half a minute.")
+@click.option("--quick", is_flag=True, help="The short form, under half a minute; without asymmetric unless named.")
 @click.option("--read", type=click.Path(dir_okay=False, path_type=Path), help="Show this record instead of measuring.")
 @click.option(
     "--out",

@@ -1,7 +1,7 @@
 """Any motion of a charged body with three different moments of inertia (not in the paper)."""
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,9 @@ REACH = 2.0**50
 NARROW = 2.0**-58
 """Radius of a ball that is rounded, beside 1 or beside the largest rate."""
 
+
+KEPT = 16
+"""Motions that are kept with what was found of them."""
 
 CHECKED = (5.3, -61.7, 2.9e5, -8.1e11)
 """Times, over the largest rate, at which a closed form is held against the certified twin."""
@@ -151,6 +154,12 @@ class Certified:
         return out
 
 
+@lru_cache(maxsize=KEPT)
+def _single(*row: float) -> SingleAsymmetric:
+    """Return a motion; those made last are kept, since a sweep asks for the same one at many times."""
+    return SingleAsymmetric(Balls(row[0:3], row[3:6], row[6:9]))
+
+
 def rounded(function: Callable[[], Any], size: float) -> FloatArray:
     """Return the floats nearest to balls that are made ever more precisely until they are narrow beside a size."""
     precision = FIRST
@@ -197,7 +206,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
             *components(field, ("B1", "B2", "B3"), "The field", RATE),
             *components(omega, ("omega1", "omega2", "omega3"), "The initial angular velocity", RATE),
         ]
-        super().__init__(lambda *row: SingleAsymmetric(Balls(row[0:3], row[3:6], row[6:9])), *parts)
+        super().__init__(_single, *parts)
         self._turnings  # noqa: B018  what is no motion is refused here
         self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
         self.arguments = {"inertia": self.inertia, "field": self.field, "omega": self.omega}
