@@ -237,30 +237,37 @@ def _alike(sizes: Sequence[Any]) -> Any:
 class TopRows(GeneralRows):
     """Tops in arrays, ready to be evaluated."""
 
-    @property
-    def _of_tops(self) -> Iterator[TopBlock]:
-        return (block for block in self.blocks if isinstance(block, TopBlock))
-
     @cached_property
+    def _constants(self) -> tuple[Constants, Swings, FloatArray]:
+        """Constants of the pair, of what the integral of nu adds, and the largest rates: all of one pass."""
+        with np.errstate(all="ignore"):
+            found = [
+                (block.constants, block.swings, np.ldexp(block.roots.largest, block.exponents))
+                for block in self.blocks
+                if isinstance(block, TopBlock)
+            ]
+        pairs, swings, largest = zip(*found, strict=True)
+        return (
+            Constants(*(np.concatenate(x, axis=-1) for x in zip(*pairs, strict=True))),
+            Swings(*(np.concatenate(x, axis=-1) for x in zip(*swings, strict=True))),
+            np.concatenate(largest),
+        )
+
+    @property
     def field(self) -> Constants:
         """Constants of the axis and of n in the body."""
-        with np.errstate(all="ignore"):
-            found = [block.constants for block in self._of_tops]
-        return Constants(*(np.concatenate(x, axis=-1) for x in zip(*found, strict=True)))
+        return self._constants[0]
 
     @cached_property
     def swings(self) -> Swings | None:
         """What the integral of nu adds; None where kappa is zero everywhere."""
-        with np.errstate(all="ignore"):
-            found = [block.swings for block in self._of_tops]
-        if not any(x.twisted.any() for x in found):
-            return None
-        return Swings(*(np.concatenate(x, axis=-1) for x in zip(*found, strict=True)))
+        found = self._constants[1]
+        return found if found.twisted.any() else None
 
-    @cached_property
+    @property
     def largest(self) -> FloatArray:
         """Largest rate of each."""
-        return np.concatenate([np.ldexp(block.roots.largest, block.exponents) for block in self.blocks])
+        return self._constants[2]
 
     def at(self, index: Any, t: FloatArray) -> "TopAt":
         """Return tops by their index at the times t that go with them."""
