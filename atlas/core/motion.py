@@ -104,7 +104,8 @@ class Motion(Shown, Generic[Turning]):
         """Rotation matrix R(t), (84), (85); shape (..., 3, 3).
 
         `t` of any shape, finite; its phases k t, phi t up to 2^50. `out`, C-contiguous float64, is filled if given.
-        Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15. Raises AtlasError beyond.
+        Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15, of an `AsymmetricMotion`
+        within its own `accuracy`. Raises AtlasError beyond.
         """
         return self._spread(lambda turning, t, out: turning.rotation(t, out), t, (3, 3), out)
 

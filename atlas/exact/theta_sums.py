@@ -27,6 +27,9 @@ LEFT_OUT = 46.0
 PRODUCT, WEIGHT = 2.24, 4.0
 """Units of 2^-53 by which a complex product is wrong beside itself, and a weight and its product with a power."""
 
+UNTHREADED = 250_000
+"""Products of numbers in a matrix product up to which the library does not thread it."""
+
 ALL = slice(None)
 
 Array: TypeAlias = NDArray[np.complex128]
@@ -82,11 +85,19 @@ class Sums:
 
     def _summed(self, table: Array, w: Array) -> Array:
         """Return the sums over powers of w (2, m) with some weights."""
-        first, second = (self._powers(x, k) for k, x in enumerate(w))
-        F, P, Q = table.shape
-        found = (table.reshape(F * P, Q) @ second).reshape(F, P, -1)
-        found *= first
-        return np.asarray(found.sum(axis=1))
+        _, P, Q = table.shape
+        # real numbers, in blocks: the library threads small products of complex ones, which then wait for each other
+        weights = np.block([[table.real, -table.imag], [table.imag, table.real]])
+        step = max(UNTHREADED // (4 * P * Q), 1)
+        found = np.empty((len(table), w.shape[1]), complex)
+        for i in range(0, w.shape[1], step):
+            first, second = (self._powers(x, k) for k, x in enumerate(w[:, i : i + step]))
+            both = weights @ np.concatenate([second.real, second.imag])
+            x, y = both[:, :P], both[:, P:]
+            cos, sin = np.ascontiguousarray(first.real), np.ascontiguousarray(first.imag)
+            found.real[:, i : i + step] = (x * cos - y * sin).sum(axis=1)
+            found.imag[:, i : i + step] = (x * sin + y * cos).sum(axis=1)
+        return found
 
     def rounding(self, x: Array) -> tuple[NDArray[np.float64], Array]:
         """Return bounds on the errors of the forms at places x, in units of 2^-53, and their slopes, (2, forms, m).
