@@ -160,6 +160,11 @@ def _single(*row: float) -> SingleAsymmetric:
     return SingleAsymmetric(Balls(row[0:3], row[3:6], row[6:9]))
 
 
+def forget() -> None:
+    """Forget the motions that are kept."""
+    _single.cache_clear()
+
+
 def rounded(function: Callable[[], Any], size: float) -> FloatArray:
     """Return the floats nearest to balls that are made ever more precisely until they are narrow beside a size."""
     precision = FIRST

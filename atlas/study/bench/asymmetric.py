@@ -10,6 +10,7 @@ motion, timed beside, stands for a second of work. True values are certified and
 from collections.abc import Sequence
 from typing import Any
 
+from atlas.core import asymmetric as kernels
 from atlas.core.asymmetric import AsymmetricMotion
 from atlas.exact.asymmetric import AsymmetricMotion as Exact
 from atlas.study.bench import elementary
@@ -20,7 +21,8 @@ SAMPLES = 16
 
 
 def motion() -> AsymmetricMotion:
-    """Make the motion, with its closed form."""
+    """Make the motion, with its closed form, anew: motions that were made are kept."""
+    kernels.forget()
     made = AsymmetricMotion(**PARAMETERS)
     made.rotation(0.0)
     return made
