@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import cached_property
 from itertools import count, product
 from string import ascii_uppercase
 from typing import Any
@@ -197,8 +198,16 @@ class _Composer(Composer):
         """Return the number of an equation; one that has none in the paper gets the next of our own."""
         if not name.startswith("("):
             own = len(self.document.equations) - len(THEOREMS) + 1
-            self.document.equations.setdefault(name, f"(A{own})")
+            self.document.equations.setdefault(name, f"({'A' * self.displays_the_paper}{own})")
         return self.document.number(name)
+
+    @cached_property
+    def displays_the_paper(self) -> bool:
+        """Whether numbers of our own must not be taken for those of the paper, whose equations stand beside them."""
+        blocks = [block for page in self.report.pages for block in page.blocks]
+        return any(
+            getattr(block, "name", "").startswith("(") or kind_of(block) in ("ledger", "errata") for block in blocks
+        )
 
     def pictures(self, block: Any) -> tuple[Picture, ...]:
         """Return the pictures of a figure block."""

@@ -69,6 +69,10 @@ def test_a_number_changed_in_the_file_goes_through_to_the_paper(moment: float, t
     assert r"Here \(v=\) \atlas{family/4/v}, as \citet{clebsch1871}." in paper
     assert "title   = {{Ueber die Bewegung eines Körpers in einer Flüssigkeit}}," in works
     assert "archivePrefix = {arXiv}" in works
+    assert re.findall(r"\\atlasequation\{(\(\w+\))\}", paper)[:2] == [
+        "(1)",
+        "(2)",
+    ]  # no equation of the paper beside them
     assert re.search(r"exceed \\\(E_2b\^2\\\)\. Then\n\\atlasequation\{", paper)
     assert re.search(r"\n\nwith real|\n\\emph\{with real", paper).group() == "\n\\emph{with real"  # type: ignore[union-attr]
 
