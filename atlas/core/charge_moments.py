@@ -21,7 +21,8 @@ class ChargeMoments:
 
     They are to charge what moments of inertia are to mass, of either sign, in charge times length squared; the sum of
     two belongs to both distributions together: a charged coat on a neutral core has the coat's. The centre of charge
-    must be the centre of mass, else flight and rotation would be coupled.
+    must be the centre of mass, else flight and rotation would be coupled; a body held at a point of its axis may have
+    it anywhere on the axis, x counted from that point.
     Raises AtlasError for what is no finite number.
     """
 
@@ -34,6 +35,8 @@ class ChargeMoments:
         object.__setattr__(self, "J3", number(self.J3, "J3", CHARGE_MOMENT))
 
     def __add__(self, other: "ChargeMoments") -> "ChargeMoments":
+        if not isinstance(other, ChargeMoments):
+            return NotImplemented
         return ChargeMoments(self.J2 + other.J2, self.J3 + other.J3)
 
     @classmethod
@@ -43,26 +46,29 @@ class ChargeMoments:
         `dimensions` are those of the shape without its mass, e.g. radius. Raises AtlasError for another shape or other
         dimensions, DomainError for one that is not positive.
         """
+        if "mass" in dimensions:
+            raise AtlasError("Moments of a charge take no mass: give the charge and the dimensions of the shape.")
         charge = number(charge, "The charge", CHARGE)
         whole = from_shape(name, mass=abs(charge) or 1.0, **dimensions)
         sign = float(np.sign(charge))
         return cls(sign * whole.I2, sign * whole.I3)
 
     @classmethod
-    def points(cls, charges: Any, positions: Any) -> Self:
+    def points(cls, charges: Any, positions: Any, *, held: bool = False) -> Self:
         """Moments of point charges, `charges` (N,) at `positions` (N, 3) from the centre of mass, e3 being the axis.
 
-        Raises DomainError if their centre is not the centre of mass (the sum of e x is not zero), or if their moments
-        are not symmetric about e3, to 1e-9 of the largest; AtlasError for wrong shapes.
+        `held` says that the body is held at a point, from which the positions are counted. Raises DomainError if it is
+        not and the centre of charge is off that of mass (the sum of e x is not zero), or if the moments are not
+        symmetric about e3, to 1e-9 of the largest; AtlasError for wrong shapes.
         """
         e, x = real(charges, "The charges", CHARGE), vectors(positions, "The positions", LENGTH)
         if e.ndim != 1 or x.shape != (*e.shape, 3):
             raise AtlasError(f"Point charges are given by (N,) charges and (N, 3) positions, not {e.shape}, {x.shape}.")
         dipole, reach = e @ x, np.abs(e) @ np.linalg.norm(x, axis=1)
-        if np.abs(dipole).max(initial=0.0) > SYMMETRIC * reach:
+        if not held and np.abs(dipole).max(initial=0.0) > SYMMETRIC * reach:
             raise DomainError(
                 f"The centre of charge is off the centre of mass: the sum of e x is {dipole.tolist()}, where it must "
-                "be zero, lest the flight drive the rotation."
+                "be zero, lest the flight drive the rotation; if the body is held at a point, say held=True."
             )
         moments = np.einsum("n,nk,nk->", e, x, x) * np.eye(3) - np.einsum("n,ni,nj->ij", e, x, x)
         symmetric = np.diag([moments[0, 0], moments[0, 0], moments[2, 2]])

@@ -10,7 +10,7 @@ from typing import Any
 
 from atlas.core.inputs import number, positive
 from atlas.core.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
-from atlas.errors import unknown
+from atlas.errors import DomainError, unknown
 
 DEMAGNETIZATION = {
     "ring": -1 / 4,
@@ -81,3 +81,21 @@ def diamagnetic_energy(susceptibility: Any, volume: Any, B: Any, shape: str) -> 
         raise unknown("shape", shape, DEMAGNETIZATION, "of a thin wall")
     strength = (number(susceptibility, "The susceptibility") * number(B, "B")) ** 2 * positive(volume, "The volume")
     return -strength * DEMAGNETIZATION[shape] / (2 * MAGNETIC_CONSTANT)
+
+
+def anisotropy(susceptibility: Any, volume: Any, demagnetization: Any, gaussian: bool = False) -> float:
+    """Polarizability along the axis of an ellipsoid less that across it, the moments that a unit field induces.
+
+    V chi/(mu_0 (1 + chi N)) in each direction, chi strong or weak, N `demagnetization` along the axis and (1 - N)/2
+    across it; Gaussian V chi/(1 + 4 pi chi N). DomainError for N outside 0...1 or a chi that no body has there.
+    """
+    unit, chi = (4 * pi, 4 * pi) if gaussian else (MAGNETIC_CONSTANT, 1.0)
+    chi *= number(susceptibility, "The susceptibility")
+    along = number(demagnetization, "The demagnetizing factor along the axis")
+    if not 0 <= along <= 1:
+        raise DomainError(f"The demagnetizing factor along the axis is in 0 ... 1 (a ball has 1/3), not {along}.")
+    across = (1 - along) / 2
+    if min(1 + chi * along, 1 + chi * across) <= 0:
+        raise DomainError(f"With the susceptibility {susceptibility} and this shape 1 + chi N is not positive.")
+    size = positive(volume, "The volume of the magnetised body", "m**3")
+    return size * chi * chi * (across - along) / (unit * (1 + chi * along) * (1 + chi * across))

@@ -5,10 +5,14 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, common_shape, plain
+from atlas.core.body import moments
+from atlas.core.inputs import FloatArray, common_shape, number, plain
 from atlas.core.motion import components
 from atlas.core.quantities import ENERGY, INERTIA, MOMENTUM
 from atlas.errors import DomainError
+
+PARALLEL = 1e-14
+"""Sine of the angle up to which a weight counts as parallel to the field."""
 
 
 def given(inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> list[FloatArray]:
@@ -41,3 +45,21 @@ def arguments_of(top: Sequence[Any]) -> dict[str, Any]:
     return {
         "inertia": (I2, I3), "coupling": (k2, k3), "direction": (n2, n3), "linear": linear, "quadratic": quadratic,
     }  # fmt: skip
+
+
+def moments_of_one(body: Any) -> tuple[float, float]:
+    """Return I2 and I3 of one body. Raises AtlasError for an array of bodies."""
+    I2, I3 = moments(body)
+    return I2, number(I3, "The ratio I3/I2 of the body")
+
+
+def along(field: tuple[float, float], weight: Any) -> float:
+    """Return the weight along the field, with its sign. Raises DomainError where it is not parallel to the field."""
+    w2, w3 = (number(x, "A component of the weight") for x in components(weight, ("w2", "w3"), "The weight"))
+    (B2, B3), size = field, float(np.hypot(w2, w3))
+    if abs(w2 * B3 - w3 * B2) > PARALLEL * size * float(np.hypot(B2, B3)):
+        raise DomainError(
+            f"The weight {(w2, w3)} is not parallel to the field {field}: with two fixed directions the momentum along "
+            "neither is constant, and the motion is not that of a top in one potential."
+        )
+    return float(np.copysign(size, w2 * B2 + w3 * B3))

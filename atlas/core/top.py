@@ -7,9 +7,10 @@ from typing import Any, Self
 import numpy as np
 from flint import fmpq
 
-from atlas.core.body import SymmetricBody, moments
+from atlas.core.body import SymmetricBody
 from atlas.core.charge_moments import ChargeMoments
 from atlas.core.inputs import FloatArray, finite, number, plain, positive
+from atlas.core.laboratory import anisotropy
 from atlas.core.motion import components
 from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
 from atlas.core.nutation.cayley_klein import FIRST
@@ -19,7 +20,7 @@ from atlas.core.nutation.top_rows import TopBlocks, TopRows
 from atlas.core.nutation.top_scalars import IN_ARRAYS, KINDS, TopScalars
 from atlas.core.quadric import TopQuadric
 from atlas.core.quantities import LENGTH, MASS, RATE, SI_FIELDS
-from atlas.core.symmetric_top import given
+from atlas.core.symmetric_top import along, given, moments_of_one
 from atlas.core.units import system
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
@@ -95,7 +96,7 @@ class TopMotion(NutatingMotion[SingleTop]):
         moment across the axis is I2 + m l^2, and linear = m g l; both are rounded once.
         Raises AtlasError for what is no body or no number, DomainError for a mass that is not positive or a negative g.
         """
-        I2, I3 = moments(body)
+        I2, I3 = moments_of_one(body)
         m, l = positive(mass, "The mass", MASS), number(length, "The length", LENGTH)
         g = number(gravity, "The gravity g", "m / s**2")
         if g < 0:
@@ -116,18 +117,28 @@ class TopMotion(NutatingMotion[SingleTop]):
         units: str | None = None,
         moment: float = 0.0,
         polarizability: tuple[float, float] = (0.0, 0.0),
+        susceptibility: float = 0.0,
+        volume: float = 0.0,
+        demagnetization: float = 1 / 3,
+        weight: tuple[float, float] = (0.0, 0.0),
     ) -> Self:
         """Top of a body whose charges are spread in another way than its mass, in the magnetic field (0, B2, B3).
 
         `field` = (B2, B3) is B itself; `units`, "SI" (kg, m, C, T) or "Gaussian" (g, cm, statC, G), say what `c` is: 1
         in SI, the speed of light in Gaussian units, as in `Field`; results are in seconds. k_i = J_i |B|/(2c). `moment`
         d is a magnetic moment along the axis, with the energy -d |B| nu; `polarizability` (a2, a3), moments induced
-        across and along the axis by a unit field, gives -(a3 - a2) B^2 nu^2/2: of a small body of volume V,
-        susceptibility chi and demagnetising factor N they are V chi/(mu0 (1 + N chi)) in SI.
+        across and along the axis by a unit field, gives -(a3 - a2) B^2 nu^2/2; an ellipsoid of `volume` V,
+        `susceptibility` chi and factor N of `demagnetization` along its axis has V chi/(mu0 (1 + N chi)) along it, in
+        SI, and adds its own. `weight` = (w2, w3), parallel to the field, is m g l along the upward vertical of a body
+        held at a point, at the distance l from the centre of mass; its moments are then those about that point.
         Products are rounded. Raises AtlasError for what is no body or no number, DomainError for B = 0, where there is
-        no direction: use `FreeMotion`.
+        no direction: use `FreeMotion`; and for a weight that is not parallel to the field: two directions are no top.
         """
-        I2, I3 = moments(body)
+        I2, I3 = moments_of_one(body)
+        if not isinstance(charges, ChargeMoments):
+            raise AtlasError(f"The charges are ChargeMoments (of a shape, of points, or J2 and J3), not {charges!r}.")
+        if units is not None and c != 1:
+            raise AtlasError(f"Give units or c, not both: {units!r} says what c is.")
         c = c if units is None else system(units).c
         parts = components(field, ("B2", "B3"), "The field", SI_FIELDS["B"] if c == 1 else "")
         B2, B3 = (number(x, "A component of the field") for x in parts)
@@ -136,7 +147,10 @@ class TopMotion(NutatingMotion[SingleTop]):
             raise DomainError("Without a field a charged top has no direction: it is a free body, FreeMotion.")
         half, (a2, a3) = size / (2 * positive(c, "c")), components(polarizability, ("a2", "a3"), "The polarizability")
         coupling = charges.J2 * half, charges.J3 * half
-        linear, quadratic = -number(moment, "The moment", "J/T") * size, -(a3 - a2) * size * size
+        linear = along((B2, B3), weight) - number(moment, "The moment", "J/T") * size
+        if susceptibility:
+            a3 += anisotropy(susceptibility, volume, demagnetization, c != 1)
+        quadratic = -(a3 - a2) * size * size
         return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
 
     def _alone(self, i: int) -> SingleTop:

@@ -10,6 +10,7 @@ from flint import arb, ctx
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from oracles.top import integrated, taylor
+from scipy.integrate import solve_ivp
 
 import atlas
 from atlas.exact.digits import certified
@@ -269,7 +270,18 @@ def test_a_coat_of_charge_is_no_ball_and_point_charges_are_summed() -> None:
         (lambda: atlas.ChargeMoments(float("inf"), 1.0), "J2 must be finite"),
         (lambda: heavy(gravity=-9.8), "must not be negative"),
         (lambda: heavy(mass=0.0), "must be positive"),
-        (lambda: atlas.TopMotion.charged(BALL, atlas.ChargeMoments(1, 1), (0, 0), (0, 0, 1)), "no direction"),
+        (
+            lambda: atlas.TopMotion.heavy((1.0, 0.5), 9.8, 0.5, (0, 1), (0, 0, 1), mass=1),
+            "must be one number, not an array",
+        ),
+        (lambda: charged(field=(0, 0)), "no direction"),
+        (lambda: charged(charges=1e-12), "are ChargeMoments .* not 1e-12"),
+        (lambda: charged(units="SI", c=3.0), "not both"),
+        (lambda: charged(weight=(0.0, 1.0)), "is not parallel to the field"),
+        (lambda: charged(susceptibility=0.1), "volume of the magnetised body must be positive"),
+        (lambda: charged(susceptibility=0.1, volume=1.0, demagnetization=1.5), "in 0 ... 1"),
+        (lambda: charged(susceptibility=-1.0, volume=1.0, demagnetization=1.0), "1 . chi N is not positive"),
+        (lambda: atlas.ChargeMoments.shape("ring", 1.0, mass=1.0, radius=1.0), "take no mass"),
     ],
 )
 def test_what_cannot_be_reduced_to_a_top_is_refused(make: Callable[[], object], words: str) -> None:
@@ -278,7 +290,54 @@ def test_what_cannot_be_reduced_to_a_top_is_refused(make: Callable[[], object], 
         make()
 
 
+def charged(**changed: object) -> object:
+    """Return a charged ball with some arguments changed."""
+    usual = {"body": BALL, "charges": atlas.ChargeMoments(1, 1), "field": (1, 2), "omega": (0, 0, 1)}
+    return atlas.TopMotion.charged(**(usual | changed))  # type: ignore[arg-type]
+
+
 BALL = atlas.SymmetricBody.sphere(1.0, 1.0)
+
+
+def test_a_body_held_at_a_point_turns_under_its_weight_and_the_forces_on_its_charges() -> None:
+    """Newton's and Lorentz's forces on six points, summed and integrated: nothing of the momentum or the potential."""
+    angles = np.arange(4) * np.pi / 2
+    ring = np.stack([0.8 * np.cos(angles), 0.8 * np.sin(angles), np.full(4, 0.5)], -1)
+    places = np.concatenate([ring, [[0, 0, 1.3], [0, 0, -0.4]]])
+    masses, charges = np.array([1.0, 1, 1, 1, 0.5, 0.25]), np.array([0.7, 0.7, 0.7, 0.7, -2.0, 1.0])
+    B, omega, g = np.array([0.0, 0.6, 0.9]), np.array([0.3, -0.4, 1.1]), 1.5
+    inertia = np.einsum("n,nk,nk->", masses, places, places) * np.eye(3) - np.einsum(
+        "n,ni,nj->ij", masses, places, places
+    )
+
+    def rates(_: float, y: np.ndarray) -> np.ndarray:
+        Omega, R = y[:3], y[3:].reshape(3, 3)
+        force = charges[:, None] * np.cross(np.cross(Omega, places), B @ R)
+        force += masses[:, None] * g * (B / np.linalg.norm(B)) @ R  # up is against the field
+        torque = np.cross(places, force).sum(0) - np.cross(Omega, inertia @ Omega)
+        return np.concatenate([np.linalg.solve(inertia, torque), (R @ np.cross(np.eye(3), Omega)).ravel()])
+
+    start = np.concatenate([omega, np.eye(3).ravel()])
+    found = solve_ivp(rates, (0, 4), start, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+    weight = -g * (masses @ places[:, 2]) * B[1:] / np.linalg.norm(B)
+    moments = atlas.ChargeMoments.points(charges, places, held=True)
+    body = atlas.SymmetricBody(inertia[0, 0], inertia[2, 2])
+    top = atlas.TopMotion.charged(body, moments, B[1:], omega, weight=weight)
+    np.testing.assert_allclose(top.angular_velocity(4.0), found[:3], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(top.rotation(4.0), found[3:].reshape(3, 3), rtol=0, atol=1e-9)
+
+
+def test_the_susceptibility_of_an_ellipsoid_is_its_polarizability() -> None:
+    """V chi/(mu0 (1 + chi N)) along and across, the same in both systems of units."""
+    chi, V, along, mu0 = 0.7, 2.0, 0.1, 4e-7 * np.pi
+    a2, a3 = (V * chi / (mu0 * (1 + chi * N)) for N in ((1 - along) / 2, along))
+    shape = {"volume": V, "demagnetization": along, "susceptibility": chi}
+    found = charged(**shape, units="SI").quadratic  # type: ignore[attr-defined]
+    assert found == pytest.approx(-(a3 - a2) * 5.0, rel=1e-9)
+    gaussian = charged(
+        units="Gaussian", field=(1e4, 2e4), susceptibility=chi / (4 * np.pi), volume=V * 1e6, demagnetization=along
+    )
+    assert gaussian.quadratic == pytest.approx(found * 1e7, rel=1e-8)  # type: ignore[attr-defined]  # erg
 
 
 def test_random_and_hostile_tops_move_as_the_equations_say() -> None:
