@@ -114,7 +114,7 @@ def _write_pgf(figure: "Figure", path: Path) -> None:
     with _replaced(RendererPgf, size, getattr(RendererBase, size)):
         figure.savefig(path, format="pgf")
     commands = path.read_text(encoding="utf-8")
-    for ours, tex in (("′", "'"), (r"\mathdefault", ""), (_PERCENT, _UNDERSCORE + _PERCENT)):
+    for ours, tex in (("′", "'"), (r"\mathdefault{", "{"), (_PERCENT, _UNDERSCORE + _PERCENT)):
         commands = commands.replace(ours, tex)
     path.write_text(commands, encoding="utf-8")
 

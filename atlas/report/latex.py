@@ -7,21 +7,21 @@ are booktabs' with columns of siunitx made for their numbers. A report in REVTeX
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any
 
 import atlas
 from atlas.report.blocks.equation import EquationView
 from atlas.report.blocks.figure import FigureView
 from atlas.report.blocks.prose import ProseView
-from atlas.report.blocks.table import Cell, ColumnView, TableView
+from atlas.report.blocks.table import TableView
 from atlas.report.data_package import ascii_name, digits, unique, value, words
 from atlas.report.document import Document
+from atlas.report.latex_table import table_of
 from atlas.report.templates import typesetting
 from atlas.report.versions import versions
 from atlas.targets import TARGETS
 
-LETTERS, BOTH, LONG = 46, 115, 30
-"""Letters of a table that fit in a column and across the page; more of a cell than that are broken into lines."""
 ANY = 99
 """Digits of an exact zero."""
 NUMBERS, PAPER, REFERENCES = "atlas-numbers.tex", "paper.tex", "references.bib"
@@ -55,7 +55,7 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
     texts = [_CELL.sub(lambda cell: _by_key(cell, keys), text) for text in document.written["latex"]]
     made = {NUMBERS: environment.get_template("numbers.tex").render(numbers=numbers, **common)}
     for table in document.listed("table"):
-        made[f"tables/{table.id.removeprefix('tab-')}.tex"] = _table(table, markdown, texts)
+        made[f"tables/{table.id.removeprefix('tab-')}.tex"] = table_of(table, markdown, texts)
     for figure in document.listed("figure"):
         made[f"figures/{figure.id.removeprefix('fig-')}.tex"] = _figure(figure, texts, pictures)
     made[REFERENCES] = _references(document)
@@ -109,81 +109,6 @@ def _with_unit(number: str, unit: str) -> tuple[str, str]:
     return (f"{number}e{power[1]}" if power and "e" not in number else number), rest
 
 
-def _table(table: TableView, markdown: Sequence[str], texts: Sequence[str]) -> str:
-    """Return a table as an environment of its own, over both columns where it is wide."""
-    places = range(len(table.columns))
-    formats = [_format([row[place] for row in table.rows], markdown) for place in places]
-    heads = [_head(column, texts, format_) for column, format_ in zip(table.columns, formats, strict=True)]
-    rows = [
-        " & ".join(_entry(row[place], texts, numeric=formats[place] != "l") for place in places) + r" \\"
-        for row in table.rows
-    ]
-    letters = [
-        max(map(len, [words(markdown[column.head]), *(value(row[place], markdown) for row in table.rows)])) + 2
-        for place, column in enumerate(table.columns)
-    ]
-    kind = "table*" if sum(letters) > LETTERS else "table"
-    note = [rf"\par\smallskip\footnotesize {texts[table.note]}"] if table.note is not None else []
-    return "\n".join(
-        [
-            rf"\begin{{{kind}}}[tb]",
-            rf"\caption{{{texts[table.caption]}}}\label{{{table.id}}}",
-            r"\centering\footnotesize",
-            rf"\begin{{tabular}}{{{''.join(_broken(formats, letters))}}}",
-            r"\toprule",
-            " & ".join(heads) + r" \\",
-            r"\midrule",
-            *rows,
-            r"\bottomrule",
-            r"\end{tabular}",
-            *note,
-            rf"\end{{{kind}}}",
-            "",
-        ]
-    )
-
-
-def _format(cells: Sequence[Cell], markdown: Sequence[str]) -> str:
-    """Return the column type of some cells: of siunitx with room for their numbers, or l for words."""
-    numbers = [value(cell, markdown) for cell in cells if cell.text is None and cell.whole not in {"", "?"}]
-    if not numbers:
-        return "l"
-    parts = [re.fullmatch(r"(-?)(\d*)(?:\.(\d*))?(?:e(-?)(\d+))?", number) for number in numbers]
-    found = [part.groups(default="") for part in parts if part]
-    sign = "-" if any(part[0] for part in found) else ""
-    whole, fraction = (max(len(part[place]) for part in found) for place in (1, 2))
-    power = max(len(part[4]) for part in found)
-    exponent = f"e{'-' if any(part[3] for part in found) else ''}{power}" if power else ""
-    return f"S[table-format={sign}{whole or 1}.{fraction}{exponent}]"
-
-
-def _broken(formats: Sequence[str], letters: Sequence[int]) -> Iterator[str]:
-    """Yield the column types, those of long words as paragraphs where the table is wider than the page."""
-    long = [place for place, count in enumerate(letters) if count > LONG and formats[place] == "l"]
-    left = BOTH - sum(count for place, count in enumerate(letters) if place not in long)
-    total = sum(letters[place] for place in long)
-    for place, format_ in enumerate(formats):
-        narrow = place in long and total > left
-        yield rf"p{{{max(left, LONG) * letters[place] / total / BOTH:.2f}\textwidth}}" if narrow else format_
-
-
-def _head(column: ColumnView, texts: Sequence[str], format_: str) -> str:
-    """Return the head of a column with its unit; braces keep siunitx from reading it as a number."""
-    unit = texts[column.unit] if column.unit is not None else ""
-    head = texts[column.head] + (f" ({unit})" if unit and unit != "1" else "")
-    return head if format_ == "l" else f"{{{head}}}"
-
-
-def _entry(cell: Cell, texts: Sequence[str], *, numeric: bool) -> str:
-    """Return a cell: words, in braces in a column of numbers, or digits; a star marks what is not proven."""
-    if cell.text is not None:
-        return f"{{{texts[cell.text]}}}" if numeric else texts[cell.text]
-    number = value(cell, ())
-    if not number:
-        return "{?}" if cell.whole else ""
-    return number if cell.proven else f"{number}{{*}}"
-
-
 def _figure(figure: FigureView, texts: Sequence[str], pictures: Mapping[str, bytes]) -> str:
     """Return a figure as an environment of its own, of the width that it was made for: a column or both."""
     name = figure.id.removeprefix("fig-")
@@ -211,16 +136,25 @@ def _references(document: Document) -> str:
 def _body(document: Document, texts: Sequence[str]) -> Iterator[str]:
     """Yield the sections; what has no place in a paper is named in a comment.
 
-    A display belongs to the paragraph before it, and so does what goes on after it with a small letter.
+    Displays that follow one another are set together. They belong to the paragraph before them, and so does what goes
+    on after them with a small letter.
     """
     for page in document.pages:
-        made, before = rf"\section{{{_escaped(page.title)}}}" + "\n", None
-        for name, block in zip(page.templates, page.blocks, strict=True):
-            text = _block(name, block, texts)
-            goes_on = isinstance(before, EquationView) and re.match(r"(\\emph\{)?[a-z]", text) is not None
-            made += ("\n" if goes_on or (isinstance(block, EquationView) and before) else "\n\n") + text
-            before = block
+        made = rf"\section{{{_escaped(page.title)}}}" + "\n"
+        displayed = False
+        for equations, run in groupby(zip(page.templates, page.blocks, strict=True), _is_equation):
+            parts = [_block(name, block, texts) for name, block in run]
+            if equations:
+                made += "\n\\atlasequations{%\n" + "%\n".join(parts) + "}"
+            else:
+                goes_on = displayed and re.match(r"(\\emph\{)?[a-z]", parts[0]) is not None
+                made += ("\n" if goes_on else "\n\n") + "\n\n".join(parts)
+            displayed = equations
         yield made
+
+
+def _is_equation(block: tuple[str, Any]) -> bool:
+    return isinstance(block[1], EquationView)
 
 
 def _block(name: str, block: Any, texts: Sequence[str]) -> str:

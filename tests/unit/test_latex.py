@@ -15,7 +15,8 @@ from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion as Balls
 from atlas.report.blocks.table import Cell, ColumnView, TableView
-from atlas.report.latex import _format, _numbers, _with_unit
+from atlas.report.latex import _numbers, _with_unit
+from atlas.report.latex_table import _format, table_of
 
 REPORT = r"""
 name = "small"
@@ -42,6 +43,11 @@ As in @clebsch1871, by @(72) in @tab:numbers: $k$ is @cell:numbers-3-3, 5 % off.
 [[pages.blocks]]
 kind = "equation"
 name = "(72)"
+
+[[pages.blocks]]
+kind = "equation"
+name = "longer"
+tex = "SUM"
 
 [[pages.blocks]]
 kind = "table"
@@ -74,7 +80,7 @@ id = "wide"
 
 [[pages.blocks]]
 kind = "bibliography"
-"""
+""".replace("SUM", " + ".join(f"c_{{{n}}}x^{{{n}}}" for n in range(18)))  # wider than the page, and less so at 9 points
 WORK = """@article{clebsch1871, author = {Clebsch, Alfred}, title = {Ueber die Bewegung}, journal = {Math. Ann.},
   volume = {3}, year = {1871}}
 """
@@ -222,6 +228,28 @@ def test_latex_rounds_a_number_and_refuses_more_than_is_proven(
         status, log, _ = compiled(made, "wrong.tex")
         assert status != 0
         assert reason in log.replace("\n", "")
+
+
+@needs_latex
+def test_a_table_higher_than_a_page_goes_on(made: Path) -> None:
+    """All its rows are printed, with the heads again on the second page; a lower one stays in one piece."""
+    column = ColumnView(0, None, numeric=False)
+    words = "words that are broken into several lines, " * 4
+
+    def of(count: int) -> str:
+        rows = tuple((Cell(2 + n), Cell(1)) for n in range(count))
+        return table_of(TableView(1, "tab-high", (column, column), rows, 0, 0, None, "high"), texts, texts)
+
+    texts = ["Head", words, *(f"row{n}." for n in range(40))]
+    assert r"\begin{table*}" in of(20)
+    (made / "high.tex").write_text(of(40), encoding="utf-8")
+    paper = (made / "paper.tex").read_text("utf-8").replace(r"\input{figures/wide}", r"\input{high}")
+    (made / "longer.tex").write_text(paper, encoding="utf-8")
+    status, log, text = compiled(made, "longer.tex")
+    assert status == 0, log[-2000:]
+    assert "Float too large" not in log
+    assert {f"row{n}." for n in range(40)} <= set(text.split())
+    assert text.count("Head") >= 4
 
 
 def test_a_number_that_is_not_proven_has_no_key() -> None:
