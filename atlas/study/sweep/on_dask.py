@@ -1,6 +1,5 @@
 """A Parquet data set on the workers of Dask, by its own `from_map` and `to_parquet`: no row comes to the client."""
 
-import gc
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import Any
@@ -10,6 +9,7 @@ from atlas.study.sweep.parts import Parts
 from atlas.study.sweep.plan import Plan, Span
 from atlas.study.sweep.storage import Folder, digest
 from atlas.study.sweep.tables import arrow_table
+from atlas.study.sweep.workers import give_back
 
 BATCH = 8
 """Parts in one graph for each thread of the workers; two graphs are under way at a time."""
@@ -49,7 +49,7 @@ def frame(span: Span) -> Any:
     try:
         return arrow_table(span.columns()).to_pandas()
     finally:
-        gc.collect()  # as in `workers.make`
+        give_back(span)
 
 
 def _meta(plan: Plan) -> Any:

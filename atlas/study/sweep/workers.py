@@ -14,6 +14,9 @@ from atlas.study.sweep.plan import Span
 from atlas.study.sweep.storage import Folder, Local
 from atlas.study.sweep.tables import PARTS
 
+LARGE = 1000
+"""Rows of a part whose memory is not left to the collector of garbage, which counts objects and not their bytes."""
+
 AHEAD = 4
 """Parts asked for at a time, for each worker: what is computed but not yet kept stays small."""
 
@@ -26,11 +29,17 @@ def make(span: Span, ending: str, folder: Folder, name: str, mark: bytes) -> str
     try:
         data = PARTS[ending](span.columns())
     finally:
-        gc.collect()  # an array of motions refers to itself: few objects, but megabytes, which would wait for many more
+        give_back(span)
     if isinstance(folder, Local) and not _reached(folder, mark):
         return data
     folder.write(name, data)
     return hashlib.sha256(data).hexdigest()
+
+
+def give_back(span: Span) -> None:
+    """Free the arrays of motions of a part: they refer to themselves, few objects but megabytes."""
+    if span.stop - span.start >= LARGE:
+        gc.collect()
 
 
 def _reached(folder: Local, mark: bytes) -> bool:
