@@ -67,6 +67,10 @@ def tops(request: Request) -> Data:
         tuple((*first, *rest) for first, rest in zip(given, zip(*columns, strict=True), strict=True)),
         r"Tops of every kind: the period $T$ of nutation and the angles $\Delta\psi$ about $\mathbf{n}$ and "
         r"$\Delta\chi$ about the axis by which the body turns in it, in units of $J_2$ and of one time.",
+        (
+            r"Where $\nu$ is constant $T$ is the period of small nutations.",
+            r"Along $\mathbf{n}$ all of the turn is counted in $\Delta\chi$.",
+        ),
     )
 
 
