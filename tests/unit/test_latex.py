@@ -202,11 +202,14 @@ def compiled(folder: Path, file: str) -> tuple[int, str, str]:
 
 @needs_latex
 def test_the_paper_compiles(made: Path, numbers: dict[str, tuple[int, str, str]]) -> None:
-    """REVTeX sets it without an error or a line that is too wide, and prints the numbers."""
+    """REVTeX sets it without an error, a line that is too wide or a letter of pixels, and prints the numbers."""
     status, log, text = compiled(made, "paper.tex")
     assert status == 0, log[-2000:]
     assert "Overfull \\hbox" not in log
     assert "Float too large" not in log
+    pages = PdfReader(made / "paper.pdf").pages
+    kinds = {font["/Subtype"] for page in pages for font in page["/Resources"].get("/Font", {}).values()}
+    assert kinds == {"/Type1"}
     assert numbers["numbers/k"][1] in re.sub(r"[\s\u2009\u202f]", "", text).replace("\N{MINUS SIGN}", "-")
 
 
