@@ -55,7 +55,7 @@ def moments_of_one(body: Any) -> tuple[float, float]:
 
 def along(field: tuple[float, float], weight: Any) -> float:
     """Return the weight along the field, with its sign. Raises DomainError where it is not parallel to the field."""
-    w2, w3 = (number(x, "A component of the weight") for x in components(weight, ("w2", "w3"), "The weight"))
+    w2, w3 = (number(x, "A component of the weight") for x in components(weight, ("w2", "w3"), "The weight", ENERGY))
     (B2, B3), size = field, float(np.hypot(w2, w3))
     if abs(w2 * B3 - w3 * B2) > PARALLEL * size * float(np.hypot(B2, B3)):
         raise DomainError(

@@ -36,6 +36,9 @@ def test_a_body_is_in_kilograms_and_metres(q: Units) -> None:
     points = atlas.SymmetricBody.from_point_masses(q([1.0, 1.0], "g"), q([[0, 0, 1], [0, 0, -1]], "mm"))
     assert pytest.approx(2e-9) == points.I2
     assert pytest.approx(4e-7) == atlas.ChargeMoments.shape("ring", q(1.0, "mC"), radius=q(2.0, "cm")).J3
+    body, charges = atlas.SymmetricBody.sphere(1.0, 1.0), atlas.ChargeMoments(1.0, 1.0)
+    held = atlas.TopMotion.charged(body, charges, (3.0, 4.0), (0, 0, 1), weight=(q(3.0, "mJ"), q(4.0, "mJ")))
+    assert held.linear == pytest.approx(5e-3)
 
 
 def test_a_field_is_in_tesla(q: Units) -> None:
