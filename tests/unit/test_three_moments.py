@@ -73,7 +73,7 @@ def test_a_number_changed_in_the_file_goes_through_to_the_paper(moment: float, t
         "(1)",
         "(2)",
     ]  # no equation of the paper beside them
-    assert re.search(r"exceed \\\(E_2b\^2\\\)\. Then\n\\atlasequation\{", paper)
+    assert re.search(r"exceed \\\(E_2b\^2\\\)\. Then\n\\atlasequations\{%\n\\atlasequation\{", paper)
     assert re.search(r"\n\nwith real|\n\\emph\{with real", paper).group() == "\n\\emph{with real"  # type: ignore[union-attr]
 
 
