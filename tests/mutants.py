@@ -1,11 +1,11 @@
 """Do the tests notice a slip? One token of the code is changed at a time, in a copy, and the tests that reach it run.
 
 `python tests/mutants.py core exact figures --count 60 --seed 0` draws so many changes, evenly over the tokens of these
-packages of `atlas` and of the recipes, and lists those that survive. A test reaches a line if it calls the function in
-which the line stands, which a run of the unchanged tests records first (in build/mutants, renewed for the test files
-that have changed). The cheapest run first, up to SECONDS in all, until one fails; one that takes more than LIMIT
-seconds of the processor has noticed, however busy the machine is. Changes that make no difference stand in
-equivalent.toml, each with its reason, and are not drawn.
+packages of `atlas` and of the recipes, and lists those that survive. Which tests run a line, a run of the unchanged
+tests records first, by the text of the line (in build/mutants; renewed for the test files that have changed, and for
+all when that folder is deleted: what is stale there can only hide a test that would notice). The cheapest run first, up
+to SECONDS in all, until one fails; one that takes more than LIMIT seconds of the processor has noticed, however busy
+the machine is. Changes that make no difference stand in equivalent.toml, each with its reason, and are not drawn.
 
 Why not mutmut or cosmic-ray: they put calls in the place of functions, which the recipes and the digests of sources,
 read as text here, take for other code; and a sample with a seed is all that is wanted.
@@ -28,22 +28,22 @@ import sys
 import tempfile
 import tokenize
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from queue import SimpleQueue
-from types import CodeType, FrameType
 from typing import Any
 
+import coverage
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 SEEN = ROOT / "build" / "mutants"
 EQUIVALENT = ROOT / "tests" / "equivalent.toml"
-LIMIT, SECONDS, SHARE = 300, 40, 10
-"""Seconds of the processor: of one run, of the tests of one change by the record, and of the first among them."""
+LIMIT, SECONDS = 300, (2, 10, 40)
+"""Seconds of the processor: of one run; and, by the record, of the tests of one change, run in so many groups."""
 
 PATIENCE = 1800
 """Seconds that a run may wait, for the processor or for ever."""
@@ -152,36 +152,27 @@ def _stars(node: ast.FunctionDef, line: int) -> range:
     return range(0) if held else range(400)
 
 
-class Calls:
-    """A plugin of pytest: which functions of the code each test calls, and in how many seconds of the processor.
+class Lines:
+    """A plugin of pytest: which lines of the code each test runs, by their text, and in how many seconds.
 
-    Written as {test: [seconds, {file: [function, ...]}]}, without the tests that fail.
+    Written as {"seconds": {test: seconds}, "lines": {file: {line: [test, ...]}}}, without the tests that fail.
     """
 
     def __init__(self, out: str) -> None:
-        self.out, self.tests, self.failed = Path(out), dict[str, Any](), set[str]()
+        self.out, self.seconds, self.failed = Path(out), dict[str, float](), set[str]()
+        self.coverage = coverage.Coverage(data_file=None, config_file=False, include=["atlas/*", "figures/*"])
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
-        """Watch the calls of a test and of the fixtures that it is the first to ask for."""
-        called = set[CodeType]()
-
-        def watch(frame: FrameType, _event: str, _value: object) -> None:
-            called.add(frame.f_code)
-
+        """Watch a test and the fixtures that it is the first to ask for; what is loaded with the file is no test's."""
         start = sum(os.times()[:4])
-        sys.settrace(watch)
+        self.coverage.start()
+        self.coverage.switch_context(item.nodeid)
         try:
             return (yield)
         finally:
-            sys.settrace(None)
-            functions = dict[str, list[str]]()
-            for code in called:
-                path = Path(code.co_filename)
-                if path.is_relative_to(item.config.rootpath):
-                    name = path.relative_to(item.config.rootpath).as_posix()
-                    functions.setdefault(name, []).append(code.co_qualname)
-            self.tests[item.nodeid] = sum(os.times()[:4]) - start, functions
+            self.coverage.stop()
+            self.seconds[item.nodeid] = sum(os.times()[:4]) - start
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Note a failure."""
@@ -192,8 +183,15 @@ class Calls:
         """Write what was seen."""
         for test in self.failed:
             print(f"{test} fails without any change and is left out", file=sys.__stderr__)
-        passed = {test: found for test, found in self.tests.items() if test not in self.failed}
-        self.out.write_text(json.dumps(passed), encoding="utf-8")
+        passed = {test: seconds for test, seconds in self.seconds.items() if test not in self.failed}
+        data, found = self.coverage.get_data(), dict[str, dict[str, set[str]]]()
+        for file in data.measured_files():
+            rows = Path(file).read_text(encoding="utf-8").splitlines()
+            texts = found.setdefault(Path(file).relative_to(Path.cwd()).as_posix(), {})
+            for line, tests in data.contexts_by_lineno(file).items():
+                texts.setdefault(rows[line - 1].strip(), set()).update(passed.keys() & tests)
+        lines = {file: {text: sorted(tests) for text, tests in texts.items()} for file, texts in found.items()}
+        self.out.write_text(json.dumps({"seconds": passed, "lines": lines}), encoding="utf-8")
 
 
 def _run(copy: str, out: str, tests: list[str]) -> None:
@@ -209,7 +207,7 @@ def _run(copy: str, out: str, tests: list[str]) -> None:
         if not out:
             os.dup2(nothing.fileno(), 2)
     words = ["-p", "no:xdist", "-W", "ignore::pytest.PytestAssertRewriteWarning", *([] if out else ["-x"])]
-    os._exit(RAN + pytest.main([*words, *tests], plugins=[Calls(out)] if out else []))
+    os._exit(RAN + pytest.main([*words, *tests], plugins=[Lines(out)] if out else []))
 
 
 def passed(copy: Path, tests: list[str], out: str = "") -> bool:
@@ -229,78 +227,91 @@ def passed(copy: Path, tests: list[str], out: str = "") -> bool:
     return code == pytest.ExitCode.OK
 
 
-def digest(paths: Iterable[Path]) -> str:
-    """Return the digest of files."""
-    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
+@dataclass
+class Record:
+    """What the tests run: how long each takes, and which run a line of a file."""
+
+    seconds: dict[str, float]
+    lines: dict[str, dict[str, list[str]]]
 
 
-def reached(clean: Path, pool: ThreadPoolExecutor, *, known: bool) -> dict[str, Any]:
-    """Return what the tests call, from the record where nothing has changed since, or wherever it has them."""
+def recorded(clean: Path, pool: ThreadPoolExecutor) -> Record:
+    """Return what the tests run, from the record of each file of tests that has not changed since."""
     tests = [test for folder in ("unit", "fuzz") for test in sorted((clean / "tests" / folder).glob("test_*.py"))]
-    tests = [test for test in tests if not test.name.startswith(LATE)]
-    others = [path for path in clean.rglob("*") if path.is_file() and path.parts[len(clean.parts)] != "tests"]
-    code = digest(sorted([*others, *(clean / "tests").glob("*.py"), *(clean / "tests" / "oracles").glob("*.py")]))
     SEEN.mkdir(parents=True, exist_ok=True)
 
     def seen(test: Path) -> Any:
-        record, now = SEEN / f"{test.parent.name}-{test.stem}.json", code + digest([test])
-        if record.exists():
-            before = json.loads(record.read_text(encoding="utf-8"))
-            if known or before["digest"] == now:
-                return before["tests"]
+        record, now = SEEN / f"{test.parent.name}-{test.stem}.json", hashlib.sha256(test.read_bytes()).hexdigest()
+        before = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
+        if before.get("digest") == now:
+            return before
         with tempfile.NamedTemporaryFile("r", encoding="utf-8") as out:
             passed(clean, [test.relative_to(clean).as_posix()], out.name)
-            found = json.loads(out.read() or "{}")
-        print(f"{test.name}: {len(found)} tests are watched", flush=True)
-        record.write_text(json.dumps({"digest": now, "tests": found}), encoding="utf-8")
+            found = {"seconds": {}, "lines": {}} | json.loads(out.read() or "{}")
+        print(f"{test.name}: {len(found['seconds'])} tests are watched", flush=True)
+        record.write_text(json.dumps(found | {"digest": now}), encoding="utf-8")
         return found
 
-    return {test: calls for found in pool.map(seen, tests) for test, calls in found.items()}
+    every = Record({}, {})
+    for found in pool.map(seen, [test for test in tests if not test.name.startswith(LATE)]):
+        every.seconds |= found["seconds"]
+        for file, lines in found["lines"].items():
+            for text, runs in lines.items():
+                every.lines.setdefault(file, {}).setdefault(text, []).extend(runs)
+    return every
 
 
-def around(mutant: Mutant, root: Path) -> str:
-    """Return the qualified name of the innermost function around a change; empty outside of all."""
-    found = ""
-    nodes: list[tuple[str, ast.AST]] = [("", ast.parse((root / mutant.path).read_text(encoding="utf-8")))]
-    while nodes:
-        prefix, node = nodes.pop()
-        for child in ast.iter_child_nodes(node):
-            inner = prefix
-            if isinstance(child, ast.FunctionDef | ast.ClassDef) and child.lineno <= mutant.line <= child.end_lineno:
-                inner = f"{prefix}{child.name}."
-                if isinstance(child, ast.FunctionDef):
-                    found = f"{prefix}{child.name}"
-                    inner += "<locals>."
-            nodes.append((inner, child))
-    return found
+def shown(mutant: Mutant, root: Path) -> Iterator[tuple[str, str]]:
+    """Yield the file and the text of each line that shows the change when it runs.
+
+    They are those of the statement; for a signature, those of the function; outside of functions, those that name what
+    is defined there.
+    """
+    lines = (root / mutant.path).read_text(encoding="utf-8").splitlines()
+    around = [
+        node
+        for node in ast.walk(ast.parse("\n".join(lines)))
+        if isinstance(node, ast.stmt)
+        and min([node.lineno, *(part.lineno for part in getattr(node, "decorator_list", []))]) <= mutant.line
+        and mutant.line <= (node.end_lineno or 0)
+    ]
+    statement = around[-1]  # walked from the outermost inwards
+    body = getattr(statement, "body", [])
+    if isinstance(statement, ast.FunctionDef):
+        yield from ((mutant.path, text.strip()) for text in lines[body[0].lineno - 1 : statement.end_lineno])
+    elif any(isinstance(node, ast.FunctionDef) for node in around):
+        last = max(statement.lineno, body[0].lineno - 1) if body else statement.end_lineno
+        yield from ((mutant.path, text.strip()) for text in lines[statement.lineno - 1 : last])
+    else:
+        names = {
+            node.id for node in ast.walk(statement) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+        }
+        word = re.compile(rf"\b(?:{'|'.join(names | {getattr(statement, 'name', Path(mutant.path).stem)})})\b")
+        for path in [*(root / "atlas").rglob("*.py"), *(root / "figures").glob("*.py")]:
+            texts = path.read_text(encoding="utf-8").splitlines()
+            yield from ((path.relative_to(root).as_posix(), text.strip()) for text in texts if word.search(text))
 
 
-def picked(mutant: Mutant, calls: dict[str, Any], root: Path) -> Iterator[list[str]]:
-    """Yield the tests that call the changed function, then those that call another of its file or name it.
+def picked(mutant: Mutant, record: Record, root: Path) -> Iterator[list[str]]:
+    """Yield the tests that run the changed line, then those that run another of its file or name it.
 
-    The cheapest first. What stands outside all functions is read by tests that need not call any.
+    The cheapest first. What stands outside all functions is read by tests that need not run any.
     """
     word = re.compile(rf"\b{Path(mutant.path).stem}\b")
-    named = {
-        file: bool(word.search((root / file).read_text(encoding="utf-8")))
-        for file in {test.partition("::")[0] for test in calls}
-    }
-    function = around(mutant, root)
-    order = []
-    for test, (seconds, functions) in calls.items():
-        called = functions.get(mutant.path, [])
-        near = function in called
-        if called or named[test.partition("::")[0]]:
-            order.append((not near, seconds, test))
-    order.sort()
-    spent, group, limit = 0.0, list[str](), SHARE
-    for _, seconds, test in order:
-        spent += seconds
-        if spent > SECONDS:
-            break
-        if spent > limit and group:
+    files = {test.partition("::")[0] for test in record.seconds}
+    named = {file for file in files if word.search((root / file).read_text(encoding="utf-8"))}
+    near = {test for file, text in shown(mutant, root) for test in record.lines.get(file, {}).get(text, [])}
+    far = {test for tests in record.lines.get(mutant.path, {}).values() for test in tests}
+    far |= {test for test in record.seconds if test.partition("::")[0] in named}
+    spent, group, limits = 0.0, list[str](), list(SECONDS)
+    for test in sorted(near | far, key=lambda test: (test not in near, record.seconds[test], test)):
+        spent += record.seconds[test]
+        while limits and spent > limits[0]:
+            del limits[0]
             yield group
-            group, limit = [], SECONDS
+            group = []
+        if not limits:
+            return
         group.append(test)
     yield group
 
@@ -331,7 +342,7 @@ def copied(folder: Path) -> Path:
     return folder
 
 
-def survivors(packages: list[str], count: int, seed: int, jobs: int, *, again: bool) -> tuple[int, list[Mutant]]:
+def survivors(packages: list[str], count: int, seed: int, jobs: int) -> tuple[int, list[Mutant]]:
     """Return how many mutants were tried, and those that no test noticed."""
     with tempfile.TemporaryDirectory() as temporary, ThreadPoolExecutor(jobs) as pool:
         clean = copied(Path(temporary) / "clean")
@@ -342,7 +353,7 @@ def survivors(packages: list[str], count: int, seed: int, jobs: int, *, again: b
         random.Random(seed).shuffle(every)  # noqa: S311  reproducible, not secret
         sample = list(islice((mutant for mutant in every if is_python(mutant, clean)), count))
         print(f"{len(every)} mutants in {', '.join(packages)}; {len(sample)} are tried, seed {seed}", flush=True)
-        calls = reached(clean, pool, known=again)
+        record = recorded(clean, pool)
         copies: SimpleQueue[Path] = SimpleQueue()
         for i in range(jobs):
             copies.put(copied(Path(temporary) / str(i)))
@@ -351,7 +362,7 @@ def survivors(packages: list[str], count: int, seed: int, jobs: int, *, again: b
             copy = copies.get()
             place = copy / mutant.path
             text = place.read_text(encoding="utf-8")
-            groups = [group for group in picked(mutant, calls, clean) if group]
+            groups = [group for group in picked(mutant, record, clean) if group]
             try:
                 place.write_text(mutant.applied(text), encoding="utf-8")
                 noticed = not all(passed(copy, group) for group in groups)
@@ -375,10 +386,10 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--again", action="store_true", help="take the record of what the tests call as it is")
     given = parser.parse_args()
+    os.nice(10)
     CONTEXT.set_forkserver_preload(["__main__", *PRELOADED])
-    tried, alive = survivors(given.packages, given.count, given.seed, given.jobs, again=given.again)
+    tried, alive = survivors(given.packages, given.count, given.seed, given.jobs)
     print(f"{tried} tried, {len(alive)} survive ({100 * len(alive) / tried:.0f} %)")
     for mutant in alive:
         print(mutant)

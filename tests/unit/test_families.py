@@ -1,12 +1,15 @@
 """The register of families: both classes have what it lists, and agree at its defaults as well as it promises."""
 
 import inspect
+from collections.abc import Mapping
 from itertools import chain
 from typing import Any
 
+import lines
 import numpy as np
 import pytest
 from flint import arb, ctx
+from syrupy.assertion import SnapshotAssertion
 
 import atlas
 from atlas.errors import AtlasError
@@ -44,6 +47,23 @@ def test_a_family_that_there_is_not_is_an_error_with_those_that_there_are() -> N
     """The error names the families."""
     with pytest.raises(AtlasError, match="no family 'nix'; there is elementary, general, "):
         family("nix")
+
+
+def plain(name: str, value: Any) -> bool:
+    """Whether a field is set, and to something that is no prose and no function."""
+    parts = [*value, *value.values()] if isinstance(value, Mapping) else value if isinstance(value, tuple) else [value]
+    return (
+        name not in {"says", "cases"} and bool(value) and all(isinstance(x, str | float | int | tuple) for x in parts)
+    )
+
+
+@EVERY
+def test_what_a_family_offers_is_what_it_was(snapshot: SnapshotAssertion, one: Family) -> None:
+    """A line for the family, and for each parameter, quantity and function of time: names, units, ranges, promises."""
+    parts = (one, *one.parameters, *one.quantities, *one.sampled)
+    said = [{name: value for name, value in vars(part).items() if plain(name, value)} for part in parts]
+    found = [f"{type(part).__name__} {words}" for part, words in zip(parts, said, strict=True)]
+    assert found == snapshot.use_extension(lines.Lines)
 
 
 @EVERY

@@ -1,6 +1,7 @@
 """Recipes by name."""
 
 import inspect
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from atlas import AtlasError
 from atlas.cli.figure import setting
 from atlas.draw import context
 from atlas.scene import recipes
-from atlas.scene.parameters import described, typed
+from atlas.scene.parameters import described, fitted, typed
 from atlas.scene.style import style
 
 
@@ -253,3 +254,43 @@ def test_what_a_parameter_takes_is_said_in_words(tmp_path: Path) -> None:
     }
     for value in (1.5, (1.0, 2.0), (1.0,), True, "s", 1e-6, ("a", "b")):
         assert setting(f"x={typed(value)}") == ("x", value)
+
+
+ENDS = {
+    "asymmetric_motion": {"turns": (1e-3, 50.0)},
+    "ball_motion": {"periods": (1e-3, 1e3)},
+    "cusps": {"nutations": (0.5, 40.0)},
+    "elliptic_motion": {"periods": (1e-3, 1e3)},
+    "flattening": {"stop": (0.1, 200.0)},
+    "general_motion": {"periods": (1e-3, 1e3)},
+    "monodromy": {"points": (24, 200)},
+    "phase_portrait": {"levels": (1, 40)},
+    "quadrics_of_tops": {"weight": (0.01, 2.0), "moment": (0.01, 2.0), "outside": (0.01, 3.0)},
+    "tipping_disk": {"count": (2, 24)},
+    "top_motion": {"periods": (1e-3, 1e3)},
+    "wells": {"reach": (0.5, 50.0)},
+}
+SHARED = {
+    "azimuth": (-360.0, 360.0),
+    "elevation": (-90.0, 90.0),
+    "turns": (1e-3, 1e3),
+    "reach": (1e-2, 1e2),
+    "horizon": (1e-3, 1e9),
+    "columns": (1, 6),
+}
+
+
+@pytest.mark.parametrize("name", recipes.names())
+def test_each_number_with_ends_is_taken_up_to_them_and_refused_beyond(name: str) -> None:
+    """The ends that `atlas figure NAME --help` prints are the last that are taken, each side of each number."""
+    recipe, ends = recipes.load(name), {**SHARED, **ENDS.get(name, {})}
+    assert recipe.ranges == ends
+    assert set(ENDS.get(name, {})) <= set(recipe.parameters)
+    for key in recipe.parameters.keys() & ends:
+        hint, default = recipe.hints().get(key), recipe.parameters[key]
+        many = isinstance(default, tuple)
+        for end, beyond in zip(ends[key], (-math.inf, math.inf), strict=True):
+            assert fitted(key, end, hint, default, recipe.ranges) in (end, (end,))
+            past = end + (1 if beyond > 0 else -1) if isinstance(end, int) else math.nextafter(end, beyond)
+            with pytest.raises(AtlasError, match=f"^{key} must lie between .* and .*, not "):
+                fitted(key, (past,) if many else past, hint, default, recipe.ranges)

@@ -7,11 +7,13 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
+import lines
 import numpy as np
 import pytest
 from flint import arb, ctx, fmpq
 from hypothesis import given
 from hypothesis import strategies as st
+from syrupy.assertion import SnapshotAssertion
 
 from atlas.core.arithmetic import phase
 from atlas.core.elementary import ElementaryMotion
@@ -19,8 +21,9 @@ from atlas.errors import AtlasError
 from atlas.study import extreme
 from atlas.study.checks import check_motion
 from atlas.study.elliptic import ELLIPTIC
-from atlas.study.regimes import GENERAL, REGIMES
+from atlas.study.regimes import GENERAL, REGIMES, near
 from atlas.study.stress import LIMITS, SHORT, Result, read_record, record_name, stress, write_record
+from atlas.study.tops import TOPS
 from atlas.study.ulps import UNDERFLOW, WorstErrors, error, of_length, own, ulp
 
 
@@ -146,6 +149,33 @@ def draws() -> Iterator[extreme.Motion]:
     for _ in range(40):
         for regime in REGIMES:
             yield extreme.motion(regime, random)
+
+
+def test_every_regime_draws_what_it_drew_for_the_record(snapshot: SnapshotAssertion) -> None:
+    """The worst errors on record are of these draws, seed by seed, so that a new run can be held against them.
+
+    A line a regime: of each number how often it is zero or positive, and its mean logarithm, even and by its place.
+    """
+    found = []
+    for regime, draw in {**REGIMES, **GENERAL, **ELLIPTIC, **TOPS}.items():
+        random = Random(7)  # noqa: S311  reproducible, not secret
+        x = np.array([np.hstack([np.atleast_1d(part) for part in draw(random)]) for _ in range(100)])
+        size = np.log2(np.where(x, np.abs(x), 1.0))
+        parts = (x == 0).sum(0), (x > 0).sum(0), size.mean(0), np.arange(100) @ size / 100
+        found.append(f"{regime}: " + " ".join("[" + " ".join(f"{one:.11g}" for one in part) + "]" for part in parts))
+    assert found == snapshot.use_extension(lines.Lines)
+
+
+def test_neighbours_lie_on_both_sides_at_every_distance() -> None:
+    """A quarter are the number, a quarter 1 to 3 ulps off, the rest a relative 1e-16 to 1e-1 off, evenly in size."""
+    random = Random(7)  # noqa: S311  reproducible, not secret
+    off = np.array([near(3.0, random) - 3.0 for _ in range(20_000)])
+    ulps, relative = off / math.ulp(3.0), np.abs(off / 3.0)
+    assert set(ulps[np.abs(ulps) <= 3]) == set(range(-3, 4))
+    counts = [np.mean(ulps == 0), np.mean((ulps != 0) & (abs(ulps) <= 3)), np.mean(relative > 1e-6)]
+    assert counts == pytest.approx([0.26, 0.27, 1 / 6], abs=0.02)
+    assert 0.09 < relative.max() <= 0.1
+    assert abs(np.mean(off > 0) - np.mean(off < 0)) < 0.03
 
 
 def test_extreme_motions_are_inside_the_domain() -> None:
