@@ -15,7 +15,7 @@ from atlas.core.asymmetric import AsymmetricMotion
 from atlas.core.inputs import FloatArray, positive
 from atlas.scene import Scene, any_motion
 from atlas.scene.any_motion import Upright
-from atlas.scene.words import plain_vector, tex_vector, title
+from atlas.scene.captions import plain_vector, tex_vector, title
 from atlas.study.simulate import simulate
 
 RANGES = {"turns": (1e-3, 50.0)}

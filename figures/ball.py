@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.core.ball import BallMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.words import plain, tex, title
+from atlas.scene.captions import plain, tex, title
 
 
 def scene(

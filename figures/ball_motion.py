@@ -9,7 +9,7 @@ from math import pi
 from atlas.core.ball import BallMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.any_motion import Upright
-from atlas.scene.words import tex, title
+from atlas.scene.captions import tex, title
 
 RANGES = {"periods": (1e-3, 1e3)}
 

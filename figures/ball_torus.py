@@ -11,9 +11,9 @@ from atlas.core.ball import BallMotion
 from atlas.core.inputs import positive
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.captions import listed, plain, tex, title
 from atlas.scene.sample import curve
 from atlas.scene.torus import VIEW, net, on_torus, seen
-from atlas.scene.words import listed, plain, tex, title
 
 WIDTH, HEIGHT = 150.0, 128.0
 MOST = 400.0

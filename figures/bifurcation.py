@@ -11,8 +11,8 @@ from atlas.core.bifurcation import Bifurcation, Stretch
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene.captions import listed, plain, tex, tex_vector, title
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import listed, plain, tex, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 13.0
 NEAR = 1e-4

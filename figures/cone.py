@@ -6,7 +6,7 @@ The quadric (51) for I = 1, (56): both sheets of the hyperboloid have met in its
 from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Scene, Space, quadric_panel
-from atlas.scene.words import plain_setting, tex_setting, title
+from atlas.scene.captions import plain_setting, tex_setting, title
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:

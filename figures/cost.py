@@ -3,8 +3,8 @@
 Drawn from the stored record of the benchmark, which `make bench` renews.
 """
 
+from atlas.scene.captions import listed, title
 from atlas.scene.layers import Layer, Plane, Scene
-from atlas.scene.words import listed, title
 from atlas.study.bench.figures import decades, line, measured, pairs
 from atlas.study.bench.methods import title as name
 from atlas.study.bench.results import Results, read

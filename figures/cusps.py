@@ -12,7 +12,7 @@ from atlas.core.top import TopMotion
 from atlas.core.wells import Wells
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene, axis_trace
-from atlas.scene.words import listed, plain, tex, title
+from atlas.scene.captions import listed, plain, tex, title
 
 SIZE = 62.0
 RANGES = {"nutations": (0.5, 40.0)}

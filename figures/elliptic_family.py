@@ -15,9 +15,9 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.formulas.elliptic import splitting
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector, title
 from atlas.scene.hyperbola_plane import Window, branches, components, seen, window
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import listed, plain, plain_vector, tex, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 12.0
 NEAR = 1e-3

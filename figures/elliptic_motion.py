@@ -7,7 +7,7 @@ velocity is a constant matrix times it.
 from atlas.core.elliptic import EllipticMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.any_motion import Upright
-from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
+from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 
 RANGES = {"periods": (1e-3, 1e3)}
 

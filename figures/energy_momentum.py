@@ -13,7 +13,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.wells import Branch, Wells
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
-from atlas.scene.words import listed, plain, tex, title
+from atlas.scene.captions import listed, plain, tex, title
 
 WIDTH, HEIGHT = 178.0, 78.0
 

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from atlas.scene import Image, Plane, Scene
-from atlas.scene.words import tex, tex_setting, title
+from atlas.scene.captions import tex, tex_setting, title
 from atlas.study.maps import ErrorMap, over_omega2, over_ratio
 
 LIMITS = (1e-17, 1.0)

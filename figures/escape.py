@@ -14,9 +14,9 @@ from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
 from atlas.scene.movement import along
 from atlas.scene.sample import flat
-from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 12.0
 ROLES = ("main", "second", "third", "fourth", "sixth")

@@ -10,7 +10,7 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
-from atlas.scene.words import listed, plain, plain_vector, tex, tex_vector, title
+from atlas.scene.captions import listed, plain, plain_vector, tex, tex_vector, title
 from atlas.study.simulate import simulate
 
 SIZE, COLUMNS = 56.0, 3

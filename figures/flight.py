@@ -18,10 +18,10 @@ from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
 from atlas.scene.camera import frame
+from atlas.scene.captions import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 from atlas.scene.hyperbola_plane import components
 from atlas.scene.movement import along
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 60.0
 VIEW = Space((), azimuth=35.0, elevation=20.0, title="(a) in space")

@@ -14,8 +14,8 @@ from atlas.core.inputs import FloatArray, whole
 from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.captions import plain, plain_setting, tex_equals, tex_setting, title
 from atlas.scene.hyperbola_plane import Window, components, graph
-from atlas.scene.words import plain, plain_setting, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 86.0, 122.0, 10.0
 TOP = 4.0

@@ -9,7 +9,7 @@ from typing import Any
 from atlas.core.general import GeneralMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.any_motion import Upright
-from atlas.scene.words import plain_setting, tex_setting, title
+from atlas.scene.captions import plain_setting, tex_setting, title
 
 RANGES = {"periods": (1e-3, 1e3)}
 

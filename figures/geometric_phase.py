@@ -13,7 +13,7 @@ from atlas.core.elliptic import EllipticMotion
 from atlas.core.inputs import FloatArray, vector
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.words import listed, plain, tex, tex_vector, title
+from atlas.scene.captions import listed, plain, tex, tex_vector, title
 
 WIDTH, HEIGHT = 178.0, 76.0
 POINTS = 256

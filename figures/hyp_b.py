@@ -8,7 +8,7 @@ from typing import Any
 from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Scene, Space, quadric_panel
-from atlas.scene.words import plain_setting, quotient, tex_setting, title
+from atlas.scene.captions import plain_setting, quotient, tex_setting, title
 
 
 def scene(

@@ -9,8 +9,8 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.integrals import shape_factors
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting, title
 from atlas.scene.hyperbola_plane import asymptote, branches, components, places, unstable, window
-from atlas.scene.words import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 86.0, 82.0, 10.0
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.captions import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector, title
 from atlas.scene.hyperbola_plane import Window, asymptote, branches, components, places, window
 from atlas.scene.style import LINES
-from atlas.scene.words import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 104.0, 10.0
 

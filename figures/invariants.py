@@ -9,8 +9,8 @@ import numpy as np
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.integrals import shape_factors
 from atlas.scene import Curve, Label, Layer, Plane, Scene
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
 from atlas.scene.sample import quarter_pixel
-from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 110.0, 70.0, 12.0
 FIRST, LAST = 1e-2, 1e9

@@ -12,7 +12,7 @@ from atlas.core.inputs import FloatArray, whole
 from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
-from atlas.scene.words import listed, title
+from atlas.scene.captions import listed, title
 
 WIDTH, HEIGHT = 178.0, 72.0
 MOST = 2000

@@ -13,8 +13,8 @@ from atlas.core.general import GeneralMotion
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
 from atlas.scene.sample import curve
-from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 SIZE = 76.0
 HEAD = 0.36, 0.48

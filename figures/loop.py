@@ -6,7 +6,7 @@ For I = 2 the sheets of the quadric (51) touch the planes omega_3 = 0, at the or
 from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Points, Scene, Space, quadric_panel, solids
-from atlas.scene.words import plain_setting, tex_setting, title
+from atlas.scene.captions import plain_setting, tex_setting, title
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.2), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:

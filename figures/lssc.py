@@ -10,7 +10,7 @@ import numpy as np
 
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.bodies import proportions
-from atlas.scene.words import plain_setting, quotient, tex_setting, title
+from atlas.scene.captions import plain_setting, quotient, tex_setting, title
 
 SIZE, WINDINGS = 1.5, 7.0
 """How far the farthest point of the body is from its centre, and windings on a piece as high as that."""

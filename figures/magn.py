@@ -9,8 +9,8 @@ import numpy as np
 from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel
+from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 from atlas.scene.sample import curve
-from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
 
 LEAN = 0.55
 """Radians from the axis y at which a field nearer to it is drawn."""

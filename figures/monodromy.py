@@ -13,7 +13,7 @@ from atlas.core.monodromy import Monodromy, around, monodromy
 from atlas.core.wells import Wells
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene
-from atlas.scene.words import plain, tex, title
+from atlas.scene.captions import plain, tex, title
 
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}

@@ -10,9 +10,9 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import positive
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
 from atlas.scene.bodies import drawn_body
+from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting, title
 from atlas.scene.course import course
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import plain, plain_setting, quotient, tex, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT = 178.0, 62.0
 COLUMNS = 3

@@ -14,8 +14,8 @@ from atlas.core.inputs import FloatArray
 from atlas.core.trace_map import trace_map
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Layer, Plane, Points, Scene
+from atlas.scene.captions import body_name, listed, tex, tex_vector, title
 from atlas.scene.hyperbola_plane import Window, branches, places
-from atlas.scene.words import body_name, listed, tex, tex_vector, title
 from atlas.study.sweep.ranges import Range, Tabulation
 
 WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0

@@ -13,8 +13,8 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.camera import frame
+from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
 from atlas.scene.sample import curve
-from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 MANY = 400.0
 """A first axis that turns by more radians than these would cover the sphere, and is not drawn."""

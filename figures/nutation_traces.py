@@ -9,7 +9,7 @@ from typing import Any
 from atlas.core.general import GeneralMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
-from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
 
 SIZE = 58.0
 

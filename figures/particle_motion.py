@@ -9,10 +9,10 @@ import numpy as np
 from atlas.core.inputs import FloatArray, positive
 from atlas.core.particle import ParticleMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space
+from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 from atlas.scene.course import course
 from atlas.scene.quadric_panel import tolerance
 from atlas.scene.sample import curve
-from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
 
 SIZE = (124.0, 66.0)
 Vector = tuple[float, float, float]

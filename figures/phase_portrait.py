@@ -17,8 +17,8 @@ from atlas.core.integrals import shape_factors
 from atlas.core.momentum_map import momentum_map, potential
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
 from atlas.scene.sample import flat
-from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 Window: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 

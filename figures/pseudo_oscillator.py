@@ -11,9 +11,9 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
+from atlas.scene.captions import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 from atlas.scene.libration import Libration
 from atlas.scene.sample import flat
-from atlas.scene.words import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 62.0, 10.0
 SIZE = (WIDTH / 3 - MARGIN, HEIGHT - MARGIN)

@@ -8,7 +8,7 @@ from typing import Any
 
 from atlas.core.quadric import Quadric
 from atlas.scene import Scene, Space, quadric_panel
-from atlas.scene.words import plain_setting, tex_setting, title
+from atlas.scene.captions import plain_setting, tex_setting, title
 
 
 def scene(

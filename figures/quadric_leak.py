@@ -14,10 +14,10 @@ from atlas.core.integrals import shape_factors
 from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Scene
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting, title
 from atlas.scene.libration import Libration
 from atlas.scene.sample import curve, flat, quarter_pixel
 from atlas.scene.style import LINES
-from atlas.scene.words import listed, plain, plain_setting, tex, tex_equals, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 10.0
 DEEP = 0.02

@@ -10,9 +10,9 @@ import numpy as np
 from atlas.core.quadric import TopQuadric
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadric_row, quadrics
+from atlas.scene.captions import tex, title
 from atlas.scene.narrow import stacked
 from atlas.scene.quadric_row import Member
-from atlas.scene.words import tex, title
 
 WIDTH, HEIGHT = 178.0, 134.0
 NARROWEST = 150.0

@@ -15,8 +15,8 @@ from atlas.core.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, Surface, quadric_panel, quadrics
 from atlas.scene.bodies import drawn_body
+from atlas.scene.captions import plain_setting, tex, tex_setting, title
 from atlas.scene.hyperbola_plane import places
-from atlas.scene.words import plain_setting, tex, tex_setting, title
 
 WIDTH, HEIGHT = 120.0, 118.0
 BANDS, CLASSES = 5, 4

@@ -13,8 +13,8 @@ from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
 from atlas.scene.sample import curve
-from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
 
 SIZE = 44.0
 LEAN = np.radians(50.0)

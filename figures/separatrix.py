@@ -13,8 +13,8 @@ from atlas.core.inputs import FloatArray
 from atlas.core.separatrix import Companion, companions
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
 from atlas.scene.sample import curve, flat
-from atlas.scene.words import plain, plain_setting, tex, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 74.0, 14.0
 

@@ -17,9 +17,9 @@ from atlas.core.inputs import FloatArray
 from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
 from atlas.scene.hyperbola_plane import Window, components, graph, seen, unstable
 from atlas.scene.sample import flat
-from atlas.scene.words import listed, plain, plain_setting, tex, tex_setting, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 10.0
 HIGH, WIDE = 1.6, 1.0

@@ -13,8 +13,8 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Label, Layer, Plane, Points, Scene
+from atlas.scene.captions import body_role, title
 from atlas.scene.sample import flat
-from atlas.scene.words import body_role, title
 from atlas.study.sweep.ranges import Range, Tabulation
 
 WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0

@@ -19,10 +19,10 @@ from atlas.core.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, quadric_panel
 from atlas.scene.bodies import drawn_body, row
+from atlas.scene.captions import plain, quotient, tex, title
 from atlas.scene.movement import about, along, riding
 from atlas.scene.narrow import stacked
 from atlas.scene.sample import flat
-from atlas.scene.words import plain, quotient, tex, title
 
 WIDTH, HEIGHT, MARGIN = 178.0, 96.0, 12.0
 STEP = 2.5

@@ -7,7 +7,7 @@ the components of Omega(t) are elliptic functions of time.
 from atlas.core.top import TopMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.any_motion import Upright
-from atlas.scene.words import plain, tex, title
+from atlas.scene.captions import plain, tex, title
 
 RANGES = {"periods": (1e-3, 1e3)}
 

@@ -9,7 +9,7 @@ from typing import Any
 from atlas.core.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
-from atlas.scene.words import plain, tex, title
+from atlas.scene.captions import plain, tex, title
 
 SIZE = 44.0
 

@@ -10,8 +10,8 @@ import numpy as np
 from atlas.core.inputs import FloatArray, vector
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Points, Scene, Space, quadric_panel, solids
+from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 from atlas.scene.torus import VIEW, net, on_torus, seen
-from atlas.scene.words import plain, plain_vector, tex, tex_vector, title
 from atlas.study.flows import flow
 
 WIDTH, HEIGHT = 178.0, 80.0

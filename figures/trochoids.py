@@ -12,8 +12,8 @@ from atlas.core.inputs import positive
 from atlas.core.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Plane, Points, Scene
+from atlas.scene.captions import listed, plain, plain_vector, tex, tex_equals, tex_vector, title
 from atlas.scene.sample import curve, quarter_pixel
-from atlas.scene.words import listed, plain, plain_vector, tex, tex_equals, tex_vector, title
 
 WIDTH, MARGIN = 86.0, 15.0
 

@@ -13,8 +13,8 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, quadric_panel, solids
 from atlas.scene.bodies import drawn_body, row
+from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_setting, title
 from atlas.scene.narrow import stacked
-from atlas.scene.words import plain, plain_setting, quotient, tex, tex_setting, title
 
 STEP = 3.0
 REACH = 1.55

@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.wells import border, rest
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
-from atlas.scene.words import listed, plain, tex, title
+from atlas.scene.captions import listed, plain, tex, title
 
 WIDTH, HEIGHT = 178.0, 78.0
 RANGES = {"reach": (0.5, 50.0)}

@@ -7,8 +7,8 @@ the lower left. An integrator is a line with one dot a tolerance, from 1e-3 to 1
 from collections.abc import Iterator
 
 from atlas.errors import AtlasError
+from atlas.scene.captions import listed, plain, title
 from atlas.scene.layers import Layer, Plane, Points, Scene
-from atlas.scene.words import listed, plain, title
 from atlas.study.bench.figures import by_method, case_title, decades, line, measured, pairs, power, runs_of
 from atlas.study.bench.methods import MARKS
 from atlas.study.bench.methods import title as name

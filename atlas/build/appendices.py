@@ -14,8 +14,8 @@ from atlas.paper.citation import cited
 from atlas.report.appendices import Appendices, Finding
 from atlas.report.blocks import Errata, Ledger, Recorded, Reference
 from atlas.report.definition import Report
-from atlas.report.numbers import Number
-from atlas.report.tables.model import Column, Data
+from atlas.report.digits import Number
+from atlas.report.tables.table import Column, Data
 from atlas.sources import PACKAGE
 
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)

@@ -61,7 +61,7 @@ class FigureBuild:
     @property
     def name(self) -> str:
         """The recipe's name and what distinguishes this figure, for people."""
-        from atlas.report.numbers import shown
+        from atlas.report.digits import shown
 
         settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
         where = f" for {' or '.join(self.targets)}" if self.targets else ""

@@ -243,7 +243,7 @@ def _figures(
 
 def describe(figure: "FigureBuild", picture: "Picture") -> None:
     """Let a report know what a figure says and how large it is, or why there is none."""
-    from atlas.report.numbers import shown
+    from atlas.report.digits import shown
 
     picture.failure = figure.failure
     if not figure.failure:

@@ -155,7 +155,7 @@ def points(path: Path) -> Points:
 
 def _one_ratio(path: Path, masses: Any, charges: Any) -> float:
     """Return the charge-to-mass ratio of all points. Raises click.UsageError where they have different ones."""
-    from atlas.core.units import charge_to_mass
+    from atlas.core.unit_systems import charge_to_mass
 
     ratios = charges / masses
     if ratios.max() - ratios.min() > SYMMETRIC * abs(ratios).max():
@@ -217,7 +217,7 @@ def charge_to_mass_of(options: Mapping[str, Any]) -> float:
     if len(both) != 2:
         missing = "--mass and --charge, or --mu" if not both else "--mass" if both == ["--charge"] else "--charge"
         raise click.UsageError(f"--magnetic needs {missing}, for the charge-to-mass ratio.")
-    from atlas.core.units import charge_to_mass
+    from atlas.core.unit_systems import charge_to_mass
 
     return charge_to_mass(options["charge"], options["mass"])
 

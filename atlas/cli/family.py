@@ -5,6 +5,7 @@ from typing import Any
 
 import click
 
+from atlas.cli.answers import along, answer, certificate, in_threes, samples
 from atlas.cli.body import (
     body_options,
     body_parameters,
@@ -15,14 +16,13 @@ from atlas.cli.body import (
     field_options,
     units_of,
 )
-from atlas.cli.numbers import along, answer, certificate, in_threes, samples
 from atlas.cli.options import REAL, Command, chosen_times, exactly, examples, output_options, stack, times_options
 from atlas.cli.present import Line, Printout, show
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.errors import DomainError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.families import Command as Described
-from atlas.families.model import TIME
+from atlas.families.family import TIME
 
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
@@ -141,7 +141,7 @@ def _speed_of_light(units: str) -> float:
     """Return the factor c of (93) in a system of units."""
     if units == "natural":
         return 1.0
-    from atlas.core.units import system
+    from atlas.core.unit_systems import system
 
     return system(units).c
 

@@ -4,6 +4,7 @@ from typing import Any
 
 import click
 
+from atlas.cli.answers import along, answer, certificate
 from atlas.cli.body import (
     body_options,
     body_parameters,
@@ -14,7 +15,6 @@ from atlas.cli.body import (
     field_options,
     units_of,
 )
-from atlas.cli.numbers import along, answer, certificate
 from atlas.cli.options import REAL, Command, Many, exactly, examples, output_options
 from atlas.cli.present import Line, Printout, show
 

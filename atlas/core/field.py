@@ -6,7 +6,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from atlas.core import units
+from atlas.core import unit_systems
 from atlas.core.arithmetic.words import exact
 from atlas.core.inputs import FloatArray, finite, number, positive, real, vector, vectors
 from atlas.core.quantities import NO_FIELDS, RATE, SI_FIELDS
@@ -20,8 +20,8 @@ class Field:
     """Constant fields B and E that act on matter of charge-to-mass ratio mu, in any frame of the user.
 
     `B`, `E` (3,); `mu` of either sign, or 0; `c` > 0, the speed of light where the units have it in the Lorentz force
-    (89) (Gaussian), 1 where not (SI); see `atlas.core.units`. Raises AtlasError for what is not finite, and for c that
-    is not positive.
+    (89) (Gaussian), 1 where not (SI); see `atlas.core.unit_systems`. Raises AtlasError for what is not finite, and
+    for c that is not positive.
     """
 
     B: FloatArray
@@ -38,7 +38,7 @@ class Field:
         object.__setattr__(self, "B", vector(self.B, "B", unit["B"]))
         object.__setattr__(self, "E", vector(self.E, "E", unit["E"]))
         object.__setattr__(self, "mu", number(self.mu, "mu", unit["mu"]))
-        object.__setattr__(self, "prime", units.prime(self.mu, self.B, self.c))
+        object.__setattr__(self, "prime", unit_systems.prime(self.mu, self.B, self.c))
 
     def __repr__(self) -> str:
         made = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
@@ -50,7 +50,7 @@ class Field:
 
         Raises AtlasError as `Field` does.
         """
-        return cls(B, E, mu, units.SI.c)
+        return cls(B, E, mu, unit_systems.SI.c)
 
     @classmethod
     def gaussian(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
@@ -58,7 +58,7 @@ class Field:
 
         Raises AtlasError as `Field` does.
         """
-        return cls(B, E, mu, units.GAUSSIAN.c)
+        return cls(B, E, mu, unit_systems.GAUSSIAN.c)
 
     def frame(self, axis: Any) -> "LaboratoryFrame":
         """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0.

@@ -9,7 +9,7 @@ from math import cos, pi, sin
 from typing import Any
 
 from atlas.core.inputs import number, positive
-from atlas.core.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.core.unit_systems import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
 from atlas.errors import DomainError, unknown
 
 DEMAGNETIZATION = {

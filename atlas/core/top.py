@@ -21,7 +21,7 @@ from atlas.core.nutation.top_scalars import IN_ARRAYS, KINDS, TopScalars
 from atlas.core.quadric import TopQuadric
 from atlas.core.quantities import LENGTH, MASS, RATE, SI_FIELDS
 from atlas.core.symmetric_top import along, given, moments_of_one
-from atlas.core.units import system
+from atlas.core.unit_systems import system
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.top import TopMotion as Balls

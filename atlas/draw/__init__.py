@@ -16,7 +16,7 @@ _HOMES = {
     "context": "atlas.draw.style",
     "save": "atlas.draw.files",
     "to_figure": "atlas.draw.panels",
-    "to_plotter": "atlas.draw.turning",
+    "to_plotter": "atlas.draw.window",
 }
 
 __all__ = ["animate", "context", "figure", "plotter", "save", "to_figure", "to_plotter"]
@@ -48,7 +48,7 @@ def plotter(name: str, *, off_screen: bool = True, **parameters: Any) -> "Plotte
     (with ``off_screen=False``), ``screenshot`` or ``export_gltf``. Raises AtlasError for an unknown name or parameter,
     for a recipe without a panel in space, and where no GL library can draw.
     """
-    from atlas.draw.turning import to_plotter
+    from atlas.draw.window import to_plotter
     from atlas.scene import recipes
 
     return to_plotter(recipes.load(name).scene(**parameters), off_screen=off_screen)

@@ -2,7 +2,7 @@
 
 Depth peeling and antialiasing exclude each other: with multisampling translucent surfaces vanish, with SSAA or FXAA
 their order is silently wrong. So a still picture is antialiased, and its surfaces are cut and sorted by
-`atlas.draw.glass`; a plotter that may be turned, `atlas.draw.turning`, is peeled without antialiasing.
+`atlas.draw.glass`; a plotter that may be turned, `atlas.draw.window`, is peeled without antialiasing.
 """
 
 from collections import defaultdict

@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 from atlas.errors import AtlasError
 from atlas.families import asymmetric, ball, elementary, elliptic, free, general, hyperbola, particle, quadric, top
-from atlas.families.model import Command, Family, Parameter, Quantity, Sampled
+from atlas.families.family import Command, Family, Parameter, Quantity, Sampled
 
 __all__ = ["FAMILIES", "Command", "Family", "Parameter", "Quantity", "Sampled", "family"]
 

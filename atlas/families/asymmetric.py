@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from atlas.families.model import RATE, Command, Family, Quantity, Sampled
+from atlas.families.family import RATE, Command, Family, Quantity, Sampled
 from atlas.families.shared import MOMENTS, OMEGA, PRINCIPAL_FIELD, rotation
 
 

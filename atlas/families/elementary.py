@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from atlas.families.model import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
+from atlas.families.family import RATE, TIME, Command, Family, Parameter, Quantity, Sampled
 from atlas.families.shared import FIELD, RATIO, integrals, rotation
 
 OMEGA3, PRECESSION, PROPER = (

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from atlas.families.model import RATE, Family, Quantity
+from atlas.families.family import RATE, Family, Quantity
 from atlas.families.shared import FIELD, RATIO
 
 

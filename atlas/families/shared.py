@@ -3,7 +3,7 @@
 from functools import partial
 from typing import Any
 
-from atlas.families.model import RATE, Parameter, Quantity, Sampled
+from atlas.families.family import RATE, Parameter, Quantity, Sampled
 
 RATIO = Parameter("ratio", "I = I3/I2, in (0, 2].", "", (1.5,), (0.05, 2.0), option=False)
 FIELD = Parameter(

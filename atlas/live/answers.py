@@ -12,7 +12,7 @@ import numpy as np
 
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import MARK, NOT_CERTIFIED, certified
-from atlas.families.model import Quantity
+from atlas.families.family import Quantity
 from atlas.live.subjects import OfFamily, Subject
 
 DIGITS, SPARE = 10, 1 << 10

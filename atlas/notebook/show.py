@@ -11,7 +11,7 @@ from atlas.core.shown import Shown
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.notebook.pictures import plot
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.tables.layout import NONE
 from atlas.report.tables.properties import SPACE, Thing, rows_of
 

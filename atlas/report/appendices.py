@@ -6,7 +6,7 @@ The floor above reads the records; this one sets them out and never runs what th
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from atlas.report.tables.model import Data
+from atlas.report.tables.table import Data
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ import numpy as np
 from atlas.core.body import SHAPES, SymmetricBody
 from atlas.core.field import Field as PhysicalField
 from atlas.core.field import LaboratoryFrame
-from atlas.core.units import System, charge_to_mass, system
+from atlas.core.unit_systems import System, charge_to_mass, system
 from atlas.errors import AtlasError, unknown
-from atlas.report.parameters import BodiesAndFields, Body, Field
+from atlas.report.given import BodiesAndFields, Body, Field
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,8 @@ from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
 from atlas.plain import plain
 from atlas.report.blocks.table import Cell, ColumnView, TableView
+from atlas.report.digits import MINUS, THIN
 from atlas.report.document import Document
-from atlas.report.numbers import MINUS, THIN
 from atlas.report.texts import citations
 from atlas.report.versions import versions
 

@@ -12,12 +12,12 @@ from typing import Any
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES, Family
 from atlas.report.body_and_field import body_and_field
-from atlas.report.numbers import plain
-from atlas.report.parameters import Body, Field
+from atlas.report.digits import plain
+from atlas.report.given import Body, Field
 from atlas.report.schema import convert
 from atlas.report.tables import compute
-from atlas.report.tables.model import Request
 from atlas.report.tables.properties import Thing
+from atlas.report.tables.table import Request
 
 LONGEST = 100
 """Characters of the name of a page; what is longer ends with a digest."""

@@ -2,8 +2,8 @@
 
 import atlas
 from atlas import libraries
-from atlas.report.numbers import shown
-from atlas.report.parameters import BodiesAndFields, Body, Field
+from atlas.report.digits import shown
+from atlas.report.given import BodiesAndFields, Body, Field
 
 
 def versions() -> dict[str, str]:

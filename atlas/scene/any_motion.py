@@ -9,9 +9,9 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray, positive
 from atlas.scene import axis_trace
+from atlas.scene.captions import plain, tex
 from atlas.scene.course import course
 from atlas.scene.layers import Scene
-from atlas.scene.words import plain, tex
 
 SIZE = (124.0, 66.0)
 MOST, FEW = 60.0, 12.0

@@ -12,9 +12,9 @@ import numpy as np
 from atlas.core.quadric import Quadric
 from atlas.scene import quadrics, solids
 from atlas.scene.camera import frame, shown
+from atlas.scene.captions import quotient
 from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface
 from atlas.scene.sample import quarter_pixel
-from atlas.scene.words import quotient
 
 E1, E2, E3 = np.eye(3)
 O = np.zeros(3)

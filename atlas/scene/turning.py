@@ -8,9 +8,9 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.scene import quadric_panel, solids
 from atlas.scene.bodies import drawn_body
+from atlas.scene.captions import quotient
 from atlas.scene.layers import Arrow, Curve, Label, Layer, Scene, Space
 from atlas.scene.sample import curve
-from atlas.scene.words import quotient
 
 _FINE = quadric_panel.tolerance(3.0)
 _AXIS, _FIELD, _THIN, _FEW, _LONG = 1.35, 1.6, 0.02, 24, 1e12

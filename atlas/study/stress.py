@@ -19,7 +19,8 @@ from atlas import files, processes
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.study import extreme
-from atlas.study.checks import (
+from atlas.study.elliptic import ELLIPTIC
+from atlas.study.promises import (
     check_ball,
     check_elliptic,
     check_free,
@@ -30,7 +31,6 @@ from atlas.study.checks import (
     check_quadric,
     check_top,
 )
-from atlas.study.elliptic import ELLIPTIC
 from atlas.study.regimes import GENERAL, REGIMES
 from atlas.study.tops import TOPS
 from atlas.study.ulps import Refusal, Worst, WorstErrors

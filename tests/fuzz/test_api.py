@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from values import answered, arrays, no_numbers, numbers, ratios, share
 
 import atlas
-from atlas.core import integrals, units
+from atlas.core import integrals
+from atlas.core import unit_systems as units
 from atlas.core.pseudo_oscillator import PseudoOscillator
 from atlas.families import FAMILIES
 

@@ -9,7 +9,7 @@ import pytest
 from atlas.study.bench import asymmetric, ball, elementary, general, heavy, particle
 from atlas.study.bench.case import Case, Method, grid
 from atlas.study.bench.integrators import Integrator, integrators
-from atlas.study.bench.reference import check, reference
+from atlas.study.bench.oracle import check, reference
 
 EPS = 2.0**-52
 CASES = [elementary.case(), general.case(), ball.case(), particle.case(), heavy.case()]

@@ -14,11 +14,11 @@ from atlas.errors import AtlasError
 from atlas.study.bench import elementary, integrators
 from atlas.study.bench.case import Case, FloatArray, Grid, Method, Solve
 from atlas.study.bench.clock import interleave, one_core, ratio
+from atlas.study.bench.limits import targets
 from atlas.study.bench.precision import Plan
 from atlas.study.bench.results import FORMAT, Cost, Machine, Results, Run, Setup, read, stored, write
 from atlas.study.bench.run import Scope, run
 from atlas.study.bench.tables import tables
-from atlas.study.bench.targets import targets
 
 SMALL = Scope(
     Plan(horizons=(8.0, 64.0), tolerances=(1e-3, 1e-6), samples=16, rounds=3, limit=20.0),

@@ -19,7 +19,7 @@ from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.arrays import GENERAL_REGIME, check_general_rows, state
-from atlas.study.checks import narrow
+from atlas.study.promises import narrow
 from atlas.study.regimes import GENERAL
 from atlas.study.stress import PROMISES
 from atlas.study.ulps import ONE, absolute, error

@@ -5,7 +5,7 @@ import pytest
 
 from atlas import BallMotion, DomainError
 from atlas.core import laboratory
-from atlas.core.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.core.unit_systems import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
 from atlas.errors import AtlasError
 
 EPS = float(np.finfo(float).eps)

@@ -270,7 +270,7 @@ def test_help_is_there_at_once() -> None:
         "atlas.cli.encoding",
         "atlas.errors",
         "atlas.families",
-        "atlas.families.model",
+        "atlas.families.family",
         "atlas.families.shared",
         *(one.kernels.__module__ for one in FAMILIES.values()),
     }

@@ -15,7 +15,7 @@ from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError, DomainError
 from atlas.scene import Image, recipes
 from atlas.study.maps import over_omega2, over_ratio
-from atlas.study.sweep.errors import plain_rotation
+from atlas.study.sweep.rotation_errors import plain_rotation
 
 CELLS = (8, 15)
 

@@ -20,12 +20,12 @@ from atlas.cli.page import best
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.report.body_and_field import body_and_field
-from atlas.report.parameters import Body, Field
+from atlas.report.given import Body, Field
 from atlas.report.single import single
 from atlas.report.tables import compute
 from atlas.report.tables.closed import convergents
-from atlas.report.tables.model import Request
 from atlas.report.tables.properties import lettered
+from atlas.report.tables.table import Request
 from atlas.scene.recipes import load
 
 MOTION = "--ratio 1.3 --field 1 2 --omega2 0.7"

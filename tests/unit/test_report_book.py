@@ -10,9 +10,9 @@ from atlas.build.report import build_report
 from atlas.errors import AtlasError
 from atlas.report.appendices import Appendices
 from atlas.report.compose import compose
+from atlas.report.digits import Number
 from atlas.report.load import load
-from atlas.report.numbers import Number
-from atlas.report.tables.model import Data
+from atlas.report.tables.table import Data
 from atlas.report.texts import beginning
 
 BOOK = r"""

@@ -10,10 +10,10 @@ from mpmath import mp, mpf
 from oracles import closed_form
 
 from atlas.report.body_and_field import body_and_field
-from atlas.report.numbers import Number
-from atlas.report.parameters import Body, Field
+from atlas.report.digits import Number
+from atlas.report.given import Body, Field
 from atlas.report.tables import TABLES, compute
-from atlas.report.tables.model import Data, Request
+from atlas.report.tables.table import Data, Request
 
 I, B2, B3, OMEGA2 = 0.7, 1.3, -0.4, 0.6
 TIMES = [0.0, 0.3, 7.25]

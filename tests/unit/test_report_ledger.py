@@ -23,7 +23,7 @@ from atlas.report import trial
 from atlas.report.appendices import Appendices, Finding
 from atlas.report.compose import compose
 from atlas.report.load import load
-from atlas.report.tables.model import Data
+from atlas.report.tables.table import Data
 from atlas.study import stress
 
 HEAD = r"""

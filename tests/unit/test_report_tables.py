@@ -12,11 +12,11 @@ from fontTools.ttLib import TTFont
 from atlas.errors import AtlasError
 from atlas.report.blocks.table import POWER
 from atlas.report.body_and_field import body_and_field
+from atlas.report.digits import MINUS, THIN, Number, room
 from atlas.report.fonts import FACES, source
-from atlas.report.numbers import MINUS, THIN, Number, room
-from atlas.report.parameters import Body, Field
+from atlas.report.given import Body, Field
 from atlas.report.tables import TABLES, compute
-from atlas.report.tables.model import Data, Request, column, scaled
+from atlas.report.tables.table import Data, Request, column, scaled
 
 BODY = Body(title="short solenoid", ratio=1.5)
 OBLIQUE = Field(title="oblique field", prime=(1.0, 2.0))

@@ -19,8 +19,8 @@ from atlas.core.arithmetic import phase
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.study import extreme
-from atlas.study.checks import check_motion
 from atlas.study.elliptic import ELLIPTIC
+from atlas.study.promises import check_motion
 from atlas.study.regimes import GENERAL, REGIMES, near
 from atlas.study.stress import LIMITS, SHORT, Result, read_record, record_name, stress, write_record
 from atlas.study.tops import TOPS

@@ -14,7 +14,7 @@ from atlas import AtlasError
 from atlas.build.figures import build_figures
 from atlas.draw import save, to_figure
 from atlas.report.tables import compute
-from atlas.report.tables.model import Request
+from atlas.report.tables.table import Request
 from atlas.scene import Curve, Plane, Scene, Space, recipes
 from atlas.scene.arrange import arranged, suited
 from atlas.targets import TARGETS, TYPE, find

@@ -15,11 +15,11 @@ from atlas.exact.digits import certified
 from atlas.exact.elliptic import EllipticMotion
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.table import Table
+from atlas.report.digits import Number
 from atlas.report.find import find
 from atlas.report.load import load
-from atlas.report.numbers import Number
 from atlas.report.tables import compute
-from atlas.report.tables.model import Request
+from atlas.report.tables.table import Request
 from atlas.scene import recipes
 
 REPORT = load(find("three_moments"))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import constants
 
-from atlas.core import units
+from atlas.core import unit_systems as units
 from atlas.core.field import Field
 from atlas.core.particle import ParticleMotion
 from atlas.errors import AtlasError

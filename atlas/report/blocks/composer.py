@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from atlas.report.appendices import Appendices
-from atlas.report.parameters import BodiesAndFields
+from atlas.report.given import BodiesAndFields
 from atlas.report.picture import Picture
 from atlas.report.trial import Use
 

@@ -8,10 +8,10 @@ import msgspec
 from atlas.errors import AtlasError, unknown
 from atlas.report.blocks.composer import Composer
 from atlas.report.body_and_field import chosen
-from atlas.report.numbers import Number, room
+from atlas.report.digits import Number, room
 from atlas.report.schema import Id, StrictStruct
 from atlas.report.tables import compute
-from atlas.report.tables.model import Column, Data, Request
+from atlas.report.tables.table import Column, Data, Request
 from atlas.report.texts import beginning
 
 MOST = 1000

@@ -11,6 +11,7 @@ from atlas.report.tables import (
     closed,
     companions,
     diamagnetism,
+    families,
     flight,
     motion,
     observed,
@@ -18,14 +19,13 @@ from atlas.report.tables import (
     points,
     properties,
     quadric,
-    quantities,
     sheet,
     sizes,
     targets,
     three_moments,
     tops,
 )
-from atlas.report.tables.model import Data, Maker, Request
+from atlas.report.tables.table import Data, Maker, Request
 
 TABLES: Mapping[str, Maker] = MappingProxyType(
     {
@@ -37,7 +37,7 @@ TABLES: Mapping[str, Maker] = MappingProxyType(
         "properties": properties.properties,
         "motion": motion.motion,
         "sheet": sheet.sheet,
-        "quantities": quantities.quantities,
+        "quantities": families.quantities,
         "samples": motion.samples,
         "ball": ball.ball,
         "closed": closed.closed,

@@ -2,7 +2,7 @@
 
 from atlas.errors import AtlasError
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
+from atlas.report.tables.table import RATE, Column, Data, Request, certified, quantity
 
 
 class BallParameters(StrictStruct, frozen=True):

@@ -5,9 +5,9 @@ from typing import Any
 
 from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import RATE, Column, Data, Request, certified, quantity
+from atlas.report.tables.table import RATE, Column, Data, Request, certified, quantity
 
 _WORDS = {
     "mass": ("mass", "$m_0$", "kg"),

@@ -2,11 +2,11 @@
 
 from math import inf, isfinite, pi
 
-from atlas.core.units import ELECTRIC_CONSTANT
+from atlas.core.unit_systems import ELECTRIC_CONSTANT
 from atlas.errors import AtlasError
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import Column, Data, Request
+from atlas.report.tables.table import Column, Data, Request
 
 
 def charges(request: Request) -> Data:

@@ -5,9 +5,9 @@ from typing import Any
 
 from atlas.errors import DomainError
 from atlas.families import FAMILIES
-from atlas.report.numbers import Number
-from atlas.report.tables.model import Column, Data, Request, certified, column, quantity
+from atlas.report.digits import Number
 from atlas.report.tables.properties import Thing
+from atlas.report.tables.table import Column, Data, Request, certified, column, quantity
 
 MANY, LARGEST = 6, 10_000
 """As many fractions as are shown, and the largest denominator."""

@@ -3,9 +3,9 @@
 from typing import Any
 
 from atlas.errors import AtlasError
-from atlas.report.numbers import Number, plain
+from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
+from atlas.report.tables.table import RATE, Column, Data, Request, certified, column
 
 
 class CompanionParameters(StrictStruct, frozen=True):

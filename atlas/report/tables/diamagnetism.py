@@ -4,9 +4,9 @@ from math import hypot
 
 from atlas.core.laboratory import diamagnetic_energy
 from atlas.errors import AtlasError
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import Column, Data, Request
+from atlas.report.tables.table import Column, Data, Request
 
 
 class DiamagnetismParameters(StrictStruct, frozen=True):

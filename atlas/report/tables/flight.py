@@ -1,9 +1,9 @@
 """A point of a flying body: the centre of mass, and the point that turns about it."""
 
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct, Vector
-from atlas.report.tables.model import Column, Data, Request, certified, scaled
 from atlas.report.tables.particle import exact_particle
+from atlas.report.tables.table import Column, Data, Request, certified, scaled
 
 
 class FlightParameters(StrictStruct, frozen=True):

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from atlas.report.numbers import Number
-from atlas.report.tables.model import Column, Request, column
+from atlas.report.digits import Number
+from atlas.report.tables.table import Column, Request, column
 
 NONE = "–"
 """What stands where a body has no such quantity."""

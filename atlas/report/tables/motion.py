@@ -1,10 +1,10 @@
 """One elementary motion, of a body or of several: its constants, and one body's state at some times."""
 
 from atlas.report.body_and_field import BodyAndField
-from atlas.report.numbers import Number, plain
+from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.layout import Quantity, side_by_side
-from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
+from atlas.report.tables.table import RATE, Column, Data, Request, certified, column
 
 
 class Motion(StrictStruct, frozen=True):

@@ -7,10 +7,10 @@ from atlas.core.charge_moments import ChargeMoments
 from atlas.core.laboratory import diamagnetic_energy
 from atlas.core.top import TopMotion
 from atlas.errors import AtlasError
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.diamagnetism import DiamagnetismParameters
-from atlas.report.tables.model import RATE, Column, Data, Request
+from atlas.report.tables.table import RATE, Column, Data, Request
 
 
 class Coat(StrictStruct, frozen=True):

@@ -6,9 +6,9 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct, Vector
-from atlas.report.tables.model import Column, Data, Request, certified, column, scaled
+from atlas.report.tables.table import Column, Data, Request, certified, column, scaled
 
 
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:

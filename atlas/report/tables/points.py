@@ -4,9 +4,9 @@ from fractions import Fraction
 from typing import Any
 
 from atlas.errors import AtlasError
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import RATE, Column, Data, Request, certified, column
+from atlas.report.tables.table import RATE, Column, Data, Request, certified, column
 
 
 class PointsParameters(StrictStruct, frozen=True):

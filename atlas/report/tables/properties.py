@@ -8,9 +8,9 @@ from typing import Any
 from atlas.errors import AtlasError, DomainError, unknown
 from atlas.families import FAMILIES, Family, Quantity
 from atlas.paper import EQUATIONS
-from atlas.report.numbers import MINUS, Number, plain
+from atlas.report.digits import MINUS, Number, plain
 from atlas.report.tables.layout import NONE
-from atlas.report.tables.model import Column, Data, Request
+from atlas.report.tables.table import Column, Data, Request
 
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""

@@ -3,7 +3,7 @@
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.layout import NONE, Quantity, side_by_side, titled
-from atlas.report.tables.model import RATE, Data, Request, certified
+from atlas.report.tables.table import RATE, Data, Request, certified
 
 
 def quadric(request: Request) -> Data:

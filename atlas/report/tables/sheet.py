@@ -1,9 +1,9 @@
 """The data sheet of a body in a field, or of several side by side: its quadric and one motion."""
 
-from atlas.report.numbers import plain
+from atlas.report.digits import plain
 from atlas.report.tables import motion, quadric
 from atlas.report.tables.layout import side_by_side, titled
-from atlas.report.tables.model import Data, Request
+from atlas.report.tables.table import Data, Request
 
 
 def sheet(request: Request) -> Data:

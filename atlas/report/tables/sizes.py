@@ -4,11 +4,11 @@ from math import atan2, hypot, pi
 
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.laboratory import damping_of_flight, greatest_charge, greatest_ratio, magnetic_power, quadrupole_power
-from atlas.core.units import ELEMENTARY_CHARGE, cyclotron_frequency
+from atlas.core.unit_systems import ELEMENTARY_CHARGE, cyclotron_frequency
 from atlas.errors import AtlasError
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import RATE, Column, Data, Request
+from atlas.report.tables.table import RATE, Column, Data, Request
 
 RATIO, TILT = 1.5, 2.0
 """I3/I2 of the body and B3/B2 of the field, those of the short solenoid in the oblique field."""

@@ -3,7 +3,7 @@
 from itertools import groupby
 
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import Column, Data, Request
+from atlas.report.tables.table import Column, Data, Request
 from atlas.targets import ANY, TARGETS, Target
 
 

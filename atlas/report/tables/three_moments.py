@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from atlas.report.numbers import Number, plain
+from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import Column, Data, Request, certified, column
+from atlas.report.tables.table import Column, Data, Request, certified, column
 
 Triple = tuple[float, float, float]
 
@@ -59,7 +59,7 @@ def periods(request: Request) -> Data:
     from flint import fmpq
 
     from atlas.exact.torus import Torus
-    from atlas.report.tables.model import bits
+    from atlas.report.tables.table import bits
 
     asked = request.take(Motion)
     inertia, K, omega = (

@@ -4,9 +4,9 @@ from typing import Any
 
 from atlas.core.monodromy import around, monodromy
 from atlas.core.wells import Wells
-from atlas.report.numbers import Number, plain
+from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import Column, Data, Request, certified, column
+from atlas.report.tables.table import Column, Data, Request, certified, column
 
 
 class Top(StrictStruct, frozen=True):

@@ -22,8 +22,8 @@ from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import FloatArray, Grid
 from atlas.study.bench.clock import Job, interleave, one_core, ratio
 from atlas.study.bench.elementary import exact_motion, formula, frequencies, motion, turns
+from atlas.study.bench.oracle import BITS, nearest
 from atlas.study.bench.peers import composed, lambdified
-from atlas.study.bench.reference import BITS, nearest
 from atlas.study.bench.results import Cost, said
 
 SEED = 89

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from atlas.study.bench.case import Case, Grid, Solve, grid
 from atlas.study.bench.clock import interleave, once, ratio
 from atlas.study.bench.integrators import Integrator, TimedOutError
-from atlas.study.bench.reference import Reference, reference
+from atlas.study.bench.oracle import Reference, reference
 from atlas.study.bench.results import Run, Setup, Status, said
 
 SHORT = 0.1

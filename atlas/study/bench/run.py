@@ -12,8 +12,8 @@ from atlas.study.bench import arrays, asymmetric, ball, dense, elementary, gener
 from atlas.study.bench.case import Case
 from atlas.study.bench.cost import costs
 from atlas.study.bench.integrators import Integrator, integrators
+from atlas.study.bench.oracle import check
 from atlas.study.bench.precision import Bench, Plan, closed, stepping
-from atlas.study.bench.reference import check
 from atlas.study.bench.results import FORMAT, Cost, ReferenceCheck, Results, Rows, Run, Setup, machine, today, versions
 
 CASES = {

@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from atlas.study.bench.limits import targets
 from atlas.study.bench.methods import title
 from atlas.study.bench.results import Cost, Results, Run, Setup
-from atlas.study.bench.targets import targets
 
 NONE = "–"
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from atlas import families
 from atlas.errors import AtlasError, DomainError
 from atlas.families import Family, Quantity
-from atlas.families.model import TIME
+from atlas.families.family import TIME
 
 Row = Mapping[str, Any]
 NAME = "U28"
@@ -177,13 +177,13 @@ def _at_time(get: Callable[[Any, Any], Any], made: Any, row: Row) -> Any:
 
 
 def _error(made: Any, p: Row) -> Any:
-    from atlas.study.sweep.errors import error
+    from atlas.study.sweep.rotation_errors import error
 
     return error(made, p)
 
 
 def _plain_error(made: Any, p: Row) -> Any:
-    from atlas.study.sweep.errors import plain_error
+    from atlas.study.sweep.rotation_errors import plain_error
 
     return plain_error(made, p)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from atlas.core.inputs import real
 from atlas.errors import AtlasError
-from atlas.families.model import TIME
+from atlas.families.family import TIME
 from atlas.study.sweep.families import FAMILIES, MISSING
 
 Columns = dict[str, NDArray[Any]]

@@ -7,11 +7,11 @@ from typing import Any
 from uuid import uuid4
 
 from atlas.errors import AtlasError
-from atlas.families.model import TIME
+from atlas.families.family import TIME
+from atlas.study.sweep.destinations import DataSet, TableFile, target
 from atlas.study.sweep.lock import held
 from atlas.study.sweep.parts import Parts
 from atlas.study.sweep.plan import Columns, Plan
-from atlas.study.sweep.targets import DataSet, TableFile, target
 from atlas.study.sweep.workers import ahead, width, workers
 
 SECONDS, MOST = 2.0, 2**18

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 from atlas.families import FAMILIES, Family
 from atlas.paper import EQUATIONS
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.model import Column, Data, Request
+from atlas.report.tables.table import Column, Data, Request
 
 Row = tuple[str, str, str, str, str | Number]
 

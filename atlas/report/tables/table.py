@@ -6,7 +6,7 @@ from typing import Any, Literal, TypeAlias, TypeVar
 
 from atlas.formulas.numbers import workprec
 from atlas.report.body_and_field import BodyAndField
-from atlas.report.numbers import Number
+from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct, convert
 
 RATE = r"s$^{-1}$"
