@@ -1,9 +1,17 @@
-"""Draw a scene into one file, as the tests do."""
+"""Make a scene once for all tests, and draw one into one file."""
 
+from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from atlas.draw import save
-from atlas.scene import Scene
+from atlas.scene import Scene, recipes
+
+
+@lru_cache(maxsize=200)
+def made(name: str, **parameters: Any) -> Scene:
+    """Return the scene of a recipe; tests look at it and leave it as it is."""
+    return recipes.load(name).scene(**parameters)
 
 
 def draw(scene: Scene, path: Path | str, renderer: str = "vector", dpi: float = 300.0) -> Path:

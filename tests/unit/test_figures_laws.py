@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from drawing import made
 from numpy.typing import NDArray
 
 from atlas.scene import Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, recipes
@@ -32,20 +33,33 @@ TIME: Mapping[str, int] = {
     "velocity": 1,
     "speed": 1,
     "c": 1,
-    "E": 2,
-    "B": 2,
+    **dict.fromkeys(("E", "B", "electric", "magnetic"), 2),
     "linear": 2,
     "stop": -1,
 }
 """Powers of a unit of frequency in the parameters: velocities, with c, have one, E and B two, for a fixed mu."""
-LENGTH: Mapping[str, int] = {"velocity": 1, "c": 1, "E": 1, "B": 1, "point": 1, "size": 1, "speed": 1}
+LENGTH: Mapping[str, int] = dict.fromkeys(
+    ("velocity", "speed", "c", "E", "B", "electric", "magnetic", "point", "size", "position"), 1
+)
 """Powers of a unit of length; that of c E/B is that of a velocity, that of mu B/c none."""
-CHARGE: Mapping[str, int] = {"mu": 1, "E": -1, "B": -1}
+CHARGE: Mapping[str, int] = {"mu": 1, **dict.fromkeys(("E", "B", "electric", "magnetic"), -1)}
 NOISE = {"error_maps", "invariants"}
 """Figures of rounding errors, which a power of two leaves alone, but not the times in a table of powers of ten."""
+OTHERS: list[tuple[str, dict[str, Any]]] = [
+    ("hyperbolas", {"ratios": (0.3, 0.4)}),
+    ("hyperbolas", {"ratios": (1.5, 0.5), "field": (1.0, 0.0)}),
+    ("lssc", {"ratio": 2.0}),
+    ("motion", {"omega2": 0.0}),
+    ("motion_sphere", {"omega2": 0.0}),
+    ("particle_motion", {"magnetic": (0.0, 0.0, 0.0)}),
+    ("particle_motion", {"magnetic": (0.0, 0.0, 0.0), "velocity": (0.0, 0.0, 0.0)}),
+    ("particle_motion", {"magnetic": (0.0, 0.0, 0.0), "electric": (0.0, 0.0, 0.0)}),
+]
+"""Parameters at which recipes draw what they do not draw at their defaults."""
+EVERY = [*((name, {}) for name in NAMES), *OTHERS]
 UNITS = [
-    (name, unit)
-    for name in NAMES
+    (name, given, unit)
+    for name, given in EVERY
     for unit, weights in {"time": TIME, "length": LENGTH, "charge": CHARGE}.items()
     if name not in NOISE and set(weights) & set(recipes.load(name).parameters)
 ]
@@ -86,15 +100,18 @@ def coordinates(panel: Panel) -> list[list[FloatArray]]:
     return columns
 
 
-@pytest.mark.parametrize(("name", "unit"), UNITS)
-def test_another_unit_scales_each_axis_and_changes_nothing_else(name: str, unit: str) -> None:
-    """In a unit twice as small every coordinate of an axis is multiplied by one power of two, within 1e-9 of it.
+@pytest.mark.parametrize(("name", "given", "unit"), UNITS, ids=str)
+def test_another_unit_scales_each_axis_and_changes_nothing_else(name: str, given: dict[str, Any], unit: str) -> None:
+    """In a unit four times as small every coordinate of an axis is multiplied by one power of two, within 1e-9 of it.
 
     So each layer stands where it stood on paper: no number of a recipe has a unit that is not said.
     """
     recipe, weights = recipes.load(name), WEIGHTS[unit]
-    given = {key: scaled(value, 2.0 ** weights[key]) for key, value in recipe.parameters.items() if key in weights}
-    one, other = recipe.scene(), recipe.scene(**given)
+    one, known = made(name, **given), {**recipe.parameters, **given}
+    other = recipe.scene(
+        **{key: scaled(x, 4.0 ** weights[key]) for key, x in known.items() if key in weights}
+        | {k: x for k, x in given.items() if k not in weights}
+    )
     for panel, after in zip(one.panels, other.panels, strict=True):
         for axis, turned in zip(coordinates(panel), coordinates(after), strict=True):
             size, grown = (max(np.nanmax(np.abs(array), initial=0.0) for array in arrays) for arrays in (axis, turned))
@@ -104,10 +121,10 @@ def test_another_unit_scales_each_axis_and_changes_nothing_else(name: str, unit:
                 assert np.nanmax(np.abs(y - power * x), initial=0.0) <= 1e-9 * power * size, (k, panel.title)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_names_stand_among_what_they_name(name: str) -> None:
+@pytest.mark.parametrize(("name", "given"), EVERY, ids=str)
+def test_names_stand_among_what_they_name(name: str, given: dict[str, Any]) -> None:
     """The place of every label lies in the limits of its panel, or among the drawn things, and says something."""
-    for panel in recipes.load(name).scene().panels:
+    for panel in made(name, **given).panels:
         drawn = [array for layer in panel.layers if not isinstance(layer, Label) for array in places(layer)]
         low, high = np.nanmin(np.concatenate(drawn), axis=0), np.nanmax(np.concatenate(drawn), axis=0)
         if isinstance(panel, Plane):

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from drawing import made
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
@@ -40,7 +41,7 @@ def pixels(figure: Figure) -> np.ndarray:
 @pytest.mark.parametrize(("name", "parameters"), CASES[: len(recipes.names())], ids=lambda value: str(value)[:40])
 def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str, Any]) -> None:
     """At most 60 words, a formula being one; what the reader may type stands in the line of the files."""
-    caption = recipes.load(name).scene(**parameters).caption
+    caption = made(name, **parameters).caption
     assert len(re.sub(r"\$[^$]*\$", "F", caption).split()) <= WORDS
     assert "`" not in caption
 
@@ -48,7 +49,7 @@ def test_a_caption_is_short_and_holds_no_command(name: str, parameters: dict[str
 @pytest.mark.parametrize(("name", "parameters"), CASES, ids=lambda value: str(value)[:40])
 def test_what_a_caption_names_can_be_seen(name: str, parameters: dict[str, Any]) -> None:
     """Each named look stands in the caption, has layers, and its picture changes where they are taken away."""
-    scene = recipes.load(name).scene(**parameters)
+    scene = made(name, **parameters)
     words = re.sub(r"\$[^$]*\$", "", scene.caption)
     looks = set(LOOKS.findall(words))
     if "that the surface hides are dashed" in words:

@@ -10,6 +10,7 @@ from pathlib import Path
 import lines
 import numpy as np
 import pytest
+from drawing import made
 from syrupy.assertion import SnapshotAssertion
 
 from atlas import places
@@ -27,7 +28,7 @@ MEASURED = ("cost", "horizon", "work_precision")
 def test_a_scene_is_what_it_was(snapshot: SnapshotAssertion, name: str) -> None:
     """The axes, and the layers with their roles, names, ends, extent and course."""
     noisy, recipe = tuple(NOISE.get(name, ())), recipes.load(name)
-    found = lines.scene(recipe.scene(), noisy, words=not recipe.records and not noisy)
+    found = lines.scene(made(name), noisy, words=not recipe.records and not noisy)
     assert list(found) == snapshot.use_extension(lines.Lines)
 
 
