@@ -161,6 +161,7 @@ class Lines:
     def __init__(self, out: str) -> None:
         self.out, self.seconds, self.failed = Path(out), dict[str, float](), set[str]()
         self.coverage = coverage.Coverage(data_file=None, config_file=False, include=["atlas/*", "figures/*"])
+        self.coverage.set_option("run:disable_warnings", ["no-data-collected"])
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:

@@ -83,10 +83,10 @@ def through(text: str) -> tuple[str, list[Any]]:
         raise click.UsageError(f"--over takes KEY=FROM:TO:COUNT, such as omega2=0:2:60, not {text!r}.")
     (_, start), (_, stop) = (setting(f"{key}={part}") for part in parts[:2])
     try:
-        steps = np.linspace(start, stop, int(parts[2]))
+        steps = np.linspace(start, stop, int(parts[2])) if np.shape(start) == np.shape(stop) else None
     except (TypeError, ValueError):
+        steps = None
+    if steps is None:
         wrong = f"not from {parts[0]!r} to {parts[1]!r}."
-        raise click.UsageError(
-            f"--over goes from a number to a number, or from a list to one as long, {wrong}"
-        ) from None
+        raise click.UsageError(f"--over goes from a number to a number, or from a list to one as long, {wrong}")
     return key, [tuple(map(float, one)) if np.ndim(one) else float(one) for one in steps]

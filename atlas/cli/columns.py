@@ -10,7 +10,8 @@ def columns_of(path: Path) -> dict[str, list[float]]:
     """Return the columns of a CSV file, named by its first line. Raises click.UsageError, with the line."""
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
-            heading, *lines = [line for line in csv.reader(file) if line] or [[]]
+            reader = csv.reader(file)
+            (_, heading), *lines = [(reader.line_num, line) for line in reader if line] or [(1, [])]
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:
@@ -21,7 +22,7 @@ def columns_of(path: Path) -> dict[str, list[float]]:
     if not lines or len(set(names)) != len(names):
         raise click.UsageError(f"{path} must have a heading of different names and at least one row.")
     columns: dict[str, list[float]] = {name: [] for name in names}
-    for number, line in enumerate(lines, 2):
+    for number, line in lines:
         if len(line) != len(names):
             raise click.UsageError(f"{path}: line {number} has {len(line)} cells, but the heading {len(names)}.")
         for name, cell in zip(names, line, strict=True):

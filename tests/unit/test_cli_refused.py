@@ -1,0 +1,190 @@
+"""What the command line refuses: each line that says no is reached, and says what was wrong."""
+
+import ast
+import re
+from pathlib import Path
+
+import click
+import pytest
+
+from atlas import cli
+from atlas.cli.app import atlas as command
+from atlas.errors import AtlasError
+
+BODY = "--ratio 1.5 --field 1 2"
+SQUARE = [(1, 0), (-1, 0), (0, 1), (0, -1)]
+FILES: dict[str, str | bytes] = {
+    "plain.csv": "x,y,z,mass\n" + "".join(f"{x},{y},1,1\n" for x, y in SQUARE),
+    "charged.csv": "x,y,z,mass,charge\n" + "".join(f"{x},{y},1,1,1\n" for x, y in SQUARE),
+    "uneven.csv": "x,y,z,mass,charge\n" + "".join(f"{x},{y},1,1,{2 + x}\n" for x, y in SQUARE),
+    "skew.csv": "x,y,z,mass\n1,0,0,1\n-1,0,0,1\n0,1,0,2\n0,-1,0,2\n",
+    "leaning.csv": "x,y,z,mass\n1,0,1,1\n-1,0,-1,1\n0,1.5,0,1\n0,-1.5,0,1\n",
+    "extra.csv": "x,y,z,mass,spin\n1,0,0,1,1\n",
+    "bytes.csv": b"t,\xff\n1,2\n",
+    "nul.csv": "t,x\n1," + "9" * 131_073 + "\n",
+    "twice.csv": "t,t\n1,2\n",
+    "bare.csv": "t,x\n",
+    "short.csv": "t,x\n\n1,2\n\n3\n",
+    "word.csv": "t,x\n1,2\n\n3,two\n",
+    "ratios.csv": "ratio\n0.5\n",
+    "bad.toml": "family =\n",
+    "deep.toml": "a = " + "[" * 3000,
+    "nul.toml": 'family = "elementary"\nquantities = ["k"]\nout = "a\\u0000.csv"\n',
+    "none.toml": 'family = "elementary"\nquantities = ["k"]\nout = ""\n',
+    "one.py": "",
+    "sub/one.py": "",
+}
+SWEEP = "sweep elementary --quantity k --out {place}/out.csv"
+TOP = "top --direction 1 2 --omega 1 2 3"
+MASS, SI = "--mass 1", "--magnetic 1 2 --mu 1"
+CASES = [
+    ("classify --field 1 2", "found none"),
+    ("classify --ratio 1 --inertia 1 1 --field 1 2", "found --ratio and --inertia"),
+    ("classify --ratio 1 --radius 1 --field 1 2", "--radius goes with --shape only"),
+    ("classify --shape thin-rod --height 1 --field 1 2", "a thin rod has I3 = 0"),
+    ("classify --shape cube --field 1 2", "there is no shape 'cube'; the shapes are "),
+    ("classify --shape ring --field 1 2", "the shape ring takes --radius; found none."),
+    ("classify --shape ring --radius 1 --height 2 --field 1 2", "takes --radius; found --radius --height."),
+    ("classify --shape ring --radius 1e-150 --field 1 2", "--radius 1e-150 has no square"),
+    ("classify --shape ring --radius 1e150 --field 1 2", "--radius 1e150 has no square"),
+    ("classify --points {place}/ratios.csv --field 1 2", "must have the columns x, y, z, mass"),
+    ("classify --points {place}/extra.csv --field 1 2", "it has x, y, z, mass, spin"),
+    ("classify --points {place}/skew.csv --field 1 2", "z: I1 = I2 would be needed"),
+    ("classify --points {place}/leaning.csv --field 1 2", "I1 = I2 and no products would be needed"),
+    ("classify --points {place}/uneven.csv --magnetic 1 2", "goes from 1 to 3"),
+    ("classify --points {place}/plain.csv --field 1 2 --decimal --digits 30", "not with --points"),
+    ("classify --points {place}/charged.csv --magnetic 1 2 --charge 1", "--charge has no place beside it"),
+    ("classify --points {place}/charged.csv --magnetic 1 2 --mu 1", "--mu has no place beside it"),
+    ("classify --points {place}/plain.csv --magnetic 1 2", "has no column charge"),
+    ("classify --ratio 1 --magnetic 1 2 --mu 1 --mass 1", "--mass has no place beside it"),
+    ("classify --ratio 1 --magnetic 1 2", "needs --mass and --charge, or --mu,"),
+    ("classify --ratio 1 --magnetic 1 2 --mass 1", "needs --charge,"),
+    ("classify --ratio 1 --magnetic 1 2 --charge 1", "needs --mass,"),
+    ("classify --ratio 1", "the field is one of --field"),
+    ("classify --ratio 1 --field 1 2 --magnetic 1 2", "the field is one of --field"),
+    *((f"classify {BODY} --{one}", f"--{one.split()[0]} goes with --magnetic only")
+      for one in ("mu 1", "mass 1", "charge 1", "units si")),
+    (f"classify --ratio 1 {SI} --decimal --digits 30", "--decimal goes with --field"),
+    (f"motion {BODY} --omega2 1 --decimal --json", "--decimal needs --digits"),
+    (f"motion {BODY} --omega2 1 --times 1 --grid 0 1 5", "not both"),
+    *((f"motion {BODY} --omega2 1 --grid 0 1 {count}", f"from 1 to 1000000, not {count}.")
+      for count in ("0", "-1", "1.5", "1000001")),
+    (f"motion {BODY} --omega2 1e400", "'1e400' is beyond the largest float"),
+    (f"motion {BODY} --omega2 {'9' * 310}/1", "is beyond the largest float"),
+    (f"motion {BODY} --omega2 1e12345", "an exponent of more than four digits"),
+    (f"motion {BODY} --omega2 {'1' * 5000}", "has 5000 characters; a number has at most"),
+    (f"motion {BODY} --omega2 1/0", "is not a finite number"),
+    ("motion --inertia 1 2 3 --field 1 2 --omega2 1", "that of atlas asymmetric"),
+    (f"{TOP} --inertia 1 1 --mass 1", "--mass goes with --heavy or --magnetic"),
+    (f"{TOP}", "--inertia is missing"),
+    ("top --inertia 1 1 --omega 1 2 3", "--direction is missing"),
+    (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --decimal --digits 30", "--decimal goes with"),
+    (f"{TOP} --inertia 1 1 --heavy 1 1 --magnetic 1 2", "not of both"),
+    *((f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --{one}", f"--{one.split()[0]} has no place")
+      for one in ("coupling 0 1", "linear 1", "quadratic 1")),
+    ("top --inertia 1 1 --magnetic 1 2 --charged 1 1 --direction 1 2 --omega 1 2 3", "--direction has no place"),
+    (f"{TOP} --heavy 1 1 --mass 1", "found none"),
+    (f"{TOP} --heavy 1 1 --mass 1 --inertia 1 1 --shape ring", "found --inertia and --shape"),
+    ("top --inertia 1 1 --magnetic 1 2 --omega 1 2 3", "the charge is one of"),
+    ("top --inertia 1 1 --magnetic 1 2 --charged 1 1 --coat ring --omega 1 2 3", "found --charged and --coat"),
+    ("top --points {place}/plain.csv --magnetic 1 2 --omega 1 2 3", "the columns x, y, z, mass, charge; it has x,"),
+    (f"{TOP} --inertia 1 1 --heavy 1 1", "--heavy needs --mass"),
+    ("top --inertia 1 1 --heavy 1 1 --mass 1 --omega 1 2 3", "--heavy needs --direction"),
+    ("top --shape ring --radius 1 --magnetic 1 2 --charged 1 1 --omega 1 2 3", "--shape needs --mass"),
+    ("top --inertia 1 1 --magnetic 1 2 --coat ring --radius 1 --omega 1 2 3", "--coat needs --charge"),
+    (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --charged 1 1", "--charged goes with --magnetic, not with --heavy"),
+    ("monodromy --inertia 1 0.5 --linear 1e-310 --M3 0", "choose another unit of time"),
+    *((f"animate motion --over {text} --out {{place}}/a.mp4", "--over takes KEY=FROM:TO:COUNT")
+      for text in ("omega2=0:2", "omega2=0:2:x", "omega2=0:2:3:4")),
+    *(
+        (f"animate motion --over {text} --out {{place}}/new", "from a list to one as long")
+        for text in ("field=1,2:3:4", "field=1,2:1,2,3:4", "ratio=x:1:2")
+    ),
+    ("monodromy --inertia 1 0.5 --linear 1e308 --M3 0", "choose another unit of time"),
+    ("figure cone --set field=0,1 --out {place}/new", "cone"),
+    ("verify 72 --record", "name none"),
+    ("verify --all", "--all is about --mutants"),
+    ("verify --mutants --record", "give --all too"),
+    ("bench --read {place}/ratios.csv --quick", "nothing but --json"),
+    ("check {place}/none.csv", "none.csv"),
+    ("check {place}/sub", "sub"),
+    (f"{SWEEP} --list {{place}}/bytes.csv", "not UTF-8: byte 0xff"),
+    (f"{SWEEP} --list {{place}}/nul.csv", "cannot be read as CSV: field larger"),
+    (f"{SWEEP} --list {{place}}/twice.csv", "a heading of different names"),
+    (f"{SWEEP} --list {{place}}/bare.csv", "at least one row"),
+    (f"{SWEEP} --list {{place}}/short.csv", "line 5 has 1 cells, but the heading 2"),
+    (f"{SWEEP} --list {{place}}/word.csv", "line 4: 'two' under x is not a number"),
+    *((f"sweep --file {{place}}/bad.toml --{one}", "with --file only --out and --jobs")
+      for one in ("quantity k", "set ratio=1", "digits 5", "rows 3", "ratio 1", "list {place}/ratios.csv")),
+    ("sweep elementary --file {place}/bad.toml", "with --file only --out and --jobs"),
+    ("sweep --quantity k --out {place}/out.csv", "name the family to sweep"),
+    ("sweep elementary --quantity k --set ratio=1", "--out says which file"),
+    ("sweep --file {place}/none.csv", "none.csv"),
+    ("sweep --file {place}/sub", "sub"),
+    ("sweep --file {place}/bad.toml", "bad.toml: "),
+    ("sweep --file {place}/deep.toml", "nested too deeply"),
+    ("sweep --file {place}/nul.toml", "is no name of a file"),
+    ("sweep --file {place}/none.toml", "'' is no name of a file"),
+    (f"{SWEEP} --set ratio=1 --set ratio=2", "ratio is given 2 times, by --set:"),
+    (f"{SWEEP} --list {{place}}/ratios.csv --set ratio=2", "ratios.csv and elsewhere: give it once"),
+    (f"{SWEEP} --ratio 1 --set ratio=2", "by --set and the options of body and field"),
+    *((f"{SWEEP} --set {text}", "--set takes NAME=VALUES") for text in ("ratio", "=1", "ratio=")),
+    *((f"{SWEEP} --set ratio={text}", "are START:STOP:COUNT")
+      for text in ("1:2", "1:2:x", "1:2:3:lin", "1:2:3:log:4", "1:2:²")),
+    *((f"{SWEEP} --set ratio={text}:3:log", "ends of one sign") for text in ("0:1", "-1:1", "1:0")),
+    *((f"{SWEEP} --set ratio=1:2:{text}", f"has at most 10000000 values, not {text}")
+      for text in ("10000001", "999999999999999999999")),
+    ("figure", "name the figures, or say --all"),
+    ("figure loop --all", "name the figures, or say --all"),
+    ("figure {place}/one.py {place}/sub/one.py", "have the same name"),
+    ("figure loop --set field", "--set takes KEY=VALUE"),
+    ("report atlas --out {place}/ratios.csv/new", "ratios.csv' is a file"),
+]  # fmt: skip
+ELSEWHERE = (
+    "cannot be read: {error.strerror}",
+    "is not installed",
+    "was changed since it was made",
+    "is not TOML",
+    "its folder is read-only",
+    "no JSON for",
+    "raise error",
+    "raise ValueError(text)",
+)
+"""What no words alone bring about."""
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Path:
+    """Return a folder with files that are wrong, each in its way."""
+    (tmp_path / "sub").mkdir()
+    for name, text in FILES.items():
+        (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+    return tmp_path
+
+
+def told(words: list[str]) -> tuple[str, set[tuple[str, int]]]:
+    """Return what the command line says to words that it refuses, and the lines of code that were on the way."""
+    with pytest.raises((click.ClickException, AtlasError)) as caught:
+        command.main(words, prog_name="atlas", standalone_mode=False)
+    passed = {(Path(one.path).name, one.lineno + 1) for one in caught.traceback}
+    error = caught.value
+    return error.format_message() if isinstance(error, click.ClickException) else str(error), passed
+
+
+def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -> None:
+    """Of every statement that raises in atlas/cli, and each call of `fail`, a case stands above."""
+    reached = set()
+    for text, says in CASES:
+        message, passed = told(text.format(place=place).split())
+        assert says in message, text
+        assert "\n" not in message, text
+        reached |= passed
+    folder = Path(cli.__file__).parent
+    for path in folder.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            fails = isinstance(node, ast.Expr) and re.match(r"self\.fail\(", ast.unparse(node))
+            if ((isinstance(node, ast.Raise) and node.exc is not None) or fails) and path.name not in ELSEWHERE:
+                lines = range(node.lineno, (node.end_lineno or node.lineno) + 1)
+                found = any((path.name, line) in reached for line in lines)
+                elsewhere = any(words in ast.unparse(node) for words in ELSEWHERE)
+                assert found or elsewhere, f"{path.name}:{node.lineno}"
