@@ -41,8 +41,10 @@ def scene(
     tops = list(zip(ratios, b * (count // len(b)), linear * (count // len(linear)), strict=True))
     if not all(field >= 0 and (field or weight) for _, field, weight in tops):
         raise DomainError(f"figure energy_momentum needs b > 0, or b = 0 and a weight linear, not {b} and {linear}.")
-    panels = tuple(panel("abc"[k], *top, M3, reach, unit) for k, top in enumerate(tops))
-    same = f"$b={tex(b[0])}$" if len(b) == 1 else "the fields and weights above"
+    alike = len(b) == 1 and not any(linear)
+    called = [name(*top, alike=alike) for top in tops]
+    panels = tuple(panel(f"({'abc'[k]}) {called[k]}", *top, M3, reach, unit) for k, top in enumerate(tops))
+    same = f", $b={tex(b[0])}$" if alike else ""
     there = {getattr(layer, "role", "") for one in panels for layer in one.layers}
     rest = "stable (solid) or unstable (dashed)" if "unstable_line" in there else "all stable (solid)"
     kinds = {"start": "stable (dots)", "special": "of focus-focus type (diamonds)"}
@@ -50,8 +52,8 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Critical values of the energy $2H$ over the momentum $p$, at $M_3={tex(M3)}$ and {same}, for "
-            rf"{listed([name(*top) for top in tops])}: steady precessions with their rate $w$ in Larmor's frame, "
+            rf"Critical values of the energy $2H$ over the momentum $p$, at $M_3={tex(M3)}${same}, for "
+            rf"{listed(called)}: steady precessions with their rate $w$ in Larmor's frame, "
             rf"{rest}, and spins along the field or the vertical, {spins}."
             + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in there else "")
         ),
@@ -76,12 +78,12 @@ def scene(
     )
 
 
-def name(I: float, b: float, linear: float) -> str:
-    """Return what a top is called."""
-    return f"$I={tex(I)}$" + (f", $b={tex(b)}$, $a_0={tex(linear)}$" if linear else "")
+def name(I: float, b: float, linear: float, *, alike: bool) -> str:
+    """Return what a top is called: by I alone where field and weight are the same for all."""
+    return f"$I={tex(I)}$" + ("" if alike else f", $b={tex(b)}$, $a_0={tex(linear)}$")
 
 
-def panel(letter: str, I: float, b: float, linear: float, M3: float, reach: float, unit: str) -> Plane:
+def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float, unit: str) -> Plane:
     """Return the curves of one top."""
     scale = max(b, abs(linear) ** 0.5)
     wells, rest = Wells(M3, (I - 1.0) * b * b, linear), M3 * M3 / I + b * b
@@ -108,7 +110,7 @@ def panel(letter: str, I: float, b: float, linear: float, M3: float, reach: floa
         rf"$2H$ (1/{unit}$^2$)",
         (-reach * scale, reach * scale),
         (low - pad, high + pad),
-        title=f"({letter}) {name(I, b, linear)}",
+        title=name,
     )
 
 

@@ -80,7 +80,7 @@ def plane(z: FloatArray, found: FloatArray) -> Plane:
     layers: list[Layer] = [Curve(np.array([[z[0], 0.0], [z[-1], 0.0]]), "guide")]
     layers += [Curve(np.column_stack([z, sign * found[:, k]]), role, name) for role, name, k, sign in lines]
     limits = float(z[0]), float(z[-1])
-    return Plane(tuple(layers), "$z$", r"turns about $\mathbf{B}$", limits, title="(a)", legend=True)
+    return Plane(tuple(layers), "$z$", r"turns about $\mathbf{B}$", limits, title="(a) in one period", legend=True)
 
 
 def sphere(inertia: Any, field: Any, branch: float, shown: tuple[float, ...]) -> Space:
@@ -93,4 +93,4 @@ def sphere(inertia: Any, field: Any, branch: float, shown: tuple[float, ...]) ->
         layers.append(Curve(K / np.linalg.norm(K[0]), role))
     layers += [Arrow(axis, 1.35 * axis, "body_axis", rf"$\mathbf{{e}}_{n}$") for n, axis in enumerate(np.eye(3), 1)]
     layers += [Points(start[None], "start"), Label(start, r"$\hat{\mathbf{B}}$", "label", (6, -4))]
-    return Space(tuple(layers), 40.0, 20.0, title="(b)")
+    return Space(tuple(layers), 40.0, 20.0, title=r"(b) $\hat{\mathbf{K}}$ in the body")

@@ -50,13 +50,14 @@ def scene(
 
         return path
 
+    periods = "one period" if nutations == 1.0 else f"{plain(nutations)} periods"
     frames = (("(a) laboratory", in_laboratory), (r"(b) Larmor's frame", in_larmor_frame))
     return Scene(
         title=title(__doc__),
         caption=(
             rf"The third axis of {tex_setting(ratio, field)} after two launches, "
             rf"$\boldsymbol{{\omega}}=({', '.join(map(tex, omega))})$ (heavy) and "
-            rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {plain(nutations)} periods of the nutation from "
+            rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {periods} of the nutation from "
             r"one attitude (dot), $\mathbf{B}$ upright. (a) Laboratory. (b) Larmor's frame: the light line goes on "
             "where the heavy one came from."
         ),

@@ -52,8 +52,8 @@ def scene(
         caption=(
             r"The amplitude of the nutation over the initial angular velocity $(0,\omega_2,\omega_3)$, "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$: zero on the hyperbola (white) alone. Open dot: rest; "
-            r"diamond: $-2\mathbf{B}'$. Between the dotted lines the axis draws loops, outside waves. For a long "
-            "solenoid the map jumps at the separatrices."
+            r"diamond: $-2\mathbf{B}'$. In the wedges with a dotted edge the axis draws loops, elsewhere, and all "
+            "along the hyperbola, waves. For a long solenoid the map jumps at the separatrices."
         ),
         alt=(
             f"Maps of the amplitude of nutation for I = {listed([f'{I:g}' for I in ratios])} over omega 2 and omega 3, "

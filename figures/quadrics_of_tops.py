@@ -89,7 +89,10 @@ def kinds(ratio: float, places: np.ndarray) -> Plane:
         Curve(np.array([[-wide, 0.0], [wide, 0.0]]), "guide"),
         Curve(border, "main"),
         Points(places, "start"),
-        *(Label(place, f"{number}", "label", (5.0, 5.0)) for number, place in enumerate(places, 1)),
+        *(
+            Label(place, f"{number}", "label", (-5.0 if place[0] < 0 else 5.0, 5.0))
+            for number, place in enumerate(places, 1)
+        ),
         Label(np.array([-0.72 * wide, 0.5 * high]), "one sheet", "note", (0.0, 0.0)),
         Label(np.array([0.72 * wide, 0.5 * high]), "two sheets", "note", (0.0, 0.0)),
     ]

@@ -78,6 +78,17 @@ def test_the_kinds_of_spins_are_those_of_their_eigenvalues(c: float) -> None:
         assert spin.kind == ("stable" if not len(grows) else "focus-focus" if both else "saddle")
 
 
+@pytest.mark.parametrize("body", [BODY, np.array([1.0, 1.3, 2.1]), np.array([2.0, 0.6, 2.3])])
+def test_the_spin_about_the_largest_moment_is_a_focus_between_two_momenta(body: FloatArray) -> None:
+    """Between p- and p+, b |sqrt(I2 (I3 - I1)) -+ sqrt(I1 (I3 - I2))|, as the atlas says; p+ is below I3 b."""
+    b, (I1, I2, I3) = 0.7, body
+    low, high = (b * abs(np.sqrt(I2 * (I3 - I1)) + sign * np.sqrt(I1 * (I3 - I2))) for sign in (-1.0, 1.0))
+    assert high < I3 * b
+    places = (0.99 * low, 1.01 * low, 0.99 * high, 1.01 * high)
+    kinds = [{spin.axis: spin.kind for spin in Bifurcation(body, b, p * b).spins}[2] for p in places]
+    assert kinds == ["saddle", "focus-focus", "focus-focus", "stable"]
+
+
 def test_no_motion_of_the_unbounded_oval_is_unstable_but_on_a_separatrix() -> None:
     """Of 400 draws, exactly; so is theorem-splitting's other case, s > 0 on the bounded oval."""
     random, tried, kept = Random(4), set(), 0  # noqa: S311  draws, not secrets

@@ -232,7 +232,7 @@ def test_the_cells_of_diamagnetism() -> None:
 
 
 def test_the_cells_of_bodies_that_could_exist() -> None:
-    """Charge, elementary charges, mu, b, its period and the angle between m and B, to two digits."""
+    """Charge, elementary charges, mu, b, its period, the angle between m and B, and J b^2/k_B, to two digits."""
     surface, density, magnet, eps0 = 1e9, 2500.0, 10.0, 8.8541878188e-12
     more = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
     rows = []
@@ -242,7 +242,8 @@ def test_the_cells_of_bodies_that_could_exist() -> None:
         one = closed_form.elementary(1, 1.5, 1, 2, 2 * mp.pi / (b / mp.sqrt(5)) / mp.sqrt(5))
         m, B = (one.omega2, mpf("1.5") * one.omega3), (1, 2)
         angle = abs(mp.atan2(m[0] * B[1] - m[1] * B[0], m[0] * B[0] + m[1] * B[1]))
-        rows.append((r, charge, charge / 1.602176634e-19, mu, b, 2 * mp.pi / b, angle))
+        heat = 8 * mp.pi * density * mpf(r) ** 5 / 15 * b * b / 1.380649e-23
+        rows.append((r, charge, charge / 1.602176634e-19, mu, b, 2 * mp.pi / b, angle, heat))
     holds(compute("sizes", Request((), more, 2)), *rows)
 
 

@@ -4,7 +4,7 @@ from math import atan2, hypot, pi
 
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.laboratory import damping_of_flight, greatest_charge, greatest_ratio, magnetic_power, quadrupole_power
-from atlas.core.unit_systems import ELEMENTARY_CHARGE, cyclotron_frequency
+from atlas.core.unit_systems import BOLTZMANN, ELEMENTARY_CHARGE, cyclotron_frequency
 from atlas.errors import AtlasError
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
@@ -32,7 +32,8 @@ def sizes(request: Request) -> Data:
         e, mu = greatest_charge(r, asked.surface_field), greatest_ratio(r, asked.density, asked.surface_field)
         b = cyclotron_frequency(mu, asked.magnet) / 2
         values = (r, e, e / ELEMENTARY_CHARGE, mu, b, 2 * pi / b)
-        rows.append((*(two(value) for value in values), two(off_the_field(b))))
+        warmth = moment_of_inertia(e / mu, r) * b * b / BOLTZMANN
+        rows.append((*(two(value) for value in (*values, off_the_field(b), warmth)),))
     return Data(
         (
             Column("$r$", "m"),
@@ -42,13 +43,14 @@ def sizes(request: Request) -> Data:
             Column("$b$", RATE),
             Column(r"$2\pi/b$", "s"),
             Column(r"$\delta$", "rad"),
+            Column(r"$I_2b^2/k_{\mathrm{B}}$", "K"),
         ),
         tuple(rows),
         f"Balls of {asked.density:g} kg m$^{{-3}}$ with the largest charge $e$ that a surface field of "
-        f"{two(asked.surface_field).tex()} V m$^{{-1}}$ allows, in {asked.magnet:g} T: number of elementary charges "
-        r"$e_0$, charge-to-mass ratio, Larmor's frequency and its period; and the angle $\delta$ between $\mathbf{m}$ "
-        r"and $\mathbf{B}$ in the elementary motion with $k=2\pi$ s$^{-1}$ of a body that is as large and as charged, "
-        f"but has $I={RATIO:g}$, for $\\tau={TILT:g}$.",
+        f"{two(asked.surface_field).tex()} V m$^{{-1}}$ allows, in {asked.magnet:g} T: charge, charge-to-mass ratio, "
+        r"Larmor's frequency and its period; the angle $\delta$ between $\mathbf{m}$ and $\mathbf{B}$ for "
+        f"$k=2\\pi$ s$^{{-1}}$, $I={RATIO:g}$, $\\tau={TILT:g}$ at this size and charge; and the temperature whose "
+        "heat turns the ball with $b$.",
         ("Two digits: the shape of a body changes the first.",),
     )
 
@@ -61,7 +63,7 @@ def radiation(request: Request) -> Data:
         mu = greatest_ratio(r, asked.density, asked.surface_field)
         mass = greatest_charge(r, asked.surface_field) / mu
         larmor = cyclotron_frequency(mu, asked.magnet) / 2
-        inertia = 0.4 * mass * r * r
+        inertia = moment_of_inertia(mass, r)
         energy = inertia * larmor * larmor / 2
         times = (
             1 / damping_of_flight(mu, mass, 2 * larmor),
@@ -83,6 +85,11 @@ def radiation(request: Request) -> Data:
         "angle off it.",
         ("Two digits.", "Energy over power at the start, with the formulas of the text."),
     )
+
+
+def moment_of_inertia(mass: float, radius: float) -> float:
+    """Moment of inertia of a ball."""
+    return 0.4 * mass * radius * radius
 
 
 def off_the_field(b: float) -> float:
