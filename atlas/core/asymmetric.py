@@ -32,7 +32,7 @@ KEPT = 16
 """Motions that are kept with what was found of them."""
 
 CHECKED = (5.3, -61.7, 2.9e5, -8.1e11)
-"""Times, over the largest rate, at which a closed form is held against the certified twin."""
+"""Times, over the largest rate, at which a closed form is held against the certified twin; the last if it is proved."""
 
 WORST = 1e-14
 """Largest difference from it."""
@@ -51,15 +51,19 @@ class SingleAsymmetric:
         """The closed form if there is one, and what is known of its truth, or why there is none."""
         try:
             closed = closed_form(self.exact, self.size)
-            worst = max(self._difference(closed, t / self.size) for t in CHECKED)
+            times = CHECKED if closed.proved is None else CHECKED[-1:]
+            worst = max(self._difference(closed, t / self.size) for t in times)
         except NotCertifiedError as reason:
             return None, f"certified at each time: {str(reason).removeprefix('not certified: ')}"
         if not worst <= min(closed.accuracy, WORST):
             return None, f"certified at each time: theta functions differ from the certified twin by {worst:.1e}."
-        return closed, (
-            f"agrees with the certified twin within {worst:.1e} at {len(CHECKED)} times up to |t| = "
-            f"{max(map(abs, CHECKED)) / self.size:.3g}; rounding adds {closed.accuracy:.1e} at most"
+        known = (
+            f"not proved; agrees with the certified twin within {worst:.1e} at {len(times)} times up to |t| = "
+            f"{max(map(abs, times)) / self.size:.3g}"
+            if closed.proved is None
+            else f"proved for this motion, at all times within {closed.proved:.1e}"
         )
+        return closed, f"{known}; rounding adds {closed.accuracy:.1e} at most"
 
     def _difference(self, closed: ThetaKernel, t: float) -> float:
         """Return how far the closed form is from the certified twin at a time."""
@@ -195,12 +199,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
       states.
 
     On a torus M, K and the attitude are quotients of theta functions of two variables: a second for the first time that
-    is asked for, then a microsecond each, however long. That they are is not proved yet: `agreement` says at how many
-    times the closed form was held against the certified twin, and `accuracy` bounds what rounding adds. Where there is
-    no closed form, or it does not agree, and for other kinds, every value is proved and rounded once, in tenths of a
-    second each. For proven digits see `atlas.exact`. Raises DomainError for moments that no body has, positive and the
-    largest at most the sum of the others; NotCertifiedError, an AtlasError, for what cannot be proved; AtlasError for
-    what is no finite number.
+    is asked for, then a microsecond each, however long. That they are is proved for each motion, see
+    `atlas.exact.clebsch_proof`; where no proof is found they are held against the certified twin at a few times.
+    `agreement` says which, and `accuracy` bounds what rounding adds. Where there is no closed form, or it differs, and
+    for other kinds, every value is proved and rounded once, in tenths of a second each. For proven digits see
+    `atlas.exact`. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
+    others; NotCertifiedError, an AtlasError, for what cannot be proved; AtlasError for what is no finite number.
     """
 
     family = "asymmetric"

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from flint import acb, arb
+from flint import arb
 
 from atlas.core.arithmetic.grid import HUGE
 from atlas.core.arithmetic.phase import EVEN, Phases
@@ -22,8 +22,9 @@ from atlas.core.nutation.grid import moments
 from atlas.errors import AtlasError, NotCertifiedError
 from atlas.exact.asymmetric import AsymmetricMotion
 from atlas.exact.clebsch_periods import complex_of
+from atlas.exact.clebsch_proof import bounds
 from atlas.exact.clebsch_theta import ThetaMotion, frame
-from atlas.exact.theta_sums import Array, Form, Sums
+from atlas.exact.theta_sums import Array, Sums
 from atlas.exact.torus import Period
 from atlas.formulas.numbers import workprec
 
@@ -42,12 +43,18 @@ BITS = 200
 PERIODS = 128
 """Bits to which the real periods are proved: those that the certified twin needs, too."""
 
+PROVED = 2.0**-54
+"""Largest bound on errors of the formulas that is a proof of them."""
+
 LOST = 2e-13
 """Largest bound on rounding errors: those that are seen are some twenty times smaller."""
 
 
 class ThetaKernel:
-    """R, K and W = II^-1 M of one motion at many times; `periods` are those of its torus, `rate` the unit 1/time."""
+    """R, K and W = II^-1 M of one motion at many times; `periods` are those of its torus, `rate` the unit 1/time.
+
+    `proved` bounds what its formulas, without rounding, are wrong by at any time; None where there is no proof.
+    """
 
     def __init__(self, theta: ThetaMotion, periods: tuple[Period, Period], rate: float, size: float) -> None:
         with workprec(BITS):
@@ -68,15 +75,11 @@ class ThetaKernel:
             self.into: Array = np.array([[complex_of(2 * into[0][k]), complex_of(into[1][k])] for k in range(2)]).T
             self.turning = np.array([complex_of(x - a) for x, a in zip(lines, angles, strict=True)]) / np.pi
             start = (2 * theta.start[0], theta.start[1])
-            factor = (acb(0, 1) * (theta.l[0] * theta.start[0] + theta.l[1] * theta.start[1])).exp()
-            shift = (2 * theta.w[0], theta.w[1])
-            N = [Form(x.place, (x.weights[0] * factor, x.weights[1] * factor), shift) for x in theta.N]
-            unit = [1 / I for I in motion.moments]
-            W = [Form(x.place, (x.weights[0] * u, x.weights[1] * u)) for x, u in zip(theta.M, unit, strict=True)]
+            *forms, M1, M2, M3 = theta.forms
+            W = [x.over(I) for x, I in zip((M1, M2, M3), motion.moments, strict=True)]
             line = np.linspace(-np.pi / 2, np.pi / 2, CELL + 1)
             cell = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
-            forms = [*N, theta.denominator, *theta.K, *W]
-            self.sums = Sums(theta.hat, forms, start, self.into @ cell)
+            self.sums = Sums(theta.hat, [*forms, *W], start, self.into @ cell)
             ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
             n = [float((x / self.b).mid()) for x in theta.field]
         self.rate, self.size = rate, size / rate
@@ -84,6 +87,7 @@ class ThetaKernel:
         along = np.array([np.outer(n, np.eye(3)[j]).ravel() for j in range(3)]) / float(self.b.mid())
         self.entries = np.concatenate([self.entries, along])
         self.accuracy = self._accuracy(cell)
+        self.proved: float | None = None
         self.riemann_matrix = np.array([[complex_of(theta.tau[i, j]) for j in range(2)] for i in range(2)])
 
     def _accuracy(self, cell: FloatArray) -> float:
@@ -99,6 +103,15 @@ class ThetaKernel:
         attitude = np.hypot(wrong[:3] * turning, wrong[4:7] / b).max(axis=0)  # e_x, e_y and B' are orthogonal
         vectors = (wrong[4:7] + wrong[7:10]).max(axis=0) / size
         return float(np.maximum(attitude + 8, vectors).max()) * 2.0**-53
+
+    def prove(self, theta: ThetaMotion, periods: tuple[Period, Period]) -> None:
+        """Prove the closed form for this motion, if that can be done: see `atlas.exact.clebsch_proof`."""
+        try:
+            wrong = bounds(theta, periods)
+        except NotCertifiedError:
+            return
+        error = max(wrong.N + wrong.K / float(self.b.mid()), (wrong.K + wrong.W) / self.size)
+        self.proved = error if error <= PROVED else None
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
@@ -167,12 +180,13 @@ def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
         raise NotCertifiedError(f"not certified: the kind of motion is {exact.kind!r}, not 'on a torus'.")
     torus = motion.torus
     try:
-        theta = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
-        found = ThetaKernel(theta, torus.periods(PERIODS), int(motion.rate.p) / int(motion.rate.q), size)
+        theta, periods = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice), torus.periods(PERIODS)
+        found = ThetaKernel(theta, periods, int(motion.rate.p) / int(motion.rate.q), size)
     except NotCertifiedError:
         raise
     except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:  # infinite, or not a number, or singular
         raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
     if not found.accuracy <= LOST:
         raise NotCertifiedError(f"not certified: rounding would be wrong by up to {found.accuracy:.1e} in its sums.")
+    found.prove(theta, periods)
     return found

@@ -8,7 +8,7 @@ With zeta = X^-1 (t, g), t and g the times of the flows of H and F/2 from an ori
 e_x, e_y and B' being a right-handed system and the argument (2 zeta_1, zeta_2) with [[2 tau11, tau12], [tau12,
 tau22/2]]: one pair of characteristics for the denominator and one for each axis. Origins are algebraic; the constants
 follow by a linear fit to Taylor's series there, and the place of the start by Newton's method. That the functions are
-of that form rests on a count of dimensions, not on a proof: see `agreement` of `atlas.core.asymmetric`.
+of that form rests on a count of dimensions; that they are the motion at hand is proved by `atlas.exact.clebsch_proof`.
 """
 
 from collections.abc import Sequence
@@ -147,6 +147,14 @@ class ThetaMotion:
             self.start = self._place()
             self.l, self.w = self._quasi_periods()
             self.N = self._turned()
+
+    @property
+    def forms(self) -> list[Form]:
+        """N, the denominator, K and M as forms of (2 zeta_1, zeta_2); N but for a turn, which is 1 at the start."""
+        factor = (acb(0, 1) * dot(self.l, self.start)).exp()
+        shift = 2 * self.w[0], self.w[1]
+        N = [Form(x.place, (x.weights[0] * factor, x.weights[1] * factor), shift) for x in self.N]
+        return [*N, self.denominator, *self.K, *self.M]
 
     def zeta(self, T: Sequence[acb]) -> Vector:
         """Return X^-1 T."""

@@ -8,9 +8,10 @@ Several of them share their powers of exp(i pi v_1) and exp(i pi v_2): a matrix 
 over P. Only quotients are wanted, so that one exponential may be left out of all of them.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from itertools import product
+from typing import Any, TypeAlias
 
 import numpy as np
 from flint import acb, acb_mat, arb
@@ -48,6 +49,24 @@ class Form:
         (n0, n1), (first, second) = self.weights, pairs[self.place]
         return n0 * first + n1 * second
 
+    def over(self, x: Any) -> "Form":
+        """Return the form over a number."""
+        n0, n1 = self.weights
+        return Form(self.place, (n0 / x, n1 / x), self.shift)
+
+    def terms(
+        self, hat: acb_mat, origin: Sequence[acb], places: Iterable[tuple[int, int]]
+    ) -> Iterator[tuple[int, int, acb]]:
+        """Return P, Q and the weight of exp(i pi (P u_1 + Q u_2)) at v = origin + u, at places (P, Q)."""
+        e, d = CHARACTERISTICS[self.place]
+        v = [x - y for x, y in zip(origin, self.shift, strict=True)]
+        for P, Q in places:
+            if (Q - e) % 2 == 0:
+                x, y = arb(P) / 2, arb(Q) / 2
+                square = hat[0, 0] * x * x + 2 * hat[0, 1] * x * y + hat[1, 1] * y * y
+                exponent = acb(0, 1) * arb.pi() * (square + 2 * (x * v[0] + y * v[1]) + y * d)
+                yield P, Q, self.weights[P % 2] * exponent.exp()
+
 
 class Sums:
     """Forms at v = origin + x/pi, as functions of x (2, m) in doubles, over a common exponential.
@@ -56,25 +75,15 @@ class Sums:
     """
 
     def __init__(self, hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array) -> None:
-        entries = np.array([[complex_of(hat[i, j]) for j in range(2)] for i in range(2)])
-        shifts = np.array([[complex_of(x) for x in form.shift] for form in forms])
-        v0 = np.array([complex_of(x) for x in origin])
-        away = (v0[:, None] + region / np.pi).imag[None] - shifts.imag[:, :, None]
-        places = _needed(entries, away)
+        places = needed(hat, forms, origin, region, LEFT_OUT)
         self.low, self.high = places.min(axis=0), places.max(axis=0)
         self.centre = np.round((self.low + self.high) / 2).astype(int)
         self.table = np.zeros((len(forms), *(self.high - self.low + 1)), complex)
+        rows, columns = (range(int(a), int(b) + 1) for a, b in zip(self.low, self.high, strict=True))
+        box = list(product(rows, columns))
         for f, form in enumerate(forms):
-            e, d = CHARACTERISTICS[form.place]
-            v = [x - y for x, y in zip(origin, form.shift, strict=True)]
-            for P in range(int(self.low[0]), int(self.high[0]) + 1):
-                for Q in range(int(self.low[1]), int(self.high[1]) + 1):
-                    if (Q - e) % 2 == 0:
-                        x, y = arb(P) / 2, arb(Q) / 2
-                        square = hat[0, 0] * x * x + 2 * hat[0, 1] * x * y + hat[1, 1] * y * y
-                        exponent = acb(0, 1) * arb.pi() * (square + 2 * (x * v[0] + y * v[1]) + y * d)
-                        weight = form.weights[P % 2] * exponent.exp()
-                        self.table[f, P - self.low[0], Q - self.low[1]] = complex_of(weight)
+            for P, Q, weight in form.terms(hat, origin, box):
+                self.table[f, P - self.low[0], Q - self.low[1]] = complex_of(weight)
 
     def at(self, x: Array, rest: Array | None = None, part: slice = ALL) -> Array:
         """Return the forms at places x + rest (2, m), the rest being tiny: shape (forms, m)."""
@@ -125,10 +134,18 @@ class Sums:
         return found
 
 
-def _needed(hat: Array, away: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the places (P, Q) of terms that matter where Im v is `away`, (forms, 2, m)."""
-    Y = hat.imag
-    reach = int(np.ceil(2 * np.sqrt(LEFT_OUT / np.pi / np.linalg.eigvalsh(Y)[0]))) + 1
+def needed(
+    hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array, left_out: float
+) -> NDArray[np.int64]:
+    """Return the places (P, Q) of terms that matter at v = origin + x/pi, x (2, m) in a region.
+
+    `left_out` is the logarithm of what the others are smaller by than the largest.
+    """
+    Y = np.array([[complex_of(hat[i, j]).imag for j in range(2)] for i in range(2)])
+    shifts = np.array([[complex_of(x) for x in form.shift] for form in forms])
+    v0 = np.array([complex_of(x) for x in origin])
+    away = (v0[:, None] + region / np.pi).imag[None] - shifts.imag[:, :, None]
+    reach = int(np.ceil(2 * np.sqrt(left_out / np.pi / np.linalg.eigvalsh(Y)[0]))) + 1
     peaks = -2 * np.einsum("ij,fjm->fim", np.linalg.inv(Y), away)  # where terms are largest
     low, high = (
         np.floor(peaks.min(axis=(0, 2))).astype(int) - reach,
@@ -141,5 +158,5 @@ def _needed(hat: Array, away: NDArray[np.float64]) -> NDArray[np.int64]:
     kept = np.zeros(len(grid), bool)
     for peak in np.unique(np.round(flat, 1), axis=0):
         far = grid - peak
-        kept |= np.pi / 4 * np.einsum("ni,ij,nj->n", far, Y, far) < LEFT_OUT
+        kept |= np.pi / 4 * np.einsum("ni,ij,nj->n", far, Y, far) < left_out
     return np.asarray(grid[kept])

@@ -1,5 +1,6 @@
 """The closed form of bodies with three moments: against the certified twin, and the laws that it obeys."""
 
+import re
 from dataclasses import replace
 from functools import cache
 from itertools import product
@@ -193,10 +194,9 @@ def test_a_slip_is_noticed_and_the_certified_twin_answers(
 
 
 def test_a_motion_says_what_is_known_of_it() -> None:
-    """`agreement` names the difference from the twin at four times; at t = 0 all is exact; times have an end."""
+    """`agreement` says that it is proved; at t = 0 all is exact; times have an end."""
     one = motion()
-    assert "agrees with the certified twin within" in one.agreement
-    assert "at 4 times up to |t| = 6.48e+11" in one.agreement
+    assert re.match(r"proved for this motion, at all times within \d\.\de-4\d; rounding adds ", one.agreement)
     assert one.accuracy < 1e-13
     assert one.frequencies.shape == (3,)
     assert one.riemann_matrix.shape == (2, 2)
@@ -210,6 +210,18 @@ def test_a_motion_says_what_is_known_of_it() -> None:
         one.rotation(1e17)
     with pytest.raises(atlas.AtlasError, match=r"^The grid from 0.0 by 1e\+16 .* 2\^50"):
         one.rotation_grid(0.0, 1e16, 3)
+
+
+def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where theta functions are not proved, `agreement` names the difference from the twin and the last time."""
+
+    def refuse(*_: Any) -> None:
+        raise atlas.NotCertifiedError("not certified: it might grow.")
+
+    monkeypatch.setattr(core, "bounds", refuse)
+    monkeypatch.setattr(kernels, "CHECKED", (5.3, -6.1))
+    one = SingleAsymmetric(motion()._turnings[0].exact)
+    assert re.match(r"not proved; agrees with .* within \S+ at 2 times up to \|t\| = 4.88; rounding", one.agreement)
 
 
 def test_three_moments_are_sent_to_their_command() -> None:
