@@ -14,11 +14,12 @@ from atlas.core.arithmetic.words import ZERO, exact
 from atlas.core.body import moments
 from atlas.core.inputs import FloatArray, plain, real
 from atlas.core.integrals import integrals, shape_factors
-from atlas.core.invariants import NAMES, invariants
+from atlas.core.invariants import invariants
 from atlas.core.motion import Motion, components
 from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.elementary import CASES, FREE, constants, free, quotient, scalars, turning
+from atlas.formulas.integrals import NAMES
 from atlas.formulas.numbers import direction, nearest, workprec
 
 

@@ -3,13 +3,13 @@
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
 from atlas.core.arithmetic.words import exact
 from atlas.core.inputs import FloatArray
 from atlas.formulas.hyperbola import ordinate
+from atlas.formulas.integrals import NAMES, along_field, integrals
 from atlas.formulas.numbers import nearest, rational
-
-NAMES = ("E'", "K^2", "c3", "c5", "(m,B')")
 
 
 def exact_invariants(I2: float, I3: float, B2: float, B3: float, omega2: float, omega3: float) -> tuple[float, ...]:
@@ -19,17 +19,9 @@ def exact_invariants(I2: float, I3: float, B2: float, B3: float, omega2: float, 
     cancel, as c3 does on the whole line (omega2 + B2)^2 = (1-I) B2^2, keep all their digits; inf beyond the floats.
     """
     i2, i3, b2, b3, w2 = exact(I2, I3, B2, B3, omega2)
-    I = i3 / i2
     w3 = ordinate(i2, i3, b2, b3, w2) if b2 != 0 and w2 + b2 != 0 else rational(float(omega3))
-    c3 = w3 + b3
-    found = (
-        w2 * w2 + I * w3 * w3,
-        b2 * b2 + b3 * b3,
-        c3,
-        w2 * b2 - w3 * w3 + (2 - I) * c3 * w3,
-        w2 * b2 + I * w3 * b3,
-    )
-    return tuple(map(nearest, found))
+    state = i3 / i2, (fmpq(0), w2, w3), (fmpq(0), b2, b3)
+    return tuple(map(nearest, (*integrals(*state), along_field(*state))))
 
 
 def invariants(shape: tuple[int, ...], *inputs: Any) -> FloatArray:

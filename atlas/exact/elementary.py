@@ -9,6 +9,7 @@ from atlas.exact.body import float_text, ratio_of
 from atlas.exact.hyperbola import Hyperbola
 from atlas.exact.inputs import Real, rational, rationals, sin_cos
 from atlas.formulas import elementary
+from atlas.formulas.integrals import NAMES, along_field, integrals
 from atlas.formulas.numbers import root
 
 
@@ -150,14 +151,8 @@ class ElementaryMotion:
     @property
     def invariants(self) -> dict[str, fmpq]:
         """The constants E', K^2, c3, c5 of (36) to (41) and (m, B')/I2 of (88)."""
-        w2, w3, B2, B3, I = self.omega2, self.omega3, self.B2, self.B3, self.I
-        return {
-            "E'": w2**2 + I * w3**2,
-            "K^2": B2**2 + B3**2,
-            "c3": w3 + B3,
-            "c5": w2 * B2 - w3**2 + (2 - I) * (w3 + B3) * w3,
-            "(m,B')": w2 * B2 + I * w3 * B3,
-        }
+        state = self.I, (fmpq(0), self.omega2, self.omega3), (fmpq(0), self.B2, self.B3)
+        return dict(zip(NAMES, (*integrals(*state), along_field(*state)), strict=True))
 
     def _precession(self, t: Any) -> list[list[Real]]:
         """Return R_axis(k t), the first factor of (85)."""

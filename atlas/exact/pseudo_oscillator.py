@@ -6,6 +6,7 @@ from flint import fmpq
 
 from atlas.exact.body import ratio_of
 from atlas.exact.inputs import rational, rationals
+from atlas.formulas import integrals as formulas
 
 
 class PseudoOscillator:
@@ -19,26 +20,13 @@ class PseudoOscillator:
     @property
     def integrals(self) -> dict[str, fmpq]:
         """The integrals E' (36), K^2 (37), c3 (40) and c5 (41)."""
-        w1, w2, w3 = self.omega
-        c3 = w3 + self.B3
-        return {
-            "E": w1**2 + w2**2 + self.I * w3**2,
-            "K2": self.B2**2 + self.B3**2,
-            "c3": c3,
-            "c5": w2 * self.B2 - w3**2 + (2 - self.I) * c3 * w3,
-        }
+        found = formulas.integrals(self.I, self.omega, (fmpq(0), self.B2, self.B3))
+        return dict(zip(("E", "K2", "c3", "c5"), found, strict=True))
 
     @property
-    def coefficients(self) -> tuple[fmpq, fmpq, fmpq, fmpq]:
-        """a0..a3 of (48), with ``I - (2-I)^2`` in a1 where the paper prints ``I - (2-1)^2``."""
-        I = self.I
-        E, b2, c3, c5 = self.integrals.values()
-        return (
-            ((2 - I) * c5 + E) * c3,
-            -2 * c5 + (I - (2 - I) ** 2) * c3**2 - E - I * b2,
-            6 * (1 - I) * c3,
-            -2 * (1 - I),
-        )
+    def coefficients(self) -> tuple[fmpq, ...]:
+        """a0..a3 of (48), with the slip in a1 put right."""
+        return formulas.cubic(self.I, *self.integrals.values())
 
     def acceleration(self, u: Any) -> fmpq:
         """Return the second derivative of Omega3 where Omega3 = u, (47)."""
@@ -49,18 +37,9 @@ class PseudoOscillator:
     @property
     def quartic_coefficients(self) -> tuple[fmpq, ...]:
         """Coefficients (q0, ..., q4) of `quartic`, its powers of u multiplied out."""
-        I = self.I
-        E, b2, c3, c5 = self.integrals.values()
-        return (
-            E * (b2 - c3**2) - c5**2,
-            2 * E * c3 + 2 * (2 - I) * c3 * c5,
-            -E - I * (b2 - c3**2) - (2 - I) ** 2 * c3**2 - 2 * c5,
-            2 * (1 - I) * c3 * 2,
-            I - 1,
-        )
+        return formulas.quartic(self.I, *self.integrals.values())
 
     def quartic(self, u: Any) -> fmpq:
         """Return (dOmega3/dt)^2 where Omega3 = u: the first integral of (47)."""
         u = rational(u, "Omega3")
-        E, b2, c3, c5 = self.integrals.values()
-        return (E - self.I * u**2) * (b2 - (c3 - u) ** 2) - (u**2 - (2 - self.I) * c3 * u + c5) ** 2
+        return sum((q * u**n for n, q in enumerate(self.quartic_coefficients)), fmpq(0))

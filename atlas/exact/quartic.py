@@ -14,6 +14,7 @@ from functools import cached_property
 from flint import acb, arb, ctx, fmpq, fmpq_poly
 
 from atlas.exact.euler import quartic_roots
+from atlas.formulas.integrals import along_field, integrals, quartic
 from atlas.formulas.numbers import root, workprec
 
 Vector = tuple[fmpq, fmpq, fmpq]
@@ -50,18 +51,14 @@ class Quartic:
     """
 
     def __init__(self, I: fmpq, Omega: Vector, K: Vector) -> None:
-        (w1, w2, w3), (K1, K2, K3) = Omega, K
+        (w1, w2, w3), (K1, K2, _) = Omega, K
         self.I, self.u, self.Omega, self.K = I, w3, Omega, K
-        self.c3 = w3 + K3
+        self.E, self.K2, self.c3, self.c5 = conserved = integrals(I, Omega, K)
         self.across = K1**2 + K2**2
-        self.K2 = self.across + K3**2
         self.along = w1 * K1 + w2 * K2
         self.rate = w1 * K2 - w2 * K1
-        self.E = w1**2 + w2**2 + I * w3**2
-        self.c5 = self.along - w3**2 + (2 - I) * self.c3 * w3
-        self.momentum = self.along + self.across + I * self.c3 * K3
-        self.polynomial = fmpq_poly([self.E, 0, -I]) * fmpq_poly([self.K2 - self.c3**2, 2 * self.c3, -1])
-        self.polynomial -= fmpq_poly([self.c5, -(2 - I) * self.c3, 1]) ** 2
+        self.momentum = along_field(I, (w1 + K1, w2 + K2, self.c3), K)
+        self.polynomial = fmpq_poly([*quartic(I, *conserved)])
         self._known: dict[int, list[Root]] = {}
 
     @property
