@@ -4,41 +4,33 @@ The order: is anything new at all; which figures are missing; draw them; compute
 pages and the PDF; write them beside their places, and rename them.
 """
 
-import fcntl
 import hashlib
 import os
-import shutil
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import mkdtemp
 from typing import TYPE_CHECKING, Any
 
 from atlas.build.cache import Cache
+from atlas.build.formats import LANGUAGES, MAKERS, set_texts
+from atlas.build.publish import publish
 from atlas.errors import AtlasError
-from atlas.files import exchange
 from atlas.libraries import versions
 from atlas.places import cache_folder, folder
 from atlas.report.find import find, related_to
-from atlas.report.manifest import MANIFEST, manifest_of
+from atlas.report.manifest import MANIFEST
 from atlas.sources import PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild
     from atlas.report.definition import Report
     from atlas.report.document import Document
-    from atlas.report.pandoc import Target
     from atlas.report.picture import Picture
 
 OUT = Path("build/report")
 FORMATS = ("html", "pdf")
-UNFINISHED = ".atlas-"
-"""How the folder begins that files stand in until all of them are written, on the disk that they are for."""
-LANGUAGES: Mapping[str, "Target"] = {"html": "html", "pdf": "typst", "single": "html"}
-"""In which language the texts of each format are set; `single` is one page as one file, if it is asked for."""
 Progress = Callable[[int, int, str], None]
 
 
@@ -164,11 +156,11 @@ def _build(
     works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
     document = compose(report, found, gather(report), works, outlines(report))
     times["tables"] = time.perf_counter()
-    _set_texts(document, formats, cache, sources)
+    set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
     progress(steps - 1, steps, "pages")
-    made = {one: _MAKERS[one](document, wanted, cache, sources) for one in formats}
-    _publish(made, out, report.name)
+    made = {one: MAKERS[one](document, wanted, cache, sources) for one in formats}
+    publish(made, out, report.name)
     times["pages"] = time.perf_counter()
     progress(steps, steps, "done")
     failures = [figure for figure in wanted if figure.failure]
@@ -259,132 +251,6 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
         picture.moves = f"figures/{picture.stem}-moves.js" if files.pop("moves", "") and facts["moves"] else ""
         picture.files = files
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
-
-
-class _Texts(dict[str, str]):
-    """Texts that were set before, by their source; those that are asked for are noted."""
-
-    def __init__(self, known: dict[str, str]) -> None:
-        super().__init__(known)
-        self.used: dict[str, str] = {}
-
-    def __getitem__(self, source: str) -> str:
-        self.used[source] = super().__getitem__(source)
-        return self.used[source]
-
-
-def _set_texts(document: "Document", formats: Sequence[str], cache: Cache, sources: Sources) -> None:
-    """Set the texts of a document; those that were set before are in the cache."""
-    # pages of one object have most of their texts in common
-    which = "a page" if len(document.pages) == 1 else document.report.name
-    name = f"texts of {which} by {sources.closure([PACKAGE / 'report' / 'texts.py'])}"
-    document.texts.memory = texts = _Texts(cache.load(name))
-    document.set(*dict.fromkeys(LANGUAGES[one] for one in formats))
-    cache.save(name, texts.used)
-
-
-def _pages(
-    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
-) -> dict[str, bytes]:
-    """Return the pages of a report with what belongs to them, by their places."""
-    from atlas.report import html
-
-    code = sources.closure([PACKAGE / "report" / "fonts.py"])
-    pages = html.pages(document)
-    drawn = {
-        name: figure.contents[kind]
-        for figure, picture in figures.items()
-        for kind, name in (*picture.files.items(), *picture.beside.items())
-        if name
-    }
-    files = {name: page.encode() for name, page in pages.items()} | drawn
-    files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))
-    files[MANIFEST] = manifest_of(document, drawn)
-    return {f"{document.report.name}/{name}": content for name, content in files.items()}
-
-
-def _single(
-    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, sources: Sources
-) -> dict[str, bytes]:
-    """Return the page of a report with all that belongs to it in one file."""
-    from atlas.report.single import single
-
-    name = document.report.name
-    files = _pages(document, figures, cache, sources)
-    return {f"{name}.html": single({place.removeprefix(f"{name}/"): files[place] for place in files}, name)}
-
-
-def _pdf(
-    document: "Document", figures: "dict[FigureBuild, Picture]", cache: Cache, _sources: Sources
-) -> dict[str, bytes]:
-    """Return the PDF of a report."""
-    from atlas.report import bibliography, pdf
-
-    with cache.temporary() as work:
-        (work / "figures").mkdir()
-        for figure, picture in figures.items():
-            if not picture.failure:
-                (work / picture.printed).write_bytes(figure.contents[picture.printed.rpartition(".")[2]])
-        (work / bibliography.NAME).write_text(document.bibliography.source, encoding="utf-8")
-        source = pdf.source(document)
-        return {f"{document.report.name}.pdf": pdf.Compiler(work).compile(source)}
-
-
-_MAKERS = {"html": _pages, "pdf": _pdf, "single": _single}
-
-
-def _publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str) -> None:
-    """Write the files of each format, all of them before the first takes its place.
-
-    The pages take theirs at once: they are a folder that is exchanged with the one before, if the system can do that
-    and it is no link. So a build that is killed leaves the pages of one build, and a PDF of this one or the one before;
-    what else it leaves is removed by the next one. Two builds at once take turns.
-    """
-    files = {path: content for contents in made.values() for path, content in contents.items()}
-    out.mkdir(parents=True, exist_ok=True)
-    with _turn(out):
-        for left in out.glob(f"{UNFINISHED}*"):
-            shutil.rmtree(left, ignore_errors=True)
-        work = Path(mkdtemp(dir=out, prefix=UNFINISHED))
-        try:
-            for path, content in files.items():
-                (work / path).parent.mkdir(parents=True, exist_ok=True)
-                (work / path).write_bytes(content)
-            if "html" in made and exchange(work / name, out / name):
-                _place(work, out, [path for path in files if not path.startswith(f"{name}/")])
-                return
-            _place(work, out, files)
-            if "html" in made:
-                _remove_others(out, out / name, files)
-        finally:
-            shutil.rmtree(work, ignore_errors=True)
-
-
-def _place(work: Path, out: Path, files: Iterable[str]) -> None:
-    """Put files into their places, one by one."""
-    for path in files:
-        (out / path).parent.mkdir(parents=True, exist_ok=True)
-        (work / path).replace(out / path)
-
-
-def _remove_others(out: Path, folder: Path, files: Mapping[str, bytes]) -> None:
-    """Remove what a folder holds beside these files."""
-    for old in sorted(folder.rglob("*"), reverse=True):
-        if old.is_dir() and not any(old.iterdir()):
-            old.rmdir()
-        elif not old.is_dir() and old.relative_to(out).as_posix() not in files:
-            old.unlink()
-
-
-@contextmanager
-def _turn(folder: Path) -> Iterator[None]:
-    """Wait for one's turn in a folder; the lock is on the folder itself, so that nothing is left in it."""
-    opened = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(opened, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(opened)
 
 
 def _hash(path: Path) -> str | None:

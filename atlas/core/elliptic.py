@@ -10,7 +10,7 @@ from atlas.core.clebsch import Clebsch
 from atlas.core.inputs import FloatArray, finite, plain
 from atlas.core.motion import components
 from atlas.core.nutating import AloneMotion
-from atlas.core.nutation.cayley_klein import FIRST
+from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_elliptic import SingleElliptic
 from atlas.core.quantities import INERTIA, RATE

@@ -12,8 +12,9 @@ from atlas.core.inputs import FloatArray, finite, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import components
 from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
-from atlas.core.nutation.cayley_klein import FIRST
-from atlas.core.nutation.rows import Blocks, GeneralRows
+from atlas.core.nutation.blocks import Blocks
+from atlas.core.nutation.constants import FIRST
+from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.scalars import KINDS, Scalars
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_general import SingleGeneral

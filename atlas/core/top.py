@@ -13,7 +13,7 @@ from atlas.core.inputs import FloatArray, finite, number, plain, positive
 from atlas.core.laboratory import anisotropy
 from atlas.core.motion import components
 from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
-from atlas.core.nutation.cayley_klein import FIRST
+from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_top import SingleTop
 from atlas.core.nutation.top_rows import TopBlocks, TopRows

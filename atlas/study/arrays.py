@@ -23,7 +23,7 @@ from atlas.exact.general import GeneralMotion as Balls
 from atlas.exact.inputs import Real
 from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import FloatArray
-from atlas.study.promises import narrow
+from atlas.study.nutating import narrow
 from atlas.study.regimes import GENERAL
 from atlas.study.stress import Progress, Result, finished
 from atlas.study.ulps import BITS, ONE, WorstErrors, absolute, error, own, rigidity, with_more

@@ -7,23 +7,14 @@ from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import chain
-from math import isfinite
-from random import Random
 from typing import Any
 
 import numpy as np
-from flint import arb
 
-from atlas.core.inputs import FloatArray
-from atlas.exact.digits import enclosed, numbers
-from atlas.exact.inputs import Real
+from atlas.exact.digits import enclosed
 from atlas.families import FAMILIES
-from atlas.formulas.numbers import workprec
 from atlas.study import extreme
-from atlas.study.elliptic import Elliptic, rates_of
 from atlas.study.extreme import described
-from atlas.study.regimes import General
-from atlas.study.tops import Top, rate_of
 from atlas.study.ulps import BITS, ONE, WorstErrors, absolute, approximate, error, of_length, own, rigidity, with_more
 
 Inputs = dict[str, Any]
@@ -33,14 +24,12 @@ Where = Callable[[float], str]
 SHIFTS = (1, -7, 60)
 """Powers of two by which all frequencies are scaled, and times the other way: no bit of R may change."""
 
-GRIDS, GRID = (1500, 12_000), 8200
-"""Matrices on uniform grids, too few and enough for tables; and enough for polynomials. A few of them are checked."""
+GRIDS = 1500, 12_000
+"""Matrices on uniform grids, too few and enough for tables; a few of them are checked."""
 
-POINTS, TIMES = 8, 5
-"""Points of each hyperbola, times of each general motion."""
 
-NARROW = 2.0**-80
-"""Radius of the truth of a general motion, beside 1 or beside the largest rate."""
+POINTS = 8
+"""Points of each hyperbola."""
 
 
 def close(function: Callable[[], Any]) -> Any:
@@ -131,7 +120,7 @@ def check_motion(motion: extreme.Motion, regime: str, worst: WorstErrors) -> Non
             step = (times[5] - times[4]) / count
             if step and times[4] + count * step != times[4]:
                 places = (0, 1, 63, 64, count // 3, count - 33, count - 32, count - 1)
-                _grid("R grid", found, exact, (times[4], step, count), places, regime, worst, inputs)
+                on_grid("R grid", found, exact, (times[4], step, count), places, regime, worst, inputs)
 
     clock = by_clock(regime, "k", "phi")
     values, exactly = (motion.ratio, *rest), (motion.exact_ratio, *rest)
@@ -156,7 +145,7 @@ def _scaling(motion: extreme.Motion, found: Any, regime: str, worst: WorstErrors
         worst.add("R under scaling by 2^n", regime, [float(changed)], with_more(inputs, n=shift))
 
 
-def _grid(
+def on_grid(
     name: str, found: Any, exact: Any, grid: tuple[float, float, int], places: Iterable[int], regime: str,
     worst: WorstErrors, inputs: Inputs, truth: Truth = close,
 ) -> None:  # fmt: skip
@@ -228,89 +217,6 @@ def check_particle(particle: extreme.Particle, worst: WorstErrors) -> None:
     check(
         "particle", "particle", values, worst, described(p), times=p.times, where=by_clock("particle", clock), unit=unit
     )
-
-
-def check_general(draw: General, regime: str, random: Random, worst: WorstErrors) -> None:
-    """Check a general motion, in ulps of its largest rate: beside the register, structure and a grid."""
-    I, field, omega = draw
-    inputs = {"I": I.hex(), "field": [x.hex() for x in field], "omega": [x.hex() for x in omega]}
-    _nutation("general", draw, inputs, max(map(abs, (*field, *omega))) or 1.0, regime, random, worst)
-
-
-def check_top(draw: Top, regime: str, random: Random, worst: WorstErrors) -> None:
-    """Check a top, in ulps of its largest rate: beside the register, structure and a grid."""
-    inputs = {
-        name: value.hex() if isinstance(value, float) else [x.hex() for x in value]
-        for name, value in draw._asdict().items()
-    }
-    _nutation("top", draw, inputs, rate_of(draw), regime, random, worst, b=1.0)
-
-
-def check_elliptic(draw: Elliptic, regime: str, random: Random, worst: WorstErrors) -> None:
-    """Check an elliptic motion, K in ulps of the field: beside the register, structure and a grid."""
-    inputs: Inputs = {name: [x.hex() for x in getattr(draw, name)] for name in ("inertia", "field")}
-    inputs |= {"z": draw.z.hex(), "branch": draw.branch}
-    b, size = rates_of(draw)
-    _nutation("elliptic", draw, inputs, size, regime, random, worst, K=b)
-
-
-def _nutation(
-    name: str,
-    draw: Sequence[Any],
-    inputs: Inputs,
-    size: float,
-    regime: str,
-    random: Random,
-    worst: WorstErrors,
-    **lengths: float,
-) -> None:
-    """Check a motion whose axis nutates, vectors in ulps of their `lengths`, or of a rate."""
-    truth = partial(narrow, size=size)
-
-    def more(found: Any, exact: Any, _: Where) -> None:
-        R = found.rotation(np.array(times))
-        defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
-        worst.add(f"{name} orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
-        start = np.abs(found.rotation(0.0) - np.eye(3)).max() / ONE
-        worst.add(f"{name} R(0) = 1", regime, [float(start)], lambda _: inputs)
-        # long enough for polynomials; at ends of their windows too
-        grid, places = (0.0, times[-1] / GRID, GRID), (0, 255, 511, 4099, GRID - 1)
-        _grid(f"{name} R grid", found, exact, grid, places, regime, worst, inputs, truth)
-
-    def unit(vector: str, _: float) -> float:
-        return lengths.get(vector, size) * ONE
-
-    times: list[float] = []
-    with worst.checking(name, regime, inputs):
-        times += _times(FAMILIES[name].kernels()(*draw).period, size, random).tolist()
-        check(name, regime, draw, worst, inputs, times=times, unit=unit, truth=truth, more=more)
-
-
-def narrow(function: Callable[[], Any], size: float) -> Any:
-    """Return nested lists of balls computed at a precision at which each is narrow beside 1, or beside the rates.
-
-    An entry may be zero: so the radius is compared with the size of the whole, not of the entry.
-    """
-    precision = 256
-    while True:
-        with workprec(precision):
-            value = function()
-        if all(_radius(x) <= NARROW * min(1.0, size) for x in numbers(value)):
-            return value
-        precision *= 2
-
-
-def _times(period: float, size: float, random: Random) -> FloatArray:
-    """Return times from a thousandth of a period to a million periods, within the phases that are promised."""
-    unit = period if isfinite(period) else 10.0 / size
-    drawn = [random.choice((1, -1)) * unit * 10 ** random.uniform(-3, 6) for _ in range(TIMES)]
-    return np.clip(drawn, -(2.0**46) / size, 2.0**46 / size)
-
-
-def _radius(x: Real) -> float:
-    if not isinstance(x, arb):
-        return 0.0
-    return float(x.rad()) if x.is_finite() else float("inf")
 
 
 def _flat(value: Any) -> Any:

@@ -20,16 +20,14 @@ from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.study import extreme
 from atlas.study.elliptic import ELLIPTIC
+from atlas.study.nutating import check_elliptic, check_general, check_top
 from atlas.study.promises import (
     check_ball,
-    check_elliptic,
     check_free,
-    check_general,
     check_hyperbola,
     check_motion,
     check_particle,
     check_quadric,
-    check_top,
 )
 from atlas.study.regimes import GENERAL, REGIMES
 from atlas.study.tops import TOPS

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from atlas.build import report as build
-from atlas.build.report import _publish as publish
+from atlas.build import publish as publishing
+from atlas.build.publish import publish
 from atlas.build.report import build_report
 from atlas.errors import AtlasError
 from atlas.report import pdf
@@ -155,7 +155,7 @@ def test_pages_take_their_places_at_once(tmp_path: Path, monkeypatch: pytest.Mon
     while killed:
         with monkeypatch.context() as patched:
             patched.setattr(Path, "replace", counted(Path.replace))
-            patched.setattr(build, "exchange", counted(build.exchange))
+            patched.setattr(publishing, "exchange", counted(publishing.exchange))
             patched.setattr(shutil, "rmtree", lambda *_, **__: None)
             steps[0] = 0
             try:

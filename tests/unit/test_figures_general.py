@@ -13,7 +13,7 @@ from atlas.core.momentum_map import momentum_map, potential
 from atlas.core.separatrix import companions
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes
-from atlas.study.promises import narrow
+from atlas.study.nutating import narrow
 
 FloatArray = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from atlas.core.hyperbola import Hyperbola
 from atlas.core.nutation import grid as general_grid
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.general import GeneralMotion as Balls
-from atlas.study.promises import narrow
+from atlas.study.nutating import narrow
 from atlas.study.ulps import absolute
 
 Inputs = tuple[float, tuple[float, float], tuple[float, float, float]]

@@ -14,12 +14,13 @@ from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.general import GeneralMotion
 from atlas.core.nutation import pair as nutation_pair
 from atlas.core.nutation import roots as nutation_roots
-from atlas.core.nutation.rows import Blocks, GeneralRows
+from atlas.core.nutation.blocks import Blocks
+from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.study.arrays import GENERAL_REGIME, check_general_rows, state
-from atlas.study.promises import narrow
+from atlas.study.nutating import narrow
 from atlas.study.regimes import GENERAL
 from atlas.study.stress import PROMISES
 from atlas.study.ulps import ONE, absolute, error

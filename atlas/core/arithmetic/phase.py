@@ -10,6 +10,7 @@ from typing import Self
 
 import numpy as np
 
+from atlas.core.arithmetic.circle import circle_of, signs
 from atlas.core.arithmetic.words import TURN, magnitude, middle, scaled, turn_of, words
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
@@ -24,7 +25,7 @@ SAFE = 400
 NEVER = -4000
 """A power of two that makes any time zero: that of a frequency which is zero."""
 
-# Constants that meet arrays are arrays without dimensions: NumPy takes a third less time for a call with few times.
+# Constants that meet arrays are arrays without dimensions, see `atlas.core.arithmetic.circle`.
 SPLITTER = np.array(2.0**27 + 1)
 """Veltkamp's: t SPLITTER cuts t into two halves of 26 digits, whose products with halves are exact."""
 
@@ -47,8 +48,6 @@ with workprec():
 MINUS_HEAD, MINUS_TAIL = np.array(-HEAD), np.array(-TAIL)
 QUARTER_TURN, MINUS_BOTH = np.array(nearest(QUARTER)), np.array([MINUS_HEAD, MINUS_TAIL])[:, None, None]
 """pi/2, and -pi/2 as a head of 27 digits, whose product with a multiple of 2^-25 below one is exact, and a tail."""
-
-HALF, WHOLE, NOTHING, ONE_BITS, SIGN_BIT = (np.array(x) for x in (0.5, 1.0, 0.0, np.float64(1.0).view(np.int64), 63))
 
 
 LEAST = 1e-290
@@ -266,48 +265,9 @@ def _exponents(halves: Sequence[Number]) -> list[int]:
     return [magnitude(p) if p != 0 else NEVER for p in halves]
 
 
-def signs(whole: FloatArray) -> FloatArray:
-    """Turn sums of whole numbers and ROUNDER, in place, into the signs 1 of even and -1 of odd ones."""
-    parity = whole.view(np.int64)
-    np.left_shift(parity, SIGN_BIT, out=parity)
-    np.bitwise_or(parity, ONE_BITS, out=parity)
-    return whole
-
-
 def farthest(t: FloatArray) -> float:
     """Return the largest |t|; not a number where a time is none."""
     return max(t.item(t.argmax()), -t.item(t.argmin())) if t.size else 0.0
-
-
-def circle_of(
-    u: FloatArray,
-    e: FloatArray | None,
-    sign: FloatArray,
-    square: FloatArray,
-    cos: FloatArray,
-    sin: FloatArray,
-    versine: FloatArray,
-) -> None:
-    """Fill what `Phases.circle` does from what `Phases.angles` returns; x may leave its range where it was added to.
-
-    Without `e`, nothing was left out of x/2.
-    """
-    # u = tan(x/2), |u| <= 1: NumPy vectorises the tangent, and not the sine and cosine; u then gets what x lacks
-    np.tan(u, out=u)
-    if e is not None:
-        np.multiply(u, u, out=square)
-        square += WHOLE
-        e *= square
-        u += e
-    np.multiply(u, u, out=square)
-    square += WHOLE
-    np.divide(u, square, out=sin)
-    half = np.multiply(u, sin, out=square)
-    np.subtract(HALF, half, out=cos)
-    cos *= sign
-    sin *= sign
-    np.multiply(half[0], sign[0], out=versine)
-    versine += sign[0] < NOTHING
 
 
 def _columns(rows: Sequence[Sequence[float]]) -> FloatArray:

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from atlas.core.arithmetic.phase import HEAD, QUARTER, ROUNDER, circle_of, signs
+from atlas.core.arithmetic.circle import circle_of, signs
+from atlas.core.arithmetic.phase import HEAD, QUARTER, ROUNDER
 from atlas.core.arithmetic.phase import TAIL as LACKING
 from atlas.core.arithmetic.words import middle
 from atlas.core.inputs import FloatArray

@@ -10,7 +10,8 @@ from typing import TypeAlias
 import numpy as np
 from flint import acb, arb, fmpq, fmpq_poly
 
-from atlas.core.arithmetic.phase import SPLITTER, WHOLE
+from atlas.core.arithmetic.circle import WHOLE
+from atlas.core.arithmetic.phase import SPLITTER
 from atlas.core.arithmetic.words import words
 from atlas.core.inputs import FloatArray
 from atlas.exact.cayley_klein import Solution

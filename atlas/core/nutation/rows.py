@@ -6,26 +6,20 @@ hold for certain is not `sure`, and is left to the motion made alone: next to a 
 sums are long or cancel; where Omega3 is constant, for the matrix; where the inputs are of very different sizes.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from functools import cached_property
-from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import BLOCK, DoubleDouble, blocks
+from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.arithmetic.frequencies import LOST, PER_RADIAN
 from atlas.core.arithmetic.phase import LIMIT, Phases
 from atlas.core.arithmetic.turnings import REACH
 from atlas.core.inputs import FloatArray, largest
-from atlas.core.nutation.means import Means
+from atlas.core.nutation.blocks import Block, Blocks
 from atlas.core.nutation.pair import TERMS, Pair, multiples
-from atlas.core.nutation.roots import roots_of
-from atlas.core.nutation.spheres import sphere_of_field, sphere_of_velocity
-
-SPREAD = 2.0**-60
-"""Least part of the largest frequency that another one is, if it is not zero."""
+from atlas.core.nutation.spheres import sphere_of_velocity
 
 KNOWN = 2.0**-57
 """Radius to which weights are known before they are rounded."""
@@ -35,59 +29,6 @@ CANCELLING = 6.0
 
 SMALL = 3.0
 """By how much Omega3 may change, in parts of the largest component of Omega: that is within 16 ulp then."""
-
-
-@dataclass(frozen=True)
-class Block:
-    """Motions `rows` of all; the exponents of the power of two that their frequencies are over; where that is fine."""
-
-    rows: slice
-    roots: Any
-    exponents: Any
-    fine: Any
-
-    @cached_property
-    def means(self) -> Means:
-        """Gauss's means."""
-        return Means(self.roots)
-
-    @cached_property
-    def pair(self) -> Pair:
-        """Pair of the axis and of the field."""
-        return Pair(self.means, sphere_of_field(self.roots))
-
-
-class Blocks:
-    """Motions I2, I3, B2, B3, omega1, omega2, omega3, which broadcast to a shape, by blocks.
-
-    What is known of a single block is kept for whoever asks next; of many it would take too much memory.
-    """
-
-    def __init__(self, inputs: Sequence[Any], shape: tuple[int, ...]) -> None:
-        self.inputs, self.shape, self.count = inputs, shape, prod(shape)
-        self._kept: list[Block] = []
-
-    def __iter__(self) -> Iterator[Block]:
-        if self.count > BLOCK:
-            return self.each()
-        self._kept = self._kept or [*self.each()]
-        return iter(self._kept)
-
-    def each(self) -> Iterator[Block]:
-        """Make the blocks."""
-        return _each_block(self.inputs, self.shape)
-
-
-def _each_block(inputs: Sequence[Any], shape: tuple[int, ...]) -> Iterator[Block]:
-    columns = [np.broadcast_to(np.asarray(x, dtype=float), shape) for x in inputs]
-    for rows, _, exponents, (roots,) in blocks(lambda *x: (roots_of(*x),), columns, shape, slice(2, 7), bound=1.0):
-        frequencies = np.array([abs(x.reshape(-1)[rows]) for x in columns[2:]])
-        least = np.where(frequencies == 0, np.inf, frequencies).min(axis=0)
-        fine = least >= SPREAD * frequencies.max(axis=0)
-        if exponents is not None:
-            yield Block(rows, roots, exponents[0], fine & exponents[1])
-        else:
-            yield Block(rows, roots, 0, fine)
 
 
 class Constants(NamedTuple):

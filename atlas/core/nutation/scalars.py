@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.nutation.blocks import Block, Blocks
 from atlas.core.nutation.roots import part
-from atlas.core.nutation.rows import Block, Blocks
 
 KINDS = (
     "nutation, two real roots",

@@ -7,7 +7,8 @@ import numpy as np
 from flint import arb
 
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.cayley_klein import CayleyKlein, Evaluation, combined, entries, evaluate
+from atlas.core.nutation.cayley_klein import Evaluation, combined, entries, evaluate
+from atlas.core.nutation.constants import CayleyKlein
 from atlas.core.nutation.exponentials import Exponentials, exponentials
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed

@@ -7,8 +7,9 @@ import numpy as np
 from flint import arb
 
 from atlas.core.inputs import FloatArray, largest, real
-from atlas.core.nutation.cayley_klein import CayleyKlein
-from atlas.core.nutation.rows import Blocks, GeneralRows
+from atlas.core.nutation.blocks import Blocks
+from atlas.core.nutation.constants import CayleyKlein
+from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.single import BITS, VECTOR, SingleMotion
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion

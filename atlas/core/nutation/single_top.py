@@ -8,7 +8,8 @@ import numpy as np
 from flint import arb
 
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.cayley_klein import CayleyKlein, Evaluation, evaluate
+from atlas.core.nutation.cayley_klein import Evaluation, evaluate
+from atlas.core.nutation.constants import CayleyKlein
 from atlas.core.nutation.single import SingleMotion
 from atlas.exact.top import TopMotion
 

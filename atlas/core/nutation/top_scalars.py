@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.nutation.blocks import Block
 from atlas.core.nutation.roots import part
-from atlas.core.nutation.rows import Block
 from atlas.core.nutation.scalars import HALF_TURN, Found, Scalars, of_period, rounded
 
 KINDS = "nutation, two real roots", "nutation, four real roots", "nutation, three real roots", "regular nutation"

@@ -1,0 +1,163 @@
+"""The Cayley-Klein parameters of one motion: constants made in balls, at rising precision until each is known.
+
+alpha and beta, up to a common real factor, are sums of the functions of time of `functions` times phases exp(i f t).
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from flint import acb, arb
+
+from atlas.core.arithmetic.phase import EVEN, ROUNDER, Phases
+from atlas.core.arithmetic.words import ZERO, middle
+from atlas.core.inputs import FloatArray
+from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric
+from atlas.core.nutation.swing import Crossing, Swing
+from atlas.exact.cayley_klein import Solution
+from atlas.exact.swing import Crossing as ExactCrossing
+from atlas.exact.theta import infinite
+from atlas.formulas.numbers import workprec
+
+FIRST = 256
+"""Binary digits with which the constants are tried first."""
+
+FREQUENCY, WEIGHT = 2.0**-120, 2.0**-80
+"""Radius to which frequencies (of the largest) and weights (of themselves) are known before they are rounded."""
+
+FAINT = 1e-70
+"""Next to a separatrix alpha and beta may both become so small, over the common factor, that their squares vanish."""
+
+KINDS: Mapping[str, Callable[..., Functions]] = {
+    "trigonometric": Trigonometric,
+    "hyperbolic": Hyperbolic,
+    "linear": Linear,
+}
+
+
+class CayleyKlein:
+    """alpha and beta of one motion: constants made at rising precision until each is known, then rounded.
+
+    `values` (4, rows) are the weights of their real, then of their imaginary parts; `slopes` adds those of their
+    derivatives by time, but for the further turn of a top.
+    """
+
+    def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
+        self.precision, self.sloping = FIRST, slopes
+        while not self._made(solution, self.precision):
+            self.precision *= 2
+
+    def _made(self, solution: Callable[[], Solution], precision: int) -> bool:
+        """Take the constants at one precision; return whether it suffices."""
+        with workprec(precision):
+            found = solution()
+            lattice, pair = found.lattice, (found.alpha, found.beta)
+            self.periodic = not infinite(lattice.half) and not lattice.rate.is_zero()
+            turns, origin = _turns(found, self.periodic)
+            if not found.origin.is_finite() or not _reducible(turns, origin):
+                return False
+            kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
+            self.functions = kind(found, [x.sum for x in pair])
+            self.swing = _swing(found.swing)
+            tables = _weights(found, self.functions, slopes=self.sloping)
+            largest = max(abs(x).mid() for row in tables[0] for x in row)
+            if not all(_known(x, largest) for table in tables for row in table for x in row):
+                return False
+            if self.swing and not self.swing.is_known:
+                return False
+            self.frequencies = [middle(x) for x in turns]
+            self.origins = [ZERO, ZERO, middle(origin)] if self.periodic else _crossed(found)
+            self.phases = self._phases()
+            self.values = np.concatenate([_real_parts(table, largest) for table in tables])
+            self.lost = self._lost(tables[0])
+            least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
+            self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
+        return True
+
+    def _lost(self, values: list[list[acb]]) -> bool:
+        """Return whether alpha or beta is too small for a float beside the other, but not zero."""
+        pairs = zip(values, self.values[:4].reshape(2, 2, -1).swapaxes(0, 1), strict=True)
+        return any(not found.any() and not all(x.is_zero() for x in exact) for exact, found in pairs)
+
+    def _phases(self) -> Phases:
+        """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter.
+
+        It multiplies the phase in the period by a large slope: so this is reduced as if it were long, without any loss.
+        """
+        if not (self.periodic and isinstance(self.functions, Hyperbolic)):
+            return Phases(self.frequencies, self.origins, EVEN)
+        phases = Phases(self.frequencies, self.origins, np.array([EVEN, EVEN, ROUNDER])[:, None])
+        phases.near = -1.0
+        return phases
+
+
+def _swing(exact: Any) -> Any:
+    """Return what the integral of nu adds to the turn about the axis, None for nothing."""
+    if exact is None:
+        return None
+    return Crossing(exact) if isinstance(exact, ExactCrossing) else Swing(exact)
+
+
+def _crossed(found: Solution) -> list[arb] | None:
+    """Return the phases at t = 0 on a separatrix: of kappa s between n and -n, else None."""
+    if not isinstance(found.swing, ExactCrossing):
+        return None
+    return [ZERO, middle(found.swing.kappa * found.swing.origin / (2 * arb.pi()))]
+
+
+def _turns(found: Solution, periodic: bool) -> tuple[list[arb], arb]:
+    """Return the frequencies, in turns per unit of time, and the phase in the period at t = 0, in turns."""
+    pair, swing = (found.alpha, found.beta), found.swing
+    rates = [pair[0].rate + pair[1].rate, pair[0].rate - pair[1].rate]
+    if swing:
+        rates[1] += swing.kappa * swing.rate
+    turns = [x / (2 * arb.pi()) for x in rates]
+    if not periodic:
+        return turns, arb(0)
+    # the phase is 2v where only sin v / cos v is wanted, else v
+    odd = found.lattice.form == "trigonometric" and not any(x.sum.doubled for x in pair)
+    whole = (2 if odd else 4) * found.lattice.half
+    return [*turns, 1 / whole], found.origin / whole
+
+
+def _reducible(turns: list[arb], origin: arb) -> bool:
+    """Return whether frequencies and origin are known so well that phases can be reduced."""
+    if not all(x.is_finite() for x in turns):
+        return False
+    scale = max(abs(x) for x in turns)
+    return all(_radius(x) <= FREQUENCY * scale.mid() for x in turns) and bool(_radius(origin) <= FREQUENCY)
+
+
+def _weights(found: Solution, functions: Functions, *, slopes: bool) -> list[list[list[acb]]]:
+    """Return the weights of the functions of time in alpha and beta and, with `slopes`, in their derivatives."""
+    swing, start = found.swing, acb(1)
+    if swing:
+        start = acb(0, -swing.at(arb(0), found.origin) / 2).exp()
+    pair = [(found.alpha, found.alpha.factor * start), (found.beta, found.beta.factor / start)]
+    plain = [functions.weights(x.sum) for x, _ in pair]
+    tables = [[[factor * w for w in row] for (_, factor), row in zip(pair, plain, strict=True)]]
+    if slopes:
+        rising = [functions.weights(x.sum.derivative) for x, _ in pair]
+        tables.append([
+            [factor * (acb(0, x.rate + x.twist) * v + w) for v, w in zip(row, change, strict=True)]
+            for (x, factor), row, change in zip(pair, plain, rising, strict=True)
+        ])  # fmt: skip
+    return tables
+
+
+def _radius(x: arb) -> float:
+    return float(x.rad()) if x.is_finite() else float("inf")
+
+
+def _known(x: acb, largest: arb) -> bool:
+    """Whether a weight is known to itself, or too small to matter."""
+    radius = max(_radius(x.real), _radius(x.imag))
+    return radius <= WEIGHT * float(abs(x).mid()) or radius <= WEIGHT**2 * float(largest)
+
+
+def _real_parts(pair: list[list[acb]], largest: arb) -> FloatArray:
+    """Return real parts of alpha's and beta's weights, then imaginary parts, (4, rows), over the largest."""
+    rows = [[x / largest for x in row] for row in pair]
+    return np.array(
+        [[float(x.real.mid()) for x in row] for row in rows] + [[float(x.imag.mid()) for x in row] for row in rows]
+    )

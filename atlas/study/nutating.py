@@ -1,0 +1,113 @@
+"""Checks of motions whose axis nutates: their family's promises, structure and a grid, see `atlas.study.promises`."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import isfinite
+from random import Random
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.core.inputs import FloatArray
+from atlas.exact.digits import numbers
+from atlas.exact.inputs import Real
+from atlas.families import FAMILIES
+from atlas.formulas.numbers import workprec
+from atlas.study.elliptic import Elliptic, rates_of
+from atlas.study.promises import Inputs, Where, check, on_grid
+from atlas.study.regimes import General
+from atlas.study.tops import Top, rate_of
+from atlas.study.ulps import ONE, WorstErrors
+
+GRID = 8200
+"""Matrices on a uniform grid, enough for polynomials; a few of them are checked."""
+
+TIMES = 5
+"""Times of each motion whose axis nutates."""
+
+NARROW = 2.0**-80
+"""Radius of the truth of a general motion, beside 1 or beside the largest rate."""
+
+
+def check_general(draw: General, regime: str, random: Random, worst: WorstErrors) -> None:
+    """Check a general motion, in ulps of its largest rate: beside the register, structure and a grid."""
+    I, field, omega = draw
+    inputs = {"I": I.hex(), "field": [x.hex() for x in field], "omega": [x.hex() for x in omega]}
+    _nutation("general", draw, inputs, max(map(abs, (*field, *omega))) or 1.0, regime, random, worst)
+
+
+def check_top(draw: Top, regime: str, random: Random, worst: WorstErrors) -> None:
+    """Check a top, in ulps of its largest rate: beside the register, structure and a grid."""
+    inputs = {
+        name: value.hex() if isinstance(value, float) else [x.hex() for x in value]
+        for name, value in draw._asdict().items()
+    }
+    _nutation("top", draw, inputs, rate_of(draw), regime, random, worst, b=1.0)
+
+
+def check_elliptic(draw: Elliptic, regime: str, random: Random, worst: WorstErrors) -> None:
+    """Check an elliptic motion, K in ulps of the field: beside the register, structure and a grid."""
+    inputs: Inputs = {name: [x.hex() for x in getattr(draw, name)] for name in ("inertia", "field")}
+    inputs |= {"z": draw.z.hex(), "branch": draw.branch}
+    b, size = rates_of(draw)
+    _nutation("elliptic", draw, inputs, size, regime, random, worst, K=b)
+
+
+def _nutation(
+    name: str,
+    draw: Sequence[Any],
+    inputs: Inputs,
+    size: float,
+    regime: str,
+    random: Random,
+    worst: WorstErrors,
+    **lengths: float,
+) -> None:
+    """Check a motion whose axis nutates, vectors in ulps of their `lengths`, or of a rate."""
+    truth = partial(narrow, size=size)
+
+    def more(found: Any, exact: Any, _: Where) -> None:
+        R = found.rotation(np.array(times))
+        defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
+        worst.add(f"{name} orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
+        start = np.abs(found.rotation(0.0) - np.eye(3)).max() / ONE
+        worst.add(f"{name} R(0) = 1", regime, [float(start)], lambda _: inputs)
+        # long enough for polynomials; at ends of their windows too
+        grid, places = (0.0, times[-1] / GRID, GRID), (0, 255, 511, 4099, GRID - 1)
+        on_grid(f"{name} R grid", found, exact, grid, places, regime, worst, inputs, truth)
+
+    def unit(vector: str, _: float) -> float:
+        return lengths.get(vector, size) * ONE
+
+    times: list[float] = []
+    with worst.checking(name, regime, inputs):
+        times += _times(FAMILIES[name].kernels()(*draw).period, size, random).tolist()
+        check(name, regime, draw, worst, inputs, times=times, unit=unit, truth=truth, more=more)
+
+
+def narrow(function: Callable[[], Any], size: float) -> Any:
+    """Return nested lists of balls computed at a precision at which each is narrow beside 1, or beside the rates.
+
+    An entry may be zero: so the radius is compared with the size of the whole, not of the entry.
+    """
+    precision = 256
+    while True:
+        with workprec(precision):
+            value = function()
+        if all(_radius(x) <= NARROW * min(1.0, size) for x in numbers(value)):
+            return value
+        precision *= 2
+
+
+def _times(period: float, size: float, random: Random) -> FloatArray:
+    """Return times from a thousandth of a period to a million periods, within the phases that are promised."""
+    unit = period if isfinite(period) else 10.0 / size
+    drawn = [random.choice((1, -1)) * unit * 10 ** random.uniform(-3, 6) for _ in range(TIMES)]
+    return np.clip(drawn, -(2.0**46) / size, 2.0**46 / size)
+
+
+def _radius(x: Real) -> float:
+    if not isinstance(x, arb):
+        return 0.0
+    return float(x.rad()) if x.is_finite() else float("inf")
