@@ -331,17 +331,17 @@ MATTER = (
         floors=("core",),
     ),
     Tie(
-        "units.prime",
+        "unit_systems.prime",
         "(32)",
-        lambda f, p: f.units.prime(p.mu, p.B, p.c),
+        lambda f, p: f.unit_systems.prime(p.mu, p.B, p.c),
         lambda say, p: say("(32)", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
         POINTS,
         floors=("core",),
     ),
     Tie(
-        "units.larmor_field",
+        "unit_systems.larmor_field",
         "(27) (32)",
-        lambda f, p: [f.units.larmor_field(p.mu, p.B), f.units.larmor_field(p.mu, p.c, "Gaussian")],
+        lambda f, p: [f.unit_systems.larmor_field(p.mu, p.B), f.unit_systems.larmor_field(p.mu, p.c, "Gaussian")],
         lambda say, p: [
             *say("(32)", "Bprime", mu=p.mu, c=1, Bf=p.B),
             say("(27)", "alpha", mu=p.mu, b=p.c, c=29_979_245_800),
@@ -350,17 +350,17 @@ MATTER = (
         floors=("core",),
     ),
     Tie(
-        "units.cyclotron_frequency",
+        "unit_systems.cyclotron_frequency",
         "(97)",
-        lambda f, p: f.units.cyclotron_frequency(p.mu, p.c),
+        lambda f, p: f.unit_systems.cyclotron_frequency(p.mu, p.c),
         lambda say, p: say("(97)", "omega", mu=p.mu, b=p.c, c=1),
         POINTS,
         floors=("core",),
     ),
     Tie(
-        "units.charge_to_mass",
+        "unit_systems.charge_to_mass",
         "(89)",
-        lambda f, p: f.units.charge_to_mass(p.mu, p.mass),
+        lambda f, p: f.unit_systems.charge_to_mass(p.mu, p.mass),
         lambda say, p: (
             say("(89)", "m*ddy", e=p.mu, c=1, E=[1, 0, 0], v=[0, 0, 0], Bf=[0, 0, 0])[0] / sympy.Rational(p.mass)
         ),

@@ -18,7 +18,7 @@ TOPICS = [path for path in sorted(Path(__file__).parent.glob("test_agreement_*.p
 TIES: list[Tie] = [tie for path in TOPICS for tie in runpy.run_path(str(path))["TIES"]]
 
 FORMULAS = {
-    "core": {"body", "euler_poisson", "inertia", "integrals", "pseudo_oscillator", "units"},
+    "core": {"body", "euler_poisson", "inertia", "integrals", "pseudo_oscillator", "unit_systems"},
     "exact": {"body"},
 }
 """Modules whose functions are public quantities; of the others the classes are."""
@@ -153,7 +153,7 @@ UNTIED = {
     "body.float_text": NAME,
     "inertia.inertia_tensor": GIVEN,
     "inertia.diagonal_or_matrices": GIVEN,
-    "units.system": NAME,
+    "unit_systems.system": NAME,
 }
 """Public names without a tie, and why."""
 
