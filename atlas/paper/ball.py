@@ -247,7 +247,12 @@ EQUATIONS = (
         kind="claim",
         says=r"A ball launched along $\mathbf{B}$: $\hat{\mathbf{k}} = (0, 0, -1)$ and $\gamma = \alpha + m_3/I_0$",
         tex=r"\hat{\mathbf{k}}=(0,0,-1)^T,\qquad\gamma=\alpha+\frac{m_3}{I_0}",
-        assumptions=("$I_1 = I_2 = I_3$", r"$\mathbf{m}(0)$ and $\mathbf{B}$ parallel in the same sense"),
+        assumptions=(
+            "$I_1 = I_2 = I_3$",
+            r"$\mathbf{m}(0)=(0,0,m_3)^T$",
+            r"$m_3>-\alpha I_0$ (the paper does not except the rest)",
+        ),
+        quote=r"the ball launched with initial vector of angular velocity parallel to the vector of magnetic field",
     ),
     Equation(
         name="(30)",

@@ -51,10 +51,7 @@ EQUATIONS = (
             r"\Omega_1^2(t)+\Omega_2^2(t)=\omega_1^2+\omega_2^2, \qquad K_1^2(t)+K_2^2(t)={B'_2}^2, \qquad "
             r"\Omega_1(t)K_1(t)+\Omega_2(t)K_2(t)=\omega_2B'_2"
         ),
-        assumptions=(
-            "$\\omega_1^2+\\omega_2^2>0$",
-            r"$\Omega_3 = \omega_3 = \text{const}$",
-        ),
+        assumptions=(r"$\Omega_3 = \omega_3 = \text{const}$",),
     ),
     Equation(
         name="(62)",

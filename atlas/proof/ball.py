@@ -449,16 +449,17 @@ TRIALS = (
         name="text-ball-parallel",
         printed="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
         model=parallel_model,
-        follows="@(29) with $m_2 = 0$",
-        also=(
-            Part(
-                line="k2 = 0; k3 = 1; gamma = -(alpha + m3/I0)",
-                model=lambda: parallel_model(-1),
-            ),
+        follows=r"@(29) with $m_2 = 0$, $m_3 > -\alpha I_0$",
+        grade="missing case",
+        corrected="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
+        corrected_also=(Part(line="k2 = 0; k3 = 1; gamma = -(alpha + m3/I0)", model=lambda: parallel_model(-1)),),
+        corrected_tex=(
+            r"\hat{\mathbf{k}}=(0,0,\boxed{\mp1})^T,\qquad\gamma=\boxed{\pm}\Bigl(\alpha+\frac{m_3}{I_0}\Bigr)\quad"
+            r"\boxed{\text{for}\quad m_3\gtrless-\alpha I_0}"
         ),
-        note=r"In the same sense as $\mathbf{B}$, or against it with $m_3 > -\alpha I_0$. For $m_3 < -\alpha I_0$ "
-        r"both signs turn round, $\hat k_3 = 1$ and $\gamma = -(\alpha + m_3/I_0)$, since $\gamma$ is a root and "
-        "never negative. The product, and so @(30), is the same.",
+        note=r"For a fast spin against $\mathbf{B}$, $m_3 < -\alpha I_0$, both signs turn round, since $\gamma$ is a "
+        r"root and never negative. The product, and so @(30), is the same; for $m_3 = -\alpha I_0$ see "
+        "@theorem-ball-rest.",
         false=Falsehood(
             "The frequency is the spin alone",
             "gamma = alpha + m3/I0",

@@ -429,7 +429,7 @@ TRIALS = (
         model=hidden_model,
         follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
         false=Falsehood(
-            "$k$ depends on the strength of the field",
+            r"$k$ is $\omega_2$ times $\hat{B}_2$",
             "omega2*Bl/Bl2",
             "omega2*Bl2/Bl",
         ),

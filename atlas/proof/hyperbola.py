@@ -52,11 +52,17 @@ def constant_model() -> Model:
 
 @cache
 def proportional_model() -> Model:
-    """K1, K2 proportional to Omega1, Omega2, as the last equation of (59) has it."""
+    """Model both parts across e3 along one line, as the last equation of (59) has it; either may be zero."""
     dOmega, dK = _rates()
     flow = {Omega1: dOmega[0], Omega2: dOmega[1], K1: dK[0], K2: dK[1]}
     start = {Omega1: omega1, Omega2: omega2, K1: sympy.Integer(0), K2: B2}
-    return Model(_STATE, [(K1, kappa * Omega1), (K2, kappa * Omega2)], flow, start, units=units.OSCILLATOR)
+    line = (sympy.Symbol("along1", real=True), sympy.Symbol("along2", real=True))
+    where = [
+        (part, size * way)
+        for parts, size in (((Omega1, Omega2), s), ((K1, K2), kappa))
+        for part, way in zip(parts, line, strict=True)
+    ]
+    return Model(_STATE, where, flow, start, units=units.OSCILLATOR)
 
 
 @cache
@@ -238,7 +244,7 @@ TRIALS = (
         corrected=f"B2*omega2*nu1 = {_PHI}*Omega2; B2*omega2*nu2 = -{_PHI}*Omega1",
         corrected_defines=(),
         corrected_tex=r"\boxed{B'_2\omega_2}\phi=B'_2\omega_2\omega_3-B'_3(\omega_1^2+\omega_2^2)",
-        note=_REST,
+        note=r"At $\omega_2 = 0$ it has no value. Of these launches only rest has a constant $\Omega_3$.",
     ),
     Trial(
         name="(65)",

@@ -229,7 +229,7 @@ _SENSE = (
 
 @cache
 def trajectory_model(*, signed: bool = True) -> tuple[Model, Model]:
-    """Model the parts of (93) and (99), with the frequency (97) or with one that has the sign of the charge."""
+    """Model the parts of (93) and (99), with a frequency that has the sign of the charge, or at t = 0 with (97)."""
     cases = []
     for model in signed_model("origin") if signed else charges_model("origin"):
         mu_ = model.letters["mu"]
@@ -238,7 +238,8 @@ def trajectory_model(*, signed: bool = True) -> tuple[Model, Model]:
         )
         across = mu_ * E2 / omega * t * e1 + a * (e1 * sw + e2 * cw)
         letters = {**model.letters, "ypar": along, "yperp": across, "E": PARALLEL + ACROSS}
-        cases.append(Model(letters, model.where, model.flow, model.start, model.phases, units=units.PARTICLE))
+        where = model.where if signed else [*model.where, (p, sympy.Integer(0)), (t, sympy.Integer(0))]
+        cases.append(Model(letters, where, model.flow, model.start, model.phases, units=units.PARTICLE))
     return cases[0], cases[1]
 
 
@@ -304,7 +305,7 @@ TRIALS = (
     ),
     Trial(
         name="text-along-field",
-        printed="dot(d2(y),E) > 0",
+        printed="d2(y) = mu*E; dot(d2(y),E) > 0",
         model=along_field_model,
         follows="@text-no-magnetic-field, for either sign of the charge",
         corrected="d2(y) = mu*E",
@@ -343,7 +344,7 @@ TRIALS = (
     ),
     Trial(
         name="text-parallel-acceleration",
-        printed="dot(d2(ypar),d2(ypar)) = mu^2*dot(Eperp,Eperp)",
+        printed="d2(ypar) = mu*Epar; dot(d2(ypar),d2(ypar)) = mu^2*dot(Eperp,Eperp)",
         model=fall_along_model,
         follows="@(93)",
         corrected="dot(d2(ypar),d2(ypar)) = mu^2*dot(Epar,Epar)",

@@ -177,12 +177,12 @@ _C5 = "Omega1*K1 + Omega2*K2 - Omega3^2 + (2 - I)*c3*Omega3"
 
 
 @cache
-def laboratory_model() -> Model:
-    """Model any field, its part across e3 of length B2 at an angle to e2; S turns about e3 by that angle."""
+def laboratory_model(across: Value = B2, along: Value = B3) -> Model:
+    """Model a field, its part across e3 of that length at an angle to e2; S turns about e3 by that angle."""
     cosine, sine = turn(sympy.Symbol("p", real=True))
     S = sympy.Matrix([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
-    field = sympy.Matrix([B2 * sine, B2 * cosine, B3])
-    return Model({"S": S, "B": field, "J": tensor, "B2": B2, "B3": B3})
+    field = sympy.Matrix([across * sine, across * cosine, along])
+    return Model({"S": S, "B": field, "J": tensor, "B2": across, "B3": along})
 
 
 @cache
@@ -217,8 +217,16 @@ TRIALS = (
         model=laboratory_model,
         follows=r"a rotation about $\mathbf{e}_3$ by the angle between $\mathbf{e}_2$ and the part of $\mathbf{B}$ "
         r"across $\mathbf{e}_3$",
-        note=r"$B_3 > 0$ is a choice of the sense of $\mathbf{e}_3$. What the choice $B_2 > 0$, $B_3 > 0$ leaves out "
-        "are a field along the axis of the body and one across it.",
+        grade="missing case",
+        corrected="S*J*T(S) = J; S*B = [0, B2, B3]",
+        corrected_also=(
+            Part(line="S*B = [0, 0, B3]", model=lambda: laboratory_model(across=sympy.Integer(0))),
+            Part(line="S*B = [0, B2, 0]", model=lambda: laboratory_model(along=sympy.Integer(0))),
+        ),
+        corrected_tex=r"S\mathbf{B}=(0,B_2,B_3)^T,\qquad\boxed{B_2\ge0,\quad B_3\ge0}",
+        note=r"$B_3 \ge 0$ is a choice of the sense of $\mathbf{e}_3$. But a field along the axis of the body has "
+        "$B_2 = 0$ and one across it $B_3 = 0$; the choice with $B_2 > 0$, $B_3 > 0$ does not reach them, and the "
+        "motions of the body in them are others: see @theorem-axis-stable and @theorem-equatorial-field.",
         false=Falsehood(
             r"The same turn puts the field into the plane of $\mathbf{e}_1$ and $\mathbf{e}_3$",
             "S*B = [0, B2, B3]",

@@ -99,6 +99,16 @@ def test_what_holds_by_definition_is_not_called_proved() -> None:
     assert [name for name, verdict in RECORDED.items() if verdict.verdict == "definition"] == DEFINITIONS
 
 
+def test_a_counterexample_names_what_it_takes_and_when() -> None:
+    """At t = 0 the particle is at a e2 of its circle; the sign of the charge and the field along B are told."""
+    for name in ("(99)", "(101)", "text-ball-centre"):
+        found = RECORDED[name].counterexample
+        assert (found["t"], found["yperp"]) == ("0", f"[0, {found['a']}, 0]")
+        assert found["left"] != found["right"]
+    assert RECORDED["text-along-field"].counterexample["mu"] == "-1"
+    assert RECORDED["text-parallel-acceleration"].counterexample["Epar"] == "[0, 0, 0]"
+
+
 def test_slips_are_graded_and_counted_once() -> None:
     """Every refuted entry has a grade, several may share one slip, and the grave grades come first."""
     graded = {name: verdict for name, verdict in RECORDED.items() if verdict.grade}
@@ -109,7 +119,7 @@ def test_slips_are_graded_and_counted_once() -> None:
     assert {grade: len(names) for grade, names in found.items()} == {
         "sign of the charge": 1,
         "gap in the argument": 1,
-        "missing case": 9,
+        "missing case": 11,
         "misprint": 9,
         "wording": 5,
     }
