@@ -20,7 +20,10 @@ LIMIT = 4 * 2.0**-52
 def scene(*, cases: tuple[str, ...] = ("elementary", "ball", "particle"), columns: int = 1) -> Scene:
     """Draw one panel for each of the cases."""
     record = read()
-    worst = max((run.error for run in record.runs if run.method in OURS and run.error is not None), default=0.0)
+    worst = max(
+        (run.error for run in record.runs if run.method in OURS and run.case in cases and run.error is not None),
+        default=0.0,
+    )
     shown = listed([f"the {case_title(case)}" for case in cases])
     return Scene(
         title=title(__doc__),

@@ -30,7 +30,8 @@ const focused = page => page.evaluate(() => document.activeElement.href ?? docum
 const page = await open({ viewport: { width: 1280, height: 900 } });
 const box = await page.locator("#search").boundingBox();
 holds(box.y + box.height < 900, "the search box is on the first screen");
-for (const query of ["I=3/2", "I = 3/2", "omega2", "ω2", "Ω3", "g-factor", "(72)", "precession", "preccession", "Clebsch"]) {
+for (const query of ["I=3/2", "I = 3/2", "omega2", "ω2", "Ω3", "g-factor", "(72)", "precession", "preccession", "Clebsch", "Euler-Poisson equations", "sqrt(1-I)",
+  "how do I draw a figure", "equation 72"]) {
   const found = await hits(page, query);
   holds(found.length > 0, query, "is found");
   for (const { href } of found) {
@@ -38,6 +39,8 @@ for (const query of ["I=3/2", "I = 3/2", "omega2", "ω2", "Ω3", "g-factor", "(7
     holds(existsSync(file), query, "leads to a page that is there:", href);
   }
 }
+for (const query of ["equation 72", "eq. 72", "(72)"]) holds((await hits(page, query))[0].title.includes("(72)"), query, "is that equation first");
+holds((await hits(page, "TopMotion"))[0].title.startsWith("atlas.TopMotion(") || !folder.endsWith("/guide"), "a public name is found by itself");
 const across = (await hits(page, "slips found in the paper")).filter(({ href }) => href.startsWith(`file://${other}/`));
 holds(across.length > 0, "what only the other volume has is found");
 holds(across.every(({ title }) => title.includes(": ")), "and its volume is named");

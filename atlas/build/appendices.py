@@ -140,7 +140,7 @@ def _bench() -> dict[str, Data]:
     from atlas.study.bench import results, tables
 
     stored = results.read()
-    line = f"Measured on {tables.machine_line(stored)}."
+    line = f"Measured on {tables.machine_line(stored).replace(stored.command, f'`{stored.command}`')}."
     return {
         table.title: Data(
             tuple(map(_head, table.heading)),

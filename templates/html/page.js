@@ -45,14 +45,16 @@ results.hidden = true;
 
 // Letters as they are typed: Greek by name, no accents and primes, no space about the sign of a relation.
 const GREEK = {α: "alpha", β: "beta", γ: "gamma", δ: "delta", ε: "epsilon", ϵ: "epsilon", ζ: "zeta", η: "eta", θ: "theta", ϑ: "theta", κ: "kappa", λ: "lambda", μ: "mu", ν: "nu", ξ: "xi", π: "pi", ρ: "rho", σ: "sigma", τ: "tau", φ: "phi", ϕ: "phi", χ: "chi", ψ: "psi", ω: "omega"};
-const plain = text => text.normalize("NFKD").replace(/[\u0300-\u036f'′_{}$\\]/g, "").replace(/−/g, "-").toLowerCase()
+const plain = text => text.normalize("NFKD").replace(/[\u0300-\u036f'′_{}$\\]/g, "").replace(/[−–]/g, "-").toLowerCase()
   .replace(/[α-ωϑϕϵ]/g, letter => GREEK[letter] ?? letter).replace(/\s*([=<>≤≥≈≠])\s*/g, "$1");
 // A word, and of a formula its pieces too; a number in brackets is that of an equation and stays whole.
 const pieces = text => plain(text).split(/[\s,;:!?"“”]+/).flatMap(raw => {
   const word = raw.replace(/[.…]+$/, "");
   if (/^\(\w{1,4}\)$/.test(word)) return [word];
   const bare = word.replace(/^[([]+(?=[^()[\]]*$)|(?<=^[^()[\]]*)[)\]]+$/g, "");
-  return [...new Set([bare, ...bare.split(/[=<>≤≥≈≠+()[\]]/), ...(/^[a-z]+(-[a-z]+)+$/.test(bare) ? bare.split("-") : [])])];
+  const parts = bare.split(/[=<>≤≥≈≠+()[\]]/);
+  const names = parts.filter(part => /^[a-z]\w*(\.\w+)+$/.test(part)).flatMap(part => part.split("."));
+  return [...new Set([bare, ...parts, ...names, ...(/^[a-z]+(-[a-z]+)+$/.test(bare) ? bare.split("-") : [])])];
 }).filter(Boolean);
 
 // The reports beside this one are searched too, those that are there: what they have comes after what this one has.
@@ -67,15 +69,21 @@ let search;
 const engine = () => (search ??= sections().then(rows => {
   const made = new MiniSearch({
     fields: ["title", "text"], storeFields: ["file", "anchor", "title", "text", "nearness"], tokenize: pieces, processTerm: term => term,
-    searchOptions: {boost: {title: 3}, boostDocument: (id, term, {nearness}) => nearness, combineWith: "AND", prefix: term => term.length > 1 && !term.startsWith("("), fuzzy: term => /^[a-z]{4,}$/.test(term) ? 0.25 : false, tokenize: text => plain(text).split(/[\s,;]+/).filter(Boolean)},
+    searchOptions: {boost: {title: 3}, boostDocument: (id, term, {nearness, title}) => nearness * (term.startsWith("(") && title.includes(term) ? 4 : 1), combineWith: "AND", prefix: term => term.length > 1 && !term.startsWith("("), fuzzy: term => /^[a-z]{4,}$/.test(term) ? 0.25 : false, tokenize: text => plain(text).split(/[\s,;]+/).filter(Boolean)},
   });
   made.addAll(rows.map((row, id) => ({id, ...row})));
   return made;
 }));
+// "Equation 84" is (84). Where no place has all the words, those that have most, but for words that any sentence has.
+const EQUATION = /\b(?:eq|eqs|eqn|equations?)\b\.?\s*\(?(\d{1,3})\b\)?/gi, COMMON = /^(?:an?|and|can|do|does|for|from|get|how|i|in|is|it|make|my|of|on|own|the|to|what|where|which|with|you)$/;
+const find = (made, words) => {
+  const asked = words.replace(EQUATION, "($1)"), whole = made.search(asked);
+  return whole.length ? whole : made.search(asked, {combineWith: "OR", tokenize: text => pieces(text).filter(word => !COMMON.test(word))});
+};
 const look = async () => {
   const asked = box.value.trim(), made = await engine();
   if (asked !== box.value.trim()) return;
-  const hits = asked ? made.search(asked).slice(0, 12) : [];
+  const hits = asked ? find(made, asked).slice(0, 12) : [];
   results.replaceChildren(...hits.map(({file, anchor, title, text, terms}) => {
     const at = Math.max(0, ...terms.slice(0, 1).map(term => plain(text).indexOf(term)));
     const from = Math.max(0, Math.min(at, text.length) - 30);

@@ -13,8 +13,9 @@ import pytest
 from atlas.errors import AtlasError
 from atlas.scene import recipes
 from atlas.scene.layers import Curve, Plane, Points, Scene
+from atlas.scene.words import tex
 from atlas.study.bench import results
-from atlas.study.bench.methods import LINES, MARKS, title
+from atlas.study.bench.methods import LINES, MARKS, OURS, title
 
 NAMES = ("work_precision", "horizon", "cost")
 
@@ -92,8 +93,11 @@ def test_the_best_run_at_each_horizon_is_drawn() -> None:
             key = run.case, run.method, run.horizon
             best[key] = min(best.get(key, np.inf), run.error or 0.0)
     for case in ("elementary", "ball"):
-        (panel,) = recipes.load("horizon").scene(cases=(case,)).panels
+        drawn = recipes.load("horizon").scene(cases=(case,))
+        (panel,) = drawn.panels
         assert places(panel) == {(horizon, error) for (of, _, horizon), error in best.items() if of == case}
+        worst = max(error for (of, method, _), error in best.items() if of == case and method in OURS)
+        assert f"The largest of the atlas is ${tex(float(f'{worst:.1e}'))}$" in drawn.caption
 
 
 def test_figures_follow_the_record(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
