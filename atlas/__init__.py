@@ -1,5 +1,15 @@
 """An analytical atlas of the exact motion of a charged symmetric body in constant electric and magnetic fields.
 
+    >>> import atlas
+    >>> motion = atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7)
+    >>> round(motion.k, 9), round(motion.phi, 9)
+    (1.565247584, -0.741176471)
+
+Bodies and fields: SymmetricBody, ChargeMoments, Field, LaboratoryFrame. Surfaces of initial data: Quadric, Hyperbola.
+Motions: ElementaryMotion (the paper's), GeneralMotion (from any start), BallMotion, FreeMotion, TopMotion (any
+symmetric top), EllipticMotion and AsymmetricMotion (three different moments), ParticleMotion, Flight. Pictures: figure,
+plotter, animate. Tables: sweep. To compare with: simulate, clebsch. Errors: AtlasError, DomainError, NotCertifiedError.
+
 Names are loaded when they are first used, so that a number costs no drawing library.
 """
 

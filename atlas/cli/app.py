@@ -82,7 +82,7 @@ for name, says in {
     "tex": "Write a report as LaTeX.",
     "verify": "Put the paper's equations on trial.",
     "bench": "Measure error against time.",
-    "stress": "Hunt for the worst errors.",
+    "stress": "Find the worst errors on extreme inputs.",
 }.items():
     atlas.add_command(LazyCommand(name, short_help=says))
 for family in FAMILIES.values():

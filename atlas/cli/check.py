@@ -42,7 +42,7 @@ def command(file: Path, **options: Any) -> int:
     options, or lines such as '# field = 1 2' at the head of the file.
 
     A body without symmetry is one with a line '# inertia = 1 1.7 2.2' (or with the six elements J11 J22 J33 J12 J13
-    J23): its integrals H, F, (M,K), K^2 and T are watched, since there is no closed form to compare with.
+    J23): its integrals H, F, (M,K), K^2 and T are watched. Its digits are not counted: `atlas asymmetric` has them.
 
     The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
     option is wrong.

@@ -32,7 +32,7 @@ NOTES = (
     "--coupling", type=REAL, nargs=2, default=(0.0, 0.0), metavar="K2 K3", help="M = I Omega + k b, as in atlas top."
 )
 @click.option("--linear", type=REAL, default=0.0, help="Potential linear nu + quadratic nu^2/2; m g l of a heavy top.")
-@click.option("--quadratic", type=REAL, default=0.0, help="The other one, of an anisotropy.")
+@click.option("--quadratic", type=REAL, default=0.0, help="Its other coefficient, of an anisotropy.")
 @click.option("--M3", "along", type=REAL, required=True, help="Momentum along the axis, the same on the whole loop.")
 @click.option(
     "--p", "p", type=REAL, help="Momentum along n in the middle of the loop; M3, of the upright spin, if left out."

@@ -27,10 +27,11 @@ NAMES = " or ".join(", ".join(FAMILIES).rsplit(", ", 1))
 HELP = f"""Compute quantities of a FAMILY over all combinations of parameters, or over the rows of a list.
 
 FAMILY is {NAMES}; a wrong name of a parameter or quantity is answered with the right ones. A row takes microseconds, of
-the family general some tens of them. A CSV file has units in its heading, as in k [1/time]. Where a quantity has no
-value its cell is empty, and the column missing says why. What is done is kept in the folder OUT.parts: a sweep that was
-stopped goes on when it is called again. A folder or an address, as s3://bucket/table.parquet (with the package of
-fsspec for it), takes a Parquet data set: files that pandas and Dask read as one table.
+the family general some tens of them, of asymmetric up to seconds. A CSV file has units in its heading, as in k
+[1/time]. Where a quantity has no value its cell is empty, and the column missing says why. What is done is kept in the
+folder OUT.parts: a sweep that was stopped goes on when it is called again. A folder or an address, as
+s3://bucket/table.parquet (with the package of fsspec for it), takes a Parquet data set: files that pandas and Dask read
+as one table.
 """
 
 MOST = 10**7

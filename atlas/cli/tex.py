@@ -17,10 +17,10 @@ from atlas.cli.progress import bar
 def command(name: str, out: Path, jobs: int | None) -> None:
     r"""Write a report as LaTeX: numbers by key, tables, figures, references, and a paper in REVTeX.
 
-    NAME is one of those that `atlas list` names, or a TOML file. In a manuscript, \input{atlas-numbers} and write
-    \atlas{motion/k} for a number with its unit, \atlas[3]{motion/k} for it rounded to three figures; more figures than
-    are proven are an error. \input{tables/ID} and \input{figures/ID} are tables of booktabs and siunitx, and figures
-    with their captions. All is printed from paper.tex.
+    NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. In a manuscript,
+    \input{atlas-numbers} and write \atlas{motion/k} for a number with its unit, \atlas[3]{motion/k} for it rounded
+    to three figures; more figures than are proven are an error. \input{tables/ID} and \input{figures/ID} are tables
+    of booktabs and siunitx, and figures with their captions. All is printed from paper.tex.
     """
     from atlas.build.tex import build_tex
 

@@ -22,8 +22,8 @@ top_options: Callable[[F], F] = stack(
     click.option("--mass", type=REAL, help="Mass of the body: with --heavy or --shape."),
     click.option("--shape", metavar="NAME", help="A body with dimensions for --inertia: ring, disk, ...; see atlas "
                  "list."),
-    *(click.option(f"--{name}", type=REAL, help=f"{name.capitalize()} of the shape, see atlas list.") for name in
-      ("radius", "height", "equatorial", "polar")),
+    *(click.option(f"--{name}", type=REAL, help=f"{name.capitalize()}{rest} of the shape, see atlas list.") for
+      name, rest in (("radius", ""), ("height", ""), ("equatorial", " semi-axis"), ("polar", " semi-axis"))),
     click.option("--points", type=click.Path(exists=True, dir_okay=False), metavar="FILE", help="Point masses and "
                  "charges instead: a CSV file with the columns x, y, z, mass, charge; the axis is z."),
     click.option("--charged", type=REAL, nargs=2, metavar="J2 J3", help="Moments of the charges, across and along the "

@@ -205,6 +205,9 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     for other kinds, every value is proved and rounded once, in tenths of a second each. For proven digits see
     `atlas.exact`. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
     others; NotCertifiedError, an AtlasError, for what cannot be proved; AtlasError for what is no finite number.
+
+        >>> atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), omega=(0.3, 0.7, 0.2)).kind
+        'on a torus'
     """
 
     family = "asymmetric"

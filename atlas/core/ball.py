@@ -36,6 +36,9 @@ class BallMotion(Motion[Ball]):
     inertia/time. Arrays broadcast; the inputs are taken as exact. The frame is that of Figure Ball, e3 along the field
     and m(0) in the plane (e2, e3), not that of the symmetric body. For m2 = 0 the two turns are one, (30). Raises
     DomainError for an inertia that is not positive, AtlasError for what is no number.
+
+        >>> round(atlas.BallMotion(1.0, 0.5, momentum=(0.3, -0.7)).gamma, 9)
+        0.360555128
     """
 
     family = "ball"

@@ -82,6 +82,10 @@ class ElementaryMotion(Motion[Elementary]):
     Raises DomainError at the pole omega2 = -B2 otherwise, for B2 = 0 with omega2 != 0, and if omega3 is not given where
     it is free or given where it is not. A frequency that overflows is inf; its motion is not lost, as long as
     the phases stay within 2^50. AtlasError is raised for what is no number.
+
+        >>> motion = atlas.ElementaryMotion(1.5, (1.0, 2.0), omega2=0.7)
+        >>> motion.case, motion.rotation([0.0, 1e12]).shape
+        ('precession', (2, 3, 3))
     """
 
     family = "elementary"

@@ -47,6 +47,10 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
     4 ulp. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
     others, for a z on neither oval or at the end of one, and for another branch; AtlasError for what is no finite
     number.
+
+        >>> motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), z=1.7)
+        >>> motion.kind, round(motion.period, 9)
+        ('elliptic', 23.996707123)
     """
 
     family = "elliptic"

@@ -56,11 +56,15 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
       "separatrix between B and -B": the axis turns over from one pole of the sphere to the other, once.
 
     Which it is, is decided exactly; the entries of R join without a gap. The cost does not depend on t. Entries of R
-    are within 1.8e-15, twice what elementary motions promise, on fine grids within 3.6e-15: so far `atlas stress` has
-    found 1.1e-15 at most. K is within 1.8e-15 of |B'|, Omega within 16 ulp of its own largest component, however slowly
-    the body turns beside its Larmor frame, and m within 7e-15 of its length.
+    are within 1.8e-15, twice what elementary motions promise, on fine grids within 3.6e-15. K is
+    within 1.8e-15 of |B'|, Omega within 16 ulp of its own largest component, however slowly the body turns beside its
+    Larmor frame, and m within 7e-15 of its length.
     Raises DomainError if the body's axis comes to within some 1e-600 rad of the field, but not into it. AtlasError is
     raised for what is no number.
+
+        >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
+        >>> motion.kind, round(motion.period, 9)
+        ('nutation, four real roots', 2.181330398)
     """
 
     family = "general"

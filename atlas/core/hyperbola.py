@@ -41,6 +41,9 @@ class Hyperbola(Shown):
     Special fields: for B3 = 0 the curve is the two lines omega3 = 0 and omega2 = -B2, for B2 = 0 the line
     omega2 = 0, and for B = 0 the whole plane; for I = 1 it is the line Y = (B3/B2) X, and the pole a second one. Raises
     DomainError for a ratio that no body has, AtlasError for what is no number.
+
+        >>> round(atlas.Hyperbola(1.5, (1.0, 2.0)).omega3(0.7), 9)
+        0.658823529
     """
 
     family = "hyperbola"

@@ -101,11 +101,11 @@ class Motion(Shown, Generic[Turning]):
         raise NotImplementedError
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Rotation matrix R(t), (84), (85); shape (..., 3, 3).
+        """Rotation matrix R(t), (84), (85), with the body's axes as columns; shape (..., 3, 3).
 
         `t` of any shape, finite; its phases k t, phi t up to 2^50. `out`, C-contiguous float64, is filled if given.
-        Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15, of an `AsymmetricMotion`
-        within its own `accuracy`. Raises AtlasError beyond.
+        Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15, of a `TopMotion` or an
+        `EllipticMotion` within 3.6e-15, of an `AsymmetricMotion` within its own `accuracy`. Raises AtlasError beyond.
         """
         return self._spread(lambda turning, t, out: turning.rotation(t, out), t, (3, 3), out)
 

@@ -29,11 +29,14 @@ class Quadric(Shown):
         omega'_1^2 - omega'_2^2/a2 + omega'_3^2/a3 = (1 - I) B2^2,                                               (54)
 
     a2 and a3 as printed there. They have the sign of B3: the paper takes B3 > 0, and for B3 < 0 the axes 2 and 3
-    interchange their roles. The cone's semi-axes are a2 and a3, (56); its C1, C2, C3 are zero.
+    interchange their roles. The cone's semi-axes are their roots, (70); its C1, C2, C3 are zero.
 
     Degenerate kinds: for B2 = 0 ("line") C1, C2, C3 are zero and the infinite one of a2, a3 raises DomainError; for
     B = 0 ("all space") beta, a2, a3 and the axes do, since I^-1 B' has no direction. AtlasError is raised for what is
     no number.
+
+        >>> atlas.Quadric(1.5, (1.0, 2.0)).kind
+        'two-sheet hyperboloid'
     """
 
     family = "quadric"

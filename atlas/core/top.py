@@ -69,6 +69,10 @@ class TopMotion(NutatingMotion[SingleTop]):
     one, some milliseconds each. Entries of R are within 3.6e-15 for phases up to 2^50, Omega within 3.6e-15 of the
     largest rate.
     Raises DomainError if I3 is not in (0, 2 I2] or if n is zero; AtlasError for what is no finite number.
+
+        >>> top = atlas.TopMotion((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), omega=(0.1, 0.2, 5.0), linear=3.0)
+        >>> top.kind, round(top.period, 9)
+        ('nutation, three real roots', 3.204092414)
     """
 
     family = "top"

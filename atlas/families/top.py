@@ -56,7 +56,7 @@ FAMILY = Family(
             (-5.0, 5.0), needed=False, omitted=0.0,
         ),
         Parameter(
-            "quadratic", "The other one, of an anisotropy.", "inertia/time^2", (0.0,), (-5.0, 5.0),
+            "quadratic", "Its other coefficient, of an anisotropy.", "inertia/time^2", (0.0,), (-5.0, 5.0),
             needed=False, omitted=0.0,
         ),
     ),

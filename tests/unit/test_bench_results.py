@@ -1,6 +1,8 @@
 """A run of the benchmark, its record, its tables, and what becomes of methods that fail."""
 
+import math
 import os
+import re
 import socket
 from dataclasses import replace
 from itertools import count
@@ -239,3 +241,23 @@ def test_stored_record_is_whole() -> None:
     assert tolerances == {float(f"1e-{n}") for n in range(3, 15)}
     assert max(cost.count for cost in record.costs) == 10_000_000
     assert all(check.distance < 1e-40 for check in record.checks)
+
+
+def test_the_readme_quotes_the_record() -> None:
+    """Error and time of each row of its comparison are those on record, in two figures."""
+    record, rows = (
+        read(),
+        re.findall(r"^\| (.+?) \| (\S+) \| (\S+) ms \|$", Path("README.md").read_text("utf-8"), re.MULTILINE),
+    )
+    names = {"`ElementaryMotion.rotation`": "ours", "the formula in plain NumPy": "plain"}
+    names |= {"heyoka, Taylor series, tolerance 1e-14": "heyoka", "SciPy, DOP853, tolerance 1e-7": "DOP853"}
+    assert {row[0] for row in rows} == set(names)
+    for what, error, milliseconds in rows:
+        tolerance = float(what.partition("tolerance ")[2] or "nan")
+        (one,) = (
+            one
+            for one in record.runs
+            if (one.case, one.method, one.horizon) == ("elementary", names[what], 1e4)
+            and (one.tolerance == tolerance or math.isnan(tolerance))
+        )
+        assert (f"{one.error:.1e}", f"{1e3 * one.seconds:.1e}") == (error, f"{float(milliseconds):.1e}"), what

@@ -79,6 +79,21 @@ def test_the_reference_holds_every_public_name() -> None:
     assert all(one.docstring for name in known.values() for one in (name, *name.members.values()))
 
 
+def test_examples_in_docstrings_give_what_they_show() -> None:
+    """What `help` shows of the package and of its classes of motions and surfaces can be typed."""
+    texts = {"atlas": atlas.__doc__ or ""} | {name: one.docstring for name, one in described().items()}
+    examples = {
+        name: doctest.DocTestParser().get_doctest(text, {"atlas": atlas}, name, None, None)
+        for name, text in texts.items()
+        if ">>>" in text
+    }
+    assert len(examples) > 9
+    failures = list[str]()
+    for example in examples.values():
+        doctest.DocTestRunner(optionflags=FLAGS, verbose=False).run(example, out=failures.append)
+    assert not failures, "".join(failures)
+
+
 def test_a_docstring_is_shown_as_it_is_written() -> None:
     """Signs of Markdown are letters, backticks and indented lines are code, dashes are lists."""
     text = "A `x` of omega'_1^2 * 2 < [y].\n\n    E = m_0 c^2\n\n- one ``a`b``\n- two"

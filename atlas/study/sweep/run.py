@@ -40,7 +40,7 @@ def sweep(
 ) -> Columns | Path | str:
     """Compute quantities of a family for all combinations of parameters, or, if `listed`, for lists of them by row.
 
-    `family` is a name in `atlas.study.sweep.families.FAMILIES`; `parameters` numbers or sequences by name, the last
+    `family` is one of those that `atlas sweep --help` names; `parameters` numbers or sequences by name, the last
     varying fastest. Without `out` returns the columns, parameters first. With `out` writes a table and returns where it
     is: a file .csv, .npz or .parquet; or, if `out` ends in / or is an address that fsspec knows, as
     s3://bucket/table.parquet, a Parquet data set, a folder that pandas and Dask read as one table.
