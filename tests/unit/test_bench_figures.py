@@ -12,8 +12,8 @@ import pytest
 
 from atlas.errors import AtlasError
 from atlas.scene import recipes
+from atlas.scene.captions import tex
 from atlas.scene.layers import Curve, Plane, Points, Scene
-from atlas.scene.words import tex
 from atlas.study.bench import results
 from atlas.study.bench.methods import LINES, MARKS, OURS, title
 
