@@ -75,7 +75,7 @@ stress: setup $(VENV)/.bench
 
 # Needs node, npm and Chromium.
 accessibility: report
-	@npm install --silent --no-save --prefix build/accessibility axe-core@4.14.1 playwright-core@1.65.1
+	@npm install --silent --no-save --prefix build/accessibility axe-core@4.14.1 playwright-core@1.63.0
 	@node tests/accessibility.mjs build/report/atlas build/accessibility
 	@node tests/accessibility.mjs build/report/trial build/accessibility
 	@node tests/accessibility.mjs build/report/guide build/accessibility

@@ -1,20 +1,18 @@
-// The figures of a built report that turn, in headless Chromium, opened from disk under the policy of its pages: Enter
-// opens each, it looks as its still picture does, keys turn it, 0 and Escape bring it back; the sliders of
-// the explorer move the motion and the address; nothing is asked for but files of the report, and without WebGL 2 a
-// click follows the link. Run by `make accessibility`, which brings the package from npm.
+// The figures of a built report that turn, in a headless browser, opened from disk under the policy of its pages: Enter
+// opens each, it looks as its still picture does, keys and a drag turn it, the wheel brings it nearer, 0 and Escape bring
+// it back; the sliders of the explorer move the motion and the address; nothing is asked for but files of the report, and
+// without WebGL 2 a click follows the link. Run by `make accessibility`, which brings the package from npm.
 import { readdirSync } from "node:fs";
-import { createRequire } from "node:module";
 import { resolve } from "node:path";
+import { launch } from "./browser.mjs";
 
 const [folder, packages] = process.argv.slice(2).map(path => resolve(path));
-const { chromium } = createRequire(`${packages}/`)("playwright-core");
-const launch = more => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", ...more] });
 let asked = 0, failed = 0, turned = 0, moved = 0;
 const holds = (right, ...words) => { asked += 1; if (!right) { failed += 1; console.log("not so:", ...words); } };
 // The mean difference of shades, of 255, from a shaded picture and from a line drawing, which has other tints.
 const NEAR = { png: 3, svg: 15 };
 
-const browser = await launch(["--enable-unsafe-swiftshader"]);
+const browser = await launch(packages, { gl: "sharp" });
 const page = await (await browser.newContext({ viewport: { width: 1280, height: 1000 }, reducedMotion: "reduce" })).newPage();
 page.on("pageerror", error => holds(false, String(error)));
 page.on("request", request => holds(request.url().startsWith(`file://${folder}/`), "a request to", request.url()));
@@ -84,7 +82,7 @@ for (const name of readdirSync(folder).filter(one => one.endsWith(".html"))) {
 }
 await browser.close();
 
-const old = await launch(["--disable-webgl", "--disable-webgl2", "--disable-3d-apis"]), still = await old.newPage();
+const old = await launch(packages, { gl: "flat" }), still = await old.newPage();
 const first = readdirSync(folder).filter(one => one.endsWith(".html"));
 for (const name of first) {
   await still.goto(`file://${folder}/${name}`);

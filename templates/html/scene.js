@@ -8,12 +8,12 @@
 // The light falls as in the shaded pictures: direction and strength of each lamp; they do not turn.
 const LAMPS = [[-0.55, 0.75, 0.9, 0.9], [0.9, 0.15, 0.8, 0.26], [0.1, 1, -0.5, 0.25], [0, -0.35, 1, 0.2]]
   .flatMap(([x, y, z, strength]) => [...unit([x, y, z]), strength]);
-const REACH = 2, STEPS = 16000, GRID = 16, PIECE = 11, FORMS = [1, 2, 3, 6], PIECES = [1, 4, 16], MOST = 16, TILE = 24;
+const REACH = 2, STEPS = 16000, GRID = 16, PIECE = 11, FORMS = [1, 2, 3, 6, 16], PIECES = [1, 2, 4, 16], MOST = 16, TILE = 24;
 
 const HEAD = "#version 300 es\nprecision highp float; precision highp int; precision highp sampler2D;\n";
 // Depth is linear in the distance to the eye: REACH in front of the middle is 0, REACH behind it 1.
-const SOLID_VERTEX = `${HEAD}in vec3 point, normal; in vec4 tint; uniform mat3 F; uniform vec4 M; out vec3 n, c;
-void main() { vec3 q = F * point; n = F * normal; c = tint.rgb; gl_Position = vec4(M.xy + M.zw * q.xy, -q.z / ${REACH}.0, 1); }`;
+const SOLID_VERTEX = `${HEAD}in vec3 point, normal; in vec4 tint; uniform mat3 F; uniform vec4 M; uniform float more; out vec3 n, c;
+void main() { vec3 q = F * (point + more * normal); n = F * normal; c = tint.rgb; gl_Position = vec4(M.xy + M.zw * q.xy, -q.z / ${REACH}.0, 1); }`;
 const SOLID_FRAGMENT = `${HEAD}in vec3 n, c; uniform vec4 L[4]; out vec4 o;
 void main() { vec3 m = normalize(n); float d = 0.3, s = 0.0;
   for (int i = 0; i < 4; i++) { d += 0.72 * L[i].w * max(dot(m, L[i].xyz), 0.0); s += 0.35 * L[i].w * pow(max(reflect(-L[i].xyz, m).z, 0.0), 30.0); }
@@ -31,7 +31,7 @@ const times = (count, text) => Array.from({length: count}, (_, i) => text(i)).jo
 const piece = k => `{ bool on = all(lessThanEqual(D[${k} + 9].xyz, y)) && all(lessThanEqual(y, D[${k} + 10].xyz)) ${times(4, i => `&& dot(D[${k} + ${i}].xyz, y) <= D[${k} + ${i}].w + 1e-5`)};
 for (bool now = on && D[${k} + 6].z > 0.0; now; now = false) on = dot(form(D[${k} + 4], D[${k} + 5], D[${k} + 6], v), v) <= 1e-6;
 front = on ? D[${k} + 7] : front; back = on ? D[${k} + 8] : back; }`;
-const cast = (forms, pieces, opaque) => `${HEAD}in vec2 P; out vec4 o; uniform highp sampler2D wire, depth; uniform mat3 F; uniform vec4 M, L[4], thread, Q[${3 * forms}], D[${PIECE * forms * pieces}]; uniform float texel; uniform bool matt;
+const cast = (sets, opaque, forms = sets.length, start = f => PIECE * sets.slice(0, f).reduce((a, b) => a + b, 0)) => `${HEAD}in vec2 P; out vec4 o; uniform highp sampler2D wire, depth; uniform mat3 F; uniform vec4 M, L[4], thread, Q[${3 * forms}], D[${start(forms)}]; uniform float texel; uniform bool matt;
 vec4 form(vec4 a, vec4 b, vec4 c, vec4 v) { return vec4(dot(a, v), dot(vec4(a.y, b.xyz), v), dot(vec4(a.z, b.y, b.w, c.x), v), dot(vec4(a.w, b.z, c.xy), v)); }
 vec4 shade(vec3 n, vec3 tint, float clear, float off) {
 float light = matt ? 0.72 : 0.66, glare = 0.0, shine = matt ? 0.0 : 0.28;
@@ -45,18 +45,18 @@ ivec2 at = ivec2(gl_FragCoord.xy); float zw = 9.0, z = ${opaque ? "-9.0" : `${RE
 for (bool now = thread.a > 0.0; now; now = false) zw = ${REACH}.0 * (1.0 - 2.0 * texelFetch(wire, at, 0).r);
 mat3 T = transpose(F); vec3 d = T[2], x = T * vec3((P - M.xy) / M.zw, 0);
 ${times(2 * forms, m => `float t${m} = 9.0; vec4 p${m} = vec4(0);`)}
-${times(forms, f => `{
+${sets.map((pieces, f) => `{
 vec4 a = Q[${3 * f}], b = Q[${3 * f + 1}], c = Q[${3 * f + 2}], Qd = form(a, b, c, vec4(d, 0)), Qx = form(a, b, c, vec4(x, 1));
 float A = dot(Qd.xyz, d), B = dot(Qd, vec4(x, 1)), C = dot(Qx, vec4(x, 1)), S = B * B - A * C, r = -(B + (B < 0.0 ? -1.0 : 1.0) * sqrt(max(S, 0.0)));
-for (int j = S >= 0.0 ? 0 : 2; j < 2; j++) {
+for (int j = S > 0.0 ? 0 : 2; j < 2; j++) {
 float t = j == 0 ? C / r : abs(A) > 1e-7 ? r / A : 9.0; vec3 y = x + t * d; vec4 front = vec4(0), back = front, v = vec4(y, 1);
-${pieces > 4 ? `for (int k = ${PIECE * pieces * f}; k < ${PIECE * pieces * (f + 1)}; k += ${PIECE}) ${piece("k")}` : times(pieces, p => piece(PIECE * (pieces * f + p)))}
+${pieces > 4 ? `for (int k = ${start(f)}; k < ${start(f + 1)} && D[k + 7].a > 0.0; k += ${PIECE}) ${piece("k")}` : times(pieces, p => piece(start(f) + PIECE * p))}
 for (bool keep = front.a > 0.0 && t > z && abs(t) < ${REACH}.0; keep; keep = false) {
 vec3 g = form(a, b, c, v).xyz; bool outer = dot(g, d) > 0.0; vec4 h = shade(F * normalize(outer ? g : -g), outer ? front.rgb : back.rgb, front.a, abs(t - zw));
-${times(2 * forms, m => `{ bool less = t < t${m}; float u = less ? t${m} : t; vec4 w = less ? p${m} : h; t${m} = less ? t : t${m}; p${m} = less ? h : p${m}; t = u; h = w; }`)}
+${times(2 * f + 2, m => `{ bool less = t < t${m}; float u = less ? t${m} : t; vec4 w = less ? p${m} : h; t${m} = less ? t : t${m}; p${m} = less ? h : p${m}; t = u; h = w; }`)}
 }
 }
-}`)}
+}`).join("\n")}
 ${opaque ? "if (t0 > 8.0) discard; bool two = t1 < 8.0; o = two ? p1 : p0; gl_FragDepth = 0.5 - 0.5 * (two ? t1 : t0) / " + REACH + ".0;"
 : `vec4 c = vec4(0); ${times(2 * forms, m => `c = c * (1.0 - p${m}.a) + vec4(p${m}.rgb, 1) * p${m}.a;`)} o = c;`}
 }`;
@@ -74,8 +74,8 @@ const points = packed => {
   for (let i = 0; i < steps.length; i += 3) found.push([steps[i] / STEPS, steps[i + 1] / STEPS, steps[i + 2] / STEPS]);
   return found;
 };
-// While it moves: pixels to one of the page.
-const SHARES = [0.18, 0.25, 0.35, 0.5, 0.7, 1];
+// While it moves: pixels to one of the page, no more than the screen has; what is coarser can't be read.
+const SHARES = [0.5, 0.7, 1, 1.4, 2, 9];
 const headOf = ([, , head, , tail, tip], scale) => {
   const way = add(tip, tail, -1), size = Math.hypot(...way);
   return [add(tip, way, -Math.min(head / scale, 0.5 * size) / (size || 1)), Math.min(head / scale, 0.5 * size)];
@@ -148,7 +148,7 @@ class Panel {
     const forms = new Map(), tint = colour => rgb(colour).map(x => x / 255);
     this.pieces = data.surfaces.map(([form, planes, [within], front, back, dense, low, high]) => {
       if (!forms.has(String(form))) forms.set(String(form), [...form, 0, 0]);
-      const clip = [...planes, ...Array(16 - planes.length).fill(0).map((_, i) => i % 4 === 3 ? 1 : 0)];
+      const clip = [...planes, ...Array(4).fill([0, 0, 0, 1]).flat()].slice(0, 16);
       return {form: forms.get(String(form)), low, high, opaque: dense >= 1, numbers: [...clip, ...(within ? [...within, 1, 0] : Array(12).fill(0)), ...tint(front), dense, ...tint(back), 0, ...low, 0, ...high, 0]};
     });
     this.ink = []; const all = lines.reduce((sum, [, , line]) => sum + line.length, 0), every = Math.max(1, Math.ceil(all / 600));
@@ -190,6 +190,7 @@ class Panel {
           const u = Math.cos(angle + turn), v = Math.sin(angle + turn), reach = length && length + step + Math.min(a / Math.abs(u), b / Math.abs(v), Math.hypot(a, b));
           const x = px + reach * u, y = py + reach * v, key = 100 * k + j;
           let cost = price + 0.3 * k - (this.kept[number] === key ? 1.5 : 0) + 40 * (Math.max(0, a - x) + Math.max(0, x + a - W) + Math.max(0, b - y) + Math.max(0, y + b - H));
+          if (cost >= best?.cost) continue;
           for (const [ix, iy, weight] of ink) if (Math.abs(ix - x) < a + 1.2 && Math.abs(iy - y) < b + 1.2) cost += weight;
           for (const [tx, ty, ta, tb] of taken) { const over = [ta + a + 5.2 - Math.abs(tx - x), tb + b + 2.2 - Math.abs(ty - y)]; if (over[0] > 0 && over[1] > 0) cost += 30 + over[0] * over[1]; }
           if (!best || cost < best.cost) best = {cost, x, y, key};
@@ -209,15 +210,15 @@ const svg = (tag, attributes) => {
 
 class Viewer {
   constructor(box, data, says, narrow) {
-    const shown = narrow && data.narrow ? {...data.wide, ...data.narrow} : data.wide; Object.assign(this, {box, data, shown, zoom: 1, move: [0, 0], pace: 3});
+    const shown = narrow && data.narrow ? {...data.wide, ...data.narrow} : data.wide; Object.assign(this, {box, data, shown, zoom: 1, move: [0, 0], pace: 1});
     const canvas = this.canvas = document.createElement("canvas"); canvas.tabIndex = 0;
-    canvas.setAttribute("role", "application"); canvas.setAttribute("aria-label", says);
+    canvas.role = "application"; canvas.ariaLabel = says;
     const gl = this.gl = canvas.getContext("webgl2", {antialias: false});
     if (!gl) throw new Error("no WebGL 2");
-    this.letters = document.createElement("div"); this.letters.setAttribute("aria-hidden", "true");
+    this.letters = document.createElement("div"); this.letters.ariaHidden = "true";
     this.solid = this.program(SOLID_VERTEX, SOLID_FRAGMENT); this.wire = this.program(WIRE_VERTEX, WIRE_FRAGMENT);
     this.panels = shown.panels.map((_, number) => new Panel(this, number)); this.panels.forEach(panel => panel.load());
-    this.full = new Map();
+    this.full = {};
     box.append(canvas, this.letters); this.listen();
     this.seen = new ResizeObserver(() => this.hurry()); this.seen.observe(box);
   }
@@ -254,27 +255,26 @@ class Viewer {
   }
   draw(fine = true) {
     const {gl, box} = this, {clientWidth, clientHeight} = box; if (!clientWidth || !clientHeight) return;
-    const sharp = devicePixelRatio || 1, ratio = fine ? Math.min(2 * sharp, Math.sqrt(2e5 * 2 ** this.pace / clientWidth / clientHeight)) : sharp * SHARES[this.pace];
+    const sharp = devicePixelRatio, ratio = fine ? Math.min(2 * sharp, Math.max(1, Math.sqrt(4e5 * 2 ** this.pace / clientWidth / clientHeight))) : Math.min(sharp, SHARES[this.pace]);
     const width = Math.round(clientWidth * ratio), height = Math.round(clientHeight * ratio); this.target(width, height);
     for (const panel of this.panels) this.drawPanel(panel, width, height);
     for (const panel of this.panels) panel.names(clientWidth, clientHeight);
   }
-  // The program for so many quadrics, and pieces of each.
-  caster(forms, pieces, opaque) {
-    const key = `${forms} ${pieces} ${opaque}`;
-    if (!this.full.has(key)) this.full.set(key, this.vertices(null, this.program(FULL_VERTEX, cast(forms, pieces, opaque)), {at: [2, [-1, -1, 3, -1, -1, 3]]}, [0, 1, 2]));
-    return this.full.get(key);
+  // The program for quadrics with so many pieces each.
+  caster(sets, opaque) {
+    const key = `${sets} ${opaque}`;
+    return this.full[key] ??= this.vertices(null, this.program(FULL_VERTEX, cast(sets, opaque)), {at: [2, [-1, -1, 3, -1, -1, 3]]}, [0, 1, 2]);
   }
   drawPanel(panel, width, height) {
-    const {gl} = this, {box: [left, low, w, h], fit, M} = panel.measure(width, height), f = panel.frame, F = [f[0], f[3], f[6], f[1], f[4], f[7], f[2], f[5], f[8]], thread = [0, 0, 0, 0]; let now;
-    const begin = frame => { gl.bindFramebuffer(gl.FRAMEBUFFER, frame); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT); };
+    const {gl} = this, {box: [left, low, w, h], fit, M} = panel.measure(width, height), f = panel.frame, F = [f[0], f[3], f[6], f[1], f[4], f[7], f[2], f[5], f[8]], thread = [0, 0, 0, 0], texel = 2 / (M[2] * w); let now;
+    const mesh = count => gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0), begin = frame => { gl.bindFramebuffer(gl.FRAMEBUFFER, frame); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT); };
     const use = one => { if (one === now) return; now = one; gl.useProgram(one.by.program); gl.bindVertexArray(one.array); gl.uniformMatrix3fv(one.by.at("F"), false, F); gl.uniform4fv(one.by.at("M"), M); gl.uniform4fv(one.by.at("L"), LAMPS); };
-    const rays = (list, [x0, y0, x1, y1], opaque) => {  // where -1..1 is the panel
-      const forms = [...new Set(list.map(one => one.form))], sets = forms.map(form => list.filter(one => one.form === form)), F = FORMS.find(n => n >= forms.length), N = PIECES.find(n => n >= Math.max(...sets.map(set => set.length)));
-      const full = this.caster(F, N, opaque), {at} = full.by, fill = (numbers, size) => new Float32Array(size).map((_, i) => numbers[i] ?? 0);
-      use(full); gl.uniform1i(at("wire"), 0); gl.uniform1i(at("depth"), 1); gl.uniform4fv(at("thread"), thread); gl.uniform1i(at("matt"), panel.data.matt); gl.uniform1f(at("texel"), 2 / (M[2] * w));
-      gl.uniform4fv(at("Q"), fill(forms.flat(), 12 * F)); gl.uniform4fv(at("D"), fill(sets.flatMap(set => [...fill(set.flatMap(one => one.numbers), 4 * PIECE * N)]), 4 * PIECE * N * F));
-      const [a, b, c, e] = [[x0, w], [y0, h], [x1, w], [y1, h]].map(([x, span]) => Math.round(Math.min(1, Math.max(0, (x + 1) / 2)) * span)); gl.scissor(left + a, low + b, c - a, e - b); gl.drawElements(gl.TRIANGLES, 3, gl.UNSIGNED_INT, 0);
+    const rays = (list, edges, opaque) => {  // where -1..1 is the panel
+      const sets = [...new Set(list.map(one => one.form))].map(form => list.filter(one => one.form === form)).sort((a, b) => b.length - a.length);
+      const sizes = Array.from({length: FORMS.find(n => n >= sets.length)}, (_, i) => PIECES.find(n => n >= (sets[i] ?? []).length)), full = this.caster(sizes, opaque), {at} = full.by, fill = (numbers, size) => new Float32Array(size).map((_, i) => numbers[i] ?? 0);
+      use(full); gl.uniform1i(at("depth"), 1); gl.uniform4fv(at("thread"), thread); gl.uniform1i(at("matt"), panel.data.matt); gl.uniform1f(at("texel"), texel);
+      gl.uniform4fv(at("Q"), fill(sets.flatMap(set => set[0].form), 12 * sizes.length)); gl.uniform4fv(at("D"), sets.flatMap((set, i) => [...fill(set.flatMap(one => one.numbers), 4 * PIECE * sizes[i])]));
+      const [a, b, c, e] = edges.map((x, i) => Math.round(Math.min(1, Math.max(0, (x + 1) / 2)) * [w, h][i % 2])); gl.scissor(left + a, low + b, c - a, e - b); mesh(3);
     };
     for (const one of panel.pieces) {
       one.span = [9, 9, -9, -9];
@@ -284,18 +284,18 @@ class Viewer {
     [this.wires.depth, this.solids.depth].forEach((texture, i) => { gl.activeTexture(gl.TEXTURE0 + i); gl.bindTexture(gl.TEXTURE_2D, i ? null : texture); });
     if (panel.wire.count) {
       const [colour, tube] = panel.data.wires[0], thick = tube * fit * this.zoom; rgb(colour).forEach((x, i) => { thread[i] = x / 255; }); thread[3] = Math.min(1, thick);
-      begin(this.wires.frame); use(panel.wire); gl.uniform2fv(panel.wire.by.at("half_width"), [w, h].map(side => Math.max(thick, 1) / side)); gl.drawElements(gl.TRIANGLES, panel.wire.count, gl.UNSIGNED_INT, 0);
+      begin(this.wires.frame); use(panel.wire); gl.uniform2fv(panel.wire.by.at("half_width"), [w, h].map(side => Math.max(thick, 1) / side)); mesh(panel.wire.count);
     }
-    begin(this.solids.frame); use(panel.solid); gl.drawElements(gl.TRIANGLES, panel.solid.count, gl.UNSIGNED_INT, 0);
+    begin(this.solids.frame); use(panel.solid); gl.uniform1f(panel.solid.by.at("more"), Math.max(0, (texel - 1 / panel.place.scale) / 2)); mesh(panel.solid.count);
     for (const one of panel.pieces) if (one.opaque) rays([one], one.span, true);
     gl.scissor(left, low, w, h); gl.disable(gl.DEPTH_TEST); gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.solids.frame); gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
     gl.blitFramebuffer(left, low, left + w, low + h, left, low, left + w, low + h, gl.COLOR_BUFFER_BIT, gl.NEAREST);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null); gl.bindTexture(gl.TEXTURE_2D, this.solids.depth); gl.enable(gl.BLEND); gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     // Glass tile by tile, each with the pieces whose boxes reach into it; a tile with many is divided.
-    const tile = (all, x0, y0, x1, y1) => {
-      const list = all.filter(({span}) => span[0] < x1 && span[2] > x0 && span[1] < y1 && span[3] > y0), x = (x0 + x1) / 2, y = (y0 + y1) / 2;
+    const tile = (all, ...edges) => {
+      const [x0, y0, x1, y1] = edges, list = all.filter(({span}) => span[0] < x1 && span[2] > x0 && span[1] < y1 && span[3] > y0), x = (x0 + x1) / 2, y = (y0 + y1) / 2;
       if (list.length > 4 && (x1 - x0) * w > 2 * TILE) for (const corner of [[x0, y0, x, y], [x, y0, x1, y], [x0, y, x, y1], [x, y, x1, y1]]) tile(list, ...corner);
-      else if (list.length) rays(list.slice(0, MOST), [Math.max(x0, Math.min(...list.map(one => one.span[0]))), Math.max(y0, Math.min(...list.map(one => one.span[1]))), Math.min(x1, Math.max(...list.map(one => one.span[2]))), Math.min(y1, Math.max(...list.map(one => one.span[3])))], false);
+      else if (list.length) rays(list.slice(0, MOST), edges.map((x, i) => { const all = list.map(one => one.span[i]); return i < 2 ? Math.max(x, Math.min(...all)) : Math.min(x, Math.max(...all)); }), false);
     };
     tile(panel.pieces.filter(one => !one.opaque), -1, -1, 1, 1); gl.disable(gl.SCISSOR_TEST);
   }
@@ -305,7 +305,7 @@ class Viewer {
     this.asked ??= requestAnimationFrame(now => {
       this.asked = null; const took = this.last ? now - this.last : 30; this.last = now;
       this.slow = 0.7 * (this.slow ?? 30) + 0.3 * took;
-      if (this.slow > 36 && this.pace) { this.pace--; this.slow = 30; } else if (this.slow < 20 && this.pace < SHARES.length - 1) { this.pace++; this.slow = 30; }
+      if (this.slow > 36 && this.pace) { this.pace--; this.slow = 30; } else if (this.slow < 20 && SHARES[this.pace] < devicePixelRatio) { this.pace++; this.slow = 30; }
       this.draw(false);
     });
   }
@@ -319,10 +319,10 @@ class Viewer {
     canvas.addEventListener("pointermove", event => {
       if (!down.has(event.pointerId)) return;
       const [x, y] = down.get(event.pointerId), before = [...down.values()]; down.set(event.pointerId, [event.clientX, event.clientY]);
-      const dx = event.clientX - x, dy = event.clientY - y, now = [...down.values()], gap = two => Math.hypot(two[0][0] - two[1][0], two[0][1] - two[1][1]);
+      const dx = event.clientX - x, dy = event.clientY - y, now = [...down.values()], gap = ([[a, b], [c, d]]) => Math.hypot(a - c, b - d);
       if (down.size > 1) { this.scaleBy(gap(now) / (gap(before) || 1)); this.shiftBy(dx / 2, dy / 2); } else if (event.shiftKey) this.shiftBy(dx, dy); else this.turn(0.008 * dx, 0.008 * dy);
     });
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, event => down.delete(event.pointerId));
+    canvas.addEventListener("lostpointercapture", event => down.delete(event.pointerId));
     canvas.addEventListener("wheel", event => { if (document.activeElement !== canvas) return; event.preventDefault(); this.scaleBy(Math.exp(-0.0015 * event.deltaY)); }, {passive: false});
     canvas.addEventListener("dblclick", () => this.back());
     const keys = {ArrowLeft: () => this.turn(-0.1, 0), ArrowRight: () => this.turn(0.1, 0), ArrowUp: () => this.turn(0, -0.1), ArrowDown: () => this.turn(0, 0.1), "+": () => this.scaleBy(1.1), "=": () => this.scaleBy(1.1), "-": () => this.scaleBy(1 / 1.1), "0": () => this.back()};
@@ -345,7 +345,7 @@ const open = async link => {
   try {
     const viewer = new Viewer(box, data, `${still.alt} Arrow keys turn it, plus and minus zoom, 0 goes back, Escape closes it.`, still.currentSrc.includes("-narrow."));
     const end = () => { viewer.close(); link.removeAttribute("tabindex"); link.focus(); };
-    close.textContent = "×"; close.setAttribute("aria-label", "Back to the still picture"); close.addEventListener("click", end); box.append(close);
+    close.textContent = "×"; close.ariaLabel = "Back to the still picture"; close.addEventListener("click", end); box.append(close);
     still.addEventListener("load", () => { if (box.isConnected) { end(); open(link); } }, {once: true});  // of another width
     box.addEventListener("keydown", event => { if (event.key === "Escape") { event.stopPropagation(); end(); } });
     link.tabIndex = -1; viewer.hurry(); viewer.canvas.focus({preventScroll: true}); link.viewer = viewer;
