@@ -1,18 +1,18 @@
-// Every page of a built report in headless Chromium, wide and narrow, light and dark, before the linter axe-core; and
+// Every page of a built report in a headless browser, wide and narrow, light and dark, before the linter axe-core; and
 // that no page is wider than its window. Run by `make accessibility`, which brings the two packages from npm.
 import { readdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
+import { launch } from "./browser.mjs";
 
 const [folder, packages] = process.argv.slice(2).map(path => resolve(path));
 const require = createRequire(`${packages}/`);
-const { chromium } = require("playwright-core");
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
 let found = 0, seen = 0;
 const tell = (...words) => { found += 1; console.log(...words); };
 for (const colorScheme of ["light", "dark"]) {
+  const browser = await launch(packages, { dark: colorScheme === "dark" });
   for (const width of [1280, 400]) {
     // The policy of the pages lets no linter in; that they hold to it is shown by a test of its own.
     const context = await browser.newContext({ colorScheme, viewport: { width, height: 900 }, bypassCSP: true });
@@ -33,7 +33,7 @@ for (const colorScheme of ["light", "dark"]) {
     }
     await context.close();
   }
+  await browser.close();
 }
-await browser.close();
 console.log(`${folder}: ${seen} views, ${found} findings`);
 process.exit(found ? 1 : 0);

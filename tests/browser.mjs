@@ -1,15 +1,16 @@
-// The browser in which the tests look at pages: Chromium, or the Firefox that FIREFOX names, which has WebGL 2 on a
-// screen only: FIREFOX=/usr/bin/firefox-esr xvfb-run node tests/scenes.mjs ...
+// The browser in which the tests look at pages: Chromium, or the Firefox that FIREFOX names. Firefox has WebGL 2 on a
+// screen only, and playwright 1.64 and later ask stable ones for a command they don't have:
+//     FIREFOX=/usr/bin/firefox-esr xvfb-run -a node tests/scenes.mjs build/report/atlas build/accessibility
 import { createRequire } from "node:module";
 
-export const firefox = process.env.FIREFOX;
-const CHROMIUM = { sharp: ["--enable-unsafe-swiftshader"], flat: ["--disable-webgl", "--disable-webgl2", "--disable-3d-apis"] };
+const firefox = process.env.FIREFOX;
+const SWITCHES = { soft: ["--enable-unsafe-swiftshader"], none: ["--disable-webgl", "--disable-webgl2", "--disable-3d-apis"] };
 
-// `gl` is "sharp" for WebGL 2 in software, "flat" for none.
+// `gl` is "soft" for WebGL 2 in software, "none" for no WebGL.
 export const launch = (packages, { gl, dark = false } = {}) => {
   const playwright = createRequire(`${packages}/`)("playwright-core");
-  if (!firefox) return playwright.chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", ...(CHROMIUM[gl] ?? [])] });
+  if (!firefox) return playwright.chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", ...(SWITCHES[gl] ?? [])] });
   return playwright.firefox.launch({ channel: "moz-firefox", executablePath: firefox, firefoxUserPrefs: {
-    "webgl.force-enabled": gl === "sharp", "webgl.disabled": gl === "flat", "ui.prefersReducedMotion": 1, "layout.css.prefers-color-scheme.content-override": dark ? 0 : 1,
+    "webgl.force-enabled": gl === "soft", "webgl.disabled": gl === "none", "ui.prefersReducedMotion": 1, "layout.css.prefers-color-scheme.content-override": dark ? 0 : 1,
   } });
 };

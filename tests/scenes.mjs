@@ -12,7 +12,7 @@ const holds = (right, ...words) => { asked += 1; if (!right) { failed += 1; cons
 // The mean difference of shades, of 255, from a shaded picture and from a line drawing, which has other tints.
 const NEAR = { png: 3, svg: 15 };
 
-const browser = await launch(packages, { gl: "sharp" });
+const browser = await launch(packages, { gl: "soft" });
 const page = await (await browser.newContext({ viewport: { width: 1280, height: 1000 }, reducedMotion: "reduce" })).newPage();
 page.on("pageerror", error => holds(false, String(error)));
 page.on("request", request => holds(request.url().startsWith(`file://${folder}/`), "a request to", request.url()));
@@ -49,6 +49,19 @@ for (const name of readdirSync(folder).filter(one => one.endsWith(".html"))) {
     holds(differ(home, await shades(link)) > 0.2, file, "is turned by keys");
     await page.keyboard.press("0");
     holds(differ(home, await shades(link)) < 0.1, file, "comes back");
+    const { x, y, width, height } = await link.locator("img").boundingBox();
+    await page.mouse.move(x + 0.5 * width, y + 0.5 * height);
+    await page.mouse.down();
+    await page.mouse.move(x + 0.5 * width + 40, y + 0.5 * height + 15);
+    await page.mouse.up();
+    const dragged = await shades(link);
+    holds(differ(home, dragged) > 0.2, file, "is turned by a drag");
+    await page.mouse.wheel(0, -300);
+    await page.waitForFunction(one => one.viewer.zoom > 1.2, await link.elementHandle());
+    holds(differ(dragged, await shades(link)) > 0.2, file, "is brought nearer by the wheel");
+    await page.mouse.dblclick(x + 0.5 * width, y + 0.5 * height);
+    await page.waitForFunction(one => one.viewer.zoom === 1, await link.elementHandle());
+    holds(differ(home, await shades(link)) < 0.1, file, "comes back by a double click");
     await page.keyboard.press("Escape");
     holds(await page.evaluate(() => document.activeElement.dataset.scene) === file, file, "is closed, and its link has the focus");
     turned += 1;
@@ -82,7 +95,7 @@ for (const name of readdirSync(folder).filter(one => one.endsWith(".html"))) {
 }
 await browser.close();
 
-const old = await launch(packages, { gl: "flat" }), still = await old.newPage();
+const old = await launch(packages, { gl: "none" }), still = await old.newPage();
 const first = readdirSync(folder).filter(one => one.endsWith(".html"));
 for (const name of first) {
   await still.goto(`file://${folder}/${name}`);

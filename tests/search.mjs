@@ -2,13 +2,12 @@
 // for letters, formulas, numbers and slips, in this report and in the one beside it; arrows, Enter and Escape; and on a
 // telephone a tap on an equation's number. Run by `make accessibility`, which brings the package from npm.
 import { existsSync } from "node:fs";
-import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { launch } from "./browser.mjs";
 
 const [folder, other, packages] = process.argv.slice(2).map(path => resolve(path));
-const { chromium } = createRequire(`${packages}/`)("playwright-core");
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+const browser = await launch(packages);
 let asked = 0, failed = 0;
 const holds = (right, ...words) => { asked += 1; if (!right) { failed += 1; console.log("not so:", ...words); } };
 const open = async options => {

@@ -9,7 +9,9 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+from matplotlib.gridspec import SubplotSpec
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.transforms import Bbox
 
 from atlas.draw import names
 from atlas.draw.plane import draw_plane
@@ -115,16 +117,34 @@ def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[t
     if figure is None:
         figure = SceneFigure([length / _INCH for length in scene.size])
         figure.kept = {name: mpl.rcParams[name] for name in _KEPT}
-    framed = any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
-    rows = -(-len(scene.panels) // scene.columns)
-    edges = {} if framed else {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
-    grid = figure.add_gridspec(rows, scene.columns, height_ratios=scene.rows or None, **edges)
-    panels = [(figure.add_subplot(grid[divmod(k, scene.columns)]), panel) for k, panel in enumerate(scene.panels)]
+    panels = [(figure.add_subplot(cell), panel) for cell, panel in zip(_cells(scene, figure), scene.panels, strict=True)]
     for number, (axes, panel) in enumerate(panels, 1):
         _begin(axes, panel, number)
-    if framed:
+    if _framed(scene):
         canvas = figure.canvas
         FigureCanvasSVG(figure)  # it measures texts as `atlas.draw.text` does, and each text once
         ConstrainedLayoutEngine().execute(figure)
         figure.set_canvas(canvas)
     return figure, panels
+
+
+def places(scene: Scene) -> list[Bbox]:
+    """Return where each panel is, as shares of the figure; panels that fill it need no axes, which cost most of it."""
+    if _framed(scene):
+        return [axes.get_position() for axes, _ in laid_out(scene)[1]]
+    figure = Figure()
+    return [cell.get_position(figure) for cell in _cells(scene, figure)]
+
+
+def _framed(scene: Scene) -> bool:
+    """Tell whether panels have something about them: ticks and labels, or a title."""
+    return any(isinstance(panel, Plane) or panel.title for panel in scene.panels)
+
+
+def _cells(scene: Scene, figure: Figure) -> list[SubplotSpec]:
+    """Return the cells of the panels of a figure, row by row."""
+    full = {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
+    rows = -(-len(scene.panels) // scene.columns)
+    edges = {} if _framed(scene) else full
+    grid = figure.add_gridspec(rows, scene.columns, height_ratios=scene.rows or None, **edges)
+    return [grid[divmod(k, scene.columns)] for k in range(len(scene.panels))]

@@ -79,7 +79,7 @@ def hold(panels: Sequence[Space], window: tuple[float, float]) -> Held:
     width, height = window
     flat = np.concatenate(flats)
     scale = _fit(flat, tags, np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN]))
-    left, right = _reach(flat, tags, scale)
+    left, right = _reach(flat, tags, _beside(tags), scale)
     return Held(centre, size, scale, 0.5 * (np.array([width, height]) - left - right))
 
 
@@ -151,18 +151,22 @@ def _fit(flat: FloatArray, tags: list[Tag], inside: FloatArray) -> float:
     """Return the largest scale at which drawing and names stay inside, by bisection."""
     span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
     corners = np.stack([flat.min(axis=0), flat.max(axis=0)])
-    low, high = 0.0, float(np.min(inside / span))
+    beside, low, high = _beside(tags), 0.0, float(np.min(inside / span))
     for _ in range(40):
         middle = 0.5 * (low + high)
-        a, b = _reach(corners, tags, middle)
+        a, b = _reach(corners, tags, beside, middle)
         low, high = (middle, high) if (b - a <= inside).all() else (low, middle)
     return low or high
 
 
-def _reach(flat: FloatArray, tags: list[Tag], scale: float) -> tuple[FloatArray, FloatArray]:
+def _beside(tags: list[Tag]) -> FloatArray:
+    """Return where the names would like to stand as seen from their anchors, (N, 2)."""
+    return np.array([stand(replace(tag, anchor=(0.0, 0.0))) for tag in tags]).reshape(-1, 2)
+
+
+def _reach(flat: FloatArray, tags: list[Tag], beside: FloatArray, scale: float) -> tuple[FloatArray, FloatArray]:
     """Lowest and highest corner of drawing and names at this scale, the origin at (0, 0)."""
     anchors = np.array([tag.anchor for tag in tags]).reshape(-1, 2)
-    beside = np.array([stand(replace(tag, anchor=(0.0, 0.0))) for tag in tags]).reshape(-1, 2)
     half = 0.5 * np.array([tag.extent for tag in tags]).reshape(-1, 2)
     centres = scale * anchors + beside
     low = np.concatenate([scale * flat, centres - half]).min(axis=0)

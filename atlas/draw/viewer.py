@@ -11,15 +11,14 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path
 from matplotlib.textpath import TextPath
+from matplotlib.transforms import Bbox
 
 from atlas.draw.arrow import HEAD_LENGTH, HEAD_WIDTH
 from atlas.draw.glass import distinct
-from atlas.draw.panels import laid_out
-from atlas.draw.space import window
+from atlas.draw.panels import places
 from atlas.draw.style import context, style_of
 from atlas.draw.text import extent, line, points, typeset
 from atlas.draw.view import View, dashes, fit, named
@@ -30,7 +29,7 @@ from atlas.scene.style import Style, readable
 
 STEPS, GRID = 16000, 16
 """To the unit of a panel, and to the point of letters."""
-_FLAT, _NEAR = 1e-6, 0.11
+_FLAT, _NEAR, _POINT = 1e-6, 0.11, 72.0 / 25.4
 _UPPER = np.triu_indices(4)
 _WORDS = {Path.MOVETO: "m", Path.LINETO: "l", Path.CURVE3: "q", Path.CURVE4: "c"}
 
@@ -61,9 +60,13 @@ def data(scene: Scene, style: Any = None) -> dict[str, Any]:
 
 def _laid_out(scene: Scene, texts: dict[tuple[str, float], int], *, same: bool = False) -> dict[str, Any]:
     """Return where the panels in space are in a figure, and what is in them if they are not the same as before."""
-    _, panels = laid_out(scene)
-    views = [(axes, fit(panel, window(axes))) for axes, panel in panels if isinstance(panel, Space)]
-    found: dict[str, Any] = {"places": [_place(axes, view) for axes, view in views]}
+    size = _POINT * np.array(scene.size)
+    views = [
+        (box, fit(panel, (box.width * size[0], box.height * size[1])))
+        for box, panel in zip(places(scene), scene.panels, strict=True)
+        if isinstance(panel, Space)
+    ]
+    found: dict[str, Any] = {"places": [_place(box, view) for box, view in views]}
     return found if same else found | {"panels": [_panel(view, texts) for _, view in views]}
 
 
@@ -75,9 +78,9 @@ def _deep(panel: Space) -> bool:
     return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
 
 
-def _place(axes: Axes, view: View) -> list[float]:
+def _place(box: Bbox, view: View) -> list[float]:
     """Return left, top, width and height as shares of the figure; its size, scale and shift in points."""
-    left, bottom, right, top = axes.get_position().extents
+    left, bottom, right, top = box.extents
     return [*map(_short, (left, 1.0 - top, right - left, top - bottom, *view.window, view.scale, *view.shift))]
 
 

@@ -64,8 +64,8 @@ def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
 
 def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) -> Iterator[dict[str, str]]:
     """Yield the quantities of a family, each with how sure it is: balls where they have it and it is asked for."""
-    family, arguments = subject.family, subject.arguments(values).values()
-    kernels, balls = family.kernels()(*arguments), family.balls()(*arguments) if proven else None
+    family, kernels = subject.family, subject.kernels(values)
+    balls = family.balls()(*subject.arguments(values).values()) if proven else None
     for q in family.quantities:
         try:
             if balls is not None and _has(balls, q):

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import log10
 from typing import Any
 
@@ -78,13 +78,17 @@ class OfFamily:
                 given = tuple(values[name] for name in p.names)
                 yield p.name, given if p.columns else given[0]
 
+    def kernels(self, values: Mapping[str, float]) -> Any:
+        """Return what the kernels make of it, for picture and numbers, and for the next time t."""
+        return _made(self.family.kernels(), tuple(self.arguments(values).values()))
+
     def scene(self, values: Mapping[str, float]) -> Scene:
         """Return the picture: the body at the time t, or the figure."""
         arguments = self.arguments(values)
         if self.moves:
             from atlas.scene.turning import period, turning
 
-            motion = self.family.kernels()(*arguments.values())
+            motion = self.kernels(values)
             return turning(motion, values["t"], period(motion))
         recipe = recipes.load(self.family.figures[0])
         return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
@@ -162,6 +166,11 @@ KNOWN = {
     p.name: p.range for name in ("top", "particle", "general", "elementary") for p in FAMILIES[name].parameters
 }  # the last ones are those that recipes mean
 Subject = OfFamily | OfRecipe
+
+
+@lru_cache(maxsize=1)
+def _made(kernels: Any, arguments: tuple[Any, ...]) -> Any:
+    return kernels(*arguments)
 
 
 def _step(low: float, high: float) -> float:

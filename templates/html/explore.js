@@ -2,16 +2,16 @@
 // machine computes: doubles while a slider moves, proven digits when it rests. The state stands in the address.
 "use strict";
 (() => {
-const REST = 350, byId = id => document.getElementById(id), [title, choice, stage, form, error, numbers, command] = ["title", "subject", "stage", "sliders", "error", "numbers", "command"].map(byId);
+const REST = 350, MOVING = 1500, byId = id => document.getElementById(id), [title, choice, stage, form, error, numbers, command] = ["title", "subject", "stage", "sliders", "error", "numbers", "command"].map(byId);
 const make = (tag, attributes, ...inside) => { const made = document.createElement(tag); Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value)); made.append(...inside); return made; };
 const ask = async (place, query = {}) => { const answer = await fetch(`${place}?${new URLSearchParams(query)}`); if (!answer.ok) throw new Error(await answer.text()); return answer.json(); };
 let sliders = [], viewer, busy = false, wanted = false, rest, playing = false, shown = 0;
 
 const values = () => ({subject: choice.value, ...Object.fromEntries(sliders.map(one => [one.name, one.value]))});
-const show = ({scene, alt, size, numbers: rows, command: line}) => {
+const show = (proven, {scene, alt, size, numbers: rows, command: line}) => {
   error.textContent = ""; command.textContent = line; stage.style.aspectRatio = `${size[0]} / ${size[1]}`;
   if (scene && viewer?.panels.length === scene.wide.panels.length) {
-    viewer.data = scene; viewer.shown = scene.wide; viewer.panels.forEach((panel, i) => { panel.set(scene.wide.panels[i]); }); viewer.hurry();
+    viewer.data = scene; viewer.shown = scene.wide; viewer.panels.forEach((panel, i) => { panel.set(scene.wide.panels[i]); }); viewer.hurry(proven ? 0 : MOVING);
   } else {
     viewer?.close(); viewer = null; stage.replaceChildren();
     if (scene) {
@@ -32,7 +32,7 @@ const update = async (proven = 0) => {
   busy = true;
   try {
     const state = values(), found = await ask("state", {...state, proven});
-    if (state.subject === choice.value) { if (found.error) error.textContent = found.error; else show(found); }
+    if (state.subject === choice.value) { if (found.error) error.textContent = found.error; else show(proven, found); }
   } catch (problem) { error.textContent = `The server does not answer: ${problem.message}`; playing = false; }
   busy = false;
   if (wanted) { wanted = false; update(); } else if (!proven && !playing) rest = setTimeout(() => { update(1); keep(); }, REST);

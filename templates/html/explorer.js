@@ -106,7 +106,7 @@ for (const section of document.querySelectorAll(".explorer")) {
   };
   const say = () => { const {says, command} = state(); for (const one of sliders) one.nextElementSibling.textContent = String(Number(Number(one.value).toFixed(2))); out.textContent = says; line.textContent = command; };
   const panels = all ? [() => right(state(), value("t"))] : [() => left(state()), () => right(state(), value("t"))];
-  const show = which => { (which ?? panels.keys()).forEach(i => viewer.panels[i].set(panels[i]())); viewer.hurry(); };
+  const show = which => { (which ?? panels.keys()).forEach(i => viewer.panels[i].set(panels[i]())); viewer.hurry(playing && seen ? 1500 : 250); };
   let now = 0;
   const tick = clock => {
     if (!playing || !seen) { last = null; return; }

@@ -93,7 +93,7 @@ class Movement {
         }
         this.viewer.panels[number].set(shown);
       });
-      this.viewer.hurry();
+      this.viewer.hurry(this.playing ? 1500 : 250);
     }
     this.mark(layout);
     this.slider.value = Math.round(u * MOST); this.out.textContent = `t = ${t.toPrecision(3)}`; this.slider.setAttribute("aria-valuetext", this.out.textContent);

@@ -300,8 +300,8 @@ class Viewer {
     tile(panel.pieces.filter(one => !one.opaque), -1, -1, 1, 1); gl.disable(gl.SCISSOR_TEST);
   }
   // While it moves it is drawn as coarsely as the time of a frame asks for.
-  hurry() {
-    clearTimeout(this.rest); this.rest = setTimeout(() => { this.last = null; this.draw(); }, 250);
+  hurry(rest = 250) {
+    clearTimeout(this.rest); this.rest = setTimeout(() => { this.last = null; this.draw(); }, rest);
     this.asked ??= requestAnimationFrame(now => {
       this.asked = null; const took = this.last ? now - this.last : 30; this.last = now;
       this.slow = 0.7 * (this.slow ?? 30) + 0.3 * took;

@@ -2,6 +2,8 @@
 
 import json
 import re
+import shutil
+import subprocess
 from base64 import b64decode
 from typing import Any
 
@@ -9,7 +11,8 @@ import numpy as np
 import pytest
 
 from atlas.draw import viewer
-from atlas.draw.style import style_of
+from atlas.draw.panels import laid_out, places
+from atlas.draw.style import context, style_of
 from atlas.draw.viewer import GRID, STEPS, data, script
 from atlas.places import folder
 from atlas.scene import recipes
@@ -100,6 +103,39 @@ def test_panels_know_their_places_on_both_screens() -> None:
                 assert min(left, top, 1.0 - left - width, 1.0 - top - height) > -1e-6
                 assert min(rest) > 0.0
         assert found["wide"]["places"] != found["narrow"]["places"]
+
+
+@pytest.mark.parametrize("name", ["cone", "two_turns", "film_strip", "rosettes"])
+def test_panels_have_the_places_of_their_axes(name: str) -> None:
+    """Places that are found without axes are those that the axes of the still picture have, to the bit."""
+    scene = recipes.load(name).scene()
+    with context():
+        axes = [one.get_position().extents for one, _ in laid_out(scene)[1]]
+        assert np.array_equal([box.extents for box in places(scene)], axes)
+
+
+PROGRAM = """
+globalThis.window = globalThis; globalThis.devicePixelRatio = 2; globalThis.document = {querySelectorAll: () => []};
+let frame, draws = [];
+globalThis.requestAnimationFrame = asked => { frame = asked; return 1; }; globalThis.setTimeout = () => 0; globalThis.clearTimeout = () => {};
+require(process.argv[1]);
+const {Viewer} = globalThis.atlasViewer, viewer = Object.assign(Object.create(Viewer.prototype), {pace: 1, panels: [], box: {clientWidth: 600, clientHeight: 300}, target(width) { draws.push(width); }});
+let now = 0;
+const after = took => { draws = []; for (let i = 0; i < 60; i++) { viewer.hurry(); now += took; frame(now); } viewer.draw(); return draws.slice(-2); };
+console.log(JSON.stringify([after(400), after(10), after(30), after(400)]));
+"""
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node runs the script, and it is not installed")
+def test_what_moves_stays_legible() -> None:
+    """Half the pixels of the page at the slowest and all of the screen's at the fastest, kept between; finer at rest."""
+    done = subprocess.run(
+        ["node", "-e", PROGRAM, str(HTML / "scene.js")], capture_output=True, text=True, check=True, timeout=60
+    )
+    slow, fast, between, again = json.loads(done.stdout)
+    assert slow[0] == again[0] == 300
+    assert fast[0] == between[0] == 1200
+    assert min(slow[1], fast[1]) > 600
 
 
 @pytest.mark.parametrize("name", ["hyperbola", "colours"])

@@ -18,7 +18,7 @@ from click.testing import CliRunner
 from atlas import AtlasError, GeneralMotion
 from atlas.cli.app import atlas as command_line
 from atlas.families import FAMILIES
-from atlas.live import answers
+from atlas.live import answers, subjects
 from atlas.live.server import HEADERS, PAGES, Explorer
 from atlas.live.subjects import OfFamily, OfRecipe, everything, subject
 from atlas.places import folder
@@ -142,6 +142,16 @@ def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
         axis = GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).third_axis(t)
         found = [(b - a) / 1.35 * 3.2 for a, b in zip(tail, tip, strict=True)]
         assert found == pytest.approx(list(axis), abs=1e-5)
+
+
+def test_a_motion_is_made_once(server: Explorer) -> None:
+    """Picture and numbers share it, and so does the next moment while it plays; another motion is made anew."""
+    before = subjects._made.cache_info().misses
+    for t in (0.0, 0.1, 0.2):
+        own(server, "state", subject="general", ratio=1.25, t=t)
+    assert subjects._made.cache_info().misses == before + 1
+    ratios = [own(server, "state", subject="general", ratio=ratio)["numbers"][0] for ratio in (1.25, 0.75)]
+    assert ratios[0] != ratios[1]
 
 
 def test_figures_are_saved(server: Explorer) -> None:
