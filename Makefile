@@ -73,7 +73,7 @@ stress: setup $(VENV)/.bench
 	@$(BIN)/python tests/tops.py   # against heyoka
 	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz
 
-# Needs node, npm and Chromium.
+# Needs node, npm and Chromium; in Firefox on a screen of its own: FIREFOX=/usr/bin/firefox-esr xvfb-run -a make accessibility
 accessibility: report
 	@npm install --silent --no-save --prefix build/accessibility axe-core@4.14.1 playwright-core@1.63.0
 	@node tests/accessibility.mjs build/report/atlas build/accessibility

@@ -117,7 +117,9 @@ def laid_out(scene: Scene, figure: Figure | None = None) -> tuple[Figure, list[t
     if figure is None:
         figure = SceneFigure([length / _INCH for length in scene.size])
         figure.kept = {name: mpl.rcParams[name] for name in _KEPT}
-    panels = [(figure.add_subplot(cell), panel) for cell, panel in zip(_cells(scene, figure), scene.panels, strict=True)]
+    panels = [
+        (figure.add_subplot(cell), panel) for cell, panel in zip(_cells(scene, figure), scene.panels, strict=True)
+    ]
     for number, (axes, panel) in enumerate(panels, 1):
         _begin(axes, panel, number)
     if _framed(scene):

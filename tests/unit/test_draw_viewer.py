@@ -98,8 +98,8 @@ def test_panels_know_their_places_on_both_screens() -> None:
     for name, panels in (("motion", 0), ("two_turns", 3)):
         found = handed(name)
         assert len(found["narrow"].get("panels", ())) == panels
-        for places in (found["wide"]["places"], found["narrow"]["places"]):
-            for left, top, width, height, *rest in places:
+        for screen in ("wide", "narrow"):
+            for left, top, width, height, *rest in found[screen]["places"]:
                 assert min(left, top, 1.0 - left - width, 1.0 - top - height) > -1e-6
                 assert min(rest) > 0.0
         assert found["wide"]["places"] != found["narrow"]["places"]
@@ -115,22 +115,28 @@ def test_panels_have_the_places_of_their_axes(name: str) -> None:
 
 
 PROGRAM = """
-globalThis.window = globalThis; globalThis.devicePixelRatio = 2; globalThis.document = {querySelectorAll: () => []};
-let frame, draws = [];
-globalThis.requestAnimationFrame = asked => { frame = asked; return 1; }; globalThis.setTimeout = () => 0; globalThis.clearTimeout = () => {};
+Object.assign(globalThis, {window: globalThis, devicePixelRatio: 2, document: {querySelectorAll: () => []}});
+let frame, now = 0, widths;
+const requestAnimationFrame = asked => { frame = asked; return 1; };
+Object.assign(globalThis, {requestAnimationFrame, setTimeout() {}, clearTimeout() {}});
 require(process.argv[1]);
-const {Viewer} = globalThis.atlasViewer, viewer = Object.assign(Object.create(Viewer.prototype), {pace: 1, panels: [], box: {clientWidth: 600, clientHeight: 300}, target(width) { draws.push(width); }});
-let now = 0;
-const after = took => { draws = []; for (let i = 0; i < 60; i++) { viewer.hurry(); now += took; frame(now); } viewer.draw(); return draws.slice(-2); };
-console.log(JSON.stringify([after(400), after(10), after(30), after(400)]));
+const viewer = Object.create(globalThis.atlasViewer.Viewer.prototype), box = {clientWidth: 600, clientHeight: 300};
+Object.assign(viewer, {pace: 1, panels: [], box, target(width) { widths.push(width); }});
+const after = took => {
+  widths = [];
+  for (let i = 0; i < 60; i++) { viewer.hurry(); now += took; frame(now); }
+  viewer.draw(); return widths.slice(-2);
+};
+console.log(JSON.stringify([400, 10, 30, 400].map(after)));
 """
+node = shutil.which("node")
 
 
-@pytest.mark.skipif(shutil.which("node") is None, reason="node runs the script, and it is not installed")
+@pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_what_moves_stays_legible() -> None:
-    """Half the pixels of the page at the slowest and all of the screen's at the fastest, kept between; finer at rest."""
+    """Half the pixels of the page where frames are slow, all of the screen's where they are fast; finer at rest."""
     done = subprocess.run(
-        ["node", "-e", PROGRAM, str(HTML / "scene.js")], capture_output=True, text=True, check=True, timeout=60
+        [str(node), "-e", PROGRAM, str(HTML / "scene.js")], capture_output=True, text=True, check=True, timeout=60
     )
     slow, fast, between, again = json.loads(done.stdout)
     assert slow[0] == again[0] == 300
