@@ -7,7 +7,7 @@ a twentieth of a printer's point. All else is compared as text.
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from itertools import groupby
 from operator import itemgetter
 from typing import Any
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from syrupy.extensions.single_file import SingleFileSnapshotExtension, WriteMode
 
-from atlas.scene import Curve, Image, Layer, Panel, Region, Scene, Surface
+from atlas.scene import Curve, Image, Layer, Panel, Region, Scene, Space, Surface
 
 FloatArray = NDArray[np.float64]
 NUMBERS = re.compile(r"(\[[-+.\de ]+\]|<[-+.\de ]+>|«[-+.\de ]+»)")
@@ -63,6 +63,12 @@ def scene(made: Scene, noisy: tuple[int, ...] = (), *, words: bool = True) -> It
         yield from (made.caption, made.alt)
     for k, panel in enumerate(made.panels):
         yield from shown(panel, noise=k in noisy)
+    if made.lasts or made.rows:
+        yield f"lasts and rows {_text('[]', np.array([made.lasts, *made.rows]))}"
+    for panel in made.narrow:
+        yield f"narrow, {len(panel.layers)} layers: " + next(shown(replace(panel, layers=())))
+        if isinstance(panel, Space) and any(panel.span):
+            yield "span " + _text("<>", np.array(panel.span))
 
 
 def shown(panel: Panel, *, noise: bool = False) -> Iterator[str]:

@@ -52,6 +52,7 @@ OTHERS: list[tuple[str, dict[str, Any]]] = [
     ("motion", {"omega2": 0.0}),
     ("motion_sphere", {"omega2": 0.0}),
     ("particle_motion", {"magnetic": (0.0, 0.0, 0.0)}),
+    ("quadrics_of_tops", {"weight": 2.0, "moment": 2.0, "outside": 3.0}),
     ("particle_motion", {"magnetic": (0.0, 0.0, 0.0), "velocity": (0.0, 0.0, 0.0)}),
     ("particle_motion", {"magnetic": (0.0, 0.0, 0.0), "electric": (0.0, 0.0, 0.0)}),
 ]
@@ -136,3 +137,13 @@ def test_names_stand_among_what_they_name(name: str, given: dict[str, Any]) -> N
             assert (first >= low - room).all(), label.text
             assert (first <= high + room).all(), label.text
             assert re.search(r"\w", label.text)
+
+
+@pytest.mark.parametrize(("name", "given"), EVERY, ids=str)
+def test_dots_stand_inside_the_axes(name: str, given: dict[str, Any]) -> None:
+    """No point that a figure marks lies beyond the limits of its panel."""
+    for panel in (panel for panel in made(name, **given).panels if isinstance(panel, Plane)):
+        for dots in (layer.points for layer in panel.layers if isinstance(layer, Points)):
+            for axis, limits in enumerate((panel.x_limits, panel.y_limits)):
+                low, high = limits or (-np.inf, np.inf)
+                assert ((low <= dots[:, axis]) & (dots[:, axis] <= high)).all(), (panel.title, dots, limits)
