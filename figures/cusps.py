@@ -83,7 +83,7 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
     M3 = wells.M3
     ends = np.array([wells.spin(end)[:2] for end in (1, -1)])
     places = np.array([value(top, wells) for top in tops])
-    far = 1.35 * abs(M3)
+    far = 1.35 * max(abs(M3), float(np.abs(places[:, 0]).max()))
     lines = [
         np.stack([branch.p, branch.g], axis=1) for branch in wells.precessions(3 * far + 3 * np.sqrt(abs(wells.a)))
     ]

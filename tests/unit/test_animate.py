@@ -12,7 +12,7 @@ import atlas
 from atlas import AtlasError, ElementaryMotion
 from atlas.cli.app import atlas as command_line
 from atlas.draw import animation
-from atlas.scene import Arrow, Plane, Points, Surface, movement, recipes
+from atlas.scene import Arrow, Curve, Plane, Points, Surface, movement, recipes
 
 MOVING = ["escape", "film_strip", "flight", "rolling_cones", "tipping_disk"]
 
@@ -194,6 +194,10 @@ def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     scene = animation.turning.turning(motion, 0.8, 1.0)
     (axis,) = (one for one in layers(scene, Arrow) if one.role == "body_axis")
     assert np.allclose(axis.tip / np.linalg.norm(axis.tip), motion.third_axis(0.8))
+    for t, start in ((0.8, 0.5), (0.2, 0.0)):  # the trace of its tip over the time before, not before the start
+        (trace,) = (one.points for one in layers(animation.turning.turning(motion, t, 0.3), Curve))
+        ends = np.array([motion.third_axis(start), motion.third_axis(t)])
+        assert np.allclose(trace[[0, -1]], np.linalg.norm(axis.tip) * ends)
     corners = np.unique(np.round(np.concatenate([one.rims[0] for one in layers(scene, Surface)]), 9), axis=0)
     second = np.einsum("ni,nj->ij", corners, corners)  # of a brick along its axes, as its moments are
     in_body = motion.rotation(0.8).T @ second @ motion.rotation(0.8)

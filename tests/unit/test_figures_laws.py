@@ -46,6 +46,7 @@ CHARGE: Mapping[str, int] = {"mu": 1, **dict.fromkeys(("E", "B", "electric", "ma
 NOISE = {"error_maps", "invariants"}
 """Figures of rounding errors, which a power of two leaves alone, but not the times in a table of powers of ten."""
 OTHERS: list[tuple[str, dict[str, Any]]] = [
+    ("cusps", {"omega2": (1.0, 2.0, 3.0)}),
     ("hyperbolas", {"ratios": (0.3, 0.4)}),
     ("hyperbolas", {"ratios": (1.5, 0.5), "field": (1.0, 0.0)}),
     ("lssc", {"ratio": 2.0}),
@@ -140,10 +141,11 @@ def test_names_stand_among_what_they_name(name: str, given: dict[str, Any]) -> N
 
 
 @pytest.mark.parametrize(("name", "given"), EVERY, ids=str)
-def test_dots_stand_inside_the_axes(name: str, given: dict[str, Any]) -> None:
-    """No point that a figure marks lies beyond the limits of its panel."""
+def test_dots_and_maps_lie_inside_the_axes(name: str, given: dict[str, Any]) -> None:
+    """No point that a figure marks, and no edge of a map of colours, is beyond the limits of its panel."""
     for panel in (panel for panel in made(name, **given).panels if isinstance(panel, Plane)):
-        for dots in (layer.points for layer in panel.layers if isinstance(layer, Points)):
-            for axis, limits in enumerate((panel.x_limits, panel.y_limits)):
-                low, high = limits or (-np.inf, np.inf)
-                assert ((low <= dots[:, axis]) & (dots[:, axis] <= high)).all(), (panel.title, dots, limits)
+        for axis, limits in enumerate((panel.x_limits, panel.y_limits)):
+            low, high = limits or (-np.inf, np.inf)
+            for layer in (layer for layer in panel.layers if isinstance(layer, Points | Image)):
+                there = layer.points[:, axis] if isinstance(layer, Points) else (layer.x, layer.y)[axis]
+                assert ((low <= there) & (there <= high)).all(), (panel.title, there, limits)
