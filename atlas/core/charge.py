@@ -193,7 +193,8 @@ class Charge:
     def _frequencies(self) -> Frequencies:
         words, lack = words_of(lambda *x: (particle.rate(*x),), self.safe, slice(0))
         words[..., ~self.force], lack[:, ~self.force] = 0.0, 0.0
-        return Frequencies(words, lack, lambda i: [self._exact_rate(*(x[i] for x in self.inputs))])
+        rate, inputs = self._exact_rate, self.inputs  # not self, which refers to what is returned
+        return Frequencies(words, lack, lambda i: [rate(*(x[i] for x in inputs))])
 
     @staticmethod
     def _exact_rate(*inputs: float) -> Number:

@@ -2,11 +2,12 @@
 
 import reprlib
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from importlib import import_module
 from math import prod
 from numbers import Integral
 from typing import Any, Generic, Protocol, TypeVar
+from weakref import proxy
 
 import numpy as np
 
@@ -79,7 +80,9 @@ class Motion(Shown, Generic[Turning]):
     @cached_property
     def _rows(self) -> Any:
         """All motions in arrays, for a few times each."""
-        return Turnings(self._groups(), prod(self.shape), self._unit, lambda: self._flat_vectors, inverse=self._inverse)
+        # by a weak reference: in a circle of references, memory would wait for the collector of garbage
+        vectors = partial(getattr, proxy(self), "_flat_vectors")
+        return Turnings(self._groups(), prod(self.shape), self._unit, vectors, inverse=self._inverse)
 
     @cached_property
     def _flat_vectors(self) -> Mapping[str, Any]:

@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from atlas.core.arithmetic.double_double import DoubleDouble, over
 from atlas.core.arithmetic.frequencies import Frequencies, words_of
@@ -49,7 +50,7 @@ class Turnings:
         self.vectors, self.inverse, self.indices = vectors, inverse, np.arange(count)
         self.words = np.empty((2, 2, 0))
         self.axis, self.dyad, self.defect = np.zeros((3, 3, count))
-        self.sources, self.groups = groups, np.empty(count, dtype=np.int8)
+        self.groups = np.empty(count, dtype=np.int8)
         words, lack = np.empty((2, 2, count)), np.empty((2, count))
         for number, (constants, index, inputs) in enumerate(groups):
             self.groups[index] = number
@@ -61,7 +62,8 @@ class Turnings:
             for row, entry in zip((*self.axis, *self.dyad, *self.defect), entries, strict=True):
                 row[index] = np.ravel(entry)
             words[..., index], lack[:, index] = words_of(partial(_both, constants), inputs, unit)
-        self.frequencies = Frequencies(words, lack, self._exact)
+        # nothing here refers to itself: a long sweep's arrays are free as soon as they are not needed
+        self.frequencies = Frequencies(words, lack, partial(_exact, groups, self.groups))
 
     def at(self, index: Any, t: FloatArray) -> "Turnings":
         """Return motions by their index, ready for the times t that go with them; AtlasError if a phase is too long."""
@@ -73,14 +75,6 @@ class Turnings:
     def vector(self, name: str) -> Sequence[Any]:
         """Return the components of a vector, each (m,)."""
         return [x[self.indices] for x in self.vectors()[name]]
-
-    def _exact(self, i: int) -> Sequence[Number]:
-        """Return k and phi of a motion."""
-        constants, index, inputs = self.sources[self.groups[i]]
-        place = i if isinstance(index, slice) else np.searchsorted(index, i)
-        shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
-        with workprec():
-            return _both(constants, *exact(*(np.broadcast_to(x, shape).flat[place] for x in inputs)))
 
     @property
     def extreme(self) -> Any:
@@ -158,3 +152,12 @@ def _axis(constants: Constants, *inputs: Any) -> Sequence[Any]:
 def _both(constants: Constants, *inputs: Any) -> Sequence[Any]:
     """Return k and phi."""
     return constants(*inputs)[1:]
+
+
+def _exact(groups: Sequence[Group], places: NDArray[np.int8], i: int) -> Sequence[Number]:
+    """Return k and phi of a motion, by the group in whose place it stands."""
+    constants, index, inputs = groups[places[i]]
+    place = i if isinstance(index, slice) else np.searchsorted(index, i)
+    shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
+    with workprec():
+        return _both(constants, *exact(*(np.broadcast_to(x, shape).flat[place] for x in inputs)))

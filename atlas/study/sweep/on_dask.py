@@ -9,7 +9,6 @@ from atlas.study.sweep.parts import Parts
 from atlas.study.sweep.plan import Plan, Span
 from atlas.study.sweep.storage import Folder, digest
 from atlas.study.sweep.tables import arrow_table
-from atlas.study.sweep.workers import give_back
 
 BATCH = 8
 """Parts in one graph for each thread of the workers; two graphs are under way at a time."""
@@ -46,10 +45,7 @@ def write(client: Any, spans: Iterable[tuple[str, Span]], parts: Parts) -> Itera
 
 def frame(span: Span) -> Any:
     """Return rows of a table as a data frame."""
-    try:
-        return arrow_table(span.columns()).to_pandas()
-    finally:
-        give_back(span)
+    return arrow_table(span.columns()).to_pandas()
 
 
 def _meta(plan: Plan) -> Any:

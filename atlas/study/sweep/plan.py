@@ -18,7 +18,7 @@ Columns = dict[str, NDArray[Any]]
 
 LARGEST = 10**11
 """Rows of a table: some 10 TB of them."""
-SAMPLE, SHORTEST = 0.3, 1e-9
+SAMPLE, SHORTEST = 0.1, 1e-9
 """Seconds that a sample of rows should take, to tell how long a row takes; the least that this is believed to be."""
 
 
@@ -117,7 +117,7 @@ class Plan:
         self.sample(1).columns()  # what is loaded for the first row is not of the rows
         size, took = 1, self._took(1)
         while True:
-            size, less, before = 8 * size, size, took
+            size, less, before = 4 * size, size, took
             took = self._took(size)
             # what a call costs however few its rows are is not of the rows either
             if size >= self.count or (took > SAMPLE and took > 2 * before):

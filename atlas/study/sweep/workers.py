@@ -1,6 +1,5 @@
 """Who computes the parts of a table: this process, processes of our own, or any executor of the user's."""
 
-import gc
 import hashlib
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
@@ -14,9 +13,6 @@ from atlas.study.sweep.plan import Span
 from atlas.study.sweep.storage import Folder, Local
 from atlas.study.sweep.tables import PARTS
 
-LARGE = 1000
-"""Rows of a part whose memory is not left to the collector of garbage, which counts objects and not their bytes."""
-
 AHEAD = 4
 """Parts asked for at a time, for each worker: what is computed but not yet kept stays small."""
 
@@ -26,20 +22,11 @@ def make(span: Span, ending: str, folder: Folder, name: str, mark: bytes) -> str
 
     `mark` is the first line of the folder's manifest.
     """
-    try:
-        data = PARTS[ending](span.columns())
-    finally:
-        give_back(span)
+    data = PARTS[ending](span.columns())
     if isinstance(folder, Local) and not _reached(folder, mark):
         return data
     folder.write(name, data)
     return hashlib.sha256(data).hexdigest()
-
-
-def give_back(span: Span) -> None:
-    """Free the arrays of motions of a part: they refer to themselves, few objects but megabytes."""
-    if span.stop - span.start >= LARGE:
-        gc.collect()
 
 
 def _reached(folder: Local, mark: bytes) -> bool:
