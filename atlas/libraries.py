@@ -21,7 +21,6 @@ LIBRARIES = (
     "pypandoc_binary",
     "ziamath",
     "fonttools",
-    "brotli",
     "click",
     "rich",
     "msgspec",

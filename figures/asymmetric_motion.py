@@ -63,8 +63,7 @@ def scene(
         rf"A body with $I_i={tex_vector(inertia)}$ in $\mathbf{{B}}'={tex_vector(field)}$ from {of}: {motion.kind}",
         f"The motion of a body with the moments {plain_vector(inertia)} from {words}",
     )
-    momentum = np.array(inertia) * omega
-    upright = Upright.field_or_momentum(field, momentum.tolist())
     return any_motion.picture(
-        title(__doc__), drawn, upright, setting, period, turns, word="", elevation=elevation, unit=unit
-    )
+        title(__doc__), drawn, setting, period, turns, upright=Upright.of(motion), word="", elevation=elevation,
+        unit=unit,
+    )  # fmt: skip

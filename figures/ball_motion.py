@@ -8,7 +8,6 @@ from math import pi
 
 from atlas.core.ball import BallMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.any_motion import Upright
 from atlas.scene.captions import tex, title
 
 RANGES = {"periods": (1e-3, 1e3)}
@@ -30,6 +29,6 @@ def scene(
     values = rf"$\alpha={tex(larmor)}$, $\mathbf{{m}}=(0,{tex(m2)},{tex(m3)})$, $\gamma={tex(motion.gamma)}$"
     setting = f"A ball with {values}", f"The motion of a ball with the momentum (0, {m2:g}, {m3:g})"
     return any_motion.picture(
-        title(__doc__), motion, Upright((0.0, 0.0, 1.0), r"\mathbf{B}", "B"), setting, period, periods,
-        word=r"turn about $\hat{\mathbf{k}}$", elevation=elevation, unit=unit,
+        title(__doc__), motion, setting, period, periods, word=r"turn about $\hat{\mathbf{k}}$",
+        elevation=elevation, unit=unit,
     )  # fmt: skip

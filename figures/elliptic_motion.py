@@ -6,7 +6,6 @@ velocity is a constant matrix times it.
 
 from atlas.core.elliptic import EllipticMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.any_motion import Upright
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 
 RANGES = {"periods": (1e-3, 1e3)}
@@ -29,8 +28,7 @@ def scene(
         rf"{body}, with $z={tex(z)}$: {motion.kind}",
         f"The motion of a body with the moments {plain_vector(inertia)} with z = {plain(z)}",
     )
-    upright = Upright.field_or_momentum(field, motion.angular_momentum(0.0).tolist())
     return any_motion.picture(
-        title(__doc__), motion, upright, setting, motion.period, periods, word="field in the body",
+        title(__doc__), motion, setting, motion.period, periods, word="field in the body",
         elevation=elevation, unit=unit,
     )  # fmt: skip

@@ -8,7 +8,6 @@ from typing import Any
 
 from atlas.core.general import GeneralMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.any_motion import Upright
 from atlas.scene.captions import plain_setting, tex_setting, title
 
 RANGES = {"periods": (1e-3, 1e3)}
@@ -25,12 +24,9 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the nutation."""
     motion = GeneralMotion(ratio, field, omega)
-    upright = Upright.field_or_momentum((0.0, *field), motion.angular_momentum(0.0).tolist())
     of, words = any_motion.start(omega)
     setting = (
         f"{tex_setting(ratio, field, first='A')} from {of}: {motion.kind}",
         f"The motion of {plain_setting(ratio, field)} from {words}",
     )
-    return any_motion.picture(
-        title(__doc__), motion, upright, setting, motion.period, periods, elevation=elevation, unit=unit
-    )
+    return any_motion.picture(title(__doc__), motion, setting, motion.period, periods, elevation=elevation, unit=unit)

@@ -6,7 +6,6 @@ the components of Omega(t) are elliptic functions of time.
 
 from atlas.core.top import TopMotion
 from atlas.scene import Scene, any_motion
-from atlas.scene.any_motion import Upright
 from atlas.scene.captions import plain, tex, title
 
 RANGES = {"periods": (1e-3, 1e3)}
@@ -41,7 +40,4 @@ def scene(
         f"A top with {', '.join([rf'$I={tex(ratio)}$', *has])} from {of}: {motion.kind}",
         f"The motion of a top with I = {plain(ratio)} from {words}",
     )
-    return any_motion.picture(
-        title(__doc__), motion, Upright((0.0, *direction), r"\mathbf{n}", "n"), setting, motion.period, periods,
-        elevation=elevation, unit=unit,
-    )  # fmt: skip
+    return any_motion.picture(title(__doc__), motion, setting, motion.period, periods, elevation=elevation, unit=unit)

@@ -9,6 +9,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -79,10 +80,11 @@ def build_report(
     """
     file, formats = find(str(name)), [one for one in LANGUAGES if one in formats]
     cache = Cache(cache_folder(out))
+    sources = Sources(cache)
     try:
-        key = key_of(file, Sources(cache), style)
-        found = _found(file.stem, out, formats, cache, key)
-        return found or _build(file, out, formats, style, jobs, cache, key, progress)
+        key = key_of(file, sources, style) if cache.load(_noted(file.stem, out)) else None
+        found = None if key is None else _found(file.stem, out, formats, cache, key)
+        return found or _build(file, out, formats, style, jobs, cache, sources, key, progress)
     except OSError as error:
         where = f": {error.filename}" if error.filename else ""
         raise OSError(f"the build in {out} stopped: {error.strerror or error}{where}.") from error
@@ -127,10 +129,14 @@ def _build(
     style: str | None,
     jobs: int | None,
     cache: Cache,
-    key: str,
+    sources: Sources,
+    key: str | None,
     progress: Progress,
 ) -> Built:
-    """Build a report, and note in the cache from what and with which files."""
+    """Build a report, and note in the cache from what and with which files.
+
+    The key of one that was never built is found out while its figures are drawn.
+    """
     from atlas.build import costs, figures
     from atlas.build.appendices import gather
     from atlas.draw import gl
@@ -139,16 +145,20 @@ def _build(
     from atlas.report.load import load
     from atlas.report.pictures import pictures
 
+    times = {"start": time.perf_counter()}
+    sources.closure([file])  # as it is read now
     report = load(file)
     _check(report.name, file, out, cache)
     cache.prune()
-    sources, times = Sources(cache), {"start": time.perf_counter()}
     found = pictures(report)
     wanted = _figures(found, formats, style, gl.library())
     figures.find(list(wanted), cache, sources, gl.library())
     times["look"] = time.perf_counter()
     steps, jobs = len(wanted) + 2, jobs or figures.cores()
-    figures.draw(list(wanted), cache, jobs, lambda done, _, what: progress(done, steps, what))
+    with ThreadPoolExecutor(1) as beside:
+        found_out = beside.submit(lambda: key or key_of(file, sources, style))
+        figures.draw(list(wanted), cache, jobs, lambda done, _, what: progress(done, steps, what))
+    key = found_out.result()
     times["figures"] = time.perf_counter()
     for figure, picture in wanted.items():
         describe(figure, picture)

@@ -69,24 +69,27 @@ def _draw(task: Task) -> None:
     target = suited(scene, [find(name) for name in task.targets]) if task.targets else None
     with cache.temporary() as folder:
         paths = {kind: folder / f"figure.{kind}" for kind in task.keys if kind in FORMATS}
+        small, drawn = narrowed(scene), {}
         if paths:
-            save(scene, {path: kind for kind, path in paths.items()}, task.renderer, task.style, target)
-        small = narrowed(scene)
+            kinds = {path: kind for kind, path in paths.items()}
+            drawn[scene] = save(scene, kinds, task.renderer, task.style, target)
         if "narrow" in task.keys:
             paths["narrow"] = folder / "narrow"
             paths["narrow"].touch()
             if small:
                 kind = "png" if renderer == "shaded" else "svg"
-                save(small, {paths["narrow"]: kind}, renderer, task.style)
+                drawn[small] = save(small, {paths["narrow"]: kind}, renderer, task.style)
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
+    whole = not target and {*drawn} >= {one for one in (scene, small) if one}
+    figures = list(drawn.values()) if whole else []
     if "scene" in task.keys:
         from atlas.draw import viewer
 
-        contents["scene"] = viewer.script(scene, task.style).encode()
+        contents["scene"] = viewer.script(scene, task.style, figures).encode()
     if "moves" in task.keys:
         from atlas.draw import moves
 
-        contents["moves"] = moves.script(scene, task.style).encode()
+        contents["moves"] = moves.script(scene, task.style, figures).encode()
     if "csv" in task.keys:
         contents["csv"] = data.table(scene).encode()
     if "csv.gz" in task.keys:

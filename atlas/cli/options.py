@@ -4,6 +4,7 @@ import math
 import os
 import re
 from collections.abc import Callable, Iterator, Sequence
+from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
@@ -111,7 +112,23 @@ class Command(click.Command):
                 "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that of "
                 "atlas asymmetric, which takes --inertia I1 I2 I3, and --field with three components, too."
             )
-        return super().parse_args(ctx, list(_spread(args, many)))
+        try:
+            return super().parse_args(ctx, list(_spread(args, many)))
+        except click.UsageError as error:
+            hint = "" if isinstance(error, click.BadParameter) else _miscounted(args, self.params)
+            if hint:
+                raise click.UsageError(f"{error.format_message().rstrip('.')}: {hint}", ctx) from error
+            raise
+
+
+def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
+    """Say what an option takes that has more or fewer values; nothing if there is none."""
+    for param in (one for one in params if isinstance(one, click.Option) and one.nargs > 1):
+        for at in (i for i, word in enumerate(args) if word in param.opts):
+            following = list(takewhile(lambda word: not word.startswith("--"), args[at + 1 :]))
+            if len(following) != param.nargs:
+                return f"{args[at]} takes {param.nargs} numbers, {param.metavar}."
+    return ""
 
 
 def _are_three(args: Sequence[str], option: str) -> bool:

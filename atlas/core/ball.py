@@ -52,7 +52,8 @@ class BallMotion(Motion[Ball]):
             raise DomainError(f"The inertia of a ball must be positive, not {inertia.min()}.")
         larmor = real(larmor, "The Larmor frequency", RATE)
         super().__init__(Ball, inertia, larmor, m2, m3)
-        self.arguments = {"inertia": plain(inertia), "larmor": plain(larmor), "momentum": (plain(m2), plain(m3))}
+        self.larmor = plain(larmor)
+        self.arguments = {"inertia": plain(inertia), "larmor": self.larmor, "momentum": (plain(m2), plain(m3))}
 
     @cached_property
     def gamma(self) -> Any:

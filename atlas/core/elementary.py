@@ -262,7 +262,8 @@ class FreeMotion(Motion[Free]):
     def __init__(self, ratio: Any, omega: Any) -> None:
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
         super().__init__(Free, *moments(ratio), *omega)
-        self.arguments = {"ratio": ratio, "omega": tuple(map(plain, omega))}
+        self.ratio, self.omega = ratio, tuple(map(plain, omega))
+        self.arguments = {"ratio": ratio, "omega": self.omega}
 
     @cached_property
     def k(self) -> Any:

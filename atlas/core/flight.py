@@ -47,6 +47,13 @@ class Flight(Shown):
         self._arm = self.point @ self._to_user
         self._compare_fields()
 
+    def rotation(self, t: Any) -> FloatArray:
+        """R(t) of the body in the user's frame, shape (..., 3, 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return np.asarray(self._to_user @ self.motion.rotation(t) @ self._to_user.T)
+
     def arm(self, t: Any) -> FloatArray:
         """Vector x_N(t) = R(t) x_N(0) from the centre of mass to the point, shape (..., 3).
 

@@ -39,6 +39,12 @@ BLOCK = 4096
 """Matrices of several motions made at once."""
 
 
+_OF_FIELD = (
+    " B' lies in the plane of e2 and e3, so that B1 = 0 is left out; of a Field they are field.prime[1:] or, for an "
+    "axis in any direction, field.frame(axis).field."
+)
+
+
 def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> list[Any]:
     """Return the components of a vector in that unit, each a finite number or array, by name for the errors."""
     try:
@@ -48,6 +54,7 @@ def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> l
     if len(parts) != len(names):
         raise AtlasError(
             f"{what} must have the {len(names)} components ({', '.join(names)}), not {reprlib.repr(value)}."
+            f"{_OF_FIELD if tuple(names) == ('B2', 'B3') else ''}"
         )
     return [real(x, name, unit) for x, name in zip(parts, names, strict=True)]
 

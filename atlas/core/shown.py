@@ -46,16 +46,17 @@ class Shown:
         panel: int | None = None,
         ax: Any = None,
         style: Any = None,
+        target: str | None = None,
         **parameters: Any,
     ) -> Any:
         """Draw it as a `matplotlib.figure.Figure`, by the recipe `figure` of those that take it, or the first of them.
 
-        `parameters` are those of the recipe that the object does not settle, as turns or azimuth; `style` is as for
-        `atlas.figure`; `panel`, counted from 1, asks for one panel alone. With Matplotlib axes `ax` it is drawn into
-        them, the first panel if no other is asked for, and their figure is returned. Raises AtlasError where there is
-        no such picture of it.
+        `parameters` are those of the recipe that the object does not settle, as turns or azimuth; `style` and `target`
+        are as for `atlas.figure`; `panel`, counted from 1, asks for one panel alone. With Matplotlib axes `ax` it is
+        drawn into them, the first panel if no other is asked for, and their figure is returned. Raises AtlasError where
+        there is no such picture of it.
         """
-        return notebook("pictures").plot(self, figure, panel, ax, style, parameters)
+        return notebook("pictures").plot(self, figure, panel, ax, style, target, parameters)
 
     def to_dataframe(self, times: Any = None, *, quantities: Sequence[str] | None = None) -> Any:
         """Return a `pandas.DataFrame`: a row an object, with its parameters and quantities; or, of one, a row a time.

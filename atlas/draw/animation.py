@@ -13,7 +13,7 @@ from atlas.draw.panels import laid_out, to_figure
 from atlas.draw.style import context
 from atlas.draw.view import Held, hold, named
 from atlas.errors import AtlasError
-from atlas.scene import movement, recipes, turning
+from atlas.scene import any_motion, movement, recipes
 from atlas.scene.camera import frame, shown
 from atlas.scene.layers import Label, Panel, Plane, Points, Scene, Space
 
@@ -136,9 +136,9 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
 
 def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any) -> FuncAnimation:
     """Return a motion at these times, or over one period, as an animation; `options` are those of `animation`."""
-    length = turning.period(motion)
+    length = any_motion.period(motion)
     moments = np.linspace(0.0, length, FRAMES, endpoint=False) if times is None else times
-    return animation(lambda k: turning.turning(motion, float(moments[k]), length), len(moments), **options)
+    return animation(lambda k: any_motion.at(motion, float(moments[k]), length), len(moments), **options)
 
 
 def _split(options: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:

@@ -30,9 +30,10 @@ def save(
     renderer: str = "vector",
     style: Any = None,
     target: Target | None = None,
-) -> None:
+) -> "Figure":
     """Draw a scene once, for a target if one is given, and write it into each path in its kind: svg, pdf, png or pgf.
 
+    Return its figure.
     ``renderer`` is "vector" or "shaded", and ``style`` as for `atlas.draw.figure`. A PNG for a target has no alpha.
     Where no GL library can draw, and for scenes without a panel in space, the vector renderer takes over; see `choose`.
     Missing folders are made. Raises AtlasError for an unknown kind or renderer, for a shaded figure that is not a PNG,
@@ -59,6 +60,7 @@ def save(
             _write(figure, place, kind, scene)
             if target and kind == "png":
                 _opaque(place)
+    return figure
 
 
 def choose(scene: Scene, renderer: str) -> tuple[Renderer, str]:

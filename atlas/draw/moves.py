@@ -7,11 +7,12 @@ Marks of panels with two axes are places in the figure, from its upper left corn
 import json
 from base64 import b64encode
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from atlas.draw import viewer
 from atlas.draw.panels import laid_out
@@ -28,21 +29,24 @@ _TURN = np.radians(12.0)
 """Between two moments no path turns farther, unless there would be too many of them."""
 
 
-def script(scene: Scene, style: Any = None) -> str:
+def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> str:
     """Return the script that tells how a scene moves; nothing for one that does not."""
     if not scene.paths:
         return ""
-    return f"atlasScene({json.dumps(data(scene, style), ensure_ascii=False, separators=(',', ':'))});\n"
+    return f"atlasScene({json.dumps(data(scene, style, figures), ensure_ascii=False, separators=(',', ':'))});\n"
 
 
-def data(scene: Scene, style: Any = None) -> dict[str, Any]:
-    """Return the tables of a scene's paths in space, and what rides on them in the figure and in that for a phone."""
+def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
+    """Return the tables of a scene's paths in space, and what rides on them in the figure and in that for a phone.
+
+    `figures` are as for `atlas.draw.viewer.data`.
+    """
     small = narrowed(scene)
     deep = {one.rides for panel in scene.panels if isinstance(panel, Space) for one in _riders(panel)}
     paths = {name: path for name, path in scene.paths.items() if name in deep}
     steps = max([_PLAIN, *(_steps(path, scene.lasts) for path in paths.values())])
     with context(style):
-        wide, narrow = _laid_out(scene), small and _laid_out(small)
+        wide, narrow = _laid_out(scene, figures[:1]), small and _laid_out(small, figures[1:])
     if small and narrow and small.panels == scene.panels:  # the viewer has what is in them once
         narrow["spaces"] = wide["spaces"]
     tables = {name: _table(path, np.linspace(0.0, scene.lasts, steps + 1)) for name, path in paths.items()}
@@ -88,9 +92,10 @@ def _quaternions(R: FloatArray) -> FloatArray:
     return found
 
 
-def _laid_out(scene: Scene) -> dict[str, Any]:
+def _laid_out(scene: Scene, figures: Sequence[Figure]) -> dict[str, Any]:
     """Return for each panel in space its centre, its size and what rides in it; and the marks of the others."""
-    figure, panels = laid_out(scene)
+    figure = next(iter(figures), None) or laid_out(scene)[0]
+    panels = list(zip(figure.axes, scene.panels, strict=True))
     times = np.linspace(0.0, scene.lasts, _MOST + 1)
     spaces = [(axes, panel) for axes, panel in panels if isinstance(panel, Space)]
     planes = [(axes, panel) for axes, panel in panels if isinstance(panel, Plane)]

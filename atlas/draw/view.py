@@ -78,8 +78,9 @@ def hold(panels: Sequence[Space], window: tuple[float, float]) -> Held:
         tags += [tag for layer in panel.layers for tag in _tags(layer, eye)]
     width, height = window
     flat = np.concatenate(flats)
-    scale = _fit(flat, tags, np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN]))
-    left, right = _reach(flat, tags, _beside(tags), scale)
+    boxes = _boxes(tags)
+    scale = _fit(flat, boxes, np.array([width - 2.0 * _MARGIN, height - 2.0 * _MARGIN]))
+    left, right = _reach(flat, boxes, scale)
     return Held(centre, size, scale, 0.5 * (np.array([width, height]) - left - right))
 
 
@@ -147,27 +148,27 @@ def named(layer: Layer, eye: FloatArray) -> tuple[str, FloatArray, tuple[float, 
     return request if request and request[0] else None
 
 
-def _fit(flat: FloatArray, tags: list[Tag], inside: FloatArray) -> float:
+def _fit(flat: FloatArray, boxes: FloatArray, inside: FloatArray) -> float:
     """Return the largest scale at which drawing and names stay inside, by bisection."""
     span = np.maximum(flat.max(axis=0) - flat.min(axis=0), 1e-300)
     corners = np.stack([flat.min(axis=0), flat.max(axis=0)])
-    beside, low, high = _beside(tags), 0.0, float(np.min(inside / span))
+    low, high = 0.0, float(np.min(inside / span))
     for _ in range(40):
         middle = 0.5 * (low + high)
-        a, b = _reach(corners, tags, beside, middle)
+        a, b = _reach(corners, boxes, middle)
         low, high = (middle, high) if (b - a <= inside).all() else (low, middle)
     return low or high
 
 
-def _beside(tags: list[Tag]) -> FloatArray:
-    """Return where the names would like to stand as seen from their anchors, (N, 2)."""
-    return np.array([stand(replace(tag, anchor=(0.0, 0.0))) for tag in tags]).reshape(-1, 2)
+def _boxes(tags: list[Tag]) -> FloatArray:
+    """Return anchor at scale 1, middle from there, and half the extent of each name, (3, N, 2)."""
+    boxes = [(tag.anchor, stand(replace(tag, anchor=(0.0, 0.0))), np.multiply(0.5, tag.extent)) for tag in tags]
+    return np.array(boxes, dtype=float).reshape(-1, 3, 2).swapaxes(0, 1)
 
 
-def _reach(flat: FloatArray, tags: list[Tag], beside: FloatArray, scale: float) -> tuple[FloatArray, FloatArray]:
+def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArray, FloatArray]:
     """Lowest and highest corner of drawing and names at this scale, the origin at (0, 0)."""
-    anchors = np.array([tag.anchor for tag in tags]).reshape(-1, 2)
-    half = 0.5 * np.array([tag.extent for tag in tags]).reshape(-1, 2)
+    anchors, beside, half = boxes
     centres = scale * anchors + beside
     low = np.concatenate([scale * flat, centres - half]).min(axis=0)
     high = np.concatenate([scale * flat, centres + half]).max(axis=0)

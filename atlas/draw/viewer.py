@@ -6,11 +6,12 @@ of lines are 16-bit multiples of 1/`STEPS`, and numbers have seven digits: to le
 
 import json
 from base64 import b64encode
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path
 from matplotlib.textpath import TextPath
@@ -34,11 +35,11 @@ _UPPER = np.triu_indices(4)
 _WORDS = {Path.MOVETO: "m", Path.LINETO: "l", Path.CURVE3: "q", Path.CURVE4: "c"}
 
 
-def script(scene: Scene, style: Any = None) -> str:
+def script(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> str:
     """Return the script that hands a scene to the viewer; nothing for one that is flat, with nothing to turn."""
     if not deep(scene):
         return ""
-    return f"atlasScene({json.dumps(data(scene, style), ensure_ascii=False, separators=(',', ':'))});\n"
+    return f"atlasScene({json.dumps(data(scene, style, figures), ensure_ascii=False, separators=(',', ':'))});\n"
 
 
 def deep(scene: Scene) -> bool:
@@ -46,24 +47,30 @@ def deep(scene: Scene) -> bool:
     return any(isinstance(panel, Space) and _deep(panel) for panel in scene.panels)
 
 
-def data(scene: Scene, style: Any = None) -> dict[str, Any]:
-    """Return a scene: its panels in space in the figure and in that for a narrow screen, and all texts."""
+def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dict[str, Any]:
+    """Return a scene: its panels in space in the figure and in that for a narrow screen, and all texts.
+
+    `figures` are both of these if they were drawn already: their axes have their places.
+    """
     small = narrowed(scene)
     with context(style):
         texts: dict[tuple[str, float], int] = {}
         return {
-            "wide": _laid_out(scene, texts),
-            "narrow": small and _laid_out(small, texts, same=small.panels == scene.panels),
+            "wide": _laid_out(scene, figures[:1], texts),
+            "narrow": small and _laid_out(small, figures[1:], texts, same=small.panels == scene.panels),
             "texts": [[*map(_short, extent(text, size)), _outline(text, size)] for text, size in texts],
         }
 
 
-def _laid_out(scene: Scene, texts: dict[tuple[str, float], int], *, same: bool = False) -> dict[str, Any]:
+def _laid_out(
+    scene: Scene, figures: Sequence[Figure], texts: dict[tuple[str, float], int], *, same: bool = False
+) -> dict[str, Any]:
     """Return where the panels in space are in a figure, and what is in them if they are not the same as before."""
+    boxes = [axes.get_position() for figure in figures for axes in figure.axes] or places(scene)
     size = _POINT * np.array(scene.size)
     views = [
         (box, fit(panel, (box.width * size[0], box.height * size[1])))
-        for box, panel in zip(places(scene), scene.panels, strict=True)
+        for box, panel in zip(boxes, scene.panels, strict=True)
         if isinstance(panel, Space)
     ]
     found: dict[str, Any] = {"places": [_place(box, view) for box, view in views]}

@@ -33,4 +33,5 @@ FAMILY = Family(
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="free Omega"),
     ),
     {"free R": 4, "free k": 4, "free phi": 4, "free Omega": 8},
+    figures=("free_motion",),
 )

@@ -86,10 +86,10 @@ class OfFamily:
         """Return the picture: the body at the time t, or the figure."""
         arguments = self.arguments(values)
         if self.moves:
-            from atlas.scene.turning import period, turning
+            from atlas.scene import any_motion
 
             motion = self.kernels(values)
-            return turning(motion, values["t"], period(motion))
+            return any_motion.at(motion, values["t"], any_motion.period(motion))
         recipe = recipes.load(self.family.figures[0])
         return recipe.scene(**{key: value for key, value in arguments.items() if key in recipe.parameters})
 

@@ -1,50 +1,73 @@
 """The picture of an object, by a recipe that takes what it was made of."""
 
 from dataclasses import replace
+from inspect import signature
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from atlas.core.flight import Flight
 from atlas.core.shown import Shown
 from atlas.draw.panels import into, to_figure
 from atlas.errors import AtlasError, unknown
 from atlas.families import FAMILIES, Family
-from atlas.scene import recipes
+from atlas.scene import flight, recipes
 from atlas.scene.layers import Scene
+from atlas.targets import find
 
 
 def plot(
-    shown: Shown, figure: str | None, panel: int | None, ax: Any, style: Any, parameters: dict[str, Any]
+    shown: Shown,
+    figure: str | None,
+    panel: int | None,
+    ax: Any,
+    style: Any,
+    target: str | None,
+    parameters: dict[str, Any],
 ) -> Figure:
     """Draw an object, see `Shown.plot`; without axes all panels, or the one asked for."""
     scene = scene_of(shown, figure, parameters)
     if panel is not None and not 1 <= panel <= len(scene.panels):
         raise AtlasError(f"The figure has the panels 1 to {len(scene.panels)}, and no panel {panel}.")
-    if ax is not None:
-        into(ax, scene.panels[(panel or 1) - 1], style)
-        drawn: Figure = ax.figure
-        return drawn
-    return to_figure(scene if panel is None else alone(scene, panel), style)
+    if ax is None:
+        return to_figure(
+            scene if panel is None else alone(scene, panel), style, target=None if target is None else find(target)
+        )
+    if target is not None:
+        raise AtlasError("target is for a whole figure; axes of your own have the size that you gave them.")
+    into(ax, scene.panels[(panel or 1) - 1], style)
+    drawn: Figure = ax.figure
+    return drawn
 
 
 def scene_of(shown: Shown, figure: str | None, parameters: dict[str, Any]) -> Scene:
     """Return the scene of an object. Raises AtlasError where no recipe takes it."""
-    family = FAMILIES.get(shown.family)
-    known = family.figures if family else ()
-    name = type(shown).__name__
-    if family is None or not known:
+    family, name = FAMILIES.get(shown.family), type(shown).__name__
+    known = family.figures if family else ("flight",) if isinstance(shown, Flight) else ()
+    if not known:
         raise AtlasError(f"There is no picture of a {name} yet.")
     if getattr(shown, "shape", ()):
         raise AtlasError(f"A picture is of one {name}, not of several: make one with numbers in place of arrays.")
     if figure is not None and figure not in known:
         raise unknown("figure", figure, known, f"of a {name}")
+    if family is None:
+        return _flight(shown, parameters)
     recipe = recipes.load(figure or known[0])
     own = _own(shown, family)
     for key in parameters:
         if key in own:
             raise AtlasError(f"{key} is that of the {name}; make another one for another {key}.")
     return recipe.scene(**{key: value for key, value in own.items() if key in recipe.parameters} | parameters)
+
+
+def _flight(shown: Any, parameters: dict[str, Any]) -> Scene:
+    """Return the scene of a flight, which is made of a particle and a motion and is no family of the register."""
+    known = signature(flight.of).parameters
+    for key in parameters:
+        if key not in known or key == "flight":
+            raise unknown("parameter", key, [name for name in known if name != "flight"], "of a picture of a Flight")
+    return flight.of(shown, **parameters)
 
 
 def alone(scene: Scene, panel: int) -> Scene:

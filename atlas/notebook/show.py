@@ -23,16 +23,13 @@ Row = tuple[str, str, str | Number, str, str, str]
 
 def html(shown: Shown) -> str:
     """Return what makes an object, the picture, and the table; arrays and what has no family have no table."""
-    head = f"<pre>{escape(repr(shown))}</pre>"
-    found = rows(shown)
-    if not found:
-        return head
+    found, heads = rows(shown), ("Quantity", "Name", "Value", "Unit", "Equation", "Proven")
     body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in _cells(row)) + "</tr>" for row in found)
-    heads = "".join(f"<th>{name}</th>" for name in ("Quantity", "Name", "Value", "Unit", "Equation", "Proven"))
-    table = f"<table><thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>"
-    return (
-        f'{head}<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">{table}{picture(shown)}</div>'
-    )
+    head = "".join(f"<th>{name}</th>" for name in heads)
+    table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>" if found else ""
+    beside = f"{table}{picture(shown)}"
+    flow = '<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">'
+    return f"<pre>{escape(repr(shown))}</pre>{f'{flow}{beside}</div>' if beside else ''}"
 
 
 def latex(shown: Shown) -> str | None:
@@ -60,7 +57,7 @@ def picture(shown: Shown) -> str:
     """Return the first panel of the figure of an object, small; nothing where there is none."""
     with suppress(AtlasError):
         file = BytesIO()
-        plot(shown, None, 1, None, None, {}).savefig(file, dpi=DOTS)
+        plot(shown, None, 1, None, None, None, {}).savefig(file, dpi=DOTS)
         return f'<img width="{WIDTH}" alt="" src="data:image/png;base64,{b64encode(file.getvalue()).decode()}">'
     return ""
 

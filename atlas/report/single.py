@@ -9,7 +9,7 @@ from atlas.errors import AtlasError
 
 TYPES = {
     "svg": "image/svg+xml", "png": "image/png", "pdf": "application/pdf", "gz": "application/gzip",
-    "woff2": "font/woff2",
+    "woff": "font/woff",
 }  # fmt: skip
 HANDED_OVER = """
 // What this page would fetch by a script element stands in it as a block of data.

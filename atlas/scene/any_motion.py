@@ -1,4 +1,4 @@
-"""Any motion as a figure: the way of the third axis on the unit sphere, and the angular velocity over time."""
+"""Any motion as a figure: the way of its third axis, with the angular velocity over time, or the body at one time."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,50 +8,69 @@ from typing import Any, Protocol
 import numpy as np
 
 from atlas.core.inputs import FloatArray, positive
-from atlas.scene import axis_trace
-from atlas.scene.captions import plain, tex
+from atlas.errors import AtlasError
+from atlas.scene import axis_trace, quadric_panel
+from atlas.scene.bodies import body_of
+from atlas.scene.captions import plain, quotient, tex
 from atlas.scene.course import course
-from atlas.scene.layers import Scene
+from atlas.scene.layers import Arrow, Curve, Label, Layer, Scene, Space
+from atlas.scene.sample import MOST as MANY
+from atlas.scene.sample import curve
 
-SIZE = (124.0, 66.0)
+SIZE, SQUARE = (124.0, 66.0), (90.0, 90.0)
 MOST, FEW = 60.0, 12.0
 """Turns of the body, about any axis, for which its axis is followed at most, and for which Omega(t) is drawn."""
+_FINE = quadric_panel.tolerance(3.0)
+_AXIS, _UP, _PIECES, _LONG = 1.35, 1.6, 24, 1e12
+"""Lengths of the axis and of what stands upright, pieces of a trace at first, and a period that is taken for none."""
 
 
-class Moving(Protocol):
-    """What the figure asks of a motion."""
-
-    def third_axis(self, t: Any) -> FloatArray:
-        """R_3(t), shape (..., 3), in the laboratory."""
+class Turning(Protocol):
+    """What has an angular velocity."""
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Omega(t), shape (..., 3), in the body."""
 
 
+class Moving(Turning, Protocol):
+    """What the figure asks of a motion."""
+
+    def third_axis(self, t: Any) -> FloatArray:
+        """R_3(t), shape (..., 3), in the laboratory."""
+
+
 @dataclass(frozen=True)
 class Upright:
-    """The vector that stands upright, in the laboratory, with its letter for a formula and for plain words."""
+    """The vector that stands upright, in the laboratory, its letter for a formula and for plain words, its role."""
 
     vector: Sequence[float]
     letter: str
     plain: str
+    role: str = "field"
 
     @classmethod
-    def field_or_momentum(cls, field: Sequence[float], momentum: Sequence[float]) -> "Upright":
-        """Return the field; without one the angular momentum; of a body at rest the axis e3."""
+    def of(cls, motion: Any) -> "Upright":
+        """Return the direction of a top, else the field; without one the angular momentum; of a body at rest e3."""
+        if hasattr(motion, "direction"):
+            return cls((0.0, *motion.direction), r"\mathbf{n}", "n")
+        field = getattr(motion, "field", (abs(getattr(motion, "larmor", 0.0)),))
         if any(field):
-            return cls(field, r"\mathbf{B}", "B")
-        return cls(momentum, r"\mathbf{m}", "m") if any(momentum) else cls((0.0, 0.0, 1.0), r"\mathbf{e}_3", "e3")
+            return cls((*[0.0] * (3 - len(field)), *field), r"\mathbf{B}", "B")
+        Omega = motion.angular_velocity(0.0)
+        momentum = getattr(motion, "inertia", (1.0, 1.0, quotient(getattr(motion, "ratio", 1.0)))) * Omega
+        if momentum.any():
+            return cls(momentum.tolist(), r"\mathbf{m}", "m", "momentum")
+        return cls((0.0, 0.0, 1.0), r"\mathbf{e}_3", "e3", "")
 
 
 def picture(
     heading: str,
     motion: Moving,
-    upright: Upright,
     setting: tuple[str, str],
     period: float,
     periods: float,
     *,
+    upright: Upright | None = None,
     word: str = "nutation",
     elevation: float = 25.0,
     unit: str = "time",
@@ -60,7 +79,9 @@ def picture(
 
     `setting` says whose motion it is and from where, for a caption and in plain words; `word` what has the period,
     nothing if it is not one. Where it is infinite or zero, it is that of one turn with the initial angular velocity.
+    `upright` is that of the motion.
     """
+    upright = upright or Upright.of(motion)
     first = turns(motion, 0.0)
     steady = not (isfinite(period) and period > 0)
     unit_of_time = period if not steady else 1 / first if first else 1.0
@@ -93,6 +114,45 @@ def picture(
     )
 
 
+def at(motion: Any, t: float, length: float) -> Scene:
+    """Return a motion at the time t: the body, what its axis has drawn for the `length` of time before, the field."""
+    R, upright = np.asarray(motion.rotation(t)), Upright.of(motion)
+    layers: list[Layer] = [
+        *body_of(motion, R, _FINE),
+        Arrow(quadric_panel.O, _AXIS * R[:, 2], "body_axis", r"$\mathbf{R}_3$"),
+    ]
+    begin = max(0.0, t - length)
+    if t > begin:
+        layers.append(Curve(curve(lambda s: _AXIS * motion.third_axis(s), begin, t, _FINE, pieces=_PIECES), "trace"))
+    if upright.role:
+        along = np.array(upright.vector) / np.abs(upright.vector).max()
+        along /= np.linalg.norm(along)
+        layers.append(Arrow(quadric_panel.O, _UP * along, upright.role, f"${upright.letter}$"))
+    layers.append(Label(_UP * np.concatenate([np.eye(3), -np.eye(3)]), ""))  # as far as it reaches at any time
+    what = {"momentum": "angular momentum", "": ""}.get(upright.role, "field")
+    beside = f", and the direction of the {what}" if what else ""
+    return Scene(
+        title="A motion",
+        caption=rf"The body, its axis $\mathbf{{R}}_3$ with the trace of its tip{beside}.",
+        alt="A body with its axis, the line that the tip of that has drawn"
+        f"{f', and an arrow along the {what}' if what else ''}.",
+        panels=(Space(tuple(layers), azimuth=20.0, elevation=15.0, span=(2.0 * _UP, 2.0 * _UP)),),
+        size=SQUARE,
+    )
+
+
+def period(motion: Any) -> float:
+    """Return how long a motion takes to come back but for a turn: its period, or that of its precession.
+
+    Raises AtlasError for an array of motions.
+    """
+    if motion.shape:
+        raise AtlasError(f"one motion can be drawn at a time, not an array of the shape {motion.shape}.")
+    found = float(getattr(motion, "period", 0.0)) or 2 * pi / max(abs(float(getattr(motion, "k", 0.0))), 1e-300)
+    first = turns(motion, 0.0)
+    return found if found < _LONG else 1 / first if first else 1.0
+
+
 def start(omega: Sequence[float]) -> tuple[str, str]:
     """Return the initial angular velocity for a caption and in plain words."""
     return (
@@ -101,7 +161,7 @@ def start(omega: Sequence[float]) -> tuple[str, str]:
     )
 
 
-def turns(motion: Moving, stop: float) -> float:
+def turns(motion: Turning, stop: float) -> float:
     """Return how many turns in a unit of time a motion makes at most, by looks from t = 0 to `stop`."""
     looks = motion.angular_velocity(np.linspace(0.0, stop, 65 if stop else 1))
     return float(np.linalg.norm(looks, axis=-1).max()) / (2 * pi)
@@ -109,4 +169,4 @@ def turns(motion: Moving, stop: float) -> float:
 
 def pieces(count: float) -> int:
     """Return into how many pieces the way of an axis is first cut, over so many turns."""
-    return max(32, ceil(8 * count))
+    return max(32, ceil(min(8 * count, 2.0 * MANY)))

@@ -1,14 +1,19 @@
 """A symmetric body as it is drawn: a shell whose proportions give its I, with a painted seam that shows its spin."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from atlas.scene import solids
 from atlas.scene.camera import frame
+from atlas.scene.captions import quotient
 from atlas.scene.layers import Curve, FloatArray, Layer, Space, Surface
 
 _SEAM = 0.16
+_THIN = 0.02
+"""The least side of a brick, of its diagonal."""
+_CENTRE = np.zeros(3)
 _FLAT = 1e-3
 _WINDINGS = 5.0
 """Windings of a solenoid on a piece as high as its radius."""
@@ -50,6 +55,24 @@ def drawn_body(I: float, attitude: FloatArray, centre: FloatArray, size: float, 
     ]
     seam = _seam(side, centre, (first, second, axis), radius, height)
     return [side, *ends, seam]
+
+
+def body_of(motion: Any, R: FloatArray, tolerance: float) -> list[Layer]:
+    """Return the body of a motion, turned by R: a shell with its I, or a brick with its three moments."""
+    inertia = getattr(motion, "inertia", None)
+    if inertia is None or np.ndim(inertia) == 0:
+        return drawn_body(quotient(getattr(motion, "ratio", 1.0)), R, _CENTRE, 1.0, tolerance)
+    if len(inertia) == 2:
+        return drawn_body(min(quotient(inertia[1] / inertia[0]), 2.0), R, _CENTRE, 1.0, tolerance)
+    moments = np.array(inertia, dtype=float)
+    sides = np.sqrt(np.maximum(moments.sum() - 2.0 * moments, 0.0))
+    sides = np.maximum(sides / np.linalg.norm(sides), _THIN)
+    faces = [(i, sign) for i in range(3) for sign in (1.0, -1.0)]
+    return [
+        solids.rectangle(sign * sides[i] * R[:, i], sides[j] * R[:, j], sign * sides[k] * R[:, k], role="solid")
+        for i, sign in faces
+        for j, k in [((i + 1) % 3, (i + 2) % 3)]
+    ]
 
 
 def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, tolerance: float) -> list[Layer]:

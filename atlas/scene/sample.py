@@ -79,6 +79,8 @@ def _cut(
     scale: FloatArray | float,
 ) -> tuple[FloatArray, FloatArray]:
     """Return parameters and points; the sag of an arc falls with the square of its parts, which tells their number."""
+    if pieces > MOST:
+        raise DomainError(f"A curve over that many turns needs more than {MOST} points: ask for a shorter part of it.")
     s = np.linspace(start, stop, pieces + 1)
     x = function(s)
     open_ = np.ones(pieces, dtype=bool)

@@ -191,7 +191,7 @@ def test_errors_are_one_line_and_leave_nothing(tmp_path: Path, words: str, says:
 def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     """`animate` of a symmetric body, of a top and of one with three moments; of an array it says why not."""
     motion = atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)
-    scene = animation.turning.turning(motion, 0.8, 1.0)
+    scene = animation.any_motion.at(motion, 0.8, 1.0)
     (axis,) = (one for one in layers(scene, Arrow) if one.role == "body_axis")
     assert np.allclose(axis.tip / np.linalg.norm(axis.tip), motion.third_axis(0.8))
     for t, start in ((0.8, 0.5), (0.2, 0.0)):  # the trace of its tip over the time before, not before the start

@@ -30,7 +30,6 @@ HEAVY: Mapping[str, str] = {
     "pypandoc_binary": "pypandoc",
     "ziamath": "ziamath",
     "fonttools": "fontTools",
-    "brotli": "brotli",
     "rich": "rich",
     "msgspec": "msgspec",
     "pylatexenc": "pylatexenc",
@@ -140,7 +139,7 @@ recipe = "flight"
 renderer = "shaded"
 """
 PAGES = "msgspec numpy flint jinja2 typst multiprocessing pylatexenc"
-FONTS = "brotli fontTools"
+FONTS = "fontTools"
 
 
 class Step(NamedTuple):

@@ -27,8 +27,10 @@ from atlas import (
     SymmetricBody,
     TopMotion,
 )
+from atlas.core.shown import Shown
 from atlas.draw.embedded import mimebundle
 from atlas.families import FAMILIES
+from atlas.notebook.pictures import scene_of
 from atlas.notebook.show import picture
 from atlas.scene import Curve, recipes
 
@@ -56,6 +58,7 @@ ONE: list[Any] = [
     Field.si((0.0, 1.0, 2.0), mu=2.0).frame((0.0, 0.0, 1.0)),
     SymmetricBody.disk(1.0, 2.0),
 ]
+STRAIGHT = ParticleMotion(1.0, (0.0, 0.5, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
 TABLED = [one for one in ONE if getattr(one, "family", "") not in {"", "asymmetric"} and not one.made_by]
 """What the register has a table of; the balls of a body with three moments take seconds."""
 
@@ -117,8 +120,8 @@ def test_html_has_proven_digits() -> None:
 
 
 def test_html_has_a_small_picture_where_a_recipe_draws_it() -> None:
-    """One panel, as a picture in the text; nothing where there is no recipe."""
-    assert picture(ONE[10]) == ""
+    """One panel, as a picture in the text; nothing of an array."""
+    assert picture(Quadric([1.5, 0.5], (1, 2))) == ""
     assert re.match(r'<img width="300" alt="" src="data:image/png;base64,[\w+/=]+">$', picture(Hyperbola(1.5, (1, 2))))
 
 
@@ -157,6 +160,7 @@ def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
         (ONE[7], "top_motion", (0.0, 0.6, 0.8)),
         (ONE[8], "elliptic_motion", (0.2, 1.0, 0.6)),
         (ONE[9], "asymmetric_motion", (0.2, 1.0, 0.6)),
+        (ONE[10], "free_motion", (0.3, 0.7, 0.3)),
         (ONE[11], "ball_motion", (0.0, 0.0, 1.0)),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
@@ -196,6 +200,26 @@ def test_the_picture_of_a_particle_is_its_path() -> None:
     assert np.abs((path[-1] - path[0]) - (y[-1] - y[0]) / span.max()).max() < 1e-4
 
 
+def test_the_picture_of_a_flight_is_the_way_of_its_point() -> None:
+    """Of any motion of the body, in the user's axes: both paths, and the arm at its end as it is there."""
+    field = Field((0.0, 1.0, 2.0), mu=1.0, E=(-1.0, 0.3, 0.0))
+    frame = field.frame((0.2, 0.1, 1.0))
+    particle = ParticleMotion.in_field(field, (1.0, 2.0, 3.0), (1.0, 0.5, 0.5))
+    one = Flight(particle, GeneralMotion(1.5, frame.field, (0.3, 0.7, 0.2)), (0.0, 0.3, 0.2), frame)
+    scene = scene_of(one, None, {"turns": 2.0})
+    lines = {layer.role: layer.points for layer in scene.panels[0].layers if isinstance(layer, Curve)}
+    assert scene.lasts == 2.0 * particle.period
+    assert np.abs(lines["trajectory"][[0, -1]] - one.position(np.array([0.0, scene.lasts]))).max() < 1e-12
+    assert np.abs(lines["fourth"][[0, -1]] - particle.position(np.array([0.0, scene.lasts]))).max() < 1e-12
+    R, s = scene.paths["arm"](np.array([1.3]))
+    arm = particle.position(0.0), one.position(0.0)
+    assert (
+        np.abs(R[0] @ np.transpose(arm) + s.T - np.transpose([particle.position(1.3), one.position(1.3)])).max() < 1e-13
+    )
+    assert one.plot(turns=2.0).axes[1].get_xlabel().startswith("along")
+    assert "<img" in one._repr_html_()
+
+
 def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
     """The panel asked for, into one of two axes; the figure that comes back is theirs."""
     figure = Figure((8, 4))
@@ -215,8 +239,17 @@ def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
         (lambda: ONE[5].plot(ratio=2.0), "ratio is that of the GeneralMotion"),
         (lambda: ONE[5].plot("hyperbola"), "no figure 'hyperbola' of a GeneralMotion"),
         (lambda: ONE[5].plot(panel=3), "panels 1 to 2"),
+        (lambda: ONE[5].plot(ax=Figure().add_subplot(), target="aps"), "target is for a whole figure"),
+        (lambda: ONE[5].plot(target="nature"), "nature"),
         (lambda: ONE[5].plot(ax=Figure().add_subplot(projection="3d")), "ordinary axes"),
-        (lambda: FreeMotion(1.5, (1, 2, 3)).plot(), "no picture of a FreeMotion"),
+        (lambda: type("Mine", (Shown,), {"arguments": {}})().plot(), "no picture of a Mine"),
+        (lambda: ONE[5].trace(1e300), "more than 1000000 points"),
+        (lambda: ONE[4].trace(stop=1e9), "more than 1000000 points"),
+        (lambda: ONE[13].plot(point=2.0), "no parameter 'point' of a picture of a Flight"),
+        (lambda: ONE[13].plot(stop=1e6), "more than 200 cannot be drawn"),
+        (lambda: ONE[13].plot("motion"), "no figure 'motion' of a Flight"),
+        (lambda: Flight(ONE[12], BallMotion(1.0, 0.5, (0.3, [0.1, 0.2])), (0.0, 0.1, 0.0)).plot(), "one Flight"),
+        (lambda: Flight(STRAIGHT, FreeMotion(1.5, (1, 2, 3)), (0.0, 0.1, 0.0)).plot(), "nothing turns the path"),
         (lambda: ElementaryMotion(1.5, (1, 2), [0.1, 0.2]).plot(), "one ElementaryMotion"),
         (lambda: ElementaryMotion(1.5, (1, 2), [0.1, 0.2]).trace(), "one ElementaryMotion"),
         (lambda: BallMotion(1.0, 0.5, (0.3, -0.7)).trace(), "say stop="),

@@ -262,6 +262,7 @@ ENDS = {
     "cusps": {"nutations": (0.5, 40.0)},
     "elliptic_motion": {"periods": (1e-3, 1e3)},
     "flattening": {"stop": (0.1, 200.0)},
+    "free_motion": {"periods": (1e-3, 1e3)},
     "general_motion": {"periods": (1e-3, 1e3)},
     "monodromy": {"points": (24, 200)},
     "phase_portrait": {"levels": (1, 40)},

@@ -5,7 +5,6 @@ from math import hypot, isfinite, pi, sqrt
 from atlas.core.body import from_shape
 from atlas.core.charge_moments import ChargeMoments
 from atlas.core.laboratory import diamagnetic_energy
-from atlas.core.top import TopMotion
 from atlas.errors import AtlasError
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
@@ -54,6 +53,8 @@ def coats(request: Request) -> Data:
 
 def swings(request: Request) -> Data:
     """Return how bodies at rest in Larmor's frame swing there: by their charge alone, and magnetised too."""
+    from atlas.core.top import TopMotion
+
     asked = request.take(DiamagnetismParameters)
     rows: list[tuple[str | Number, ...]] = []
     for one in request.cases:

@@ -2,8 +2,6 @@
 
 from typing import Any
 
-from atlas.core.monodromy import around, monodromy
-from atlas.core.wells import Wells
 from atlas.report.digits import Number, plain
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.table import Column, Data, Request, certified, column
@@ -89,6 +87,9 @@ def _nutation(one: Top) -> tuple[Any, Any, Any]:
 
 def loops(request: Request) -> Data:
     """Return what becomes of the basis of periods on loops round unstable spins, theorem-residue."""
+    from atlas.core.monodromy import around, monodromy
+    from atlas.core.wells import Wells
+
     asked = request.take(MonodromyParameters)
     rows: list[tuple[str | Number, ...]] = []
     for one in asked.loops:

@@ -1,0 +1,36 @@
+"""A free motion.
+
+Without a field the body's axis goes round the constant angular momentum m on a cone, with the frequency k, and Omega
+goes round the axis, (87).
+"""
+
+from math import pi
+from typing import Any
+
+from atlas.core.elementary import FreeMotion
+from atlas.scene import Scene, any_motion
+from atlas.scene.captions import plain, quotient, tex, tex_equals, title
+
+RANGES = {"periods": (1e-3, 1e3)}
+
+
+def scene(
+    *,
+    ratio: Any = 1.5,
+    omega: tuple[float, float, float] = (0.3, 0.7, 0.2),
+    periods: float = 2.0,
+    elevation: float = 25.0,
+    unit: str = "time",
+) -> Scene:
+    """Draw R_3(t) and Omega(t) from ``omega`` over ``periods`` of the precession about m."""
+    motion = FreeMotion(ratio, omega)
+    of, words = any_motion.start(omega)
+    rates = rf"$k{tex_equals(motion.k)}$, $\phi{tex_equals(motion.phi)}$"
+    setting = (
+        f"A free body with $I={tex(quotient(ratio))}$ from {of}: {rates}",
+        f"The motion of a free body with I = {plain(quotient(ratio))} from {words}",
+    )
+    period = 2 * pi / motion.k if motion.k else 0.0
+    return any_motion.picture(
+        title(__doc__), motion, setting, period, periods, word="precession", elevation=elevation, unit=unit
+    )
