@@ -115,18 +115,22 @@ class Command(click.Command):
         try:
             return super().parse_args(ctx, list(_spread(args, many)))
         except click.UsageError as error:
-            hint = "" if isinstance(error, click.BadParameter) else _miscounted(args, self.params)
+            hint = "" if isinstance(error, click.MissingParameter) else _miscounted(args, self.params)
             if hint:
                 raise click.UsageError(f"{error.format_message().rstrip('.')}: {hint}", ctx) from error
             raise
 
 
 def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
-    """Say what an option takes that has more or fewer values; nothing if there is none."""
+    """Say what an option takes that has more or fewer values; nothing if there is none.
+
+    Words that are no values of it may follow where the command has arguments.
+    """
+    more = any(isinstance(one, click.Argument) for one in params)
     for param in (one for one in params if isinstance(one, click.Option) and one.nargs > 1):
         for at in (i for i, word in enumerate(args) if word in param.opts):
             following = list(takewhile(lambda word: not word.startswith("--"), args[at + 1 :]))
-            if len(following) != param.nargs:
+            if len(following) < param.nargs or (len(following) > param.nargs and not more):
                 return f"{args[at]} takes {param.nargs} numbers, {param.metavar}."
     return ""
 
