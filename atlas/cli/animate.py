@@ -62,7 +62,7 @@ def command(
     settle_matplotlib()
     animation.check(kind, fps)
     parameters = dict(setting(text) for text in settings)
-    moves = through(over) if over else ("t", None)
+    moves = through(over) if over is not None else ("t", None)
     with bar("frames") as tell:
         moving = animation.animate(name, *moves, fps=fps, style=style, progress=tell, **parameters)
         file = out / f"{Path(name).stem}.{kind}"

@@ -171,6 +171,7 @@ def test_without_ffmpeg_one_line_says_so(tmp_path: Path, monkeypatch: pytest.Mon
         ("cone", "'cone' has no time t"),
         ("cone --over azimuth=0:720:5", "azimuth must lie between -360 and 360, not 540"),
         ("cone --over azimuth=0:90", "KEY=FROM:TO:COUNT"),
+        ("film_strip --over=", "KEY=FROM:TO:COUNT"),
         ("cone --over azimuth=0:x:5", "from a number to a number"),
         ("cone --over azimuth=0:90:1", "from 2 to 2000 frames, not 1"),
         ("cone --over tilt=0:90:4", "no parameter 'tilt'"),
