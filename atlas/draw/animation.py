@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 
+from atlas.core.inputs import positive
 from atlas.draw.panels import laid_out, to_figure
 from atlas.draw.style import context
 from atlas.draw.view import Held, hold, named
@@ -102,6 +103,7 @@ def animation(
     """Return so many scenes as an animation of Matplotlib's. Raises AtlasError for fewer than two, or too many."""
     if not 2 <= count <= MOST:
         raise AtlasError(f"an animation has from 2 to {MOST} frames, not {count}")
+    fps = positive(fps, "fps")
     frames = Frames(make, count, style, progress)
     more = {"init_func": lambda: None, "interval": 1000.0 / fps, "blit": False}
     return FuncAnimation(frames.figure, frames.draw, frames=count, **more)

@@ -1,5 +1,6 @@
 """A scene as a Matplotlib figure: one axes a panel, row by row."""
 
+import reprlib
 from collections.abc import Callable, Mapping
 from io import BytesIO
 from types import MappingProxyType
@@ -83,7 +84,9 @@ def to_figure(
 
 
 def into(axes: Axes, panel: Panel, style: Any = None) -> None:
-    """Draw a panel into axes of the user's own. Raises AtlasError for axes with three dimensions."""
+    """Draw a panel into axes of the user's own. Raises AtlasError for what is none, and for three dimensions."""
+    if not isinstance(axes, Axes):
+        raise AtlasError(f"ax must be axes of Matplotlib, not {reprlib.repr(axes)}.")
     if axes.name == "3d":
         raise AtlasError("ax must be ordinary axes: a panel in space has its own perspective and hidden lines.")
     with context(style):

@@ -18,6 +18,7 @@ def frame(shown: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
     swept = FAMILIES.get(shown.family)
     if swept is None:
         raise AtlasError(f"The register has no table of a {type(shown).__name__}.")
+    quantities = [quantities] if isinstance(quantities, str) else quantities
     columns = dict(_quantities(shown, swept, quantities) if times is None else _times(shown, swept, times, quantities))
     found = _pandas().DataFrame(columns)
     found.attrs["units"] = {name: swept.units.get(name, "") for name in columns}
@@ -62,7 +63,9 @@ def _times(shown: Shown, swept: Swept, times: Any, names: Sequence[str] | None) 
         if name not in known:
             raise unknown("quantity", name, known, f"at a time of a {type(shown).__name__}")
     wanted = tuple(known if names is None else names)
-    found = {s.name: s.at(shown)(t).reshape(t.size, -1) for s in swept.family.sampled if {*s.columns} & {*wanted}}
+    found = {
+        s.name: s.at(shown)(t).reshape(t.size, len(s.columns)) for s in swept.family.sampled if {*s.columns} & {*wanted}
+    }
     yield "t", t
     for name in wanted:
         yield name, found[known[name].name][:, [*known[name].columns].index(name)]

@@ -28,8 +28,8 @@ def plot(
 ) -> Figure:
     """Draw an object, see `Shown.plot`; without axes all panels, or the one asked for."""
     scene = scene_of(shown, figure, parameters)
-    if panel is not None and not 1 <= panel <= len(scene.panels):
-        raise AtlasError(f"The figure has the panels 1 to {len(scene.panels)}, and no panel {panel}.")
+    if panel is not None and panel not in range(1, len(scene.panels) + 1):
+        raise AtlasError(f"The figure has the panels 1 to {len(scene.panels)}, and no panel {panel!r}.")
     if ax is None:
         return to_figure(
             scene if panel is None else alone(scene, panel), style, target=None if target is None else find(target)
@@ -50,7 +50,7 @@ def scene_of(shown: Shown, figure: str | None, parameters: dict[str, Any]) -> Sc
     if getattr(shown, "shape", ()):
         raise AtlasError(f"A picture is of one {name}, not of several: make one with numbers in place of arrays.")
     if figure is not None and figure not in known:
-        raise unknown("figure", figure, known, f"of a {name}")
+        raise unknown("figure", figure, known, f"of {name}")
     if family is None:
         return _flight(shown, parameters)
     recipe = recipes.load(figure or known[0])

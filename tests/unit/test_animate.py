@@ -196,7 +196,7 @@ def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     (axis,) = (one for one in layers(scene, Arrow) if one.role == "body_axis")
     assert np.allclose(axis.tip / np.linalg.norm(axis.tip), motion.third_axis(0.8))
     for t, start in ((0.8, 0.5), (0.2, 0.0)):  # the trace of its tip over the time before, not before the start
-        (trace,) = (one.points for one in layers(animation.turning.turning(motion, t, 0.3), Curve))
+        (trace,) = (one.points for one in layers(animation.any_motion.at(motion, t, 0.3), Curve))
         ends = np.array([motion.third_axis(start), motion.third_axis(t)])
         assert np.allclose(trace[[0, -1]], np.linalg.norm(axis.tip) * ends)
     corners = np.unique(np.round(np.concatenate([one.rims[0] for one in layers(scene, Surface)]), 9), axis=0)

@@ -237,8 +237,11 @@ def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
     ("wrong", "says"),
     [
         (lambda: ONE[5].plot(ratio=2.0), "ratio is that of the GeneralMotion"),
-        (lambda: ONE[5].plot("hyperbola"), "no figure 'hyperbola' of a GeneralMotion"),
+        (lambda: ONE[5].plot("hyperbola"), "no figure 'hyperbola' of GeneralMotion"),
         (lambda: ONE[5].plot(panel=3), "panels 1 to 2"),
+        (lambda: ONE[5].plot(panel="a"), "no panel 'a'"),
+        (lambda: ONE[5].plot(ax=3), "must be axes of Matplotlib, not 3"),
+        (lambda: ONE[5].animate([0.0, 1.0], fps=0), "fps must be positive"),
         (lambda: ONE[5].plot(ax=Figure().add_subplot(), target="aps"), "target is for a whole figure"),
         (lambda: ONE[5].plot(target="nature"), "nature"),
         (lambda: ONE[5].plot(ax=Figure().add_subplot(projection="3d")), "ordinary axes"),
@@ -247,7 +250,7 @@ def test_an_object_is_drawn_into_axes_of_ones_own() -> None:
         (lambda: ONE[4].trace(stop=1e9), "more than 1000000 points"),
         (lambda: ONE[13].plot(point=2.0), "no parameter 'point' of a picture of a Flight"),
         (lambda: ONE[13].plot(stop=1e6), "more than 200 cannot be drawn"),
-        (lambda: ONE[13].plot("motion"), "no figure 'motion' of a Flight"),
+        (lambda: ONE[13].plot("motion"), "no figure 'motion' of Flight"),
         (lambda: Flight(ONE[12], BallMotion(1.0, 0.5, (0.3, [0.1, 0.2])), (0.0, 0.1, 0.0)).plot(), "one Flight"),
         (lambda: Flight(STRAIGHT, FreeMotion(1.5, (1, 2, 3)), (0.0, 0.1, 0.0)).plot(), "nothing turns the path"),
         (lambda: ElementaryMotion(1.5, (1, 2), [0.1, 0.2]).plot(), "one ElementaryMotion"),
@@ -303,6 +306,8 @@ def test_a_data_frame_has_a_row_for_each_time() -> None:
     assert np.array_equal(frame[["R11", "R12", "R13"]].to_numpy(), R[:, 0])
     assert np.array_equal(frame[["Omega1", "Omega2", "Omega3"]].to_numpy(), ONE[5].angular_velocity(times))
     assert [*ONE[12].to_dataframe(times, quantities=["velocity2"]).columns] == ["t", "velocity2"]
+    assert [*ONE[12].to_dataframe(times, quantities="velocity2").columns] == ["t", "velocity2"]
+    assert ONE[5].to_dataframe([]).shape == (0, frame.shape[1])
 
 
 def test_a_closed_motion_is_not_taken_for_another() -> None:
