@@ -29,13 +29,14 @@ def scene(
     layers = [*_straight(ratios, field, view), *_curves(ratios, field, view), *_points(ratios, field)]
     bodies = listed([f"a {body_name(ratio)} ($I={tex(quotient(ratio))}$)" for ratio in ratios])
     spoken = listed([f"a {body_name(ratio)} with I = {plain(quotient(ratio))}" for ratio in ratios])
+    line = ", a line of the ball" if any(quotient(ratio) == 1.0 for ratio in ratios) else ""
     return Scene(
         title=title(__doc__),
         caption=(
             r"The initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), in the "
             rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
-                r"All share the centre $-\mathbf{B}'$ and the asymptote $\omega_2=-B'_2$; the dashed ones run along "
+                rf"All share the centre $-\mathbf{{B}}'$ and the dotted asymptote{line}; the dashed ones run along "
                 r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ again."
                 if B2 and B3
                 else "In such a field the curve is the same for every body, and falls apart into straight lines."
