@@ -12,6 +12,7 @@ from oracles.top import integrated, taylor
 
 import atlas
 from atlas.exact.top_quadric import TopHyperbola as Balls
+from atlas.exact.top_quadric import TopQuadric as Surfaces
 
 TOPS = {
     "heavy, standing": ((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), 3.0, 0.0),
@@ -84,6 +85,26 @@ def test_degenerate_kinds_have_their_names() -> None:
     assert cylinder.kind == "hyperbolic cylinder"
     with pytest.raises(atlas.DomainError, match="infinite"):
         _ = cylinder.semi_axes
+
+
+@pytest.mark.parametrize("name", TOPS)
+def test_kernel_and_balls_agree_on_every_number_of_the_quadric(name: str) -> None:
+    """The kinds are the same, and each number is within rounding of its ball, at any point of space too."""
+    found, omega = atlas.Quadric.of_top(*TOPS[name]), (0.25, -1.5, 2.0)
+    with ctx.workprec(200):
+        true = Surfaces(*TOPS[name])
+        assert found.kind == true.kind
+        for what in ("a2", "a3", "D", "semi_axes", "centre", "axes"):
+            assert np.allclose(getattr(found, what), floats(getattr(true, what)), rtol=1e-14, atol=1e-14), what
+        for what in ("canonical", "residual"):
+            value, exact = getattr(found, what)(omega), floats(getattr(true, what)(omega))
+            assert np.allclose(value, exact, rtol=1e-14, atol=1e-14), what
+
+
+def floats(value: object) -> np.ndarray:
+    """Return nested rationals and balls as floats."""
+    parts = value if isinstance(value, list | tuple) else None
+    return np.array(float(value) if parts is None else [floats(one) for one in parts])  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("name", TOPS)
