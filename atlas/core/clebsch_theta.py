@@ -22,7 +22,7 @@ from atlas.core.nutation.grid import moments
 from atlas.errors import AtlasError, NotCertifiedError
 from atlas.exact.asymmetric import AsymmetricMotion
 from atlas.exact.clebsch_periods import complex_of
-from atlas.exact.clebsch_proof import bounds
+from atlas.exact.clebsch_proof import HALF, bounds
 from atlas.exact.clebsch_theta import ThetaMotion, frame
 from atlas.exact.theta_sums import Array, Sums
 from atlas.exact.torus import Period
@@ -31,11 +31,19 @@ from atlas.formulas.numbers import workprec
 PART = 768
 """Times whose sums are made at once, so that they stay in the second-level cache."""
 
-CELL = 40
-"""Points along each phase at which rounding errors are bounded."""
+CELL, CUTS, WIDER = 24, 6, 1.2
+"""Cells along each phase in which rounding errors are bounded, how often they are cut, and how much larger than in
+their middles the bound may be."""
 
-EXPONENTIAL = 4.0
-"""Units of 2^-53 by which an exponential is wrong, but for what its argument is; that is a sum of two products."""
+EXPONENTIAL, QUOTIENT = 5.0, 6.0
+"""Units of 2^-53 by which an exponential with what its argument lacks is wrong, if the library's and its sines are
+within an ulp, and a quotient."""
+
+UPPER = 24
+"""Binary digits of upper words of angles and of their factors: sums of two of their products are exact."""
+
+CUT = np.array(1.5 * 2.0 ** (52 - UPPER))
+"""Adding and subtracting it rounds to 2^-24."""
 
 BITS = 200
 """Precision of the constants."""
@@ -73,36 +81,64 @@ class ThetaKernel:
             self.frequencies = [x * arb(rate) for x in (TURN * f[0], TURN * f[1], about)]
             self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
             self.into: Array = np.array([[complex_of(2 * into[0][k]), complex_of(into[1][k])] for k in range(2)]).T
+            unit = 2.0 ** (np.ceil(np.log2(abs(self.into).max())) - UPPER)
+            self.upper = np.round(self.into / unit) * unit
+            self.lower = self.into - self.upper
             self.turning = np.array([complex_of(x - a) for x, a in zip(lines, angles, strict=True)]) / np.pi
             start = (2 * theta.start[0], theta.start[1])
             *forms, M1, M2, M3 = theta.forms
             W = [x.over(I) for x, I in zip((M1, M2, M3), motion.moments, strict=True)]
-            line = np.linspace(-np.pi / 2, np.pi / 2, CELL + 1)
-            cell = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
-            self.sums = Sums(theta.hat, [*forms, *W], start, self.into @ cell)
+            line = np.linspace(-HALF * np.pi, HALF * np.pi, 13)
+            region = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
+            self.sums = Sums(theta.hat, [*forms, *W], start, self.into @ region)
             ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
             n = [float((x / self.b).mid()) for x in theta.field]
         self.rate, self.size = rate, size / rate
         self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey) for j in range(3)])
         along = np.array([np.outer(n, np.eye(3)[j]).ravel() for j in range(3)]) / float(self.b.mid())
         self.entries = np.concatenate([self.entries, along])
-        self.accuracy = self._accuracy(cell)
+        self.accuracy = self._accuracy()
         self.proved: float | None = None
         self.riemann_matrix = np.array([[complex_of(theta.tau[i, j]) for j in range(2)] for i in range(2)])
 
-    def _accuracy(self, cell: FloatArray) -> float:
-        """Return a bound, at some points of the torus, on errors of R, and of K and Omega beside the largest rate."""
-        x = self.into @ cell
-        values, (errors, slopes) = self.sums.at(x), self.sums.rounding(x)
-        D, quotients = abs(values[3]), values / values[3]
-        changes = abs(slopes - quotients * slopes[:, 3:4]) / D
-        wrong = (errors + abs(quotients) * errors[3]) / D + 6 * abs(quotients)
-        wrong += ((EXPONENTIAL + 2 * abs(x))[:, None] * changes).sum(axis=0)
-        turning = np.exp(-(self.turning @ cell).imag)
+    def _accuracy(self) -> float:
+        """Return a bound on rounding errors of R, and of K and Omega beside the largest rate, to first order.
+
+        It holds at all phases: in cells of them, which are cut in four where that makes it smaller.
+        """
+        half = np.pi * HALF / CELL
+        line = np.linspace(half - np.pi * HALF, np.pi * HALF - half, CELL)
+        cells = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
+        enough, found = WIDER * float(self._wrong(cells, 0.0).max()), 0.0
+        for last in range(CUTS + 1):
+            wrong = self._wrong(cells, half)
+            done = (wrong <= enough) | (last == CUTS)
+            found = max(found, float(wrong[done].max(initial=0.0)))
+            half /= 2
+            corners = half * np.array([[1, 1, -1, -1], [1, -1, 1, -1]])
+            cells = (cells[:, ~done, None] + corners[:, None]).reshape(2, -1)
+            if not cells.size:
+                break
+        return found * 2.0**-53
+
+    def _wrong(self, cells: FloatArray, half: float) -> FloatArray:
+        """Return bounds on errors in cells of phases about some (2, m), in units of 2^-53.
+
+        Forms and slopes are bounded there by their values in the middle and by how their terms vary.
+        """
+        x = self.into @ cells
+        values, (errors, varying, slopes, bent) = self.sums.at(x), self.sums.rounding(x, half * self.into)
+        D = abs(values[3]) - varying[3]
+        quotients = (abs(values) + varying) / D
+        turned = (varying + quotients * varying[3]) / abs(values[3])  # by how much quotients vary
+        changes = abs(slopes - values / values[3] * slopes[:, 3:4]) + bent + quotients * bent[:, 3:4]
+        changes = (changes + turned * abs(slopes[:, 3:4])) / D
+        wrong = (errors + quotients * errors[3]) / D + QUOTIENT * quotients + EXPONENTIAL * changes.sum(axis=0)
+        turning = np.exp(-(self.turning @ cells).imag + half * abs(self.turning.imag).sum())
         b, size = float(self.b.mid()), self.size
         attitude = np.hypot(wrong[:3] * turning, wrong[4:7] / b).max(axis=0)  # e_x, e_y and B' are orthogonal
         vectors = (wrong[4:7] + wrong[7:10]).max(axis=0) / size
-        return float(np.maximum(attitude + 8, vectors).max()) * 2.0**-53
+        return np.where(D > 0, np.maximum(attitude + 8, vectors), np.inf)
 
     def prove(self, theta: ThetaMotion, periods: tuple[Period, Period]) -> None:
         """Prove the closed form for this motion, if that can be done: see `atlas.exact.clebsch_proof`."""
@@ -149,7 +185,7 @@ class ThetaKernel:
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, PART):
                 half, rest = self._phases(t[i : i + PART], None if low is None else low[i : i + PART])
-                x, y, z, D, *K = self.sums.at(self.into @ half[:2], self.into @ rest[:2], slice(0, 7))
+                x, y, z, D, *K = self.sums.at(*self._places(half[:2], rest[:2]), slice(0, 7))
                 angle = self.turning @ half[:2]
                 N = np.array([x, y, z]) * (np.exp(1j * (2 * half[2] + angle)) / D)
                 combined(np.concatenate([N.real, N.imag, (np.array(K) / D).real]), weights, rows[i : i + PART])
@@ -162,10 +198,21 @@ class ThetaKernel:
         def fill(t: FloatArray, rows: FloatArray) -> None:
             for i in range(0, t.size, PART):
                 half, rest = self._phases(t[i : i + PART])
-                D, *found = self.sums.at(self.into @ half[:2], self.into @ rest[:2], part)
+                D, *found = self.sums.at(*self._places(half[:2], rest[:2]), part)
                 combined((np.array(found) / D).real * self.rate, weights, rows[i : i + PART])
 
         return fill
+
+    def _places(self, half: FloatArray, rest: FloatArray) -> tuple[Array, Array]:
+        """Return the arguments of the sums at half phases and what they lack, in two words."""
+        upper = half + CUT
+        upper -= CUT
+        x = self.upper[:, :1] * upper[0] + self.upper[:, 1:] * upper[1]  # exact
+        low = self.into @ (half - upper + rest) + self.lower @ upper
+        found = x + low
+        # the sum's rounding error, by Knuth
+        part = found - x
+        return found, (x - (found - part)) + (low - part)
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
         """Return half the phases less whole turns, in radians, and what rounding left out of them."""

@@ -32,7 +32,7 @@ from atlas.exact.theta_sums import needed
 from atlas.exact.torus import Period
 from atlas.formulas.numbers import workprec
 
-HALF = 0.6
+HALF = 0.55
 """Phases of a reduced time, in turns: half a turn, and what rounding may add to it near the longest times."""
 
 FINE = 320
