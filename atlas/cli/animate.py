@@ -77,10 +77,14 @@ def through(text: str) -> tuple[str, list[Any]]:
     """
     import numpy as np
 
+    from atlas.draw.animation import MOST
+
     key, _, values = text.partition("=")
     parts = values.split(":")
-    if len(parts) != 3 or not parts[2].isdecimal():
+    if len(parts) != 3 or not (parts[2].isascii() and parts[2].isdecimal()):
         raise click.UsageError(f"--over takes KEY=FROM:TO:COUNT, such as omega2=0:2:60, not {text!r}.")
+    if len(parts[2]) > len(str(MOST)) or int(parts[2]) > MOST:  # before there is a list of them
+        raise click.UsageError(f"an animation has from 2 to {MOST} frames, not {parts[2]:.30}.")
     (_, start), (_, stop) = (setting(f"{key}={part}") for part in parts[:2])
     try:
         steps = np.linspace(start, stop, int(parts[2])) if np.shape(start) == np.shape(stop) else None

@@ -4,6 +4,7 @@ from math import isfinite
 from typing import Any
 
 from atlas.core.inputs import FloatArray, positive
+from atlas.core.quantities import TIME
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.scene.any_motion import pieces, turns
@@ -20,7 +21,7 @@ def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> 
         if not isfinite(period) or not period:
             raise AtlasError(f"This {name} has no period: say stop=..., the time up to which its axis is followed.")
         stop = positive(periods, "periods") * period
-    stop = positive(stop, "stop")
+    stop = positive(stop, "stop", TIME)
     rate = turns(motion, min(stop, period) if period else stop)
     times = knots(motion.third_axis, 0.0, stop, positive(tolerance, "tolerance"), pieces(rate * stop))
     return times, motion.third_axis(times)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import real
+from atlas.core.quantities import TIME
 from atlas.core.shown import Shown
 from atlas.errors import AtlasError, DomainError, unknown
 from atlas.study.sweep.families import FAMILIES, Swept
@@ -58,7 +59,7 @@ def _times(shown: Shown, swept: Swept, times: Any, names: Sequence[str] | None) 
     known = {name: s for s in swept.family.sampled for name in s.columns}
     if not known:
         raise AtlasError(f"A {type(shown).__name__} has nothing that depends on time.")
-    t = np.ravel(real(times, "The time"))
+    t = np.ravel(real(times, "The time", TIME))
     for name in names or ():
         if name not in known:
             raise unknown("quantity", name, known, f"at a time of a {type(shown).__name__}")

@@ -174,6 +174,8 @@ def test_without_ffmpeg_one_line_says_so(tmp_path: Path, monkeypatch: pytest.Mon
         ("film_strip --over=", "KEY=FROM:TO:COUNT"),
         ("cone --over azimuth=0:x:5", "from a number to a number"),
         ("cone --over azimuth=0:90:1", "from 2 to 2000 frames, not 1"),
+        ("cone --over azimuth=0:90:10000000000000", "from 2 to 2000 frames, not 10000000000000"),
+        ("cone --over azimuth=0:90:\u0663", "KEY=FROM:TO:COUNT"),
         ("cone --over tilt=0:90:4", "no parameter 'tilt'"),
         ("cone --over azimuth=0:90:4 --set azimuth=3", "it can't have the value 3 too"),
         ("rolling_cones --over omega2=-1:1:3", "omega2 = -1.0: omega2 = -B2 = -1.0 is the pole"),

@@ -59,6 +59,8 @@ def test_a_motion_is_in_radians_a_second(q: Units) -> None:
     assert np.array_equal(motion.rotation(q([1.0, 2.0], "s")), plain.rotation([1.0, 2.0]))
     assert np.allclose(motion.rotation(q(1500.0, "ms")), plain.rotation(1.5), atol=1e-15)
     assert np.array_equal(motion.rotation_grid(q(0.0, "s"), q(2.0, "s"), 3), plain.rotation_grid(0.0, 2.0, 3))
+    assert np.array_equal(motion.trace(stop=q(2.0, "s"))[1], plain.trace(stop=2.0)[1])
+    assert motion.to_dataframe(q([1.0, 2.0], "s")).equals(plain.to_dataframe([1.0, 2.0]))
     assert atlas.ElementaryMotion(1.5, (1.0, 2.0), q(42.0, "deg/s")).omega2 == pytest.approx(np.radians(42.0))
     assert atlas.ElementaryMotion(1.5, q([1.0, 2.0], "1/s"), 0.7).k == atlas.ElementaryMotion(1.5, (1, 2), 0.7).k
     assert "<table>" in atlas.Quadric(1.5, q([1.0, 2.0], "rad/s"))._repr_html_()
