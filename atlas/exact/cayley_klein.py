@@ -1,12 +1,13 @@
 """The Cayley-Klein parameters of a motion as functions of time, and the rotation matrix that they make."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from flint import acb, arb
 
 from atlas.exact.inputs import Real
-from atlas.exact.theta import Lattice, Sum
+from atlas.exact.theta import Lattice, Sum, constant
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,20 @@ class Solution:
     def period(self) -> arb:
         """Period of nutation, infinite on a separatrix."""
         return 2 * self.lattice.half
+
+
+def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
+    """Return the constants of a motion whose axis keeps its tilt: two turns at the rates k and phi.
+
+    `half` is half the period of an infinitesimal nutation.
+    """
+    c, s, *_ = tilt
+    lattice = Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb(0))
+    alpha, beta = (
+        Parameter(acb(x), arb(0), arb(k + sign * phi) / 2, arb(0), constant(lattice), 0)
+        for x, sign in ((c, 1), (s, -1))
+    )
+    return Solution(lattice, arb(0), alpha, beta, k, phi)
 
 
 def matrix(q: list[arb]) -> list[list[arb]]:

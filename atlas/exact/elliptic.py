@@ -20,14 +20,13 @@ from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact import two_turns
-from atlas.exact.cayley_klein import Parameter, Solution, matrix
+from atlas.exact.cayley_klein import Solution, matrix, steady
 from atlas.exact.elliptic_curve import check_moments, square_of_v
 from atlas.exact.elliptic_quartic import EllipticQuartic
 from atlas.exact.inputs import Real, rational, rationals, sin_cos
 from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.spheres import POLES, Sphere
-from atlas.exact.theta import Lattice, constant
 from atlas.formulas.elliptic import splitting
 from atlas.formulas.numbers import nearest, root
 
@@ -187,7 +186,7 @@ class EllipticMotion(Nutating):
     def trigonometric(self, *, hyperbolic: bool = False) -> Solution:
         """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
         if self.is_steady:
-            return self._steady()
+            return steady(self.tilt(), *self.steady_rates(), self.period / 2)
         return Nutation(self.quartic, self.sphere).solution(trigonometric=not hyperbolic and self.kind == "elliptic")
 
     def tilt(self) -> tuple[Real, Real, Real, Real]:
@@ -200,15 +199,6 @@ class EllipticMotion(Nutating):
         if self.kind != "elementary":  # K is constant, along an axis or where E is a number
             return self.precession, fmpq(0)
         return (self.E[first] - self._frame) * self.b, (self.E[last] - self.E[first]) * self.field[last]
-
-    def _steady(self) -> Solution:
-        (c, s, _, _), (k, phi) = self.tilt(), self.steady_rates()
-        lattice = Lattice("trigonometric", self.period / 2, arb("inf"), oblique=False, rate=arb(0))
-        alpha, beta = (
-            Parameter(acb(x), arb(0), (arb(k) + sign * phi) / 2, arb(0), constant(lattice), 0)
-            for x, sign in ((c, 1), (s, -1))
-        )
-        return Solution(lattice, arb(0), alpha, beta, k, phi)
 
     @property
     def period(self) -> arb:

@@ -17,7 +17,7 @@ from flint import acb, arb, ctx, fmpq
 from atlas.errors import DomainError
 from atlas.exact import two_turns
 from atlas.exact.body import ratio_of
-from atlas.exact.cayley_klein import Parameter, Solution, matrix
+from atlas.exact.cayley_klein import Parameter, Solution, matrix, steady
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.free import FreeMotion
 from atlas.exact.inputs import Real, rational, rationals
@@ -25,7 +25,7 @@ from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.quartic import Quartic
 from atlas.exact.spheres import POLES, Sphere, sphere_of_field, sphere_of_velocity
-from atlas.exact.theta import Lattice, Sum, constant
+from atlas.exact.theta import Lattice, Sum
 from atlas.formulas.numbers import root
 
 
@@ -175,18 +175,12 @@ class GeneralMotion(Nutating):
         return w3 - (2 - self.I) * q.c3 + (self.I * w3 * q.along / across if across != 0 else 0)
 
     def _steady(self, sphere: Sphere, k: Real, phi: Real) -> Solution:
-        q, (c, s, _, _) = self.quartic, sphere.tilt
-        w3 = self.omega[2]
-        square = arb(0) if q.K2 == 0 else -arb(q.polynomial.derivative().derivative()(w3)) / 2
+        q = self.quartic
+        square = arb(0) if q.K2 == 0 else -arb(q.polynomial.derivative().derivative()(self.omega[2])) / 2
         half = arb.pi() / square.sqrt() if square > 0 else arb("inf")
         if self.kind == "free body" and k != 0:
             half = arb.pi() / k
-        lattice = Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb(0))
-        alpha, beta = (
-            Parameter(acb(x), arb(0), arb(k + sign * phi) / 2, arb(0), constant(lattice), 0)
-            for x, sign in ((c, 1), (s, -1))
-        )
-        return Solution(lattice, arb(0), alpha, beta, k, phi)
+        return steady(sphere.tilt, k, phi, half)
 
     def _ball(self, sphere: Sphere) -> Solution:
         """Return the turn of the vector about M, which stands in the body."""

@@ -15,13 +15,12 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq
 
 from atlas.exact import top_steady, two_turns
-from atlas.exact.cayley_klein import Parameter, Solution, matrix
+from atlas.exact.cayley_klein import Solution, matrix, steady
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.spheres import POLES, Sphere
 from atlas.exact.swing import crossing, swing
-from atlas.exact.theta import Lattice, constant
 from atlas.exact.top_quadric import given
 from atlas.exact.top_quartic import TopQuartic
 from atlas.exact.top_steady import SteadyPrecession
@@ -146,15 +145,8 @@ class TopMotion(Nutating):
         return (q.across.of(w2) / q.across).value, (q.across.of(w3) - q.nu * w2 / q.across).value
 
     def _steady(self) -> Solution:
-        (c, s, _, _), (k, phi) = self.tilt(), self.steady_rates()
         square = -arb(self.quartic.curvature) / 2
-        half = arb.pi() / square.sqrt() if square > 0 else arb("inf")
-        lattice = Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb(0))
-        alpha, beta = (
-            Parameter(acb(x), arb(0), (arb(k) + sign * phi) / 2, arb(0), constant(lattice), 0)
-            for x, sign in ((c, 1), (s, -1))
-        )
-        return Solution(lattice, arb(0), alpha, beta, k, phi)
+        return steady(self.tilt(), *self.steady_rates(), arb.pi() / square.sqrt() if square > 0 else arb("inf"))
 
     @property
     def roots(self) -> list[acb]:
