@@ -106,10 +106,7 @@ def _body(options: Mapping[str, Any]) -> Any:
     """Return the body of --inertia, --shape or --points."""
     from atlas.core.body import SymmetricBody, from_shape
 
-    given = [name for name in BODY if options[name] is not None]
-    if len(given) != 1:
-        found = " and ".join(f"--{name}" for name in given) or "none"
-        raise click.UsageError(f"the body is one of {', '.join(f'--{name}' for name in BODY)}; found {found}.")
+    _one_of(options, "body", BODY)
     if options["points"] is not None:
         columns = _points(options["points"])
         return SymmetricBody.from_point_masses(columns["mass"], _centred(columns))
@@ -123,10 +120,7 @@ def _charges(options: Mapping[str, Any]) -> Any:
     """Return the moments of the charges of --charged, --coat or --points."""
     from atlas.core.charge_moments import ChargeMoments
 
-    given = [name for name in CHARGES if options[name] is not None]
-    if len(given) != 1:
-        found = " and ".join(f"--{name}" for name in given) or "none"
-        raise click.UsageError(f"the charge is one of {', '.join(f'--{name}' for name in CHARGES)}; found {found}.")
+    _one_of(options, "charge", CHARGES)
     if options["points"] is not None:
         columns = _points(options["points"])
         return ChargeMoments.points(columns["charge"], _centred(columns))
@@ -134,6 +128,14 @@ def _charges(options: Mapping[str, Any]) -> Any:
         return ChargeMoments(*_pair(options["charged"]))
     _needs(options, "charge", "--coat")
     return ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **_sizes(options))
+
+
+def _one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> None:
+    """Refuse none of some options, and more than one."""
+    given = [f"--{name}" for name in names if options[name] is not None]
+    if len(given) != 1:
+        found = " and ".join(given) or "none"
+        raise click.UsageError(f"the {what} is one of {', '.join(f'--{name}' for name in names)}; found {found}.")
 
 
 def _sizes(options: Mapping[str, Any]) -> dict[str, float]:

@@ -17,7 +17,7 @@ from flint import acb, arb, ctx, fmpq
 from atlas.errors import DomainError
 from atlas.exact import two_turns
 from atlas.exact.body import ratio_of
-from atlas.exact.cayley_klein import Parameter, Solution, matrix, steady
+from atlas.exact.cayley_klein import Parameter, Solution, steady
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.free import FreeMotion
 from atlas.exact.inputs import Real, rational, rationals
@@ -237,15 +237,10 @@ class GeneralMotion(Nutating):
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
-        if rational(t, "the time") == 0:
-            return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
-        if self._elementary is not None:
+        t = rational(t, "the time")
+        if t != 0 and self._elementary is not None:
             return self._elementary.rotation(t)
-        found = two_turns.rotation(self, rational(t, "the time"))
-        if found is not None:
-            return found
-        a, b, _, _ = self.parameters(t)
-        return matrix(self.from_frame(a, b))
+        return two_turns.attitude(self, t)
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""

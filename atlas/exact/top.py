@@ -15,7 +15,7 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq
 
 from atlas.exact import top_steady, two_turns
-from atlas.exact.cayley_klein import Solution, matrix, steady
+from atlas.exact.cayley_klein import Solution, steady
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
@@ -185,13 +185,7 @@ class TopMotion(Nutating):
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
-        if rational(t, "the time") == 0:
-            return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
-        found = two_turns.rotation(self, rational(t, "the time"))
-        if found is not None:
-            return found
-        a, b, _, _ = self.parameters(t)
-        return matrix(self.from_frame(a, b))
+        return two_turns.attitude(self, rational(t, "the time"))
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame."""

@@ -9,11 +9,23 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
+from atlas.exact.cayley_klein import matrix
 from atlas.exact.inputs import Real, sin_cos
 from atlas.exact.nutating import Nutating
 from atlas.formulas.numbers import root
 
 Matrix = list[list[Any]]
+
+
+def attitude(motion: Nutating, t: fmpq) -> Matrix:
+    """Return R(t) as rows: exact at t = 0, of two turns where it is their product, else of the pair (alpha, beta)."""
+    if t == 0:
+        return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
+    found = rotation(motion, t)
+    if found is not None:
+        return found
+    a, b, _, _ = motion.parameters(t)
+    return matrix(motion.from_frame(a, b))
 
 
 def rotation(motion: Nutating, t: fmpq) -> Matrix | None:
