@@ -7,6 +7,7 @@ B with the Larmor frequency alpha, (26), while the ball turns about the axis k, 
 import numpy as np
 
 from atlas.core.ball import BallMotion
+from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import plain, tex, title
 
@@ -20,6 +21,8 @@ def scene(
     elevation: float = 16.0,
 ) -> Scene:
     """Show a ball with ``inertia`` I0 and ``momentum`` (m2, m3) at t = 0 in a field with the frequency ``larmor``."""
+    if not larmor:
+        raise DomainError("figure ball needs a field, larmor other than 0: without one the momentum stays as it is.")
     ball = BallMotion(inertia, larmor, momentum=momentum)
     size = float(np.hypot(*momentum))
     radius, fine = 0.62, quadric_panel.tolerance(2.0)
@@ -36,7 +39,7 @@ def scene(
         layers.append(Arrow(quadric_panel.O, quadric_panel.in_plane(m2, m3), "momentum", r"$\mathbf{m}(0)$"))
         if m2 != 0.0:
             layers.append(Curve(solids.circle(m3 * quadric_panel.E3, quadric_panel.E3, abs(m2), fine), "precession"))
-            quarter = np.pi / 5.0 * float(np.sign(larmor) or 1.0)
+            quarter = np.pi / 5.0 * float(np.sign(larmor))
             at = np.array([[m2 * np.sin(s), m2 * np.cos(s), m3] for s in (quarter - 0.24 * np.sign(quarter), quarter)])
             layers.append(Arrow(at[0], at[1], "precession", r"$\mathbf{m}(t)$"))
     m2, m3 = momentum

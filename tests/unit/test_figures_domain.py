@@ -11,6 +11,7 @@ from atlas.scene import recipes
 from atlas.scene.style import LINES
 
 BAD: list[tuple[str, dict[str, Any], str]] = [
+    ("ball", {"larmor": 0.0}, "needs a field"),
     ("ball_torus", {"ratios": ()}, "1 to 40"),
     ("ball_torus", {"turns": (2.0,)}, "2 ratios and 1 turns"),
     ("ball_torus", {"ratios": (2.5,) * 5, "turns": (1.0,) * 5}, "5 ratios"),
