@@ -1,6 +1,8 @@
-"""TOML as Python reads it, but for values that stand in one another too deeply: those are a mistake like any other."""
+"""TOML as Python reads it, but for values that stand too deeply in one another, which are a mistake; and as written."""
 
+import json
 import tomllib
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 
@@ -10,3 +12,37 @@ def loads(text: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except RecursionError:
         raise ValueError("its values stand in one another too deeply") from None
+
+
+def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
+    """Yield the values of a report as TOML: lists of tables are such, and so are tables, but inside of a page."""
+    tables = {
+        key: value if isinstance(value, list) else [value]
+        for key, value in values.items()
+        if isinstance(value, dict) != (isinstance(value, list) and bool(value) and isinstance(value[0], dict))
+        and not (isinstance(value, dict) and place.startswith("pages"))
+    }
+    for key, value in values.items():
+        if key not in tables and value is not None:
+            yield f"{key} = {_value(value)}\n"
+    for key, several in tables.items():
+        name = f"{place}.{key}".lstrip(".")
+        for one in several:
+            if isinstance(values[key], list):
+                yield f"\n[[{name}]]\n"
+            elif not all(isinstance(value, dict) for value in one.values()):
+                yield f"\n[{name}]\n"
+            yield from lines(one, name)
+
+
+def _value(value: Any) -> str:
+    """Write a value; strings of JSON are strings of TOML."""
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{key} = {_value(one)}' for key, one in value.items() if one is not None)} }}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f"'''\n{value}\n'''" if "\n" in value and "'''" not in value else json.dumps(value, ensure_ascii=False)
+    return repr(int(value) if isinstance(value, int) else float(value))

@@ -1,6 +1,5 @@
 """The report of one object: its properties, figures, neighbours, and how to get the same numbers, as a report file."""
 
-import json
 import re
 import shlex
 from collections.abc import Callable, Iterator, Mapping
@@ -9,6 +8,7 @@ from hashlib import sha256
 from itertools import chain
 from typing import Any
 
+from atlas import toml
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES, Family
 from atlas.report.body_and_field import body_and_field
@@ -80,7 +80,7 @@ def _texts(value: Any) -> tuple[str, ...]:
 
 def text(asked: Asked, there: Callable[[str], bool]) -> str:
     """Return the report file; `there` says whether a page of that name lies beside it."""
-    content = "".join(_toml(definition(asked, there)))
+    content = "".join(toml.lines(definition(asked, there)))
     digest = sha256(content.encode()).hexdigest()[:12]
     return HEAD.format(command=asked.command, digest=digest, name=asked.name) + content
 
@@ -273,37 +273,3 @@ def _python(asked: Asked, name: str) -> str:
 
 def _missing(left_out: list[str]) -> str:
     return "\n".join(["## Left out", "", *(f"- {reason}" for reason in left_out)])
-
-
-def _toml(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
-    """Yield values as TOML: lists of tables are such, and so are tables, but for what is inside a block."""
-    tables = {
-        key: value if isinstance(value, list) else [value]
-        for key, value in values.items()
-        if isinstance(value, dict) != (isinstance(value, list) and bool(value) and isinstance(value[0], dict))
-        and not (isinstance(value, dict) and place.startswith("pages"))
-    }
-    for key, value in values.items():
-        if key not in tables and value is not None:
-            yield f"{key} = {_value(value)}\n"
-    for key, several in tables.items():
-        name = f"{place}.{key}".lstrip(".")
-        for one in several:
-            if isinstance(values[key], list):
-                yield f"\n[[{name}]]\n"
-            elif not all(isinstance(value, dict) for value in one.values()):
-                yield f"\n[{name}]\n"
-            yield from _toml(one, name)
-
-
-def _value(value: Any) -> str:
-    """Write a value; strings of JSON are strings of TOML."""
-    if isinstance(value, dict):
-        return f"{{ {', '.join(f'{key} = {_value(one)}' for key, one in value.items() if one is not None)} }}"
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_value, value))}]"
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        return f"'''\n{value}\n'''" if "\n" in value and "'''" not in value else json.dumps(value, ensure_ascii=False)
-    return repr(int(value) if isinstance(value, int) else float(value))
