@@ -280,6 +280,7 @@ def test_pages_or_the_pdf_alone(tmp_path: Path) -> None:
     file, out = tmp_path / "mine.toml", tmp_path / "out"
     file.write_text(MINE.replace("{ mu = 0.0 }", "{ }"), encoding="utf-8")
     first = build_report(file, out)
+    assert build_report(file, out).reasons[0][2].startswith("taken")
     before = first.pdf.read_bytes()
     file.write_text(MINE.replace("{ mu = 0.0 }", "{ }").replace("A Small Report", "A New Title"), encoding="utf-8")
     build_report(file, out, formats=["html"])
