@@ -71,6 +71,7 @@ bench: setup $(VENV)/.bench
 stress: setup $(VENV)/.bench
 	@$(ATLAS) stress
 	@$(BIN)/python tests/tops.py   # against heyoka
+	@$(BIN)/python tests/three_moments.py   # an hour
 	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz
 
 # Needs node, npm and Chromium; in Firefox on a screen of its own: FIREFOX=/usr/bin/firefox-esr xvfb-run -a make accessibility
