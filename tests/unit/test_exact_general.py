@@ -199,6 +199,14 @@ def test_what_is_zero_by_symmetry_is_exactly_zero(motion: GeneralMotion, place: 
     assert [(i, j) for i in range(3) for j in range(3) if R[i][j] == 0] == [place]
 
 
+@pytest.mark.parametrize(
+    "motion", [GeneralMotion(1.5, (1, 2), (0.3, 0.7, 0.2)), TopMotion((1, 0.5), (0.3, 0.2), (0.6, 0.8), (0.1, 0, 2))]
+)
+def test_the_attitude_is_exactly_one_at_the_start(motion: GeneralMotion | TopMotion) -> None:
+    """R(0) = 1 in whole numbers, where the sums would give balls."""
+    assert motion.rotation(0) == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+
+
 @pytest.mark.parametrize("inputs", [KINDS["ball"], KINDS["separatrix between B and -B"], MORE[12]])
 def test_two_turns_are_the_matrix_of_the_parameters(inputs: Any) -> None:
     """Both roads to R(t) enclose the same entries, narrowly."""
