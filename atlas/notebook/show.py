@@ -18,18 +18,20 @@ from atlas.report.tables.properties import SPACE, Thing, rows_of
 DIGITS = 10
 DOTS, WIDTH = 160, 300
 """Pixels an inch of the picture, and how wide it is shown, in pixels of CSS."""
+SIDES = dict.fromkeys(("Quantity", "Name", "Value", "Unit", "Equation", "Proven"), "left") | {"Value": "right"}
+"""Where the text of a column stands; JupyterLab puts all to the right where nothing is said."""
 Row = tuple[str, str, str | Number, str, str, str]
 
 
 def html(shown: Shown) -> str:
     """Return what makes an object, the picture, and the table; arrays and what has no family have no table."""
-    found, heads = rows(shown), ("Quantity", "Name", "Value", "Unit", "Equation", "Proven")
-    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in _cells(row)) + "</tr>" for row in found)
-    head = "".join(f"<th>{name}</th>" for name in heads)
-    table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>" if found else ""
+    found = rows(shown)
+    heads, *body = (_line(tag, cells) for tag, cells in [("th", [*SIDES]), *(("td", _cells(row)) for row in found)])
+    table = f"<table><thead>{heads}</thead><tbody>{''.join(body)}</tbody></table>" if found else ""
     beside = f"{table}{picture(shown)}"
     flow = '<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:flex-start">'
-    return f"<pre>{escape(repr(shown))}</pre>{f'{flow}{beside}</div>' if beside else ''}"
+    head = f'<pre style="word-break:normal">{escape(repr(shown))}</pre>'
+    return f"{head}{f'{flow}{beside}</div>' if beside else ''}"
 
 
 def latex(shown: Shown) -> str | None:
@@ -60,6 +62,11 @@ def picture(shown: Shown) -> str:
         plot(shown, None, 1, None, None, None, {}).savefig(file, dpi=DOTS)
         return f'<img width="{WIDTH}" alt="" src="data:image/png;base64,{b64encode(file.getvalue()).decode()}">'
     return ""
+
+
+def _line(tag: str, cells: Sequence[str]) -> str:
+    sides = zip(cells, SIDES.values(), strict=True)
+    return "<tr>" + "".join(f'<{tag} style="text-align:{side}">{cell}</{tag}>' for cell, side in sides) + "</tr>"
 
 
 def _cells(row: Row) -> list[str]:

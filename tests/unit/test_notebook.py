@@ -116,7 +116,10 @@ def test_html_has_proven_digits() -> None:
     digits = period.str(10, radius=False)
     ctx.prec = with_precision
     shown = ElementaryMotion(1.5, (1.0, 2.0), 0.75)._repr_html_()
-    assert f"<code>period</code></td><td>{digits}</td><td>time</td><td></td><td>10" in shown.replace("\xa0", " ")
+    (line,) = re.findall("<tr>(?:(?!</tr>).)*<code>period</code>.*?</tr>", shown.replace("\xa0", " "))
+    sides, cells = zip(*re.findall(r'<td style="text-align:(\w+)">(.*?)</td>', line), strict=True)
+    assert cells[1:] == ("<code>period</code>", digits, "time", "", "10 digits")
+    assert sides == ("left", "left", "right", "left", "left", "left")
 
 
 def test_html_has_a_small_picture_where_a_recipe_draws_it() -> None:
