@@ -257,6 +257,7 @@ def test_free_spins_across_the_field_are_unstable_below_their_bound() -> None:
     (panel,) = load("hyperbola").scene(ratio=ratio, field=field).panels
     (line,) = [line for line in curves(panel, "unstable") if line[0, 0] == line[1, 0]]
     edge = line[1, 1]
+    assert line[0, 1] == -edge
     assert curvature(ratio, field, -1.0, 0.999 * edge) < 0 < curvature(ratio, field, -1.0, 1.001 * edge)
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from drawing import made
 
 from atlas.errors import AtlasError
 from atlas.scene import recipes
@@ -104,6 +105,9 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("trochoids", {"speeds": (1.0, -0.1)}, "none below zero"),
     ("trochoids", {"speeds": ()}, "1 to 40"),
     ("two_turns", {"field": (1.0, 0.0)}, "two_turns"),
+    ("two_turns", {"omega2": -2.0}, "two_turns"),
+    ("two_turns", {"omega2": 0.0}, "two_turns"),
+    ("two_turns", {"ratio": 1.0}, "two_turns"),
     ("wells", {"momenta": (0.0, 0.3, 0.6, 1.0)}, "1 to 3 momenta"),
     ("wells", {"cosines": (0.0, 1.0)}, "between -1 and 1"),
     ("wells", {"cosines": (-1.0,)}, "between -1 and 1"),
@@ -157,3 +161,18 @@ def test_the_last_parameters_that_are_drawn(name: str, parameters: dict[str, Any
     """Just inside the border there is a scene, with something in each panel."""
     scene = recipes.load(name).scene(**parameters)
     assert all(panel.layers for panel in scene.panels)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "field", "says"),
+    [
+        (1.5, (1.0, 2.0), ""),
+        (1.5, (0.0, 1.0), "With $B'_2=0$ the curve is the line $\\omega_2=0$"),
+        (1.5, (1.0, 0.0), "With $B'_3=0$ the curve falls apart into the line $\\omega_3=0$"),
+    ],
+)
+def test_the_caption_says_where_the_hyperbola_is_none(ratio: float, field: tuple[float, float], says: str) -> None:
+    """Along and across the field it is straight lines, and only there the caption says so."""
+    caption = made("hyperbola", ratio=ratio, field=field).caption
+    assert says in caption
+    assert bool(says) == ("With $B'" in caption)
