@@ -277,7 +277,8 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     def riemann_matrix(self) -> Any:
         """Riemann matrix tau of the torus of type (1, 2), symmetric with Im tau > 0, shape (..., 2, 2).
 
-        It is Siegel-reduced, so that theta series need few terms, and not proved. Raises AtlasError for motions without
+        It is Siegel-reduced, so that theta series need few terms, and not proved; a part below 1e-35, which symmetry
+        makes zero, is shown as zero. Raises AtlasError for motions without
         closed form.
         """
         return np.asarray(self._of_each(lambda one: one.theta.riemann_matrix))
