@@ -47,7 +47,14 @@ def benchmark() -> results.Results:
     failed = results.Run("ball", "RK45", 1000.0, 50, "failed", 1e-3, note="too long")
     costs = [
         results.Cost(
-            method, count, threads, "done", 2e-16, 70.0 / n + 300.0 / count**0.5, 20.0 / (n * threads), 1.0 / n
+            method,
+            count,
+            threads,
+            "done",
+            2e-16,
+            (70.0 / n + 300.0 / count**0.5) / threads,
+            20.0 / (n * threads),
+            1.0 / n,
         )
         for n, method in enumerate(("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill"), 1)
         for threads in (1, 2)
