@@ -9,7 +9,7 @@ import pytest
 from drawing import made
 from numpy.typing import NDArray
 
-from atlas.scene import Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, recipes
+from atlas.scene import Arrow, Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, quadric_panel, recipes
 
 FloatArray = NDArray[np.float64]
 NAMES = [name for name in recipes.names() if not recipes.load(name).records]
@@ -149,3 +149,11 @@ def test_dots_and_maps_lie_inside_the_axes(name: str, given: dict[str, Any]) -> 
             for layer in (layer for layer in panel.layers if isinstance(layer, Points | Image)):
                 there = layer.points[:, axis] if isinstance(layer, Points) else (layer.x, layer.y)[axis]
                 assert ((low <= there) & (there <= high)).all(), (panel.title, there, limits)
+
+
+@pytest.mark.parametrize("E", [(0.5, 0.0), (-0.5, 0.0), (0.0, 0.5), (0.0, -0.5)])
+def test_an_electric_field_along_an_axis_is_drawn_along_it(E: tuple[float, float]) -> None:
+    """Figure `magn` draws one arrow then, to the side that E has."""
+    (arrow,) = (one for one in made("magn", E=E).panels[0].layers if isinstance(one, Arrow) and one.role == "electric")
+    along = quadric_panel.in_plane(*E)
+    assert np.allclose((arrow.tip - arrow.tail) / np.linalg.norm(arrow.tip - arrow.tail), along / np.linalg.norm(along))
