@@ -44,7 +44,7 @@ LEFT_OUT = 120.0
 SAFE = 1.01
 """Factor for the rounding of bounds in doubles, and for what errors change of the numbers that bound their growth."""
 
-FIRST, MOST = 8, 200_000
+FIRST, MOST = 16, 200_000
 """Cells along each phase, and small ones in all, in which |d| is to vary by half at most."""
 
 EDGES = np.linspace(-HALF, HALF, FIRST + 1)
