@@ -22,10 +22,10 @@ from atlas.core.nutation.grid import moments
 from atlas.errors import AtlasError, NotCertifiedError
 from atlas.exact.asymmetric import AsymmetricMotion
 from atlas.exact.clebsch_periods import complex_of
-from atlas.exact.clebsch_proof import HALF, bounds
+from atlas.exact.clebsch_proof import HALF, distances
 from atlas.exact.clebsch_theta import ThetaMotion, frame
 from atlas.exact.theta_sums import Array, Sums
-from atlas.exact.torus import Period
+from atlas.exact.torus import Period, Torus
 from atlas.formulas.numbers import workprec
 
 PART = 768
@@ -146,13 +146,13 @@ class ThetaKernel:
         vectors = (wrong[4:7] + wrong[7:10]).max(axis=0) / size
         return np.where(D > 0, np.maximum(attitude + 8, vectors), np.inf)
 
-    def prove(self, theta: ThetaMotion, periods: tuple[Period, Period]) -> None:
+    def prove(self, theta: ThetaMotion, torus: Torus, periods: tuple[Period, Period]) -> None:
         """Prove the closed form for this motion, if that can be done: see `atlas.exact.clebsch_proof`."""
         try:
-            wrong = bounds(theta, periods)
+            M, K, N = distances(theta, torus, periods)
         except NotCertifiedError:
             return
-        error = max(wrong.N + wrong.K / float(self.b.mid()), (wrong.K + wrong.W) / self.size)
+        error = max(N + K / float(self.b.mid()), (K + M / float(arb(min(torus.moments)).mid())) / self.size)
         self.proved = error if error <= PROVED else None
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -241,5 +241,5 @@ def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
         raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
     if not found.accuracy <= LOST:
         raise NotCertifiedError(f"not certified: rounding would be wrong by up to {found.accuracy:.1e} in its sums.")
-    found.prove(theta, periods)
+    found.prove(theta, torus, periods)
     return found

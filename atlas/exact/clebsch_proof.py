@@ -1,285 +1,289 @@
-"""What theta functions make of one motion, proved for it: a bound on their error over the torus, so at any time.
+"""Proof that theta functions are a motion: how far from it they are at most, anywhere on its torus.
 
-Nothing is taken from their theory. K, M and N of the closed form are quotients k/d, m/d, exp(i lambda T) n/d of finite
-sums of exponentials in the times T = (t, g) of the flows of H and F/2, with known numbers as weights; times reduced
-modulo the proved periods lie in a parallelogram about the start. There
+The forms of `atlas.exact.clebsch_theta` are entire functions, whatever their constants are. Those of K, M and N over
+that of D, the denominator, put into the equations of the flows of H and of F/2, leave defects such as
 
-    d k' - k d' - [k, w],    d m' - m d' - [m, w] - [k, II k],    d n' - n d' - [n, w]      (w = II^-1 m; for H)
+    D^2 (K' - K x W) = n' D - n D' - n x II^-1 m,     K = n/D,  M = m/D,  W = II^-1 M.
 
-and those for F are again such sums: their weights, whole numbers here, are computed without an error, and so is a bound
-on their size. A lower bound on |d| makes of it what the quotients miss in the equations of motion. With (M, s K),
-errors of M and K grow by exp(mu_H |t| + mu_F |g|) at most, where on the level of H, F and the Casimirs
+With S the sum of the places of two forms, the Fourier coefficients of a defect obey c_(S+4j)/c_S = g_(S+4j)/g_S,
 
-    mu = (p + sqrt(p^2 + q^2))/2,    p_H = |M| max(A_i - A_j)/2,    q_H = b (max(I_i - I_j)/s + s max A_i),
-                                     p_F = 0,                       q_F = b (D max(A_i - A_j)/s + s),
+    g_S = exp(i pi (S hat S/8 + S (origin - shift/2))),
 
-A = II^-1: of what a flow makes of an error turns add nothing to its length. An error of N does not grow at all.
+for whole j, so that the sixteen of a square, in balls, bound it everywhere. If the equations hold but for rates delta
+and the start but for epsilon, then on a straight way through a cell of the periods M, K and N go away from the motion
+by at most exp(growth) (epsilon + delta); to growth a term such as e x W, which turns an error e, adds nothing. Beyond
+the cell the periods tell all, which are proved in `atlas.exact.torus`. Nothing is taken from the theory of the torus,
+and it does not matter how the constants were found.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from math import ceil, exp, frexp, hypot, inf, log, sqrt
-from typing import TypeAlias
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import product
 
 import numpy as np
-from flint import acb, arb, fmpq, fmpz, fmpz_poly
+from flint import acb, acb_mat, arb, fmpq
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
-from atlas.exact.clebsch_periods import BITS, Integrals, centre, complex_of
+from atlas.exact.cayley_klein import matrix
+from atlas.exact.clebsch_periods import BITS, centre, complex_of
 from atlas.exact.clebsch_theta import ThetaMotion
-from atlas.exact.theta_sums import needed
-from atlas.exact.torus import Period
-from atlas.formulas.numbers import workprec
+from atlas.exact.theta_sums import CHARACTERISTICS, Array, needed
+from atlas.exact.torus import Period, Torus
+from atlas.formulas.numbers import dot, workprec
+
+SPARE = 40
+"""Bits beyond those of the constants."""
+
+LEFT_OUT = 240.0
+"""Logarithm of what products of terms that are left out are smaller by than the largest one."""
+
+FAINT = 90.0
+"""Logarithm of what terms of D that are left out, and those of a defect that are bounded alike in the whole cell, are
+smaller by than the largest one."""
+
+FLOATS = 1e-12
+"""Bound on rounding errors of a sum of exponentials in doubles, beside the sum of their sizes."""
+
+WIDER = 2.0
+"""By how much bounds in doubles are widened: far more than their rounding can matter."""
+
+SMALL, ENOUGH = 1e-6, 1e-17
+"""Distance from the motion up to which growth is bounded, and the bound on it that is wanted."""
+
+PARTS = (1, 2, 3)
+"""Into so many parts each period is divided, the first number that does."""
 
 HALF = 0.55
 """Phases of a reduced time, in turns: half a turn, and what rounding may add to it near the longest times."""
 
-FINE = 320
-"""Binary digits of the numbers in the equations of motion."""
+CELLS, HALVINGS = 24, 8
+"""Parts of each period in which |D| is bounded from below, and how often one is halved if need be."""
 
-LEFT_OUT = 120.0
-"""Logarithm of what terms that are left out are smaller by than the largest one."""
+D, K, M, N = 0, (1, 2, 3), (4, 5, 6), (7, 8, 9)
+"""Places of the forms in a row."""
 
-SAFE = 1.01
-"""Factor for the rounding of bounds in doubles, and for what errors change of the numbers that bound their growth."""
-
-FIRST, MOST = 16, 200_000
-"""Cells along each phase, and small ones in all, in which |d| is to vary by half at most."""
-
-EDGES = np.linspace(-HALF, HALF, FIRST + 1)
-POINTS = np.stack(np.meshgrid(EDGES, EDGES, indexing="ij")).reshape(2, -1)
-"""Corners of the cells, in turns."""
-
-FLOATS = 1e-12
-"""Bound on rounding errors of a sum of exponentials in doubles, as a part of the sum of their sizes."""
-
-SCALES = np.exp(np.linspace(-4, 4, 81))
-"""Values of s that are tried."""
-
-LONGEST = 300.0
-"""Largest exponent of the growth of errors that is looked at."""
-
-CYCLE = ((1, 2), (2, 0), (0, 1))
-
-Floats: TypeAlias = NDArray[np.float64]
-Complexes: TypeAlias = NDArray[np.complex128]
-Powers: TypeAlias = NDArray[np.int64]
+Floats = NDArray[np.float64]
+Place = tuple[int, int]
 
 
-@dataclass(frozen=True)
-class Bounds:
-    """Bounds on what K, W and N of the closed form are wrong by at any time, in the units of the torus."""
+def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Floats:
+    """Return proven bounds on how far M, K and N of the forms are from the motion in a cell of the periods, (3,).
 
-    K: float
-    W: float
-    N: float
+    The cell reaches from -HALF to HALF of both, from the start. Where errors might grow too much on the way from there,
+    the way begins at the nearest of four or nine other states, to which Taylor's series goes. Raises NotCertifiedError
+    where there is no bound.
+    """
+    with workprec(BITS + SPARE), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        cell = Cell(theta, periods)
+        H, F = HALF * abs(cell.times).sum(axis=1)
+        rates = cell.rates() * np.array([[H], [F]])
+        first, second, sizes = _growth(theta)
+        widths = [max(float(x.rad()) for x in way) for way in zip(*((p.H, p.F, p.angle) for p in periods), strict=True)]
+        off = (widths[0] * first + widths[1] * second) @ sizes + np.array([0, 0, widths[2] * sizes[2]])
+        for parts in PARTS:
+            growth = _exponential((H * first + F * second) / parts)
+            if np.max(growth @ rates.sum(axis=0)) < ENOUGH:
+                places = 2 * HALF * ((np.arange(parts) + 0.5) / parts - 0.5)
+                apart = [_apart(theta, torus, cell.times @ x) for x in product(places, repeat=2)]
+                found = WIDER * (growth @ (np.max(apart, axis=0) + rates.sum(axis=0) / parts) + off)
+                if np.max(found) < SMALL:
+                    return np.asarray(found)
+    raise NotCertifiedError("not certified: what theta functions miss might grow too much over the motion's torus.")
 
 
-@dataclass(frozen=True)
-class Whole:
-    """A polynomial of two variables with complex whole weights, one variable being a high power of the other."""
+class Cell:
+    """The forms as exact functions of v = origin + into x/pi in the cell |x_k| <= HALF, and what they leave there."""
 
-    real: fmpz_poly
-    imag: fmpz_poly
+    def __init__(self, theta: ThetaMotion, periods: Sequence[Period]) -> None:
+        self.theta, inverse = theta, theta.X.inv()
+        self.origin = centre(2 * theta.start[0]), centre(theta.start[1])
+        self.shift = centre(2 * theta.w[0]), centre(theta.w[1])
+        self.hat = acb_mat([[centre(theta.hat[i, j]) for j in range(2)] for i in range(2)])
+        self.flows = [(centre(2 * inverse[0, k]), centre(inverse[1, k])) for k in range(2)]
+        self.lines = [centre(theta.l[0] * inverse[0, k] + theta.l[1] * inverse[1, k]) for k in range(2)]
+        self.times = np.array([[float(p.H.mid()) for p in periods], [float(p.F.mid()) for p in periods]])
+        self.into: Array = np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
+        self.Y = np.array([[complex_of(self.hat[i, j]).imag for j in range(2)] for i in range(2)])
+        corners = HALF * np.array(list(product((-1, 1), repeat=2))).T
+        self.places = needed(self.hat, [theta.denominator], self.origin, self.into @ corners, FAINT)
+        self.middle = np.round(self.places.mean(axis=0))
+        turns = np.array([complex_of(x) for x in self.lines]) @ self.times
+        start = complex_of(dot(theta.l, theta.start)).imag
+        self.narrow = float(np.linalg.eigvalsh(self.Y)[0])
+        self.away = np.linalg.solve(self.Y, np.array([complex_of(s).imag for s in self.shift]))
+        self.forms = [theta.denominator, *theta.K, *theta.M, *theta.N]
+        self._known = dict[Place, list[acb]]()
+        sizes = [*theta.motion.moments, *(1 / I for I in theta.motion.moments), *self.lines, theta.motion.D, 1]
+        weights = max(abs(complex_of(x)) for form in self.forms for x in form.weights)
+        self.weight = 8 * weights**2 * max(abs(complex_of(acb(x))) for x in sizes) ** 2
+        """Bound on the sum of factors of the products in a defect."""
+        self.largest_factor = float(np.exp(HALF * np.abs(turns.imag).sum() - start))
+        """That of N, exp(i l zeta)."""
 
-    def __add__(self, other: "Whole") -> "Whole":
-        return Whole(self.real + other.real, self.imag + other.imag)
+    def rates(self) -> Floats:
+        """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
+        S, size = self._defects()
+        most = size + HALF * abs((S - 2 * self.middle) @ self.into.imag).sum(axis=1)[:, None]
+        top = most.max()
+        kept = most.max(axis=1) > top - FAINT
+        S, size, faint = S[kept], np.exp(size[kept] - top), np.exp(most[~kept] - top).sum(axis=0)
+        weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)
+        ways, twice = (self.places - self.middle) @ self.into, ((S - 2 * self.middle) @ self.into).imag
+        half, worst = HALF / CELLS, np.zeros(6)
+        line = np.arange(-CELLS + 1, CELLS, 2) * half
+        x = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
+        for _ in range(HALVINGS):
+            terms = weights * np.exp(1j * x @ ways.T)
+            value, slopes, far = abs(terms.sum(axis=1)), abs(terms @ ways).sum(axis=1), half * abs(ways).sum(axis=1)
+            below = value - half * slopes - abs(terms) @ (far**2 / 2 * np.exp(far) + FLOATS)
+            good = below > value / 2
+            above = np.exp(-x[good] @ twice.T) @ (size * np.exp(half * abs(twice).sum(axis=1))[:, None]) + faint
+            worst = np.maximum(worst, (above / below[good, None] ** 2).max(axis=0, initial=0.0))
+            if good.all():
+                return np.asarray(WIDER * worst.reshape(2, 3) * [1, 1, self.largest_factor])
+            half /= 2
+            x = np.concatenate([x[~good] + half * np.array(sides) for sides in product((-1, 1), repeat=2)])
+        return np.full((2, 3), np.inf)
 
-    def __sub__(self, other: "Whole") -> "Whole":
-        return Whole(self.real - other.real, self.imag - other.imag)
+    def _defects(self) -> tuple[Floats, Floats]:
+        """Return places S (n, 2) and logarithms of bounds on coefficients there, (n, 6): of M, K, N by each flow."""
+        low = np.round(-4 * np.linalg.solve(self.Y, self._imaginary(0.0))).astype(int) - 1
+        reach = 2 * np.sqrt(LEFT_OUT / self.narrow) + 3 * abs(np.linalg.solve(self.Y, self.into.imag)).max()
+        line = 4 * np.arange(-int(reach / 4) - 2, int(reach / 4) + 3)
+        shifts = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
+        found, parts = [], np.array([0.0, 0.0, 0.5] * 2)
+        for S in product(*(range(int(s), int(s) + 4) for s in low)):
+            place: Floats = np.array(S)
+            less = [self._left_out(place, part) for part in parts]
+            defects = [
+                np.linalg.norm([float(abs(c).upper()) + spare for c in components])
+                for components, spare in zip(self._coefficients(S), less, strict=True)
+            ]
+            more = np.stack([self._size(place + shifts, part) - self._size(place, part) for part in parts], -1)
+            found.append((place + shifts, more + np.log(defects)))
+        return np.concatenate([x for x, _ in found]), np.concatenate([x for _, x in found])
 
-    def __mul__(self, other: "Whole") -> "Whole":
-        first, second = self.real * other.real, self.imag * other.imag
-        return Whole(first - second, (self.real + self.imag) * (other.real + other.imag) - first - second)
+    def _imaginary(self, part: float) -> Floats:
+        """Return the imaginary part of the origin less that part of the shift."""
+        return np.array([complex_of(v - part * s).imag for v, s in zip(self.origin, self.shift, strict=True)])
 
-    def times(self, x: acb) -> "Whole":
-        """Return the product with a number in units of 2^-FINE, rounded to a whole one."""
-        a, b = (fmpz(_whole(part * arb(2) ** FINE)) for part in (x.real, x.imag))
-        return Whole(self.real * a - self.imag * b, self.real * b + self.imag * a)
+    def _size(self, S: Floats, part: float) -> Floats:
+        """Return log |g_S|."""
+        square = np.einsum("...i,ij,...j->...", S, self.Y, S)
+        return np.asarray(-np.pi * (square / 8 + S @ self._imaginary(part)))
 
-    def weighted(self, weights: Powers) -> "Whole":
-        """Return the polynomial with each weight times a whole number."""
-        whole = weights.tolist()
-        parts = ([x * n for x, n in zip(part.coeffs(), whole, strict=False)] for part in (self.real, self.imag))
-        return Whole(*map(fmpz_poly, parts))
+    def _coefficients(self, S: tuple[int, ...]) -> Iterator[list[acb]]:
+        """Yield the coefficients at S of the defects of M, K and N along the flow of H, and of F/2."""
+        motion = self.theta.motion
+        I = motion.moments
+        A, J, unit = [1 / x for x in I], [-motion.D / x for x in I], [1, 1, 1]
+        B, *slopes = self._products(S)
 
-    def total(self) -> acb:
-        """Return the sum of the weights."""
-        return acb(arb(self.real(1)), arb(self.imag(1)))
+        def turned(left: Sequence[int], right: Sequence[int], by: Sequence[object]) -> list[acb]:
+            return [B[left[j], right[k]] * by[k] - B[left[k], right[j]] * by[j] for j, k in ((1, 2), (2, 0), (0, 1))]
 
-    def weights(self, count: int, shift: int = 0) -> Complexes:
-        """Return so many weights over 2^shift, without what is then behind the point."""
-        found = np.zeros(count, complex)
-        for part, unit in ((self.real, 1.0), (self.imag, 1j)):
-            whole = [float(int(x) >> shift) for x in part.coeffs()]
-            found[: len(whole)] += unit * np.array(whole)
+        terms = (
+            [[turned(M, M, A), turned(K, K, I)], [turned(K, M, A)], [turned(N, M, A)]],
+            [[turned(K, K, J)], [turned(K, M, unit)], [turned(N, M, unit)]],
+        )
+        for slope, line, rates in zip(slopes, self.lines, terms, strict=True):
+            for rows, parts in zip((M, K, N), rates, strict=True):
+                more = acb(0, 1) * line if rows is N else acb(0)
+                changes = [slope[i, D] + more * B[i, D] for i in rows]
+                yield [x - sum(less, acb(0)) for x, *less in zip(changes, *parts, strict=True)]
+
+    def _products(self, S: tuple[int, ...]) -> list[acb_mat]:
+        """Return the coefficients at S of all products f g, and of f' g - f g' along each flow."""
+        places = self._places(np.array(S) / 2)
+        left = list(zip(*(self._terms(place) for place in places), strict=True))
+        right = acb_mat([self._terms((S[0] - P, S[1] - Q))[: N[0]] for P, Q in places])
+        found = [acb_mat(left) * right]
+        for u, v in self.flows:
+            rates = [acb(0, 1) * arb.pi() * ((2 * P - S[0]) * u + (2 * Q - S[1]) * v) for P, Q in places]
+            found.append(acb_mat([[x * rate for x, rate in zip(row, rates, strict=True)] for row in left]) * right)
         return found
 
+    def _places(self, middle: Floats) -> list[Place]:
+        """Return the places of the terms that matter, round the middle and round the middle plus a shift."""
+        reach = int(np.sqrt(2 * LEFT_OUT / np.pi / self.narrow) + abs(self.away).max()) + 2
+        line = np.arange(-reach, reach + 1)
+        grid = np.floor(middle).astype(int) + np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
+        far = [np.einsum("ni,ij,nj->n", p, self.Y, p) for p in (grid - middle, grid - middle - self.away)]
+        return [(int(P), int(Q)) for P, Q in grid[np.minimum(*far) * np.pi / 2 < LEFT_OUT]]
 
-Pairs = list[tuple[Whole, Whole]]
+    def _left_out(self, S: Floats, part: float) -> float:
+        """Return a bound on what the terms that are left out add to a coefficient at S.
+
+        Beyond LEFT_OUT a sum of exp(-q), q = pi/2 (p, Y p), is one of exp(-q/10) times exp(-9/10 LEFT_OUT); a tenth of
+        that goes for the factor p of a rate.
+        """
+        sums = np.exp(-0.8 * LEFT_OUT) * (2 + np.sqrt(20 / self.narrow)) ** 2
+        rate = max(abs(complex_of(x)) for flow in self.flows for x in flow)
+        slopes = 8 * np.pi * rate * (abs(self.away).max() + 2 / np.sqrt(self.narrow))
+        peak = np.pi / 2 * self.away @ self.Y @ self.away if part else 0.0
+        return float(self.weight * sums * slopes * np.exp(self._size(S, part) + peak))
+
+    def _terms(self, place: Place) -> list[acb]:
+        """Return the weights of all forms at a place (P, Q)."""
+        if place not in self._known:
+            P, Q = place
+            square = self.hat[0, 0] * (P * P) + 2 * self.hat[0, 1] * (P * Q) + self.hat[1, 1] * (Q * Q)
+            i_pi, (x, y), (u, v) = acb(0, 1) * arb.pi(), self.origin, self.shift
+            powers = [(i_pi * (square / 4 + P * x + Q * y)).exp()] * N[0]
+            powers += [powers[0] * (-i_pi * (P * u + Q * v)).exp()] * len(N)
+            found = list[acb]()
+            for form, power in zip(self.forms, powers, strict=True):
+                e, d = CHARACTERISTICS[form.place]
+                found.append(acb(0) if (Q - e) % 2 else form.weights[P % 2] * power * acb(0, 1) ** (Q * d % 4))
+            self._known[place] = found
+        return self._known[place]
 
 
-class Quotients:
-    """Numerators n, k, m and the denominator d with whole weights, in units of 2^-bits of the largest.
+def _apart(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
+    """Return bounds on the distances of M, K and N of the forms from the motion after some times (H, F)."""
+    H, F = map(Fraction, times.tolist())
+    zeta = [
+        x + y for x, y in zip(theta.zeta([acb(fmpq(*x.as_integer_ratio())) for x in (H, F)]), theta.start, strict=True)
+    ]
+    pairs, shifted = theta.pairs(zeta), theta.pairs([x - y for x, y in zip(zeta, theta.w, strict=True)])
+    below, factor = theta.denominator.of(pairs), (acb(0, 1) * dot(theta.l, zeta)).exp()
+    state = torus.flow.go(H, F, BITS)
+    S = matrix(state.q)
+    wanted = [
+        [I * w for I, w in zip(torus.moments, state.W, strict=True)],
+        state.K,
+        [sum((S[i][j] * x for i, x in enumerate(theta.at_start.N)), acb(0)) for j in range(3)],
+    ]
+    found = [
+        [form.of(pairs) / below for form in theta.M],
+        [form.of(pairs) / below for form in theta.K],
+        [factor * form.of(shifted) / below for form in theta.N],
+    ]
+    both = zip(found, wanted, strict=True)
+    return np.array([sum(float(abs(x - y).upper()) for x, y in zip(*pair, strict=True)) for pair in both])
 
-    Their exponentials grow over the torus, by the more bits there are.
+
+def _growth(theta: ThetaMotion) -> tuple[Floats, Floats, Floats]:
+    """Return how fast errors of M, K and N grow by one another, at most, along both flows, and the sizes of the three.
+
+    |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment; and a multiple of 1 may be taken from II in K x II K.
     """
-
-    def __init__(self, theta: ThetaMotion, periods: tuple[Period, Period]) -> None:
-        X, l, start = theta.X.inv(), theta.l, theta.start
-        self.motion, self.start = theta.motion, theta.at_start
-        self.rates = [[centre(X[0, j] * 2), centre(X[1, j])] for j in range(2)]
-        self.turning = [centre(l[0] * X[0, j] + l[1] * X[1, j]) for j in range(2)]
-        self.times = np.array([[float(p.H.mid()), float(p.F.mid())] for p in periods]).T
-        self.into = np.pi * np.array([[complex_of(x) for x in row] for row in self.rates]).T @ self.times
-        forms, origin = theta.forms, (2 * start[0], start[1])
-        places = needed(theta.hat, forms, origin, self.into @ POINTS, LEFT_OUT)
-        self.low, self.high = places.min(axis=0), places.max(axis=0)
-        self.row = 2 * int(self.high[1] - self.low[1] + 1)
-        terms = [list(form.terms(theta.hat, origin, places.tolist())) for form in forms]
-        growth = float(abs(places @ (self.into @ POINTS).imag).max())
-        self.bits = BITS + ceil(growth / log(2))
-        unit = arb(2) ** (self.bits - frexp(max(abs(complex_of(x)) for row in terms for _, _, x in row))[1])
-        whole = [self._whole(row, unit) for row in terms]
-        self.n, self.d, self.k, self.m = whole[:3], whole[3], whole[4:7], whole[7:]
-        self.size = np.max([self._most(x, 1) for x in whole], axis=0)
-        self.least = self._least()
-
-    def _whole(self, terms: Iterable[tuple[int, int, acb]], unit: arb) -> Whole:
-        real, imag = ([0] * (self.row * int(self.high[0] - self.low[0] + 1)) for _ in range(2))
-        for P, Q, weight in terms:
-            place = int(P - self.low[0]) * self.row + int(Q - self.low[1])
-            real[place], imag[place] = _whole((weight * unit).real), _whole((weight * unit).imag)
-        return Whole(fmpz_poly(real), fmpz_poly(imag))
-
-    def powers(self, n: int) -> Powers:
-        """Return P and Q of all weights of a product of n sums, (2, terms)."""
-        rows = n * int(self.high[0] - self.low[0]) + 1
-        return np.asarray(np.array(np.divmod(np.arange(rows * self.row), self.row)) + n * self.low[:, None])
-
-    def _most(self, x: Whole, n: int, shift: int = 0) -> Floats:
-        """Return a bound on a product of n sums over 2^shift at the corners of cells; inside, it is convex."""
-        powers = self.powers(n)
-        sizes = abs(x.weights(powers.shape[1], shift))
-        kept = sizes > 0  # those that lost less than a unit to the shift are added below
-        found = (sizes[kept] + 2) @ np.exp(-powers[:, kept].T @ (self.into @ POINTS).imag)
-        return np.asarray(SAFE * found * 2.0**-self.bits)
-
-    def residuals(self) -> list[dict[str, float]]:
-        """Return bounds on what N, K and M miss in the equations of the flows of H and of F/2."""
-        I, n, k, m = self.motion.moments, self.n, self.k, self.m
-        A, J, one = [1 / x for x in I], [-self.motion.D / x for x in I], [fmpq(1)] * 3
-        n_m, k_m = ([(x[j] * m[l], x[l] * m[j]) for j, l in CYCLE] for x in (n, k))
-        k_k, m_m = ([(p, p) for p in (x[j] * x[l] for j, l in CYCLE)] for x in (k, m))
-        slopes = {name: [self._slopes(x) for x in rows] for name, rows in (("N", n), ("K", k), ("M", m))}
-        laws: list[dict[str, list[tuple[Pairs, Sequence[fmpq]]]]] = [
-            {"N": [(n_m, A)], "K": [(k_m, A)], "M": [(m_m, A), (k_k, I)]},
-            {"N": [(n_m, one)], "K": [(k_m, one)], "M": [(k_k, J)]},
-        ]
-        return [{name: self._missed(slopes[name], law[name], name, j) for name in law} for j, law in enumerate(laws)]
-
-    def _slopes(self, x: Whole) -> tuple[Whole, Whole, Whole]:
-        """Return x d, and d dx - x dd for the derivatives that bring P and Q down."""
-        product, pairs = x * self.d, zip(self.powers(1), self.powers(2), strict=True)
-        first, second = (x.weighted(2 * once) * self.d - product.weighted(both) for once, both in pairs)
-        return product, first, second
-
-    def _missed(
-        self, slopes: list[tuple[Whole, Whole, Whole]], terms: list[tuple[Pairs, Sequence[fmpq]]], name: str, flow: int
-    ) -> float:
-        """Return a bound on the length of what one of N, K and M misses in one flow."""
-        i_pi, rates, reach = acb(0, 1) * arb.pi(), self.rates[flow], float(abs(self.powers(1)).max())
-        turning = acb(0, 1) * self.turning[flow] if name == "N" else acb(0)
-        factor = np.exp(-(np.array([complex_of(x) for x in self.turning]) @ self.times @ POINTS).imag * (name == "N"))
-        found, rounding = np.zeros(POINTS.shape[1]), (8 * reach + 5) * self.size**2 / 2.0**FINE
-        for i, (j, l) in enumerate(CYCLE):
-            product, first, second = slopes[i]
-            rest = first.times(i_pi * rates[0]) + second.times(i_pi * rates[1]) + product.times(turning)
-            for pairs, c in terms:
-                x, y = pairs[i]
-                rest = rest - x.times(acb(c[l])) + y.times(acb(c[j]))
-            found = np.hypot(found, (self._most(rest, 2, FINE + self.bits) + rounding) * factor)
-        at = found.reshape(FIRST + 1, FIRST + 1)
-        corners = np.max([at[:-1, :-1], at[1:, :-1], at[:-1, 1:], at[1:, 1:]], axis=0)
-        return float((SAFE * corners / self.least**2).max())
-
-    def defects(self) -> dict[str, float]:
-        """Return bounds on what is wrong of N, K and M at the start."""
-        d, start = self.d.total(), self.start
-        triples = {"N": (self.n, start.N), "K": (self.k, start.K), "M": (self.m, start.M)}
-        return {
-            name: SAFE * hypot(*(float((x.total() / d - y).abs_upper()) for x, y in zip(found, true, strict=True)))
-            for name, (found, true) in triples.items()
-        }
-
-    def _least(self) -> Floats:
-        """Return a lower bound on |d| in each cell, in units; where it varies much they are cut in four."""
-        powers = self.powers(1)
-        weights = self.d.weights(powers.shape[1])
-        slopes = 1j * powers[:, weights != 0].T @ self.into
-        weights, half, total = weights[weights != 0], HALF / FIRST, 0
-        least, owner = np.full(FIRST**2, np.inf), np.arange(FIRST**2)
-        line = EDGES[:-1] + half
-        cells = np.stack(np.meshgrid(line, line, indexing="ij"), -1).reshape(-1, 2)
-        while len(cells):
-            total += len(cells)
-            if total > MOST:
-                raise NotCertifiedError("not certified: a denominator is too small somewhere on the motion's torus.")
-            terms = weights * np.exp(cells @ slopes.T)
-            value = abs(terms.sum(axis=1))
-            change = abs(terms) @ (np.expm1(half * abs(slopes).sum(axis=1)) + FLOATS)
-            good = change < value / 2
-            np.minimum.at(least, owner[good], (value - change)[good])
-            half /= 2
-            cells = (cells[~good][:, None] + half * np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])).reshape(-1, 2)
-            owner = np.repeat(owner[~good], 4)
-        return least.reshape(FIRST, FIRST) / SAFE * 2.0**-self.bits
+    motion = theta.motion
+    I = np.array([float(arb(x).mid()) for x in motion.moments])
+    K, D, A, N = float(arb(motion.square).sqrt().upper()), I.prod(), 1 / I, 2**0.5
+    M = np.sqrt(float(arb(motion.F).upper()) + D * K * K * A.max())
+    M, K, N = (1e-9 + SMALL + (1 + 1e-9) * x for x in (M, K, N))
+    first = [[M * np.ptp(A) / 2, K * np.ptp(I), 0], [K * A.max(), 0, 0], [N * A.max(), 0, 0]]
+    second = [[0, K * D * np.ptp(A), 0], [K, 0, 0], [N, 0, 0]]
+    return np.array(first), np.array(second), np.array([M, K, N])
 
 
-def bounds(theta: ThetaMotion, periods: tuple[Period, Period]) -> Bounds:
-    """Return bounds on the errors of the closed form at any time; NotCertifiedError where there are none."""
-    with workprec(BITS):
-        quotients = Quotients(theta, periods)
-    with workprec(FINE + BITS):
-        missed, start = quotients.residuals(), quotients.defects()
-        return _grown(theta.motion, missed, start, HALF * abs(quotients.times).sum(axis=1) * SAFE, periods)
-
-
-def _grown(
-    motion: Integrals,
-    missed: list[dict[str, float]],
-    start: dict[str, float],
-    reach: Floats,
-    periods: tuple[Period, Period],
-) -> Bounds:
-    """Return what errors become at times up to `reach`."""
-    I, D, square = motion.moments, motion.D, motion.square
-    low, high = min(I), max(I)
-    size = min(high * (2 * motion.H - low * square), motion.F + D * square / low)
-    b, M, A, first, second, third = (
-        float(arb(x).sqrt().upper()) * SAFE if n < 2 else float(arb(x).upper()) * SAFE
-        for n, x in enumerate((square, size, 1 / low, high - low, 1 / low - 1 / high, D * (1 / low - 1 / high)))
-    )
-    t, g = reach
-    tried = []
-    for s in SCALES * sqrt(first / A):
-        p, q = M * second / 2, b * (first / s + s * A)
-        growth = t * (p + hypot(p, q)) / 2 + g * b * (third / s + s) / 2
-        parts = [hypot(x["M"], s * x["K"]) for x in (start, *missed)]
-        factor = exp(growth * SAFE) if growth < LONGEST else inf
-        tried.append((factor * (parts[0] + t * parts[1] + g * parts[2]), s))
-    e, s = min(tried, key=lambda x: x[0] * (1 + 1 / x[1]))
-    if not e <= min(b * s, M) / 1000:
-        raise NotCertifiedError(f"not certified: what theta functions miss might grow to {e:.1e}.")
-    # times are off by the radii of the periods, and their angles by their own
-    off = max(float(x.rad()) for period in periods for x in (period.H, period.F)) * (1 + A) * (M + b)
-    turned = start["N"] + t * (missed[0]["N"] + 2 * A * e) + g * (missed[1]["N"] + 2 * e)
-    turned += 2 * off + max(float(period.angle.rad()) for period in periods) * 2
-    return Bounds(e / s + off * b, A * e + off * (first + third + second * M) * (M + b) * A, turned)
-
-
-def _whole(x: arb) -> int:
-    """Return a whole number less than one away from the middle of a ball."""
-    mantissa, exponent = (int(part) for part in x.mid().man_exp())
-    return mantissa << exponent if exponent >= 0 else mantissa >> -exponent
+def _exponential(growth: Floats) -> Floats:
+    """Return the exponential of a matrix without negative elements."""
+    halvings = max(0, int(np.ceil(np.log2(growth.sum())))) if growth.any() else 0
+    term = total = np.eye(3)
+    for n in range(1, 30):
+        term = term @ growth / 2.0**halvings / n
+        total = total + term
+    return np.asarray(np.linalg.matrix_power(total, 2**halvings))

@@ -37,7 +37,7 @@ MACHINERY = {
     },
     "exact": {
         *("cayley_klein", "digits", "euler", "inputs", "nutating", "nutation", "quartic", "spheres", "surd", "swing"),
-        *("clebsch_flow", "clebsch_lattice", "clebsch_periods", "clebsch_theta", "elliptic_curve"),
+        *("clebsch_flow", "clebsch_lattice", "clebsch_periods", "clebsch_proof", "clebsch_theta", "elliptic_curve"),
         *("elliptic_quartic", "euler_top", "theta", "theta_sums", "top_quartic", "top_steady", "torus", "two_turns"),
     },
 }
@@ -139,6 +139,7 @@ UNTIED = {
         )
     },
     "ElementaryMotion.omega": GIVEN,
+    "Flight.rotation": "the matrix of its motion in other axes: compared with it in test_flight",
     "Quadric.of_top": "compared with the paper's quadric and with Taylor series of a top, in test_top_quadric",
     "Hyperbola.of_top": "compared with the paper's hyperbola and with Taylor series of a top, in test_top_quadric",
     "ChargeMoments.points": TOP,

@@ -2,18 +2,21 @@
 
 from copy import copy
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 
 import numpy as np
 import pytest
-from flint import acb, arb, fmpq, fmpz_poly
+from flint import acb, arb, fmpq
 
 from atlas.errors import NotCertifiedError
 from atlas.exact import clebsch_proof
 from atlas.exact.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.clebsch_proof import Quotients, Whole, bounds
+from atlas.exact.clebsch_flow import Flow
+from atlas.exact.clebsch_proof import Cell, distances
 from atlas.exact.clebsch_theta import ThetaMotion
-from atlas.formulas.numbers import workprec
+from atlas.exact.torus import Torus
+from atlas.formulas.numbers import cross, workprec
 
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
 """A motion whose periods are short beside its rates."""
@@ -29,8 +32,7 @@ def balls() -> Balls:
 @cache
 def known() -> ThetaMotion:
     """Return its closed form."""
-    torus = balls().on_torus.torus  # type: ignore[union-attr]
-    return ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
+    return ThetaMotion(torus().integrals, torus().W, torus().K, torus().lattice)
 
 
 def made() -> ThetaMotion:
@@ -38,13 +40,17 @@ def made() -> ThetaMotion:
     return copy(known())
 
 
+def torus() -> Torus:
+    """Return its torus."""
+    return balls().on_torus.torus  # type: ignore[union-attr]
+
+
 def bound(theta: ThetaMotion) -> float:
     """Return the largest of the proved bounds; infinity where there is none."""
     try:
-        found = bounds(theta, balls().on_torus.torus.periods(128))  # type: ignore[union-attr]
+        return float(max(distances(theta, torus(), torus().periods(128))))
     except NotCertifiedError:
         return np.inf
-    return max(found.K, found.W, found.N)
 
 
 def test_the_bound_holds_where_balls_know_the_motion() -> None:
@@ -77,32 +83,66 @@ def test_a_slip_of_a_part_in_1e21_breaks_the_proof(slip: str) -> None:
     assert bound(theta) > 2.0**-80
 
 
-def test_a_lower_bound_on_the_denominator_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """|d| at 2000 reduced times is nowhere below the bound of its cell; one that has a zero is refused."""
+def test_more_starts_on_the_torus_prove_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    """From four states of the cell, to which Taylor's series goes, the bound is as good; a wrong state is noticed."""
+    monkeypatch.setattr(clebsch_proof, "PARTS", (2,))
+    assert bound(made()) < 1e-36
+    real = Flow.go
+    monkeypatch.setattr(Flow, "go", lambda flow, H, F, bits: real(flow, H + Fraction(1, 2**70), F, bits))
+    assert bound(made()) > 2.0**-80
+
+
+def test_the_defects_over_the_denominator_are_bounded_at_each_place() -> None:
+    """What K, M and N miss, by differences of balls at some places of the cell, is no more than the bound on it."""
     theta = made()
-    with workprec(200):
-        quotients = Quotients(theta, balls().on_torus.torus.periods(128))  # type: ignore[union-attr]
-    powers = quotients.powers(1)
-    weights = quotients.d.weights(powers.shape[1]) * 2.0**-quotients.bits
-    turns = np.random.default_rng(2).uniform(-clebsch_proof.HALF, clebsch_proof.HALF, (2000, 2))
-    found = abs(np.exp(1j * turns @ quotients.into.T @ powers) @ weights)
-    i, j = (np.searchsorted(clebsch_proof.EDGES, turns.T) - 1).clip(0)
-    assert (found >= quotients.least[i, j]).all()
-    assert (found.min() / quotients.least.min()) < 4
-    constant = fmpz_poly([0] * int(np.flatnonzero(~powers.any(axis=0))[0]) + [1])
-    d = quotients.d  # less its value at the start it is zero there
-    quotients.d = Whole(d.real - d.real(1) * constant, d.imag - d.imag(1) * constant)
-    monkeypatch.setattr(clebsch_proof, "MOST", 5000)
-    with pytest.raises(NotCertifiedError, match="a denominator is too small"):
-        quotients._least()
+    first, *others = theta.K
+    theta.K = [replace(first, weights=(first.weights[0] + acb(1e-9), first.weights[1])), *others]
+    with workprec(240):
+        cell = Cell(theta, torus().periods(128))
+        rates = cell.rates()
+        I, h = theta.motion.moments, arb(2) ** -80
+        for x in np.random.default_rng(3).uniform(-0.5, 0.5, (6, 2)):
+            t, g = (acb(y) for y in cell.times @ x)
+            for flow, (dt, dg) in enumerate(((h, 0), (0, h))):
+                (M, K), (after, _), (_, later) = (state(theta, t + a, g + b) for a, b in ((0, 0), (dt, dg), (dt, dg)))
+                W = [m / i for m, i in zip(M, I, strict=True)]
+                J = [-theta.motion.D / i * k for k, i in zip(K, I, strict=True)]
+                turned = [
+                    x + y
+                    for x, y in zip(cross(M, W), cross(K, [i * k for i, k in zip(I, K, strict=True)]), strict=True)
+                ]
+                laws = (turned, cross(K, W)) if flow == 0 else (cross(K, J), cross(K, M))
+                for n, (now, then, law) in enumerate(((M, after, laws[0]), (K, later, laws[1]))):
+                    missed = [(b - a) / h - c for a, b, c in zip(now, then, law, strict=True)]
+                    assert sum(float(abs(z).mid()) ** 2 for z in missed) ** 0.5 <= rates[flow, n]
+    assert 1e-11 < rates[0, 1] < 1e-6
 
 
-def test_growing_errors_are_refused() -> None:
-    """A residual that a long way makes as large as the motion is no proof."""
-    motion, rows = balls().on_torus.torus.integrals, {"N": 0.0, "K": 0.0, "M": 0.0}  # type: ignore[union-attr]
-    periods = balls().on_torus.torus.periods(128)  # type: ignore[union-attr]
-    small, large = {**rows, "K": 1e-40}, {**rows, "K": 1e-3}
-    found = clebsch_proof._grown(motion, [small, small], rows, np.array([3.0, 3.0]), periods)
-    assert 1e-40 < found.K < 1e-20
-    with pytest.raises(NotCertifiedError, match="might grow"):
-        clebsch_proof._grown(motion, [large, large], rows, np.array([3.0, 3.0]), periods)
+def state(theta: ThetaMotion, t: acb, g: acb) -> tuple[list[acb], list[acb]]:
+    """Return M and K of the forms at times of both flows."""
+    found = theta.state([x + y for x, y in zip(theta.zeta((t, g)), theta.start, strict=True)])
+    return found.M, found.K
+
+
+def test_without_a_bound_there_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A denominator that has a zero in the cell, and errors that might grow to the size of the motion, are refused."""
+    theta = made()
+    n0, n1 = theta.denominator.weights
+    zero, one = (
+        replace(theta.denominator, weights=w).of(theta.pairs(theta.start)) for w in ((n0, 0 * n1), (0 * n0, n1))
+    )
+    theta.denominator = replace(theta.denominator, weights=(n0, -n1 * zero / one))
+    with workprec(240):
+        assert np.isinf(Cell(theta, torus().periods(128)).rates()).all()
+    assert bound(theta) == np.inf
+    first, second, sizes = clebsch_proof._growth(made())
+    monkeypatch.setattr(clebsch_proof, "_growth", lambda _: (1e3 * first, second, sizes))
+    assert bound(made()) == np.inf
+
+
+def test_errors_grow_by_the_exponential() -> None:
+    """The exponential of a matrix without negative elements is that of its eigenvalues."""
+    A = np.array([[0.5, 2.0, 0.0], [1.0, 0.0, 0.0], [0.25, 3.0, 0.0]])
+    values, vectors = np.linalg.eig(7 * A)
+    exact = (vectors * np.exp(values)) @ np.linalg.inv(vectors)
+    np.testing.assert_allclose(clebsch_proof._exponential(7 * A), exact.real, rtol=1e-12)

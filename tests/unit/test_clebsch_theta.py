@@ -250,7 +250,7 @@ def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> N
     def refuse(*_: Any) -> None:
         raise atlas.NotCertifiedError("not certified: it might grow.")
 
-    monkeypatch.setattr(core, "bounds", refuse)
+    monkeypatch.setattr(core, "distances", refuse)
     monkeypatch.setattr(kernels, "CHECKED", (5.3, -6.1))
     one = SingleAsymmetric(motion()._turnings[0].exact)
     assert re.match(r"not proved; agrees with .* within \S+ at 2 times up to \|t\| = 4.88; rounding", one.agreement)

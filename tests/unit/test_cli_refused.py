@@ -96,6 +96,8 @@ CASES = [
     ("monodromy --inertia 1 0.5 --linear 1e-310 --M3 0", "choose another unit of time"),
     *((f"animate motion --over {text} --out {{place}}/a.mp4", "--over takes KEY=FROM:TO:COUNT")
       for text in ("omega2=0:2", "omega2=0:2:x", "omega2=0:2:3:4")),
+    ("classify --ratio 1 --field 1 2 3", "--field takes 2 numbers"),
+    ("animate motion --over omega2=0:2:1000000 --out {place}/new", "an animation has from 2 to"),
     *(
         (f"animate motion --over {text} --out {{place}}/new", "from a list to one as long")
         for text in ("field=1,2:3:4", "field=1,2:1,2,3:4", "ratio=x:1:2")

@@ -88,6 +88,8 @@ def test_without_a_frame_the_user_is_in_the_laboratory() -> None:
     """The arm is R(t) x_N(0) as it stands, for times of any shape."""
     flight, motion = Flight(PARTICLE, Tabulated(), [0.3, -0.1, 0.7]), Tabulated()
     assert np.abs(flight.arm(TIMES) - motion.rotation(TIMES) @ [0.3, -0.1, 0.7]).max() <= 2 * EPS
+    turned = Flight(PARTICLE, Tabulated(), [0.3, -0.1, 0.7], FRAME)
+    assert np.abs(turned.arm(TIMES) - turned.rotation(TIMES) @ [0.3, -0.1, 0.7]).max() <= 4 * EPS
     assert flight.position(1.0).shape == (3,)
     assert flight.position(np.array([[0.0, 1.0], [1.5, 2.0]])).shape == (2, 2, 3)
 
