@@ -135,6 +135,9 @@ def test_without_a_bound_there_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> N
     with workprec(240):
         assert np.isinf(Cell(theta, torus().periods(128)).rates()).all()
     assert bound(theta) == np.inf
+    with monkeypatch.context() as patch:  # a bound beyond SMALL is none: there the growth is not bounded
+        patch.setattr(clebsch_proof, "_apart", lambda *_: np.full(3, 1e-3))
+        assert bound(made()) == np.inf
     first, second, sizes = clebsch_proof._growth(made())
     monkeypatch.setattr(clebsch_proof, "_growth", lambda _: (1e3 * first, second, sizes))
     assert bound(made()) == np.inf
