@@ -14,6 +14,7 @@ from flint import acb, arb, ctx, fmpq
 import atlas
 from atlas.cli.app import atlas as command
 from atlas.core import asymmetric as kernels
+from atlas.core import certified
 from atlas.core import clebsch_theta as core
 from atlas.core.asymmetric import SingleAsymmetric
 from atlas.core.clebsch_theta import ThetaKernel, closed_form
@@ -103,7 +104,7 @@ def test_columns_fields_and_grids_are_parts_of_the_matrix() -> None:
     closed.fill_grid(3e6, step, out)
     twin = Balls(*QUICK)
     exact = [
-        kernels.rounded(lambda i=i: twin.rotation(fmpq(3000000) + i * fmpq(*step.as_integer_ratio())), 1.0)
+        certified.rounded(lambda i=i: twin.rotation(fmpq(3000000) + i * fmpq(*step.as_integer_ratio())), 1.0)
         for i in range(3)
     ]  # type: ignore[misc]
     assert np.abs(out.reshape(3, 9) - exact).max() < 8 * EPS
