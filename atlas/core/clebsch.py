@@ -1,13 +1,16 @@
 """Integrals of a charged body of any inertia tensor: Clebsch's case of e(3), theorem-lie-poisson to theorem-clebsch."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from atlas.core.arithmetic.double_double import over
 from atlas.core.body import SymmetricBody, moments
 from atlas.core.inertia import inertia_tensor
 from atlas.core.inputs import FloatArray, common_shape, plain, vectors
+from atlas.formulas import integrals as formulas
 
 
 @dataclass(frozen=True)
@@ -35,20 +38,21 @@ def clebsch(inertia: Any, Omega: Any, K: Any) -> Clebsch:
 
     `inertia` is any inertia tensor (3, 3) in the axes of the body, principal moments (3,), a SymmetricBody or a ratio
     I = I3/I2 (I2 = 1 then); `Omega`, `K` = R^T B' (..., 3) in the body and in one unit 1/time; they broadcast.
-    DomainError for a tensor that no body has. The energy is formed from Omega and the rest from Omega + K, so that
-    none of the five is a difference of the others. AtlasError is raised for what are no such arrays.
+    The state is taken as exact, and each of the five is rounded once. DomainError for a tensor that no body has.
+    AtlasError is raised for what are no such arrays.
     """
-    J, spin, field = body_tensor(inertia), vectors(Omega, "Omega"), vectors(K, "K")
-    shape = common_shape(spin.shape, field.shape)
-    spin, field = np.broadcast_to(spin, shape), np.broadcast_to(field, shape)
-    momentum = np.matvec(J, spin + field)
-    return Clebsch(
-        H=plain((np.vecdot(momentum, spin + field) + np.vecdot(field, np.matvec(J, field))) / 2),
-        F=plain(np.vecdot(momentum, momentum) - np.vecdot(field, np.matvec(cofactors(J), field))),
-        MK=plain(np.vecdot(momentum, field)),
-        K2=plain(np.vecdot(field, field)),
-        energy=plain(np.vecdot(spin, np.matvec(J, spin)) / 2),
-    )
+    spin, field = vectors(Omega, "Omega"), vectors(K, "K")
+    common_shape(spin.shape, field.shape)
+    return conserved([*body_tensor(inertia).flat], spin, field)
+
+
+def conserved(J: Sequence[Any], Omega: FloatArray, K: FloatArray) -> Clebsch:
+    """Return the integrals of states, each rounded once, of nine entries of J, which broadcast with Omega and K."""
+    unit = -int(np.frexp(max(np.abs(x).max() for x in J))[1])
+    inputs = (*(np.ldexp(x, unit) for x in J), *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
+    found = over(formulas.clebsch, *inputs, unit=slice(9, 15), degree=(2,) * 5)
+    powers = (-1 - unit, -2 * unit, -unit, 0, -1 - unit)
+    return Clebsch(*(plain(np.ldexp(x, power)) for x, power in zip(found, powers, strict=True)))
 
 
 def body_tensor(inertia: Any) -> FloatArray:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from atlas.core.clebsch import Clebsch
+from atlas.core.clebsch import conserved
 from atlas.core.inputs import FloatArray, finite, plain
 from atlas.core.motion import components
 from atlas.core.nutating import AloneMotion
@@ -16,7 +16,10 @@ from atlas.core.nutation.single_elliptic import SingleElliptic
 from atlas.core.quantities import INERTIA, RATE
 from atlas.exact.digits import enclosed
 from atlas.exact.elliptic import EllipticMotion as Balls
-from atlas.formulas.numbers import workprec
+from atlas.formulas.numbers import nearest, workprec
+
+CONSTANTS = ("H", "F", "(M,K)", "K^2", "energy")
+"""What a motion conserves, in this order."""
 
 
 def balls(*row: float) -> Balls:
@@ -118,19 +121,17 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
         m = self.angular_velocity(t) * np.stack(np.broadcast_arrays(*self.inertia), -1)
         return np.asarray(finite(np.matvec(self.rotation(t), m), "m"))
 
-    def invariants(self, t: Any = 0.0) -> dict[str, Any]:
+    def invariants(self, t: Any = None) -> dict[str, Any]:
         """Constants of any body's motion, theorem-clebsch: H, F, (M, K), K^2 and the kinetic energy.
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
+        check, good to some ulp of the largest term. Raises AtlasError for a time that is not finite or whose phases
+        exceed 2^50.
         """
-        Omega, K, J = self.angular_velocity(t), self.field_in_body(t), np.stack(np.broadcast_arrays(*self.inertia), -1)
-        W = Omega + K
-        M = J * W
-        found = Clebsch(
-            H=plain((np.vecdot(M, W) + np.vecdot(K, J * K)) / 2),
-            F=plain(np.vecdot(M, M) - np.vecdot(K, J[..., [1, 2, 0]] * J[..., [2, 0, 1]] * K)),
-            MK=plain(np.vecdot(M, K)),
-            K2=plain(np.vecdot(K, K)),
-            energy=plain(np.vecdot(Omega, J * Omega) / 2),
+        if t is None:
+            found = self._each("invariants", lambda exact: list(map(nearest, enclosed(lambda: exact.invariants, BITS))))
+            return dict(zip(CONSTANTS, map(plain, np.moveaxis(finite(np.array(found), "H"), -1, 0)), strict=True))
+        J = [self.inertia[i // 4] if i % 4 == 0 else 0.0 for i in range(9)]
+        return dict(
+            zip(CONSTANTS, vars(conserved(J, self.angular_velocity(t), self.field_in_body(t))).values(), strict=True)
         )
-        return {"H": found.H, "F": found.F, "(M,K)": found.MK, "K^2": found.K2, "energy": found.energy}

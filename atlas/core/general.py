@@ -7,6 +7,7 @@ from typing import Any, Self
 import numpy as np
 from flint import fmpq
 
+from atlas.core.arithmetic.double_double import over
 from atlas.core.body import SymmetricBody, moments
 from atlas.core.inputs import FloatArray, finite, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
@@ -23,7 +24,11 @@ from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
-from atlas.formulas.numbers import workprec
+from atlas.formulas.integrals import NAMES, constants
+from atlas.formulas.numbers import nearest, workprec
+
+CONSTANTS = (*NAMES[:4], "(M,B')")
+"""What a motion conserves, in this order."""
 
 ORTHOGONAL = 1e-9
 """An attitude may be so far from orthogonal; the rotation nearest to it is taken."""
@@ -156,15 +161,27 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         """
         return np.asarray(finite(np.matvec(self.rotation(t), self._momentum(self.angular_velocity(t))), "m/I2"))
 
-    def invariants(self, t: Any = 0.0) -> dict[str, Any]:
-        """Constants E', K^2, c3, c5 of (36) to (41), and (M, B') with M/I2 = (Omega + K) in the body's axes.
+    def invariants(self, t: Any = None) -> dict[str, Any]:
+        """Constants E', K^2, c3, c5 of (36) to (41), and (M, B')/I2 with M = II (Omega + K), by name.
 
-        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        Without `t` from the exact inputs, each rounded once. With times, as they come out of Omega(t) and K(t): a
+        check, good to some ulp of the largest term. DomainError where a term is too large for a float. Raises
+        AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
+        if t is None:
+            return {name: finite(plain(x), name) for name, x in zip(CONSTANTS, self._constants, strict=True)}
         Omega, K = self.angular_velocity(t), self.field_in_body(t)
         four = integrals(self.ratio, Omega, K)
-        along = np.vecdot(self._momentum(Omega + K), K)
-        return {"E'": four.E, "K^2": four.K2, "c3": four.c3, "c5": four.c5, "(M,B')": finite(plain(along), "(M, B')")}
+        along = finite(plain((self._momentum(Omega + K) * K).sum(-1)), CONSTANTS[-1])
+        return dict(zip(CONSTANTS, (four.E, four.K2, four.c3, four.c5, along), strict=True))
+
+    @cached_property
+    def _constants(self) -> Any:
+        """Return E', K^2, c3, c5 and (M, B')/I2 of the inputs."""
+        if self._turning:
+            return [nearest(x) for x in self._turning.exact.invariants.values()]
+        I2, I3 = moments(self.ratio)
+        return over(constants, I2, I3, *self.omega, 0.0, *self.field, unit=slice(2, 8), degree=(2, 2, 1, 2, 2))
 
     def _momentum(self, Omega: FloatArray) -> FloatArray:
         """Return (Omega1, Omega2, I Omega3)."""

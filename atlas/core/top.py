@@ -7,6 +7,7 @@ from typing import Any, Self
 import numpy as np
 from flint import fmpq
 
+from atlas.core.arithmetic.double_double import over
 from atlas.core.body import SymmetricBody
 from atlas.core.charge_moments import ChargeMoments
 from atlas.core.inputs import FloatArray, finite, number, plain, positive
@@ -27,12 +28,20 @@ from atlas.exact.digits import enclosed
 from atlas.exact.top import TopMotion as Balls
 from atlas.exact.top_steady import SteadyPrecession
 from atlas.formulas.numbers import nearest, workprec
+from atlas.formulas.top import constants, of_given
 
 
 def balls(*row: float) -> Balls:
     """Return one motion as balls: I2, I3, k2, k3, n2, n3, the three components of omega, linear, quadratic."""
     with workprec(FIRST):
         return Balls(row[0:2], row[2:4], row[4:6], row[6:9], *row[9:])
+
+
+def _constants(*row: float) -> list[float]:
+    """Return twice the energy, M3 and p of I2, I3, k2, k3, n2, n3, linear, quadratic and omega, each rounded once."""
+    with workprec():
+        h, M3, p = map(nearest, balls(*row[:6], *row[8:], *row[6:8]).invariants)
+    return [2 * h, M3, p]
 
 
 def _rounded(x: fmpq) -> float:
@@ -265,16 +274,22 @@ class TopMotion(NutatingMotion[SingleTop]):
         """
         return np.asarray(finite(np.matvec(self.rotation(t), self._momentum(t)), "M/I2"))
 
-    def invariants(self, t: Any = 0.0) -> dict[str, Any]:
+    def invariants(self, t: Any = None) -> dict[str, Any]:
         """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction.
 
+        Without `t` from the exact inputs, each rounded once. With times as they come out of Omega(t) and b(t): a check.
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
+        if t is None:
+            *top, w1, w2, w3, a0, A0 = self._inputs
+            inputs = *top, a0, A0, w1, w2, w3
+            twice, M3, p = map(plain, over(of_given(constants), *inputs, degree=(1, 1, 1), alone=_constants))
+            return {"h": finite(twice / 2, "h"), "M3": M3, "p": p}
         Omega, b, M = self.angular_velocity(t), self.field_in_body(t), self._momentum(t)
         (I2, I3), nu = self.inertia, b[..., 2]
         spinning = Omega[..., 0] ** 2 + Omega[..., 1] ** 2 + I3 / I2 * Omega[..., 2] ** 2
         h = spinning / 2 + (self.linear * nu + self.quadratic * nu * nu / 2) / I2
-        return {"h": finite(plain(h), "h"), "M3": plain(M[..., 2]), "p": plain(np.vecdot(M, b))}
+        return {"h": finite(plain(h), "h"), "M3": plain(M[..., 2]), "p": plain((M * b).sum(-1))}
 
     def _momentum(self, t: Any) -> FloatArray:
         """Return M/I2 in the body."""

@@ -28,6 +28,7 @@ from atlas.exact.nutating import Nutating
 from atlas.exact.nutation import Nutation
 from atlas.exact.spheres import POLES, Sphere
 from atlas.formulas.elliptic import splitting
+from atlas.formulas.integrals import clebsch
 from atlas.formulas.numbers import nearest, root
 
 
@@ -142,6 +143,13 @@ class EllipticMotion(Nutating):
     def omega(self) -> list[Real]:  # type: ignore[override]  # it is a root of what is given
         """The initial angular velocity."""
         return self.rate_of(self.field)
+
+    @property
+    def invariants(self) -> list[Real]:
+        """H, F, (M, K), K^2 and the kinetic energy, theorem-clebsch."""
+        J = [self.inertia[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
+        H, F, MK, K2, energy = clebsch(*J, *self.omega, *self.field)
+        return [H / 2, F, MK, K2, energy / 2]
 
     def rate_of(self, K: Any) -> list[Real]:
         """Return Omega where the field in the body is K."""

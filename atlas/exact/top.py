@@ -24,6 +24,7 @@ from atlas.exact.swing import crossing, swing
 from atlas.exact.top_quadric import given
 from atlas.exact.top_quartic import TopQuartic
 from atlas.exact.top_steady import SteadyPrecession
+from atlas.formulas.top import constants
 
 
 class TopMotion(Nutating):
@@ -36,10 +37,10 @@ class TopMotion(Nutating):
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0, quadratic: Any = 0
     ) -> None:
-        self.I, self.coupling, self.direction, potential = given(inertia, coupling, direction, linear, quadratic)
+        self.I, self.coupling, self.direction, self.potential = given(inertia, coupling, direction, linear, quadratic)
         self.omega = rationals(omega, "omega", 3)
         self.field = fmpq(0), *self.direction
-        self.quartic: TopQuartic = TopQuartic(self.I, self.coupling, self.direction, self.omega, potential)
+        self.quartic: TopQuartic = TopQuartic(self.I, self.coupling, self.direction, self.omega, self.potential)
         self.kind = self._kind()
         self._known: tuple[int, Solution] | None = None
 
@@ -112,6 +113,13 @@ class TopMotion(Nutating):
             precession=-k2,
             spin=spin,
         )
+
+    @property
+    def invariants(self) -> list[Real]:
+        """Constants of the motion over I2: energy h, M3 along the axis and p = (M, n) along the direction."""
+        q, (k2, k3), (a0, A0), (w1, w2, w3) = self.quartic, self.coupling, self.potential, self.omega
+        energy, M3, p = constants(self.I, k2, k3, q.across, q.nu, a0, A0, w1, w2, w3)
+        return [(energy / 2).value, M3.value, p.value]
 
     @property
     def solution(self) -> Solution:

@@ -1,10 +1,12 @@
-"""What a symmetric body conserves, (36) to (41), and the cubic and quartic of Omega3 that follow, from I, Omega and K.
+"""What a body conserves, (36) to (41) and theorem-clebsch, and the cubic and quartic of Omega3 that follow.
 
-For exact rationals. In floats and in two words these sums cancel: there `atlas.core.integrals`, `pseudo_oscillator` and
-`nutation.roots` write them from the state at t = 0, in forms that don't.
+The cubic and the quartic are for exact rationals. In floats and in two words their sums cancel: there
+`pseudo_oscillator` and `nutation.roots` write them from the state at t = 0, in forms that don't.
 """
 
-from atlas.formulas.numbers import Number, Vector, dot
+from collections.abc import Sequence
+
+from atlas.formulas.numbers import Number, Vector, cross, dot
 
 NAMES = ("E'", "K^2", "c3", "c5", "(m,B')")
 """What an elementary motion conserves, in this order."""
@@ -14,13 +16,36 @@ def integrals(I: Number, Omega: Vector, K: Vector) -> tuple[Number, Number, Numb
     """Return E', (36), K^2, (37), c3, (40), and c5, (41)."""
     (w1, w2, w3), (K1, K2, K3) = Omega, K
     c3 = w3 + K3
-    return w1 * w1 + w2 * w2 + I * w3 * w3, dot(K, K), c3, w1 * K1 + w2 * K2 - w3 * w3 + (2 - I) * c3 * w3
+    spin = c3 * w3
+    return w1 * w1 + w2 * w2 + I * w3 * w3, dot(K, K), c3, w1 * K1 + w2 * K2 - w3 * w3 + spin + spin - I * spin
 
 
 def along_field(I: Number, Omega: Vector, K: Vector) -> Number:
     """Return (m, B')/I2, (88); with Omega + K in the place of Omega (M, B')/I2."""
     w1, w2, w3 = Omega
     return dot((w1, w2, I * w3), K)
+
+
+def constants(I2: Number, I3: Number, *state: Number) -> tuple[Number, ...]:
+    """Return E', K^2, c3, c5 and (M, B')/I2 of a state, the components of Omega and of K."""
+    I, Omega, K = I3 / I2, state[:3], state[3:]
+    return *integrals(I, Omega, K), along_field(I, [w + k for w, k in zip(Omega, K, strict=True)], K)
+
+
+def clebsch(*given: Number) -> tuple[Number, ...]:
+    """Return 2 H, F, (M, K), K^2 and twice the kinetic energy, theorem-clebsch.
+
+    Of nine entries of the inertia tensor J, three components of Omega and three of K; M = J (Omega + K).
+    """
+    J, Omega, K = (given[0:3], given[3:6], given[6:9]), given[9:12], given[12:15]
+    W = [w + k for w, k in zip(Omega, K, strict=True)]
+    M, cofactors = _times(J, W), (cross(J[1], J[2]), cross(J[2], J[0]), cross(J[0], J[1]))
+    F = dot(M, M) - dot(K, _times(cofactors, K))
+    return dot(M, W) + dot(K, _times(J, K)), F, dot(M, K), dot(K, K), dot(Omega, _times(J, Omega))
+
+
+def _times(matrix: Sequence[Vector], vector: Vector) -> list[Number]:
+    return [dot(row, vector) for row in matrix]
 
 
 def cubic(I: Number, E: Number, K2: Number, c3: Number, c5: Number) -> tuple[Number, ...]:

@@ -1,4 +1,4 @@
-"""The quadric and the hyperbola of every symmetric top, theorem-top-quadric, in units of its moment I2.
+"""The constants, the quadric and the hyperbola of every symmetric top, theorem-top-quadric, in units of its moment I2.
 
 The inputs are those of the theorem: I = I3/I2; k2 and k3 over I2; (n2, n3) a unit vector; a0 and A0 over I2.
 """
@@ -19,6 +19,16 @@ def of_given(formula: Callable[..., Any]) -> Callable[..., Any]:
         return formula(I3 / I2, k2 / I2, k3 / I2, n2 / size, n3 / size, a0 / I2, A0 / I2, *more)
 
     return of
+
+
+def constants(
+    I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number,
+    omega1: Number, omega2: Number, omega3: Number,
+) -> tuple[Number, Number, Number]:  # fmt: skip
+    """Return twice the energy, M3 along the axis and p = (M, n), M = I Omega + k b."""
+    pull, M3 = n3 * a0, n3 * k3 + I * omega3
+    energy = n3 * n3 * A0 + pull + pull + (omega1 * omega1 + omega2 * omega2 + I * omega3 * omega3)
+    return energy, M3, (n2 * k2 + omega2) * n2 + M3 * n3
 
 
 def centre(I: Number, k2: Number, k3: Number, n2: Number, n3: Number, a0: Number, A0: Number) -> tuple[Number, Number]:
