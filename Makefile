@@ -69,7 +69,7 @@ bench: setup $(VENV)/.bench
 	@env -u OPENBLAS_CORETYPE $(ATLAS) bench --store   # so that OpenBLAS chooses the kernels of this processor
 
 stress: setup $(VENV)/.bench
-	@$(ATLAS) stress
+	@$(ATLAS) stress   # on this processor; `atlas stress --record` goes through the kinds there are
 	@$(BIN)/python tests/tops.py   # against heyoka
 	@$(BIN)/python tests/three_moments.py   # an hour
 	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz

@@ -154,7 +154,7 @@ def _bench() -> dict[str, Data]:
 
 def _stress() -> dict[str, Data]:
     """Return the worst error of each quantity on record, and the regime in which it was met."""
-    from atlas.study.stress import LIMITS, LONG, SHORT, read_record
+    from atlas.study.stress import LIMITS, LONG, PROCESSORS, SHORT, read_record
 
     worst: dict[str, tuple[float, str]] = {}
     for name, ulps in read_record().items():
@@ -171,8 +171,8 @@ def _stress() -> dict[str, Data]:
         for name in order
     )
     note = (
-        f"Worst of {LONG[0]:,} values (seed {LONG[1]}) and of {SHORT[0]:,} (seed {SHORT[1]}), rounded up. Half a unit "
-        "is on record where less was found."
+        f"Worst of {LONG[0]:,} values (seed {LONG[1]}) and of {SHORT[0]:,} (seed {SHORT[1]}) on {len(PROCESSORS)} "
+        "kinds of x86 processors, rounded up. Half a unit is on record where less was found."
     )
     columns = (Column("Quantity"), Column("Worst error", "ulp"), Column("Limit", "ulp"), Column("Met where"))
     return {"worst errors": Data(columns, rows, "Worst errors on record.", (note,))}
