@@ -4,6 +4,7 @@ import ctypes
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from glob import escape
 from pathlib import Path
 
 HERE, EXCHANGE = -100, 2
@@ -14,11 +15,16 @@ HERE, EXCHANGE = -100, 2
 def replacing(path: Path) -> Iterator[Path]:
     """Give a name beside ``path`` to write to. The file takes the place of ``path`` at the end, if nothing is raised.
 
-    Missing folders are made. An OSError names ``path``, not the other name.
+    Missing folders are made; what a process on this machine has left that was killed while it wrote is removed. The
+    other name ends in the same suffix. An OSError names ``path``, not the other name.
     """
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    part = _unfinished(path, os.getpid())
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        for left in path.parent.glob(f".unfinished-*-{escape(path.name)}"):
+            pid = left.name.split("-")[1]
+            if left == _unfinished(path, pid) and pid.isdecimal() and not _alive(int(pid)):
+                left.unlink(missing_ok=True)
         yield part
         part.replace(path)
     except OSError as error:
@@ -28,6 +34,20 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+def _unfinished(path: Path, pid: int | str) -> Path:
+    return path.with_name(f".unfinished-{pid}-{path.name}")
+
+
+def _alive(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        return True  # another user's, or no number of a process
+    return True
 
 
 def exchange(new: Path, old: Path) -> bool:
@@ -60,7 +80,7 @@ def named(path: Path) -> Iterator[None]:
 
 def check(path: Path) -> None:
     """Raise OSError if no file can be written there; what is there stays as it is."""
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    part = _unfinished(path, os.getpid())
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         part.touch()

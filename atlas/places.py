@@ -69,6 +69,7 @@ def settle_matplotlib() -> None:
     Its list of fonts is kept there, and nothing is said of its being made. To be called before it is loaded.
     """
     logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
+    logging.getLogger("matplotlib.animation").setLevel(logging.CRITICAL)  # what it says is in what it raises
     if "MPLCONFIGDIR" in os.environ or os.access(os.path.expanduser("~"), os.W_OK):  # noqa: PTH111  Path.home raises without HOME
         return
     os.environ["MPLCONFIGDIR"] = str((own_folder() or _passing()) / "matplotlib")

@@ -1,9 +1,7 @@
-"""A report composed with its figures drawn in some format, and a folder of files put in its place as a whole."""
+"""A report composed with its figures drawn in some format, and whether a folder may be replaced."""
 
-import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
-from tempfile import mkdtemp
 from typing import TYPE_CHECKING
 
 from atlas.build import figures
@@ -18,8 +16,6 @@ if TYPE_CHECKING:
     from atlas.report.document import Document
     from atlas.report.picture import Picture
 
-UNFINISHED = ".atlas-unfinished-"
-"""How the folder begins that files stand in until all are written, beside the one that they are for."""
 Progress = Callable[[int, int, str], None]
 
 
@@ -68,18 +64,3 @@ def check_place(place: Path, own: str) -> None:
     """Raise AtlasError for a folder that is not ours to replace: a link, or one with files but not that of ours."""
     if place.is_symlink() or (place.exists() and not (place / own).is_file() and any(place.iterdir())):
         raise AtlasError(f"{place} holds something else than was made here: move it, or choose another --out.")
-
-
-def replace(place: Path, contents: Mapping[str, bytes]) -> None:
-    """Put a folder with these files in the place of the one that is there."""
-    place.parent.mkdir(parents=True, exist_ok=True)
-    work = Path(mkdtemp(dir=place.parent, prefix=UNFINISHED))
-    try:
-        for name, content in contents.items():
-            (work / "new" / name).parent.mkdir(parents=True, exist_ok=True)
-            (work / "new" / name).write_bytes(content)
-        if place.exists():
-            place.rename(work / "old")
-        (work / "new").rename(place)
-    finally:
-        shutil.rmtree(work, ignore_errors=True)

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import mkdtemp
 
-from atlas.files import exchange
+from atlas.files import exchange, named
 
 UNFINISHED = ".atlas-"
 """How the folder begins that files stand in until all of them are written, on the disk that they are for."""
@@ -22,6 +22,29 @@ def publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str) -> No
     what else it leaves is removed by the next one. Two builds at once take turns.
     """
     files = {path: content for contents in made.values() for path, content in contents.items()}
+    with _written(files, out) as work:
+        if "html" in made and exchange(work / name, out / name):
+            _place(work, out, [path for path in files if not path.startswith(f"{name}/")])
+            return
+        _place(work, out, files)
+        if "html" in made:
+            _remove_others(out, out / name, files)
+
+
+def replace(place: Path, files: Mapping[str, bytes]) -> None:
+    """Put a folder with these files in the place of the one that is there, at once if the system can do that.
+
+    Two processes at once take turns. An OSError names the folder where it would name nothing.
+    """
+    with named(place), _written({f"new/{path}": content for path, content in files.items()}, place.parent) as work:
+        if not exchange(work / "new", place):
+            place.rename(work / "old")
+            (work / "new").rename(place)
+
+
+@contextmanager
+def _written(files: Mapping[str, bytes], out: Path) -> Iterator[Path]:
+    """Give a folder with these files, on the disk of `out` and in its turn; what a killed process left is removed."""
     out.mkdir(parents=True, exist_ok=True)
     with _turn(out):
         for left in out.glob(f"{UNFINISHED}*"):
@@ -31,12 +54,7 @@ def publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str) -> No
             for path, content in files.items():
                 (work / path).parent.mkdir(parents=True, exist_ok=True)
                 (work / path).write_bytes(content)
-            if "html" in made and exchange(work / name, out / name):
-                _place(work, out, [path for path in files if not path.startswith(f"{name}/")])
-                return
-            _place(work, out, files)
-            if "html" in made:
-                _remove_others(out, out / name, files)
+            yield work
         finally:
             shutil.rmtree(work, ignore_errors=True)
 

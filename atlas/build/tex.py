@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from atlas.build.composed import Progress, check_place, composed, replace
+from atlas.build.composed import Progress, check_place, composed
+from atlas.build.publish import replace
 from atlas.report.find import find
 
 if TYPE_CHECKING:

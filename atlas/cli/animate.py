@@ -5,6 +5,7 @@ from typing import Any
 
 import click
 
+from atlas import files
 from atlas.cli.figure import FigureCommand, setting
 from atlas.cli.options import Many, examples, out_option, style_option
 from atlas.cli.progress import bar
@@ -63,9 +64,10 @@ def command(
     animation.check(kind, fps)
     parameters = dict(setting(text) for text in settings)
     moves = through(over) if over is not None else ("t", None)
+    file = out / f"{Path(name).stem}.{kind}"
+    files.check(file)
     with bar("frames") as tell:
         moving = animation.animate(name, *moves, fps=fps, style=style, progress=tell, **parameters)
-        file = out / f"{Path(name).stem}.{kind}"
         animation.save(moving, file, kind, fps, dpi)
     click.echo(file)
 

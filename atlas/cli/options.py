@@ -89,6 +89,8 @@ class Place(click.Path):
         there = next((folder for folder in place.parents if os.path.lexists(folder)), Path())
         if not there.is_dir():
             self.fail(f"there is no folder to make {str(value)!r} in: {str(there)!r} is a file.", param, ctx)
+        if place.is_symlink() and not place.exists():
+            self.fail(f"{str(value)!r} is a link to nothing.", param, ctx)
         if not os.access(place if place.is_dir() else there, os.W_OK | os.X_OK):
             self.fail(f"{str(value)!r} cannot be written: its folder is read-only.", param, ctx)
         return place

@@ -3,12 +3,13 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from subprocess import CalledProcessError
 from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 
+from atlas import files
 from atlas.core.inputs import positive
 from atlas.draw.panels import laid_out, to_figure
 from atlas.draw.style import context
@@ -161,14 +162,18 @@ def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None
 
 
 def save(moving: FuncAnimation, path: Path, kind: str, fps: float = FPS, dpi: float = DPI) -> None:
-    """Write an animation as an mp4, gif or apng, whole or not at all. Raises AtlasError where `check` does."""
+    """Write an animation as an mp4, gif or apng, whole or not at all.
+
+    Raises AtlasError where `check` does, and OSError where the file can't be written.
+    """
     check(kind, fps)
     writer = FFMpegWriter(fps=fps, codec="h264") if kind == "mp4" else PillowWriter(fps=fps)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(prefix=f".{path.name}.", dir=path.parent) as folder:
-        part = Path(folder) / f"part.{kind}"
-        moving.save(part, writer=writer, dpi=dpi)
-        part.replace(path)
+    with files.named(path), files.replacing(path) as part:
+        try:
+            moving.save(part, writer=writer, dpi=dpi)
+        except CalledProcessError as error:
+            said = next(iter(error.stderr.splitlines()), "it does not say why")
+            raise OSError(f"ffmpeg could not write {path}: {said}") from error
 
 
 def check(kind: str, fps: float) -> None:

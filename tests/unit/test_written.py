@@ -1,0 +1,164 @@
+"""What commands write stands whole in its place, or not at all; what stops them is one line."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from atlas import files
+from atlas.build.publish import replace
+
+REPORT = """
+name = "small"
+title = "A Small Report"
+[parameters.bodies.shell]
+title = "shell"
+ratio = 1.5
+[parameters.fields.oblique]
+title = "oblique field"
+prime = [1.0, 2.0]
+[[pages]]
+slug = "index"
+title = "The page"
+[[pages.blocks]]
+kind = "table"
+table = "points"
+body = "shell"
+field = "oblique"
+parameters = { omega2 = [0.7] }
+"""
+WRITERS = {
+    "page --ratio 1.3 --field 1 2 --omega2 0.7": "motion-ratio-1.3-field-1-2-omega2-0.7.toml",
+    "tex small.toml": "small",
+    "data small.toml": "small",
+    "animate trochoids --over turns=1:3:2 --dpi 20": "trochoids.gif",
+    "figure trochoids --for aps --format svg": "trochoids-aps.svg",
+}
+"""Commands, each with the first thing that it puts into its folder."""
+
+
+def run(folder: Path, words: str, program: str = "", **more: str) -> subprocess.CompletedProcess[str]:
+    """Run a command in a folder that has the report, in a process of its own."""
+    (folder / "small.toml").write_text(REPORT, encoding="utf-8")
+    surroundings = os.environ | {"ATLAS_CACHE": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": "1"} | more
+    command = [sys.executable, "-c", f"{program}\nimport sys; from atlas.cli import main; main(sys.argv[1:])"]
+    return subprocess.run(
+        [*command, *words.split(), "--out", "out"],
+        cwd=folder, env=surroundings, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+
+
+def one_line(done: subprocess.CompletedProcess[str], status: int, *words: str) -> None:
+    """Hold an answer against what every refusal is."""
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (status, "", 1), done.stderr
+    assert all(word in done.stderr for word in words), done.stderr
+
+
+@pytest.mark.parametrize(("words", "name"), WRITERS.items(), ids=[words.split()[0] for words in WRITERS])
+def test_what_is_in_the_way_stays(tmp_path: Path, words: str, name: str) -> None:
+    """A link to nothing, a folder in the place of a file, a disk without room: one line that names the place."""
+    (tmp_path / "out").symlink_to("nowhere")
+    one_line(run(tmp_path, words), 2, "'out' is a link to nothing")
+    (tmp_path / "out").unlink()
+    (tmp_path / "out" / name).mkdir(parents=True)
+    (tmp_path / "out" / name / "own.txt").write_text("mine")
+    done = run(tmp_path, words)
+    one_line(done, 2 if name == "small" else 1, f"out/{name}")
+    assert [path.name for path in (tmp_path / "out").iterdir()] == [name]
+    assert (tmp_path / "out" / name / "own.txt").read_text() == "mine"
+
+
+@pytest.mark.parametrize("words", [words for words in WRITERS if not words.startswith("figure")])
+def test_a_disk_without_room_leaves_what_was_there(tmp_path: Path, words: str) -> None:
+    """One line names the file or the folder; a figure is in the cache by then, and the system copies it from there."""
+    assert run(tmp_path, words).returncode == 0
+    before = {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))"
+    one_line(run(tmp_path, words.replace("turns=1", "turns=2"), full), 1, "File too large: out/")
+    assert {path: path.read_bytes() for path in (tmp_path / "out").rglob("*") if path.is_file()} == before
+
+
+@pytest.mark.parametrize("reads", ["", "cat >/dev/null; "])
+def test_an_ffmpeg_that_fails_is_one_line(tmp_path: Path, reads: str) -> None:
+    """What it says is passed on, whether it goes at once or after the last frame."""
+    program = tmp_path / "ffmpeg"
+    program.write_text(f"#!/bin/sh\n{reads}echo 'No space left on device' >&2\nexit 1\n")
+    program.chmod(0o755)
+    words = "animate cone --over azimuth=0:80:2 --dpi 20 --format mp4"
+    done = run(tmp_path, words, PATH=f"{tmp_path}:{os.environ['PATH']}")
+    one_line(done, 1, "ffmpeg could not write out/cone.mp4: No space left on device")
+    assert not list((tmp_path / "out").iterdir())
+
+
+def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
+    """The next one that writes the same file removes it, but nothing of one that lives or of another file."""
+    program = (
+        "import sys, time; from pathlib import Path; from atlas import files\n"
+        "with files.replacing(Path(sys.argv[1])) as part:\n"
+        "    part.write_text('half'); print('there', flush=True); time.sleep(60)"
+    )
+    path = tmp_path / "a[1].gif"
+
+    def half_done() -> subprocess.Popen[str]:
+        process = subprocess.Popen([sys.executable, "-c", program, str(path)], stdout=subprocess.PIPE, text=True)
+        assert process.stdout
+        assert process.stdout.readline() == "there\n"
+        return process
+
+    other = tmp_path / f".unfinished-999999999-b-{path.name}"
+    other.write_text("of the user")
+    with half_done() as dead, half_done() as alive:
+        dead.kill()
+        dead.wait()
+        assert len(list(tmp_path.iterdir())) == 3
+        files.write(path, "whole")
+        assert {one.name for one in tmp_path.iterdir()} == {
+            path.name,
+            other.name,
+            f".unfinished-{alive.pid}-{path.name}",
+        }
+        alive.kill()
+    assert path.read_text() == "whole"
+
+
+def test_folders_take_turns_and_are_whole_at_any_moment(tmp_path: Path) -> None:
+    """Two processes write one folder over and over: a reader finds it there, with the files of one of them."""
+    program = (
+        "import sys; from pathlib import Path; from atlas.build.publish import replace\n"
+        "for _ in range(60): replace(Path('out/x'), {name: sys.argv[1].encode() for name in ('a', 'b/c')})"
+    )
+    replace(tmp_path / "out" / "x", {"a": b"0", "b/c": b"0"})
+    both = [subprocess.Popen([sys.executable, "-c", program, word], cwd=tmp_path) for word in "12"]
+    seen = set()
+    while any(process.poll() is None for process in both):
+        assert (tmp_path / "out" / "x").is_dir()
+        seen.add((tmp_path / "out" / "x" / "a").read_bytes())
+        time.sleep(0.001)
+    assert [process.returncode for process in both] == [0, 0]
+    assert seen <= {b"0", b"1", b"2"}
+    assert len(seen) > 1
+    left = {(tmp_path / "out" / "x" / name).read_bytes() for name in ("a", "b/c")}
+    assert len(left) == 1
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["x"]
+
+
+def test_a_folder_that_was_being_written_is_cleared_by_the_next(tmp_path: Path) -> None:
+    """Killed between its files, it leaves the folder as it was; the next one clears what is left beside it."""
+    program = (
+        "import os, signal; from pathlib import Path; from atlas.build.publish import replace\n"
+        "def killed(*_): os.kill(os.getpid(), signal.SIGKILL)\n"
+        "import atlas.build.publish as publish; publish.exchange = killed\n"
+        "replace(Path('out/x'), {'a': b'new'})"
+    )
+    replace(tmp_path / "out" / "x", {"a": b"old"})
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=False)
+    assert done.returncode == -signal.SIGKILL
+    assert (tmp_path / "out" / "x" / "a").read_bytes() == b"old"
+    assert len(list((tmp_path / "out").iterdir())) == 2
+    replace(tmp_path / "out" / "x", {"a": b"new"})
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["x"]
+    assert (tmp_path / "out" / "x" / "a").read_bytes() == b"new"
