@@ -8,14 +8,16 @@ in turns, n the whole ones that are left out of f t, and theta_k the angles of t
 """
 
 from collections.abc import Callable
+from itertools import chain
 from typing import Any
 
 import numpy as np
-from flint import arb
+from flint import acb, arb
 
 from atlas.core.arithmetic.grid import HUGE
 from atlas.core.arithmetic.phase import EVEN, Phases
 from atlas.core.arithmetic.words import TURN, middle
+from atlas.core.clebsch_rounding import Rounding
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import BLOCK, combined, evaluate
 from atlas.core.nutation.grid import moments
@@ -30,14 +32,6 @@ from atlas.formulas.numbers import workprec
 
 PART = 768
 """Times whose sums are made at once, so that they stay in the second-level cache."""
-
-CELL, CUTS, WIDER = 24, 6, 1.2
-"""Cells along each phase in which rounding errors are bounded, how often they are cut, and how much larger than in
-their middles the bound may be."""
-
-EXPONENTIAL, QUOTIENT = 5.0, 6.0
-"""Units of 2^-53 by which an exponential with what its argument lacks is wrong, if the library's and its sines are
-within an ulp, and a quotient."""
 
 UPPER = 24
 """Binary digits of upper words of angles and of their factors: sums of two of their products are exact."""
@@ -83,68 +77,30 @@ class ThetaKernel:
             about = angles[0] * f[0] + angles[1] * f[1] - self.b
             self.frequencies = [x * arb(rate) for x in (TURN * f[0], TURN * f[1], about)]
             self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
-            self.into: Array = np.array([[complex_of(2 * into[0][k]), complex_of(into[1][k])] for k in range(2)]).T
-            unit = 2.0 ** (np.ceil(np.log2(abs(self.into).max())) - UPPER)
-            self.upper = np.round(self.into / unit) * unit
-            self.lower = self.into - self.upper
-            self.turning = np.array([complex_of(x - a) for x, a in zip(lines, angles, strict=True)]) / np.pi
+            turning = [(x - a) / arb.pi() for x, a in zip(lines, angles, strict=True)]
+            ways = [[2 * x for x in into[0]], into[1], turning]
+            rounded: Array = np.array([[complex_of(x) for x in row] for row in ways])
+            unit = 2.0 ** (np.ceil(np.log2(abs(rounded).max())) - UPPER)
+            self.upper: Array = np.round(rounded / unit) * unit
+            lower = [complex_of(x - acb(y)) for x, y in zip(chain(*ways), self.upper.flat, strict=True)]
+            self.lower: Array = np.reshape(lower, (3, 2))
             start = (2 * theta.start[0], theta.start[1])
             *forms, M1, M2, M3 = theta.forms
             W = [x.over(I) for x, I in zip((M1, M2, M3), motion.moments, strict=True)]
             line = np.linspace(-HALF * np.pi, HALF * np.pi, 13)
             region = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
-            self.sums = Sums(theta.hat, [*forms, *W], start, self.into @ region)
+            self.sums = Sums(theta.hat, [*forms, *W], start, rounded[:2] @ region)
             ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
-            n = [float((x / self.b).mid()) for x in theta.field]
+            n = [float((x / arb(motion.square)).mid()) for x in theta.field]
         self.rate, self.size = rate, size / rate
-        self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey) for j in range(3)])
-        along = np.array([np.outer(n, np.eye(3)[j]).ravel() for j in range(3)]) / float(self.b.mid())
-        self.entries = np.concatenate([self.entries, along])
-        self.accuracy = self._accuracy()
+        self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
+        self.rounding = Rounding(self.sums, rounded[:2], rounded[2], float(self.b.mid()), self.size)
+        self.accuracy = self.rounding.accuracy()
         self.proved: float | None = None
         tau = np.array([[complex_of(theta.tau[i, j]) for j in range(2)] for i in range(2)])
         self.riemann_matrix = np.where(abs(tau.real) < NOTHING, 0, tau.real) + 1j * np.where(
             abs(tau.imag) < NOTHING, 0, tau.imag
         )
-
-    def _accuracy(self) -> float:
-        """Return a bound on rounding errors of R, and of K and Omega beside the largest rate, to first order.
-
-        It holds at all phases: in cells of them, which are cut in four where that makes it smaller.
-        """
-        half = np.pi * HALF / CELL
-        line = np.linspace(half - np.pi * HALF, np.pi * HALF - half, CELL)
-        cells = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
-        enough, found = WIDER * float(self._wrong(cells, 0.0).max()), 0.0
-        for last in range(CUTS + 1):
-            wrong = self._wrong(cells, half)
-            done = (wrong <= enough) | (last == CUTS)
-            found = max(found, float(wrong[done].max(initial=0.0)))
-            half /= 2
-            corners = half * np.array([[1, 1, -1, -1], [1, -1, 1, -1]])
-            cells = (cells[:, ~done, None] + corners[:, None]).reshape(2, -1)
-            if not cells.size:
-                break
-        return found * 2.0**-53
-
-    def _wrong(self, cells: FloatArray, half: float) -> FloatArray:
-        """Return bounds on errors in cells of phases about some (2, m), in units of 2^-53.
-
-        Forms and slopes are bounded there by their values in the middle and by how their terms vary.
-        """
-        x = self.into @ cells
-        values, (errors, varying, slopes, bent) = self.sums.at(x), self.sums.rounding(x, half * self.into)
-        D = abs(values[3]) - varying[3]
-        quotients = (abs(values) + varying) / D
-        turned = (varying + quotients * varying[3]) / abs(values[3])  # by how much quotients vary
-        changes = abs(slopes - values / values[3] * slopes[:, 3:4]) + bent + quotients * bent[:, 3:4]
-        changes = (changes + turned * abs(slopes[:, 3:4])) / D
-        wrong = (errors + quotients * errors[3]) / D + QUOTIENT * quotients + EXPONENTIAL * changes.sum(axis=0)
-        turning = np.exp(-(self.turning @ cells).imag + half * abs(self.turning.imag).sum())
-        b, size = float(self.b.mid()), self.size
-        attitude = np.hypot(wrong[:3] * turning, wrong[4:7] / b).max(axis=0)  # e_x, e_y and B' are orthogonal
-        vectors = (wrong[4:7] + wrong[7:10]).max(axis=0) / size
-        return np.where(D > 0, np.maximum(attitude + 8, vectors), np.inf)
 
     def prove(self, theta: ThetaMotion, torus: Torus, periods: tuple[Period, Period]) -> None:
         """Prove the closed form for this motion, if that can be done: see `atlas.exact.clebsch_proof`."""
@@ -191,10 +147,13 @@ class ThetaKernel:
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, PART):
                 half, rest = self._phases(t[i : i + PART], None if low is None else low[i : i + PART])
-                x, y, z, D, *K = self.sums.at(*self._places(half[:2], rest[:2]), slice(0, 7))
-                angle = self.turning @ half[:2]
-                N = np.array([x, y, z]) * (np.exp(1j * (2 * half[2] + angle)) / D)
-                combined(np.concatenate([N.real, N.imag, (np.array(K) / D).real]), weights, rows[i : i + PART])
+                (*x, angle), (*less, lacking) = self._places(half, rest)
+                found = self.sums.at(np.array(x), np.array(less), slice(0, 7))
+                inverse = _inverse(found[3])
+                turned = np.exp(1j * angle)
+                turned += turned * (1j * lacking)
+                N = found[:3] * (turned * inverse)
+                combined(np.concatenate([N.real, N.imag, _real(found[4:], inverse)]), weights, rows[i : i + PART])
 
         return fill
 
@@ -204,26 +163,45 @@ class ThetaKernel:
         def fill(t: FloatArray, rows: FloatArray) -> None:
             for i in range(0, t.size, PART):
                 half, rest = self._phases(t[i : i + PART])
-                D, *found = self.sums.at(*self._places(half[:2], rest[:2]), part)
-                combined((np.array(found) / D).real * self.rate, weights, rows[i : i + PART])
+                x, less = self._places(half, rest)
+                D, *found = self.sums.at(x[:2], less[:2], part)
+                combined(_real(np.array(found), _inverse(D)) * self.rate, weights, rows[i : i + PART])
 
         return fill
 
     def _places(self, half: FloatArray, rest: FloatArray) -> tuple[Array, Array]:
-        """Return the arguments of the sums at half phases and what they lack, in two words."""
-        upper = half + CUT
+        """Return the arguments of the sums, and the angle by which N turns, at half phases: two words, (3, m)."""
+        upper = half[:2] + CUT
         upper -= CUT
         x = self.upper[:, :1] * upper[0] + self.upper[:, 1:] * upper[1]  # exact
-        low = self.into @ (half - upper + rest) + self.lower @ upper
-        found = x + low
-        # the sum's rounding error, by Knuth
-        part = found - x
-        return found, (x - (found - part)) + (low - part)
+        both = self.lower + self.upper
+        low = both @ (half[:2] - upper + rest[:2]) + self.lower @ upper
+        low[2] += 2 * rest[2]
+        x[2], more = _sum(x[2], 2 * half[2] + 0j)
+        low[2] += more
+        return _sum(x, low)
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
         """Return half the phases less whole turns, in radians, and what rounding left out of them."""
         half, rest, *_ = self.phases.reduced(t, np.empty((8, 3, t.size)), low)
         return half, rest
+
+
+def _sum(x: Array, y: Array) -> tuple[Array, Array]:
+    """Return a sum and what its rounding left out, by Knuth."""
+    s = x + y
+    part = s - x
+    return s, (x - (s - part)) + (y - part)
+
+
+def _inverse(D: Array) -> Array:
+    """Return 1/D, by operations whose errors are counted."""
+    return D.conj() / (D.real * D.real + D.imag * D.imag)
+
+
+def _real(x: Array, y: Array) -> FloatArray:
+    """Return the real part of a product."""
+    return x.real * y.real - x.imag * y.imag
 
 
 def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:

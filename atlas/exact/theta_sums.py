@@ -18,6 +18,7 @@ from flint import acb, acb_mat, arb
 from numpy.typing import NDArray
 
 from atlas.exact.clebsch_periods import complex_of
+from atlas.exact.powers import PRODUCT, powers, wrong
 
 CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
 """Pairs (e, d): theta[c,e; 0,d] for c = 0, 1."""
@@ -25,9 +26,9 @@ CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
 LEFT_OUT = 46.0
 """Logarithm of what terms that are left out are smaller by than the largest one, wherever they are summed."""
 
-PRODUCT, INVERSE, WEIGHT = 2.24, 3.0, 2.1
-"""Units of 2^-53 by which a complex product is wrong beside itself, the inverse of a base of powers, and a weight with
-the sum over Q, which is rounded once; what the tables leave out and sums of lower words add is below 0.1."""
+WEIGHT = 1.1
+"""Units of 2^-53 by which a sum over Q, which is rounded once, is wrong: 0.1 are for what lower words and sums of them
+lack, and for terms that are left out."""
 
 SPLIT = 22
 """Binary digits of the upper words of weights and of powers: in sums of 2^7 of their products no digit is lost."""
@@ -83,12 +84,15 @@ class Sums:
         self.low, self.high = places.min(axis=0), places.max(axis=0)
         self.centre = np.round((self.low + self.high) / 2).astype(int)
         self.table: Array = np.zeros((len(forms), *(self.high - self.low + 1)), complex)
+        rest = np.zeros_like(self.table)
         rows, columns = (range(int(a), int(b) + 1) for a, b in zip(self.low, self.high, strict=True))
         box = list(product(rows, columns))
         for f, form in enumerate(forms):
             for P, Q, weight in form.terms(hat, origin, box):
-                self.table[f, P - self.low[0], Q - self.low[1]] = complex_of(weight)
-        self._split(region)
+                place = f, P - self.low[0], Q - self.low[1]
+                self.table[place] = complex_of(weight)
+                rest[place] = complex_of(weight - acb(self.table[place]))
+        self._split(region, rest)
 
     def at(self, x: Array, rest: Array | None = None, part: slice = ALL) -> Array:
         """Return the forms at places x + rest (2, m), the rest being tiny: shape (forms, m).
@@ -104,70 +108,52 @@ class Sums:
         found = np.empty((len(upper), w.shape[1]), np.complex128)
         step = max(UNTHREADED // (upper.shape[1] * upper.shape[2]), 1)
         for i in range(0, w.shape[1], step):
-            first, second = (self._powers(x, k) for k, x in enumerate(w[:, i : i + step]))
+            all_powers = powers(np.array([w.real, w.imag])[:, :, i : i + step], self.reach)
             # real numbers, in blocks: the library threads small products of complex ones, which wait for each other
-            powers = np.concatenate([second.real, second.imag])
-            high = powers + self.cut
+            second = all_powers[:, self.columns, 1].reshape(self.cut.size, -1)
+            high = second + self.cut
             high -= self.cut
-            both = lower @ powers
-            powers -= high
-            both += upper @ powers
+            both = lower @ second
+            second -= high
+            both += upper @ second
             both += upper @ high
             x, y = both[:, :P], both[:, P:]
-            first = first[self.order]
-            cos, sin = np.ascontiguousarray(first.real), np.ascontiguousarray(first.imag)
+            cos, sin = all_powers[:, self.rows, 0]
             # along an axis that is not the last, numbers are added one after the other
             found.real[:, i : i + step] = np.add.reduce(x * cos - y * sin, axis=1)
             found.imag[:, i : i + step] = np.add.reduce(x * sin + y * cos, axis=1)
         return found
 
-    def _split(self, region: Array) -> None:
-        """Cut the weights, and find where powers are cut in a region, into two words each."""
+    def _split(self, region: Array, rest: Array) -> None:
+        """Cut the weights and what they lack, and find where powers are cut in a region, into two words each."""
         P = np.arange(self.low[0], self.high[0] + 1) - self.centre[0]
         self.order = np.argsort(-abs(P), kind="stable")
         Q = np.arange(self.low[1], self.high[1] + 1) - self.centre[1]
+        self.reach = int(max(abs(P).max(), abs(Q).max()))
+        self.rows, self.columns = P[self.order] + self.reach, slice(Q[0] + self.reach, Q[-1] + self.reach + 1)
         sizes = np.exp2(np.ceil(np.log2(np.exp(-np.outer(Q, region[1].imag)).max(axis=1))) + 1)  # a little beyond it
         sizes = np.tile(sizes, 2)
         self.cut = (1.5 * 2.0 ** (52 - SPLIT) * sizes)[:, None]
-        table = self.table[:, self.order]
-        words = np.block([[table.real, -table.imag], [table.imag, table.real]])
+        words, rest = (
+            np.block([[table.real, -table.imag], [table.imag, table.real]])
+            for table in (self.table[:, self.order], rest[:, self.order])
+        )
         largest = (abs(words) * sizes).max(axis=-1, keepdims=True) + np.finfo(float).tiny
         unit = np.exp2(np.ceil(np.log2(largest)) - SPLIT) / sizes
         self.upper = np.round(words / unit) * unit
-        self.lower = words - self.upper
+        self.lower = words - self.upper + rest
 
-    def rounding(self, x: Array, ways: Array) -> tuple[NDArray[np.float64], ...]:
-        """Return what bounds forms and their errors in cells about places x (2, m), x - `ways` to x + `ways` (2, n).
+    @property
+    def steps(self) -> NDArray[np.float64]:
+        """Units of 2^-53 by which each term is wrong beside itself, with what sums add to it, (P, Q).
 
-        That is: bounds on errors, in units of 2^-53, and on how forms vary, (forms, m); the slopes there (2, forms, m)
-        and how they vary. Errors of exp(i x) are common to all forms: they are as if x were another, and count by the
-        slopes of quotients. Others are those of its powers, one product each, of the weights and of both sums.
+        That is, if exponentials were exact: by weights with the sum over Q, by powers, by one product of both, and by
+        the sum over P.
         """
         P, Q = (np.arange(a, b + 1) - c for a, b, c in zip(self.low, self.high, self.centre, strict=True))
-        change = sum(abs(np.multiply.outer(P * a, np.ones(len(Q))) + Q * b) for a, b in ways.T)
-        table = abs(self.table)
         rank = np.empty(len(P))
         rank[self.order] = np.arange(len(P), 0, -1)
-        powers = sum(np.where(n < 0, INVERSE * -n, 0) + PRODUCT * np.maximum(abs(n) - 1, 0) for n in np.ix_(P, Q))
-        steps = WEIGHT + PRODUCT + rank[:, None] + powers
-        slopes = np.array([self.table * P[:, None], self.table * Q])
-        varied = np.array([table * steps * np.exp(change), *(x * np.expm1(change) for x in (table, *abs(slopes)))])
-        first, second = (np.exp(np.multiply.outer(1j * n, y)) for n, y in zip((P, Q), x, strict=True))
-        bent = np.einsum("kfpm,pm->kfm", varied @ abs(second), abs(first))
-        return bent[0], bent[1], np.einsum("kfpm,pm->kfm", slopes @ second, first), bent[2:]
-
-    def _powers(self, w: Array, k: int) -> Array:
-        """Return the powers of w from the lowest to the highest, less the central one."""
-        below, above = int(self.centre[k] - self.low[k]), int(self.high[k] - self.centre[k])
-        found = np.empty((below + above + 1, len(w)), complex)
-        found[below] = 1.0
-        for n in range(below + 1, below + above + 1):
-            np.multiply(found[n - 1], w, out=found[n])
-        if below:
-            inverse = w.conj() / (w.real * w.real + w.imag * w.imag)
-            for n in range(below - 1, -1, -1):
-                np.multiply(found[n + 1], inverse, out=found[n])
-        return found
+        return np.asarray((WEIGHT + PRODUCT + rank + wrong(P))[:, None] + wrong(Q))
 
 
 def needed(

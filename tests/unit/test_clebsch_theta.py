@@ -14,13 +14,14 @@ from flint import acb, arb, ctx, fmpq
 import atlas
 from atlas.cli.app import atlas as command
 from atlas.core import asymmetric as kernels
-from atlas.core import certified
+from atlas.core import certified, clebsch_rounding
 from atlas.core import clebsch_theta as core
 from atlas.core.asymmetric import SingleAsymmetric
 from atlas.core.clebsch_theta import ThetaKernel, closed_form
 from atlas.exact import clebsch_theta, torus
 from atlas.exact.asymmetric import AsymmetricMotion as Balls
 from atlas.exact.clebsch_lattice import Lattice
+from atlas.exact.powers import powers, wrong
 
 EPS = 2.0**-52
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
@@ -76,8 +77,10 @@ def test_bounds_on_sums_hold_and_need_every_word(slip: str, monkeypatch: pytest.
     rng = np.random.default_rng(4)
     x, rest = rng.uniform(-1.5, 1.5, (2, 2, 40)) * np.array([1.0, 2.0**-48])[:, None, None]
     found = sums.at(x + 0j, (rest + 0j) * (slip != "rest"))
-    errors, _, slopes, _ = sums.rounding(x + 0j, np.zeros((2, 2)))
     P, Q = (np.arange(a, b + 1) - c for a, b, c in zip(sums.low, sums.high, sums.centre, strict=True))
+    errors = (abs(sums.table) * sums.steps).sum(axis=(1, 2))  # x is real
+    first, second = np.exp(1j * np.outer(P, x[0])), np.exp(1j * np.outer(Q, x[1]))
+    slopes = [np.einsum("fpq,pm,qm->fm", sums.table * n, first, second) for n in (P[:, None], Q)]
     worst = 0.0
     with ctx.workprec(200):
         for i in range(40):
@@ -85,10 +88,37 @@ def test_bounds_on_sums_hold_and_need_every_word(slip: str, monkeypatch: pytest.
             powers = [[(acb(0, 1) * int(n) * z).exp() for n in row] for row, z in zip((P, Q), y, strict=True)]
             for f, table in enumerate(sums.table):
                 true = sum(acb(complex(table[p, q])) * powers[0][p] * powers[1][q] for p, q in np.argwhere(table))
-                allowed = errors[f, i] + core.EXPONENTIAL * abs(slopes[:, f, i]).sum()
+                allowed = errors[f] + clebsch_rounding.EXPONENTIAL * sum(abs(slope[f, i]) for slope in slopes)
                 worst = max(worst, float(abs(true - acb(complex(found[f, i]))).upper()) * 2.0**53 / allowed)
     assert (worst < 1) == (not slip)
     assert worst > 0.02
+
+
+def test_bounds_in_cells_are_those_at_their_points() -> None:
+    """In a cell the bound is no less than at nine points of it, and that on all phases at most 1.1 of that at 10^4."""
+    rounding = kernel(*QUICK).rounding
+    rng = np.random.default_rng(7)
+    cells, half = rng.uniform(-1.6, 1.6, (2, 60)), 0.08
+    inside = cells[:, :, None] + half * rng.uniform(-1, 1, (2, 60, 9))
+    assert (rounding.wrong(inside.reshape(2, -1), 0.0).reshape(60, 9) <= rounding.wrong(cells, half)[:, None]).all()
+    line = np.linspace(-0.55 * np.pi, 0.55 * np.pi, 100)
+    most = rounding.wrong(np.stack(np.meshgrid(line, line)).reshape(2, -1), 0.0).max() * 2.0**-53
+    assert most <= rounding.accuracy() <= 1.1 * most
+
+
+def test_powers_are_wrong_by_what_is_said_at_most() -> None:
+    """Powers from -12 to 12 of 60 numbers are those of 300 bits within their bounds, and hardly better than those."""
+    angle, size = np.random.default_rng(8).uniform(-4, 4, (2, 2, 60))
+    w = np.array([np.cos(angle), np.sin(angle)]) * np.exp(size)
+    n, found, worst = np.arange(-12, 13), powers(w, 12), np.zeros(25)
+    with ctx.workprec(300):
+        for k, i in product(range(2), range(60)):
+            base = acb(*w[:, k, i])
+            for j, true in enumerate(base ** int(m) for m in n):
+                apart = abs(true - acb(*found[:, j, k, i])) / abs(true)
+                worst[j] = max(worst[j], float(apart.mid()) * 2.0**53)
+    assert (worst <= wrong(n)).all()
+    assert (worst[wrong(n) > 0] > 0.3).all()
 
 
 def test_columns_fields_and_grids_are_parts_of_the_matrix() -> None:
