@@ -16,6 +16,8 @@ from atlas.study.simulate import simulate
 SIZE, COLUMNS = 56.0, 3
 STEPS = 40
 """Points of a trace for each radian of the fastest of the rates at the start."""
+MOST = 40
+"""Turns, of the rates across the axis and of the field together, that one sphere can show."""
 RANGES = {"stop": (0.1, 200.0)}
 
 
@@ -32,6 +34,12 @@ def scene(
     """Draw R_3(t) of the bodies (``first``, 1, ``ratio``) up to the time ``stop``; B stands upright."""
     if not 0 < len(first) <= 6 or not any(field):
         raise DomainError(f"figure flattening takes one to six values of I1 and a field, not {first} and {field}.")
+    longest = 2 * np.pi * MOST / float(np.abs([*field, *omega[:2]]).sum())
+    if stop > longest:
+        raise DomainError(
+            f"figure flattening: beyond {MOST} turns of the axis nothing can be told apart: give a stop up to "
+            f"{longest:.3g}, not {stop:g}."
+        )
     panels = tuple(
         axis_trace.drawn(
             f"({letter}) $I_1={tex(I1)}$",
@@ -44,10 +52,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and $I_1$ from a symmetric body's to a flat "
-            rf"one's, all launched with $\boldsymbol{{\omega}}={tex_vector(omega)}$ in "
+            rf"The third axis of bodies with $I_2=1$, $I_3={tex(ratio)}$ and the $I_1$ above them, all launched "
+            rf"with $\boldsymbol{{\omega}}={tex_vector(omega)}$ in "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ (1/{unit}), $\mathbf{{B}}$ upright, up to $t={tex(stop)}$. "
-            "Dashed: the parallels between which the trace stays; in (a) every loop touches both."
+            rf"Dashed: the parallels between which the trace stays.{special(first, ratio)}"
         ),
         alt=(
             f"Unit spheres with the trace of an axis for I1 = {listed([plain(I1) for I1 in first])}, all launched with "
@@ -58,6 +66,14 @@ def scene(
         named={"Dashed": "reference"},
         size=(SIZE * columns, (SIZE + 6.0) * -(-len(panels) // columns)),
     )
+
+
+def special(first: tuple[float, ...], ratio: float) -> str:
+    """Say which of the bodies are symmetric and which are flat."""
+    letters = {I1: f"({letter})" for letter, I1 in zip("abcdef", first, strict=False)}
+    symmetric = f" In {letters[1.0]} the body is symmetric, and every loop touches both." if 1.0 in letters else ""
+    flat = f" In {letters[ratio - 1.0]} it is flat." if ratio - 1.0 in letters else ""
+    return symmetric + flat
 
 
 def trace(inertia: tuple[float, ...], field: tuple[float, float], omega: tuple[float, ...], stop: float) -> FloatArray:

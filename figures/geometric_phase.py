@@ -65,7 +65,10 @@ def parts(motion: Any) -> tuple[float, float, float]:
     The area is the integral of (1 - cos theta) dphi about the mean direction p of K, with K' = [K, Omega].
     """
     if motion.kind != "elliptic":
-        raise DomainError(f"figure geometric_phase: at z = {motion.z:g} the motion is of the kind {motion.kind!r}.")
+        raise DomainError(
+            f"figure geometric_phase needs elliptic motions, of three different moments; at z = {motion.z:g} it is "
+            f"of the kind {motion.kind!r}."
+        )
     t = motion.period * np.arange(POINTS) / POINTS
     K, Omega = motion.field_in_body(t), motion.angular_velocity(t)
     b = float(np.linalg.norm(K[0]))

@@ -36,6 +36,7 @@ def scene(
         raise DomainError(
             f"figure quadrics_of_tops needs a ratio in (0, 2] and n2 not 0, n3 > 0, not {ratio} and {direction}."
         )
+    ratio = 1.0 - (1.0 - ratio)  # so that 1 - I is a double, and D of the border is 0
     cosine = n3 / float(np.hypot(n2, n3))
     tops = [  # name, k3/(I k2) with k2 = b, a0, A0; without charge k2 does not matter
         ("hanging top", 0.0, -weight, 0.0),
@@ -82,6 +83,7 @@ def kinds(ratio: float, places: np.ndarray) -> Plane:
     low = -0.2 * high
     g = np.linspace(low, high, 129)
     border = np.stack([g * (2.0 - (1.0 + ratio) * g), g], axis=1)
+    at = float(np.interp(0.25 * high, g, border[:, 0]))
     clipped = np.stack([np.clip(border[:, 0], -wide, wide), g], axis=1)
     layers: list[Layer] = [
         Region(np.concatenate([clipped, [[-wide, high], [-wide, low]]]), "region"),
@@ -93,8 +95,8 @@ def kinds(ratio: float, places: np.ndarray) -> Plane:
             Label(place, f"{number}", "label", (-5.0 if place[0] < 0 else 5.0, 5.0))
             for number, place in enumerate(places, 1)
         ),
-        Label(np.array([-0.72 * wide, 0.5 * high]), "one sheet", "note", (0.0, 0.0)),
-        Label(np.array([0.72 * wide, 0.5 * high]), "two sheets", "note", (0.0, 0.0)),
+        Label(np.array([0.5 * (at - wide), 0.25 * high]), "one sheet", "note", (0.0, 0.0)),
+        Label(np.array([0.5 * (at + wide), 0.25 * high]), "two sheets", "note", (0.0, 0.0)),
     ]
     return Plane(
         tuple(layers), r"$(A_0+a_0/n_3)/b^2$", r"$k_3/Ik_2$", (-wide, wide), (low, high),

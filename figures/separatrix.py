@@ -34,7 +34,7 @@ def scene(
     if not motions:
         raise DomainError(
             f"figure separatrix needs an unstable elementary motion, which omega2 = {omega2} is not for I = {ratio} "
-            f"and field = {field}."
+            f"and field = {field}. Unstable bands exist for I < 1 and |B3/B2| <= 1/(2 sqrt 2)."
         )
     growth = float(np.sqrt(motions[0].curvature))
     last = decay / growth

@@ -31,14 +31,15 @@ def scene(
     first, second = periods(inertia, field, omega)
     area = first[0] * second[1] - first[1] * second[0]
     rates = np.array([[second[1], -first[1]], [-second[0], first[0]]]) * 2 * np.pi / area  # of both angles, H and F/2
-    turns = float(np.abs(rates[0]).max()) * stop / (2 * np.pi)
-    if not 0 < turns <= MOST:
+    fastest = float(np.abs(rates[0]).max()) / (2 * np.pi)
+    if not 0 < stop <= MOST / fastest:
         raise DomainError(
-            f"figure torus_of_flows: up to stop = {stop:g} the motion makes {turns:.0f} turns of {MOST:g}."
+            f"figure torus_of_flows draws up to {MOST:g} turns: give a stop between 0 and {MOST / fastest:.3g}, not "
+            f"{stop:g}."
         )
     K = vector(field, "field")
     W, I = vector(omega, "omega") + K, vector(inertia, "inertia")
-    orbit = flow(I, W, K, 1.0, 0.0, np.linspace(0.0, stop, int(FINE * turns) + 2))[1]
+    orbit = flow(I, W, K, 1.0, 0.0, np.linspace(0.0, stop, int(FINE * fastest * stop) + 2))[1]
     there = np.linspace(0.0, 1.0, 3 * FINE)
     out = flow(I, W, K, first[0], 0.0, there)
     back = flow(I, out[0][-1], out[1][-1], 0.0, first[1], there)[1]
@@ -77,7 +78,9 @@ def periods(
 
     motion = AsymmetricMotion(inertia, field, omega)
     if motion.kind != "on a torus":
-        raise DomainError(f"figure torus_of_flows: this motion is of the kind {motion.kind!r}, not on a torus.")
+        raise DomainError(
+            f"figure torus_of_flows needs a motion on a torus, of three different moments, and not {motion.kind!r}."
+        )
     W = tuple(w + k for w, k in zip(motion.omega, motion.field, strict=True))
     found = Torus(motion.inertia, W, motion.field).lattice.real
     return sorted(((float(H.real.mid()), float(F.real.mid())) for H, F, _ in found), key=lambda pair: abs(pair[0]))
@@ -104,5 +107,12 @@ def sphere(orbit: FloatArray, out: FloatArray, back: FloatArray) -> Space:
         Points(orbit[:1] / b, "start"),
         *(Arrow(axis, 1.35 * axis, "body_axis", rf"$\mathbf{{e}}_{n}$") for n, axis in enumerate(np.eye(3), 1)),
         Label(orbit[0] / b, r"$\mathbf{K}(0)$", "label", (6, -4)),
+        Label(middle(out) / b, "$T_H$", "trajectory", (5, 5)),
+        Label(middle(back) / b, "$T_F$", "turn", (5, -5)),
     ]
     return Space(tuple(layers), 62.0, 18.0, title=r"(b) $\mathbf{K}$ in the body")
+
+
+def middle(line: FloatArray) -> FloatArray:
+    """Return places in the inner third of a line (N, 3), the middle first, for its name."""
+    return line[(len(line) * np.array([0.5, 0.4, 0.6, 0.35, 0.65])).astype(int)]

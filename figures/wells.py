@@ -55,14 +55,18 @@ def scene(
 def panel(letter: str, first: bool, last: bool, M3: float, cosines: tuple[float, ...], reach: float) -> Plane:
     """Return the plane of one momentum, in units of p."""
     edge = clipped(envelope(M3, reach), reach)
+    lines = {nu: within(float(rest(M3, 1.0, np.array([nu]))[0]), nu, reach) for nu in cosines}
+    if len(edge) < 3 and not any(map(len, lines.values())):
+        raise DomainError(
+            f"figure wells: at M3 = {M3:g} p no line and no border lies within reach = {reach:g}: give a larger reach "
+            "or a smaller M3."
+        )
     layers: list[Layer] = [Region(edge, "region")] if len(edge) > 2 else []
     layers += [
         Curve(np.array([[-reach, 0.0], [reach, 0.0]]), "guide"),
         Curve(np.array([[0.0, -reach], [0.0, reach]]), "guide"),
     ]
-    for nu in cosines:
-        c = float(rest(M3, 1.0, np.array([nu]))[0])
-        line = within(c, nu, reach)
+    for nu, line in lines.items():
         if not len(line):
             continue
         if np.ptp(line[:, 1]) <= 0.4 * reach:

@@ -8,7 +8,7 @@ import pytest
 from atlas import DomainError, TopMotion
 from atlas.core.quadric import TopQuadric
 from atlas.core.wells import Wells
-from atlas.scene import Arrow, Curve, Points, Region, Scene, Space, Surface, recipes
+from atlas.scene import Arrow, Curve, Label, Points, Region, Scene, Space, Surface, recipes
 from atlas.scene.narrow import narrowed
 
 
@@ -117,6 +117,14 @@ def test_the_quadrics_of_tops_are_those_of_the_class() -> None:
     narrow = narrowed(scene)
     assert narrow is not None
     assert len(narrow.panels) == 3
+
+
+def test_narrow_quadrics_stand_apart() -> None:
+    """In a field close to the axis the names of the six are half a height of the tallest from one another or more."""
+    row = made("quadrics_of_bodies", field=(0.0523, 0.9986)).panels[0]
+    at = np.array([one.at for one in layers(row, Label)])
+    heights = [np.ptp(np.concatenate([g.reshape(-1, 3) for g in one.grids])[:, 2]) for one in layers(row, Surface)]
+    assert np.linalg.norm(np.diff(at, axis=0), axis=1).min() >= 0.48 * max(heights)
 
 
 @pytest.mark.parametrize(

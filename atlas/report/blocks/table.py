@@ -101,7 +101,7 @@ class TableView:
     @property
     def tight(self) -> bool:
         """Whether its rows are single lines, of numbers or in a long table."""
-        return bool(self.name) or len(self.rows) > 2 * MANY
+        return bool(self.name) or len(self.rows) > MANY
 
     @property
     def tall(self) -> bool:
