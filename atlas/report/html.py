@@ -36,7 +36,7 @@ class Card(NamedTuple):
 def pages(document: Document) -> dict[str, str]:
     """Set a document, whose texts are set, as pages; the keys are file names, stylesheet and scripts among them."""
     environment = templates(plain=plain)
-    texts = [Markup(text) for text in document.written["html"]]  # noqa: S704  from pandoc
+    texts = [Markup(whole(text)) for text in document.written["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
     figures = [
         Card(page, block)
@@ -67,6 +67,12 @@ def fonts(set_pages: Mapping[str, str], recall: Recall = anew) -> dict[str, byte
     """Cut the fonts for the letters of some pages; the keys are file names."""
     texts = (text for name, text in set_pages.items() if name.endswith(".html"))
     return {f"fonts/{name}": content for name, content in all_subsets(texts, recall).items()}
+
+
+def whole(text: str) -> str:
+    """Keep the options in inline code on one line: a browser breaks them behind their hyphens."""
+    option = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
+    return re.sub("<code>[^<]*</code>", lambda code: option.sub(r'<span class="option">\g<0></span>', code[0]), text)
 
 
 def anchored(page: str) -> str:

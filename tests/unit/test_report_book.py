@@ -179,3 +179,15 @@ def test_no_sentence_stands_below_two_tables_of_a_page(tmp_path: Path) -> None:
     first, second = document.pages[1].blocks[1:]
     assert [document.texts[one.note].markdown for one in (first, second)] == ["Only A. Measured here.", "Only B."]
     assert (first.command, second.command) == ("atlas bench", "")
+
+
+def test_an_option_is_not_broken_at_its_hyphens(tmp_path: Path) -> None:
+    """No line of the PDF ends with one or two hyphens, however long the words before; in the page it is kept whole."""
+    said = "\n\n".join("a" * n + " b" * 40 + " `--option 1` " + "c " * 9 for n in range(1, 25))
+    (tmp_path / "book.toml").write_text(BOOK.replace("## A section", said), encoding="utf-8")
+    built = build_report(tmp_path / "book.toml", tmp_path, formats=("html", "pdf"))
+    lines = "\n".join(page.extract_text() for page in PdfReader(built.pdf).pages).splitlines()
+    assert sum("--option" in line for line in lines) == 24
+    assert not [line for line in lines if line.rstrip().endswith("-")]
+    page = built.index.read_text(encoding="utf-8")
+    assert page.count('<code><span class="option">--option</span> 1</code>') == 24

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from atlas.build.appendices import gather
+from atlas.build.report import outlines
 from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.report import bibliography
@@ -122,7 +123,7 @@ def test_every_report_of_the_folder_is_sound(name: str) -> None:
     report = load(find(name))
     found = pictures(report)
     works = bibliography.read(folder("reports") / report.bibliography) if report.bibliography else None
-    document = compose(report, found, gather(report), works)
+    document = compose(report, found, gather(report), works, outlines(report))
     assert report.name == name
     for picture in found.values():
         assert not picture.failure

@@ -101,7 +101,7 @@ class TableView:
     @property
     def tight(self) -> bool:
         """Whether its rows are single lines, of numbers or in a long table."""
-        return bool(self.name) or len(self.rows) > MANY
+        return bool(self.name) or len(self.rows) > MANY or all(column.numeric for column in self.columns[1:])
 
     @property
     def tall(self) -> bool:
