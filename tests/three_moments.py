@@ -10,7 +10,6 @@ The twin takes a tenth of a second a time: an hour in all.
 import argparse
 import sys
 from collections import Counter
-from collections.abc import Callable, Mapping
 from itertools import cycle, islice
 from random import Random
 from typing import NamedTuple
@@ -21,94 +20,9 @@ import numpy as np
 from atlas.core.asymmetric import SingleAsymmetric
 from atlas.errors import AtlasError
 from atlas.exact.asymmetric import AsymmetricMotion
+from atlas.study.asymmetric import ASYMMETRIC, Asymmetric
 
-Vector = tuple[float, ...]
 EPS = 2.0**-52
-
-
-class Asymmetric(NamedTuple):
-    """What `atlas.AsymmetricMotion` takes."""
-
-    inertia: Vector
-    field: Vector
-    omega: Vector
-
-
-def size_of(draw: Asymmetric) -> float:
-    """Return the largest rate that enters."""
-    return max(map(abs, (*draw.field, *draw.omega)))
-
-
-def _ordinary(random: Random) -> Asymmetric:
-    """Draw moments of mass along three axes, of them those of inertia, and vectors in a cube."""
-    x, y, z = (random.uniform(0.05, 1) for _ in range(3))
-    field, omega = (tuple(random.uniform(-1.5, 1.5) for _ in range(3)) for _ in "BW")
-    return Asymmetric((y + z, x + z, x + y), field, omega)
-
-
-def _scaled(vector: Vector, factor: float) -> Vector:
-    return tuple(x * factor for x in vector)
-
-
-def _nearly_symmetric(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    x, z = (random.uniform(0.05, 1) for _ in range(2))
-    more = (x + z) * 2.0 ** -random.choice((4, 8, 12))
-    return draw._replace(inertia=(x + z, x + z + more, 2 * x + more))
-
-
-def _flat(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    first, second, _ = draw.inertia
-    return draw._replace(inertia=(first, second, first + second))
-
-
-def _disk(random: Random) -> Asymmetric:
-    return _ordinary(random)._replace(inertia=(1.0, 1.25, 2.0))
-
-
-def _rod(random: Random) -> Asymmetric:
-    return _ordinary(random)._replace(inertia=(1.0, 1.003, 10 ** random.uniform(-2, -1)))
-
-
-def _weak_field(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(field=_scaled(draw.field, 10 ** random.uniform(-4, -1)))
-
-
-def _strong_field(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(field=_scaled(draw.field, 10 ** random.uniform(1, 2)))
-
-
-def _field_along_an_axis(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(field=(0.0, 0.0, draw.field[2]))
-
-
-def _fast_spin(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(omega=_scaled(draw.omega, 10 ** random.uniform(1, 2)))
-
-
-def _nearly_at_rest(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(omega=_scaled(draw.omega, 10 ** random.uniform(-5, -2)))
-
-
-REGIMES: Mapping[str, Callable[[Random], Asymmetric]] = {
-    "ordinary": _ordinary,
-    "nearly symmetric": _nearly_symmetric,
-    "flat": _flat,
-    "disk": _disk,
-    "rod": _rod,
-    "weak field": _weak_field,
-    "strong field": _strong_field,
-    "field along an axis": _field_along_an_axis,
-    "fast spin": _fast_spin,
-    "nearly at rest": _nearly_at_rest,
-}
-"""Regimes: each draws a body, a field and a start."""
 
 
 class Found(NamedTuple):
@@ -140,12 +54,12 @@ def main() -> int:
         parser.add_argument(f"--{name}", type=int, default=count)
     parser.add_argument("--part", type=int, nargs=2, metavar=("K", "N"), default=(0, 1), help="every Nth body, from K")
     options = parser.parse_args()
-    first, *hostile = REGIMES
+    first, *hostile = ASYMMETRIC
     names = [first] * options.ordinary + list(islice(cycle(hostile), options.hostile))
     found, tried, failed = dict[str, list[Found]](), Counter[str](), 0
     for i, name in islice(enumerate(names), options.part[0], None, options.part[1]):
         random = Random(f"{options.seed} {i}")  # noqa: S311  reproducible, not secret
-        draw, tried[name] = REGIMES[name](random), tried[name] + 1
+        draw, tried[name] = ASYMMETRIC[name](random), tried[name] + 1
         try:
             result = compared(draw, random, options.times)
         except AtlasError as reason:

@@ -24,7 +24,6 @@ from atlas.exact.clebsch_periods import (
     BITS,
     EACH,
     FINE,
-    LEAST,
     ONE,
     Curve,
     Integrals,
@@ -38,8 +37,8 @@ from atlas.formulas.numbers import workprec
 WHOLE = 1e-9
 """How near to whole numbers the coefficients of a conjugate period are."""
 
-SLOW, MORE = 0.003, 8
-"""Least rate at which sums converge, and paths for each zero, where fewer and quicker ones do not give all periods."""
+SLOW, MORE, FEWEST = 0.003, 8, 4
+"""Least rate at which sums converge; paths for each zero where fewer do not give all periods; the fewest that may."""
 
 TURNS = 60
 """Rounds of Siegel's reduction at most."""
@@ -77,14 +76,26 @@ def lattice(motion: Integrals) -> Lattice:
     with workprec(BITS):
         curve = Curve(motion)
         try:
-            return _of_paths(curve, LEAST, EACH)
+            return _of_paths(curve, EACH)
         except NotCertifiedError:
-            return _of_paths(curve, SLOW, MORE)
+            return _of_paths(curve, MORE)
 
 
-def _of_paths(curve: Curve, least: float, each: int) -> Lattice:
-    """Return the periods that integrals along some paths make whose sums converge at some rate at least."""
-    ways = [list(curve.along(*path)) for path in curve.paths(least, each, poles=True)]
+def _of_paths(curve: Curve, each: int) -> Lattice:
+    """Return the periods that integrals along some paths make, the quickest first, no more than are needed."""
+    ways, why = list[list[acb]](), "no paths between zeros were found."
+    for path in curve.paths(SLOW, each, poles=True):
+        ways.append(list(curve.along(*path)))
+        if len(ways) >= FEWEST:
+            try:
+                return _of_ways(ways)
+            except NotCertifiedError as reason:
+                why = str(reason).removeprefix("not certified: ")
+    raise NotCertifiedError(f"not certified: {why}")
+
+
+def _of_ways(ways: list[list[acb]]) -> Lattice:
+    """Return the periods that some integrals generate, if there are four with a polarization of type (1,2)."""
     periods = sums(ways, generating([_real(way) for way in ways]))
     if len(periods) != 4:
         raise NotCertifiedError(f"not certified: {len(periods)} periods of the motion's torus were found, not four.")
