@@ -1,6 +1,6 @@
-"""The bodies and fields of a report file, as they are given."""
+"""The bodies, fields and sets of parameters of a report file, as they are given."""
 
-from typing import Literal
+from typing import Any, Literal
 
 import msgspec
 
@@ -36,7 +36,8 @@ class Field(StrictStruct, frozen=True):
 
 
 class BodiesAndFields(StrictStruct, frozen=True):
-    """The bodies and fields that the blocks call by name."""
+    """The bodies, fields and sets of parameters that the blocks call by name."""
 
     bodies: dict[str, Body] = msgspec.field(default_factory=dict)
     fields: dict[str, Field] = msgspec.field(default_factory=dict)
+    sets: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)

@@ -1,6 +1,8 @@
 """Reading a report file: TOML to records, and every mistake in it to one sentence that says where and what instead."""
 
 import re
+from functools import reduce
+from operator import or_
 from pathlib import Path
 
 from msgspec.structs import replace
@@ -24,7 +26,7 @@ def load(path: Path) -> Report:
     except ValueError as error:
         raise AtlasError(f"{path} is not TOML: {error}.") from error
     try:
-        report = _consistent(_located(convert(raw, Report), path.absolute().parent))
+        report = _filled(_consistent(_located(convert(raw, Report), path.absolute().parent)))
     except SchemaError as error:
         raise AtlasError(f"{path}{_line(text, error.key)}: {error}.") from error
     except AtlasError as error:
@@ -65,12 +67,25 @@ def _consistent(report: Report) -> Report:
     return report
 
 
+def _filled(report: Report) -> Report:
+    """Return the report with the named sets of parameters in its blocks; the last holds, above all the block's own."""
+
+    def fill(block: Block) -> Block:
+        if not isinstance(block, Figure | Table) or not block.sets:
+            return block
+        sets = [report.parameters.sets[name] for name in block.sets]
+        return replace(block, sets=(), parameters=reduce(or_, [*sets, block.parameters]))
+
+    return replace(report, pages=tuple(replace(page, blocks=tuple(map(fill, page.blocks))) for page in report.pages))
+
+
 def _called(block: Block, report: Report, where: str) -> None:
-    """Raise for a body or a field that a block names and that is not there."""
+    """Raise for a body, a field or a set of parameters that a block names and that is not there."""
     known = report.parameters
     for kind, there, called in (
         ("body", known.bodies, (getattr(block, "body", None), *getattr(block, "bodies", ()))),
         ("field", known.fields, (getattr(block, "field", None),)),
+        ("set", known.sets, getattr(block, "sets", ())),
     ):
         for name in filter(None, called):
             if name not in there:

@@ -12,14 +12,15 @@ _FACTORS = {"mi", "mn", "msub", "msup", "msubsup", "mover", "mfrac", "msqrt"}
 
 
 def mend_all(html: str) -> str:
-    """Mend every formula of a piece of HTML, and keep a comma or a full stop on the line of what it follows."""
+    """Mend every formula of a piece of HTML; what touches it stands on its line: a comma, a bracket, a unit."""
 
     def together(match: re.Match[str]) -> str:
-        formula, sign = mend(match[1]), match[2]
-        inline = sign and 'display="inline"' in formula
-        return f'<span class="together">{formula}{sign}</span>' if inline else formula + sign
+        before, formula, sign = match[1], mend(match[2]), match[3]
+        inline = (before or sign) and 'display="inline"' in formula
+        words = before + formula + sign
+        return f'<span class="together">{words}</span>' if inline else words
 
-    return re.sub(r"(<math.*?</math>)([,.;:)]*)", together, html, flags=re.DOTALL)
+    return re.sub(r"([\w(]*)(<math.*?</math>)([,.;:)]*)", together, html, flags=re.DOTALL)
 
 
 def mend(math: str) -> str:

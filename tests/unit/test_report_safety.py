@@ -285,6 +285,21 @@ def test_a_recipe_is_a_name_or_a_file_beside_the_report(tmp_path: Path) -> None:
             load(file)
 
 
+def test_sets_of_parameters_stand_in_each_block_that_names_them(tmp_path: Path) -> None:
+    """A later set holds before an earlier one, the block's own parameter before both; an unknown set is named."""
+    from atlas.report.load import load
+
+    file = tmp_path / "mine.toml"
+    sets = "[parameters.sets]\nbody = { ratio = 0.5, azimuth = 1.0 }\nview = { azimuth = 2.0, elevation = 3.0 }\n"
+    block = "[[pages]]\nslug = 'index'\ntitle = ''\n[[pages.blocks]]\nkind = 'figure'\nrecipe = 'quadric'\n"
+    own = "sets = ['body', 'view']\nparameters = { elevation = 4.0 }\n"
+    file.write_text(f"name = 'mine'\ntitle = ''\n{sets}{block}{own}", encoding="utf-8")
+    assert load(file).pages[0].blocks[0].parameters == {"ratio": 0.5, "azimuth": 2.0, "elevation": 4.0}
+    file.write_text(f"name = 'mine'\ntitle = ''\n{sets}{block}sets = ['bodi']\n", encoding="utf-8")
+    with pytest.raises(AtlasError, match=r"block 1: there is no set 'bodi' in \[parameters\] \(did you mean 'body'"):
+        load(file)
+
+
 WRONG = {
     "times = 3.0": "parameters, times: must be a list, each item a number, not 3.0",
     'times = ["x"]': "parameters, time 1: must be a number, not 'x'",

@@ -21,6 +21,7 @@ class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
     body: str | None = None
     bodies: tuple[str, ...] = ()
     field: str | None = None
+    sets: tuple[str, ...] = ()
     parameters: dict[str, Any] = msgspec.field(default_factory=dict)
     caption: str | None = None
     width: Annotated[float, msgspec.Meta(gt=0.0)] | None = None

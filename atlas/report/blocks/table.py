@@ -36,6 +36,7 @@ class Table(StrictStruct, frozen=True, tag_field="kind", tag="table"):
     body: str | None = None
     bodies: tuple[str, ...] = ()
     field: str | None = None
+    sets: tuple[str, ...] = ()
     parameters: dict[str, Any] = msgspec.field(default_factory=dict)
     caption: str | None = None
     digits: Annotated[int, msgspec.Meta(ge=1, le=MOST)] = 10
