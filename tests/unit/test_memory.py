@@ -34,6 +34,18 @@ with ThreadPoolExecutor(1) as pool:
     print(taken() - before)
 """
 )
+ROWS = """
+import resource
+import numpy as np
+from atlas.study.sweep.plan import Plan
+
+swept = {"ratio": np.linspace(0.5, 1.5, 100).tolist(), "omega2": np.linspace(0.1, 2.0, 1000).tolist()}
+plan = Plan.of("elementary", {"B2": 1.0, "B3": 0.3, "t": 7.0} | swept, ("k", "R13"))
+plan.columns()
+before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+plan.columns()
+print(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
+"""
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="what glibc does with memory is tried")
@@ -45,8 +57,16 @@ def test_kernels_keep_their_memory_where_the_system_wants_it_back(code: str) -> 
     assert int(done.stdout) < 40_000 / 5
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="what glibc does with memory is tried")
+def test_sweeps_keep_the_memory_of_long_arrays() -> None:
+    """There, too, a part of a table gets a new page less than once in fifty rows."""
+    settings = os.environ | {"MALLOC_TRIM_THRESHOLD_": "65536"}
+    done = subprocess.run([sys.executable, "-c", ROWS], env=settings, capture_output=True, text=True, check=True)
+    assert int(done.stdout) < 100_000 / 50
+
+
 def test_what_is_kept_is_kept_once() -> None:
-    """A thread that has its memory asks for no more."""
+    """A process that keeps its memory asks for no more."""
     keep()
     tracemalloc.start()
     keep()

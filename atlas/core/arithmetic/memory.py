@@ -1,26 +1,23 @@
-"""Memory that a thread keeps for its arrays, so that the system is not asked for the same pages again and again."""
+"""Memory that a process keeps for its arrays, so that the system is not asked for the same pages again and again."""
 
-import threading
+import ctypes
+from contextlib import suppress
+from functools import cache
 
-import numpy as np
-
-LONGEST = 2**17
-"""Bytes from which on the C library may get the memory of each array from the system, and give it back at once."""
-KEPT = 256
-"""Arrays of half that length whose memory is kept: 16 MB of addresses, of which only what is used becomes memory."""
-
-_ends = threading.local()
+TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3
+"""M_TRIM_THRESHOLD and M_MMAP_THRESHOLD of the C library of GNU."""
+LONGEST = 2**25
+"""Bytes of the longest array whose memory is kept: the most that the C library takes."""
 
 
+@cache
 def keep() -> None:
-    """Keep memory for the arrays of this thread that are shorter than LONGEST; what it has kept is enough for good.
+    """Keep memory for the arrays of this process; what it has kept is enough for good, at most 64 MB a thread.
 
-    The C library returns memory to the system when much of it is free at the end of what it got: at once where
-    MALLOC_TRIM_THRESHOLD_ is small, as in the workers of Dask, and the next array pays for each page anew. Something
-    small that stays at the end keeps what lies before it.
+    The C library returns memory to the system at once where MALLOC_TRIM_THRESHOLD_ is small, as in the workers of Dask,
+    and the next array pays for each page anew. Else it comes to these values by itself, array by array.
     """
-    if not hasattr(_ends, "kept"):
-        given_back = [np.empty(LONGEST // 16) for _ in range(KEPT)]
-        _ends.kept = [np.empty(size) for size in (150, 1100, LONGEST // 16)]
-        del given_back
-        np.empty(2**20)  # longer arrays, too, where the C library learns from what is freed
+    with suppress(AttributeError, OSError, TypeError):  # another C library
+        mallopt = ctypes.CDLL(None).mallopt
+        mallopt(MMAP_THRESHOLD, LONGEST)
+        mallopt(TRIM_THRESHOLD, 2 * LONGEST)
