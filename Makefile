@@ -74,14 +74,15 @@ stress: setup $(VENV)/.bench
 	@$(BIN)/python tests/three_moments.py   # an hour
 	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz
 
-# Needs node, npm and Chromium; in Firefox on a screen of its own: FIREFOX=/usr/bin/firefox-esr xvfb-run -a make accessibility
+# Needs node, npm and Chromium; `make accessibility FIREFOX=/usr/bin/firefox-esr` looks in that Firefox, and needs Xvfb.
+LOOK := $(if $(FIREFOX),xvfb-run -a )node
 accessibility: report
 	@npm install --silent --no-save --prefix build/accessibility axe-core@4.14.1 playwright-core@1.63.0
-	@node tests/accessibility.mjs build/report/atlas build/accessibility
-	@node tests/accessibility.mjs build/report/trial build/accessibility
-	@node tests/accessibility.mjs build/report/guide build/accessibility
-	@node tests/search.mjs build/report/atlas build/report/trial build/accessibility
-	@node tests/scenes.mjs build/report/atlas build/accessibility
+	@$(LOOK) tests/accessibility.mjs build/report/atlas build/accessibility
+	@$(LOOK) tests/accessibility.mjs build/report/trial build/accessibility
+	@$(LOOK) tests/accessibility.mjs build/report/guide build/accessibility
+	@$(LOOK) tests/search.mjs build/report/atlas build/report/trial build/accessibility
+	@$(LOOK) tests/scenes.mjs build/report/atlas build/accessibility
 
 mutants: setup
 	@$(BIN)/python tests/mutants.py $(PACKAGES) --count $(COUNT) --seed $(SEED) --jobs $(JOBS)

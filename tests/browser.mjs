@@ -1,5 +1,5 @@
 // The browser in which the tests look at pages: Chromium, or the Firefox that FIREFOX names. Firefox has WebGL 2 on a
-// screen only, and playwright 1.64 and later ask stable ones for a command they don't have:
+// screen only. Playwright asks for commands that Firefox has since 143; 1.64 and later for one that stable ones don't have.
 //     FIREFOX=/usr/bin/firefox-esr xvfb-run -a node tests/scenes.mjs build/report/atlas build/accessibility
 import { createRequire } from "node:module";
 

@@ -13,11 +13,13 @@ const holds = (right, ...words) => { asked += 1; if (!right) { failed += 1; cons
 const NEAR = { png: 3, svg: 15 };
 
 const browser = await launch(packages, { gl: "soft" });
+// Pictures are read in a page of their own, which has no policy; it is opened first, since a Firefox whose window is not in
+// front lets Enter press no button.
+const reader = await browser.newPage();
 const page = await (await browser.newContext({ viewport: { width: 1280, height: 1000 }, reducedMotion: "reduce" })).newPage();
 page.on("pageerror", error => holds(false, String(error)));
 page.on("request", request => holds(request.url().startsWith(`file://${folder}/`), "a request to", request.url()));
-// The panels in space as they are seen, small; pictures are read in a page of their own, which has no policy.
-const reader = await browser.newPage();
+// The panels in space as they are seen, small.
 const shades = async link => {
   await link.evaluate(one => { if (one.viewer) { one.viewer.pace = 3; one.viewer.draw(); } });
   const clip = await link.locator("img").boundingBox(), shot = (await page.screenshot({ clip, style: ".scene > div, .scene button, .turns::after { visibility: hidden; } canvas { outline: none !important; }" })).toString("base64");

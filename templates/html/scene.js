@@ -1,6 +1,6 @@
-// Scenes that turn: a click or Enter on a still picture puts the scene over it, in which lines and arrows are meshes and
-// every surface is a piece of a quadric that is met by a ray through each pixel, so that outlines and the order of glass
-// are exact. Names are placed anew at each turn. Only the scene's own file is asked for, by a script element; without
+// Scenes that turn: a click or Enter on a still picture puts the scene over it, in which lines are ribbons that face the
+// eye and every surface is a piece of a quadric that is met by a ray through each pixel, so that outlines and the order of
+// glass are exact. Names are placed anew at each turn. Only the scene's own file is asked for, by a script element; without
 // WebGL 2 the still stays.
 "use strict";
 (() => {
@@ -12,17 +12,17 @@ const REACH = 2, STEPS = 16000, GRID = 16, PIECE = 11, FORMS = [1, 2, 3, 6, 16],
 
 const HEAD = "#version 300 es\nprecision highp float; precision highp int; precision highp sampler2D;\n";
 // Depth is linear in the distance to the eye: REACH in front of the middle is 0, REACH behind it 1.
-const SOLID_VERTEX = `${HEAD}in vec3 point, normal; in vec4 tint; uniform mat3 F; uniform vec4 M; uniform float more; out vec3 n, c;
-void main() { vec3 q = F * (point + more * normal); n = F * normal; c = tint.rgb; gl_Position = vec4(M.xy + M.zw * q.xy, -q.z / ${REACH}.0, 1); }`;
-const SOLID_FRAGMENT = `${HEAD}in vec3 n, c; uniform vec4 L[4]; out vec4 o;
-void main() { vec3 m = normalize(n); float d = 0.3, s = 0.0;
+const SOLID_VERTEX = `${HEAD}in vec3 point, normal; in vec4 tint; uniform mat3 F; uniform vec4 M; uniform float more; out vec3 n, b, c;
+void main() { vec3 q = F * (point + more * normal); n = F * normal; b = vec3(0); c = tint.rgb; gl_Position = vec4(M.xy + M.zw * q.xy, -q.z / ${REACH}.0, 1); }`;
+const SOLID_FRAGMENT = `${HEAD}in vec3 n, b, c; uniform vec4 L[4]; out vec4 o;
+void main() { vec3 m = normalize(n + b * sqrt(max(1.0 - dot(n, n), 0.0))); float d = 0.3, s = 0.0;
   for (int i = 0; i < 4; i++) { d += 0.72 * L[i].w * max(dot(m, L[i].xyz), 0.0); s += 0.35 * L[i].w * pow(max(reflect(-L[i].xyz, m).z, 0.0), 30.0); }
   o = vec4(min(c * d + s, 1.0), 1); }`;
-// A wire is painted on its surface: as wide as a pixel at least, and the fainter.
-const WIRE_VERTEX = `${HEAD}in vec3 point, way; in float side; uniform mat3 F; uniform vec4 M; uniform vec2 half_width;
-void main() { vec3 q = F * point; vec2 u = M.zw * (F * way).xy / half_width; u /= max(length(u), 1e-9);
-  gl_Position = vec4(M.xy + M.zw * q.xy + side * vec2(-u.y, u.x) * half_width, -q.z / ${REACH}.0, 1); }`;
-const WIRE_FRAGMENT = `${HEAD}void main() {}`;
+// A line is a ribbon that faces the eye, shaded as a tube, as wide as a pixel at least and as near as the tube; a wire is
+// painted on its surface, and the fainter.
+const LINE_VERTEX = `${HEAD}in vec3 point, way; in float side, radius; in vec4 tint; uniform mat3 F; uniform vec4 M; uniform float least, lift; out vec3 n, b, c;
+void main() { vec3 q = F * point, w = F * way, p = vec3(-w.y, w.x, 0) / max(length(w.xy), 1e-9); float r = max(radius, least); n = side * p; b = normalize(cross(w, p)); c = tint.rgb;
+  gl_Position = vec4(M.xy + M.zw * (q + r * n).xy, -(q.z + lift * r) / ${REACH}.0, 1); }`;
 // Along x + t d, with d to the eye, F = A t^2 + 2 B t + C: a ray meets each quadric twice, and what it meets is laid over
 // what is behind. For speed without a graphics card few pieces are written one after the other, and a condition is a loop
 // that ends at once. What is opaque stands among the solids.
@@ -81,13 +81,22 @@ const headOf = ([, , head, , tail, tip], scale) => {
   return [add(tip, way, -Math.min(head / scale, 0.5 * size) / (size || 1)), Math.min(head / scale, 0.5 * size)];
 };
 
-// Meshes of rings about a line: [centre, radius, slope of the normal].
+// Lines [colour, radius, points] as arrays of vertices and faces.
+const ribbons = lines => {
+  const made = {point: [], way: [], side: [], radius: [], tint: []}, faces = [];
+  for (const [colour, radius, line] of lines) {
+    const tint = [...rgb(colour), 255];
+    line.forEach((x, i) => { const way = add(line[Math.min(i + 1, line.length - 1)], line[Math.max(i - 1, 0)], -1), at = made.side.length;
+      made.point.push(...x, ...x); made.way.push(...way, ...way); made.side.push(-1, 1); made.radius.push(radius, radius); made.tint.push(...tint, ...tint); if (i) faces.push(at - 2, at - 1, at, at - 1, at + 1, at); });
+  }
+  return [{point: [3, made.point], way: [3, made.way], side: [1, made.side], radius: [1, made.radius], tint: [4, made.tint, true]}, faces];
+};
+// Meshes of rings about an axis a: [centre, radius, slope of the normal].
 class Mesh {
   points = []; normals = []; tints = []; faces = [];
-  rings(rings, axes, colour, sides = 8) {
-    let u = across(axes[0]); const first = this.points.length / 3, tint = [...rgb(colour), 255];
+  rings(rings, a, colour, sides) {
+    const first = this.points.length / 3, tint = [...rgb(colour), 255], u = across(a), v = cross(a, u);
     rings.forEach(([centre, radius, slope], k) => {
-      const a = axes[k]; u = unit(add(u, a, -dot(u, a))); const v = cross(a, u);
       for (let i = 0; i < sides; i++) {
         const turn = 2 * Math.PI * i / sides, n = add(u.map(x => x * Math.cos(turn)), v, Math.sin(turn));
         this.points.push(...add(centre, n, radius)); this.normals.push(...unit(add(n, a, slope))); this.tints.push(...tint);
@@ -95,27 +104,15 @@ class Mesh {
       }
     });
   }
-  tube(line, radius, colour) {  // with a joint where it has a corner
-    const way = line.slice(1).map((x, i) => unit(add(x, line[i], -1)));
-    for (let i = 0, start = 0; i < way.length; i++) {
-      const corner = i + 1 < way.length && dot(way[i], way[i + 1]) < 0.9;
-      if (!corner && i + 1 < way.length) continue;
-      const part = line.slice(start, i + 2), axes = part.map((_, k) => unit(add(way[Math.max(start, start + k - 1)], way[Math.min(i, start + k)])));
-      this.rings([[part[0], 0, -9], ...part.map(x => [x, radius, 0]), [part.at(-1), 0, 9]], [axes[0], ...axes, axes.at(-1)], colour);
-      if (corner) this.ball(line[i + 1], radius, colour);
-      start = i + 1;
-    }
-  }
   ball(centre, radius, colour) {
     const axis = [0, 0, 1], rings = Array.from({length: 9}, (_, k) => { const w = Math.PI * (k / 8 - 0.5) * 0.999; return [add(centre, axis, radius * Math.sin(w)), radius * Math.cos(w), Math.tan(w)]; });
-    this.rings(rings, rings.map(() => axis), colour, 14);
+    this.rings(rings, axis, colour, 14);
   }
   arrow(arrow, scale) {
-    const [colour, tube, head, broad, tail, tip] = arrow, [base, size] = headOf(arrow, scale);
+    const [colour, , head, broad, tail, tip] = arrow, [base, size] = headOf(arrow, scale);
     if (!size) return;
     const a = unit(add(tip, tail, -1)), radius = broad / head * size;
-    this.tube([tail, add(base, a, 0.02 * size)], tube / scale / 2, colour);
-    this.rings([[base, 0, -99], [base, radius, -99]], [a, a], colour, 18); this.rings([[base, radius, radius / size], [tip, 0, radius / size]], [a, a], colour, 18);
+    this.rings([[base, 0, -99], [base, radius, -99]], a, colour, 18); this.rings([[base, radius, radius / size], [tip, 0, radius / size]], a, colour, 18);
   }
 }
 
@@ -133,18 +130,12 @@ class Panel {
   get place() { const [left, top, width, height, W, H, scale, x, y] = this.viewer.shown.places[this.number]; return {left, top, width, height, W, H, scale, shift: [x, y]}; }
   load() {
     const {gl} = this.viewer, {data} = this, {scale} = this.place, mesh = new Mesh();
-    const lines = data.lines.map(([colour, tube, packed]) => [colour, tube, points(packed)]);
-    for (const [colour, tube, line] of lines) mesh.tube(line, tube / scale / 2, colour);
+    const unpacked = all => all.map(([colour, tube, packed]) => [colour, tube / scale / 2, points(packed)]), lines = unpacked(data.lines), shafts = data.arrows.map(arrow => [arrow[0], arrow[1] / scale / 2, [arrow[4], headOf(arrow, scale)[0]]]);
     for (const arrow of data.arrows) mesh.arrow(arrow, scale);
     for (const [colour, tube, at] of data.dots) mesh.ball(at, tube / scale / 2, colour);
     this.solid = this.viewer.vertices(this.solid, this.viewer.solid, {point: [3, mesh.points], normal: [3, mesh.normals], tint: [4, mesh.tints, true]}, mesh.faces);
-    const wire = {point: [], way: [], side: [], faces: []};
-    for (const [, , packed] of data.wires) {
-      const line = points(packed);
-      line.forEach((x, i) => { const way = add(line[Math.min(i + 1, line.length - 1)], line[Math.max(i - 1, 0)], -1), at = wire.side.length;
-        wire.point.push(...x, ...x); wire.way.push(...way, ...way); wire.side.push(-1, 1); if (i) wire.faces.push(at - 2, at - 1, at, at - 1, at + 1, at); });
-    }
-    this.wire = this.viewer.vertices(this.wire, this.viewer.wire, {point: [3, wire.point], way: [3, wire.way], side: [1, wire.side]}, wire.faces);
+    this.line = this.viewer.vertices(this.line, this.viewer.line, ...ribbons([...lines, ...shafts]));
+    this.wire = this.viewer.vertices(this.wire, this.viewer.wire, ...ribbons(unpacked(data.wires)));
     const forms = new Map(), tint = colour => rgb(colour).map(x => x / 255);
     this.pieces = data.surfaces.map(([form, planes, [within], front, back, dense, low, high]) => {
       if (!forms.has(String(form))) forms.set(String(form), [...form, 0, 0]);
@@ -169,7 +160,7 @@ class Panel {
     const [r, u, t] = [0, 3, 6].map(i => [c * f[i] + s * f[i + 1], c * f[i + 1] - s * f[i], f[i + 2]]);
     this.frame = [...r, ...add(u.map(x => x * Math.cos(up)), t, -Math.sin(up)), ...add(t.map(x => x * Math.cos(up)), u, Math.sin(up))];
   }
-  // On the canvas: lower left corner and size in pixels; from the scene to -1..1; pixels to a point.
+  // Lower left corner and size in pixels; from the scene to -1..1; pixels to a point.
   measure(width, height) {
     const {left, top, width: w, height: h, W, H, scale, shift} = this.place, {zoom, move} = this.viewer;
     const box = [left * width, (1 - top - h) * height, w * width, h * height].map(Math.round), fit = box[2] / W;
@@ -216,7 +207,7 @@ class Viewer {
     const gl = this.gl = canvas.getContext("webgl2", {antialias: false});
     if (!gl) throw new Error("no WebGL 2");
     this.letters = document.createElement("div"); this.letters.ariaHidden = "true";
-    this.solid = this.program(SOLID_VERTEX, SOLID_FRAGMENT); this.wire = this.program(WIRE_VERTEX, WIRE_FRAGMENT);
+    this.solid = this.program(SOLID_VERTEX, SOLID_FRAGMENT); this.line = this.program(LINE_VERTEX, SOLID_FRAGMENT); this.wire = this.program(LINE_VERTEX, `${HEAD}void main() {}`);
     this.panels = shown.panels.map((_, number) => new Panel(this, number)); this.panels.forEach(panel => panel.load());
     this.full = {};
     box.append(canvas, this.letters); this.listen();
@@ -232,7 +223,8 @@ class Viewer {
   vertices(old, by, parts, faces) {
     const {gl} = this, made = old ?? {array: gl.createVertexArray(), buffers: {}, by}; gl.bindVertexArray(made.array); made.count = faces.length;
     for (const [name, [size, numbers, bytes]] of Object.entries(parts)) {
-      const at = gl.getAttribLocation(by.program, name), buffer = made.buffers[name] ??= gl.createBuffer(); gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      const at = gl.getAttribLocation(by.program, name); if (at < 0) continue;
+      const buffer = made.buffers[name] ??= gl.createBuffer(); gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ARRAY_BUFFER, bytes ? new Uint8Array(numbers) : new Float32Array(numbers), gl.DYNAMIC_DRAW);
       gl.enableVertexAttribArray(at); gl.vertexAttribPointer(at, size, bytes ? gl.UNSIGNED_BYTE : gl.FLOAT, Boolean(bytes), 0, 0);
     }
@@ -269,6 +261,7 @@ class Viewer {
     const {gl} = this, {box: [left, low, w, h], fit, M} = panel.measure(width, height), f = panel.frame, F = [f[0], f[3], f[6], f[1], f[4], f[7], f[2], f[5], f[8]], thread = [0, 0, 0, 0], texel = 2 / (M[2] * w); let now;
     const mesh = count => gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0), begin = frame => { gl.bindFramebuffer(gl.FRAMEBUFFER, frame); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT); };
     const use = one => { if (one === now) return; now = one; gl.useProgram(one.by.program); gl.bindVertexArray(one.array); gl.uniformMatrix3fv(one.by.at("F"), false, F); gl.uniform4fv(one.by.at("M"), M); gl.uniform4fv(one.by.at("L"), LAMPS); };
+    const draw = (one, lift) => { use(one); gl.uniform1f(one.by.at("least"), texel / 2); gl.uniform1f(one.by.at("lift"), lift); mesh(one.count); };
     const rays = (list, edges, opaque) => {  // where -1..1 is the panel
       const sets = [...new Set(list.map(one => one.form))].map(form => list.filter(one => one.form === form)).sort((a, b) => b.length - a.length);
       const sizes = Array.from({length: FORMS.find(n => n >= sets.length)}, (_, i) => PIECES.find(n => n >= (sets[i] ?? []).length)), full = this.caster(sizes, opaque), {at} = full.by, fill = (numbers, size) => new Float32Array(size).map((_, i) => numbers[i] ?? 0);
@@ -284,9 +277,9 @@ class Viewer {
     [this.wires.depth, this.solids.depth].forEach((texture, i) => { gl.activeTexture(gl.TEXTURE0 + i); gl.bindTexture(gl.TEXTURE_2D, i ? null : texture); });
     if (panel.wire.count) {
       const [colour, tube] = panel.data.wires[0], thick = tube * fit * this.zoom; rgb(colour).forEach((x, i) => { thread[i] = x / 255; }); thread[3] = Math.min(1, thick);
-      begin(this.wires.frame); use(panel.wire); gl.uniform2fv(panel.wire.by.at("half_width"), [w, h].map(side => Math.max(thick, 1) / side)); mesh(panel.wire.count);
+      begin(this.wires.frame); draw(panel.wire, 0);
     }
-    begin(this.solids.frame); use(panel.solid); gl.uniform1f(panel.solid.by.at("more"), Math.max(0, (texel - 1 / panel.place.scale) / 2)); mesh(panel.solid.count);
+    begin(this.solids.frame); use(panel.solid); gl.uniform1f(panel.solid.by.at("more"), Math.max(0, (texel - 1 / panel.place.scale) / 2)); mesh(panel.solid.count); draw(panel.line, 1);
     for (const one of panel.pieces) if (one.opaque) rays([one], one.span, true);
     gl.scissor(left, low, w, h); gl.disable(gl.DEPTH_TEST); gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.solids.frame); gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
     gl.blitFramebuffer(left, low, left + w, low + h, left, low, left + w, low + h, gl.COLOR_BUFFER_BIT, gl.NEAREST);
