@@ -3,6 +3,7 @@
 And where tests keep what they build: none finds what another has left.
 """
 
+import gc
 import os
 
 import pytest
@@ -13,6 +14,14 @@ settings.register_profile("hunt", deadline=None, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "test"))
 
 CACHE = "ATLAS_CACHE"
+
+gc.disable()  # while tests are collected, which leaves no garbage
+
+
+def pytest_collection_finish() -> None:
+    """Let the collector of garbage look no more at what was collected and loaded: it would at each of its rounds."""
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -219,7 +219,7 @@ def write_record(errors: Iterable[Worst], path: Path = RECORD) -> None:
 
 def _rounds(seed: int, jobs: int) -> Iterator[WorstErrors]:
     """Check one round after the other, endlessly, in the order of their index."""
-    batch = 4 * jobs
+    batch = 2 * jobs
     executor = processes.pool(jobs) if jobs > 1 else None
     if executor is None:
         index = 0

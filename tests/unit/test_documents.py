@@ -12,6 +12,7 @@ import pytest
 
 import atlas
 from atlas.cli.app import atlas as command_line
+from atlas.draw import animation
 from atlas.places import folder
 from atlas.report.blocks import KINDS, Block
 
@@ -42,7 +43,8 @@ def test_every_command_has_an_example() -> None:
 
 
 def test_the_readme_in_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What the README types in Python runs as it stands."""
+    """What the README types in Python runs as it stands; its animation has few frames here."""
+    monkeypatch.setattr(animation, "FRAMES", 4)
     monkeypatch.chdir(tmp_path)
     (lines,) = re.findall(r"^```python\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
     names: dict[str, Any] = {}

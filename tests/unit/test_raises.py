@@ -44,7 +44,9 @@ def calls() -> Iterator[Any]:
             continue
         yield pytest.param(thing, inspect.getdoc(thing) or "", id=name)
         for member in sorted(dir(thing)) if inspect.isclass(thing) else ():
-            bound = getattr(MADE[name], member, None) if not member.startswith("_") else None
+            if member.startswith("_") or not callable(getattr(thing, member)):
+                continue
+            bound = getattr(MADE[name], member)
             if inspect.ismethod(bound) and inspect.signature(bound).parameters:
                 yield pytest.param(bound, inspect.getdoc(bound) or "", id=f"{name}.{member}")
 
