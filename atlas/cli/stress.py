@@ -14,7 +14,7 @@ from atlas.cli.progress import bar
         "atlas stress", "atlas stress --samples 20000 --seed 7 --json", "atlas stress --arrays --samples 10000000"
     ),
 )
-@click.option("--samples", type=click.IntRange(min=1), default=3_000_000, show_default=True, help="Values to check.")
+@click.option("--samples", type=click.IntRange(min=1), default=1_000_000, show_default=True, help="Values to check.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Of the generator; the run is reproducible.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=None, help="Processes; else one a core.")
 @click.option("--record", "renew", is_flag=True, help="Put the worst errors of the seeded runs on record, and end.")

@@ -45,8 +45,8 @@ PROCESSORS = ("Prescott", "Nehalem", "Sandybridge", "Haswell", "SkylakeX")
 They are values of OPENBLAS_CORETYPE; the last two have a fused multiply-add.
 """
 
-LONG, SHORT = (3_000_000, 0), (60_000, 1)
-"""Samples and seed of the run that is on record, and of the short run that has to stay within that."""
+LONG, SHORT = (1_000_000, 0), (60_000, 1)
+"""Samples and seed of the run that is on record, a kind of processor, and of the short run that has to stay within."""
 
 Progress = Callable[[int, int], None]
 

@@ -253,15 +253,14 @@ def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
     return found + [np.where(x.sure, x.values, 0.0).T for x in map(scalars.__getitem__, SCALARS)]
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_a_motion_does_not_depend_on_those_beside_it(seed: int) -> None:
+def test_a_motion_does_not_depend_on_those_beside_it() -> None:
     """In any order and any part of an array, hostile neighbours or none, each row has the same bits."""
-    r = np.random.default_rng(seed)
-    balls, others, (_, B, omega) = ordinary(300, seed), ordinary(100, seed + 10), ordinary(100, seed + 20)
+    r = np.random.default_rng(0)
+    balls, others, (_, B, omega) = ordinary(300, 0), ordinary(100, 10), ordinary(100, 20)
     balls[0][:] = 1.0
     hostile = r.choice([0.5, 1.0, 1 + 2.0**-40], 100), *(x * 10.0 ** r.uniform(-12, 40, x.shape) for x in (B, omega))
     inputs = tuple(np.concatenate(x, axis=-1) for x in zip(balls, others, hostile, strict=True))
-    t, order = times(inputs, seed), r.permutation(inputs[0].size)
+    t, order = times(inputs, 0), r.permutation(inputs[0].size)
     whole = motions(inputs, t, np.arange(order.size))
     for rows in (*np.array_split(order, 5), order[:1], np.arange(300)):
         for all_rows, some in zip(whole, motions(inputs, t, rows), strict=True):

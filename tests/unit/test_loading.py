@@ -96,7 +96,6 @@ CASES = [
     ),
     Case("stress --samples 40 --jobs 1", "numpy flint multiprocessing rich"),
     Case("figure hyperbola --format svg", DRAWING),
-    Case("figure hyp_a --format pdf", DRAWING),
     Case("figure flight --renderer shaded", f"{DRAWING} pyvista vtkmodules"),
     Case("animate hyperbola --over ratio=0.5:1.5:2 --dpi 30", DRAWING.replace(" multiprocessing", "")),
     Case("explore nosuchthing", "numpy flint", status=2),
