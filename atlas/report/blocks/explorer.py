@@ -98,7 +98,8 @@ def tables() -> str:
                 "b": float(b),
                 "says": f"{motion.kind}; period {motion.period:.4f}, Ω₃ from {low:.4f} to {high:.4f}".replace("-", "−"),
                 "command": f"{command} {omega1:g} {rest[0]:g} {rest[1]:g}",
-                "columns": np.round(Q[:, :, [0, 2]].swapaxes(1, 2).reshape(_NODES, 6), _PLACES).tolist(),
+                # no -0.0, whose sign is that of a rounding error
+                "columns": (np.round(Q[:, :, [0, 2]].swapaxes(1, 2).reshape(_NODES, 6), _PLACES) + 0.0).tolist(),
             }
         )
     return json.dumps(found, separators=(",", ":"), ensure_ascii=False)
