@@ -1,6 +1,5 @@
 """The general motion of a charged symmetric body, from any initial angular velocity (not in the paper)."""
 
-from collections.abc import Callable
 from functools import cached_property
 from typing import Any, Self
 
@@ -16,7 +15,7 @@ from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
 from atlas.core.nutation.blocks import Blocks
 from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.rows import GeneralRows
-from atlas.core.nutation.scalars import KINDS, Scalars
+from atlas.core.nutation.scalars import IN_ARRAYS, KINDS, Scalars
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_general import SingleGeneral
 from atlas.core.quantities import RATE
@@ -73,6 +72,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
     """
 
     family = "general"
+    _in_arrays, _exact = (*IN_ARRAYS, "roots"), staticmethod(_balls)
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
         self.ratio = ratio
@@ -127,16 +127,6 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         """Least and largest Omega3; one of them is approached and never reached on a separatrix."""
         ends = self._each("turning_points", ends_of)
         return ends[..., 0] if self.shape else ends[0], ends[..., 1] if self.shape else ends[1]
-
-    def _each(self, name: str, value: Callable[[Balls], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
-        """Return one value for each motion: plain for one motion, else an array; what is not sure is made of balls."""
-        if self._turning:
-            return value(self._turning.exact)
-        values, sure = self._scalars[name]
-        found = np.moveaxis(shown(values), -1, 0)
-        for i in np.flatnonzero(~sure).tolist():
-            found[i] = value(_balls(*self._row(i)))
-        return found.reshape(self.shape + found.shape[1:])
 
     @cached_property
     def _blocks(self) -> Blocks:

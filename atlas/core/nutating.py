@@ -1,6 +1,6 @@
 """What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from functools import cached_property
 from math import prod
 from typing import Any, TypeVar
@@ -23,6 +23,12 @@ Nutation = TypeVar("Nutation", bound=SingleMotion)
 
 class NutatingMotion(Motion[Nutation]):
     """Motions R(t) whose axis nutates, with the numbers of a period."""
+
+    _in_arrays: Container[str] = ()
+    """Values that `_scalars` has for all motions at once; the others are made of each by itself."""
+    _scalars: Any
+    _exact: Callable[..., Any]
+    """Makes one motion of balls."""
 
     @cached_property
     def period(self) -> Any:
@@ -93,11 +99,16 @@ class NutatingMotion(Motion[Nutation]):
         return self._each(name, value)
 
     def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
-        """Return one value for each motion: plain for one motion, else an array; by default motion by motion."""
-        del name, shown
+        """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
         if self._turning:
             return value(self._turning.exact)
-        found = np.array([value(one.exact) for one in self._turnings])
+        if name in self._in_arrays:
+            values, sure = self._scalars[name]
+            found = np.moveaxis(shown(values), -1, 0)
+            for i in np.flatnonzero(~sure).tolist():
+                found[i] = value(self._exact(*self._row(i)))
+        else:
+            found = np.array([value(one.exact) for one in self._turnings])
         return found.reshape(self.shape + found.shape[1:])
 
     def _fill_grid(self, one: Nutation, start: float, step: float, out: FloatArray) -> None:

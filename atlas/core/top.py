@@ -1,6 +1,5 @@
 """Motions of a symmetric top in a uniform field, from any start (not in the paper)."""
 
-from collections.abc import Callable
 from functools import cached_property
 from typing import Any, Self
 
@@ -15,10 +14,11 @@ from atlas.core.laboratory import anisotropy
 from atlas.core.motion import components
 from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
 from atlas.core.nutation.constants import FIRST
+from atlas.core.nutation.scalars import IN_ARRAYS
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_top import SingleTop
 from atlas.core.nutation.top_rows import TopBlocks, TopRows
-from atlas.core.nutation.top_scalars import IN_ARRAYS, KINDS, TopScalars
+from atlas.core.nutation.top_scalars import KINDS, TopScalars
 from atlas.core.quadric import TopQuadric
 from atlas.core.quantities import LENGTH, MASS, RATE, SI_FIELDS
 from atlas.core.symmetric_top import along, given, moments_of_one
@@ -85,6 +85,7 @@ class TopMotion(NutatingMotion[SingleTop]):
     """
 
     family = "top"
+    _in_arrays, _exact = IN_ARRAYS, staticmethod(balls)
 
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
@@ -191,16 +192,6 @@ class TopMotion(NutatingMotion[SingleTop]):
     def kind(self) -> Any:
         """Name of the kind of motion, a string, or an array of them."""
         return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(KINDS, dtype=NAME)[codes])
-
-    def _each(self, name: str, value: Callable[[Balls], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
-        """Return one value for each top: plain for one, else an array; what is not sure in arrays is made of balls."""
-        if self._turning or name not in IN_ARRAYS:
-            return super()._each(name, value)
-        values, sure = self._scalars[name]
-        found = np.moveaxis(shown(values), -1, 0)
-        for i in np.flatnonzero(~sure).tolist():
-            found[i] = value(balls(*self._row(i)))
-        return found.reshape(self.shape + found.shape[1:])
 
     @cached_property
     def _scalars(self) -> TopScalars:

@@ -13,6 +13,18 @@ from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.nutation.blocks import Block, Blocks
 from atlas.core.nutation.roots import part
 
+IN_ARRAYS = (
+    "kind",
+    "turning_points",
+    "period",
+    "modulus",
+    "complementary_modulus",
+    "nome",
+    "precession_per_period",
+    "spin_per_period",
+)
+"""Scalars of motions of any kind that are made in arrays."""
+
 KINDS = (
     "nutation, two real roots",
     "nutation, four real roots",

@@ -15,17 +15,6 @@ from atlas.core.nutation.scalars import HALF_TURN, Found, Scalars, of_period, ro
 KINDS = "nutation, two real roots", "nutation, four real roots", "nutation, three real roots", "regular nutation"
 """Kinds that are decided in arrays."""
 
-IN_ARRAYS = (
-    "kind",
-    "turning_points",
-    "period",
-    "modulus",
-    "complementary_modulus",
-    "nome",
-    "precession_per_period",
-    "spin_per_period",
-)
-
 
 class TopScalars(Scalars):
     """Scalars of many tops."""
