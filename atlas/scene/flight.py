@@ -63,7 +63,10 @@ def picture(
     stop = positive(turns, "turns") * particle.period if stop is None else positive(stop, "stop")
     spun = rate * stop + stop / particle.period
     if not spun < MANY:
-        raise DomainError(f"In this flight the body makes {spun:.3g} turns, and more than {MANY} cannot be drawn.")
+        raise DomainError(
+            f"In this flight the body makes {spun:.3g} turns, and more than {MANY} cannot be drawn: give a stop up to "
+            f"{MANY * stop / spun:.3g}."
+        )
     B = particle.B
     axes, view = across(flight, B), beside(flight, stop)
     drawn = paths(flight, axes, view, stop)
