@@ -9,6 +9,7 @@ import pytest
 from drawing import made
 from numpy.typing import NDArray
 
+from atlas import Hyperbola
 from atlas.scene import Arrow, Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, quadric_panel, recipes
 
 FloatArray = NDArray[np.float64]
@@ -157,3 +158,60 @@ def test_an_electric_field_along_an_axis_is_drawn_along_it(E: tuple[float, float
     (arrow,) = (one for one in made("magn", E=E).panels[0].layers if isinstance(one, Arrow) and one.role == "electric")
     along = quadric_panel.in_plane(*E)
     assert np.allclose((arrow.tip - arrow.tail) / np.linalg.norm(arrow.tip - arrow.tail), along / np.linalg.norm(along))
+
+
+BESIDE = {"kinds_of_quadric": 0.06, "two_turns": 0.03}
+"""How far names may stand from what they name, as a part of a panel: between levels, and over an arc."""
+INSIDE = ("stability", "unstable")
+"""The name of a region stands in it."""
+
+
+def gap(at: FloatArray, drawn: list[FloatArray], size: FloatArray) -> float:
+    """Return the least distance of places (N, 2) or (N, 3) from drawn points or lines, in panels of this size."""
+    least = np.inf
+    for line in drawn:
+        first, last = line[: max(1, len(line) - 1)] / size, line[min(1, len(line) - 1) :] / size
+        for place in at / size:
+            along, from_first = last - first, place - first
+            share = np.sum(from_first * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-300)
+            away = from_first - np.clip(share, 0.0, 1.0)[:, None] * along
+            least = min(least, float(np.nanmin(np.linalg.norm(away, axis=1))))
+    return least
+
+
+@pytest.mark.parametrize(("name", "given"), EVERY, ids=str)
+def test_a_name_in_the_look_of_a_line_stands_on_it(name: str, given: dict[str, Any]) -> None:
+    """Within a five-hundredth of the panel, but for two figures that say so."""
+    for panel in made(name, **given).panels:
+        others = [layer for layer in panel.layers if not isinstance(layer, Label)]
+        extent = np.concatenate([array for layer in others for array in places(layer)])
+        size = np.nanmax(extent, axis=0) - np.nanmin(extent, axis=0)
+        if isinstance(panel, Plane):
+            limits = panel.x_limits, panel.y_limits
+            size = np.array([x if ends is None else ends[1] - ends[0] for x, ends in zip(size, limits, strict=True)])
+        else:
+            size = np.full(3, float(np.linalg.norm(size)))
+        for label in (layer for layer in panel.layers if isinstance(layer, Label) and (name, layer.role) != INSIDE):
+            alike = [array for layer in others if getattr(layer, "role", "") == label.role for array in places(layer)]
+            assert not alike or gap(np.atleast_2d(label.at), alike, size) <= BESIDE.get(name, 0.002), label.text
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.5, 0.8])
+@pytest.mark.parametrize("field", [(1.0, 0.1), (-2.0, 0.2)])
+def test_unstable_stands_where_the_nutation_frequency_squared_is_negative(
+    ratio: float, field: tuple[float, float]
+) -> None:
+    """In both panels: on the axis at an unstable omega2, and at the tau and |x| of unstable motions."""
+    course, chart = made("stability", ratio=ratio, field=field).panels
+    found = [
+        [layer for layer in panel.layers if isinstance(layer, Label) and layer.role == "unstable"]
+        for panel in (course, chart)
+    ]
+    ((on_axis,), (in_chart,)) = found
+    assert Hyperbola(ratio, field).stability(float(np.squeeze(on_axis.at)[0])) < 0
+    tau, x = np.squeeze(in_chart.at)
+    assert Hyperbola(ratio, (1.0, tau)).stability(x - 1.0) < 0
+    (line,) = (layer for layer in chart.layers if isinstance(layer, Curve) and layer.role == "unstable")
+    for tau, x in line.points[3:-3:5]:
+        sides = [Hyperbola(ratio, (1.0, tau + more)).stability(x - 1.0) for more in (-1e-3, 1e-3) if tau + more > 0]
+        assert min(sides) < 0 < max(sides) or len(sides) < 2
