@@ -81,6 +81,8 @@ class Handler(BaseHTTPRequestHandler):
             content = self._content("/".join(rest).rstrip("/"), dict(parse_qsl(url.query)))
         except AtlasError as error:
             content = json.dumps({"error": str(error)}).encode(), JSON
+        except OSError as error:  # as on a full disk
+            content = json.dumps({"error": f"{error.strerror or error}: nothing could be saved"}).encode(), JSON
         if content is None:
             self._send(HTTPStatus.NOT_FOUND, b"there is nothing here", "text/plain")
         else:

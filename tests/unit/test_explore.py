@@ -7,7 +7,9 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import nullcontext
 from http.client import HTTPConnection, HTTPResponse
+from pathlib import Path
 from threading import Thread
 from typing import Any
 from urllib.parse import urlencode
@@ -177,6 +179,14 @@ def test_figures_are_saved(server: Explorer) -> None:
 def test_what_is_wrong_is_said(server: Explorer, query: dict[str, str], says: str) -> None:
     """In a sentence for the page, which goes on with the picture before."""
     assert says in own(server, "state", **query)["error"]
+
+
+def test_a_disk_without_room_is_said(server: Explorer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A figure that cannot be written on the way is a sentence, and the server goes on."""
+    monkeypatch.setattr(answers, "TemporaryDirectory", lambda: nullcontext(str(tmp_path / "nosuch" / ("x" * 300))))
+    assert "nothing could be saved" in own(server, "figure", subject="hyperbola")["error"]
+    monkeypatch.undo()
+    assert ask(server, f"/{server.token}/figure?subject=hyperbola")[1].startswith(b"<?xml")
 
 
 def test_everything_has_sliders_that_start_within_their_ends() -> None:
