@@ -14,7 +14,8 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene, axis_trace
 from atlas.scene.captions import listed, plain, tex, title
 
-SIZE = 62.0
+SIZE, LEAST = 62.0, 5.0
+"""A panel in mm, and the least swing of the axis in degrees that is seen in it."""
 RANGES = {"nutations": (0.5, 40.0)}
 
 
@@ -39,6 +40,12 @@ def scene(
     for push, top in zip(omega2, tops, strict=True):
         if not np.isfinite(top.period) or "steady" in top.kind:
             raise DomainError(f"figure cusps: pushed with omega2 = {push} this top is a {top.kind}; take another push.")
+    swings = [float(np.degrees(np.ptp(np.arccos(top.turning_points)))) for top in tops]
+    if max(swings) < LEAST:
+        raise DomainError(
+            f"figure cusps: this top nutates by {max(swings):.2g} degrees, which cannot be seen; give a larger weight "
+            "linear, a smaller spin omega3 or a larger push."
+        )
     kinds = [trace(top) for top in tops]
     spheres = [
         axis_trace.sphere(

@@ -54,7 +54,8 @@ def scene(
         caption=(
             rf"Critical values of the energy $2H$ over the momentum $p$, at $M_3={tex(M3)}${same}, for "
             rf"{listed(called)}: steady precessions with their rate $w$ in Larmor's frame, "
-            rf"{rest}, and spins along the field or the vertical, {spins}."
+            + rest
+            + (f", and spins along the field or the vertical, {spins}." if spins else ".")
             + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in there else "")
         ),
         alt=(
@@ -95,15 +96,15 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
             f"figure energy_momentum: with M3 = {M3:g} and b = {b:g} no steady precession at I = {I:g} has |p| below "
             f"reach b = {reach * b:g}; give a larger reach, or an M3 nearer to b."
         )
-    spins = [wells.spin(end) for end in (1, -1)]
-    near = np.array([*near, *((p, g + rest) for p, g, _ in spins if abs(p) <= reach * scale)])
+    spins = [(p, g + rest, D) for p, g, D in map(wells.spin, (1, -1)) if abs(p) <= reach * scale]
+    near = np.array([*near, *(spin[:2] for spin in spins)])
     low, high = float(near[:, 1].min()), float(near[:, 1].max())
     pad = 0.08 * (high - low)
     layers: list[Layer] = [Curve(line, role) for line, role in lines]
     layers += [label for one in branches for label in names(one, reach * scale, rest)]
-    layers += [Points(np.array([[p, g + rest]]), "start" if D > 0 else "special") for p, g, D in spins]
+    layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "special") for p, H2, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"
-    layers.append(Label(np.array([spins[0][0], spins[0][1] + rest]), what, "note", (5, 6)))
+    layers += [Label(np.array(spin[:2]), what, "note", (5, 6)) for spin in spins[:1]]
     return Plane(
         tuple(layers),
         rf"$p$ (1/{unit})",

@@ -119,6 +119,15 @@ def test_the_quadrics_of_tops_are_those_of_the_class() -> None:
     assert len(narrow.panels) == 3
 
 
+def test_a_spin_beyond_the_reach_is_neither_drawn_nor_named() -> None:
+    """With M3 = 2 both spins have |p| = 2, beyond 1.6; M3 = 0.5 shows both."""
+    for M3, count in ((2.0, 0), (0.5, 2)):
+        scene = made("energy_momentum", ratios=(0.5,), M3=M3, linear=(0.5,))
+        (panel,) = scene.panels
+        assert len(layers(panel, Points)) == count
+        assert ("spins" in scene.caption) == any("spin" in one.text for one in layers(panel, Label)) == bool(count)
+
+
 def test_narrow_quadrics_stand_apart() -> None:
     """In a field close to the axis the names of the six are half a height of the tallest from one another or more."""
     row = made("quadrics_of_bodies", field=(0.0523, 0.9986)).panels[0]
