@@ -129,7 +129,6 @@ def test_rows_leave_no_garbage(name: str) -> None:
         assert gc.collect() == 0
     finally:
         gc.enable()
-        gc.unfreeze()
 
 
 def test_a_value_that_comes_again_is_written_alike() -> None:

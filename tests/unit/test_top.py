@@ -49,8 +49,8 @@ def middle(rows: list[list[object]]) -> np.ndarray:
 
 @pytest.mark.parametrize("name", CASES)
 def test_balls_hold_what_taylor_series_of_the_equations_give(name: str) -> None:
-    """R(t) and Omega(t) as balls hold the values of an integration to 30 digits, at three times."""
-    times = [0.5, 1.75, 3.0]
+    """R(t) and Omega(t) as balls hold the values of an integration to 30 digits, at two times."""
+    times = [0.5, 1.75]
     with ctx.workprec(200):
         motion = Balls(*CASES[name])
         for t, (R, Omega) in zip(times, taylor(CASES[name], times), strict=True):
