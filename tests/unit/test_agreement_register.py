@@ -26,7 +26,9 @@ FORMULAS = {
 MACHINERY = {
     "core": {
         "branches",
+        "certified",
         "charge",
+        "clebsch_rounding",
         "clebsch_theta",
         "inputs",
         "motion",
@@ -38,7 +40,18 @@ MACHINERY = {
     "exact": {
         *("cayley_klein", "digits", "euler", "inputs", "nutating", "nutation", "quartic", "spheres", "surd", "swing"),
         *("clebsch_flow", "clebsch_lattice", "clebsch_periods", "clebsch_proof", "clebsch_theta", "elliptic_curve"),
-        *("elliptic_quartic", "euler_top", "theta", "theta_sums", "top_quartic", "top_steady", "torus", "two_turns"),
+        *(
+            "clebsch_origins",
+            "elliptic_quartic",
+            "euler_top",
+            "simpler",
+            "theta",
+            "theta_sums",
+            "top_quartic",
+            "top_steady",
+            "torus",
+            "two_turns",
+        ),
     },
 }
 """Modules that compute for the others, and hold no formula of their own; so do core's folders."""

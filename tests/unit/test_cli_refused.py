@@ -141,6 +141,7 @@ CASES = [
     ("figure {place}/one.py {place}/sub/one.py", "have the same name"),
     ("figure loop --set field", "--set takes KEY=VALUE"),
     ("report atlas --out {place}/ratios.csv/new", "ratios.csv' is a file"),
+    ("report atlas --out {place}/lost", "lost' is a link to nothing"),
 ]  # fmt: skip
 ELSEWHERE = (
     "cannot be read: {error.strerror}",
@@ -159,6 +160,7 @@ ELSEWHERE = (
 def place(tmp_path: Path) -> Path:
     """Return a folder with files that are wrong, each in its way."""
     (tmp_path / "sub").mkdir()
+    (tmp_path / "lost").symlink_to("nothing")
     for name, text in FILES.items():
         (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
     return tmp_path
