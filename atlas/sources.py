@@ -58,7 +58,7 @@ class Sources:
             if path not in found:
                 found.add(path)
                 waiting += [module for name in self._facts(path)["imports"] for module in _files(name)]
-        return tuple(sorted(found))
+        return tuple(sorted(found, key=str))
 
     def closure(self, roots: Iterable[Path]) -> str:
         """Return one digest of the files and of every module of ours that they import.
@@ -163,6 +163,7 @@ def _files(name: str) -> tuple[Path, ...]:
     return tuple(files)
 
 
+@lru_cache(maxsize=4096)
 def _place(path: Path) -> str:
     """Return the path from the folder that holds the package, whatever it is called here."""
     for base in (PACKAGE / "_data", PACKAGE.parent):

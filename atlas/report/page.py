@@ -258,8 +258,8 @@ def _python(asked: Asked, name: str) -> str:
     """Return a parameter as it is written in Python, nothing for one that is left out."""
     body, field = asked.body or {}, asked.field or {}
     if name == "ratio":
-        sizes = ", ".join(f"{key}={plain(body[key])}" for key in body if key not in {"title", "shape", "charge"})
         if "shape" in body:
+            sizes = ", ".join(f"{key}={plain(body[key])}" for key in body if key not in {"title", "shape", "charge"})
             return f"atlas.SymmetricBody.{body['shape']}({sizes})"
         return plain(body["ratio"]) if "ratio" in body else f"atlas.SymmetricBody{tuple(body['inertia'])}"
     if name == "field" and field:

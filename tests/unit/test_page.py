@@ -4,10 +4,11 @@ import base64
 import hashlib
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
+from typing import Any
 
 import mpmath
 import pytest
@@ -18,6 +19,7 @@ from atlas import toml
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import best
+from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.report.body_and_field import body_and_field
@@ -238,20 +240,45 @@ def test_what_is_no_object_is_refused(
     assert not (tmp_path / "x").exists()
 
 
-def test_a_negative_field_keeps_its_sign_in_si(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """B' against e2 stays there, though the report's own frame would turn it round; rates are in 1/s."""
+@pytest.fixture
+def unbuilt(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], dict[str, Any]]:
+    """Return what gives the report file of a page, which is not built."""
 
     def build(*_: object, **__: object) -> None:
         raise AtlasError("not built here")
 
+    def record(words: str) -> dict[str, Any]:
+        with pytest.raises(AtlasError, match="not built here"):
+            CliRunner().invoke(command, ["page", *words.split(), "--out", str(tmp_path)], catch_exceptions=False)
+        (file,) = tmp_path.glob("*.toml")
+        return toml.loads(file.read_text("utf-8"))
+
     monkeypatch.setattr("atlas.build.report.build_report", build)
-    words = "page --ratio 1.5 --mass 2 --charge -3 --magnetic 1 2 --out".split()
-    with pytest.raises(AtlasError, match="not built here"):
-        CliRunner().invoke(command, [*words, str(tmp_path)], catch_exceptions=False)
-    (file,) = tmp_path.glob("*.toml")
-    record = toml.loads(file.read_text("utf-8"))
+    return record
+
+
+def test_a_negative_field_keeps_its_sign_in_si(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+    """B' against e2 stays there, though the report's own frame would turn it round; rates are in 1/s."""
+    record = unbuilt("--ratio 1.5 --mass 2 --charge -3 --magnetic 1 2")
     assert record["parameters"]["fields"]["field"]["prime"] == [-0.75, -1.5]
     assert record["pages"][0]["blocks"][0]["parameters"]["time"] == "s"
+
+
+@pytest.mark.parametrize(
+    "body", ["--points FILE", "--inertia 2 4 --mu 1", "--shape ring --radius 1 --mass 4 --charge 4"]
+)
+def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, Any]], tmp_path: Path, body: str) -> None:
+    """Four masses on a circle are a ring; its two moments, its shape and its points make the same motion."""
+    points = "x,y,z,mass,charge\n1,0,0,1,1\n0,1,0,1,1\n-1,0,0,1,1\n0,-1,0,1,1\n"
+    (tmp_path / "ring.csv").write_text(points, "utf-8")
+    record = unbuilt(f"{body.replace('FILE', str(tmp_path / 'ring.csv'))} --magnetic 0.75 1.3 --omega2 0.35")
+    texts = "".join(block.get("text", "") for block in record["pages"][0]["blocks"])
+    code = re.search(r"```python\n(.*?)```", texts, re.DOTALL)
+    assert code
+    with redirect_stdout(StringIO()) as out:
+        exec(code[1], {})  # noqa: S102  what the page tells the reader to type
+    motion = ElementaryMotion(2.0, (0.375, 0.65), 0.35)
+    assert float(out.getvalue().split()[1]) == pytest.approx(motion.omega3, rel=1e-14)
 
 
 def test_the_figures_of_a_family_draw_it() -> None:
