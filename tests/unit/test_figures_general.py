@@ -1,5 +1,6 @@
 """The figures of bodies and of the general motion as arrays: what is drawn is what the theory says."""
 
+import re
 from functools import partial
 from typing import Any
 
@@ -256,6 +257,19 @@ def test_the_tipping_disk_follows_the_equations_of_motion() -> None:
     R = simulate(2.0, (0.0, 1.0), (1e-3, 0.0, -1.0), t, rtol=1e-13, atol=1e-14).R
     found = np.degrees(np.arctan2(np.hypot(R[:, 0, 2], R[:, 1, 2]), R[:, 2, 2]))
     assert np.abs(found - angle).max() <= 1e-3
+
+
+@pytest.mark.parametrize(("ratio", "B3", "omega3"), [(2.0, 2.0, -1.7), (1.5, -0.5, 0.4)])
+def test_a_push_of_the_disk_grows_with_the_rate_of_the_caption(ratio: float, B3: float, omega3: float) -> None:
+    """While the angle is small an integration of the equations of motion has that rate, within 1e-3 of it."""
+    caption = recipes.load("tipping_disk").scene(ratio=ratio, B3=B3, omega3=omega3).caption
+    found = re.search(r"\\sqrt\{-D\}/2=([\d.]+)", caption)
+    assert found
+    rate = float(found[1])
+    times = np.linspace(4.0, 8.0, 41) / rate
+    R = simulate(ratio, (0.0, B3), (1e-7, 0.0, omega3), times, rtol=1e-12, atol=1e-16).R
+    slope = np.polyfit(times, np.log(np.hypot(R[:, 0, 2], R[:, 1, 2])), 1)[0]
+    assert abs(slope - rate) <= 1e-3 * rate
 
 
 def test_the_separatrix_follows_the_equations_of_motion() -> None:
