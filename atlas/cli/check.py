@@ -1,65 +1,111 @@
 """``atlas check``: a user's own trajectory, graded against the certified one."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from atlas.cli.body import BODY, body_options, chosen_body, chosen_field, field_options
-from atlas.cli.options import REAL, Command, Place, examples
+from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
 from atlas.cli.present import Printout, dump, show
 
 if TYPE_CHECKING:
     from atlas.study.check import Check
 
+OF_TOPS = ("direction", "coupling", "linear", "quadratic")
+"""Options that only a top has."""
+
+file_argument: Callable[[Any], Any] = click.argument(
+    "file", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="FILE.csv"
+)
+start_option: Callable[[Any], Any] = click.option(
+    "--omega", type=REAL, nargs=3, metavar="W1 W2 W3", help="Angular velocity at t = 0, of any motion."
+)
+graded_options: Callable[[Any], Any] = stack(
+    click.option(
+        "--threshold", type=REAL, default="6", show_default=True, help="Correct digits below which a column fails."
+    ),
+    click.option(
+        "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
+    ),
+    click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."),
+)
+
 
 @click.command(
     "check",
     cls=Command,
+    help="Count the correct digits of a trajectory of a body with three moments of inertia, column by column.",
+    epilog=examples("atlas check mine.csv --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2"),
+)
+@file_argument
+@click.option("--inertia", type=REAL, nargs=3, metavar="I1 I2 I3", help="Principal moments of inertia.")
+@click.option(
+    "--field", type=REAL, nargs=3, metavar="B1 B2 B3", help="Components of B' along the principal axes at t = 0."
+)
+@start_option
+@graded_options
+def three_moments(file: Path, **options: Any) -> int:
+    """Grade against the motion of a body with three moments of inertia."""
+    return _graded(file, options, {name: options[name] for name in ("inertia", "field", "omega")})
+
+
+@click.command(
+    "check",
+    cls=WithThreeMoments,
+    wider=lambda: three_moments,
     epilog=examples(
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega2 0.7",
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2",
+        "atlas check mine.csv --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2",
+        "atlas check mine.csv --inertia 1 0.5 --direction 0.6 0.8 --linear 3 --omega 0.1 0.2 5",
         "atlas check mine.csv --figure mine.pdf --json",
     ),
 )
-@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="FILE.csv")
+@file_argument
 @body_options
 @field_options
-@click.option("--omega", type=REAL, nargs=3, metavar="W1 W2 W3", help="Initial angular velocity, of a general motion.")
+@start_option
 @click.option("--omega2", type=REAL, help="Its second component alone, of an elementary motion.")
 @click.option("--omega3", type=REAL, help="Third component, where (71) leaves it free.")
 @click.option(
-    "--threshold", type=REAL, default="6", show_default=True, help="Correct digits below which a column fails."
+    "--direction", type=REAL, nargs=2, metavar="N2 N3", help="Of a top, as in atlas top, in place of a field."
 )
-@click.option(
-    "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
-)
-@click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
+@click.option("--coupling", type=REAL, nargs=2, metavar="K2 K3", help="Of a top, as in atlas top.")
+@click.option("--linear", type=REAL, help="Of a top, as in atlas top.")
+@click.option("--quadratic", type=REAL, help="Of a top, as in atlas top.")
+@graded_options
 def command(file: Path, **options: Any) -> int:
     """Count the correct digits of a trajectory computed elsewhere, column by column.
 
-    FILE.csv has a column t and any of R11 to R33, Omega1 to Omega3, or a quaternion w, x, y, z. The parameters are
-    options, or lines such as '# field = 1 2' at the head of the file.
+    FILE.csv has a column t and any of R11 to R33, Omega1 to Omega3 in the body, or a quaternion w, x, y, z. The
+    parameters are options, or lines such as '# field = 1 2' at the head of the file.
 
-    A body without symmetry is one with a line '# inertia = 1 1.7 2.2' (or with the six elements J11 J22 J33 J12 J13
-    J23): its integrals H, F, (M,K), K^2 and T are watched. Its digits are not counted: `atlas asymmetric` has them.
+    The motion is one of a symmetric body in a field, of a top (with a direction, as in atlas top), or of a body with
+    three moments of inertia ('# inertia = 0.8 1 1.3', '# field = 0.2 1 0.6', '# omega = 0.3 0.7 0.2'). Without omega,
+    or with the six elements J11 J22 J33 J12 J13 J23 of a tensor, its integrals H, F, (M,K), K^2 and T are watched, and
+    no digits counted. Errors of Omega are in units of its length, of a top and of a body with three moments in units
+    of the largest rate there is.
 
     The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
     option is wrong.
     """
-    from atlas.study.check import check
-
     body = any(options[name] is not None for name in BODY)
     field = any(options[name] is not None for name in ("field", "magnetic"))
-    found = check(
-        file,
-        ratio=chosen_body(options) if body else None,
-        field=chosen_field(options) if field else None,
-        omega2=options["omega2"],
-        omega3=options["omega3"],
-        omega=options["omega"],
-        threshold=options["threshold"],
-    )
+    given = {name: options[name] for name in ("inertia", "omega", "omega2", "omega3", *OF_TOPS)}
+    if body and options["inertia"] is None:
+        given["ratio"] = chosen_body(options)
+    if field:
+        given["field"] = chosen_field(options)
+    return _graded(file, options, given)
+
+
+def _graded(file: Path, options: dict[str, Any], given: dict[str, Any]) -> int:
+    """Grade a trajectory, show the grades, and return the status."""
+    from atlas.study.check import check
+
+    found = check(file, threshold=options["threshold"], **given)
     if options["figure"] is not None:
         from atlas.draw.files import save
 

@@ -1,6 +1,7 @@
 """``atlas classify|motion|general|ball|particle``: the quantities of a family, and what it has at given times."""
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Any
 
 import click
@@ -16,7 +17,17 @@ from atlas.cli.body import (
     field_options,
     units_of,
 )
-from atlas.cli.options import REAL, Command, chosen_times, exactly, examples, output_options, stack, times_options
+from atlas.cli.options import (
+    REAL,
+    Command,
+    WithThreeMoments,
+    chosen_times,
+    exactly,
+    examples,
+    output_options,
+    stack,
+    times_options,
+)
 from atlas.cli.present import Line, Printout, show
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
 from atlas.errors import DomainError
@@ -84,8 +95,11 @@ def _made(family: Family, described: Described) -> click.Command:
         if texts is not None:
             show(_printout(family, described, texts, options))
 
-    made = click.command(described.name, cls=Command, help=described.help, epilog=examples(*described.examples))
-    return made(stack(*decorators)(run))
+    texts = {"help": described.help, "epilog": examples(*described.examples)}
+    if family.name == "general":
+        wider = partial(command, "asymmetric")
+        return click.command(described.name, cls=WithThreeMoments, wider=wider, **texts)(stack(*decorators)(run))
+    return click.command(described.name, cls=Command, **texts)(stack(*decorators)(run))
 
 
 def object_options(family: Family) -> list[Callable[[Any], Any]]:

@@ -109,10 +109,11 @@ class Command(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Repeat the option's name before each of its values, which is what click understands."""
         many = {name for param in self.params if isinstance(param, Many) for name in param.opts}
-        if any(param.name == "inertia" and param.nargs == 2 for param in self.params) and _are_three(args, "--inertia"):
+        if any(param.name == "inertia" and param.nargs == 2 for param in self.params) and are_three(args, "--inertia"):
             raise click.UsageError(
                 "--inertia takes I2 and I3 of a symmetric body here; a body with three moments of inertia is that of "
-                "atlas asymmetric, which takes --inertia I1 I2 I3, and --field with three components, too."
+                "atlas asymmetric, which takes --inertia I1 I2 I3, and --field with three components, too; in a sweep "
+                "it is the family asymmetric, with --set I1=0.8 and so on."
             )
         try:
             return super().parse_args(ctx, list(_spread(args, many)))
@@ -137,11 +138,27 @@ def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
     return ""
 
 
-def _are_three(args: Sequence[str], option: str) -> bool:
+class WithThreeMoments(Command):
+    """A command of symmetric bodies with another one, `wider`, for any body: that of three numbers after --inertia."""
+
+    def __init__(self, *args: Any, wider: Callable[[], click.Command], **more: Any) -> None:
+        super().__init__(*args, **more)
+        self._wider = wider
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        """Let the command that the options are of read its arguments."""
+        if are_three(args, "--inertia"):
+            return self._wider().make_context(info_name, args, parent, **extra)
+        return super().make_context(info_name, args, parent, **extra)
+
+
+def are_three(args: Sequence[str], option: str) -> bool:
     """Return whether three numbers follow an option."""
     at = args.index(option) + 1 if option in args else len(args)
     following = args[at : at + 3]
-    return len(following) == 3 and all(re.fullmatch(r"[+-]?\.?\d[\d.eE+-]*", word) for word in following)
+    return len(following) == 3 and all(re.fullmatch(r"[+-]?\.?\d[\d.eE+/-]*", word) for word in following)
 
 
 def _spread(args: Sequence[str], many: set[str]) -> Iterator[str]:

@@ -63,7 +63,8 @@ FAMILY = Family(
     Command(
         "general",
         "Compute any motion of the body.",
-        "Nutation, rotation matrix R(t) and angular velocity from any initial angular velocity (not in the paper).",
+        "Nutation, rotation matrix R(t) and angular velocity from any initial angular velocity (not in the paper). "
+        "With --inertia I1 I2 I3 and --field B1 B2 B3 it is `atlas asymmetric`.",
         (
             "atlas general --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 0 1 2.5 --json",
             "atlas general --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2 --times 1e6 --digits 50",

@@ -1,23 +1,20 @@
 """Grade a user's trajectory against the certified motion: correct digits, where it begins to fail, what drifts."""
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from atlas.core.body import SymmetricBody
-from atlas.core.inertia import inertia_tensor
 from atlas.errors import AtlasError
-from atlas.exact.digits import certified
-from atlas.exact.elementary import ElementaryMotion
-from atlas.exact.general import GeneralMotion
 from atlas.scene import Curve, Plane, Scene
-from atlas.study.drift import AnyBody, Drift, Drifts, of_motion
+from atlas.study.drift import Drift, Drifts
 from atlas.study.grades import MOST, Column, Envelope, Errors, Grade
-from atlas.study.trajectory import Trajectory, opened
+from atlas.study.reference import reference
+from atlas.study.trajectory import opened
+from atlas.study.truth import truth_of
 
 LINES = {"R": ("main", "$R$"), "Omega": ("second", r"$\boldsymbol{\Omega}$"), "quaternion": ("fourth", "quaternion")}
 
@@ -101,54 +98,54 @@ class Check:
         )
 
 
-def check(
-    path: Path,
-    *,
-    ratio: Any = None,
-    field: tuple[float, float] | None = None,
-    omega2: float | None = None,
-    omega3: float | None = None,
-    omega: tuple[float, float, float] | None = None,
-    threshold: float = 6.0,
-) -> Check:
-    """Grade the trajectory in a CSV file, see `atlas.study.trajectory`; arguments override the file's # lines.
+def check(path: Path, *, threshold: float = 6.0, **given: Any) -> Check:
+    """Grade the trajectory in a CSV file, see `atlas.study.trajectory`; `given` parameters override its # lines.
 
-    With ``omega``, all three components of the initial angular velocity, it is held against the general motion; with
-    ``omega2`` and, where it is free, ``omega3``, against an elementary one.
+    Their names are those of the lines: ratio (or a SymmetricBody) or inertia, field, omega or omega2 and omega3, and
+    of a top direction, coupling, linear and quadratic; None is what is not given. With omega, all three components of
+    the initial angular velocity, the trajectory is held against the general motion, with three moments of inertia
+    against that of any body, with a direction against that of a top; with omega2 and, where it is free, omega3, against
+    an elementary one.
 
-    A file with three moments or six elements of an inertia tensor in its line # inertia is of a body without a
-    certified motion: only what should not change is reported, against the first row. The field is that of the file.
+    Three moments without omega, and the six elements of an inertia tensor, are of a body without a certified motion:
+    only what should not change is reported, against the first row.
 
     A column fails from the first row on at which it has fewer than ``threshold`` correct digits, of the 17 that a
     double can have. The times and the parameters of the file are taken as the doubles nearest to what is written.
-    The file is gone through once, in blocks.
+    The file is gone through once, in blocks. Raises AtlasError for what is no such file, or no such motion.
     """
     if not 0 <= threshold <= MOST:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MOST:g}; it cannot be {threshold:g}.")
     with opened(path) as trajectory:
-        given = dict(trajectory.parameters)
-        if ratio is None and len(given.get("inertia", ())) > 2:
-            return _any_body(trajectory, path.name, field, threshold)
-        parameters = {
-            "ratio": ratio if ratio is not None else _body(given, path.name),
-            "field": field if field is not None else _needed(given, "field", path.name),
-        } | _start(given, path.name, omega2, omega3, omega)
-        motion = (GeneralMotion if "omega" in parameters else ElementaryMotion)(*parameters.values())
-        errors, drifts, envelope = Errors(motion), Drifts(partial(of_motion, motion)), Envelope()
-        grades = [Grade(name, threshold, errors) for name in trajectory.names if name != "t"]
-        rows = 0
+        known = reference(trajectory.parameters, given, path.name)
+        errors = Errors(known.motion, truth_of(known.motion, known.unit), known.unit) if known.motion else None
+        if errors and 10.0**-threshold <= 2 * errors.floor:
+            raise AtlasError(
+                f"The threshold may be {-math.log10(2 * errors.floor) - 0.05:.1f} digits at most for this motion, "
+                f"whose closed form is evaluated within {errors.floor:.1e}; it cannot be {threshold:g}."
+            )
+        graded = [name for name in trajectory.names if name != "t"] if errors else []
+        grades = [Grade(name, threshold, errors) for name in graded if errors]
+        drifts, envelope, rows = Drifts(known.deviations), Envelope(), 0
         for block in trajectory.blocks:
-            found = errors.of(block)
-            for grade in grades:
-                grade.add(block, found[grade.name])
+            if errors:
+                found = errors.of(block)
+                for grade in grades:
+                    grade.add(block, found[grade.name])
+                envelope.add(block["t"], found)
             drifts.add(block)
-            envelope.add(block["t"], found)
             rows += len(block["t"])
+    if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.found()):
+        raise AtlasError(
+            f"{path.name}: without a certified motion for this inertia tensor the integrals are all there is to test, "
+            "and they need R11 to R33 or a quaternion, and Omega1 to Omega3. Three moments of inertia have one, with a "
+            "line such as '# omega = 0.3 0.7 0.2', the angular velocity at t = 0."
+        )
     return Check(
         file=path.name,
-        case=motion.case if isinstance(motion, ElementaryMotion) else motion.kind,
-        parameters=_shown(parameters),
-        frequencies=_frequencies(motion),
+        case=known.case,
+        parameters=known.parameters,
+        frequencies=known.frequencies(),
         rows=rows,
         threshold=float(threshold),
         columns=tuple(grade.column() for grade in grades),
@@ -157,83 +154,3 @@ def check(
         times=tuple(envelope.times()),
         errors={group: tuple(values) for group, values in envelope.errors().items()},
     )
-
-
-def _frequencies(motion: ElementaryMotion | GeneralMotion) -> dict[str, str]:
-    """Return omega3, k and phi; of a general motion nothing, for its angles belong to a period."""
-    if isinstance(motion, GeneralMotion):
-        return {}
-    found: dict[str, str] = certified(lambda: {"omega3": motion.omega3, "k": motion.k, "phi": motion.phi}, 15)
-    return found
-
-
-def _any_body(trajectory: Trajectory, file: str, field: Sequence[float] | None, threshold: float) -> Check:
-    """Return what drifts in the motion of a body of any inertia tensor, with no column graded."""
-    given = trajectory.parameters["inertia"]
-    a, b, c, ab, ac, bc = (*given, 0.0, 0.0, 0.0)[:6]
-    tensor = inertia_tensor([[a, ab, ac], [ab, b, bc], [ac, bc, c]])
-    B = np.array(field if field is not None else _needed(trajectory.parameters, "field", file))
-    B = B if B.size == 3 else np.array([0.0, *B])
-    kept, rows, ends = Drifts(AnyBody(tensor, B)), 0, list[float]()
-    for block in trajectory.blocks:
-        kept.add(block)
-        rows += len(block["t"])
-        ends = [*ends[:1], float(block["t"][0]), float(block["t"][-1])]
-    drifts = kept.found()
-    if not any(drift.label == "theorem-clebsch" for drift in drifts):
-        raise AtlasError(
-            f"{file}: without a certified motion for this inertia tensor the integrals are all there is to test, and "
-            "they need R11 to R33 or a quaternion, and Omega1 to Omega3."
-        )
-    shown = {"inertia": list(given), "field": B.tolist()}
-    times = (ends[0], ends[-1])
-    return Check(file, "any inertia tensor", shown, {}, rows, float(threshold), (), drifts, rows, times, {})
-
-
-def _start(
-    given: Mapping[str, tuple[float, ...]],
-    file: str,
-    omega2: float | None,
-    omega3: float | None,
-    omega: tuple[float, float, float] | None,
-) -> dict[str, Any]:
-    """Return the initial angular velocity: omega, or omega2 and omega3; what is an argument comes before the file."""
-    one = omega2 is not None or omega3 is not None
-    if omega is not None and one:
-        raise AtlasError("The start is one of omega (three components) and omega2 with omega3: found both.")
-    if omega is not None:
-        return {"omega": omega}
-    if not one and "omega" in given and "omega2" in given:
-        raise AtlasError(f"{file} gives the start twice, by omega and by omega2: leave one of them out.")
-    if not one and "omega" in given:
-        return {"omega": given["omega"]}
-    return {
-        "omega2": omega2 if omega2 is not None else _needed(given, "omega2", file)[0],
-        "omega3": omega3 if omega3 is not None else given.get("omega3", (None,))[0],
-    }
-
-
-def _shown(parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the parameters as plain numbers, a body as its two moments."""
-    body = parameters["ratio"]
-    shown: dict[str, Any] = {"inertia": [body.I2, body.I3]} if hasattr(body, "I2") else {"ratio": float(body)}
-    shown["field"] = [float(component) for component in parameters["field"]]
-    if "omega" in parameters:
-        return shown | {"omega": [float(w) for w in parameters["omega"]]}
-    return shown | {name: float(parameters[name]) for name in ("omega2", "omega3") if parameters[name] is not None}
-
-
-def _body(given: Mapping[str, tuple[float, ...]], file: str) -> Any:
-    if "inertia" in given and "ratio" in given:
-        raise AtlasError(f"{file} gives the body twice, by ratio and by inertia: leave one of them out.")
-    if "inertia" in given:
-        I2, I3 = given["inertia"]
-        return SymmetricBody(I2, I3)
-    return _needed(given, "ratio", file)[0]
-
-
-def _needed(given: Mapping[str, tuple[float, ...]], name: str, file: str) -> tuple[float, ...]:
-    if name not in given:
-        example = {"field": "# field = 1 2"}.get(name, f"# {name} = 1.5")
-        raise AtlasError(f"{file} does not say {name}: give the option, or a line such as '{example}' in the file.")
-    return given[name]

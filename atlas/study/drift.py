@@ -10,7 +10,8 @@ from flint import fmpq
 from atlas.core.inputs import FloatArray
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.general import GeneralMotion
-from atlas.study.conserved import conserved
+from atlas.exact.top import TopMotion
+from atlas.study.conserved import Value, conserved
 from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 from atlas.study.truth import long
 
@@ -72,11 +73,14 @@ def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, Floa
 
 
 class AnyBody:
-    """The same for a body of any inertia tensor (3, 3) in the field B' (3,): deviations from the first row of all."""
+    """The same for a body of any inertia tensor (3, 3) in the field B' (3,).
 
-    def __init__(self, inertia: Any, field: Any) -> None:
+    Deviations are from the values of `start`, Omega and K, else from those of the first row of all.
+    """
+
+    def __init__(self, inertia: Any, field: Any, start: tuple[Any, Any] | None = None) -> None:
         self._J, self._field = np.asarray(inertia, dtype=np.longdouble), np.asarray(field, dtype=np.longdouble)
-        self._start: tuple[Any, Any] | None = None
+        self._start = start
 
     def __call__(self, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
         """Yield the deviations in one more block."""
@@ -93,6 +97,31 @@ class AnyBody:
         true = (field @ field, first @ J @ first)
         yield "K^2", "length of the field in the body, squared", "(37)", square / (true[0] or 1) - 1
         yield "T", "kinetic energy", "theorem-kinetic-energy", double / (true[1] or 1) - 1
+
+
+def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
+    """Yield the same of a top: orthogonality, the norm, and the constants h, M3 and p in units of its moment I2."""
+    columns, R, Omega = _read(block)
+    yield from _rigid(columns, R)
+    if R is None or Omega is None:
+        return
+    I, k2, k3, a0, A0 = map(long, (motion.I, *motion.coupling, *motion.potential))
+    n = np.array([long(x) for x in motion.field]) / long(motion.b)
+    start = np.array([long(w) for w in motion.omega])
+    found, true = (_of_top(I, k2, k3, a0, A0, *state) for state in ((Omega, n @ R), (start, n)))
+    for (name, says, label, values, _), (*_, value, size) in zip(found, true, strict=True):
+        yield name, says, label, (values - value) / (size or 1)
+
+
+def _of_top(I: Any, k2: Any, k3: Any, a0: Any, A0: Any, Omega: Any, b: Any) -> Iterable[Value]:
+    """Yield name, meaning, equation, values and size of the constants of a top, Omega and b (..., 3)."""
+    w, nu = np.moveaxis(Omega, -1, 0), b[..., 2]
+    M = np.stack([w[0] + k2 * b[..., 0], w[1] + k2 * b[..., 1], I * w[2] + k3 * nu], axis=-1)
+    kinetic = (w[0] ** 2 + w[1] ** 2 + I * w[2] ** 2) / 2
+    h = kinetic + a0 * nu + A0 * nu * nu / 2
+    yield "h", "energy over I2", "theorem-top", h, kinetic + abs(a0 * nu) + abs(A0) * nu * nu / 2
+    yield "M3", "momentum along the axis, over I2", "theorem-top", M[..., 2], abs(I * w[2]) + abs(k3 * nu)
+    yield "p", "momentum along n, over I2", "theorem-top", (M * b).sum(-1), np.abs(M * b).sum(-1)
 
 
 def _read(block: Mapping[str, FloatArray]) -> tuple[dict[str, Any], Any, Any]:

@@ -12,12 +12,10 @@ from flint import arb
 
 from atlas.core.inputs import FloatArray
 from atlas.exact.digits import numbers
-from atlas.exact.elementary import ElementaryMotion
-from atlas.exact.general import GeneralMotion
 from atlas.exact.inputs import Real
 from atlas.formulas.numbers import workprec
 from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
-from atlas.study.truth import UNCERTAINTY, GeneralTruth, Long, Truth, long
+from atlas.study.truth import KernelTruth, Long, Truth, long
 
 Block = Mapping[str, FloatArray]
 
@@ -28,9 +26,6 @@ LEAST, LARGEST = 10.0**-MOST, float(np.finfo(float).max)
 BITS = 80
 GROUPS: Mapping[str, tuple[str, ...]] = {"R": MATRIX, "Omega": OMEGA, "quaternion": QUATERNION}
 
-PART = 100
-"""An error below so many uncertainties of a kernel is found by balls, at a thousandth of a second a row."""
-
 POINTS = 2048
 """Half of the largest number of points that an `Envelope` keeps."""
 
@@ -40,7 +35,8 @@ class Column:
     """The grade of one column: digits that are correct, the worst place, and the time from which it fails, if it does.
 
     Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its length.
-    The median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls.
+    The median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls. Of a body
+    with three moments errors below the bound on those of its closed form count as that bound.
     """
 
     name: str
@@ -53,11 +49,10 @@ class Column:
 class Errors:
     """Errors of found values: of whole blocks to UNCERTAINTY, of one row certified."""
 
-    def __init__(self, motion: ElementaryMotion | GeneralMotion) -> None:
-        self._motion = motion
-        self._truth = Truth(motion) if isinstance(motion, ElementaryMotion) else GeneralTruth(motion)
-        self._length = np.sqrt(sum(long(w) ** 2 for w in motion.omega)) or np.longdouble(1)
-        self.uncertainty = self._truth.uncertainty
+    def __init__(self, motion: Any, truth: Truth | KernelTruth, unit: Real) -> None:
+        self._motion, self._truth, self._unit = motion, truth, unit
+        self._length = long(unit)
+        self.uncertainty, self.floor = truth.uncertainty, truth.floor
 
     def of(self, block: Block) -> dict[str, FloatArray]:
         """Return the errors (m,) of each column of a block."""
@@ -71,9 +66,9 @@ class Errors:
         for names, values in zip(GROUPS.values(), (R, Omega, q), strict=True):
             true |= dict(zip(names, values.T, strict=True))
         found = {name: self._difference(name, values, true[name]) for name, values in block.items() if name != "t"}
-        # next to the truth, where a kernel is not near enough, balls are
+        found = {name: np.maximum(errors, self.floor) for name, errors in found.items()}
         least = np.min(list(found.values()), axis=0)
-        for i in np.flatnonzero(~near | (least < PART * self.uncertainty) & (self.uncertainty > UNCERTAINTY)):
+        for i in np.flatnonzero(~near | (least < self._truth.near)):
             for name, error in self.certified(block, int(i)).items():
                 found[name][i] = error
         return found
@@ -93,12 +88,10 @@ class Errors:
             if any(name in row for name in OMEGA):
                 truth |= dict(zip(OMEGA, _precise(partial(motion.angular_velocity, t)), strict=True))
             if QUATERNION[0] in row:
-                quaternion: list[Real] = _precise(partial(motion.quaternion, t))
+                quaternion: list[Real] = _precise(partial(_quaternion, motion, t))
                 same = sum((arb(row[n]) * x for n, x in zip(QUATERNION, quaternion, strict=True)), arb(0))
                 truth |= dict(zip(QUATERNION, quaternion if same >= 0 else [-x for x in quaternion], strict=True))
-            square = arb(sum(w * w for w in motion.omega))
-            length = square.sqrt() if square != 0 else arb(1)
-            units = {name: length if name in OMEGA else arb(1) for name in row}
+            units = {name: arb(self._unit) if name in OMEGA else arb(1) for name in row}
             bounds = {name: (abs(arb(x) - truth[name]) / units[name]).upper() for name, x in row.items()}
         return {name: min(float(bound), LARGEST) for name, bound in bounds.items()}
 
@@ -109,7 +102,7 @@ class Grade:
     def __init__(self, name: str, threshold: float, errors: Errors) -> None:
         self.name, self._errors, self._limit = name, errors, 10.0**-threshold
         self._thousandths: Counter[int] = Counter()
-        self._worst, self._row, self._worst_time = 0.0, 0.0, 0.0
+        self._worst, self._worst_row = 0.0, dict[str, FloatArray]()
         self._fails_at: float | None = None
 
     def add(self, block: Block, errors: FloatArray) -> None:
@@ -119,8 +112,7 @@ class Grade:
         self._thousandths.update(dict(zip(values.tolist(), counts.tolist(), strict=True)))
         i = int(np.argmax(counted))
         if counted[i] > self._worst:
-            self._worst, self._worst_time = float(counted[i]), float(t[i])
-            self._row = self._errors.certified(block, i)[self.name]
+            self._worst, self._worst_row = float(counted[i]), {name: values[[i]] for name, values in block.items()}
         if self._fails_at is None:
             uncertain = self._errors.uncertainty
             for j in np.flatnonzero(errors > self._limit - uncertain).tolist():
@@ -133,8 +125,10 @@ class Grade:
         values = np.array(sorted(self._thousandths))
         upto = np.cumsum([self._thousandths[value] for value in values.tolist()])
         middle = values[np.searchsorted(upto, [(upto[-1] - 1) // 2, upto[-1] // 2], side="right")]
-        worst = -math.log10(max(self._row, LEAST))
-        return Column(self.name, float(middle.mean()) / 1000, worst, self._worst_time, self._fails_at)
+        sure = self._worst > self._errors.floor
+        worst = self._errors.certified(self._worst_row, 0)[self.name] if sure else self._errors.floor
+        at = float(self._worst_row["t"][0])
+        return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), at, self._fails_at)
 
 
 class Envelope:
@@ -161,16 +155,37 @@ class Envelope:
                 self._kept, self.rows = _largest(self._kept, 2), 2 * self.rows
 
     def times(self) -> list[float]:
-        """Return the first time of each point."""
-        return list(map(float, self._points()[:, 0]))
+        """Return the first time of each point; none where nothing is graded."""
+        return list(map(float, self._points()[:, 0])) if self._groups else []
 
     def errors(self) -> dict[str, list[float]]:
         """Return for each group the largest error of each point."""
-        return dict(zip(self._groups, self._points()[:, 1:].T.tolist(), strict=True))
+        return dict(zip(self._groups, self._points()[:, 1:].T.tolist(), strict=True)) if self._groups else {}
 
     def _points(self) -> FloatArray:
         rest = len(self._waiting)
         return np.concatenate([self._kept, _largest(self._waiting, rest)]) if rest else self._kept
+
+
+def _quaternion(motion: Any, t: float) -> list[Real]:
+    """Return a unit quaternion of R(t), scalar first; where a motion has only the matrix, from that."""
+    if hasattr(motion, "quaternion"):
+        found: list[Real] = motion.quaternion(t)
+        return found
+    R = [[arb(x) for x in row] for row in motion.rotation(t)]
+    # four times the products of the components with one another; the row of the largest square, over its length
+    a, b, c = (R[i][i] for i in range(3))
+    squares = [1 + a + b + c, 1 + a - b - c, 1 - a + b - c, 1 - a - b + c]
+    pairs = [(R[k][j], R[j][k]) for j, k in ((1, 2), (2, 0), (0, 1))]
+    turns, sums = [x - y for x, y in pairs], [x + y for x, y in pairs]
+    rows = [
+        [squares[0], *turns],
+        [turns[0], squares[1], sums[2], sums[1]],
+        [turns[1], sums[2], squares[2], sums[0]],
+        [turns[2], sums[1], sums[0], squares[3]],
+    ]
+    k = max(range(4), key=lambda i: float(squares[i].mid()))
+    return [x / (2 * squares[k].sqrt()) for x in rows[k]]
 
 
 def _precise(function: Callable[[], Any]) -> Any:

@@ -32,6 +32,10 @@ PARAMETERS: Mapping[str, tuple[int, ...]] = {
     "omega2": (1,),
     "omega3": (1,),
     "omega": (3,),
+    "direction": (2,),
+    "coupling": (2,),
+    "linear": (1,),
+    "quadratic": (1,),
 }
 """Parameters with the counts of numbers they may have: moments I2, I3, or I1, I2, I3, or J11 J22 J33 J12 J13 J23."""
 

@@ -1,27 +1,39 @@
-"""The true elementary motion at arrays of times, some three digits beyond a double, by the phases of the kernels.
+"""The true motion at arrays of times: elementary ones some three digits beyond a double, others by their kernels.
 
-Axis and frequencies come from the exact floor, and the phases are reduced in two words, see
+Of an elementary motion axis and frequencies come from the exact floor, and the phases are reduced in two words, see
 `atlas.core.arithmetic.phase`; sines, cosines and what is made of them are long doubles. It is what a million rows can
 be graded against in a second; where a digit hangs on it, and for phases out of `within`, balls decide.
 """
 
+from typing import Any, TypeAlias
+
 import numpy as np
+from flint import arb
 from numpy.typing import NDArray
 
 from atlas.core.arithmetic.phase import Phases
 from atlas.core.arithmetic.words import BITS, TURN, magnitude, middle, scaled, words
+from atlas.core.asymmetric import SingleAsymmetric
+from atlas.core.certified import REACH
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.single_general import SingleGeneral
+from atlas.core.nutation.single_top import SingleTop
+from atlas.exact.asymmetric import AsymmetricMotion
 from atlas.exact.digits import enclosed
 from atlas.exact.elementary import ElementaryMotion
 from atlas.exact.general import GeneralMotion
 from atlas.exact.inputs import Real
+from atlas.exact.top import TopMotion
 from atlas.formulas.numbers import workprec
 
 Long = NDArray[np.longdouble]
+Motion: TypeAlias = ElementaryMotion | GeneralMotion | AsymmetricMotion | TopMotion
 
 UNCERTAINTY = 2e-18
 """Bound on the error of an entry of R, of a quaternion, and of Omega in units of its length."""
+
+PART = 100
+"""An error below so many uncertainties of a kernel is found by balls, at a thousandth of a second a row."""
 
 PHASE = 2.0**-6
 """Part of the phases up to 2^50 in which two words of a frequency leave less than a quarter of that."""
@@ -34,6 +46,7 @@ class Truth:
     """R, Omega and the quaternion of an elementary motion at times (m,)."""
 
     uncertainty = UNCERTAINTY
+    near = floor = 0.0
 
     def __init__(self, motion: ElementaryMotion) -> None:
         values = enclosed(lambda: (motion.k, motion.phi, *motion.axis, motion.omega2, motion.omega3), BITS)
@@ -66,26 +79,48 @@ class Truth:
         return R, Omega, q
 
 
-class GeneralTruth:
-    """The same of a general motion, by the kernels: to a few units in the last place of a double."""
+class KernelTruth:
+    """The same of other motions, by the kernels: to a few units in the last place of a double."""
 
     uncertainty = 1e-14
     """Bound on the error of an entry of R, of a quaternion, and of Omega in units of the largest rate."""
 
-    def __init__(self, motion: GeneralMotion) -> None:
-        self._motion = SingleGeneral(motion, np.eye(3))
+    def __init__(self, single: Any, reach: float) -> None:
+        self._single, self._reach = single, reach
+        self.near, self.floor = PART * self.uncertainty, 0.0
+        """Errors below `near` are to be found by balls; those below `floor` are not told from it."""
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
         """Tell at which times there is a value, shape (m,)."""
-        return np.asarray(np.abs(t) <= PHASE * self._motion.parts.phases.reach)
+        return np.asarray(np.abs(t) <= self._reach)
 
     def at(self, t: FloatArray) -> tuple[Long, Long, Long]:
         """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`."""
         from scipy.spatial.transform import Rotation
 
-        R, Omega = self._motion.rotation(t), self._motion.angular_velocity(t)
+        R, Omega = self._single.rotation(t), self._single.angular_velocity(t)
         q = Rotation.from_matrix(R).as_quat(scalar_first=True)
         return R.reshape(-1, 9).astype(np.longdouble), Omega.astype(np.longdouble), q.astype(np.longdouble)
+
+
+def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
+    """Return what a motion is at arrays of times, Omega in this unit."""
+    if isinstance(motion, ElementaryMotion):
+        return Truth(motion)
+    if isinstance(motion, AsymmetricMotion):
+        return _of_three_moments(SingleAsymmetric(motion), float(arb(unit)))
+    single = SingleTop(motion, np.eye(3)) if isinstance(motion, TopMotion) else SingleGeneral(motion, np.eye(3))
+    return KernelTruth(single, PHASE * single.parts.phases.reach)
+
+
+def _of_three_moments(single: SingleAsymmetric, unit: float) -> KernelTruth:
+    """Return the closed form of a motion; where there is none balls decide, in tenths of a second a row."""
+    if single.closed is None:
+        return KernelTruth(single, -1.0)
+    found = KernelTruth(single, PHASE * REACH / unit)
+    found.uncertainty = found.floor = single.closed.accuracy + (single.closed.proved or 0.0)
+    found.near = 0.0
+    return found
 
 
 def long(value: Real) -> np.longdouble:

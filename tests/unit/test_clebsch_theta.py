@@ -287,9 +287,12 @@ def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> N
     assert re.match(r"not proved; agrees with .* within \S+ at 2 times up to \|t\| = 4.88; rounding", one.agreement)
 
 
-def test_three_moments_are_sent_to_their_command() -> None:
-    """`atlas general --inertia` with three numbers names `atlas asymmetric`, in one line."""
-    words = "general --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2".split()
-    found = CliRunner().invoke(command, words)
+def test_three_moments_are_taken_by_the_command_of_general_motions() -> None:
+    """`atlas general --inertia` with three numbers is `atlas asymmetric`, and a sweep names that family."""
+    words = "--inertia 4/5 1 1.25 --field 0.2 1 0.6 --omega 0.3 0.7 0.2 --times 2 --json".split()
+    runs = [CliRunner().invoke(command, [name, *words], catch_exceptions=False) for name in ("general", "asymmetric")]
+    assert [run.exit_code for run in runs] == [0, 0]
+    assert runs[0].stdout == runs[1].stdout
+    found = CliRunner().invoke(command, "sweep general --inertia 0.8 1 1.3 --set B2=1 --out x.csv".split())
     assert found.exit_code == 2
-    assert "atlas asymmetric" in found.output
+    assert "the family asymmetric, with --set I1=0.8" in found.output
