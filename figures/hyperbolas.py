@@ -29,14 +29,15 @@ def scene(
     layers = [*_straight(ratios, field, view), *_curves(ratios, field, view), *_points(ratios, field)]
     bodies = listed([f"a {body_name(ratio)} ($I={tex(quotient(ratio))}$)" for ratio in ratios])
     spoken = listed([f"a {body_name(ratio)} with I = {plain(quotient(ratio))}" for ratio in ratios])
-    line = ", a line of the ball" if any(quotient(ratio) == 1.0 for ratio in ratios) else ""
+    ball = any(quotient(ratio) == 1.0 for ratio in ratios)
+    pole = r"asymptote $\omega_2=-B'_2$, a line of the ball" if ball else "dotted asymptote"
     return Scene(
         title=title(__doc__),
         caption=(
             r"The initial angular velocities $(0,\omega_2,\omega_3)$ of the elementary motions, (67), in the "
             rf"field $\mathbf{{B}}'={tex_vector((0.0, *field))}$ for {bodies}. "
             + (
-                rf"All share the centre $-\mathbf{{B}}'$ and the dotted asymptote{line}; the dashed ones run along "
+                rf"All share the centre $-\mathbf{{B}}'$ and the {pole}; the thin dashed ones run along "
                 r"$\mathbb{I}^{-1}\mathbf{B}'$. Black dots: $\omega_2=-(2-I)B'_2$, where $\omega_3=0$ again."
                 if B2 and B3
                 else "In such a field the curve is the same for every body, and falls apart into straight lines."
@@ -58,7 +59,7 @@ def scene(
                 y_limits=view.y,
             ),
         ),
-        named={"dotted": "pole", "dashed": "asymptote"},
+        named={"thin dashed": "asymptote"} | ({} if ball else {"dotted": "pole"}) if B2 and B3 else {},
         size=(WIDTH, HEIGHT),
     )
 
@@ -68,7 +69,8 @@ def _straight(ratios: tuple[float, ...], field: tuple[float, float], view: Windo
     B2, B3 = components(field)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     if B2 and B3:
-        layers.append(Curve(view.upright(-B2), "pole"))
+        if all(quotient(ratio) != 1.0 for ratio in ratios):  # a ball has this line itself
+            layers.append(Curve(view.upright(-B2), "pole"))
         layers += [Curve(asymptote(ratio, field, view), "asymptote") for ratio in ratios]
     return layers
 

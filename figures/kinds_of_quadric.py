@@ -15,10 +15,15 @@ from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
 from atlas.scene.captions import listed, title
 
 WIDTH, HEIGHT = 178.0, 72.0
-MOST = 2000
+LEAST, MOST = 60, 2000
+"""Cells a side: with fewer the lines end before the edges."""
 RIGHT = 90.0
+EDGE = 0.05
+"""A level that is met only within this part of a panel from an edge or the cone is no line that can be seen."""
 ROOM = 0.055
 """Half the gap in a level line for its value, as a part of the panel."""
+LETTERS = np.array([0.14, 0.07])
+"""Width and height of a value, as parts of the panel: another stands clear of it."""
 
 
 def scene(
@@ -30,24 +35,30 @@ def scene(
 ) -> Scene:
     """Draw the regions, and levels of C1, C2, C3 in units of |B'|, from a grid of ``cells`` a side."""
     levels = (C1, C2, C3)
-    cells = whole(cells, "The number of cells", 2)
-    if not all(level > 0 for row in levels for level in row) or cells > MOST:
-        raise DomainError(
-            f"figure kinds_of_quadric takes positive levels of the semi-axes and at most {MOST} cells, not "
-            f"{levels} and {cells}."
-        )
+    cells = whole(cells, "The number of cells", LEAST)
+    if cells > MOST:
+        raise DomainError(f"figure kinds_of_quadric takes at most {MOST} cells, not {cells}.")
     I = 2.0 * np.arange(1, cells + 1) / cells
     beta = RIGHT * (np.arange(cells) + 0.5) / cells
     axes = semi_axes(I[None, :], beta[:, None])
+    seen = np.minimum(I / 2.0, np.abs(I - 1.0)) > EDGE, np.abs(beta / RIGHT - 0.5) < 0.5 - EDGE
+    for k, row in enumerate(levels):
+        low, high = (float(f"{end(axes[np.ix_(seen[1], seen[0])][..., k]):.2g}") for end in (np.min, np.max))
+        if not all(low <= level <= high for level in row):
+            raise DomainError(f"figure kinds_of_quadric draws levels of C{k + 1} from {low} to {high}, not all of {row}.")
     panels = []
     for k, row in enumerate(levels):
         layers: list[Layer] = [
             Region(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, RIGHT], [0.0, RIGHT]]), "region"),
             Curve(np.array([[1.0, 0.0], [1.0, RIGHT]]), "silhouette"),
         ]
-        for value in row:
+        taken: list[FloatArray] = []
+        for value in dict.fromkeys(row):
             for line in contour_generator(I, beta, axes[..., k]).lines(value):
-                place = line[named(line)]
+                if (place := named(line, taken)) is None:
+                    layers.append(Curve(line, "main"))
+                    continue
+                taken.append(place)
                 layers += [Curve(piece, "main") for piece in beside(line, place)]
                 layers.append(Label(place, f"${value:g}$", "main", (0.0, 0.0)))
         if k == 0:
@@ -87,10 +98,13 @@ def semi_axes(I: FloatArray, beta: FloatArray) -> FloatArray:
     return np.asarray(Quadric(np.broadcast_to(I, B2.shape), (B2, steep * B2)).semi_axes)
 
 
-def named(line: FloatArray) -> int:
-    """Return which point of a level line bears its value: the one farthest from the cone and from the edges."""
+def named(line: FloatArray, taken: list[FloatArray]) -> FloatArray | None:
+    """Return the point of a level line for its value, far from the cone and the edges; none beside those ``taken``."""
     I, beta = line.T
-    return int(np.argmax(np.abs(I - 1.0) * np.minimum(1.0 - np.abs(I - 1.0), 0.4) * np.sin(2 * np.radians(beta))))
+    good = np.abs(I - 1.0) * np.minimum(1.0 - np.abs(I - 1.0), 0.4) * np.sin(2 * np.radians(beta))
+    for other in taken:
+        good[(np.abs(line - other) < LETTERS * [2.0, RIGHT]).all(axis=1)] = 0.0
+    return line[np.argmax(good)] if good.max() > 0 else None
 
 
 def beside(line: FloatArray, place: FloatArray) -> list[FloatArray]:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from atlas.draw.panels import to_figure
 from atlas.scene import recipes
 
-DOTS, LEAST, SEEN, WORDS = 100, 40, 12, 60
+DOTS, LEAST, SEEN, WORDS = 100, 30, 25, 60
 """Pixels an inch, how many must differ where a layer is taken away, and by how much of 255; words of a caption."""
 LOOKS = re.compile(r"\b([Dd]ashed|[Dd]otted|[Tt]hin|[Hh]eavy)\b")
 CASES: list[tuple[str, dict[str, Any]]] = [

@@ -238,3 +238,13 @@ def test_the_unstable_motions_are_drawn_on_the_ribbon() -> None:
             assert (hyperbola.stability(middle[1]) < 0) == (line.role == "unstable")
     assert "Vermilion" in recipes.load("ribbon").scene(ratio=0.5, field=(1.0, 0.1)).caption
     assert "Vermilion" not in recipes.load("ribbon").scene().caption
+
+
+@pytest.mark.parametrize("C1", [(0.5, 0.51, 0.52, 0.53), (0.5, 0.5)])
+def test_values_of_levels_do_not_stand_upon_each_other(C1: tuple[float, ...]) -> None:
+    """However near to each other the levels are, and where one is given twice, two values are a letter apart."""
+    figure, *_ = panels("kinds_of_quadric", C1=C1)
+    places = np.array([label.at for label in layers(figure, Label, "main")]) / [2.0, 90.0]
+    apart = np.abs(places[:, None] - places) >= [0.14, 0.07]
+    assert (apart.any(axis=2) | np.eye(len(places), dtype=bool)).all()
+    assert len(places) >= 2

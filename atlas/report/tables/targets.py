@@ -10,17 +10,14 @@ from atlas.targets import ANY, TARGETS, Target
 def targets(request: Request) -> Data:
     """List the targets of figures with width and height, type, lines, resolution, what is asked, and the source."""
     request.take(StrictStruct)
-    columns = ("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi", "What is asked there")
-    rows = []
-    for asks, group in groupby(TARGETS.items(), lambda item: item[1].asks):
-        rows += [(f"`{name}`", *_sizes(one), "" if place else asks) for place, (name, one) in enumerate(group)]
-    sources = dict.fromkeys((name.partition("-")[0], one.source) for name, one in TARGETS.items() if one.source)
+    columns = ("Target", "Width (mm)", "Height (mm)", "Type (pt)", "Lines (pt)", "dpi")
+    firsts = [next(group) for _, group in groupby(TARGETS.items(), lambda item: item[1].asks)]
     return Data(
         tuple(map(Column, columns)),
-        tuple(rows),
+        tuple((f"`{name}`", *_sizes(one)) for name, one in TARGETS.items()),
         "What `atlas figure NAME --for TARGET` makes: width and greatest height, size of all type, least and "
         "greatest width of lines, resolution of pictures.",
-        ("Where it stands: " + "; ".join(f"{name}, {place}" for name, place in sources) + ".",),
+        tuple(f"{name}: {one.asks}{f' ({one.source})' if one.source else ''}." for name, one in firsts),
     )
 
 
