@@ -41,13 +41,15 @@ def scene(
     I = 2.0 * np.arange(1, cells + 1) / cells
     beta = RIGHT * (np.arange(cells) + 0.5) / cells
     axes = semi_axes(I[None, :], beta[:, None])
-    seen = np.minimum(I / 2.0, np.abs(I - 1.0)) > EDGE, np.abs(beta / RIGHT - 0.5) < 0.5 - EDGE
-    for k, row in enumerate(levels):
-        low, high = (float(f"{end(axes[np.ix_(seen[1], seen[0])][..., k]):.2g}") for end in (np.min, np.max))
-        if not all(low <= level <= high for level in row):
-            raise DomainError(f"figure kinds_of_quadric draws levels of C{k + 1} from {low} to {high}, not all of {row}.")
+    seen = np.abs(beta / RIGHT - 0.5) < 0.5 - EDGE, np.minimum(I / 2.0, np.abs(I - 1.0)) > EDGE
     panels = []
     for k, row in enumerate(levels):
+        drawn = axes[np.ix_(*seen)][..., k]
+        low, high = float(f"{drawn.min():.2g}"), float(f"{drawn.max():.2g}")
+        if not all(low <= level <= high for level in row):
+            raise DomainError(
+                f"figure kinds_of_quadric draws levels of C{k + 1} from {low} to {high}, not all of {row}."
+            )
         layers: list[Layer] = [
             Region(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, RIGHT], [0.0, RIGHT]]), "region"),
             Curve(np.array([[1.0, 0.0], [1.0, RIGHT]]), "silhouette"),
