@@ -1,5 +1,6 @@
 """Tables of a sweep as Parquet data sets, here, at an address, and on Dask."""
 
+import gc
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 import atlas
 from atlas.errors import AtlasError
 from atlas.study.sweep.parts import MANIFEST
+from atlas.study.sweep.plan import Plan
 
 pytest.importorskip("pyarrow")
 
@@ -104,3 +106,18 @@ def test_dask_writes_the_data_set_itself_and_goes_on_where_it_was_stopped(
         same(frames.read_parquet(out).compute(scheduler="synchronous"))
     assert {name: (out / name).stat().st_mtime_ns for name in kept} == kept
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
+
+
+@pytest.mark.filterwarnings("ignore:The inplace keyword")  # Dask calls pandas so
+@pytest.mark.parametrize("out", ["t.npz", "t.parquet/"])
+def test_dask_keeps_no_parameters_of_parts_that_are_done(tmp_path: Path, out: str) -> None:
+    """It keeps its last messages, which would be the whole last axis in each: 300 MB of a client at 1e8 rows."""
+    distributed = pytest.importorskip("distributed")
+    with (
+        distributed.LocalCluster(
+            n_workers=1, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0"
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        atlas.sweep("elementary", GRID, NAMES, f"{tmp_path}/{out}", rows=8, executor=client)
+        assert sum(type(x) is Plan for x in gc.get_objects()) < 5

@@ -41,11 +41,11 @@ def made(monkeypatch: pytest.MonkeyPatch, stop: int | None = None) -> list[int]:
     """Return a list that gets the first rows of the parts that are made from now on; `stop` of them are."""
     starts: list[int] = []
 
-    def make(span: Span, *more: Any) -> Any:
+    def make(plan: Plan, span: Span, *more: Any) -> Any:
         if len(starts) == stop:
             raise Stopped
         starts.append(span.first)
-        return KEEP(span, *more)
+        return KEEP(plan, span, *more)
 
     monkeypatch.setattr(workers, "make", make)
     return starts
@@ -82,22 +82,21 @@ def test_a_sweep_that_was_stopped_goes_on_from_there(
 
 
 def test_any_rows_are_those_of_the_table() -> None:
-    """A span carries the parameters that it needs and no more, and gives the rows of the whole."""
+    """A part carries the parameters that it needs and no more, and gives the rows of the whole."""
     for listed in (False, True):
         given = GRID if not listed else {name: np.resize(x, 154) for name, x in GRID.items()}
         plan = Plan.of("elementary", given, ["k"], listed=listed)
         table = plan.columns()
         for start, stop in [(0, 154), (0, 1), (153, 154), (21, 23), (22, 44), (5, 90), (11, 12), (100, 120)]:
-            span = plan.span(start, stop)
+            part, span = plan.part(start, stop)
             assert span.first == start
-            for name, column in span.columns().items():
+            for name, column in part.rows(span).items():
                 assert np.array_equal(column, table[name][start:stop])
-    assert {name: x.size for name, x in Plan.of("elementary", GRID, ["k"]).span(23, 30).plan.parameters.items()} == {
-        "ratio": 1,
-        "B2": 1,
-        "B3": 1,
-        "omega2": 7,
-    }
+    part, _ = Plan.of("elementary", GRID, ["k"]).part(23, 30)
+    assert {name: x.size for name, x in part.parameters.items()} == {"ratio": 1, "B2": 1, "B3": 1, "omega2": 7}
+    given = GRID | {"ratio": 1.5, "B3": 2.0}
+    part, _ = Plan.of("elementary", given, ["k"], listed=True).part(4, 9)
+    assert {name: x.size for name, x in part.parameters.items()} == {"ratio": 1, "B2": 1, "B3": 1, "omega2": 5}
 
 
 @pytest.mark.parametrize("kind", ["csv", "npz", "parquet"])

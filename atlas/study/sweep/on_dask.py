@@ -14,13 +14,16 @@ BATCH = 8
 """Parts in one graph for each thread of the workers; two graphs are under way at a time."""
 
 
-def write(client: Any, spans: Iterable[tuple[str, Span]], parts: Parts) -> Iterator[list[str]]:
-    """Let the workers write parts, with their digests in the manifest; yield the names of those that are."""
+def write(client: Any, todo: Iterable[tuple[str, tuple[Any, Span]]], parts: Parts) -> Iterator[list[str]]:
+    """Let the workers write parts, with their digests in the manifest; yield the names of those that are.
+
+    Of each part its name, a plan or a future of one, and its rows are given.
+    """
     try:
         import dask.dataframe as dd
     except ImportError as error:
         raise AtlasError("A data set on Dask needs its data frames: pip install 'dask[dataframe]'.") from error
-    size, waiting = BATCH * max(1, sum(client.ncores().values())), iter(spans)
+    size, waiting = BATCH * max(1, sum(client.ncores().values())), iter(todo)
     meta: Any = None
     running: list[tuple[list[str], Any]] = []
     try:
@@ -28,7 +31,7 @@ def write(client: Any, spans: Iterable[tuple[str, Span]], parts: Parts) -> Itera
             batch = list(islice(waiting, size))
             if batch:
                 if meta is None:
-                    meta = client.submit(_meta, batch[0][1].plan.sample(1), pure=False).result()
+                    meta = client.submit(_meta, batch[0][1][0], pure=False).result()
                 names = [name for name, _ in batch]
                 parts.announce(*names)
                 running.append((names, _written(dd, client, batch, parts.folder, meta)))
@@ -43,20 +46,20 @@ def write(client: Any, spans: Iterable[tuple[str, Span]], parts: Parts) -> Itera
             client.cancel(found)
 
 
-def frame(span: Span) -> Any:
+def frame(plan: Plan, span: Span) -> Any:
     """Return rows of a table as a data frame."""
-    return arrow_table(span.columns()).to_pandas()
+    return arrow_table(plan.rows(span)).to_pandas()
 
 
 def _meta(plan: Plan) -> Any:
     """Return a table without rows: the names and kinds of its columns."""
-    return arrow_table(plan.columns()).slice(0, 0)
+    return arrow_table(plan.sample(1).columns()).slice(0, 0)
 
 
-def _written(dd: Any, client: Any, batch: list[tuple[str, Span]], folder: Folder, meta: Any) -> Any:
+def _written(dd: Any, client: Any, batch: list[tuple[str, tuple[Any, Span]]], folder: Folder, meta: Any) -> Any:
     """Have the parts of a batch written; return futures of their digests."""
-    names, spans = zip(*batch, strict=True)
-    data = dd.from_map(frame, spans, meta=meta.to_pandas(), enforce_metadata=False)
+    names, work = zip(*batch, strict=True)
+    data = dd.from_map(frame, *zip(*work, strict=True), meta=meta.to_pandas(), enforce_metadata=False)
     done = client.compute(
         data.to_parquet(
             str(folder),

@@ -26,8 +26,8 @@ SAMPLE, SHORTEST = 0.1, 1e-9
 class Plan:
     """Rows of parameters of a family, and the quantities that each is to have.
 
-    `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row.
-    With `digits` the quantities are text with so many certified digits. `time` is the unit of time in headings.
+    `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row,
+    one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of time in headings.
     """
 
     family: str
@@ -61,7 +61,6 @@ class Plan:
             for name, array in arrays.items():
                 if array.size not in {1, count}:
                     raise AtlasError(f"{name} has {array.size} values, but the list has {count} rows.")
-            arrays = {name: np.broadcast_to(array, count) for name, array in arrays.items()}
         if digits is not None and digits < 1:
             raise AtlasError(f"A number has at least one digit, not {digits}.")
         plan = cls(family, arrays, tuple(dict.fromkeys(quantities)), listed, digits, time)
@@ -88,12 +87,12 @@ class Plan:
         units = {name: unit.replace(TIME, self.time) for name, unit in FAMILIES[self.family].units.items()}
         return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
 
-    def span(self, start: int, stop: int) -> "Span":
-        """Return some rows of the table, with no more of the parameters than they need: they go to other machines."""
+    def part(self, start: int, stop: int) -> "tuple[Plan, Span]":
+        """Return a plan with no more of the parameters than some rows need, and where it has them: for other machines."""
         first, arrays, rest = start, {}, self.count
         for name, array in self.parameters.items():
             if self.listed:
-                arrays[name] = array[first : first + stop - start]
+                arrays[name] = array if array.size == 1 else array[first : first + stop - start]
                 continue
             # of the outer parameters only those values that occur, as long as there is one
             rest //= array.size
@@ -105,7 +104,7 @@ class Plan:
                 break
         if self.listed:
             start, stop = 0, stop - start
-        return Span(Plan(self.family, arrays, self.quantities, self.listed, self.digits), start, stop, first)
+        return Plan(self.family, arrays, self.quantities, self.listed, self.digits), Span(start, stop, first)
 
     def sample(self, size: int) -> "Plan":
         """Return a list of so many rows at most, spread over the table."""
@@ -135,6 +134,14 @@ class Plan:
         """Return the table."""
         return self.at(np.arange(self.count))
 
+    def rows(self, span: "Span") -> Columns:
+        """Return some rows of the table. An AtlasError says in which they are."""
+        try:
+            return self.at(np.arange(span.start, span.stop))
+        except AtlasError as error:
+            last = span.first + span.stop - span.start - 1
+            raise type(error)(f"In the rows {span.first} to {last}: {error}") from error
+
     def at(self, rows: NDArray[np.int64]) -> Columns:
         """Return some rows of the table, by number."""
         given = self._given(rows)
@@ -150,7 +157,7 @@ class Plan:
 
     def _given(self, rows: NDArray[np.int64]) -> Columns:
         """Return the parameters of some rows."""
-        places = [rows] * len(self.parameters)
+        places = [rows * (array.size > 1) for array in self.parameters.values()]
         if not self.listed:
             places = list(np.unravel_index(rows, [array.size for array in self.parameters.values()]))
         return {name: array[i] for (name, array), i in zip(self.parameters.items(), places, strict=True)}
@@ -158,17 +165,8 @@ class Plan:
 
 @dataclass(frozen=True)
 class Span:
-    """Rows of a table, of which the first has the number `first`: `start` to `stop` of a plan."""
+    """Rows of a plan, `start` to `stop`; the first has the number `first` in the whole table."""
 
-    plan: Plan
     start: int
     stop: int
     first: int
-
-    def columns(self) -> Columns:
-        """Return the rows. An AtlasError says in which they are."""
-        try:
-            return self.plan.at(np.arange(self.start, self.stop))
-        except AtlasError as error:
-            last = self.first + self.stop - self.start - 1
-            raise type(error)(f"In the rows {self.first} to {last}: {error}") from error

@@ -11,7 +11,7 @@ from atlas.families.family import TIME
 from atlas.study.sweep.destinations import DataSet, TableFile, target
 from atlas.study.sweep.lock import held
 from atlas.study.sweep.parts import Parts
-from atlas.study.sweep.plan import Columns, Plan
+from atlas.study.sweep.plan import Columns, Plan, Span
 from atlas.study.sweep.workers import ahead, width, workers
 
 SECONDS, MOST = 2.0, 2**18
@@ -126,20 +126,30 @@ def _compute(
         if progress is not None:
             progress(min(done * rows, plan.count), plan.count)
 
-    spans = ((names[i], plan.span(i * rows, min((i + 1) * rows, plan.count))) for i in missing)
+    spans = ((i * rows, min((i + 1) * rows, plan.count)) for i in missing)
+    work: Iterator[tuple[Any, Span]] = (plan.part(*span) for span in spans)
+    if hasattr(executor, "get_executor") and not plan.listed:
+        # the plan itself goes there once: Dask keeps its last 1000 messages
+        there = executor.submit(_same, plan, pure=False)
+        work = ((there, Span(start, stop, start)) for start, stop in spans)
+    todo = zip((names[i] for i in missing), work, strict=True)
     if isinstance(table, DataSet) and hasattr(executor, "get_executor"):
         from atlas.study.sweep.on_dask import write
 
-        for written in write(executor, spans, parts):
+        for written in write(executor, todo, parts):
             tell(len(written))
         return
 
     def calls() -> Iterator[tuple[str, tuple[Any, ...]]]:
-        for name, span in spans:
+        for name, part in todo:
             parts.announce(name)
-            yield name, (span, table.ending, parts.folder, name, parts.mark)
+            yield name, (*part, table.ending, parts.folder, name, parts.mark)
 
     with workers(executor, jobs, len(missing)) as (engine, count):
         for name, made in ahead(engine, count, calls()):
             parts.keep(name, made)
             tell(1)
+
+
+def _same(plan: Plan) -> Plan:
+    return plan

@@ -9,7 +9,7 @@ from typing import Any
 
 from atlas.core.arithmetic.threads import processors
 from atlas.study.sweep.parts import MANIFEST
-from atlas.study.sweep.plan import Span
+from atlas.study.sweep.plan import Plan, Span
 from atlas.study.sweep.storage import Folder, Local
 from atlas.study.sweep.tables import PARTS
 
@@ -17,12 +17,12 @@ AHEAD = 4
 """Parts asked for at a time, for each worker: what is computed but not yet kept stays small."""
 
 
-def make(span: Span, ending: str, folder: Folder, name: str, mark: bytes) -> str | bytes:
+def make(plan: Plan, span: Span, ending: str, folder: Folder, name: str, mark: bytes) -> str | bytes:
     """Write a part of a table into a folder, and return its digest; the part itself where the folder is out of reach.
 
     `mark` is the first line of the folder's manifest.
     """
-    data = PARTS[ending](span.columns())
+    data = PARTS[ending](plan.rows(span))
     if isinstance(folder, Local) and not _reached(folder, mark):
         return data
     folder.write(name, data)
