@@ -44,6 +44,7 @@ MACHINERY = {
             "clebsch_origins",
             "elliptic_quartic",
             "euler_top",
+            "powers",
             "simpler",
             "theta",
             "theta_sums",
