@@ -27,7 +27,8 @@ class Plan:
     """Rows of parameters of a family, and the quantities that each is to have.
 
     `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row,
-    one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of time in headings.
+    one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of
+    time in headings.
     """
 
     family: str
@@ -88,7 +89,7 @@ class Plan:
         return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
 
     def part(self, start: int, stop: int) -> "tuple[Plan, Span]":
-        """Return a plan with no more of the parameters than some rows need, and where it has them: for other machines."""
+        """Return a plan with no more of the parameters than some rows need, and where it has them: to be sent."""
         first, arrays, rest = start, {}, self.count
         for name, array in self.parameters.items():
             if self.listed:
