@@ -2,22 +2,26 @@
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import click
 
-from atlas.cli.columns import columns_of
 from atlas.cli.options import REAL, Typed, exactly, stack
+from atlas.cli.points import points, principal_moments, ratio_of_points
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 BODY = ("ratio", "inertia", "shape", "points")
 """The options of which one says what body it is."""
 SIZES = ("radius", "height", "length", "equatorial", "polar")
-SECONDS = {"1/time": "1/s", "1/time^2": "1/s^2", "time": "s"}
+SECONDS = {
+    "1/time": "1/s",
+    "1/time^2": "1/s^2",
+    "time": "s",
+    "inertia/time^2": "inertia/s^2",
+    "(inertia/time)^2": "(inertia/s)^2",
+}
 """Units where the field is given as B, in gauss or tesla."""
-SYMMETRIC = 1e-9
-"""By how much moments about the axis may differ, in parts of the largest."""
 
 ROD = "thin-rod"
 ROD_REASON = (
@@ -42,27 +46,56 @@ body_options: Callable[[F], F] = stack(
     ),
 )
 
-field_options: Callable[[F], F] = stack(
-    click.option("--field", type=REAL, nargs=2, metavar="B2 B3", help="Components of B' = mu B/(2c), in 1/time."),
+
+def field_options_of(components: str, along: str = "") -> Callable[[F], F]:
+    """Return the options that say what the field is, of so many components, along certain axes."""
+    count = len(components.split())
+    return stack(
+        click.option(
+            "--field",
+            type=REAL,
+            nargs=count,
+            metavar=components,
+            help=f"Components of B' = mu B/(2c){along}, in 1/time.",
+        ),
+        click.option(
+            "--magnetic",
+            type=REAL,
+            nargs=count,
+            metavar=components,
+            help="Components of B itself; needs --mass --charge or --mu.",
+        ),
+        click.option("--mass", type=REAL, help="Mass of the body, with --charge."),
+        click.option("--charge", type=REAL, help="Charge of the body, either sign; with --magnetic."),
+        click.option("--mu", type=REAL, help="Charge-to-mass ratio mu = e/m instead, either sign."),
+        click.option(
+            "--units",
+            type=click.Choice(["natural", "gaussian", "si"]),
+            help="Of --magnetic, --mu, --mass, --charge: c = 1; gauss, esu/g, g, esu; tesla, C/kg, kg, C (no factor "
+            "c). SI where a charge is given, else natural.",
+        ),
+    )
+
+
+field_options: Callable[[F], F] = field_options_of("B2 B3")
+any_body_options: Callable[[F], F] = stack(
+    click.option("--inertia", type=REAL, nargs=3, metavar="I1 I2 I3", help="Principal moments of inertia."),
     click.option(
-        "--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="Components of B itself; needs --mass --charge or --mu."
+        "--points",
+        type=click.Path(exists=True, dir_okay=False, path_type=Path),
+        metavar="FILE",
+        help="Point masses instead: a CSV file with the columns x, y, z, mass and, for --magnetic, charge; x, y, z are "
+        "principal axes.",
     ),
-    click.option("--mass", type=REAL, help="Mass of the body, with --charge."),
-    click.option("--charge", type=REAL, help="Charge of the body, either sign; with --magnetic."),
-    click.option("--mu", type=REAL, help="Charge-to-mass ratio mu = e/m instead, either sign."),
-    click.option(
-        "--units",
-        type=click.Choice(["natural", "gaussian", "si"]),
-        help="Of --magnetic, --mu, --mass, --charge: c = 1; gauss, esu/g, g, esu; tesla, C/kg, kg, C (no factor c). "
-        "SI where a charge is given, else natural.",
-    ),
+    field_options_of("B1 B2 B3", " along the principal axes at t = 0"),
 )
+"""Body and field where the three moments may differ."""
 
 
 def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     """Return the options that describe the body and the field, as they were given."""
     names = (*BODY, *SIZES, "field", "magnetic", "mass", "charge", "mu")
-    given = {name: options[name] for name in names if options.get(name) is not None}
+    given: dict[str, Any] = {name: options[name] for name in names if options.get(name) is not None}
     given |= {"points": str(options["points"])} if "points" in given else {}
     return given | ({"units": system_of(options)} if options["magnetic"] is not None else {})
 
@@ -116,54 +149,23 @@ def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any
     return from_shape(shape.replace("-", "_"), mass=1.0 if mass is None else mass, **sizes)
 
 
-class Points(NamedTuple):
-    """The body of point masses, their charge-to-mass ratio, None where the file has no charges, and their mass."""
+def chosen_moments(options: Mapping[str, Any]) -> tuple[float, float, float]:
+    """Return the principal moments of --inertia I1 I2 I3 or of --points.
 
-    body: Any
-    mu: float | None
-    mass: float
-
-
-def points(path: Path) -> Points:
-    """Read point masses, and charges if there are any. Raises click.UsageError for what is no body of the paper."""
-    import numpy as np
-
-    from atlas.core.body import SymmetricBody
-    from atlas.core.inertia import mass_matrix_of_points
-
-    columns = columns_of(path)
-    if not {"x", "y", "z", "mass"} <= set(columns) <= {"x", "y", "z", "mass", "charge"}:
-        raise click.UsageError(f"{path} must have the columns x, y, z, mass and may have charge; it has "
-                               f"{', '.join(columns)}.")  # fmt: skip
-    m = np.array(columns["mass"])
-    g = mass_matrix_of_points(m, np.transpose([columns[name] for name in "xyz"]))
-    inertia = g.trace() * np.eye(3) - g
-    largest = np.abs(inertia).max()
-    equal, upright = (abs(x) <= SYMMETRIC * largest for x in (g[0, 0] - g[1, 1], np.abs(np.triu(g, 1)).max()))
-    if not (equal and upright):
-        lacks = "I1 = I2" * (not equal) + " and " * (not equal and not upright) + "no products" * (not upright)
-        raise click.UsageError(
-            f"{path}: the points are not symmetric about the axis z: {lacks} would be needed, to {SYMMETRIC:g} of the "
-            f"largest, but about their centre of mass I1 = {inertia[0, 0]:.10g}, I2 = {inertia[1, 1]:.10g}, "
-            f"I3 = {inertia[2, 2]:.10g}, I12 = {inertia[0, 1]:.3g}, I13 = {inertia[0, 2]:.3g}, "
-            f"I23 = {inertia[1, 2]:.3g}."
-        )
-    across = (g[0, 0] + g[1, 1]) / 2
-    body = SymmetricBody.from_mass_matrix(np.array([across, across, g[2, 2]]))
-    return Points(body, _one_ratio(path, m, np.array(columns["charge"])) if "charge" in columns else None, m.sum())
+    Raises click.UsageError unless one of the two is given, and for points whose axes x, y, z are not principal.
+    """
+    if (options["inertia"] is None) == (options["points"] is None):
+        raise click.UsageError("the body is one of --inertia I1 I2 I3 and --points.")
+    if options["points"] is None:
+        return tuple(options["inertia"])
+    return principal_moments(options["points"])
 
 
-def _one_ratio(path: Path, masses: Any, charges: Any) -> float:
-    """Return the charge-to-mass ratio of all points. Raises click.UsageError where they have different ones."""
-    from atlas.core.unit_systems import charge_to_mass
-
-    ratios = charges / masses
-    if ratios.max() - ratios.min() > SYMMETRIC * abs(ratios).max():
-        raise click.UsageError(
-            f"{path}: charge/mass must be the same for all points, but goes from {ratios.min():.6g} to "
-            f"{ratios.max():.6g}; other charges are those of atlas.TopMotion.charged."
-        )
-    return charge_to_mass(float(charges.sum()), float(masses.sum()))
+def exact_moments(options: dict[str, Any]) -> Any:
+    """Return the moments of `chosen_moments` for the certified floor."""
+    if options["decimal"] and options["points"] is not None:
+        raise click.UsageError("--decimal goes with --inertia, not with --points.")
+    return exactly(chosen_moments(options), options)
 
 
 def exact_body(options: dict[str, Any]) -> Any:
@@ -205,11 +207,7 @@ def charge_to_mass_of(options: Mapping[str, Any]) -> float:
             raise click.UsageError(
                 f"--points holds masses and charges: {(both or ['--mu'])[0]} has no place beside it."
             )
-        mu = points(options["points"]).mu
-        if mu is None:
-            raise click.UsageError(f"--magnetic needs the charges of the points: {options['points']} has no column "
-                                   "charge.")  # fmt: skip
-        return mu
+        return ratio_of_points(options["points"])
     if options["mu"] is not None:
         if both:
             raise click.UsageError(f"--mu is the charge-to-mass ratio: {both[0]} has no place beside it.")
@@ -222,8 +220,8 @@ def charge_to_mass_of(options: Mapping[str, Any]) -> float:
     return charge_to_mass(options["charge"], options["mass"])
 
 
-def chosen_field(options: dict[str, Any]) -> tuple[float, float]:
-    """Return (B2, B3) of B' in 1/time, from --field, or from --magnetic and the charge-to-mass ratio.
+def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:
+    """Return (B2, B3) or (B1, B2, B3) of B' in 1/time, from --field, or from --magnetic and the charge-to-mass ratio.
 
     Raises click.UsageError when neither or both are given, or what belongs to the one stands beside the other.
     """
@@ -238,8 +236,9 @@ def chosen_field(options: dict[str, Any]) -> tuple[float, float]:
     from atlas.core.field import Field
 
     maker = {"natural": Field, "gaussian": Field.gaussian, "si": Field.si}[system_of(options)]
-    prime = maker(B=(0.0, *options["magnetic"]), mu=charge_to_mass_of(options)).prime
-    return (float(prime[1]), float(prime[2]))
+    typed = options["magnetic"]
+    prime = maker(B=(0.0,) * (3 - len(typed)) + typed, mu=charge_to_mass_of(options)).prime
+    return tuple(float(x) for x in prime[3 - len(typed) :])
 
 
 def exact_field(options: dict[str, Any]) -> Any:

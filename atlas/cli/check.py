@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.body import BODY, body_options, chosen_body, chosen_field, field_options
+from atlas.cli.body import (
+    BODY,
+    any_body_options,
+    body_options,
+    chosen_body,
+    chosen_field,
+    chosen_moments,
+    field_options,
+)
 from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
 from atlas.cli.present import Printout, dump, show
 
@@ -40,15 +48,14 @@ graded_options: Callable[[Any], Any] = stack(
     epilog=examples("atlas check mine.csv --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2"),
 )
 @file_argument
-@click.option("--inertia", type=REAL, nargs=3, metavar="I1 I2 I3", help="Principal moments of inertia.")
-@click.option(
-    "--field", type=REAL, nargs=3, metavar="B1 B2 B3", help="Components of B' along the principal axes at t = 0."
-)
+@any_body_options
 @start_option
 @graded_options
 def three_moments(file: Path, **options: Any) -> int:
     """Grade against the motion of a body with three moments of inertia."""
-    return _graded(file, options, {name: options[name] for name in ("inertia", "field", "omega")})
+    field = any(options[name] is not None for name in ("field", "magnetic"))
+    given = {"inertia": chosen_moments(options), "omega": options["omega"]}
+    return _graded(file, options, given | ({"field": chosen_field(options)} if field else {}))
 
 
 @click.command(

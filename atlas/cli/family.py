@@ -8,12 +8,15 @@ import click
 
 from atlas.cli.answers import along, answer, certificate, in_threes, samples
 from atlas.cli.body import (
+    any_body_options,
     body_options,
     body_parameters,
     chosen_body,
     chosen_field,
+    chosen_moments,
     exact_body,
     exact_field,
+    exact_moments,
     field_options,
     units_of,
 )
@@ -45,6 +48,9 @@ UNKNOWN = (
 
 OTHERWISE = ("inertia", "direction")
 """Parameters of a top that --heavy or --magnetic may stand for."""
+
+OF_BODY = ("inertia", "field")
+"""Parameters for which bodies with three moments have options of their own."""
 
 UNITS = {
     "natural": {},
@@ -87,7 +93,7 @@ def _made(family: Family, described: Described) -> click.Command:
             at = [exactly(t, options) for t in times]
             return _found(family, made, times, [[s.at(made)(t) for t in at] for s in sampled], exact=True)
 
-        parameters = body_parameters(options) if "ratio" in names else {}
+        parameters = body_parameters(options) if in_field(family) else {}
         parameters |= {p.name: options[p.name] for p in given if options[p.name] is not None}
         parameters = parameters_of_top(names, options) if ways and given_otherwise(options) else parameters
         parameters |= {"units": options["units"]} if "c" in names else {}
@@ -108,7 +114,12 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
     return [
         *([body_options] if "ratio" in names else []),
         *([field_options] if in_plane(family) else []),
-        *(_option(p, needed=p.needed and not (ways and p.name in OTHERWISE)) for p in family.parameters if p.option),
+        *([any_body_options] if of_any_body(family) else []),
+        *(
+            _option(p, needed=p.needed and not (ways and p.name in OTHERWISE))
+            for p in family.parameters
+            if p.option and not (of_any_body(family) and p.name in OF_BODY)
+        ),
         *([top_options] if ways else []),
         *([units_option] if "c" in names else []),
     ]
@@ -117,6 +128,16 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
 def in_plane(family: Family) -> bool:
     """Whether a family takes its field (0, B2, B3), which may be given as B and mu, by the options made for that."""
     return any(p.name == "field" and not p.option for p in family.parameters)
+
+
+def of_any_body(family: Family) -> bool:
+    """Whether a family takes three moments of inertia, and its field along their axes."""
+    return any(p.name == "inertia" and len(p.names) == len("123") for p in family.parameters)
+
+
+def in_field(family: Family) -> bool:
+    """Whether the field of a family may be given as B with a charge-to-mass ratio, by the options made for that."""
+    return of_any_body(family) or any(p.name == "ratio" for p in family.parameters)
 
 
 def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
@@ -142,7 +163,9 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
     for p in family.parameters:
         if p.name == "ratio":
             yield (exact_body if exact else chosen_body)(options)
-        elif p.name == "field" and not p.option:
+        elif p.name == "inertia" and of_any_body(family):
+            yield (exact_moments if exact else chosen_moments)(options)
+        elif p.name == "field" and (not p.option or of_any_body(family)):
             yield (exact_field if exact else chosen_field)(options)
         elif p.name == "c":
             yield _speed_of_light(options["units"])
@@ -190,7 +213,7 @@ def _printout(family: Family, described: Described, texts: dict[str, Any], optio
     from atlas.exact.digits import NOT_CERTIFIED
 
     case, names = texts[described.named] if described.named else "", [p.name for p in family.parameters]
-    units = UNITS[options["units"]] if "c" in names else units_of(options) if "ratio" in names else {}
+    units = UNITS[options["units"]] if "c" in names else units_of(options) if in_field(family) else {}
     units = top_units(options) if family.name == "top" else units
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]

@@ -139,7 +139,10 @@ def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
 
 
 class WithThreeMoments(Command):
-    """A command of symmetric bodies with another one, `wider`, for any body: that of three numbers after --inertia."""
+    """A command of symmetric bodies with another one, `wider`, for any body.
+
+    That is meant by three numbers after --inertia, or by points in a field of three components.
+    """
 
     def __init__(self, *args: Any, wider: Callable[[], click.Command], **more: Any) -> None:
         super().__init__(*args, **more)
@@ -149,7 +152,8 @@ class WithThreeMoments(Command):
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
         """Let the command that the options are of read its arguments."""
-        if are_three(args, "--inertia"):
+        points = "--points" in args and (are_three(args, "--field") or are_three(args, "--magnetic"))
+        if points or are_three(args, "--inertia"):
             return self._wider().make_context(info_name, args, parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
 

@@ -7,9 +7,10 @@ from typing import Any
 import click
 
 from atlas import files
-from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, points, system_of, units_of
-from atlas.cli.family import in_plane, object_options, values_of
+from atlas.cli.body import body_parameters, charge_to_mass_of, chosen_field, system_of, units_of
+from atlas.cli.family import in_field, in_plane, object_options, values_of
 from atlas.cli.options import Command, examples, jobs_option, out_option, stack
+from atlas.cli.points import points
 from atlas.cli.progress import bar
 from atlas.cli.top import top_units
 from atlas.errors import AtlasError
@@ -109,8 +110,10 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
     values = {p.name: _plain(found[p.name]) for p in family.parameters if p.option and found[p.name] is not None}
     values |= {"c": found["c"]} if "c" in found else {}
     records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.name == "top" else {}
+    if in_field(family):
+        records = {"time": units_of(options).get("time", "time")}
     if "ratio" in found:
-        records = {"body": _body(options), "time": units_of(options).get("time", "time")}
+        records["body"] = _body(options)
     if in_plane(family):
         records["field"] = _field(options)
     title, digits = options["title"] or "", options["digits"]

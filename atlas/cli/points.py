@@ -1,0 +1,111 @@
+"""Point masses and charges of a CSV file as the body of a command."""
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import click
+
+from atlas.cli.columns import columns_of
+
+SYMMETRIC = 1e-9
+"""By how much moments about the axis may differ, and how large products may be, in parts of the largest moment."""
+
+
+class Points(NamedTuple):
+    """The body of point masses, their charge-to-mass ratio, None where the file has no charges, and their mass."""
+
+    body: Any
+    mu: float | None
+    mass: float
+
+
+class Masses(NamedTuple):
+    """Point masses, their mass matrix (3, 3) about their centre of mass, and their charges, if the file has any."""
+
+    masses: Any
+    matrix: Any
+    charges: Any | None
+
+    @property
+    def inertia(self) -> Any:
+        """The inertia tensor (3, 3)."""
+        from atlas.core.inertia import inertia_from_mass_matrix
+
+        return inertia_from_mass_matrix(self.matrix)
+
+
+def point_masses(path: Path) -> Masses:
+    """Read point masses, and charges if there are any. Raises click.UsageError for a file that has no such columns."""
+    import numpy as np
+
+    from atlas.core.inertia import mass_matrix_of_points
+
+    columns = columns_of(path)
+    if not {"x", "y", "z", "mass"} <= set(columns) <= {"x", "y", "z", "mass", "charge"}:
+        raise click.UsageError(f"{path} must have the columns x, y, z, mass and may have charge; it has "
+                               f"{', '.join(columns)}.")  # fmt: skip
+    m = np.array(columns["mass"])
+    g = mass_matrix_of_points(m, np.transpose([columns[name] for name in "xyz"]))
+    return Masses(m, g, np.array(columns["charge"]) if "charge" in columns else None)
+
+
+def points(path: Path) -> Points:
+    """Read point masses that are symmetric about the axis z. Raises click.UsageError for others."""
+    import numpy as np
+
+    from atlas.core.body import SymmetricBody
+
+    read = point_masses(path)
+    g, inertia = read.matrix, read.inertia
+    largest = np.abs(inertia).max()
+    equal, upright = (abs(x) <= SYMMETRIC * largest for x in (g[0, 0] - g[1, 1], np.abs(np.triu(g, 1)).max()))
+    if not (equal and upright):
+        lacks = "I1 = I2" * (not equal) + " and " * (not equal and not upright) + "no products" * (not upright)
+        raise click.UsageError(
+            f"{path}: the points are not symmetric about the axis z: {lacks} would be needed, to {SYMMETRIC:g} of the "
+            f"largest, but about their centre of mass I1 = {inertia[0, 0]:.10g}, I2 = {inertia[1, 1]:.10g}, "
+            f"I3 = {inertia[2, 2]:.10g}, I12 = {inertia[0, 1]:.3g}, I13 = {inertia[0, 2]:.3g}, "
+            f"I23 = {inertia[1, 2]:.3g}. A body with three different moments is that of atlas asymmetric."
+        )
+    across = (g[0, 0] + g[1, 1]) / 2
+    body = SymmetricBody.from_mass_matrix(np.array([across, across, g[2, 2]]))
+    mu = None if read.charges is None else _one_ratio(path, read.masses, read.charges)
+    return Points(body, mu, read.masses.sum())
+
+
+def principal_moments(path: Path) -> tuple[float, float, float]:
+    """Read the moments of points. Raises click.UsageError where x, y, z are not principal axes, and says which are."""
+    import numpy as np
+
+    inertia = point_masses(path).inertia
+    if np.abs(np.triu(inertia, 1)).max() > SYMMETRIC * np.abs(inertia).max():
+        moments, axes = np.linalg.eigh(inertia)
+        axes *= np.linalg.det(axes)  # right-handed
+        shown = ", ".join(f"({', '.join(f'{x:z.10g}' for x in axis)})" for axis in axes.T)
+        raise click.UsageError(
+            f"{path}: x, y, z are not principal axes, for I12 = {inertia[0, 1]:.3g}, I13 = {inertia[0, 2]:.3g}, I23 = "
+            f"{inertia[1, 2]:.3g}; those are along {shown}, with the moments "
+            f"{', '.join(f'{x:.10g}' for x in moments)}: give the points in them, and the field and omega too."
+        )
+    return float(inertia[0, 0]), float(inertia[1, 1]), float(inertia[2, 2])
+
+
+def ratio_of_points(path: Path) -> float:
+    """Return the charge-to-mass ratio of points. Raises click.UsageError where they have no charges, or several."""
+    read = point_masses(path)
+    if read.charges is None:
+        raise click.UsageError(f"--magnetic needs the charges of the points: {path} has no column charge.")
+    return _one_ratio(path, read.masses, read.charges)
+
+
+def _one_ratio(path: Path, masses: Any, charges: Any) -> float:
+    """Return the charge-to-mass ratio of all points. Raises click.UsageError where they have different ones."""
+    from atlas.core.unit_systems import charge_to_mass
+
+    ratios = charges / masses
+    if ratios.max() - ratios.min() > SYMMETRIC * abs(ratios).max():
+        raise click.UsageError(
+            f"{path}: charge/mass must be the same for all points, but goes from {ratios.min():.6g} to "
+            f"{ratios.max():.6g}; other charges are those of atlas.TopMotion.charged."
+        )
+    return charge_to_mass(float(charges.sum()), float(masses.sum()))

@@ -1,0 +1,100 @@
+"""Bodies with three moments in units of their own: point masses from a file, B in tesla with a charge and a mass."""
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from atlas.cli.app import atlas as command
+
+POINTS = np.array(
+    [
+        [1.0, 0.0, 0.0, 1.0, 1e-3],
+        [-1.0, 0.0, 0.0, 1.0, 1e-3],
+        [0.0, 2.0, 0.0, 0.5, 5e-4],
+        [0.0, -2.0, 0.0, 0.5, 5e-4],
+        [0.0, 0.0, 0.5, 2.0, 2e-3],
+        [0.0, 0.0, -0.5, 2.0, 2e-3],
+    ]
+)
+"""Point masses with the moments 5, 3, 6 about their centre, and a charge of 1e-3 of each mass."""
+
+REST = "--omega 0.3 0.7 0.2 --times 1 --json"
+
+
+def written(folder: Path, points: np.ndarray = POINTS, names: str = "x,y,z,mass,charge") -> str:
+    """Write points, and return the name of the file."""
+    path = folder / "points.csv"
+    rows = [",".join(map(repr, row)) for row in points[:, : names.count(",") + 1].tolist()]
+    path.write_text("\n".join([names, *rows]) + "\n", encoding="utf-8")
+    return str(path)
+
+
+def run(*words: str) -> tuple[int, str]:
+    """Return status and output of a command, of which a file's name may have blanks."""
+    found = CliRunner().invoke(command, list(words))
+    return found.exit_code, found.output
+
+
+def numbers(*words: str) -> dict[str, Any]:
+    """Return what a command prints as JSON but its parameters."""
+    status, out = run(*words)
+    assert status == 0, out
+    return {name: value for name, value in json.loads(out).items() if name != "parameters"}
+
+
+@pytest.mark.parametrize("name", ["asymmetric", "general"])
+def test_points_and_tesla_are_moments_and_rates(tmp_path: Path, name: str) -> None:
+    """Moved as a whole the points have their moments; B of 100, 200, 2000 T at 1e-3 C/kg is B' = (0.05, 0.1, 1) /s."""
+    typed = numbers("asymmetric", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())
+    moved = POINTS + np.array([8.0, -4.0, 2.0, 0.0, 0.0])
+    tesla = "--magnetic 100 200 2000".split()
+    assert numbers(name, "--points", written(tmp_path, moved), *tesla, *REST.split()) == typed
+    units = "--magnetic 100 200 2000 --mass 2 --charge 2e-3".split()
+    assert numbers(name, "--inertia", "5", "3", "6", *units, *REST.split()) == typed
+
+
+def test_the_unit_of_time_is_a_second_where_the_field_is_in_tesla() -> None:
+    """Rates are per second and not per unit of time then, in the heading and beside the quantities."""
+    words = "elliptic --inertia 5 3 6 --magnetic 1 2 3 --mass 1 --charge 1 --z 1.7 --times 1".split()
+    status, out = run(*words)
+    assert status == 0
+    assert "[1/s]" in out
+    assert "1/s^2" in out
+    assert "/time" not in out
+
+
+def test_principal_axes_are_named_where_the_file_has_others(tmp_path: Path) -> None:
+    """Points turned by 30 degrees about z: the sentence has the axes, right-handed, and the moments 3, 5, 6."""
+    c, s = np.sqrt(3) / 2, 0.5
+    turned = POINTS.copy()
+    turned[:, :3] = POINTS[:, :3] @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+    status, out = run("asymmetric", "--points", written(tmp_path, turned), "--field", "0", "1", "2", *REST.split())
+    assert status == 2
+    axes = np.array([[float(x) for x in axis.split(",")] for axis in re.findall(r"\(([-\d., ]+)\)", out)])
+    assert np.linalg.det(axes) == pytest.approx(1, abs=1e-8)
+    assert np.abs(axes) == pytest.approx(np.array([[s, c, 0], [c, s, 0], [0, 0, 1]]), abs=1e-8)
+    assert axes[0, 0] * axes[0, 1] < 0 < axes[1, 0] * axes[1, 1]
+    assert "with the moments 3, 5, 6" in out
+
+
+def test_points_without_charges_are_a_body(tmp_path: Path) -> None:
+    """They serve with --field."""
+    file = written(tmp_path, names="x,y,z,mass")
+    assert numbers("asymmetric", "--points", file, "--field", "0", "1", "2", *REST.split())["kind"] == "on a torus"
+
+
+def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
+    """`atlas check` takes the same body and field; at t = 0 R = 1 and Omega = omega."""
+    mine = tmp_path / "mine.csv"
+    mine.write_text("t,R11,R12,Omega3\n0,1,0,0.2\n", encoding="utf-8")
+    words = "--magnetic 100 200 2000 --omega 0.3 0.7 0.2 --json".split()
+    status, out = run("check", str(mine), "--points", written(tmp_path), *words)
+    assert status == 0
+    found = json.loads(out)
+    assert found["parameters"] == {"inertia": [5.0, 3.0, 6.0], "field": [0.05, 0.1, 1.0], "omega": [0.3, 0.7, 0.2]}
+    assert [column["name"] for column in found["columns"]] == ["R11", "R12", "Omega3"]
