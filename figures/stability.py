@@ -22,8 +22,8 @@ from atlas.scene.hyperbola_plane import Window, components, graph, seen, unstabl
 from atlas.scene.sample import flat
 
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 10.0
-HIGH, WIDE = 1.6, 1.0
-"""The map shows |x| up to HIGH, and tau up to WIDE or a little beyond that of the field."""
+HIGH, WIDE, FAR = 1.6, 1.0, 2.0
+"""The map shows |x| up to HIGH, and tau up to WIDE, or a little beyond that of the field unless that is above FAR."""
 ROLES = ("third", "second", "main", "fourth", "sixth", "seventh", "eighth")
 
 
@@ -44,6 +44,8 @@ def scene(
     where = listed([rf"${tex(a)}{order}\omega_2{order}{tex(b)}$" for a, b in bands]) if bands else ""
     spoken = listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from") if bands else ""
     long = shape_factors(ratio)[1] > 0
+    tau = abs(B3 / B2)
+    near = tau <= FAR
     return Scene(
         title=title(__doc__),
         caption=(
@@ -55,7 +57,8 @@ def scene(
                 else "It is positive. "
             )
             + r"(b) Levels of $\nu_n^2/{B'_2}^2$ over $\tau=\lvert B'_3/B'_2\rvert$ and "
-            r"$\lvert x\rvert=\lvert(\omega_2+B'_2)/B'_2\rvert$; dotted: the field of (a). "
+            r"$\lvert x\rvert=\lvert(\omega_2+B'_2)/B'_2\rvert$; "
+            + ("upright and dotted: the field of (a). " if near else rf"the field of (a) has $\tau={tex(tau)}$. ")
             + (r"Shaded: unstable." if long else r"For $I\ge1$ all motions of the hyperbola are stable.")
         ),
         alt=(
@@ -65,9 +68,9 @@ def scene(
             + "The second is a map of its level lines over the ratio of the field components and the distance from the "
             + ("pole, with an unstable region at small ratios." if long else "pole, with no unstable region.")
         ),
-        panels=(course(ratio, (B2, B3), bands, reach, unit), chart(ratio, (B2, B3), levels)),
+        panels=(course(ratio, (B2, B3), bands, reach, unit), chart(ratio, tau, levels)),
         columns=2,
-        named={"dotted": "limit", "shaded": "unstable_region"},
+        named={"shaded": "unstable_region"} | ({"dotted": "limit"} if near else {}),
         size=(WIDTH, HEIGHT),
     )
 
@@ -112,11 +115,10 @@ def course(
     )
 
 
-def chart(ratio: Any, field: tuple[float, float], levels: tuple[float, ...]) -> Plane:
-    """Panel (b): the levels over tau and |x|, and where the body is unstable."""
+def chart(ratio: Any, tau: float, levels: tuple[float, ...]) -> Plane:
+    """Panel (b): the levels over tau and |x|, and where the body is unstable; ``tau`` is that of the field of (a)."""
     _, one_less, _ = shape_factors(ratio)
-    tau = abs(field[1] / field[0])
-    view = Window((0.0, max(WIDE, 1.15 * tau)), (0.0, HIGH))
+    view = Window((0.0, max(WIDE, 1.15 * tau) if tau <= FAR else WIDE), (0.0, HIGH))
     layers: list[Layer] = []
     if one_less > 0:
         (edge,) = level(0.0, one_less, view)
@@ -129,7 +131,8 @@ def chart(ratio: Any, field: tuple[float, float], levels: tuple[float, ...]) -> 
         inner = inner[inner[:, 0] < 0.93 * view.x[1]]
         if len(inner):
             layers.append(Label(inner[np.argmax(inner[:, 0])], f"${tex(value)}$", role, (4.0, 3.0)))
-    layers.append(Curve(view.upright(tau), "limit"))
+    if tau <= FAR:
+        layers.append(Curve(view.upright(tau), "limit"))
     return Plane(
         tuple(layers),
         r"$\tau=|B'_3/B'_2|$",

@@ -314,6 +314,18 @@ def test_the_map_shows_instability_below_the_critical_field_only() -> None:
         assert not curves(panel, "unstable")
 
 
+@pytest.mark.parametrize(("field", "shown", "words"), [((1.0, 2.0), 2.3, "dotted"), ((-0.05, 1.0), 1.0, r"\tau=20$")])
+def test_the_map_of_levels_keeps_its_width_in_a_field_close_to_the_axis(
+    field: tuple[float, float], shown: float, words: str
+) -> None:
+    """Up to tau = 2 the field of (a) is a line of the map; beyond it the caption has its tau, and the levels stay apart."""
+    scene = load("stability").scene(field=field)
+    map_ = scene.panels[1]
+    assert map_.x_limits == (0.0, pytest.approx(shown, abs=8 * EPS))
+    assert len(curves(map_, "limit")) == (words == "dotted")
+    assert words in scene.caption
+
+
 def test_the_third_axis_traces_a_circle_about_the_field() -> None:
     """The trace starts at e3, stays on the unit sphere and at one angle to B, and closes."""
     scene = load("motion").scene(ratio=1.5, field=(1.0, -2.0), omega2=0.7)
