@@ -318,7 +318,7 @@ def test_the_map_shows_instability_below_the_critical_field_only() -> None:
 def test_the_map_of_levels_keeps_its_width_in_a_field_close_to_the_axis(
     field: tuple[float, float], shown: float, words: str
 ) -> None:
-    """Up to tau = 2 the field of (a) is a line of the map; beyond it the caption has its tau, and the levels stay apart."""
+    """Up to tau = 2 the field of (a) is a line of the map; beyond, the caption has its tau and levels stay apart."""
     scene = load("stability").scene(field=field)
     map_ = scene.panels[1]
     assert map_.x_limits == (0.0, pytest.approx(shown, abs=8 * EPS))
