@@ -13,7 +13,7 @@ from atlas.core.general import GeneralMotion
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import plain_setting, spelt, tex, tex_setting, title
 from atlas.scene.sample import curve
 
 SIZE = 76.0
@@ -50,14 +50,13 @@ def scene(
 
         return path
 
-    periods = "one period" if nutations == 1.0 else f"{plain(nutations)} periods"
     frames = (("(a) laboratory", in_laboratory), (r"(b) Larmor's frame", in_larmor_frame))
     return Scene(
         title=title(__doc__),
         caption=(
             rf"The third axis of {tex_setting(ratio, field)} after two launches, "
             rf"$\boldsymbol{{\omega}}=({', '.join(map(tex, omega))})$ (heavy) and "
-            rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {periods} of the nutation from "
+            rf"$-2\mathbf{{B}}'-\boldsymbol{{\omega}}$ (light), over {spelt(nutations)} of the nutation from "
             r"one attitude (dot), $\mathbf{B}$ upright. (a) Laboratory. (b) Larmor's frame: the light line goes on "
             "where the heavy one came from."
         ),

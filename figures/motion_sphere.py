@@ -13,7 +13,7 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.camera import frame
-from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
+from atlas.scene.captions import plain, plain_setting, spelt, tex, tex_setting, title
 from atlas.scene.sample import curve
 
 MANY = 400.0
@@ -67,10 +67,10 @@ def scene(
         rf"The third inertia axis $\mathbf{{R}}_3(t)$ goes round ${name}$ on the unit sphere (heavy line) for "
         rf"{tex_setting(ratio, field)} with $\omega_2={tex(omega2)}$: $k={tex(motion.k)}$, $\phi={tex(motion.phi)}$. "
         + (
-            rf"The thin line is the trace of $\mathbf{{R}}_1(t)$ over {plain(turns)} periods of the precession; "
+            rf"The thin line is the trace of $\mathbf{{R}}_1(t)$ over {spelt(turns)} of the precession; "
             r"arrowheads show which way both run."
             if drawn
-            else rf"Arrowheads show which way it runs. The trace of $\mathbf{{R}}_1(t)$ over {plain(turns)} periods of "
+            else rf"Arrowheads show which way it runs. The trace of $\mathbf{{R}}_1(t)$ over {spelt(turns)} of "
             r"the precession would fill a band of the sphere, and is not drawn."
         ),
         f"A unit sphere for {plain_setting(ratio, field)} with omega2 = {plain(omega2)}; the third axis of the body "

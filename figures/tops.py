@@ -9,7 +9,7 @@ from typing import Any
 from atlas.core.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
-from atlas.scene.captions import plain, tex, title
+from atlas.scene.captions import plain, spelt, tex, title
 
 SIZE = 44.0
 
@@ -47,7 +47,7 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"The third axis of tops with $I={tex(ratio)}$ launched with $\boldsymbol\omega=({start})$, over "
-            rf"{plain(nutations)} periods of nutation, $\mathbf{{n}}$ upright: (a) one charge-to-mass ratio throughout "
+            rf"{spelt(nutations)} of nutation, $\mathbf{{n}}$ upright: (a) one charge-to-mass ratio throughout "
             r"the body, (b) its charge outside, (c) a weight, (d) an induced moment. Dots: the start. All four are one "
             r"formula."
         ),

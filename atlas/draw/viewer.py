@@ -30,7 +30,7 @@ from atlas.scene.style import Style, readable
 
 STEPS, GRID = 16000, 16
 """To the unit of a panel, and to the point of letters."""
-_FLAT, _NEAR, _POINT = 1e-6, 0.11, 72.0 / 25.4
+_FLAT, _NEAR, _POINT = 1e-6, 0.16, 72.0 / 25.4
 _UPPER = np.triu_indices(4)
 _WORDS = {Path.MOVETO: "m", Path.LINETO: "l", Path.CURVE3: "q", Path.CURVE4: "c"}
 

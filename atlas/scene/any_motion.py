@@ -11,7 +11,7 @@ from atlas.core.inputs import FloatArray, positive
 from atlas.errors import AtlasError
 from atlas.scene import axis_trace, quadric_panel
 from atlas.scene.bodies import body_of
-from atlas.scene.captions import plain, quotient, tex
+from atlas.scene.captions import plain, quotient, spelt, tex
 from atlas.scene.course import course
 from atlas.scene.layers import Arrow, Curve, Label, Layer, Scene, Space
 from atlas.scene.sample import MOST as MANY
@@ -89,7 +89,7 @@ def picture(
     rate = turns(motion, min(length, unit_of_time))
     length = min(length, MOST / rate) if rate else length
     short = min(length, FEW / rate) if rate else length
-    counted = f"over {float(f'{length / unit_of_time:.3g}'):g} periods of the {word}"
+    counted = f"over {spelt(float(f'{length / unit_of_time:.3g}'))} of the {word}"
     span = counted if word and not steady else f"up to the time {float(f'{length:.3g}'):g}"
     panels = (
         axis_trace.sphere(

@@ -28,6 +28,11 @@ def tex_equals(value: float) -> str:
     return f"={tex(value)}" if float(f"{value:.{DIGITS}g}") == value else rf"\approx {tex(value)}"
 
 
+def spelt(count: float) -> str:
+    """Return how many periods as words."""
+    return "one period" if count == 1.0 else f"{plain(count)} periods"
+
+
 def plain(value: float) -> str:
     """Return a number for a sentence without TeX, with a true minus sign."""
     return f"{value + 0.0:.{DIGITS}g}".replace("-", MINUS)

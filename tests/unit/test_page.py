@@ -320,4 +320,6 @@ def test_plain_words_get_their_letters() -> None:
     """Letters of the register's words become formulas, powers are raised, and other words stay."""
     assert lettered("semi-axis along omega'_2, 1/B2^2") == r"semi-axis along $\omega'_2$, 1/$B_2$^2^"
     assert lettered("Components of B' = mu B/(2c)") == r"Components of $\mathbf{B}'$ = $\mu$ $\mathbf{B}$/(2c)"
-    assert lettered("number of the motion") == "number of the motion"
+    assert lettered("v^2 = prod(z + D/I_i)") == r"$v$^2^ = $\prod$($z$ + $D$/$I_i$)"
+    assert lettered("-B', I^-1 (1 - c3)") == r"−$\mathbf{B}'$, $I$^−1^ (1 − $c_3$)"
+    assert lettered("number of a body's semi-axis") == "number of a body's semi-axis"

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 from atlas.errors import AtlasError, DomainError, unknown
@@ -15,10 +16,10 @@ from atlas.report.tables.table import Column, Data, Request
 SPARE = 1 << 12
 """Bits beyond those asked for in which digits are looked for, where a zero may have no proof."""
 _LETTERS = re.compile(
-    r"(?<![\w\\])(?:(B)(')?(?![\w'])|(omega|Omega|alpha|beta|nu|mu|[A-Zekmn])('?)_?(\d)(?!\w)"
-    r"|(omega|Omega|alpha|beta|nu|mu|pi)(?!\w))"
+    r"(?<![\w\\'])(?:(B)(')?(?![\w'])|(omega|Omega|alpha|beta|nu|mu|[A-Zcekmn])('?)_?(\d|(?<=_)i)(?!\w)"
+    r"|(omega|Omega|alpha|beta|nu|mu|pi|prod|[A-Zb-z])(?![\w']))|(?<!\w)(-)(?= |\w)"
 )
-"""Letters in plain words: a vector B or B', one with an index, a Greek one."""
+"""Letters in plain words: a vector B or B', one with an index, a Greek one, a single one; a minus."""
 SPACE = "\\ "
 """A space that breaks no line, in Markdown."""
 Row = tuple[str, str, str | Number, str, str, str]
@@ -177,7 +178,7 @@ def _sure(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) 
     from atlas.exact.digits import MARK, NOT_CERTIFIED
 
     if isinstance(text, float):
-        return Number.given(text), "float, not certified"
+        return (Number.given(text), "float, not certified") if isfinite(text) else (NONE, "beyond the largest float")
     if text == NOT_CERTIFIED:
         value = q.of(thing.kernels())
         value = value if place is None else value[place]
@@ -196,11 +197,13 @@ def _sure(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) 
 
 def lettered(words: str) -> str:
     """Set the letters of the register's plain words as formulas: omega'_3, B2, beta."""
-    return re.sub(r"\^(-?\d)", r"^\1^", _LETTERS.sub(_letter, words))
+    return re.sub(rf"\^({MINUS}?\d)", r"^\1^", _LETTERS.sub(_letter, words))
 
 
 def _letter(found: re.Match[str]) -> str:
-    vector, prime, name, primed, place, alone = found.groups()
+    vector, prime, name, primed, place, alone, minus = found.groups()
+    if minus:
+        return MINUS
     if vector:
         return rf"$\mathbf{{{vector}}}{prime or ''}$"
     letter = name or alone
