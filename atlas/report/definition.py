@@ -54,7 +54,9 @@ class Report(StrictStruct, frozen=True):
 
     ``cover`` is the id of the figure on the front page and on the cover. ``related`` names reports that stand beside
     this one: the contents lead to them, and so do citations of what they have and this one has not.
-    ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites.
+    ``bibliography`` is a BibTeX file, found from the folder of this one, whose entries ``@KEY`` cites. Without
+    ``front_matter`` the PDF has no cover, contents and lists: its title stands above the text, whose heads have no
+    numbers, and a single page has no head of its own.
     """
 
     name: str
@@ -64,6 +66,7 @@ class Report(StrictStruct, frozen=True):
     authors: tuple[str, ...] = ()
     abstract: str = ""
     cover: Id | None = None
+    front_matter: bool = True
     related: dict[str, str] = msgspec.field(default_factory=dict)
     bibliography: str = ""
     parameters: BodiesAndFields = BodiesAndFields()

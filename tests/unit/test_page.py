@@ -14,6 +14,7 @@ import mpmath
 import pytest
 from click.testing import CliRunner
 from lxml import html as reader
+from pypdf import PdfReader
 
 from atlas import toml
 from atlas.cli.app import atlas as command
@@ -58,6 +59,16 @@ def page(words: str, out: Path) -> list[str]:
     result = CliRunner().invoke(command, ["page", *words.split(), "--out", str(out)], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     return result.stdout.splitlines()
+
+
+def test_the_pdf_begins_with_its_title_and_its_numbers(made: Path) -> None:
+    """No cover, no contents, no lists: the first page has the title, what is given and omega3."""
+    pages = [one.extract_text() for one in PdfReader(made.with_suffix(".pdf")).pages]
+    assert pages[0].startswith("Steady precession of a charged symmetric body")
+    assert all(words in pages[0] for words in ("ratio 1.3, field 1 2, omega2 0.7", "omega3 0.886", "Table 1"))
+    numbered = re.compile(r"^Contents|^Figures 1|^\d(\.\d)? (Properties|Neighbours)", re.MULTILINE)
+    assert not any(numbered.search(text) for text in pages)
+    assert sum("How this was made" in text for text in pages) == 1
 
 
 def rows(file: Path, table: str) -> dict[str, list[str]]:
