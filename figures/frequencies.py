@@ -52,7 +52,7 @@ def scene(
     proper = (
         r"the proper rotation $\phi$, (72), with its pole dotted. (b) Their quotient, (86). Dashed: the "
         rf"free body of the same $k$, (87), $\phi/k{tex_equals(free)}$."
-        + (rf" Dots: the motions that repeat themselves after {counted(order)} of the precession." if found else "")
+        + (rf" Dots: motions that repeat themselves after {counted(order)} of the precession." if found else "")
         if free
         else r"the proper rotation $\phi$, (72), which is zero on the whole curve. (b) Their quotient, (86)."
     )

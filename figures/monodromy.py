@@ -46,8 +46,8 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
         caption=(
             rf"Above: critical values (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round unstable "
             rf"spins (diamonds); the first top has $a_0={tex(b * b)}$ and no charge, the disk $b={tex(b)}$. Below: the "
-            r"periods that take one nutation, by their turns about $\mathbf{n}$ and about the axis. Followed round the "
-            rf"loop, $\mathbf{{g}}_3$ goes from one (dot) to another (arrow). Largest step {error:.2g} of a turn."
+            r"periods that take one nutation, by their turns about $\mathbf{n}$ and about the axis. Round the "
+            rf"loop $\mathbf{{g}}_3$ goes from one (dot) to another (arrow). Largest step {error:.2g} of a turn."
         ),
         alt=(
             "Three diagrams with a loop round one or two isolated critical values, and three lattices of points, in "

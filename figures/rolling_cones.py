@@ -92,7 +92,7 @@ def contact(motion: ElementaryMotion | FreeMotion, axis: FloatArray) -> str:
     if np.cross(omega, body) @ np.cross(omega, space) < 0:
         return "rolls on the outside of the space cone"
     wider = np.linalg.norm(np.cross(omega, body)) > np.linalg.norm(np.cross(omega, space))
-    return "encloses the space cone and rolls on it" if wider else "rolls inside the space cone"
+    return "encloses the space cone" if wider else "rolls inside the space cone"
 
 
 def reach(line: FloatArray, omega: FloatArray) -> float:

@@ -49,7 +49,7 @@ def sizes(request: Request) -> Data:
         f"Balls of {asked.density:g} kg m$^{{-3}}$ with the largest charge $e$ that a surface field of "
         f"{two(asked.surface_field).tex()} V m$^{{-1}}$ allows, in {asked.magnet:g} T: charge, charge-to-mass ratio, "
         r"Larmor's frequency and its period; the angle $\delta$ between $\mathbf{m}$ and $\mathbf{B}$ for "
-        f"$k=2\\pi$ s$^{{-1}}$, $I={RATIO:g}$, $\\tau={TILT:g}$ at this size and charge; and the temperature whose "
+        f"$k=2\\pi$ s$^{{-1}}$, $I={RATIO:g}$, $\\tau={TILT:g}$; and the temperature whose "
         "heat turns the ball with $b$.",
         ("Two digits: the shape of a body changes the first.",),
     )
