@@ -67,7 +67,7 @@ def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns
     def point(t: FloatArray) -> FloatArray:
         return np.asarray(np.sin(LEAN) * motion.column(1, t) + np.cos(LEAN) * motion.third_axis(t))
 
-    pieces = max(16, int(16 * turns * max(1.0, abs(motion.phi / motion.k))))
+    pieces = max(16, int(16 * turns))
     trace = curve(point, 0.0, turns * period, fine, pieces=pieces)
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine),

@@ -135,6 +135,18 @@ def test_the_shell_of_the_laboratory_system_has_the_ratio() -> None:
         assert SymmetricBody.cylindrical_shell(1.0, radius, height).ratio == pytest.approx(ratio, rel=1e-12)
 
 
+@pytest.mark.parametrize("field", [(1.0, 1.2), (0.0, 2.0), (3.0, 0.0), (-1.0, -0.5)])
+def test_the_laboratory_system_shows_the_field_and_its_components(field: tuple[float, float]) -> None:
+    """The arrow has the field's direction, a name stands at each component that is not zero; no field, no arrow."""
+    (arrow,) = layers("lssc", Arrow, "field", field=field)
+    tip = np.asarray(arrow.tip)
+    assert tip / np.linalg.norm(tip) == pytest.approx([0.0, *field] / np.hypot(*field), abs=4 * EPS)
+    names = {label.text: np.squeeze(label.at).tolist() for label in layers("lssc", Label, field=field)}
+    at = {"$B'_2$": [0.0, tip[1], 0.0], "$B'_3$": [0.0, 0.0, tip[2]]}
+    assert names == {name: at[name] for name, B in zip(at, field, strict=True) if B}
+    assert not layers("lssc", Arrow, "field", field=(0.0, 0.0))
+
+
 @pytest.mark.parametrize("E", [(0.3, 0.5), (-0.3, 0.5), (0.1, -0.4), (0.0, 0.2), (0.5, 0.1), (-0.5, -0.1)])
 def test_the_electric_field_of_a_plate_leans_as_it_does(E: tuple[float, float]) -> None:
     """Where it is steep the arrow has its direction; else it is drawn steeper, in the same quadrant."""

@@ -296,9 +296,12 @@ def test_critical_values_are_extrema_of_the_effective_potential() -> None:
                 assert np.abs(V[turns] - h).min() <= 1e-6 * max(1.0, abs(h))
 
 
-def test_in_a_field_twice_as_strong_the_energy_momentum_map_is_the_same_but_for_its_scales() -> None:
-    """With b and M3 doubled p doubles and h is fourfold, bit for bit: points, and what the axes show."""
-    for one, two in zip(panels("energy_momentum"), panels("energy_momentum", b=(2.0,), M3=0.5), strict=True):
+@pytest.mark.parametrize("weight", [0.0, 4.0])
+def test_in_a_field_twice_as_strong_the_energy_momentum_map_is_the_same_but_for_its_scales(weight: float) -> None:
+    """With b, M3 and the root of a0 doubled p doubles and h is fourfold, bit for bit: points, and the axes."""
+    weak = panels("energy_momentum", linear=(weight,))
+    strong = panels("energy_momentum", b=(2.0,), M3=0.5, linear=(4.0 * weight,))
+    for one, two in zip(weak, strong, strict=True):
         for before, after in zip(layers(one, (Curve, Points)), layers(two, (Curve, Points)), strict=True):
             assert np.array_equal(before.points * (2.0, 4.0), after.points)
         assert np.array_equal(2.0 * np.array(one.x_limits), two.x_limits)
