@@ -108,11 +108,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2, h2 = (
-            positive(mass, "The mass", MASS),
-            _square(radius, "The radius"),
-            _square(height, "The height", zero=True),
-        )
+        m, R2, h2 = _cylinder(mass, radius, height)
         return cls(m * (R2 / 2 + h2 / 12), m * R2)
 
     @classmethod
@@ -121,11 +117,7 @@ class SymmetricBody:
 
         Raises AtlasError unless all are positive numbers.
         """
-        m, R2, h2 = (
-            positive(mass, "The mass", MASS),
-            _square(radius, "The radius"),
-            _square(height, "The height", zero=True),
-        )
+        m, R2, h2 = _cylinder(mass, radius, height)
         return cls(m * (R2 / 4 + h2 / 12), m * (R2 / 2))
 
     @classmethod
@@ -240,6 +232,12 @@ def _square(length: Any, name: str, *, zero: bool = False) -> float:
     """Return the square of a length that must be positive (or may be zero)."""
     given = number(length, name, LENGTH)
     return 0.0 if zero and given == 0 else positive(given, name) * given
+
+
+def _cylinder(mass: Any, radius: Any, height: Any) -> tuple[float, float, float]:
+    """Return the mass and the squares of the radius and the height, which may be zero."""
+    squares = _square(radius, "The radius"), _square(height, "The height", zero=True)
+    return positive(mass, "The mass", MASS), *squares
 
 
 def _frame(axis: FloatArray) -> FloatArray:
