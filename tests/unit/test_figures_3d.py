@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from atlas import DomainError, ElementaryMotion, Hyperbola, Quadric, SymmetricBody
 from atlas.scene import Arrow, Curve, Label, Points, Scene, Surface, recipes
-from atlas.scene.quadrics import quadric_matrix
+from atlas.scene.quadrics import quadric_matrix, sheet_axis
 from atlas.scene.style import style
 
 FloatArray = NDArray[np.float64]
@@ -96,6 +96,21 @@ def test_canonical_axes_and_vectors_are_those_of_the_kernel(ratio: float, field:
     inverse = layers("quadric", Arrow, "field_inverse", ratio=ratio, field=field)
     tip = inverse[0].tip if inverse else prime.tip
     assert np.arctan2(tip[2], tip[1]) == pytest.approx(quadric.beta, abs=4.0 * EPS)
+
+
+@pytest.mark.parametrize("field", [(1.0, 2.0), (1.0, -2.0), (-1.0, 2.0), (-2.0, -1.0)])
+def test_the_axis_of_a_single_sheet_ends_beyond_it_or_is_as_long_as_the_others(field: tuple[float, float]) -> None:
+    """Toward the sheet it leaves it by less than a third of its length; away from it all three arrows are equal."""
+    quadric = Quadric(1.5, field)
+    (sheet,) = layers("hyp_a", Surface, "surface", field=field)
+    arrows = layers("hyp_a", Arrow, "canonical", field=field)
+    lengths = [np.linalg.norm(arrow.tip - quadric.centre) for arrow in arrows]
+    which = sheet_axis(quadric)
+    heights = (np.concatenate([grid.reshape(-1, 3) for grid in sheet.grids]) - quadric.centre) @ quadric.axes[which]
+    if heights.max() > 0.0:
+        assert heights.max() < lengths[which] < 1.5 * heights.max()
+    else:
+        assert lengths == pytest.approx([lengths[0]] * 3, rel=1e-14)
 
 
 def test_the_planes_of_the_loop_touch_its_sheets() -> None:

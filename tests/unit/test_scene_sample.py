@@ -52,6 +52,14 @@ def test_what_lies_outside_the_box_is_not_refined() -> None:
     assert all((np.abs(part - point).max(axis=1) == 0.0).any() for point in whole[inside])
 
 
+@pytest.mark.parametrize("pieces", [1, 3, 8])
+def test_where_a_curve_lies_changes_nothing(pieces: int) -> None:
+    """Moved by a hundred in each direction it has its points at the same parameters."""
+    here = knots(spiral, 0.0, 4.0, 1e-3, pieces)
+    for step in (-100.0, 100.0):
+        assert np.array_equal(knots(lambda s, step=step: spiral(s) + step, 0.0, 4.0, 1e-3, pieces), here)
+
+
 def test_quarter_pixel_of_an_inch() -> None:
     """An inch at 300 dots has 1200 quarters of a pixel."""
     assert quarter_pixel(1.0, 25.4) == pytest.approx(1.0 / 1200.0, rel=1e-15)
