@@ -173,6 +173,18 @@ def boxes(figure: Figure) -> list[tuple[str, Any]]:
     return [(text.get_text(), text.get_window_extent(renderer).extents) for text in names]
 
 
+def test_a_name_is_drawn_wherever_it_stands() -> None:
+    """Beside the panel, too."""
+    curve = Curve(np.array([[0.0, 0.0], [1.0, 1.0]]), "main")
+    label = Label(np.array([1.02, 0.5]), "beside")
+    panel = Plane((curve, label), "$x$", "$y$", (0.0, 1.0), (0.0, 1.0))
+    figure = to_figure(Scene("A line", "A caption.", "A line.", (panel,)))
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    drawn = [text.get_tightbbox(renderer) for text in figure.axes[0].texts if text.get_text() == "beside"]
+    assert drawn
+    assert all(box.width > 0.0 for box in drawn)
+
+
 @pytest.mark.parametrize("name", IN_SPACE)
 def test_names_on_a_plate_stay_on_the_page_and_do_not_overlap(name: str) -> None:
     """Each name of the default figure is inside the page and clear of every other."""

@@ -15,9 +15,9 @@ from atlas.draw.panels import laid_out, places
 from atlas.draw.style import context, style_of
 from atlas.draw.viewer import GRID, STEPS, data, script
 from atlas.places import folder
-from atlas.scene import recipes
+from atlas.scene import Scene, recipes, solids
 from atlas.scene.camera import frame
-from atlas.scene.layers import Curve, FloatArray, Points, Space, Surface
+from atlas.scene.layers import Curve, FloatArray, Label, Points, Space, Surface
 
 HTML = folder("templates") / "html"
 
@@ -91,6 +91,17 @@ def test_letters_are_outlines_about_their_middle() -> None:
         x, y = map(int, re.findall(r"-?\d+", outline)[:2])
         assert abs(x) <= GRID * wide
         assert abs(y) <= GRID * high
+
+
+def test_a_note_is_written_smaller_than_a_name() -> None:
+    """As on paper: in nine points for ten."""
+    roles = ("note", "label")
+    words = tuple(Label(np.array([float(k), 0.0, 0.0]), "word", role) for k, role in enumerate(roles))
+    body = solids.sphere(np.zeros(3), 1.0, 0.05)
+    found = data(Scene("Words", "A caption.", "Words.", (Space((body, *words), azimuth=10.0, elevation=20.0),)))
+    (names,) = (panel["names"] for panel in found["wide"]["panels"])
+    note, name = (found["texts"][number][:2] for number, *_ in names)
+    assert note == pytest.approx(0.9 * np.array(name), rel=1e-2)
 
 
 def test_panels_know_their_places_on_both_screens() -> None:
