@@ -69,10 +69,11 @@ def test_vectors_are_upright_and_primes_not_raised_twice() -> None:
 
 
 def test_functions_have_their_spaces() -> None:
-    """A thin space stands on both sides of sin in `a sin x`, none before a bracket."""
+    """A thin space stands on both sides of sin in `a sin x`, and of ln, none before a bracket."""
     assert one(r"$a\sin x$").count("mspace") == 4
     assert one(r"$\sin(x)$").count("mspace") == 0
     assert one(r"$\left[a\sin x\right]$").count("mspace") == 4
+    assert one(r"$\left[a\ln x\right]$").count("mspace") == 4
 
 
 def test_accents_do_not_stretch() -> None:
