@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
+from atlas.core.arithmetic.rotation import target
 from atlas.core.certified import Certified
 from atlas.core.clebsch_theta import ThetaKernel, closed_form
 from atlas.core.inputs import FloatArray, finite, plain, real
@@ -95,9 +96,13 @@ class SingleAsymmetric:
         return self._started("field_in_body", _floats(self.exact.field), t, out)
 
     def _started(self, name: str, start: FloatArray, t: Any, out: FloatArray | None, *which: int) -> FloatArray:
-        """Return the values of a function of time, which is known at zero."""
-        found: FloatArray = getattr(self.closed or self.certified, name)(*which, t, out)
-        found[real(t, "The time") == 0] = start
+        """Return the values of a function of time, which is known at zero, without a closed form."""
+        known = np.asarray(real(t, "The time") == 0)
+        if known.all():
+            found = target(out, known.shape + start.shape)
+        else:
+            found = getattr(self.closed or self.certified, name)(*which, t, out)
+        found[known] = start
         return found
 
 

@@ -36,7 +36,7 @@ FAMILY = Family(
     ),
     (
         Quantity("kind", "name of the kind"),
-        Quantity("agreement", "of R, K, Omega", exact=_proven, tabled=False),
+        Quantity("agreement", "of R, K, Omega", exact=_proven, tabled=False, slow=True),
         Quantity("H", "Hamiltonian", "inertia/time^2", "theorem-lie-poisson", certified=True),
         Quantity("F", "integral of Clebsch", "(inertia/time)^2", "theorem-clebsch", certified=True),
         Quantity("MK", "(M, K)", "inertia/time^2", "theorem-lie-poisson", certified=True),

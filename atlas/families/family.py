@@ -53,6 +53,7 @@ class Quantity:
     checked     its name in a stress run, if it has a promise or is checked without one
     certified  whether a sweep gives it in certified digits; `printed`, `tabled`, whether a command prints it and a
                table has it
+    slow       whether it takes more than a few milliseconds, as a proof does: not while a slider moves
     """
 
     name: str
@@ -71,6 +72,7 @@ class Quantity:
     certified: bool = False
     printed: bool = True
     tabled: bool = True
+    slow: bool = False
 
     def of(self, made: Any, *, exact: bool = False) -> Any:
         """Return it of an object of kernels or, if `exact`, of balls."""

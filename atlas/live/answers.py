@@ -68,7 +68,9 @@ def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) ->
     balls = family.balls()(*subject.arguments(values).values()) if proven else None
     for q in family.quantities:
         try:
-            if balls is not None and _has(balls, q):
+            if balls is None and q.slow:
+                text, sure = "", "when the sliders rest"
+            elif balls is not None and _has(balls, q):
                 text, sure = _certified(q, balls)
             else:
                 text, sure = _double(q, kernels, family.promises.get(q.checked, 0.0))

@@ -12,6 +12,7 @@ from oracles.taylor import taylor
 
 import atlas
 from atlas.cli.app import atlas as command
+from atlas.core import asymmetric as kernels
 from atlas.exact import asymmetric, clebsch_flow, torus
 from atlas.exact.asymmetric import AsymmetricMotion as Balls
 from atlas.exact.elliptic import EllipticMotion
@@ -278,6 +279,18 @@ def test_floats_are_balls_rounded_and_arrays_are_motions_one_by_one() -> None:
     assert (one._turnings[0].certified.rotation(1.5) == true).all()
     assert one.energy == pytest.approx(sum(I * w * w for I, w in zip(inertia, omega, strict=True)) / 2, rel=4 * EPS)
     assert np.abs(Omega[0] - omega).max() <= EPS
+
+
+def test_the_start_is_known_without_a_closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At t = 0 nothing is solved or proved; an array to fill is filled, and one that does not fit refused."""
+    monkeypatch.setattr(kernels, "closed_form", lambda *_: pytest.fail("a closed form is made"))
+    motion = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.31, 0.71, 0.21))
+    assert (motion.rotation(np.zeros((2, 1))) == np.eye(3)).all()
+    assert motion.angular_velocity(0.0).tolist() == [0.31, 0.71, 0.21]
+    assert motion.rotation(0.0, out=(out := np.full((3, 3), 7.0))) is out
+    assert (out == np.eye(3)).all()
+    with pytest.raises(atlas.AtlasError, match="of shape"):
+        motion.rotation(0.0, out=np.empty((2, 3)))
 
 
 @pytest.mark.parametrize(

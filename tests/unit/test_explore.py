@@ -19,6 +19,7 @@ from click.testing import CliRunner
 
 from atlas import AtlasError, GeneralMotion
 from atlas.cli.app import atlas as command_line
+from atlas.core import asymmetric
 from atlas.families import FAMILIES
 from atlas.live import answers, subjects
 from atlas.live.server import HEADERS, PAGES, Explorer
@@ -134,6 +135,15 @@ def test_doubles_are_the_kernels_and_say_what_is_promised(server: Explorer) -> N
     assert {one["sure"] for one in found["numbers"]} <= {"decided exactly", "double, no promise"}
     assert numbers["kind"]["sure"] == "decided exactly"
     assert own(server, "state", subject="ball")["numbers"][0]["sure"] == "double, within 4 ulp"
+
+
+def test_a_proof_waits_until_the_sliders_rest(server: Explorer, monkeypatch: pytest.MonkeyPatch) -> None:
+    """While a body of three moments is changed by a slider its closed form is neither made nor proved."""
+    monkeypatch.setattr(asymmetric, "closed_form", lambda *_: pytest.fail("a closed form is made"))
+    found = own(server, "state", subject="asymmetric", I1=0.83)
+    numbers = {one["name"]: one for one in found["numbers"]}
+    assert numbers["agreement"]["sure"] == "when the sliders rest"
+    assert float(numbers["energy"]["value"]) > 0.0
 
 
 def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
