@@ -103,7 +103,7 @@ def test_dask_writes_the_data_set_itself_and_goes_on_where_it_was_stopped(
         assert sorted(kept) == [f"part-{i:08d}.parquet" for i in range(4)]
         assert not out.exists()
         atlas.sweep("elementary", GRID, NAMES, f"{out}/", rows=20, executor=client)
-        same(frames.read_parquet(out).compute(scheduler="synchronous"))
+    same(frames.read_parquet(out).compute(scheduler="synchronous"))
     assert {name: (out / name).stat().st_mtime_ns for name in kept} == kept
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
 
