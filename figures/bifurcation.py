@@ -48,8 +48,8 @@ def scene(
         caption=(
             rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$, $b={tex(b)}$ and momenta "
             r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the unbounded oval (dark) and of the "
-            "bounded one (turquoise), unstable ones dashed; spins about an axis along the field that are stable (dots) "
-            "or not (diamonds). Motions exist in the shaded region."
+            "bounded one (turquoise), unstable ones dashed; spins about an axis along the field that are stable "
+            "(dots) or not (diamonds). Motions exist in the shaded region."
             + (" The open circle is the body at rest." if "rest" in there else "")
         ),
         alt=(
