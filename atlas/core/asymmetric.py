@@ -15,7 +15,11 @@ from atlas.core.motion import Motion, components
 from atlas.core.quantities import INERTIA, RATE
 from atlas.errors import AtlasError, NotCertifiedError
 from atlas.exact.asymmetric import AsymmetricMotion as Balls
+from atlas.exact.digits import enclosed
 from atlas.formulas.numbers import workprec
+
+BITS = 60
+"""Relative accuracy of a frequency before it is rounded, once."""
 
 KEPT = 16
 """Motions that are kept with what was found of them."""
@@ -200,10 +204,11 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     def frequencies(self) -> Any:
         """Angular frequencies (f1, f2, f3) of a motion on a torus, shape (..., 3), each rounded once from proven balls.
 
-        M and K turn with f1 and f2 alone; N exp(-ibt), see `atlas.exact.clebsch_theta`, has the factor exp(i f3 t)
-        besides. Which basis of the frequencies that is, is a choice. Raises AtlasError for motions without closed form.
+        M and K turn with f1 and f2, and R with f3 about B besides. Which basis f1, f2 are is a choice, and f3 is one
+        but for integer multiples of them: in a period the body turns by at most half a turn about B beside -B'.
+        Raises DomainError for other motions.
         """
-        found = self._of_each(lambda one: [_float(x) for x in one.theta.frequencies])
+        found = self._of_each(lambda one: [_float(x) for x in enclosed(lambda: one.exact.frequencies, BITS)])
         return np.asarray(finite(np.array(found), "A frequency"))
 
     @cached_property

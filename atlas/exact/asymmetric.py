@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from atlas.errors import NotCertifiedError
+from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact import two_turns
 from atlas.exact.cayley_klein import matrix
 from atlas.exact.clebsch_flow import Arrival
@@ -62,6 +62,17 @@ class OnTorus:
     def is_regular(self) -> bool:
         """Whether both flows are independent on it, and H, F and the Casimirs are no critical values."""
         return bool(self.torus.integrals.double_points().degree() == 0)
+
+    @property
+    def frequencies(self) -> list[arb]:
+        """f1, f2 of M and K and f3 about the field, in 1/time. Raises NotCertifiedError where no periods are proved."""
+        first, second = self.torus.periods(ctx.prec + GUARD)
+        with workprec(ctx.prec + GUARD):
+            area, turn = first.H * second.F - first.F * second.H, 2 * arb.pi()
+            along = second.F / area, -first.F / area
+            angles = [period.angle - turn * _nearest(period.angle / turn) for period in (first, second)]
+            about = angles[0] * along[0] + angles[1] * along[1] - self.b
+            return [x * self.rate for x in (turn * along[0], turn * along[1], about)]
 
     def elliptic(self) -> EllipticMotion | None:
         """Return the elliptic motion that it is, if it is one whose z is rational."""
@@ -205,6 +216,20 @@ class AsymmetricMotion:
         if rational(t, "the time") == 0:
             return list(self.omega)
         return self._motion.angular_velocity(t)
+
+    @property
+    def frequencies(self) -> list[Real]:
+        """Angular frequencies (f1, f2, f3) of a motion on a torus.
+
+        M and K turn with f1 and f2, and R with f3 about B besides. Which basis f1, f2 are is a choice, and f3 is one but for integer multiples of them: in a period the body turns
+        by at most half a turn about B beside -B'. Raises DomainError for other kinds, and where no periods are proved.
+        """
+        if self.on_torus is None:
+            raise DomainError(f"There is no torus with three frequencies: the motion is {self.kind}.")
+        try:
+            return list(self.on_torus.frequencies)
+        except NotCertifiedError as reason:
+            raise DomainError(f"The frequencies are {reason}") from reason
 
     @property
     def invariants(self) -> Integrals:

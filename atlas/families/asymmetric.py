@@ -3,7 +3,7 @@
 from typing import Any
 
 from atlas.families.family import RATE, Command, Family, Quantity, Sampled
-from atlas.families.shared import MOMENTS, OMEGA, PRINCIPAL_FIELD, rotation
+from atlas.families.shared import MOMENTS, OMEGA, PRINCIPAL_FIELD, in_brackets, rotation
 
 
 def _kernels() -> Any:
@@ -37,6 +37,10 @@ FAMILY = Family(
     (
         Quantity("kind", "name of the kind"),
         Quantity("agreement", "of R, K, Omega", exact=_proven, tabled=False, slow=True),
+        Quantity(
+            "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", text=in_brackets,
+            certified=True,
+        ),
         Quantity("H", "Hamiltonian", "inertia/time^2", "theorem-lie-poisson", certified=True),
         Quantity("F", "integral of Clebsch", "(inertia/time)^2", "theorem-clebsch", certified=True),
         Quantity("MK", "(M, K)", "inertia/time^2", "theorem-lie-poisson", certified=True),

@@ -18,9 +18,11 @@ from atlas.core import certified, clebsch_rounding
 from atlas.core import clebsch_theta as core
 from atlas.core.asymmetric import SingleAsymmetric
 from atlas.core.clebsch_theta import ThetaKernel, closed_form
+from atlas.errors import DomainError
 from atlas.exact import clebsch_theta, torus
 from atlas.exact.asymmetric import AsymmetricMotion as Balls
 from atlas.exact.clebsch_lattice import Lattice
+from atlas.exact.digits import enclosed
 from atlas.exact.powers import powers, wrong
 
 EPS = 2.0**-52
@@ -183,6 +185,24 @@ def test_frequencies_are_those_of_the_motion() -> None:
     table = np.concatenate([np.cos(angles), np.sin(angles)], axis=1)
     rest = K - table @ np.linalg.lstsq(table, K, rcond=None)[0]
     assert np.abs(rest).max() < 1e-8 * np.abs(K).max()
+
+
+def test_the_third_frequency_is_that_about_the_field() -> None:
+    """Across B, R turns with f3 and with sums n1 f1 + n2 f2, |n| <= 8, alone; the digits of balls are the same."""
+    one = motion()
+    f1, f2, f3 = one.frequencies
+    times = np.random.default_rng(4).uniform(0, 1e5, 1500)
+    n = np.array(QUICK[1])
+    n /= np.linalg.norm(n)
+    e = np.cross(n, [0.0, 0.0, 1.0])
+    e /= np.linalg.norm(e)
+    N = np.einsum("i,tij->tj", e + 1j * np.cross(n, e), one.rotation(times)) * np.exp(-1j * f3 * times)[:, None]
+    table = np.exp(1j * np.outer(times, [m * f1 + n * f2 for m, n in product(range(-8, 9), repeat=2)]))
+    assert np.abs(N - table @ np.linalg.lstsq(table, N, rcond=None)[0]).max() < 1e-8
+    balls = enclosed(lambda: one._turnings[0].exact.frequencies, 120)
+    assert [float(x.mid()) for x in balls] == [f1, f2, f3]
+    with pytest.raises(DomainError, match="no torus with three frequencies: the motion is symmetric body"):
+        atlas.AsymmetricMotion((1.0, 1.0, 0.5), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)).frequencies  # noqa: B018
 
 
 def test_the_riemann_matrix_is_reduced_and_a_lattice_of_type_1_2_stands_behind_it() -> None:
