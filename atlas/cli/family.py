@@ -195,8 +195,9 @@ def _found(family: Family, made: Any, times: Sequence[float], columns: Sequence[
         try:
             found[q.name] = q.of(made, exact=exact)
         except DomainError as reason:
+            missing[q.name] = str(reason)
             if not q.missing:
-                found[q.name], missing[q.name] = None, str(reason)
+                found[q.name] = None
         else:
             if q.unit == TIME and not found[q.name] < float("inf"):
                 found[q.name] = "infinite"

@@ -221,8 +221,9 @@ class AsymmetricMotion:
     def frequencies(self) -> list[Real]:
         """Angular frequencies (f1, f2, f3) of a motion on a torus.
 
-        M and K turn with f1 and f2, and R with f3 about B besides. Which basis f1, f2 are is a choice, and f3 is one but for integer multiples of them: in a period the body turns
-        by at most half a turn about B beside -B'. Raises DomainError for other kinds, and where no periods are proved.
+        M and K turn with f1 and f2, and R with f3 about B besides. Which basis f1, f2 are is a choice, and f3 is one
+        but for integer multiples of them: in a period the body turns by at most half a turn about B beside -B'.
+        Raises DomainError for other kinds, and where no periods are proved.
         """
         if self.on_torus is None:
             raise DomainError(f"There is no torus with three frequencies: the motion is {self.kind}.")

@@ -3,7 +3,7 @@
 from typing import Any
 
 from atlas.families.family import RATE, Command, Family, Quantity, Sampled
-from atlas.families.shared import MOMENTS, OMEGA, PRINCIPAL_FIELD, in_brackets, rotation
+from atlas.families.shared import MOMENTS, OMEGA, PRINCIPAL_FIELD, rotation
 
 
 def _kernels() -> Any:
@@ -38,8 +38,8 @@ FAMILY = Family(
         Quantity("kind", "name of the kind"),
         Quantity("agreement", "of R, K, Omega", exact=_proven, tabled=False, slow=True),
         Quantity(
-            "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", text=in_brackets,
-            certified=True,
+            "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", certified=True,
+            lines=(("f1", "frequency of M and K"), ("f2", "frequency of M and K"), ("f3", "about B besides")),
         ),
         Quantity("H", "Hamiltonian", "inertia/time^2", "theorem-lie-poisson", certified=True),
         Quantity("F", "integral of Clebsch", "(inertia/time)^2", "theorem-clebsch", certified=True),

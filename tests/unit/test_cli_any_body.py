@@ -98,3 +98,14 @@ def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
     found = json.loads(out)
     assert found["parameters"] == {"inertia": [5.0, 3.0, 6.0], "field": [0.05, 0.1, 1.0], "omega": [0.3, 0.7, 0.2]}
     assert [column["name"] for column in found["columns"]] == ["R11", "R12", "Omega3"]
+
+
+def test_frequencies_or_why_there_are_none() -> None:
+    """A motion on a torus prints its three; a symmetric body by three moments says that it has no torus."""
+    words = "--field 0.2 1 0.6 --omega 1 2 3"
+    status, out = run("asymmetric", *f"--inertia 1 1.2 1.3 {words}".split())
+    assert status == 0
+    assert re.search(r"^f3 +-1\.154812784 +1/time", out, re.MULTILINE)
+    found = numbers("asymmetric", *f"--inertia 1 1 1.3 {words} --json".split())
+    assert "frequencies" not in found
+    assert found["missing"]["frequencies"].startswith("There is no torus with three frequencies")
