@@ -39,6 +39,7 @@ FAMILY = Family(
         Quantity("agreement", "of R, K, Omega", exact=_proven, tabled=False, slow=True),
         Quantity(
             "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", certified=True,
+            slow=True,
             lines=(("f1", "frequency of M and K"), ("f2", "frequency of M and K"), ("f3", "about B besides")),
         ),
         Quantity("H", "Hamiltonian", "inertia/time^2", "theorem-lie-poisson", certified=True),
