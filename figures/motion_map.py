@@ -20,6 +20,8 @@ from atlas.study.sweep.ranges import Range, Tabulation
 
 WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0
 NARROWEST = 139.0
+SCALES = 150.0, 180.0
+"""Degrees at the end of the scale of colours, of which the first that holds all amplitudes is taken."""
 
 
 def scene(
@@ -43,8 +45,9 @@ def scene(
     table = Tabulation("general", settings, ("kind", "least", "largest"))
     swings = amplitudes(table.columns(), field).reshape(-1, cells, cells)
     last = "b" if len(ratios) > 1 else "a"
+    most = next(most for most in SCALES if np.max(swings) <= most)
     panels = tuple(
-        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, unit, bar=letter == last)
+        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, unit, most, bar=letter == last)
         for letter, I, swing in zip("abcd", ratios, swings, strict=False)
     )
     return Scene(
@@ -81,17 +84,18 @@ def panel(
     edges: list[FloatArray],
     swing: FloatArray,
     unit: str,
+    most: float,
     *,
     bar: bool,
 ) -> Plane:
-    """Return the map of one body; the scale of colours, one for all, stands beside one of them."""
+    """Return the map of one body; the scale of colours, up to ``most`` degrees for all, stands beside one of them."""
     x, y = edges
     middle = (x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2
     second, third = np.meshgrid(*middle)
     omega = np.stack([np.zeros_like(second), second, third], axis=-1)
     looping = (trace_map(I, field, omega) == 2).astype(float)
     view = Window((float(x[0]), float(x[-1])), (float(y[0]), float(y[-1])))
-    layers: list[Layer] = [Image(x, y, swing, "amplitude (degrees)" if bar else "", limits=(0.0, 150.0))]
+    layers: list[Layer] = [Image(x, y, swing, "amplitude (degrees)" if bar else "", limits=(0.0, most))]
     layers += [Curve(line, "map_border") for line in borders(*middle, looping)]
     layers += [Curve(line, "map_curve") for line in branches(I, field, view, (PANEL, PANEL))]
     layers += [Points(np.array([place.at]), place.role) for place in places(I, field) if place.role != "point"]

@@ -321,6 +321,14 @@ def test_the_motion_map_shows_the_amplitude_of_the_nutation() -> None:
         assert layers_of_kind(panel, Points)
 
 
+@pytest.mark.parametrize(("field", "end"), [((1.0, 0.3), 150.0), ((0.05, 1.0), 180.0)])
+def test_no_amplitude_is_beyond_the_scale_of_colours(field: tuple[float, float], end: float) -> None:
+    """In a field close to the axis the axis of the body goes over by nearly 180 degrees; all panels have one scale."""
+    images = [layers_of_kind(panel, Image)[0] for panel in panels("motion_map", field=field, cells=12)]
+    assert {image.limits for image in images} == {(0.0, end)}
+    assert max(image.values.max() for image in images) <= end
+
+
 def layers_of_kind(panel: Any, kind: Any) -> list[Any]:
     """Return the layers of one kind, whatever their role."""
     return [layer for layer in panel.layers if isinstance(layer, kind)]
