@@ -119,13 +119,15 @@ class Cell:
         self.weight = 8 * weights**2 * max(abs(complex_of(acb(x))) for x in sizes) ** 2
         """Bound on the sum of factors of the products in a defect."""
         self.largest_factor = float(np.exp(HALF * np.abs(turns.imag).sum() - start))
-        """That of N, exp(i l zeta)."""
+        """That of N, exp(i l zeta): far from 1 where the start is far from the real times."""
 
     def rates(self) -> Floats:
         """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
         S, size = self._defects()
         most = size + HALF * abs((S - 2 * self.middle) @ self.into.imag).sum(axis=1)[:, None]
         top = most.max()
+        if not np.isfinite(top):
+            return np.full((2, 3), np.inf)
         kept = most.max(axis=1) > top - FAINT
         S, size, faint = S[kept], np.exp(size[kept] - top), np.exp(most[~kept] - top).sum(axis=0)
         weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)

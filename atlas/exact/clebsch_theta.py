@@ -151,10 +151,18 @@ class ThetaMotion:
                 centre(times[0] + (f * d - g * b) / (a * d - b * c)),
                 centre(times[1] + (g * a - f * c) / (a * d - b * c)),
             ]
-        zeta = self.zeta(times)
+        zeta = self._near_real(self.zeta(times))
         if not max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).all, start, strict=False)) < FITTED:
             raise NotCertifiedError("not certified: Newton's method does not find the start on the motion's torus.")
         return zeta
+
+    def _near_real(self, zeta: Vector) -> Vector:
+        """Return zeta less an even period of hat, which changes all forms by one factor, near the real times."""
+        Y = np.array([[complex_of(self.hat[i, j]).imag for j in range(2)] for i in range(2)])
+        v = [2 * zeta[0], zeta[1]]
+        m, n = (2 * round(float(x) / 2) for x in np.linalg.solve(Y, [complex_of(x).imag for x in v]))
+        first, second = (v[k] - m * self.hat[0, k] - n * self.hat[1, k] for k in range(2))
+        return [centre(first / 2), centre(second)]
 
     def _quasi_periods(self) -> tuple[Vector, Vector]:
         """Return l and w: under a period N gets the factor exp(-i b T_c), which is known but for whole turns."""

@@ -48,12 +48,15 @@ FAMILY = Family(
         Quantity("energy", "kinetic energy", "inertia/time^2", "theorem-kinetic-energy", certified=True),
     ),
     (
-        rotation("", ""),
-        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE),
-        Sampled("K", "field_in_body", "field B' in the body", RATE, printed=False),
+        rotation("", "asymmetric R"),
+        Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="asymmetric Omega"),
+        Sampled("K", "field_in_body", "field B' in the body", RATE, checked="asymmetric K", printed=False),
         Sampled("m", "angular_momentum", "angular momentum", "inertia/time", symbol="m_i", printed=False),
     ),
-    {},
+    {
+        "asymmetric R": 16, "asymmetric Omega": 16, "asymmetric K": 16, "asymmetric orthogonality": 16,
+        "asymmetric R(0) = 1": 0,
+    },
     Command(
         "asymmetric",
         "Compute any motion of a body with three different moments.",

@@ -100,17 +100,17 @@ def _near_the_elliptic_family(random: Random) -> Asymmetric:
 
 
 ASYMMETRIC: Mapping[str, Callable[[Random], Asymmetric]] = {
-    "ordinary": _ordinary,
-    "nearly symmetric": _nearly_symmetric,
-    "flat": _flat,
-    "disk": _disk,
-    "rod": _rod,
-    "weak field": _weak_field,
-    "strong field": _strong_field,
-    "field along an axis": _field_along_an_axis,
-    "fast spin": _fast_spin,
-    "nearly at rest": _nearly_at_rest,
-    "near a spin": _near_a_spin,
-    "near the elliptic family": _near_the_elliptic_family,
+    "asymmetric, ordinary": _ordinary,
+    "asymmetric, nearly symmetric": _nearly_symmetric,
+    "asymmetric, flat": _flat,
+    "asymmetric, disk": _disk,
+    "asymmetric, rod": _rod,
+    "asymmetric, weak field": _weak_field,
+    "asymmetric, strong field": _strong_field,
+    "asymmetric, field along an axis": _field_along_an_axis,
+    "asymmetric, fast spin": _fast_spin,
+    "asymmetric, nearly at rest": _nearly_at_rest,
+    "asymmetric, near a spin": _near_a_spin,
+    "asymmetric, near the elliptic family": _near_the_elliptic_family,
 }
 """Regimes of motions of bodies with three moments."""

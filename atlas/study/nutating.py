@@ -14,6 +14,7 @@ from atlas.exact.digits import numbers
 from atlas.exact.inputs import Real
 from atlas.families import FAMILIES
 from atlas.formulas.numbers import workprec
+from atlas.study.asymmetric import Asymmetric, size_of
 from atlas.study.elliptic import Elliptic, rates_of
 from atlas.study.promises import Inputs, Where, check, on_grid
 from atlas.study.regimes import General
@@ -54,6 +55,32 @@ def check_elliptic(draw: Elliptic, regime: str, random: Random, worst: WorstErro
     _nutation("elliptic", draw, inputs, size, regime, random, worst, K=b)
 
 
+def check_asymmetric(draw: Asymmetric, regime: str, random: Random, worst: WorstErrors) -> None:
+    """Check a motion of three moments, in ulps of its largest rate: beside the register, structure."""
+    inputs: Inputs = {name: [x.hex() for x in vector] for name, vector in draw._asdict().items()}
+    size, lengths = size_of(draw), ((-1, 2), (4, 9), (10, 14.5))
+    times = [random.choice((1, -1)) * 10 ** random.uniform(*length) / size for length in lengths]
+    check(
+        "asymmetric", regime, draw, worst, inputs, times=times, unit=lambda *_: size * ONE,
+        truth=partial(narrow, size=size, precision=112), more=_structure("asymmetric", regime, inputs, times, worst),
+    )  # fmt: skip
+
+
+def _structure(
+    name: str, regime: str, inputs: Inputs, times: Sequence[float], worst: WorstErrors
+) -> Callable[[Any, Any, Where], None]:
+    """Return what checks that R is orthogonal, and 1 at t = 0."""
+
+    def more(found: Any, *_: Any) -> None:
+        R = found.rotation(np.array(times))
+        defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
+        worst.add(f"{name} orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
+        start = np.abs(found.rotation(0.0) - np.eye(3)).max() / ONE
+        worst.add(f"{name} R(0) = 1", regime, [float(start)], lambda _: inputs)
+
+    return more
+
+
 def _nutation(
     name: str,
     draw: Sequence[Any],
@@ -67,12 +94,8 @@ def _nutation(
     """Check a motion whose axis nutates, vectors in ulps of their `lengths`, or of a rate."""
     truth = partial(narrow, size=size)
 
-    def more(found: Any, exact: Any, _: Where) -> None:
-        R = found.rotation(np.array(times))
-        defect = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-1, -2)) / ONE
-        worst.add(f"{name} orthogonality", regime, defect.tolist(), lambda i: inputs | {"t": times[i].hex()})
-        start = np.abs(found.rotation(0.0) - np.eye(3)).max() / ONE
-        worst.add(f"{name} R(0) = 1", regime, [float(start)], lambda _: inputs)
+    def more(found: Any, exact: Any, where: Where) -> None:
+        _structure(name, regime, inputs, times, worst)(found, exact, where)
         # long enough for polynomials; at ends of their windows too
         grid, places = (0.0, times[-1] / GRID, GRID), (0, 255, 511, 4099, GRID - 1)
         on_grid(f"{name} R grid", found, exact, grid, places, regime, worst, inputs, truth)
@@ -86,12 +109,11 @@ def _nutation(
         check(name, regime, draw, worst, inputs, times=times, unit=unit, truth=truth, more=more)
 
 
-def narrow(function: Callable[[], Any], size: float) -> Any:
+def narrow(function: Callable[[], Any], size: float, precision: int = 256) -> Any:
     """Return nested lists of balls computed at a precision at which each is narrow beside 1, or beside the rates.
 
     An entry may be zero: so the radius is compared with the size of the whole, not of the entry.
     """
-    precision = 256
     while True:
         with workprec(precision):
             value = function()

@@ -22,8 +22,9 @@ from atlas import files, processes
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.study import extreme
+from atlas.study.asymmetric import ASYMMETRIC
 from atlas.study.elliptic import ELLIPTIC
-from atlas.study.nutating import check_elliptic, check_general, check_top
+from atlas.study.nutating import check_asymmetric, check_elliptic, check_general, check_top
 from atlas.study.promises import (
     check_ball,
     check_free,
@@ -50,8 +51,22 @@ LONG, SHORT = (1_000_000, 0), (60_000, 1)
 
 Progress = Callable[[int, int], None]
 
-STRESSED = ("elementary", "quadric", "hyperbola", "ball", "free", "general", "top", "elliptic", "particle")
+STRESSED = (
+    "elementary",
+    "quadric",
+    "hyperbola",
+    "ball",
+    "free",
+    "general",
+    "top",
+    "elliptic",
+    "asymmetric",
+    "particle",
+)
 """The families that a run checks, in the order of its table."""
+
+SELDOM = 12
+"""A body with three moments, which takes seconds, is checked once in so many rounds."""
 
 LIMITS: Mapping[str, float] = {name: ulps for one in STRESSED for name, ulps in FAMILIES[one].promises.items()}
 """What the kernels promise, in ulps, for each quantity that has a promise."""
@@ -163,6 +178,10 @@ def one_round(seed: int, index: int) -> WorstErrors:
     other = Random(f"elliptic {seed} {index}")  # noqa: S311  the same
     for regime, draw_elliptic in ELLIPTIC.items():
         check_elliptic(draw_elliptic(other), regime, other, found)
+    if index % SELDOM == 0:
+        other = Random(f"asymmetric {seed} {index}")  # noqa: S311  the same
+        regime = list(ASYMMETRIC)[index // SELDOM % len(ASYMMETRIC)]
+        check_asymmetric(ASYMMETRIC[regime](other), regime, other, found)
     return found
 
 

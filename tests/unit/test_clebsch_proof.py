@@ -149,3 +149,25 @@ def test_errors_grow_by_the_exponential() -> None:
     values, vectors = np.linalg.eig(7 * A)
     exact = (vectors * np.exp(values)) @ np.linalg.inv(vectors)
     np.testing.assert_allclose(clebsch_proof._exponential(7 * A), exact.real, rtol=1e-12)
+
+
+def test_a_start_is_taken_near_the_real_times() -> None:
+    """Nearly at rest the start was found far off, where N has a factor of 1e35 and no defect a bound: it is proved."""
+    K = [fmpq(*x.as_integer_ratio()) for x in (0.777, -0.758, -0.961)]
+    W = [k + fmpq(*x.as_integer_ratio()) for k, x in zip(K, (5.5e-4, 6.6e-4, 1.2e-4), strict=True)]
+    near = Torus(tuple(fmpq(x, 1000) for x in (965, 848, 969)), tuple(W), tuple(K))
+    theta = ThetaMotion(near.integrals, near.W, near.K, near.lattice)
+    Y = np.array([[float(theta.hat[i, j].imag.mid()) for j in range(2)] for i in range(2)])
+    v = [float((n * x).imag.mid()) for n, x in zip((2, 1), theta.start, strict=True)]
+    assert np.abs(np.linalg.solve(Y, v)).max() <= 1 + 1e-9
+    assert max(distances(theta, near, near.periods(128))) < 1e-20
+
+
+def test_defects_that_are_no_numbers_are_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where coefficients overflow there is no bound, at once."""
+    theta = made()
+    with workprec(240):
+        cell = Cell(theta, torus().periods(128))
+        places, sizes = cell._defects()
+        monkeypatch.setattr(cell, "_defects", lambda: (places, sizes + np.inf))
+        assert np.isinf(cell.rates()).all()
