@@ -70,12 +70,12 @@ def main() -> int:
         if isinstance(result, str) or result.beside > 1:
             click.echo(f"{i} {name}, {draw}: {result}")
     click.echo(
-        f"{'regime':24} {'bodies':>6} {'closed':>6} {'proved':>6} {'ulp':>7} {'of the bound':>12}   seed {options.seed}"
+        f"{'regime':35} {'bodies':>6} {'closed':>6} {'proved':>6} {'ulp':>7} {'of the bound':>12}   seed {options.seed}"
     )
     for name, results in found.items():
         ulps, beside = (max(getattr(x, part) for x in results) for part in ("ulps", "beside"))
         proved = sum(x.proved for x in results)
-        click.echo(f"{name:24} {tried[name]:6} {len(results):6} {proved:6} {ulps:7.2f} {beside:12.2f}")
+        click.echo(f"{name:35} {tried[name]:6} {len(results):6} {proved:6} {ulps:7.2f} {beside:12.2f}")
     return int(failed > 0)
 
 

@@ -57,8 +57,9 @@ PARTS = (1, 2, 3)
 HALF = 0.55
 """Phases of a reduced time, in turns: half a turn, and what rounding may add to it near the longest times."""
 
-CELLS, HALVINGS = 24, 8
-"""Parts of each period in which |D| is bounded from below, and how often one is halved if need be."""
+CELLS, HALVINGS, MOST = 24, 8, 1 << 15
+"""Parts of each period in which |D| is bounded from below, how often one is halved if need be, and how many squares of
+them are looked at together at most: where D is no larger than its rounding errors, halving helps none."""
 
 D, K, M, N = 0, (1, 2, 3), (4, 5, 6), (7, 8, 9)
 """Places of the forms in a row."""
@@ -146,6 +147,8 @@ class Cell:
                 return np.asarray(WIDER * worst.reshape(2, 3) * [1, 1, self.largest_factor])
             half /= 2
             x = np.concatenate([x[~good] + half * np.array(sides) for sides in product((-1, 1), repeat=2)])
+            if len(x) > MOST:
+                break
         return np.full((2, 3), np.inf)
 
     def _defects(self) -> tuple[Floats, Floats]:
