@@ -52,8 +52,8 @@ MOST = 4000
 SMALL = 8
 """Binary digits of a coefficient above which rounding does not matter to its size."""
 
-STIFF = 40.0
-"""Largest Lipschitz constant of the right-hand side times a step."""
+STIFF = 8.0
+"""Largest Lipschitz constant of the right-hand side times a step: TERMS give its derivative, and errors little room."""
 
 CYCLE = ((1, 2), (2, 0), (0, 1))
 
@@ -139,6 +139,9 @@ class _Way:
         parts = max(1, min(self.left, int(self.guess * min(1.0, scale))))  # larger ones would swell the roundings
         factor = Fraction(parts, self.guess)
         rows = [_scaled(row, factor) for row in rows]
+        if self.proven and (lipschitz := self._sizes(rows, Fraction(parts, PARTS))[3]) > STIFF:
+            factor = Fraction(max(1, int(parts * STIFF / lipschitz)), parts)
+            parts, rows = int(parts * factor), [_scaled(row, factor) for row in rows]
         if self.proven:
             self._account(rows, Fraction(parts, PARTS))
         self.state = [sum(row) for row in rows]
@@ -169,7 +172,7 @@ class _Way:
         """Take the step's errors into the bounds."""
         W, K, size_V, lipschitz = self._sizes(rows, h)
         state, turn = self._defect(rows, h, W, K)
-        if not lipschitz < STIFF:
+        if not lipschitz < 2 * STIFF:
             raise NotCertifiedError("not certified: a step of Taylor's series is too long for a bound on its error.")
         spread = exp(lipschitz)
         J, eta = self._derivative(rows, h, spread)

@@ -24,7 +24,6 @@ from atlas.exact.clebsch_periods import (
     BITS,
     EACH,
     FINE,
-    ONE,
     Curve,
     Integrals,
     complex_of,
@@ -37,8 +36,11 @@ from atlas.formulas.numbers import workprec
 WHOLE = 1e-9
 """How near to whole numbers the coefficients of a conjugate period are."""
 
-SLOW, MORE, FEWEST = 0.003, 8, 4
-"""Least rate at which sums converge; paths for each zero where fewer do not give all periods; the fewest that may."""
+MORE, FEWEST = 8, 4
+"""Paths for each zero where fewer do not give all periods, and the fewest that may."""
+
+AREAS, SLIGHT = 160, 8
+"""Bits of areas in the search for the polarization, and of an integer there: near symmetry its values are large."""
 
 TURNS = 60
 """Rounds of Siegel's reduction at most."""
@@ -82,9 +84,9 @@ def lattice(motion: Integrals) -> Lattice:
 
 
 def _of_paths(curve: Curve, each: int) -> Lattice:
-    """Return the periods that integrals along some paths make, the quickest first, no more than are needed."""
+    """Return the periods that integrals along some paths make, the best first, no more than are needed."""
     ways, why = list[list[acb]](), "no paths between zeros were found."
-    for path in curve.paths(SLOW, each, poles=True):
+    for path in curve.paths(each):
         ways.append(list(curve.along(*path)))
         if len(ways) >= FEWEST:
             try:
@@ -115,7 +117,12 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
     """Return the whole coefficients of the conjugate periods."""
     rows = arb_mat([_real(x) for x in periods])
     conjugate = arb_mat([[x, -y, z, -w] for x, y, z, w in (_real(p) for p in periods)])
-    found = conjugate * rows.inv()
+    try:
+        found = conjugate * rows.inv()
+    except ZeroDivisionError as error:
+        raise NotCertifiedError(
+            "not certified: the periods found for the motion's torus depend on one another."
+        ) from error
     whole = np.array([[round(float(found[i, j].mid())) for j in range(4)] for i in range(4)])
     if not all(abs(float(found[i, j].mid()) - whole[i, j]) < WHOLE for i in range(4) for j in range(4)):
         raise NotCertifiedError(
@@ -160,21 +167,20 @@ def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
     areas = [periods[i][0] * periods[j][1] - periods[i][1] * periods[j][0] for i, j in PAIRS]
     size = max(abs(complex_of(x)) for x in areas)
     rows = [
-        [*(nearest(y / size * arb(2) ** FINE) for y in (x.real, x.imag)), *(int(i == j) << ONE for j in range(6))]
+        [*(nearest(y / size * arb(2) ** AREAS) for y in (x.real, x.imag)), *(int(i == j) << SLIGHT for j in range(6))]
         for i, x in enumerate(areas)
     ]
     for row in fmpz_mat(rows).lll().tolist():
-        whole = [int(x) >> ONE for x in row[2:]]
-        if max(abs(int(x)) for x in row[:2]) > 1 << FINE // 2:
-            continue
+        whole = [int(x) >> SLIGHT for x in row[2:]]
         n = dict(zip(PAIRS, whole, strict=True))
         pfaffian = n[0, 1] * n[2, 3] - n[0, 2] * n[1, 3] + n[0, 3] * n[1, 2]
+        if max(abs(int(x)) for x in row[:2]) > 1 << AREAS // 2 or abs(pfaffian) != 2:
+            continue
         form = np.zeros((4, 4), dtype=int)
         for (i, j), sign in zip(PAIRS, (1, -1, 1, 1, -1, 1), strict=True):
             other = [k for k in range(4) if k not in (i, j)]
             form[i, j] = sign * n[other[0], other[1]]
-        if abs(pfaffian) == 2:
-            return np.array(form - form.T)
+        return np.array(form - form.T)
     raise NotCertifiedError(
         "not certified: the periods found for the motion's torus have no polarization of type (1,2)."
     )

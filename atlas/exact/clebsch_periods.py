@@ -11,27 +11,37 @@ times. What is found here is a start for `atlas.exact.asymmetric`, which proves 
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
-from math import ceil, log
 from typing import Any
 
+import numpy as np
 from flint import acb, acb_series, arb, fmpq, fmpq_poly, fmpz_mat
+from numpy.typing import NDArray
 
 from atlas.formulas.numbers import workprec
 
 BITS = 200
-"""Precision of the integrals, whose sums are cut at half of it."""
+"""Precision of the integrals."""
 
-LEAST = 0.05
-"""Least rate at which the sums of a path converge: the logarithm of the ellipse round it that holds no other zero."""
+NODES, ROOM = 64, 1.1
+"""Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: what
+is left out is 2^-BITS, exp(-2 NODES ROOM)."""
+
+LEAST = 1e-10
+"""That of the ellipse round a whole path from which on it is gone."""
+
+NEAR, FAR = 2, 4
+"""Cells along each period of wp to which paths go, and those whose zeros are taken into account."""
 
 EACH = 3
-"""Paths that are gone for each of the four zeros, the quickest of each pair first."""
+"""Paths that are gone for each of the four zeros, the best of each pair first."""
 
 FINE, ONE = 90, 46
 """Bits of the periods in a search for integer relations, and of an integer there: a relation is one to their half."""
 
 Pair = tuple[arb, arb]
+Array = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -83,7 +93,7 @@ def real_periods(motion: Integrals) -> list[Pair]:
 
 
 class Curve:
-    """The zeros of Psi on the torus of u, and integrals between them."""
+    """The zeros of Psi on the torus of u, and integrals between them, not analytic at `others`."""
 
     def __init__(self, motion: Integrals) -> None:
         self.motion, self.g = motion, motion.g
@@ -94,6 +104,8 @@ class Curve:
         self.imaginary = acb(0, 2 * acb(1 - m).elliptic_k().real / size)
         self.tau = centre(self.imaginary / self.real)
         self.zeros = [self._place(z, v) for z, v in self._zeros()]
+        around = self._periods(FAR)
+        self.others: Array = np.array([complex_of(zero + x + y) for zero in (*self.zeros, acb(0)) for x, y in around])
 
     def _zeros(self) -> Iterator[tuple[acb, acb]]:
         motion = self.motion
@@ -105,6 +117,11 @@ class Curve:
             return
         for z, _ in (self.g * self.g - 4 * motion.c * motion.c * motion.P).complex_roots():
             yield z, -_polynomial(self.g, z) / (2 * motion.c)
+
+    def _periods(self, cells: int) -> list[tuple[acb, acb]]:
+        """Return periods of wp, in two parts, up to so many cells along each."""
+        line = range(-cells, cells + 1)
+        return [(m * self.real, n * self.imaginary) for m, n in product(line, repeat=2)]
 
     def at(self, u: acb) -> tuple[acb, acb]:
         """Return z and v at u."""
@@ -122,49 +139,71 @@ class Curve:
         u -= y * self.imaginary
         return centre(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
 
-    def paths(self, least: float = LEAST, each: int = EACH, *, poles: bool = False) -> list[tuple[acb, acb, float]]:
-        """Return straight paths between zeros whose sums converge at some rate at least, so many for each of four.
-
-        Each comes with its rate, the quickest come first, and of the same two zeros so many at most. With `poles`,
-        those of z count as well: the third integral of `along` has them.
-        """
-        shifts = [(m * self.real, n * self.imaginary) for m, n in product(range(-2, 3), repeat=2)]
-        images = [[complex_of(zero + x + y) for x, y in shifts] for zero in self.zeros]
-        everywhere = [place for row in images for place in row]
-        everywhere += [complex_of(x + y) for x, y in shifts] if poles else []
+    def paths(self, each: int = EACH) -> list[tuple[acb, acb]]:
+        """Return straight paths between zeros, so many for each of four, those farthest from others first."""
         found: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
         for i, j in product(range(len(self.zeros)), repeat=2):
-            for x, y in shifts:
+            for x, y in self._periods(NEAR):
                 start, stop = self.zeros[i], self.zeros[j] + x + y
                 a, b = complex_of(start), complex_of(stop)
-                if j < i or abs(b - a) < 1e-12:
+                if j < i or a == b:
                     continue
-                rate = min(_rate(a, b, place) for place in everywhere if min(abs(place - a), abs(place - b)) > 1e-9)
-                if rate > least:
+                rate = _rates(a, b, self._beside(a, b)).min()
+                if rate > LEAST:
                     found.setdefault((i, j), []).append((rate, start, stop))
         rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
         chosen = sorted((path for row in rows for path in row[:each]), key=lambda path: -path[0])
-        return [(start, stop, rate) for rate, start, stop in chosen[: 4 * each]]
+        return [(start, stop) for _, start, stop in chosen[: 4 * each]]
 
-    def along(self, start: acb, stop: acb, rate: float) -> tuple[acb, acb, acb]:
+    def _beside(self, a: complex, b: complex) -> Array:
+        """Return the other places but the ends of a path."""
+        return np.asarray(self.others[(self.others != a) & (self.others != b)])
+
+    def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
         """Return -2i times the integral of (D, z, v) du/eta along a path.
 
-        That is done by the midpoint rule in s, u = start + (stop - start)(1 - cos s)/2.
+        That is done by Gauss's rule in s, u = start + (stop - start)(1 - cos s)/2, on parts of the path that are
+        shorter where another zero, or the pole of z, is near: as many as its distance has digits.
         """
-        count, way = ceil(BITS * log(2) / 2 / rate) + 8, stop - start
+        way = stop - start
+        a, b = complex_of(start), complex_of(stop)
+        angles = 2 * np.arcsin(np.sqrt((self._beside(a, b) - a) / (b - a)))
         first, second, third, before = acb(0), acb(0), acb(0), None
-        for k in range(count):
-            s = arb.pi() * (2 * k + 1) / (2 * count)
-            z, v = self.at(start + way * (1 - s.cos()) / 2)
-            root = centre((_polynomial(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2).sqrt()
-            if before is not None and _far(root - before) > _far(root + before):
-                root = -root
-            before = root
-            first += 1 / root
-            second += z / root
-            third += v / root
-        weight = acb(0, -1) * way * arb.pi() / count
-        return centre(first * weight * self.motion.D), centre(second * weight), centre(third * weight)
+        for low, high in _parts(angles[_rates(0.0, np.pi, angles) < ROOM]):
+            half = arb.pi() * (high - low) / 2
+            for x, weight in _rule():
+                s = arb.pi() * low + half * (1 + x)
+                z, v = self.at(start + way * (1 - s.cos()) / 2)
+                root = centre((_polynomial(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2).sqrt()
+                if before is not None and _far(root - before) > _far(root + before):
+                    root = -root
+                before, part = root, half * weight / root
+                first += part
+                second += z * part
+                third += v * part
+        factor = acb(0, -1) * way
+        return centre(first * factor * self.motion.D), centre(second * factor), centre(third * factor)
+
+
+@lru_cache(maxsize=1)
+def _rule() -> list[tuple[arb, arb]]:
+    """Return nodes and weights of Gauss's rule on (-1, 1), from the left."""
+    with workprec(BITS):
+        found = [arb.legendre_p_root(NODES, k, weight=True) for k in range(NODES)]
+    return [(x.mid(), weight.mid()) for x, weight in reversed(found)]
+
+
+def _parts(angles: Array) -> Iterator[tuple[arb, arb]]:
+    """Yield parts of (0, 1), in order, whose ellipses leave angles out, in units of half a turn."""
+    left = [(fmpq(0), fmpq(1))]
+    while left:
+        low, high = left.pop()
+        a, b = (np.pi * int(x.p) / int(x.q) for x in (low, high))
+        if (_rates(a, b, angles) >= ROOM).all():
+            yield arb(low), arb(high)
+        else:
+            middle = (low + high) / 2
+            left += [(middle, high), (low, middle)]
 
 
 def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
@@ -210,11 +249,11 @@ def _polynomial(polynomial: fmpq_poly, z: acb) -> acb:
     return found
 
 
-def _rate(a: complex, b: complex, place: complex) -> float:
-    """Return the logarithm of the ellipse with foci a and b through a place, 0 on the path between them."""
-    w = (2 * place - a - b) / (b - a)
-    root = (w * w - 1) ** 0.5
-    return log(max(abs(w + root), abs(w - root)))
+def _rates(a: complex, b: complex, places: Array) -> NDArray[np.float64]:
+    """Return the logarithms of the ellipses with foci a and b through places, 0 on the path between them."""
+    w = (2 * places - a - b) / (b - a)
+    root = np.sqrt(w * w - 1)
+    return np.asarray(np.log(np.maximum(abs(w + root), abs(w - root))))
 
 
 def centre(x: acb) -> acb:

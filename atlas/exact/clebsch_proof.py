@@ -51,7 +51,7 @@ WIDER = 2.0
 SMALL, ENOUGH = 1e-6, 1e-17
 """Distance from the motion up to which growth is bounded, and the bound on it that is wanted."""
 
-PARTS = (1, 2, 3)
+PARTS = (1, 2, 3, 5)
 """Into so many parts each period is divided, the first number that does."""
 
 HALF = 0.55
@@ -72,8 +72,8 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
     """Return proven bounds on how far M, K and N of the forms are from the motion in a cell of the periods, (3,).
 
     The cell reaches from -HALF to HALF of both, from the start. Where errors might grow too much on the way from there,
-    the way begins at the nearest of four or nine other states, to which Taylor's series goes. Raises NotCertifiedError
-    where there is no bound.
+    the way begins at the nearest of four, nine or twenty-five other states, to which Taylor's series goes. Raises
+    NotCertifiedError where there is no bound.
     """
     with workprec(BITS + SPARE), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         cell = Cell(theta, periods)

@@ -209,8 +209,9 @@ class Rough:
         v = times @ self.into.T
         # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
         v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
-        D, *values = self.sums.at(np.pi * v.T)
-        return np.asarray((np.array(values) / D).T)
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # such places are no start
+            D, *values = self.sums.at(np.pi * v.T)
+            return np.asarray((np.array(values) / D).T)
 
     def near(self, T: Array, target: Array) -> Array | None:
         """Return times at which the state is the target, by Newton's method; None where it leads astray."""

@@ -73,7 +73,13 @@ class Torus:
         """Return two periods with so many bits; NotCertifiedError where none are found."""
         bits = -(-bits // 32) * 32
         if bits not in self._known:
-            first, second = (self._enclosed(start, bits) for start in self._approximate())
+            starts = self._approximate()
+            try:
+                first, second = (self._enclosed(start, bits) for start in starts)
+            except NotCertifiedError:  # near an unstable spin errors may grow beyond the bounds of so few bits
+                if 2 * bits > GOOD:
+                    raise
+                first, second = self.periods(2 * bits)
             self._known[bits] = first, second
         return self._known[bits]
 

@@ -171,3 +171,12 @@ def test_defects_that_are_no_numbers_are_no_proof(monkeypatch: pytest.MonkeyPatc
         places, sizes = cell._defects()
         monkeypatch.setattr(cell, "_defects", lambda: (places, sizes + np.inf))
         assert np.isinf(cell.rates()).all()
+
+
+def test_a_denominator_no_larger_than_its_errors_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cells are not cut for ever, which would take all the memory there is."""
+    theta = made()
+    with workprec(240):
+        cell = Cell(theta, torus().periods(128))
+        monkeypatch.setattr(clebsch_proof, "FLOATS", 1.0)
+        assert np.isinf(cell.rates()).all()

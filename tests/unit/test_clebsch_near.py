@@ -1,0 +1,41 @@
+"""Three moments next to where periods fall together or grow without end: the closed form is found there, and proved."""
+
+import numpy as np
+import pytest
+
+from atlas.core.asymmetric import SingleAsymmetric
+from atlas.exact.asymmetric import AsymmetricMotion
+
+EPS = 2.0**-52
+
+CASES = {
+    "nearly at rest": ((0.9, 0.86, 1.35), (-0.29, -0.1, 0.11), (1.2e-12, 6.0e-13, -6.0e-13)),
+    "nearly a ball": ((1.0, 1.00390625, 1.006640625), (-0.41, -1.04, 0.92), (-0.65, -1.37, 0.32)),
+    "nearly symmetric": ((1.584557, 1.584944, 1.714907), (-1.276, 0.9597, 0.7904), (0.4537, 1.0571, -1.0122)),
+    "symmetric but for a millionth": ((1.0, 1 + 2.0**-20, 1.3), (0.4957, -0.1235, -0.2838), (1.4154, 0.4667, 0.1464)),
+    "near an unstable spin": ((1.4468, 0.9282, 1.454), (-6.5e-5, -1.0e-4, 1.3127), (-1.3e-4, -1.5e-4, 0.7153)),
+    "weak field": ((1.254, 1.173, 0.697), (-1.2e-8, -7.8e-7, 1.5e-6), (1.26, -1.26, -0.43)),
+    "rod": ((1.0, 1.001, 0.01), (1.3755, -0.2807, -1.0244), (1.0683, 1.2384, -0.8163)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_closed_form_is_found_and_proved(name: str) -> None:
+    """And it is the certified twin at a time that nobody has tried."""
+    one, t = SingleAsymmetric(AsymmetricMotion(*CASES[name])), -7.3e8
+    closed = one.theta
+    assert closed.proved is not None
+    assert closed.accuracy < 1e-14
+    for quantity, size in (("rotation", 1.0), ("field_in_body", one.size), ("angular_velocity", one.size)):
+        found, true = (getattr(x, quantity)(t / one.size) for x in (closed, one.certified))
+        assert np.abs(found - true).max() <= (closed.accuracy + EPS) * size
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_real_periods_have_no_imaginary_part(name: str) -> None:
+    """Sums of integrals along paths, some close to other zeros, keep their digits."""
+    motion = AsymmetricMotion(*CASES[name]).on_torus
+    assert motion is not None
+    for period in motion.torus.lattice.real:
+        for x in period[:2]:
+            assert abs(float(x.imag.mid())) < 1e-30 * max(abs(float(y.real.mid())) for y in period[:2])
