@@ -11,7 +11,7 @@ def loads(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise ValueError("its values stand in one another too deeply") from None
+        raise ValueError("its values are nested too deeply") from None
 
 
 def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:

@@ -102,7 +102,7 @@ def command(
 
     said = bool(family or settings or listing or quantities or digits or rows or body_parameters(options))
     if toml is not None and said:
-        raise click.UsageError("with --file only --out and --jobs are left to say.")
+        raise click.UsageError("with --file only --out and --jobs can be given.")
     wanted = (
         _of_options(family, settings, listing, quantities, out, digits, rows, options)
         if toml is None
@@ -154,7 +154,7 @@ def _arguments(
 ) -> dict[str, Any]:
     """Return the arguments of a sweep."""
     if out is None:
-        raise click.UsageError("--out says which file the table goes to.")
+        raise click.UsageError("--out is missing: name the file that the table goes to.")
     return table | {"family": family, "quantities": tuple(quantities), "out": out, "digits": digits, "rows": rows}
 
 

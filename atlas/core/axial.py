@@ -39,7 +39,7 @@ def escape(ratio: Any, B3: Any, omega3: Any) -> Companion:
     I2, I3 = moments(ratio)
     field, spin = number(B3, "B3"), number(omega3, "omega3")
     if field <= 0:
-        raise DomainError(f"Count the axis of the body along the field, so that B3 > 0, not {field}.")
+        raise DomainError(f"Choose the axis of the body along the field, so that B3 > 0, not {field}.")
     i2, i3, b, w3 = exact(I2, I3, field, spin)
     I = i3 / i2
     c3 = w3 + b

@@ -14,14 +14,14 @@ from typing import Any
 import numpy as np
 from flint import acb, arb
 
-from atlas.core.arithmetic.grid import HUGE
+from atlas.core.arithmetic.grid import check_grid
 from atlas.core.arithmetic.phase import EVEN, Phases
 from atlas.core.arithmetic.words import TURN, middle
 from atlas.core.clebsch_rounding import Rounding
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import BLOCK, combined, evaluate
 from atlas.core.nutation.grid import moments
-from atlas.errors import AtlasError, NotCertifiedError
+from atlas.errors import NotCertifiedError
 from atlas.exact.asymmetric import AsymmetricMotion
 from atlas.exact.clebsch_periods import complex_of
 from atlas.exact.clebsch_proof import HALF, distances
@@ -129,12 +129,8 @@ class ThetaKernel:
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
         """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
-        count, reach, rows = len(out), self.phases.reach, out.reshape(-1, 9)
-        last = start + step * max(count - 1, 0)
-        if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
-            raise AtlasError(
-                f"The grid from {start} by {step} to {last} leaves the phases up to 2^50, |t| <= {reach:.6g}."
-            )
+        count, rows = len(out), out.reshape(-1, 9)
+        check_grid(start, step, count, self.phases.reach)
         fill = self._attitude(self.entries)
         for i in range(0, count, BLOCK):
             index = np.arange(float(i), float(min(i + BLOCK, count)))

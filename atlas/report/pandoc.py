@@ -38,9 +38,7 @@ SECONDS, SPEED, MEMORY = 8, 50_000, "1000m"
 """What pandoc may take: seconds of a processor, one more for so many characters, and memory. A book takes a third."""
 _HEAP = 251
 """Exit status of a program in Haskell that would need more memory."""
-_ENDLESS = (
-    "pandoc can't set the texts of the report with {}: brackets, braces or macros stand in one another too deeply."
-)
+_ENDLESS = "pandoc can't set the texts of the report with {}: brackets, braces or macros are nested too deeply."
 SHOWN, NEAR = 90, 20
 """Characters of a formula that a message shows, and of its part from the mistake on."""
 

@@ -21,7 +21,7 @@ _CITED = re.compile(
 )
 """A citation, in the first group; formulas and code, in which there is none, are passed over."""
 DEEPEST = 10
-"""How deeply parts of a text may stand in one another."""
+"""How deeply parts of a text may be nested."""
 _OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
 _INSIDE = re.compile(r"\w[\w.+-]*\.html(?:#[\w.-]+)?|#[\w.-]+")
 _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
@@ -74,15 +74,13 @@ class Texts:
         return self.texts[number]
 
     def read(self) -> None:
-        """Parse the texts that have been added. Raises AtlasError for one whose parts stand in one another too deeply.
+        """Parse the texts that have been added. Raises AtlasError for one whose parts are nested too deeply.
 
         The time that pandoc takes for such a text doubles with each level.
         """
         for text in self.texts:
             if deepest(text.markdown) > DEEPEST:
-                raise AtlasError(
-                    f"{text.where}: brackets, braces or quotations stand in one another more than {DEEPEST} deep."
-                )
+                raise AtlasError(f"{text.where}: brackets, braces or quotations are nested more than {DEEPEST} deep.")
         keys = [json.dumps([pandoc.release(), text.markdown, text.inline]) for text in self.texts]
         new = {key: text for key, text in zip(keys, self.texts, strict=True) if key not in self.memory}
         if new:
@@ -116,7 +114,7 @@ class Texts:
 
 
 def deepest(markdown: str) -> int:
-    """Return how deeply brackets, braces, quotations or list items stand in one another, closed or not, in code or not.
+    """Return how deeply brackets, braces, quotations or list items are nested, closed or not, in code or not.
 
     Brackets are counted by paragraph, in which alone they meet; an escaped one is none.
     """

@@ -127,7 +127,7 @@ CASES = [
       for one in ("quantity k", "set ratio=1", "digits 5", "rows 3", "ratio 1", "list {place}/ratios.csv")),
     ("sweep elementary --file {place}/bad.toml", "with --file only --out and --jobs"),
     ("sweep --quantity k --out {place}/out.csv", "name the family to sweep"),
-    ("sweep elementary --quantity k --set ratio=1", "--out says which file"),
+    ("sweep elementary --quantity k --set ratio=1", "--out is missing"),
     ("sweep --file {place}/none.csv", "none.csv"),
     ("sweep --file {place}/sub", "sub"),
     ("sweep --file {place}/bad.toml", "bad.toml: "),

@@ -262,7 +262,7 @@ def test_certified_digits_round_to_the_floats(family: str, names: list[str]) -> 
             "cannot be reached",
         ),
         ("--out x.csv", "name the family"),
-        ("elementary --set ratio=1 --set B2=1 --set B3=1 --set omega2=1 --quantity k", "--out says which file"),
+        ("elementary --set ratio=1 --set B2=1 --set B3=1 --set omega2=1 --quantity k", "--out is missing"),
         ("ball --file a.toml", "with --file"),
     ],
 )

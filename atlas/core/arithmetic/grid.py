@@ -35,18 +35,26 @@ ODD = np.isin(np.arange(11), (2, 3, 6, 7, 10))[:, None]
 """Which of the functions of `basis` change their signs with time."""
 
 
+def check_grid(start: float, step: float, count: int, reach: float) -> None:
+    """Raise AtlasError for a grid with a time beyond the ``reach`` of the phases."""
+    last = start + step * max(count - 1, 0)
+    if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
+        raise AtlasError(
+            f"The grid from {start} by {step} to {last} goes too far: |t| may be {reach:.6g} at most, where a phase "
+            "reaches 2^50 and is lost."
+        )
+
+
 def fill_grid(turning: DoubleRotation, start: float, step: float, out: FloatArray) -> None:
     """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step.
 
     A grid with tables that passes t = 0 is cut there, and each part runs away from zero: so coarse and fine times never
     cancel. Times are counted from the one nearest to zero. So what is small with k t keeps its digits.
     """
-    count, reach, size = len(out), turning.phases.reach, len(turning.weights)
+    count, size = len(out), len(turning.weights)
     if not count:
         return
-    last = start + step * (count - 1)
-    if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
-        raise AtlasError(f"The grid from {start} by {step} to {last} leaves the phases up to 2^50, |t| <= {reach:.6g}.")
+    check_grid(start, step, count, turning.phases.reach)
     zero = min(max(-start / step, 0.0), float(count)) if step else 0.0
     rows, nearest, cut = out.reshape(count, 9), round(zero), ceil(zero)
     if count < FEW:

@@ -17,14 +17,13 @@ import numpy as np
 from flint import fmpq
 
 from atlas.core.arithmetic.double_double import DoubleDouble
-from atlas.core.arithmetic.grid import HUGE
+from atlas.core.arithmetic.grid import check_grid
 from atlas.core.arithmetic.phase import Phases
 from atlas.core.arithmetic.threads import shared
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import BLOCK, Evaluation, Products, combined
 from atlas.core.nutation.exponentials import FINE, Exponentials
 from atlas.core.nutation.single import SingleMotion
-from atlas.errors import AtlasError
 from atlas.formulas.numbers import rational
 
 COARSE = 34
@@ -58,12 +57,10 @@ TINY = 2.0**-900
 
 def fill_grid(one: SingleMotion, start: float, step: float, out: FloatArray) -> None:
     """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
-    count, reach = len(out), one.parts.phases.reach
+    count = len(out)
     if not count:
         return
-    last = start + step * (count - 1)
-    if not max(abs(start), abs(last)) <= reach or abs(step) > HUGE:
-        raise AtlasError(f"The grid from {start} by {step} to {last} leaves the phases up to 2^50, |t| <= {reach:.6g}.")
+    check_grid(start, step, count, one.parts.phases.reach)
     grid = Grid(one, start, step)
     length = window(grid, count) if count >= SHORT else 0
     if length:

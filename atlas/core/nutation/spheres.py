@@ -23,8 +23,8 @@ class Sphere:
 
     `amplitudes` are cosine and sine of half the polar angle at the start, `slopes` twice the derivatives of alpha and
     beta there, for the one that is zero, `frames` the rates of the frame that both are seen from. `meets` tells where
-    the vector starts at a pole. `azimuth` are cosine and sine of that at the start, from the second axis to the first,
-    and `sizes` what one stands for across the axis and along it, with its sign.
+    the vector starts at a pole. `azimuth` are cosine and sine of its azimuth at the start, from the second axis to the
+    first; `sizes` are the factors from the unit sphere to the vector, across the axis and, with a sign, along it.
     """
 
     roots: Turning
