@@ -77,8 +77,7 @@ def panel(
     ):
         layers.append(Points(factor * np.array([[B2, B3]]), role))
         layers.append(Label(factor * np.array([B2, B3]), text, role, (5, -5)))
-    y_label = rf"$\omega_3$ (1/{unit})"
-    return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", y_label, view.x, view.y, title=name)
+    return view.panel(layers, unit, title=name)
 
 
 def curves(

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray
 from atlas.core.integrals import shape_factors
-from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
+from atlas.scene import Curve, Label, Layer, Points, Region, Scene
 from atlas.scene.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting, title
 from atlas.scene.hyperbola_plane import asymptote, branches, components, places, unstable, window
 
@@ -56,16 +56,7 @@ def scene(
         title=title(__doc__),
         caption=caption(ratio, field, bands),
         alt=alt(ratio, field, bands),
-        panels=(
-            Plane(
-                tuple(layers),
-                x_label=rf"$\omega_2$ (1/{unit})",
-                y_label=rf"$\omega_3$ (1/{unit})",
-                x_limits=view.x,
-                y_limits=view.y,
-                equal=True,
-            ),
-        ),
+        panels=(view.panel(layers, unit, equal=True),),
         named={"Dashed": "asymptote", "dotted": "pole"},
         size=(WIDTH, HEIGHT),
     )

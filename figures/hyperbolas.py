@@ -7,7 +7,7 @@ and the asymptote omega2 = -B2, and all pass through rest and through -2 B'.
 import numpy as np
 
 from atlas.errors import AtlasError
-from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
+from atlas.scene import Curve, Label, Layer, Points, Scene
 from atlas.scene.captions import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector, title
 from atlas.scene.hyperbola_plane import Window, asymptote, branches, components, places, window
 from atlas.scene.style import LINES
@@ -50,15 +50,7 @@ def scene(
             f"for {spoken}. They share the centre {plain_vector((-field[0], -field[1]))}, one vertical asymptote, the "
             f"state of rest at 0 and the point {plain_vector((-2 * field[0], -2 * field[1]))}."
         ),
-        panels=(
-            Plane(
-                tuple(layers),
-                x_label=rf"$\omega_2$ (1/{unit})",
-                y_label=rf"$\omega_3$ (1/{unit})",
-                x_limits=view.x,
-                y_limits=view.y,
-            ),
-        ),
+        panels=(view.panel(layers, unit),),
         named={"thin dashed": "asymptote"} | ({} if ball else {"dotted": "pole"}) if B2 and B3 else {},
         size=(WIDTH, HEIGHT),
     )

@@ -99,15 +99,7 @@ def panel(
     layers += [Curve(line, "map_border") for line in borders(*middle, looping)]
     layers += [Curve(line, "map_curve") for line in branches(I, field, view, (PANEL, PANEL))]
     layers += [Points(np.array([place.at]), place.role) for place in places(I, field) if place.role != "point"]
-    return Plane(
-        tuple(layers),
-        rf"$\omega_2$ (1/{unit})",
-        rf"$\omega_3$ (1/{unit})",
-        view.x,
-        view.y,
-        equal=True,
-        title=name,
-    )
+    return view.panel(layers, unit, equal=True, title=name)
 
 
 def borders(x: FloatArray, y: FloatArray, inside: FloatArray) -> list[FloatArray]:

@@ -1,6 +1,6 @@
 """The hyperbola (67) in the plane (omega2, omega3): the window it is shown in, and its branches there."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +12,7 @@ from atlas.core.inputs import FloatArray, number
 from atlas.core.integrals import shape_factors
 from atlas.core.motion import components as parts
 from atlas.errors import DomainError
+from atlas.scene.layers import Layer, Plane
 from atlas.scene.sample import flat
 
 NAMES = ("B2", "B3")
@@ -45,6 +46,10 @@ class Window:
     def band(self, start: float, stop: float) -> FloatArray:
         """Return the corners of the upright band between two values of omega2, shape (4, 2)."""
         return np.vstack([self.upright(start), self.upright(stop)[::-1]])
+
+    def panel(self, layers: Iterable[Layer], unit: str, **more: Any) -> Plane:
+        """Return the panel of (omega2, omega3), in 1 over ``unit``, with what else a `Plane` takes."""
+        return Plane(tuple(layers), rf"$\omega_2$ (1/{unit})", rf"$\omega_3$ (1/{unit})", self.x, self.y, **more)
 
 
 def components(field: Any) -> tuple[float, float]:
