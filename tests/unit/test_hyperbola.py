@@ -180,6 +180,17 @@ def test_the_pole_and_too_few_points_are_errors(bad: Any) -> None:
         Hyperbola(1.5, (0.0, 2.0)).omega3(0.0)
 
 
+@pytest.mark.parametrize("reach", [0.01, 0.3, 1.0, 4.0, 1e3])
+@pytest.mark.parametrize("ratio", [0.4, 1.5])
+def test_a_branch_begins_at_the_reach_of_one_axis_and_ends_at_that_of_the_other(ratio: float, reach: float) -> None:
+    """|X| ends at `reach` |B'|, and begins where |Y| = |1-I| B2^2 times the slope over |X| is, or at 1/e of its end."""
+    far = reach * np.hypot(1.0, 0.7)
+    for omega2, _ in Hyperbola(ratio, (1.0, -0.7)).branches(reach=reach):
+        X = np.abs(omega2 + 1.0)
+        assert X[-1] == pytest.approx(far, rel=1e-12)
+        assert X[0] == pytest.approx(min(abs(1 - ratio) * 0.7 / ratio / far, far / np.e), rel=1e-12)
+
+
 @pytest.mark.parametrize("I", [0.5, 1.5])
 def test_a_sample_reaches_as_far_as_it_says(I: float) -> None:
     """Each branch runs from |Y| near reach |B'|, by its vertical asymptote, to |X| = reach |B'|; 4 without a word."""
