@@ -50,6 +50,18 @@ name = "longer"
 tex = "SUM"
 
 [[pages.blocks]]
+kind = "prose"
+text = "with eighteen terms, and"
+
+[[pages.blocks]]
+kind = "equation"
+name = "(71)"
+
+[[pages.blocks]]
+kind = "prose"
+text = "A new paragraph."
+
+[[pages.blocks]]
 kind = "table"
 table = "motion"
 id = "numbers"
@@ -124,13 +136,18 @@ def test_what_a_table_prints_has_a_key(made: Path, numbers: dict[str, tuple[int,
 
 
 def test_words_formulas_and_citations_are_latex(made: Path) -> None:
-    """Figures and tables are numbered where they stand, works cited by BibTeX, equations by their number."""
+    """Figures and tables are numbered where they stand, works cited by BibTeX, equations by their number.
+
+    A sentence goes on after a displayed equation, with a small letter; another one begins a paragraph.
+    """
     paper = (made / "paper.tex").read_text("utf-8")
     for piece in (
         r"\title{Numbers \& Figures}", r"\citet{clebsch1871}", r"Table~\ref{tab-numbers}", r"Figure~\ref{fig-curves}",
         r"by (72) in", r"5 \%", r"\atlasequation{(72)}{eq-72}", r"\input{tables/numbers}", r"\input{figures/curves}",
     ):  # fmt: skip
         assert piece in paper, piece
+    assert re.search(r"[^\n]\nwith eighteen terms", paper)
+    assert "\n\nA new paragraph." in paper
     assert "Clebsch" in (made / "references.bib").read_text("utf-8")
     figure = (made / "figures" / "curves.tex").read_text("utf-8")
     assert r"\label{fig-curves}" in figure
