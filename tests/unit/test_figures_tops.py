@@ -107,6 +107,10 @@ def test_the_quadrics_of_tops_are_those_of_the_class() -> None:
         mine = surfaces[k : k + 1] if k < 4 else surfaces[2 * k - 4 : 2 * k - 2]
         points = np.concatenate([grid.reshape(-1, 3) for one in mine for grid in one.grids])[::61]
         Q = mine[0].quadric
+        ends = np.append(points, np.ones((len(points), 1)), axis=1)
+        assert (
+            np.abs(((ends @ Q) * ends).sum(axis=1)).max() <= 1e-12 * ((np.abs(ends) @ np.abs(Q)) * np.abs(ends)).max()
+        )
         centre = -np.linalg.solve(Q[:3, :3], Q[:3, 3])
         assert np.abs(quadric.residual(points - centre + quadric.centre)).max() <= 1e-9
         x, y = layers(plane, Points)[0].points[k]
