@@ -78,12 +78,13 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
     with workprec(BITS + SPARE), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         cell = Cell(theta, periods)
         H, F = HALF * abs(cell.times).sum(axis=1)
-        rates = cell.rates() * np.array([[H], [F]])
-        first, second, sizes = _growth(theta)
+        rates, sizes = cell.rates() * np.array([[H], [F]]), _sizes(theta)
+        spread = HALF * np.sum([_growth(theta, sizes, *times) for times in cell.times.T], axis=0)
         widths = [max(float(x.rad()) for x in way) for way in zip(*((p.H, p.F, p.angle) for p in periods), strict=True)]
-        off = (widths[0] * first + widths[1] * second) @ sizes + np.array([0, 0, widths[2] * sizes[2]])
+        moved = _growth(theta, sizes, widths[0], 0.0) + _growth(theta, sizes, 0.0, widths[1])
+        off = moved @ sizes + np.array([0, 0, widths[2] * sizes[2]])
         for parts in PARTS:
-            growth = _exponential((H * first + F * second) / parts)
+            growth = _exponential(spread / parts)
             if np.max(growth @ rates.sum(axis=0)) < ENOUGH:
                 places = 2 * HALF * ((np.arange(parts) + 0.5) / parts - 0.5)
                 apart = [_apart(theta, torus, cell.times @ x) for x in product(places, repeat=2)]
@@ -269,19 +270,25 @@ def _apart(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
     return np.array([sum(float(abs(x - y).upper()) for x, y in zip(*pair, strict=True)) for pair in both])
 
 
-def _growth(theta: ThetaMotion) -> tuple[Floats, Floats, Floats]:
-    """Return how fast errors of M, K and N grow by one another, at most, along both flows, and the sizes of the three.
-
-    |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment; and a multiple of 1 may be taken from II in K x II K.
-    """
+def _sizes(theta: ThetaMotion) -> Floats:
+    """Return bounds on |M|, |K| and |N|: |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment."""
     motion = theta.motion
-    I = np.array([float(arb(x).mid()) for x in motion.moments])
-    K, D, A, N = float(arb(motion.square).sqrt().upper()), I.prod(), 1 / I, 2**0.5
-    M = np.sqrt(float(arb(motion.F).upper()) + D * K * K * A.max())
-    M, K, N = (1e-9 + SMALL + (1 + 1e-9) * x for x in (M, K, N))
-    first = [[M * np.ptp(A) / 2, K * np.ptp(I), 0], [K * A.max(), 0, 0], [N * A.max(), 0, 0]]
-    second = [[0, K * D * np.ptp(A), 0], [K, 0, 0], [N, 0, 0]]
-    return np.array(first), np.array(second), np.array([M, K, N])
+    K, most = float(arb(motion.square).sqrt().upper()), float(arb(motion.D / min(motion.moments)).upper())
+    M = np.sqrt(float(arb(motion.F).upper()) + most * K * K)
+    return np.array([1e-9 + SMALL + (1 + 1e-9) * x for x in (M, K, 2**0.5)])
+
+
+def _growth(theta: ThetaMotion, sizes: Floats, H: float, F: float) -> Floats:
+    """Return how fast errors of M, K and N grow by one another, at most, on a way that takes the times H and F.
+
+    A multiple of 1 may be taken from II^-1 in M x II^-1 M, and from H II + F J in K x (H II + F J) K.
+    """
+    I = np.array([float(arb(x).mid()) for x in theta.motion.moments])
+    M, K, N = sizes
+    turn = abs(H / I + F).max()
+    return np.array(
+        [[abs(H) * M * np.ptp(1 / I) / 2, K * np.ptp(H * I - F * I.prod() / I), 0], [K * turn, 0, 0], [N * turn, 0, 0]]
+    )
 
 
 def _exponential(growth: Floats) -> Floats:

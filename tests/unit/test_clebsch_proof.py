@@ -138,9 +138,29 @@ def test_without_a_bound_there_is_no_proof(monkeypatch: pytest.MonkeyPatch) -> N
     with monkeypatch.context() as patch:  # a bound beyond SMALL is none: there the growth is not bounded
         patch.setattr(clebsch_proof, "_apart", lambda *_: np.full(3, 1e-3))
         assert bound(made()) == np.inf
-    first, second, sizes = clebsch_proof._growth(made())
-    monkeypatch.setattr(clebsch_proof, "_growth", lambda _: (1e3 * first, second, sizes))
+    growth = clebsch_proof._growth
+    monkeypatch.setattr(clebsch_proof, "_growth", lambda *given: 1e3 * growth(*given))
     assert bound(made()) == np.inf
+
+
+@pytest.mark.parametrize(("H", "F"), [(1.0, 0.0), (0.0, 1.0), (3.0, -3.0), (-2.0, 5.0)])
+def test_errors_grow_no_faster_than_is_said(H: float, F: float) -> None:
+    """Lengths of small errors of M, K and N change by what the linearized equations make of them, at most."""
+    sizes = clebsch_proof._sizes(made())
+    growth, I = clebsch_proof._growth(made(), sizes, H, F), np.array([float(x) for x in torus().moments])
+    draws = np.random.default_rng(7).standard_normal((20000, 6, 3))
+    draws /= np.linalg.norm(draws, axis=-1, keepdims=True)
+    M, K, N = (size * draws[:, i] for i, size in enumerate(sizes))
+    m, k, n = (draws[:, i] for i in (3, 4, 5))
+    both, turn = H * I - F * I.prod() / I, H / I + F
+    rates = (
+        H * (np.cross(m, M / I) + np.cross(M, m / I)) + np.cross(k, both * K) + np.cross(K, both * k),
+        np.cross(k, turn * M) + np.cross(K, turn * m),
+        np.cross(n, turn * M) + np.cross(N, turn * m),
+    )
+    for error, rate, bounds in zip((m, k, n), rates, growth, strict=True):
+        worst = np.einsum("ni,ni->n", error, rate).max()
+        assert bounds.sum() / 4 < worst <= bounds.sum() * (1 + 1e-12)
 
 
 def test_errors_grow_by_the_exponential() -> None:
