@@ -132,6 +132,17 @@ def test_a_disk_hides_a_disk() -> None:
     assert pieces[1][0][:, 1] == pytest.approx([-0.4, 0.4], abs=4 * np.finfo(float).eps)
 
 
+@pytest.mark.parametrize("height", [-0.5, 0.3])
+def test_a_line_is_cut_where_a_surface_seen_along_its_cut_ends(height: float) -> None:
+    """Behind a ball that ends at a level, looked at level, an upright line is hidden from the foot up to there."""
+    ball = replace(solids.sphere(np.zeros(3), 1.0, 1e-2), clip=np.array([[0.0, 0.0, 1.0, height]]))
+    for start, step in ((-3.0, 6.0), (3.0, -6.0)):
+        line = np.array([[-2.0, 0.0, start], [-2.0, 0.0, start + step]])
+        pieces = split(line, [ball], np.array([1.0, 0.0, 0.0]), SIZE)
+        assert [visible for _, visible in pieces] == [True, False, True]
+        assert np.sort(pieces[1][0][:, 2]) == pytest.approx([-1.0, height], abs=4 * np.finfo(float).eps)
+
+
 def test_nothing_hides_nothing() -> None:
     """Without surfaces a line is one visible piece; a line of one point is none."""
     line = np.random.default_rng(0).normal(size=(5, 3))
