@@ -1,9 +1,11 @@
 """A figure that moves: one scene after the other in one figure, all frames in one view and at one scale."""
 
+from base64 import b64encode
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from subprocess import CalledProcessError
+from tempfile import TemporaryDirectory
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -22,6 +24,7 @@ from atlas.scene.layers import Label, Panel, Plane, Points, Scene, Space
 FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
 """Kinds of files, and how many frames a second each can have."""
 FPS, DPI, FRAMES, MOST = 20.0, 120, 60, 2000
+_SCREEN = 96
 Progress: TypeAlias = Callable[[int, int, str], None]
 Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
 """What of a panel decides its view: extreme points and names of one in space, the limits of one with two axes."""
@@ -71,6 +74,19 @@ class Frames:
         return self._held[i, window]
 
 
+class Moving(FuncAnimation):
+    """An animation that shows itself in a notebook, as a GIF: Matplotlib's own player asks a foreign host for icons."""
+
+    fps = FPS
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        """Return all frames as one picture."""
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "moving.gif"
+            save(self, path, "gif", fps=min(max(self.fps, 1.0), FASTEST["gif"]), dpi=_SCREEN)
+            return {"image/gif": b64encode(path.read_bytes()).decode(), "text/plain": repr(self)}
+
+
 def _extents(scene: Scene) -> Iterator[Extent]:
     """Yield what decides the view of each panel; limits that the recipe leaves open are Matplotlib's."""
     free = any(isinstance(one, Plane) and not (one.x_limits and one.y_limits) for one in scene.panels)
@@ -107,7 +123,9 @@ def animation(
     fps = positive(fps, "fps")
     frames = Frames(make, count, style, progress)
     more = {"init_func": lambda: None, "interval": 1000.0 / fps, "blit": False}
-    return FuncAnimation(frames.figure, frames.draw, frames=count, **more)
+    moving = Moving(frames.figure, frames.draw, frames=count, **more)
+    moving.fps = fps
+    return moving
 
 
 def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **options: Any) -> FuncAnimation:
@@ -115,7 +133,7 @@ def animate(name: str, over: str = "t", values: Sequence[Any] | None = None, **o
 
     A figure that shows a motion has a time; without values it is the time that its motion lasts. ``style``, ``fps`` and
     ``progress`` are as for `animation`, and what else is given are parameters of the recipe. The result is
-    Matplotlib's: ``.save("x.gif")`` writes it, ``.to_jshtml()`` shows it in a notebook. Raises AtlasError for an
+    Matplotlib's: ``.save("x.gif")`` writes it, and a notebook shows it. Raises AtlasError for an
     unknown name or parameter, and for a value out of its range, and DomainError where the recipe has no picture.
     """
     parameters, options = _split(options)
