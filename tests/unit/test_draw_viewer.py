@@ -113,6 +113,9 @@ def test_panels_know_their_places_on_both_screens() -> None:
             for left, top, width, height, *rest in found[screen]["places"]:
                 assert min(left, top, 1.0 - left - width, 1.0 - top - height) > -1e-6
                 assert min(rest) > 0.0
+        size = np.array(recipes.load(name).scene().size) * 72.0 / 25.4
+        for _, _, width, height, *window in found["wide"]["places"]:
+            assert window[:2] == pytest.approx([width, height] * size, rel=1e-3)
         assert found["wide"]["places"] != found["narrow"]["places"]
 
 

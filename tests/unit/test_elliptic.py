@@ -357,11 +357,16 @@ def test_for_two_equal_moments_the_splitting_is_that_of_the_paper() -> None:
 
 
 def test_stability_is_decided_exactly_or_left_open() -> None:
-    """Where C is zero to the last bit it is undecided, and on either side it is not; a separatrix is left."""
-    case = (0.5, 0.5, 0.25), (0.0, 3.0, 1.0)  # the triple root of (47): I = 1/2, x = 1/2
-    found = [atlas.EllipticMotion(*case, -0.1875 + d, -1).stability for d in (-(2.0**-40), 0.0, 2.0**-40)]
-    assert found[1] == "undecided"
-    assert set(found) == {"stable", "unstable", "undecided"}
+    """Where C is zero to the last bit it is undecided, and on either side it is not, in any unit of time.
+
+    A separatrix is left.
+    """
+    body = (0.5, 0.5, 0.25)  # with this field the triple root of (47): I = 1/2, x = 1/2
+    for unit in (2.0**-20, 1.0, 2.0**20):
+        field = (0.0, 3.0 * unit, unit)
+        found = [atlas.EllipticMotion(body, field, -0.1875 + d, -1).stability for d in (-(2.0**-40), 0.0, 2.0**-40)]
+        assert found[1] == "undecided"
+        assert set(found) == {"stable", "unstable", "undecided"}
     assert atlas.EllipticMotion(*CASES["separatrix"]).stability == "unstable"
     assert atlas.EllipticMotion(BODY, (0, 0, 0), 1.7).stability == "stable"
 
