@@ -21,7 +21,7 @@ const show = (proven, {scene, alt, size, numbers: rows, command: line}) => {
   }
   if (!viewer) { const still = stage.querySelector("img") ?? stage.appendChild(make("img", {})); still.alt = alt; still.src = `figure?${new URLSearchParams({...values(), format: "svg"})}`; }
   numbers.hidden = !rows.length;
-  numbers.tBodies[0].replaceChildren(...rows.map(({name, says, value, unit, sure}) => make("tr", {}, make("th", {scope: "row", title: says}, name), make("td", {}, value), make("td", {}, unit), make("td", {}, sure))));
+  numbers.tBodies[0].replaceChildren(...rows.map(({name, says, value, unit, sure}) => make("tr", {}, make("th", {scope: "row", title: says}, name), make("td", {}, value), make("td", {}, unit.replace("^2", "²").replace("^3", "³")), make("td", {}, sure))));
   for (const link of document.querySelectorAll("#save a")) { const {format} = link.dataset; link.href = `figure?${new URLSearchParams({...values(), format})}`; link.download = `${choice.value}.${format}`; }
   shown += 1; document.documentElement.dataset.shown = shown;
 };
@@ -50,7 +50,7 @@ const control = ({name, says, low, high, step, start}) => {
 const open = async given => {
   const found = await ask("sliders", {subject: choice.value});
   if (found.error) { error.textContent = found.error; return; }
-  title.textContent = found.title; document.title = `${found.title} · atlas explore`; form.replaceChildren(); playing = false;
+  title.textContent = found.title[0].toUpperCase() + found.title.slice(1); document.title = `${title.textContent} · atlas explore`; form.replaceChildren(); playing = false;
   sliders = found.sliders.map(control);
   for (const one of sliders) if (given.has(one.name) && Number.isFinite(Number(given.get(one.name)))) one.set(Number(given.get(one.name)));
   const time = sliders.find(one => one.name === "t");

@@ -294,7 +294,7 @@ class Viewer {
   }
   // While it moves it is drawn as coarsely as the time of a frame asks for.
   hurry(rest = 250) {
-    clearTimeout(this.rest); this.rest = setTimeout(() => { this.last = null; this.draw(); }, rest);
+    clearTimeout(this.rest); this.rest = setTimeout(() => { cancelAnimationFrame(this.asked); this.asked = this.last = null; this.draw(); }, rest);
     this.asked ??= requestAnimationFrame(now => {
       this.asked = null; const took = this.last ? now - this.last : 30; this.last = now;
       this.slow = 0.7 * (this.slow ?? 30) + 0.3 * took;
