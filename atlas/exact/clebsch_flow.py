@@ -171,9 +171,9 @@ class _Way:
     def _account(self, rows: Series, h: Fraction) -> None:
         """Take the step's errors into the bounds."""
         W, K, size_V, lipschitz = self._sizes(rows, h)
-        state, turn = self._defect(rows, h, W, K)
         if not lipschitz < 2 * STIFF:
             raise NotCertifiedError("not certified: a step of Taylor's series is too long for a bound on its error.")
+        state, turn = self._defect(rows, h, W, K)
         spread = exp(lipschitz)
         J, eta = self._derivative(rows, h, spread)
         before = float(np.linalg.norm(self.X)) * self.w

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import atlas
 from atlas.core.asymmetric import SingleAsymmetric
 from atlas.exact.asymmetric import AsymmetricMotion
 
@@ -39,3 +40,15 @@ def test_real_periods_have_no_imaginary_part(name: str) -> None:
     for period in motion.torus.lattice.real:
         for x in period[:2]:
             assert abs(float(x.imag.mid())) < 1e-30 * max(abs(float(y.real.mid())) for y in period[:2])
+
+
+def test_periods_too_long_to_be_gone_are_an_error_in_one_line() -> None:
+    """Moments that are a ball's but for a billionth: times up to a limit have an answer, and it is said why no others."""
+    motion = atlas.AsymmetricMotion((1.0, 1 + 2.0**-30, 1 + 1.75 * 2.0**-30), (0.5, -1.0, 0.25), (0.25, 1.0, -0.5))
+    assert "certified at each time: the periods found for the motion's torus" in motion.agreement
+    with pytest.raises(atlas.AtlasError, match=r"^not certified: .*too long for a bound on its error\.$"):
+        motion.rotation(1e6)
+    R = motion.rotation(50.0)
+    assert np.abs(R.T @ R - np.eye(3)).max() < 4 * EPS
+    ball = atlas.AsymmetricMotion((1.0, 1.0, 1.0), motion.field, motion.omega)
+    assert np.abs(R - ball.rotation(50.0)).max() < 1e-5
