@@ -136,7 +136,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
       states.
 
     On a torus M, K and the attitude are quotients of theta functions of two variables: a second for the first time that
-    is asked for, then a microsecond each, however long. That they are is proved for each motion, see
+    is asked for, then two or three microseconds each, however long. That they are is proved for each motion, see
     `atlas.exact.clebsch_proof`; where no proof is found they are held against the certified twin at a few times.
     `agreement` says which, and `accuracy` bounds what rounding adds. Where there is no closed form, or it differs, and
     for other kinds, every value is proved and rounded once, in tenths of a second each. For proven digits see
