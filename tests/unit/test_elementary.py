@@ -230,6 +230,9 @@ def test_the_free_body_beside_precesses_alike() -> None:
     assert free.k == pytest.approx(motion.k, rel=4 * ULP1)
     assert free.phi == pytest.approx(-0.5 / 1.5 * 2 / np.sqrt(5) * motion.k, rel=4 * ULP1)
     assert np.abs(free.third_axis(3.0) - motion.third_axis(3.0)).max() <= 8 * ULP1
+    spins = ElementaryMotion(1.5, (np.array([1.0, 0.0]), 2.0), 0.0, np.array([0.0, 0.3]))
+    with pytest.raises(DomainError, match="B2 = 0"):
+        _ = spins.beside
 
 
 def test_a_free_body_turns_as_the_equations_say() -> None:

@@ -189,6 +189,16 @@ def test_times_and_motions_broadcast() -> None:
     assert np.array_equal(many.rotation(long)[1], ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation(long))
 
 
+@pytest.mark.parametrize("power", [-1015, -905, 905, 1015])
+def test_rates_at_the_ends_of_the_doubles_turn_as_others_do(power: int) -> None:
+    """In another unit of time, a power of two, each matrix is the same within 8 ulp(1), beside ordinary ones."""
+    r = np.random.default_rng(power + 2000)
+    I, (B2, B3, w2), t = r.uniform(0.1, 2, 8), r.normal(size=(3, 8)), r.uniform(-3, 3, 8)
+    unit = np.where(np.arange(8) % 2, 2.0**power, 1.0)
+    found = ElementaryMotion(I, (B2 * unit, B3 * unit), w2 * unit).rotation(t / unit)
+    assert np.abs(found - ElementaryMotion(I, (B2, B3), w2).rotation(t)).max() <= 8 * ULP1
+
+
 def test_no_motion_is_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """A thousand ordinary motions at a time each make not one by itself."""
     made = []
