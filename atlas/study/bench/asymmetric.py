@@ -24,7 +24,7 @@ def motion() -> AsymmetricMotion:
     """Make the motion, with its closed form, anew: motions that were made are kept."""
     kernels.forget()
     made = AsymmetricMotion(**PARAMETERS)
-    made.rotation(0.0)
+    made.rotation(1.0)
     return made
 
 
