@@ -19,9 +19,9 @@ const reader = await browser.newPage();
 const page = await (await browser.newContext({ viewport: { width: 1280, height: 1000 }, reducedMotion: "reduce" })).newPage();
 page.on("pageerror", error => holds(false, String(error)));
 page.on("request", request => holds(request.url().startsWith(`file://${folder}/`), "a request to", request.url()));
-// The panels in space as they are seen, small.
+// The panels in space as they are seen at rest, small.
 const shades = async link => {
-  await link.evaluate(one => { if (one.viewer) { one.viewer.pace = 3; one.viewer.draw(); } });
+  await link.evaluate(one => { const { viewer } = one; if (viewer) { clearTimeout(viewer.rest); cancelAnimationFrame(viewer.asked); viewer.asked = null; viewer.pace = 3; viewer.draw(); } });
   const clip = await link.locator("img").boundingBox(), shot = (await page.screenshot({ clip, style: ".scene > div, .scene button, .turns::after { visibility: hidden; } canvas { outline: none !important; }" })).toString("base64");
   return reader.evaluate(async ([shot, places]) => {
     const picture = await createImageBitmap(await (await fetch(`data:image/png;base64,${shot}`)).blob()), width = 140, height = Math.round(140 * picture.height / picture.width), on = new OffscreenCanvas(width, height).getContext("2d");
