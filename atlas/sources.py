@@ -11,6 +11,7 @@ import json
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
+from threading import Lock
 from typing import Any, Protocol
 
 from atlas import _HOMES
@@ -20,6 +21,7 @@ PACKAGE = Path(__file__).resolve().parent
 OURS = {"atlas", "figures"}
 """The names that imports of ours begin with."""
 MANY = 3000
+_PARSING = Lock()
 
 
 def digest(*parts: Any) -> str:
@@ -94,10 +96,19 @@ def _read(path: Path, content: bytes) -> dict[str, Any]:
     return {"digest": hashlib.sha256(said.encode()).hexdigest(), "imports": sorted(imports)}
 
 
+def syntax_tree(content: bytes, file: str = "<unknown>") -> ast.Module:
+    """Return the syntax tree of a module. Raises SyntaxError or ValueError for what is no Python.
+
+    One thread at a time: before Python 3.11.8 two disturb each other, CPython issue 106905: a SystemError now and then.
+    """
+    with _PARSING:
+        return ast.parse(content, file)
+
+
 def _tree(content: bytes) -> ast.AST | None:
     """Return the syntax tree of a module, or None if it is no Python: who loads it will say so."""
     try:
-        return ast.parse(content)
+        return syntax_tree(content)
     except (SyntaxError, ValueError):
         return None
 

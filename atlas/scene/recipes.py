@@ -18,6 +18,7 @@ from atlas.errors import AtlasError, nearest
 from atlas.places import folder
 from atlas.scene.layers import Scene
 from atlas.scene.parameters import RANGES, fitted
+from atlas.sources import syntax_tree
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,7 @@ def _load(source: Path, _stamp: tuple[int, int]) -> Recipe:
 def _tree(source: Path) -> ast.Module:
     """Parse a recipe."""
     try:
-        return ast.parse(source.read_bytes(), str(source))
+        return syntax_tree(source.read_bytes(), str(source))
     except (SyntaxError, ValueError) as error:
         raise _broken(source, error) from error
 

@@ -1,13 +1,18 @@
 """Digests of the code that a figure reaches."""
 
+import ast
 import os
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from atlas import sources as sources_module
 from atlas.build.cache import Cache
 from atlas.places import folder
+from atlas.scene import recipes
 from atlas.sources import PACKAGE, Sources
 
 RECIPE = '''"""A title."""
@@ -158,3 +163,28 @@ def test_a_module_that_became_a_package_is_found(tmp_path: Path, monkeypatch: py
     sources_module._files.cache_clear()
     assert package / "core/ball/__init__.py" in Sources(cache).reached([recipe])
     sources_module._files.cache_clear()
+
+
+def test_one_thread_parses_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Who reads recipes waits for who digests: before Python 3.11.8 two of them end in a SystemError now and then."""
+    inside, together = list[str](), list[int]()
+    parse = ast.parse
+
+    def slow(*given: Any) -> ast.Module:
+        inside.append("")
+        together.append(len(inside))
+        time.sleep(0.02)
+        inside.pop()
+        return parse(*given)
+
+    files = [tmp_path / f"recipe_{i}.py" for i in range(4)]
+    for i, file in enumerate(files):
+        file.write_text(f'"""Title {i}."""\n\n\ndef scene() -> None: ...\n', encoding="utf-8")
+    monkeypatch.setattr(ast, "parse", slow)
+    with ThreadPoolExecutor(4) as threads:
+        digests = [threads.submit(Sources().closure, [file]) for file in files[:2]]
+        titles = [threads.submit(recipes.load, str(file)) for file in files[2:]]
+        assert len({one.result() for one in digests}) == 2
+        assert [one.result().title for one in titles] == ["Title 2", "Title 3"]
+    assert len(together) >= 4
+    assert max(together) == 1
