@@ -235,7 +235,7 @@ def test_stored_record_is_whole() -> None:
     """The repository's record covers every case, every horizon, every tolerance and the count up to 1e7."""
     record = read(stored())
     assert not record.quick
-    assert {row.case for row in record.runs} == {"elementary", "general", "ball", "particle", "heavy"}
+    assert {row.case for row in record.runs} == {"elementary", "general", "ball", "particle", "heavy", "asymmetric"}
     assert {row.horizon for row in record.runs if row.method == "ours"} == {10.0**n for n in range(2, 9)}
     tolerances = {row.tolerance for row in record.runs if row.tolerance}
     assert tolerances == {float(f"1e-{n}") for n in range(3, 15)}
