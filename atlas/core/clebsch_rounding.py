@@ -12,6 +12,7 @@ these slopes; others, S, are those of weights, powers, products and sums. To fir
 rotation, R is wrong by sqrt(S_N^2 + S_K^2/b^2)/|D| + S_D/|D| and what its last operations add.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,6 +43,22 @@ D = 3
 """Place of the denominator among the forms."""
 
 CORNERS = np.array([[1, 1, -1, -1], [1, -1, 1, -1]])
+
+
+def quotients(
+    value: Array, slopes: Sequence[Array], bent: FloatArray, into: Array, half: float
+) -> tuple[Array, list[Array], FloatArray, FloatArray]:
+    """Return the quotients y of forms by D in the middle of cells, G, the least |D|, and how far y may be from there.
+
+    `value` (n, m) are the forms, `slopes` two of these by exponents, which are `into` (2, 2) @ phases, `bent` bounds on
+    the sums of second derivatives by phases. The least |D| may be negative: then nothing is known.
+    """
+    y = value / value[D]
+    G = [slope - y * slope[D] for slope in slopes]
+    across, below = (abs(np.einsum("k...,kl->l...", x, into)).sum(axis=0) for x in (G, [x[D] for x in slopes]))
+    least = abs(value[D]) - half * below - half**2 / 2 * bent[D]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return y, G, least, (half * across + half**2 / 2 * (bent + abs(y) * bent[D])) / least
 
 
 @dataclass(frozen=True)
@@ -115,12 +132,9 @@ class Rounding:
         wrong, bent, *mixed = np.split(
             summed.reshape(len(summed), -1, 4).max(axis=-1), len(table) + len(forms) * np.arange(3)
         )
-        y = value / value[D]
-        G = [slope - y * slope[D] for slope in slopes]
-        across, below = (abs(np.einsum("k...,kl->l...", x, self.into)).sum(axis=0) for x in (G, [x[D] for x in slopes]))
-        size, least = abs(y), abs(value[D]) - half * below - half**2 / 2 * bent[D]
+        y, G, least, varying = quotients(value, slopes, bent, self.into, half)
+        size = abs(y)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            varying = (half * across + half**2 / 2 * (bent + size * bent[D])) / least
             moved = np.zeros_like(size)
             for g, slope, mix, x in zip(G, slopes, mixed, self.into, strict=True):
                 change = abs(g) + half * (mix + size * mix[D]) + varying * (abs(slope[D]) + half * mix[D])

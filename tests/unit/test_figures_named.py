@@ -8,9 +8,10 @@ import pytest
 from drawing import made
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.text import Annotation
 
 from atlas.draw.panels import to_figure
-from atlas.scene import recipes
+from atlas.scene import Curve, Plane, Scene, recipes
 
 DOTS, LEAST, SEEN, WORDS = 100, 30, 25, 60
 """Pixels an inch, how many must differ where a layer is taken away, and by how much of 255; words of a caption."""
@@ -70,3 +71,14 @@ def test_what_a_caption_names_can_be_seen(name: str, parameters: dict[str, Any])
         assert changed.sum() >= LEAST, f"{name}: {word} ({role}) cannot be seen"
         for artist in drawn:
             artist.set_visible(True)
+
+
+def test_the_name_of_a_curve_belongs_to_its_last_point_that_is_seen() -> None:
+    """Whether it is long or short; ``annotate`` has that point."""
+    x = np.linspace(0.0, 2.0, 201)
+    long, short = np.stack([x, 0.2 + 0.3 * x], axis=1), np.array([[0.1, 0.8], [0.2, 0.9]])
+    curves = (Curve(long, "main", label="long"), Curve(short, "second", label="short"))
+    figure = to_figure(Scene("Two lines", "A caption.", "Two.", (Plane(curves, "$x$", "$y$", (0.0, 1.0), (0.0, 1.0)),)))
+    ends = {text.get_text(): text.xy for text in figure.axes[0].texts if isinstance(text, Annotation)}
+    assert ends["long"] == pytest.approx((1.0, 0.5))
+    assert ends["short"] == pytest.approx((0.2, 0.9))

@@ -190,7 +190,7 @@ def _first(q: FloatArray, reach: FloatArray, still: Any) -> FloatArray:
         # of the two forms of the parabola's root the one that does not cancel
         step = np.where(slope > 0, (root + slope) / bend, 2 * value / (root - slope))
         new = np.minimum(v + np.where(value == 0, 0.0, step), reach)
-        going, v = new - v > 2.0**-52 * new, new
+        going, v = new > v, new
         if n % 6 == 5:
             found[rows] = v
             if not going.any():
