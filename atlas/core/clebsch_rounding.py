@@ -135,7 +135,7 @@ class Rounding:
         y, G, least, varying = quotients(value, slopes, bent, self.into, half)
         size = abs(y)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            moved = np.zeros_like(size)
+            moved = np.zeros(size.shape)
             for g, slope, mix, x in zip(G, slopes, mixed, self.into, strict=True):
                 change = abs(g) + half * (mix + size * mix[D]) + varying * (abs(slope[D]) + half * mix[D])
                 moved += (EXPONENTIAL + PHASE * abs(x).sum()) * change / least

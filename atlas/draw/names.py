@@ -76,7 +76,7 @@ def _requests(
 
 def _backwards(points: FloatArray) -> FloatArray:
     """Return the last point of a polyline, and some before it."""
-    return along(points)[: -_BACK : -_EVERY]
+    return along(points)[:-_BACK:-_EVERY]
 
 
 def _ink(size: tuple[float, float], panel: Plane, places: Places) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:
