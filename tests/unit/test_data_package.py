@@ -3,6 +3,7 @@
 import csv
 import hashlib
 import json
+from dataclasses import replace
 from decimal import Decimal
 from io import StringIO
 from pathlib import Path
@@ -11,13 +12,14 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from atlas.build.composed import composed
 from atlas.build.data import build_data
 from atlas.cli.app import atlas as program
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion as Balls
-from atlas.report.data_package import ascii_name
+from atlas.report.data_package import ascii_name, package
 from atlas.scene import recipes
 from atlas.scene.data import table
 
@@ -198,3 +200,17 @@ def test_a_link_to_data_of_ours_is_refused(data: Path, tmp_path: Path) -> None:
     with pytest.raises(AtlasError, match="holds something else than was made here"):
         build_data(data.parents[1] / "small.toml", tmp_path)
     assert (tmp_path / "small").is_symlink()
+
+
+def test_what_is_not_proven_is_said_beside_its_column(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A column with one number that is not proven has another, which tells them apart; the rest has none."""
+    document, _ = composed(data.parents[1] / "small.toml", data.parent, lambda _: ("csv.gz",), lambda *_: None, 1)
+    (table, *_) = [one for one in document.listed("table") if one.id == "tab-samples"]
+    (time, first, *rest), last = table.rows
+    rows = (time, replace(first, proven=False), *rest), last
+    monkeypatch.setattr(document, "listed", lambda kind: [replace(table, rows=rows)] if kind == "table" else [])
+    content = package(document, {})["tables/samples.csv"].decode()
+    names = content.splitlines()[0].split(",")
+    (said,) = [name for name in names if name.endswith("_proven")]
+    assert said == f"{names[1]}_proven"
+    assert [row[said] for row in csv.DictReader(StringIO(content))] == ["false", "true"]

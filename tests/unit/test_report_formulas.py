@@ -74,6 +74,8 @@ def test_functions_have_their_spaces() -> None:
     assert one(r"$\sin(x)$").count("mspace") == 0
     assert one(r"$\left[a\sin x\right]$").count("mspace") == 4
     assert one(r"$\left[a\ln x\right]$").count("mspace") == 4
+    assert one(r"$(a)\sin x$").count("mspace") == 4
+    assert one(r"$(\sin x)$").count("mspace") == 2
 
 
 def test_accents_do_not_stretch() -> None:

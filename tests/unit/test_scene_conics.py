@@ -63,6 +63,13 @@ def test_each_kind_of_conic_has_its_number_of_branches(form: Any, linear: Any, c
         assert np.abs(value(Q, curve)).max() < 1e-12 * (1.0 + np.abs(curve).max() ** 2)
 
 
+def test_an_ellipse_is_closed() -> None:
+    """A great circle of a unit sphere ends where it begins and is 2 pi long."""
+    (circle,) = section(matrix(np.eye(3), np.zeros(3), -1.0), np.array([0.0, 0.0, 1.0]), 0.0, NONE, BALL, 1e-3)
+    assert circle[-1] == pytest.approx(circle[0], abs=1e-12)
+    assert np.linalg.norm(np.diff(circle, axis=0), axis=1).sum() == pytest.approx(2.0 * np.pi, rel=1e-2)
+
+
 def test_open_conics_leave_the_ball() -> None:
     """A branch that goes to infinity is followed at least to the ball's edge on both ends."""
     Q = matrix(np.diag([1.0, -1.0, 0.0]), np.zeros(3), -1.0)
