@@ -20,7 +20,6 @@ from atlas.core.clebsch import clebsch
 from atlas.core.inputs import number, plain, real, vectors
 from atlas.core.integrals import shape_factors
 from atlas.core.wells import Wells
-from atlas.core.wells import nutation_squared as _nutation_squared
 from atlas.errors import DomainError
 
 
@@ -43,58 +42,15 @@ def momentum_map(ratio: Any, Omega: Any, K: Any) -> Conserved:
     return Conserved(plain(I * (spin[..., 2] + field[..., 2])), plain(found.MK / b), plain(2 * np.asarray(found.H)))
 
 
-def steady(ratio: Any, b: Any, w: Any, r: Any) -> Conserved:
-    """Return (M3, p, h) of the steady precession at nu = r with the rate w in Larmor's frame, theorem-steady.
-
-    M3 = r (w^2 + A)/w, p = w (1 - r^2) + r M3, h = M3^2/I + b^2 + A r^2 + w^2 (1 - r^2). On the hyperbola (71) w is
-    k + b and r is B3/b. DomainError where w = 0 or |r| > 1.
-    """
-    I, A, b = _constants(ratio, b)
-    w, r = real(w, "The rate w"), real(r, "The cosine r")
-    if (w == 0).any() or (np.abs(r) > 1).any():
-        raise DomainError("A steady precession has a rate w that is not 0 and a cosine r between -1 and 1.")
-    M3 = r * (w + A / w)
-    return Conserved(plain(M3), plain(w * (1 - r * r) + r * M3), plain(_energy(I, A, b, M3, w, r)))
-
-
-def nutation_squared(ratio: Any, b: Any, w: Any, r: Any) -> Any:
-    """Nutation frequency squared w^2 - A (3 r^2 - 1) + A^2 r^2/w^2 of a steady precession, theorem-nutation."""
-    _, A, _ = _constants(ratio, b)
-    return _nutation_squared(A, 0.0, w, r)
-
-
-def axis_spin(ratio: Any, b: Any, M3: Any, end: int = 1) -> tuple[Conserved, Any]:
-    """Return (M3, p, h) of the spin about the field, nu = end = ±1, and D = M3^2 - 4 A, theorem-axis-stable.
-
-    It is unstable where D < 0, which needs I > 1; sqrt(-D)/2 is the growth rate of its tilt, theorem-axis-escape.
-    """
-    I, A, b = _constants(ratio, b)
-    M3 = real(M3, "M3")
-    p, g, D = Wells(M3, A).spin(end)
-    return Conserved(plain(M3), plain(p), plain(M3 * M3 / I + b * b + g)), plain(D)
-
-
 def potential(ratio: Any, b: Any, M3: Any, p: Any, nu: Any) -> Any:
     """Effective potential V = M3^2/I + b^2 + A nu^2 + (p - M3 nu)^2/(1 - nu^2) <= h of the nutation, theorem-top.
 
     Motions with the energy h are where V <= h; dtheta^2 = h - V. It is infinite at nu = ±1 unless p = ±M3: DomainError
     where |nu| >= 1.
     """
-    I, A, b = _constants(ratio, b)
-    M3 = real(M3, "M3")
-    return plain(M3 * M3 / I + b * b + Wells(M3, A).potential(p, nu))
-
-
-def _energy(I: Any, A: Any, b: Any, M3: Any, w: Any, r: Any) -> Any:
-    """Return h of a steady precession."""
-    return M3 * M3 / I + b * b + A * r * r + w * w * (1 - r) * (1 + r)
-
-
-def _constants(ratio: Any, b: Any) -> tuple[Any, Any, Any]:
-    """Return I, A = (I-1) b^2 and b."""
-    I, one_less, _ = shape_factors(ratio)
-    b = real(b, "b")
-    return I, -one_less * b * b, b
+    I, less, _ = shape_factors(ratio)
+    b, M3 = real(b, "b"), real(M3, "M3")
+    return plain(M3 * M3 / I + b * b + Wells(M3, -less * b * b).potential(p, nu))
 
 
 def _ratio(ratio: Any) -> float:

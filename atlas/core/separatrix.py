@@ -9,7 +9,7 @@ told by c = q''(r)/2:
     c < 0   a periodic nutation, with the integrals of a stable steady precession but elsewhere on the sphere
 
 With C = cosh(sqrt(c) t/2) and S = sinh(sqrt(c) t/2)/sqrt(c) (cos and sin for c < 0, 1 and t/2 for c = 0) the
-Cayley-Klein parameters are exp(i lambda t) times constant combinations of C, S and 1, up to a common real factor.
+Cayley-Klein parameters are exp(i lambda t) times constant combinations of C and S, up to a common real factor.
 All frequencies share one unit. Constants are made in 256 bits from exact inputs and rounded once; the phases lambda t
 and sqrt(c) t are plain floats, so errors grow as eps |t|, and next to a separatrix no faster.
 """
@@ -48,9 +48,7 @@ class Companion:
     rates: tuple[float, float]
     """Steady rates lambda_-, lambda_+ of the phases of alpha and beta, in 1/time."""
     weights: ComplexArray
-    """Shape (2, 3): alpha and beta at rest in these phases as combinations of C, S and 1."""
-    slow: bool = False
-    """Whether C and S have half the argument, as those of the pendulum, theorem-axis-pendulum."""
+    """Shape (2, 2): alpha and beta at rest in these phases as combinations of C and S."""
 
     @property
     def kind(self) -> str:
@@ -92,7 +90,7 @@ class Companion:
     def _pair(self, t: Any, start: float | None = None) -> tuple[ComplexArray, ComplexArray]:
         """Return alpha and beta and their rates, both up to one real factor; psi as it comes, chi = 0 at start."""
         t = real(t, "The time")
-        functions, slopes = _basis(self.curvature / 4 if self.slow else self.curvature, t)
+        functions, slopes = _basis(self.curvature, t)
         rates = np.array(self.rates)
         turn = np.exp(1j * t[..., None] * rates)
         if start is not None:
@@ -129,7 +127,7 @@ def companions(ratio: Any, field: Any, omega2: Any) -> tuple[Companion, ...]:
     )
     w2 = number(omega2, "omega2")
     if not B2:
-        raise DomainError("With B2 = 0 the elementary motions turn about the field: see `atlas.core.axial`.")
+        raise DomainError("With B2 = 0 the elementary motions turn about the field: see `TopMotion.sleeping_bands`.")
     if w2 == -B2:
         raise DomainError(f"omega2 = -B2 = {w2} is the pole of omega3(omega2), (71).")
     i2, i3, b2, b3, omega = exact(I2, I3, B2, B3, w2)
@@ -162,8 +160,8 @@ def _companion(I: Number, b: Number, r: Number, w: Number, e: Number, c: float) 
         g = -g
     step = w * (e - r)
     weights = [
-        [nearest(up), -1j * nearest(step * (up + g * down)), 0.0],
-        [nearest(down), 1j * nearest(step * (down - g * up)), 0.0],
+        [nearest(up), -1j * nearest(step * (up + g * down))],
+        [nearest(down), 1j * nearest(step * (down - g * up))],
     ]
     M3 = r * (w * w + A) / w
     c3 = M3 / I
@@ -180,14 +178,14 @@ def _companion(I: Number, b: Number, r: Number, w: Number, e: Number, c: float) 
 
 
 def _basis(c: float, t: FloatArray) -> tuple[ComplexArray, ComplexArray]:
-    """Return C, S, 1 and their rates, shape (..., 3), over C for c > 0, lest they overflow."""
+    """Return C, S and their rates, shape (..., 2), over C for c > 0, lest they overflow."""
     k = np.sqrt(abs(c))
     x = k * t / 2
     if c > 0:
-        C, S, one = np.ones_like(t), np.tanh(x) / k, 1 / np.cosh(np.clip(x, -700, 700))
+        C, S = np.ones_like(t), np.tanh(x) / k
     elif c < 0:
-        C, S, one = np.cos(x), np.sin(x) / k, np.ones_like(t)
+        C, S = np.cos(x), np.sin(x) / k
     else:
-        C, S, one = np.ones_like(t), t / 2, np.ones_like(t)
-    functions, slopes = np.stack([C, S, one], -1), np.stack([c / 2 * S, C / 2, np.zeros_like(t)], -1)
+        C, S = np.ones_like(t), t / 2
+    functions, slopes = np.stack([C, S], -1), np.stack([c / 2 * S, C / 2], -1)
     return functions.astype(np.complex128), slopes.astype(np.complex128)

@@ -59,7 +59,6 @@ MACHINERY = {
 
 ELSEWHERE = {
     "core": {
-        "axial": "test_separatrix.py",
         "bifurcation": "test_bifurcation.py",
         "clebsch": "test_clebsch.py",
         "closed": "test_closed.py",

@@ -1,13 +1,11 @@
 """The second elementary family: motions whose quartic has a double root, against Taylor series of the equations."""
 
-from itertools import pairwise
-
+import mpmath
 import numpy as np
 import pytest
 from oracles.taylor import taylor
 
 import atlas
-from atlas.core.axial import escape, pushed
 from atlas.core.separatrix import Companion, companions
 
 EPS = float(np.finfo(float).eps)
@@ -34,17 +32,6 @@ def test_a_companion_solves_the_euler_poisson_equations(case: tuple) -> None:
         assert _worst(motion, case[0], [0.5, 2.0, 6.0]) <= 64 * EPS * max(growth, 8.0)
         assert _worst(motion, case[0], [-0.5, -2.0, -6.0]) <= 64 * EPS * max(growth, 8.0)
         assert _worst(motion, case[0], [1.0, 3.0], start=0.25) <= 64 * EPS * max(growth, 8.0)
-
-
-@pytest.mark.parametrize(
-    ("ratio", "B3", "omega3"), [(2.0, 1.0, -0.7), (1.5, 2.0, -2.5), (2.0, 1.0, -1.3), (2.0, 1.0, -1.0)]
-)
-def test_an_escape_solves_the_euler_poisson_equations(ratio: float, B3: float, omega3: float) -> None:
-    """The motion that leaves the axis agrees with the Taylor series, tipping over for M3 = 0 included."""
-    motion = escape(ratio, B3, omega3)
-    growth = np.exp(np.sqrt(motion.curvature) * 4.0)
-    assert _worst(motion, ratio, [0.5, 2.0, 4.0]) <= 64 * EPS * growth
-    assert _worst(motion, ratio, [-0.5, -2.0], start=0.5) <= 64 * EPS * growth
 
 
 @pytest.mark.parametrize("case", [UNSTABLE, STABLE, TRIPLE])
@@ -108,15 +95,14 @@ def test_curvature_is_minus_the_nutation_frequency_squared() -> None:
 
 
 def test_a_disk_tips_over_and_comes_back() -> None:
-    """It turns where nu = |M3|/(b sqrt(I-1)) - 1 and tends to the axis; at rest in Larmor's frame it tips over."""
-    motion = escape(2.0, 1.0, -0.75)
-    assert motion.turning == pytest.approx(2 * 0.25 - 1, abs=2 * EPS)
-    assert motion.cosine(0.0) == pytest.approx(motion.turning, abs=4 * EPS)
-    assert motion.cosine(np.array([-60.0, 60.0])) == pytest.approx(1.0, abs=4 * EPS)
-    over = escape(2.0, 1.0, -1.0)
-    nu = over.cosine(np.linspace(-3.0, 3.0, 7))
-    assert nu == pytest.approx(-np.tanh(np.linspace(-3.0, 3.0, 7)), abs=8 * EPS)
-    assert all(later < earlier for earlier, later in pairwise(nu))
+    """Of unstable spins, theorem-axis-escape, theorem-axis-pendulum, the cosine by cosh and sinh, within 8 eps."""
+    t = np.linspace(-6.0, 6.0, 13)
+    leaves = atlas.GeneralMotion(2.0, (1.0, 0.0), (0.0, 0.0, 0.5))  # M3 = b = 1: it turns where the axis is across B
+    square = np.cosh(3**0.5 * t / 2) ** 2 + np.sinh(3**0.5 * t / 2) ** 2 / 3
+    assert leaves.field_in_body(t)[:, 2] == pytest.approx((square - 1) / (square + 1), abs=8 * EPS)
+    over = atlas.GeneralMotion(2.0, (1.0, 0.0), (1.0, -1.0, 0.0))  # M3 = 0, and no precession: a pendulum
+    assert over.field_in_body(t)[:, 2] == pytest.approx(-np.tanh(t), abs=8 * EPS)
+    assert (leaves.kind, over.kind) == ("separatrix", "separatrix between B and -B")
 
 
 @pytest.mark.parametrize(
@@ -129,54 +115,49 @@ def test_a_disk_tips_over_and_comes_back() -> None:
 )
 def test_a_pushed_spin_turns_and_returns_as_told(ratio: float, B3: float, omega3: float, push: float) -> None:
     """The least cosine of the axis to the field over the period, and its value after it, by DOP853 to 1e-7."""
-    found = pushed(ratio, B3, omega3, push)
-    t = np.linspace(0.0, found.period, 4001)
+    motion = atlas.GeneralMotion(ratio, (0.0, B3), (push, 0.0, omega3))
+    turning = min((omega3 + B3 - end) / B3 for end in motion.turning_points)
+    t = np.linspace(0.0, motion.period, 4001)
     run = atlas.simulate(ratio, (0.0, B3), (push, 0.0, omega3), t, rtol=1e-12, atol=1e-14)
     nu = run.R[:, 2, 2]
-    assert nu.min() == pytest.approx(found.turning, abs=1e-5)
-    assert nu[2000] == pytest.approx(found.turning, abs=1e-7)
+    assert nu.min() == pytest.approx(turning, abs=1e-5)
+    assert nu[2000] == pytest.approx(turning, abs=1e-7)
     assert nu[-1] == pytest.approx(1.0, abs=1e-7)
     assert (np.diff(nu[:2001]) <= 1e-9).all()
 
 
-def test_a_pushed_ball_turns_with_its_whole_spin() -> None:
-    """For I = 1 the period is 2 pi/|omega + B'| in Larmor's frame, within 64 eps; 1e-9 beside it."""
-    for ratio in (1.0, 1.0 + EPS, 1.0 - 1e-10):
-        assert pushed(ratio, 1.0, 0.4, 0.5).period == pytest.approx(2 * np.pi / np.hypot(1.4, 0.5), rel=1e-9)
-    assert pushed(1.0, 1.0, 0.4, 0.5).period == pytest.approx(2 * np.pi / np.hypot(1.4, 0.5), rel=64 * EPS)
-
-
 def test_the_general_formula_meets_the_elementary_ones() -> None:
-    """GeneralMotion, in sigma functions, has the R(t) of companions and escapes, and the period of a push: 1e-14."""
+    """GeneralMotion, in sigma functions, has the R(t) of companions: 1e-14."""
     t = np.linspace(-6.0, 6.0, 13)
     found = [(case[0], m) for case in (UNSTABLE, STABLE, TRIPLE) for m in companions(*case)]
-    for ratio, motion in [*found, (2.0, escape(2.0, 1.0, -0.7))]:
+    for ratio, motion in found:
         K, omega = motion.field_in_body(0.0), motion.angular_velocity(0.0)
         general = atlas.GeneralMotion(ratio, (K[1], K[2]), omega)
         assert np.abs(general.rotation(t) - motion.rotation(t)).max() <= 1e-14
-    for ratio, omega3, push in ((2.0, -0.7, 1e-3), (0.5, -0.4, 0.7), (2.0, -1.0, 1e-2), (0.5, -1.0, 0.4)):
-        general = atlas.GeneralMotion(ratio, (0.0, 1.0), (push, 0.0, omega3))
-        assert pushed(ratio, 1.0, omega3, push).period == pytest.approx(general.period, rel=1e-12)
+
+
+@pytest.mark.parametrize(("ratio", "omega3", "push"), [(2.0, -0.7, 1e-3), (0.5, -0.4, 0.7), (2.0, 3.0, 0.5)])
+def test_a_pushed_spin_has_the_period_of_a_mean(ratio: float, omega3: float, push: float) -> None:
+    """It is 2 pi/(|M3| agm(y, z)) by the roots of a cubic, theorem-axis-pushed, to 1e-12."""
+    M3, A, s = ratio * (omega3 + 1.0), ratio - 1.0, push * push
+    square = M3 * M3
+    cubic = mpmath.polyroots([-square, s - 2 * square, 2 * s + 4 * A - square, s], extraprec=200)
+    e, f, g = sorted(cubic, key=lambda x: (x.imag != 0, x.real <= 0, abs(x)))
+    mean = mpmath.agm(mpmath.sqrt(-f * (e - g)), mpmath.sqrt(-g * (e - f)))
+    found = atlas.GeneralMotion(ratio, (0.0, 1.0), (push, 0.0, omega3)).period
+    assert found == pytest.approx(2 * np.pi / float(abs(M3) * mean.real), rel=1e-12)
 
 
 def test_a_small_push_takes_the_time_of_its_logarithm() -> None:
     """Where D < 0 a push a hundred times smaller adds (4/sqrt(-D)) log 100 to the period, to 1e-4."""
     M3, A = 2 * 0.3, 1.0
-    periods = [pushed(2.0, 1.0, -0.7, s).period for s in (1e-3, 1e-5)]
+    periods = [atlas.GeneralMotion(2.0, (0.0, 1.0), (s, 0.0, -0.7)).period for s in (1e-3, 1e-5)]
     assert periods[1] - periods[0] == pytest.approx(4 / np.sqrt(4 * A - M3**2) * np.log(100), rel=1e-4)
 
 
-def test_a_stable_spin_has_no_escape() -> None:
-    """D >= 0, its end included, is refused with the reason; so are a field against the axis and the pole."""
-    with pytest.raises(atlas.DomainError, match="is stable"):
-        escape(2.0, 1.0, 0.0)
-    with pytest.raises(atlas.DomainError, match="is stable"):
-        escape(0.5, 1.0, -1.0)
-    with pytest.raises(atlas.DomainError, match="B3 > 0"):
-        escape(2.0, -1.0, 1.0)
+def test_companions_need_a_field_across_the_axis() -> None:
+    """The pole of the hyperbola and a field along the axis are refused with the reason."""
     with pytest.raises(atlas.DomainError, match="pole"):
         companions(0.5, (1.0, 0.1), -1.0)
-    with pytest.raises(atlas.DomainError, match="axial"):
+    with pytest.raises(atlas.DomainError, match="sleeping_bands"):
         companions(0.5, (0.0, 0.1), 0.0)
-    with pytest.raises(atlas.DomainError, match="must not be zero"):
-        pushed(2.0, 1.0, -0.7, 0.0)
