@@ -9,7 +9,6 @@ goes by Taylor series, `atlas.exact.clebsch_flow`:
 Nothing is taken from the theory of theta functions but where to look for the periods, which are then proved.
 """
 
-from fractions import Fraction
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -18,14 +17,15 @@ from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact import two_turns
 from atlas.exact.cayley_klein import matrix
 from atlas.exact.clebsch_flow import Arrival
-from atlas.exact.clebsch_periods import Integrals
+from atlas.exact.clebsch_periods import Integrals, nearest
 from atlas.exact.elliptic import EllipticMotion
 from atlas.exact.elliptic_curve import check_moments
 from atlas.exact.euler_top import EulerTop
 from atlas.exact.inputs import Real, rational, rationals
 from atlas.exact.simpler import Spin, Symmetric
 from atlas.exact.torus import Torus, turned
-from atlas.formulas.numbers import dot, nearest, workprec
+from atlas.formulas.numbers import dot, workprec
+from atlas.formulas.numbers import nearest as nearest_float
 
 DIRECT = 16
 """Times up to so many units of 1/rate are gone at once, without periods."""
@@ -70,7 +70,7 @@ class OnTorus:
         with workprec(ctx.prec + GUARD):
             area, turn = first.H * second.F - first.F * second.H, 2 * arb.pi()
             along = second.F / area, -first.F / area
-            angles = [period.angle - turn * _nearest(period.angle / turn) for period in (first, second)]
+            angles = [period.angle - turn * nearest(period.angle / turn) for period in (first, second)]
             about = angles[0] * along[0] + angles[1] * along[1] - self.b
             return [x * self.rate for x in (turn * along[0], turn * along[1], about)]
 
@@ -101,7 +101,7 @@ class OnTorus:
         with workprec(bits + more):
             turn = -t * self.b
         if abs(t) <= DIRECT:
-            return self.torus.flow.go(_fraction(t), Fraction(0), bits), turn
+            return self.torus.flow.go(t, fmpq(0), bits), turn
         if not self.is_regular:
             return self._directly(t, "the motion is one where two periods of its torus fall together"), turn
         try:
@@ -112,10 +112,10 @@ class OnTorus:
             return self._directly(t, str(reason)), turn
         with workprec(bits + more):
             area = first.H * second.F - first.F * second.H
-            n, m = (_nearest(x) for x in (t * second.F / area, -t * first.F / area))
+            n, m = (nearest(x) for x in (t * second.F / area, -t * first.F / area))
             H, F = t - n * first.H - m * second.H, -n * first.F - m * second.F
             left = [x.mid() for x in (H, F)]
-            arrival = self.torus.flow.go(_of_ball(left[0]), _of_ball(left[1]), bits)
+            arrival = self.torus.flow.go(left[0].fmpq(), left[1].fmpq(), bits)
             arrival = self._moved(arrival, H - left[0], F - left[1])
             return arrival, n * first.angle + m * second.angle + turn
 
@@ -124,9 +124,9 @@ class OnTorus:
         if abs(t) > FARTHEST:
             raise NotCertifiedError(
                 f"not certified: {why}, so that Taylor's series goes all the way, up to |t| = "
-                f"{nearest(FARTHEST / self.rate):.6g}."
+                f"{nearest_float(FARTHEST / self.rate):.6g}."
             )
-        return self.torus.flow.go(_fraction(t), Fraction(0), ctx.prec + 2 * GUARD)
+        return self.torus.flow.go(t, fmpq(0), ctx.prec + 2 * GUARD)
 
     def _moved(self, arrival: Arrival, H: arb, F: arb) -> Arrival:
         """Return a state after the flows of H and F/2 have gone for the tiny times H and F."""
@@ -268,16 +268,3 @@ def _power(x: fmpq) -> fmpq:
     """Return the power of two next to a positive number."""
     exponent = int(x.p).bit_length() - int(x.q).bit_length()
     return fmpq(2) ** exponent if exponent >= 0 else fmpq(1, 2**-exponent)
-
-
-def _nearest(x: arb) -> int:
-    return int((x.mid() + 0.5).floor().unique_fmpz())
-
-
-def _fraction(x: fmpq) -> Fraction:
-    return Fraction(int(x.p), int(x.q))
-
-
-def _of_ball(x: arb) -> Fraction:
-    mantissa, exponent = (int(part) for part in x.man_exp())
-    return Fraction(mantissa << exponent) if exponent >= 0 else Fraction(mantissa, 1 << -exponent)

@@ -16,7 +16,6 @@ half the errors of V, and its own.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from math import exp, isfinite, sqrt
 from operator import mul
 
@@ -29,7 +28,7 @@ from atlas.formulas.numbers import workprec
 
 Matrix = NDArray[np.float64]
 Series = list[list[int]]
-Rates = tuple[list[Fraction], list[Fraction], list[Fraction]]
+Rates = tuple[list[fmpq], list[fmpq], list[fmpq]]
 
 ORDER = 0.27
 """Terms of a series for each bit: a step is what makes the last one less than a unit."""
@@ -83,10 +82,10 @@ class Flow:
     """The flow from a state (W, K) with rational components, of a body with rational moments."""
 
     def __init__(self, moments: Sequence[fmpq], W: Sequence[fmpq], K: Sequence[fmpq]) -> None:
-        self.moments = [Fraction(int(x.p), int(x.q)) for x in moments]
-        self.start = [Fraction(int(x.p), int(x.q)) for x in (*W, *K)]
+        self.moments = list(moments)
+        self.start = [*W, *K]
 
-    def rates(self, a: Fraction, g: Fraction) -> Rates:
+    def rates(self, a: fmpq, g: fmpq) -> Rates:
         """Return V_i/W_i, and what stands before W_j W_k and K_j K_k in the rates of W."""
         I = self.moments
         across = [(I[j] - I[k]) / I[i] for i, (j, k) in enumerate(CYCLE)]
@@ -96,7 +95,7 @@ class Flow:
             [-(a + g * x) * y for x, y in zip(I, across, strict=True)],
         )
 
-    def go(self, a: Fraction, g: Fraction, bits: int, *, proven: bool = True) -> Arrival:
+    def go(self, a: fmpq, g: fmpq, bits: int, *, proven: bool = True) -> Arrival:
         """Return where the flow of a H + g F/2 arrives at time 1; without an error unless `proven`.
 
         Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
@@ -130,29 +129,29 @@ class _Way:
         self.steps += 1
         if self.steps > MOST:
             raise NotCertifiedError(f"not certified: more than {MOST} steps of Taylor's series would be needed.")
-        h = Fraction(self.guess, PARTS)
+        h = fmpq(self.guess, PARTS)
         rows = self._series(h)
         sizes = [max(abs(row[n]) for row in rows).bit_length() for n in range(self.order + 1)]
         last = max((n for n, size in enumerate(sizes) if size > SMALL), default=0)
         falls = (sizes[0] - sizes[last]) / last if last else 2.0 * sizes[0]
         scale = 2.0 ** min(1.0, falls - sizes[0] / self.order)  # the last terms become a unit
         parts = max(1, min(self.left, int(self.guess * min(1.0, scale))))  # larger ones would swell the roundings
-        factor = Fraction(parts, self.guess)
+        factor = fmpq(parts, self.guess)
         rows = [_scaled(row, factor) for row in rows]
-        if self.proven and (lipschitz := self._sizes(rows, Fraction(parts, PARTS))[3]) > STIFF:
-            factor = Fraction(max(1, int(parts * STIFF / lipschitz)), parts)
+        if self.proven and (lipschitz := self._sizes(rows, fmpq(parts, PARTS))[3]) > STIFF:
+            factor = fmpq(max(1, int(parts * STIFF / lipschitz)), parts)
             parts, rows = int(parts * factor), [_scaled(row, factor) for row in rows]
         if self.proven:
-            self._account(rows, Fraction(parts, PARTS))
+            self._account(rows, fmpq(parts, PARTS))
         self.state = [sum(row) for row in rows]
         self.left -= parts
         self.guess = max(1, min(PARTS, int(self.guess * scale)))
 
-    def _scaled_rates(self, h: Fraction) -> tuple[list[int], ...]:
+    def _scaled_rates(self, h: fmpq) -> tuple[list[int], ...]:
         """Return the rates times h, in units."""
         return tuple([_units(h * x, self.bits) for x in row] for row in self.rates)
 
-    def _series(self, h: Fraction) -> Series:
+    def _series(self, h: fmpq) -> Series:
         """Return Taylor coefficients of W, K and q over a step h, in units."""
         b = self.bits
         V, first, second = self._scaled_rates(h)
@@ -168,7 +167,7 @@ class _Way:
             rows[6].append(-(c[12] + c[13] + c[14]) // ((n + 1) << b + 1))
         return rows[:10]
 
-    def _account(self, rows: Series, h: Fraction) -> None:
+    def _account(self, rows: Series, h: fmpq) -> None:
         """Take the step's errors into the bounds."""
         W, K, size_V, lipschitz = self._sizes(rows, h)
         if not lipschitz < 2 * STIFF:
@@ -188,14 +187,14 @@ class _Way:
         self.X = following
         self.q_error += turn + len(rows[0]) * 4 + size_V * (before + added) * spread
 
-    def _sizes(self, rows: Series, h: Fraction) -> tuple[float, float, float, float]:
+    def _sizes(self, rows: Series, h: fmpq) -> tuple[float, float, float, float]:
         """Return bounds on |W| and |K| in the step, on h max|V_i/W_i|, and on the Lipschitz constant times h."""
-        size = [float(sum(map(abs, row)) * Fraction(1, 1 << self.bits)) for row in rows[:6]]
+        size = [float(sum(map(abs, row)) * fmpq(1, 1 << self.bits)) for row in rows[:6]]
         W, K = 1.01 * sqrt(sum(x * x for x in size[:3])), 1.01 * sqrt(sum(x * x for x in size[3:]))
         most, first, second = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
         return W, K, most, 2 * first * W + 2 * second * K + most * (W + K)
 
-    def _defect(self, rows: Series, h: Fraction, W: float, K: float) -> tuple[float, float]:
+    def _defect(self, rows: Series, h: fmpq, W: float, K: float) -> tuple[float, float]:
         """Return bounds in units on p' - h f(p) over the step, of (W, K) together and of q."""
         b = self.bits
         V, first, second = self._scaled_rates(h)
@@ -212,7 +211,7 @@ class _Way:
         rounded = 4 * (W + K) * (W + K) + 4  # the rates are rounded to a unit
         return 1.01 * (sqrt(sum(x * x for x in found)) + rounded), 1.01 * (sqrt(sum(x * x for x in turn)) + 4 * W + 4)
 
-    def _derivative(self, rows: Series, h: Fraction, spread: float) -> tuple[Matrix, float]:
+    def _derivative(self, rows: Series, h: fmpq, spread: float) -> tuple[Matrix, float]:
         """Return the derivative of the step's flow of (W, K), and a bound on its error."""
         floats = np.array([[_float(x, self.bits) for x in row] for row in rows[:6]])
         jacobian = _jacobian(floats, *(np.array([float(h * x) for x in row]) for row in self.rates))
@@ -258,15 +257,15 @@ def _inverse_norm(X: Matrix) -> float:
     return 1.01 * float(np.linalg.norm(Y)) / (1 - left)
 
 
-def _units(x: Fraction, bits: int) -> int:
-    return (x.numerator << bits) // x.denominator
+def _units(x: fmpq, bits: int) -> int:
+    return (int(x.p) << bits) // int(x.q)
 
 
-def _scaled(row: list[int], factor: Fraction) -> list[int]:
+def _scaled(row: list[int], factor: fmpq) -> list[int]:
     """Return coefficients for an argument that is so many times larger."""
     if factor == 1:
         return row
-    p, q, found, up, down = factor.numerator, factor.denominator, [], 1, 1
+    p, q, found, up, down = int(factor.p), int(factor.q), [], 1, 1
     for x in row:
         found.append(x * up // down)
         up, down = up * p, down * q
@@ -274,7 +273,7 @@ def _scaled(row: list[int], factor: Fraction) -> list[int]:
 
 
 def _float(x: int, bits: int) -> float:
-    return float(Fraction(x, 1 << bits)) if bits > 900 else x / (1 << bits)
+    return float(fmpq(x, 1 << bits)) if bits > 900 else x / (1 << bits)
 
 
 def _size(polynomial: fmpz_poly, bits: int) -> float:

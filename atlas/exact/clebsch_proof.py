@@ -17,11 +17,10 @@ and it does not matter how the constants were found.
 """
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from itertools import product
 
 import numpy as np
-from flint import acb, acb_mat, arb, fmpq
+from flint import acb, acb_mat, arb
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
@@ -30,7 +29,7 @@ from atlas.exact.clebsch_periods import BITS, centre, complex_of
 from atlas.exact.clebsch_theta import ThetaMotion
 from atlas.exact.theta_sums import CHARACTERISTICS, Array, needed
 from atlas.exact.torus import Period, Torus
-from atlas.formulas.numbers import dot, workprec
+from atlas.formulas.numbers import dot, rational, workprec
 
 SPARE = 40
 """Bits beyond those of the constants."""
@@ -248,10 +247,8 @@ class Cell:
 
 def _apart(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
     """Return bounds on the distances of M, K and N of the forms from the motion after some times (H, F)."""
-    H, F = map(Fraction, times.tolist())
-    zeta = [
-        x + y for x, y in zip(theta.zeta([acb(fmpq(*x.as_integer_ratio())) for x in (H, F)]), theta.start, strict=True)
-    ]
+    H, F = map(rational, times.tolist())
+    zeta = [x + y for x, y in zip(theta.zeta([acb(H), acb(F)]), theta.start, strict=True)]
     pairs, shifted = theta.pairs(zeta), theta.pairs([x - y for x, y in zip(zeta, theta.w, strict=True)])
     below, factor = theta.denominator.of(pairs), (acb(0, 1) * dot(theta.l, zeta)).exp()
     state = torus.flow.go(H, F, BITS)

@@ -1,14 +1,13 @@
 """Text with proven digits only: the one place where a certified number becomes decimal.
 
 `certified` computes a quantity at rising precision until the digits asked for are proven, and returns their text.
-`proven` prints one value. A digit is proven when both ends of the ball round to it, half to even, so that every
+`printed` prints one value. A digit is proven when both ends of the ball round to it, half to even, so that every
 number inside does. A text that ends in `MARK` has fewer digits than asked for, all of them proven; `NOT_CERTIFIED`
 stands where not even the first is.
 """
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any, Literal, TypeAlias
 
 from flint import arb, fmpq
@@ -58,19 +57,6 @@ def enclosed(function: Callable[[], Any], bits: int) -> Any:
         return all(isinstance(x, fmpq) or x.is_zero() or x.rel_accuracy_bits() >= bits for x in numbers(value))
 
     return _refined(function, bits, accurate)
-
-
-def proven(value: Real | Fraction | float, digits: int, layout: Layout = "plain") -> str:
-    r"""Return one number as text with the digits that its ball proves, at most ``digits`` of them.
-
-    ``plain`` writes 0.00123 or 1.23e-07, ``scientific`` always the latter, ``fixed`` with ``digits`` decimals,
-    ``tex`` as ``plain`` with ``\times 10^{-7}``.
-    """
-    _check(digits, layout)
-    if isinstance(value, float | int | Fraction):
-        fraction = Fraction(value)
-        value = fmpq(fraction.numerator, fraction.denominator)
-    return printed(value, digits, layout).text
 
 
 def printed(value: Real, digits: int, layout: Layout) -> Printed:
@@ -131,21 +117,15 @@ def _check(digits: int, layout: str) -> None:
         raise AtlasError(f"A number has at least one digit, not {digits}.")
 
 
-def _ends(value: Real) -> tuple[Fraction, Fraction]:
+def _ends(value: Real) -> tuple[fmpq, fmpq]:
     """Return the two ends of a ball, exactly."""
     if isinstance(value, fmpq):
-        fraction = Fraction(int(value.p), int(value.q))
-        return fraction, fraction
-    middle, radius = _dyadic(value.mid()), _dyadic(value.rad())
+        return value, value
+    middle, radius = value.mid().fmpq(), value.rad().fmpq()
     return middle - radius, middle + radius
 
 
-def _dyadic(number: arb) -> Fraction:
-    mantissa, exponent = (int(part) for part in number.man_exp())
-    return Fraction(mantissa << exponent) if exponent >= 0 else Fraction(mantissa, 1 << -exponent)
-
-
-def _most(lower: Fraction, upper: Fraction, digits: int) -> int:
+def _most(lower: fmpq, upper: fmpq, digits: int) -> int:
     """Return a bound on the count of digits that both ends may share."""
     if lower == upper:
         return digits
@@ -154,10 +134,10 @@ def _most(lower: Fraction, upper: Fraction, digits: int) -> int:
     return min(digits, _exponent(max(abs(lower), abs(upper))) - _exponent(upper - lower) + 1)
 
 
-def _exponent(x: Fraction) -> int:
+def _exponent(x: fmpq) -> int:
     """Return the e with 10^e <= x < 10^(e+1), for x > 0."""
-    e = int((x.numerator.bit_length() - x.denominator.bit_length()) / BITS_A_DIGIT) - 1
-    power = Fraction(10) ** (e + 1)
+    e = int((int(x.p).bit_length() - int(x.q).bit_length()) / BITS_A_DIGIT) - 1
+    power = fmpq(10) ** (e + 1)
     while x >= power:
         e, power = e + 1, power * 10
     while x * 10 < power:
@@ -165,21 +145,21 @@ def _exponent(x: Fraction) -> int:
     return e
 
 
-def _rounded(x: Fraction, count: int) -> tuple[int, int]:
+def _rounded(x: fmpq, count: int) -> tuple[int, int]:
     """Return (m, e) with m of ``count`` digits and x = m 10^(e+1-count) to half a unit, half to even."""
     if x == 0:
         return 0, 0
     e = _exponent(abs(x))
-    m = round(x * Fraction(10) ** (count - 1 - e))
+    m = round(x * fmpq(10) ** (count - 1 - e))
     return (m, e) if abs(m) < 10**count else (m // 10, e + 1)
 
 
-def _fixed(lower: Fraction, upper: Fraction, decimals: int) -> Printed:
+def _fixed(lower: fmpq, upper: fmpq, decimals: int) -> Printed:
     """Return the text with ``decimals`` decimals, or with as many as are proven."""
     for count in range(decimals, -1, -1):
         low, high = round(lower * 10**count), round(upper * 10**count)
         if low == high:
-            whole, part = divmod(abs(low), 10**count)
+            whole, part = divmod(abs(int(low)), 10**count)
             text = f"{'-' * (low < 0)}{whole}" + (f".{part:0{count}d}" if count else "")
             return Printed(text + MARK * (count < decimals), count, complete=count == decimals)
     return Printed(NOT_CERTIFIED, 0, complete=False)

@@ -12,7 +12,6 @@ components are then those of the start, since H, F and both Casimirs are, and th
 """
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
 
@@ -49,7 +48,7 @@ class Torus:
     def __init__(self, moments: tuple[fmpq, ...], W: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
         self.moments, self.W, self.K = moments, W, K
         self.flow = Flow(moments, W, K)
-        self._starts: list[tuple[Fraction, Fraction]] | None = None
+        self._starts: list[tuple[fmpq, fmpq]] | None = None
         self._known: dict[int, tuple[Period, Period]] = {}
 
     @property
@@ -83,7 +82,7 @@ class Torus:
             self._known[bits] = first, second
         return self._known[bits]
 
-    def _approximate(self) -> list[tuple[Fraction, Fraction]]:
+    def _approximate(self) -> list[tuple[fmpq, fmpq]]:
         if self._starts is None:
             try:
                 found = [(x.real, y.real) for x, y, _ in self.lattice.real]
@@ -91,7 +90,7 @@ class Torus:
                 found = real_periods(self.integrals)
             if len(found) != 2:
                 raise NotCertifiedError("not certified: no two periods of the motion's torus were found.")
-            self._starts = [(_fraction(x), _fraction(y)) for x, y in found]
+            self._starts = [(x.mid().fmpq(), y.mid().fmpq()) for x, y in found]
         return self._starts
 
     @cached_property
@@ -99,7 +98,7 @@ class Torus:
         """All periods, approximate; NotCertifiedError where they are not found."""
         return lattice(self.integrals)
 
-    def _enclosed(self, start: tuple[Fraction, Fraction], bits: int) -> Period:
+    def _enclosed(self, start: tuple[fmpq, fmpq], bits: int) -> Period:
         """Prove a period; where its start is too rough for that, improve it first, each round with twice the bits."""
         chosen, r, precision = self._coordinates(), start, bits if bits <= GOOD else FIRST
         while precision < bits:
@@ -108,7 +107,7 @@ class Torus:
                 size = max(float(abs(x).mid()) for x in step)
                 if not size < ROUGH:
                     raise NotCertifiedError("not certified: Newton's method does not find a period of the torus.")
-                r = r[0] + _fraction(step[0]), r[1] + _fraction(step[1])
+                r = r[0] + step[0].mid().fmpq(), r[1] + step[1].mid().fmpq()
             precision = 2 * precision - GUARD
         return self._proven(r, bits, chosen)
 
@@ -126,7 +125,7 @@ class Torus:
         determinant = X[i] * Y[j] - X[j] * Y[i]
         return (g * Y[i] - f * Y[j]) / determinant, (f * X[j] - g * X[i]) / determinant
 
-    def _proven(self, r: tuple[Fraction, Fraction], bits: int, chosen: tuple[int, int]) -> Period:
+    def _proven(self, r: tuple[fmpq, fmpq], bits: int, chosen: tuple[int, int]) -> Period:
         with workprec(bits + 2 * GUARD):
             arrival = self.flow.go(*r, bits + GUARD)
             first = self._newton(arrival, self.W, self.K, chosen)
@@ -145,7 +144,7 @@ class Torus:
             b = arb(dot(self.K, self.K)).sqrt()
             along = dot(q[1:], [k / b for k in self.K])
             angle = 2 * arb.atan2(along, q[0])
-            return Period(arb(_fmpq(r[0])) + step[0], arb(_fmpq(r[1])) + step[1], angle)
+            return Period(r[0] + step[0], r[1] + step[1], angle)
 
     def _told_apart(self, wide: list[arb], chosen: tuple[int, int]) -> bool:
         """Whether states near the start with its integrals differ in the chosen components, if at all."""
@@ -169,12 +168,3 @@ def turned(q: list[arb], V: list[arb]) -> list[arb]:
     w, *vector = (x + most for x in q)  # wherever it is on the way
     turned = [-dot(vector, V), *(w * x + y for x, y in zip(V, cross(vector, V), strict=True))]
     return [x + y / 2 for x, y in zip(q, turned, strict=True)]
-
-
-def _fraction(x: arb) -> Fraction:
-    mantissa, exponent = (int(part) for part in x.mid().man_exp())
-    return Fraction(mantissa << exponent) if exponent >= 0 else Fraction(mantissa, 1 << -exponent)
-
-
-def _fmpq(x: Fraction) -> fmpq:
-    return fmpq(x.numerator, x.denominator)

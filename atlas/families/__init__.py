@@ -6,11 +6,10 @@ Commands, sweeps, the stress run, certified tables and the guide's reference of 
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from atlas.errors import AtlasError
 from atlas.families import asymmetric, ball, elementary, elliptic, free, general, hyperbola, particle, quadric, top
 from atlas.families.family import Command, Family, Parameter, Quantity, Sampled
 
-__all__ = ["FAMILIES", "Command", "Family", "Parameter", "Quantity", "Sampled", "family"]
+__all__ = ["FAMILIES", "Command", "Family", "Parameter", "Quantity", "Sampled"]
 
 FAMILIES: Mapping[str, Family] = MappingProxyType(
     {
@@ -18,10 +17,3 @@ FAMILIES: Mapping[str, Family] = MappingProxyType(
         for one in (elementary, general, top, elliptic, asymmetric, free, hyperbola, quadric, ball, particle)
     }
 )  # fmt: skip
-
-
-def family(name: str) -> Family:
-    """Return a family. Raises AtlasError for one that there is not."""
-    if name not in FAMILIES:
-        raise AtlasError(f"There is no family {name!r}; there is {', '.join(FAMILIES)}.")
-    return FAMILIES[name]

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from atlas.errors import AtlasError
 from atlas.exact import digits
-from atlas.exact.digits import MARK, NOT_CERTIFIED, Layout, certified, enclosed, proven
+from atlas.exact.digits import MARK, NOT_CERTIFIED, Layout, certified, enclosed, printed
+from atlas.exact.inputs import rational
 
 balls = st.builds(
     lambda middle, power: (middle, abs(middle) * Fraction(10) ** power + Fraction(1, 10**400)),
@@ -25,6 +26,11 @@ def half_unit(text: str) -> Fraction:
     mantissa, _, exponent = text.partition("e")
     decimals = len(mantissa.partition(".")[2])
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
+
+
+def proven(value: arb | Fraction | float, count: int, layout: Layout = "plain") -> str:
+    """Return the text of one number."""
+    return printed(value if isinstance(value, arb) else rational(value, "it"), count, layout).text
 
 
 @settings(max_examples=300)
@@ -138,12 +144,12 @@ def test_enclosures_meet_the_accuracy_asked_for() -> None:
 def test_wrong_requests_are_refused(count: int, layout: Layout) -> None:
     """No digits, and layouts that do not exist, are errors."""
     with pytest.raises(AtlasError):
-        proven(1.0, count, layout)
+        certified(lambda: fmpq(1), count, layout)
 
 
 def test_a_wrong_value_is_flagged(monkeypatch: pytest.MonkeyPatch) -> None:
     """Were the two ends of a ball not both rounded, an unproven digit would be printed."""
     ball = arb(1.25, 0.01)
     assert proven(ball, 3) == "1.2" + MARK or proven(ball, 3) == "1" + MARK
-    monkeypatch.setattr(digits, "_ends", lambda value: (digits._dyadic(value.mid()),) * 2)
+    monkeypatch.setattr(digits, "_ends", lambda value: (value.mid().fmpq(),) * 2)
     assert proven(ball, 3) == "1.25"

@@ -12,9 +12,8 @@ from flint import arb, ctx
 from syrupy.assertion import SnapshotAssertion
 
 import atlas
-from atlas.errors import AtlasError
 from atlas.exact.digits import enclosed
-from atlas.families import FAMILIES, Family, Quantity, family
+from atlas.families import FAMILIES, Family, Quantity
 from atlas.paper import EQUATIONS
 from atlas.study import stress
 from atlas.study.ulps import absolute, of_length, own
@@ -41,12 +40,6 @@ def numeric(q: Quantity, made: Any) -> bool:
     """Whether a quantity is a number, or several."""
     value = q.of(made)
     return value is not None and not isinstance(value, str)
-
-
-def test_a_family_that_there_is_not_is_an_error_with_those_that_there_are() -> None:
-    """The error names the families."""
-    with pytest.raises(AtlasError, match="no family 'nix'; there is elementary, general, "):
-        family("nix")
 
 
 def plain(name: str, value: Any) -> bool:
