@@ -32,15 +32,7 @@ def scene(
     ``b`` and the weight ``linear`` over I2 are one for all or one for each; the scale is the larger of b and the root
     of the weight.
     """
-    count = len(ratios)
-    if not (1 <= count <= 3 and len(b) in {1, count} and len(linear) in {1, count}):
-        raise DomainError(
-            f"figure energy_momentum needs 1 to 3 ratios, and one b and one weight linear for all or for each, not "
-            f"{ratios}, {b} and {linear}."
-        )
-    tops = list(zip(ratios, b * (count // len(b)), linear * (count // len(linear)), strict=True))
-    if not all(field >= 0 and (field or weight) for _, field, weight in tops):
-        raise DomainError(f"figure energy_momentum needs b > 0, or b = 0 and a weight linear, not {b} and {linear}.")
+    tops = one_each(ratios, b, linear)
     alike = len(b) == 1 and not any(linear)
     called = [name(*top, alike=alike) for top in tops]
     panels = tuple(panel(f"({'abc'[k]}) {called[k]}", *top, M3, reach, unit) for k, top in enumerate(tops))
@@ -77,6 +69,22 @@ def scene(
         },
         size=(WIDTH, HEIGHT),
     )
+
+
+def one_each(
+    ratios: tuple[float, ...], b: tuple[float, ...], linear: tuple[float, ...]
+) -> list[tuple[float, float, float]]:
+    """Return ratio, field and weight of each top."""
+    count = len(ratios)
+    if not (1 <= count <= 3 and len(b) in {1, count} and len(linear) in {1, count}):
+        raise DomainError(
+            f"figure energy_momentum needs 1 to 3 ratios, and one b and one weight linear for all or for each, not "
+            f"{ratios}, {b} and {linear}."
+        )
+    tops = list(zip(ratios, b * (count // len(b)), linear * (count // len(linear)), strict=True))
+    if not all(field >= 0 and (field or weight) for _, field, weight in tops):
+        raise DomainError(f"figure energy_momentum needs b > 0, or b = 0 and a weight linear, not {b} and {linear}.")
+    return tops
 
 
 def name(I: float, b: float, linear: float, *, alike: bool) -> str:

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 from atlas.scene.captions import listed, tex, title
 from atlas.scene.layers import Curve, Layer, Plane, Scene
-from atlas.study.bench.figures import by_method, case_title, decades, line, measured, pairs, runs_of
-from atlas.study.bench.methods import OURS
+from atlas.study.bench.figures import by_method, decades, line, measured, pairs, runs_of
+from atlas.study.bench.methods import OURS, case_title
 from atlas.study.bench.results import Results, Run, read
 
 RECORDS = ("bench.json",)

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from atlas.errors import AtlasError
 from atlas.scene.captions import listed, plain, title
 from atlas.scene.layers import Layer, Plane, Points, Scene
-from atlas.study.bench.figures import by_method, case_title, decades, line, measured, pairs, power, runs_of
-from atlas.study.bench.methods import MARKS
+from atlas.study.bench.figures import by_method, decades, line, measured, pairs, power, runs_of
+from atlas.study.bench.methods import MARKS, case_title
 from atlas.study.bench.methods import title as name
 from atlas.study.bench.results import Results, Run, read
 

@@ -82,18 +82,7 @@ def _draw(task: Task) -> None:
         contents = {kind: path.read_bytes() for kind, path in paths.items()}
     whole = not target and {*drawn} >= {one for one in (scene, small) if one}
     figures = list(drawn.values()) if whole else []
-    if "scene" in task.keys:
-        from atlas.draw import viewer
-
-        contents["scene"] = viewer.script(scene, task.style, figures).encode()
-    if "moves" in task.keys:
-        from atlas.draw import moves
-
-        contents["moves"] = moves.script(scene, task.style, figures).encode()
-    if "csv" in task.keys:
-        contents["csv"] = data.table(scene).encode()
-    if "csv.gz" in task.keys:
-        contents["csv.gz"] = _compressed(data.table(scene).encode())
+    contents |= _beside(task, scene, figures)
     facts = {
         "title": scene.title,
         "caption": scene.caption,
@@ -117,6 +106,24 @@ def _draw(task: Task) -> None:
     }
     for kind, key in task.keys.items():
         cache.put(key, json.dumps(facts).encode() + b"\n" + contents[kind])
+
+
+def _beside(task: Task, scene: Scene, figures: list[Any]) -> dict[str, bytes]:
+    """Return what was asked for beside pictures: what turns a scene or moves it in a page, and its points."""
+    contents = {}
+    if "scene" in task.keys:
+        from atlas.draw import viewer
+
+        contents["scene"] = viewer.script(scene, task.style, figures).encode()
+    if "moves" in task.keys:
+        from atlas.draw import moves
+
+        contents["moves"] = moves.script(scene, task.style, figures).encode()
+    if "csv" in task.keys:
+        contents["csv"] = data.table(scene).encode()
+    if "csv.gz" in task.keys:
+        contents["csv.gz"] = _compressed(data.table(scene).encode())
+    return contents
 
 
 def _compressed(content: bytes) -> bytes:

@@ -12,6 +12,7 @@ from atlas.cli.family import in_field, in_plane, object_options, values_of
 from atlas.cli.options import Command, examples, jobs_option, out_option, stack
 from atlas.cli.points import points
 from atlas.cli.progress import bar
+from atlas.cli.report import status_of
 from atlas.cli.top import top_units
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES, Family
@@ -174,8 +175,4 @@ def make(wanted: Any, out: Path, jobs: int | None) -> int:
         built = build_report(file, out, tell, formats=("single", "pdf"), jobs=jobs)
     click.echo(built.single)
     click.echo(built.pdf)
-    for note in built.notes:
-        click.echo(f"atlas: {note}", err=True)
-    for recipe, reason in built.failures:
-        click.echo(f"atlas: figure {recipe} failed: {reason}", err=True)
-    return 0 if built.ok else 1
+    return status_of(built)

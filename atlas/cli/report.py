@@ -53,6 +53,11 @@ def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, j
             click.echo(file)
     if explain:
         _explain(built)
+    return status_of(built)
+
+
+def status_of(built: "Built") -> int:
+    """Tell the notes of a report and the figures that failed; return the status to end with."""
     for note in built.notes:
         click.echo(f"atlas: {note}", err=True)
     for recipe, reason in built.failures:

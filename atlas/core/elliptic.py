@@ -73,11 +73,6 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
         self.arguments = {"inertia": self.inertia, "field": self.field, "z": self.z, "branch": self.branch}
 
     @cached_property
-    def kind(self) -> Any:
-        """Name of the kind of motion, a string, or an array of them."""
-        return self._each("kind", lambda exact: exact.kind)
-
-    @cached_property
     def period(self) -> Any:
         """Period T of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
         return self._scalar("period")

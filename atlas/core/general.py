@@ -11,7 +11,7 @@ from atlas.core.body import SymmetricBody, moments
 from atlas.core.inputs import FloatArray, finite, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import components
-from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
+from atlas.core.nutating import NutatingMotion, ends_of, padded
 from atlas.core.nutation.blocks import Blocks
 from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.rows import GeneralRows
@@ -21,10 +21,11 @@ from atlas.core.nutation.single_general import SingleGeneral
 from atlas.core.quantities import RATE
 from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
+from atlas.exact.cayley_klein import matrix
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion as Balls
 from atlas.formulas.integrals import NAMES, constants
-from atlas.formulas.numbers import nearest, workprec
+from atlas.formulas.numbers import nearest, rational, workprec
 
 CONSTANTS = (*NAMES[:4], "(M,B')")
 """What a motion conserves, in this order."""
@@ -72,7 +73,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
     """
 
     family = "general"
-    _in_arrays, _exact = (*IN_ARRAYS, "roots"), staticmethod(_balls)
+    _in_arrays, _exact, _kinds = (*IN_ARRAYS, "roots"), staticmethod(_balls), KINDS
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
         self.ratio = ratio
@@ -108,11 +109,6 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         motion._turning = SingleGeneral(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class
         motion.field, motion.omega = tuple(field.tolist()), tuple(int(x.p) / int(x.q) for x in w)
         return motion
-
-    @cached_property
-    def kind(self) -> Any:
-        """Name of the kind of motion, a string, or an array of them."""
-        return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(KINDS, dtype=NAME)[codes])
 
     @cached_property
     def roots(self) -> Any:
@@ -197,16 +193,10 @@ def exact_attitude(attitude: Any) -> list[list[fmpq]]:
         [0, 0, 0, 2 * R[2, 2] - trace],
     ])  # fmt: skip
     table = table + np.triu(table, 1).T + np.eye(4)
-    w, x, y, z = (fmpq(*v.as_integer_ratio()) for v in table[np.argmax(np.diag(table))].tolist())
-    n = w * w + x * x + y * y + z * z
-    return [
-        [(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n],
-        [2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n],
-        [2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n],
-    ]
+    return matrix([rational(v) for v in table[np.argmax(np.diag(table))].tolist()])
 
 
 def _transposed(R: list[list[fmpq]], v: FloatArray) -> list[fmpq]:
     """Return R^T v, exactly."""
-    exact = [fmpq(*x.as_integer_ratio()) for x in v.tolist()]
+    exact = [rational(x) for x in v.tolist()]
     return [sum((R[i][j] * exact[i] for i in range(3)), fmpq(0)) for j in range(3)]

@@ -1,6 +1,6 @@
 """What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
 
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Sequence
 from functools import cached_property
 from math import prod
 from typing import Any, TypeVar
@@ -29,6 +29,13 @@ class NutatingMotion(Motion[Nutation]):
     _scalars: Any
     _exact: Callable[..., Any]
     """Makes one motion of balls."""
+    _kinds: Sequence[str] = ()
+    """Names of the kinds of arrays, by their codes."""
+
+    @cached_property
+    def kind(self) -> Any:
+        """Name of the kind of motion, a string, or an array of them."""
+        return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
 
     @cached_property
     def period(self) -> Any:

@@ -12,7 +12,7 @@ from atlas.core.charge_moments import ChargeMoments
 from atlas.core.inputs import FloatArray, finite, number, plain, positive
 from atlas.core.laboratory import anisotropy
 from atlas.core.motion import components
-from atlas.core.nutating import NAME, NutatingMotion, ends_of, padded
+from atlas.core.nutating import NutatingMotion, ends_of, padded
 from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.scalars import IN_ARRAYS
 from atlas.core.nutation.single import BITS
@@ -85,7 +85,7 @@ class TopMotion(NutatingMotion[SingleTop]):
     """
 
     family = "top"
-    _in_arrays, _exact = IN_ARRAYS, staticmethod(balls)
+    _in_arrays, _exact, _kinds = IN_ARRAYS, staticmethod(balls), KINDS
 
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
@@ -187,11 +187,6 @@ class TopMotion(NutatingMotion[SingleTop]):
     def _rows(self) -> TopRows:
         """All tops in arrays, for a few times each."""
         return TopRows(self._blocks)
-
-    @cached_property
-    def kind(self) -> Any:
-        """Name of the kind of motion, a string, or an array of them."""
-        return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(KINDS, dtype=NAME)[codes])
 
     @cached_property
     def _scalars(self) -> TopScalars:

@@ -8,6 +8,7 @@ from flint import acb, arb
 
 from atlas.exact.inputs import Real
 from atlas.exact.theta import Lattice, Sum, constant
+from atlas.formulas.numbers import Number
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
     return Solution(lattice, arb(0), alpha, beta, k, phi)
 
 
-def matrix(q: list[arb]) -> list[list[arb]]:
+def matrix(q: Sequence[Number]) -> list[list[Number]]:
     """Return the rotation matrix of a quaternion that need not be normalised."""
     w, x, y, z = q
     n = w * w + x * x + y * y + z * z

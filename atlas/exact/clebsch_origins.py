@@ -10,7 +10,7 @@ from operator import mul
 import numpy as np
 from flint import acb, acb_poly, arb, fmpq, fmpq_poly
 
-from atlas.exact.clebsch_periods import Integrals, centre, complex_of
+from atlas.exact.clebsch_periods import Integrals, centre, complex_of, value
 from atlas.exact.theta_sums import Array
 
 POINTS, TERMS = 7, 140
@@ -50,9 +50,9 @@ def origins(motion: Integrals) -> list[tuple[int, State]]:
         across = c * (1 / I[j] - 1 / I[k])
         quartic = less * less - 4 * across * across * s2 * A * rest if c else less
         for root, _ in quartic.complex_roots():
-            a, d, s = (centre(_value(x, root)).sqrt() for x in (A, rest, s2))
-            if abs(complex_of(2 * across * s * a * d - _value(less, root))) > abs(
-                complex_of(2 * across * s * a * d + _value(less, root))
+            a, d, s = (centre(value(x, root)).sqrt() for x in (A, rest, s2))
+            if abs(complex_of(2 * across * s * a * d - value(less, root))) > abs(
+                complex_of(2 * across * s * a * d + value(less, root))
             ):
                 s = -s
             K, M = [acb(0)] * 3, [acb(0)] * 3
@@ -60,13 +60,6 @@ def origins(motion: Integrals) -> list[tuple[int, State]]:
             M[j], M[k] = (c * a - s * d) / b2, (c * d + s * a) / b2
             found.append((i, State([centre(x) for x in M], [centre(x) for x in K], [])))
     return sorted(found, key=lambda x: sum(abs(complex_of(z)) ** 2 for z in x[1].all))
-
-
-def _value(polynomial: fmpq_poly, x: acb) -> acb:
-    found = acb(0)
-    for c in reversed(polynomial.coeffs()):
-        found = found * x + c
-    return found
 
 
 def series(moments: Sequence[fmpq], start: State) -> list[Vector]:

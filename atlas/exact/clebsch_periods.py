@@ -111,12 +111,12 @@ class Curve:
         motion = self.motion
         if motion.c == 0:
             for z, _ in self.g.complex_roots():
-                v = _polynomial(motion.P, z).sqrt()
+                v = value(motion.P, z).sqrt()
                 yield z, v
                 yield z, -v
             return
         for z, _ in (self.g * self.g - 4 * motion.c * motion.c * motion.P).complex_roots():
-            yield z, -_polynomial(self.g, z) / (2 * motion.c)
+            yield z, -value(self.g, z) / (2 * motion.c)
 
     def _periods(self, cells: int) -> list[tuple[acb, acb]]:
         """Return periods of wp, in two parts, up to so many cells along each."""
@@ -174,7 +174,7 @@ class Curve:
             for x, weight in _rule():
                 s = arb.pi() * low + half * (1 + x)
                 z, v = self.at(start + way * (1 - s.cos()) / 2)
-                root = centre((_polynomial(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2).sqrt()
+                root = centre((value(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2).sqrt()
                 if before is not None and _far(root - before) > _far(root + before):
                     root = -root
                 before, part = root, half * weight / root
@@ -241,7 +241,7 @@ def nearest(x: arb) -> int:
     return int((x.mid() + 0.5).floor().unique_fmpz())
 
 
-def _polynomial(polynomial: fmpq_poly, z: acb) -> acb:
+def value(polynomial: fmpq_poly, z: acb) -> acb:
     """Return the value of a polynomial with rational coefficients."""
     found = acb(0)
     for x in reversed(polynomial.coeffs()):

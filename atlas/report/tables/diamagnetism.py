@@ -2,8 +2,10 @@
 
 from math import hypot
 
+from atlas.core.body import SymmetricBody
 from atlas.core.laboratory import diamagnetic_energy
 from atlas.errors import AtlasError
+from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.table import Column, Data, Request
@@ -16,6 +18,19 @@ class DiamagnetismParameters(StrictStruct, frozen=True):
     density: float
 
 
+def magnetised(case: BodyAndField, asked: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
+    """Return the title of a body, the body, and the factor of nu^2 in the energy of its own magnetism."""
+    record, body = case.body_record, case.body
+    if record is None or body is None or case.physical is None or record.mass is None or record.shape is None:
+        raise AtlasError("this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio.")
+    field = float(hypot(*case.physical.B))
+    return (
+        record.title,
+        body,
+        diamagnetic_energy(asked.susceptibility, record.mass / asked.density, field, record.shape),
+    )
+
+
 def diamagnetism(request: Request) -> Data:
     """Return the factors of nu^2 in the energy of several bodies: by their charge, and by their own magnetism."""
     asked = request.take(DiamagnetismParameters)
@@ -23,15 +38,9 @@ def diamagnetism(request: Request) -> Data:
         raise AtlasError("this table takes a positive density.")
     rows: list[tuple[str | Number, ...]] = []
     for one in request.cases:
-        record = one.body_record
-        if record is None or one.body is None or one.physical is None or record.mass is None or record.shape is None:
-            raise AtlasError(
-                "this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio."
-            )
-        by_charge = (one.body.I3 - one.body.I2) * hypot(*one.components) ** 2 / 2
-        field = float(hypot(*one.physical.B))
-        own = diamagnetic_energy(asked.susceptibility, record.mass / asked.density, field, record.shape)
-        rows.append((record.title, *(Number(f"{value:.1e}" if value else "0") for value in (by_charge, own))))
+        title, body, own = magnetised(one, asked)
+        by_charge = (body.I3 - body.I2) * hypot(*one.components) ** 2 / 2
+        rows.append((title, *(Number(f"{value:.1e}" if value else "0") for value in (by_charge, own))))
     return Data(
         (
             Column("Body"),

@@ -4,11 +4,9 @@ from math import hypot, isfinite, pi, sqrt
 
 from atlas.core.body import from_shape
 from atlas.core.charge_moments import ChargeMoments
-from atlas.core.laboratory import diamagnetic_energy
-from atlas.errors import AtlasError
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
-from atlas.report.tables.diamagnetism import DiamagnetismParameters
+from atlas.report.tables.diamagnetism import DiamagnetismParameters, magnetised
 from atlas.report.tables.table import RATE, Column, Data, Request
 
 
@@ -58,24 +56,18 @@ def swings(request: Request) -> Data:
     asked = request.take(DiamagnetismParameters)
     rows: list[tuple[str | Number, ...]] = []
     for one in request.cases:
-        record = one.body_record
-        if record is None or one.body is None or one.physical is None or record.mass is None or record.shape is None:
-            raise AtlasError(
-                "this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio."
-            )
-        B2, B3 = one.components
-        b, field = hypot(B2, B3), hypot(*one.physical.B)
-        own = 2 * diamagnetic_energy(asked.susceptibility, record.mass / asked.density, field, record.shape)
-        I2, I3 = one.body.I2, one.body.I3
+        title, body, own = magnetised(one, asked)
+        I2, I3, (B2, B3) = body.I2, body.I3, one.components
+        b = hypot(B2, B3)
         periods, rates = [], []
-        for quadratic in (0.0, own):
+        for quadratic in (0.0, 2 * own):
             top = TopMotion((I2, I3), (b * I2, b * I3), (B2, B3), (0.0, -B2, -B3), 0.0, quadratic)
             rates.append(sqrt(abs((I3 - I2) * b * b + quadratic) / I2))
             # a ball is free but for the rounding of its coupling
             periods.append(float(top.period) if rates[-1] else 0.0)
         excess = (rates[1] / rates[0]) ** 2 if rates[0] else 0.0
         values = (2 * pi / b, rates[0], periods[0], rates[1], periods[1], excess)
-        rows.append((record.title, *map(_three, values)))
+        rows.append((title, *map(_three, values)))
     return Data(
         (
             Column("Body"),

@@ -48,7 +48,6 @@ def case() -> Case:
         exact,
         exact.angular_velocity(0),
         name="asymmetric",
-        title="Three different moments",
         parameters=PARAMETERS,
         rates=rates,
         base=elementary.plain,

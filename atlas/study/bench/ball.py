@@ -81,7 +81,6 @@ def case() -> Case:
         Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
         Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
         name="ball",
-        title="Charged ball",
         parameters=PARAMETERS,
         rates=rates,
     )

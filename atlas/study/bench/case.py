@@ -55,7 +55,6 @@ class Case:
     """
 
     name: str
-    title: str
     parameters: Parameters
     shape: tuple[int, ...]
     rates: Callable[[Sequence[Any], Parameters], list[Any]]

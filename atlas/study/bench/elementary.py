@@ -93,7 +93,6 @@ def case() -> Case:
         Method("lambdify", lambda: lambdified(turns()), ("sympy",)),
         Method("rotation", lambda: composed(turns()), ("scipy.spatial.transform",)),
         name="elementary",
-        title="Elementary motion",
         parameters=PARAMETERS,
         rates=rates,
     )

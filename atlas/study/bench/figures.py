@@ -7,7 +7,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.scene.layers import Curve, FloatArray, Layer, Points
-from atlas.study.bench.methods import CASES, LINES, title
+from atlas.study.bench.methods import LINES, title
 from atlas.study.bench.results import Results, Run
 
 
@@ -43,11 +43,6 @@ def decades(values: Iterable[float], left: float = 1.0, right: float = 1.0) -> t
     """Return limits for a logarithmic axis with ``left`` and ``right`` decades of room for names."""
     logs = np.log10(np.fromiter(values, dtype=float))
     return float(10.0 ** (logs.min() - left)), float(10.0 ** (logs.max() + right))
-
-
-def case_title(case: str) -> str:
-    """Return the name of a case in words."""
-    return CASES.get(case, case)
 
 
 def measured(record: Results) -> str:

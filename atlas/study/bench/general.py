@@ -27,7 +27,6 @@ def case() -> Case:
         exact,
         exact.angular_velocity(0),
         name="general",
-        title="General motion",
         parameters=PARAMETERS,
         rates=elementary.rates,
         base=elementary.plain,

@@ -50,7 +50,6 @@ def case() -> Case:
         exact,
         exact.angular_velocity(0),
         name="heavy",
-        title="Lagrange's heavy top",
         parameters=parameters,
         rates=rates,
         base=elementary.plain,

@@ -60,3 +60,8 @@ MARKS = {"ours": "start", "ours_grid": "point", "plain": "special", "lambdify": 
 def title(method: str) -> str:
     """Return the name of a method in words; one that is not known keeps its own."""
     return TITLES.get(method, method)
+
+
+def case_title(case: str) -> str:
+    """Return the name of a case in words."""
+    return CASES.get(case, case)

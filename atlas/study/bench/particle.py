@@ -106,7 +106,6 @@ def case() -> Case:
     exact = Exact(p["mu"], p["E"], p["B"], p["position"], p["velocity"])
     return Case(
         name="particle",
-        title="Charged particle",
         parameters=PARAMETERS,
         shape=(6,),
         rates=rates,

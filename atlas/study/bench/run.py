@@ -12,6 +12,7 @@ from atlas.study.bench import arrays, asymmetric, ball, dense, elementary, gener
 from atlas.study.bench.case import Case
 from atlas.study.bench.cost import costs
 from atlas.study.bench.integrators import Integrator, integrators
+from atlas.study.bench.methods import case_title
 from atlas.study.bench.oracle import check
 from atlas.study.bench.precision import Bench, Plan, closed, stepping
 from atlas.study.bench.results import FORMAT, Cost, ReferenceCheck, Results, Rows, Run, Setup, machine, today, versions
@@ -135,13 +136,13 @@ def _cases(
 ) -> Iterator[ReferenceCheck | Setup | Run]:
     """Yield what is measured of each case: the reference, closed forms, integrators."""
     for case in cases:
-        say(f"{case.title}: the reference")
+        say(f"{case_title(case.name)}: the reference")
         yield ReferenceCheck(case.name, scope.check_until, check(case, scope.check_until))
         bench = Bench.of(case, scope.plan)
-        say(f"{case.title}: closed forms")
+        say(f"{case_title(case.name)}: closed forms")
         yield from closed(bench)
         for peer in peers:
-            say(f"{case.title}: {peer.name}")
+            say(f"{case_title(case.name)}: {peer.name}")
             yield from stepping(bench, peer)
 
 
