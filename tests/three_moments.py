@@ -1,6 +1,6 @@
-"""Is the closed form of three different moments right? Bodies, ordinary and hostile, against the certified twin.
+"""Is the closed form of three different moments right? Bodies, ordinary and extreme, against the certified twin.
 
-`python tests/three_moments.py --ordinary 100 --hostile 40 --times 200 --seed 1` draws bodies, fields and starts, and
+`python tests/three_moments.py --ordinary 100 --extreme 40 --times 200 --seed 1` draws bodies, fields and starts, and
 times up to 1e12 over the largest rate, and prints for each regime the worst differences of R, K and Omega, in ulps of 1
 and of the largest rate, and beside the bound that the motion states; how many motions are proved, and state a bound
 below 1e-14; the median and the longest of the processor's times for a set-up; and each body without a closed form, or
@@ -61,12 +61,12 @@ def compared(draw: Asymmetric, random: Random, count: int) -> Found | str:
 def main() -> int:
     """Draw, compare and print."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    for name, count in (("ordinary", 100), ("hostile", 40), ("times", 200), ("seed", 1)):
+    for name, count in (("ordinary", 100), ("extreme", 40), ("times", 200), ("seed", 1)):
         parser.add_argument(f"--{name}", type=int, default=count)
     parser.add_argument("--part", type=int, nargs=2, metavar=("K", "N"), default=(0, 1), help="every Nth body, from K")
     options = parser.parse_args()
-    first, *hostile = ASYMMETRIC
-    names = [first] * options.ordinary + list(islice(cycle(hostile), options.hostile))
+    first, *extreme = ASYMMETRIC
+    names = [first] * options.ordinary + list(islice(cycle(extreme), options.extreme))
     found, tried, failed = dict[str, list[Found]](), Counter[str](), 0
     for i, name in islice(enumerate(names), options.part[0], None, options.part[1]):
         random = Random(f"{options.seed} {i}")  # noqa: S311  reproducible, not secret

@@ -1,6 +1,6 @@
 """Are tops right? A thousand ordinary ones and three hundred that are hard, against an integrator that shares no code.
 
-`python tests/tops.py --ordinary 1000 --hostile 300 --seed 1` draws tops of the regimes of `atlas.study.tops`,
+`python tests/tops.py --ordinary 1000 --extreme 300 --seed 1` draws tops of the regimes of `atlas.study.tops`,
 integrates the equations of motion with heyoka's Taylor series in numbers of 64 binary digits there and back, and prints
 the worst errors of R and Omega in ulps of 1 and of the largest rate, with how far the integrator came back from its
 start. The exit status is 1 if a top errs by more than it promises. It needs heyoka (requirements-bench.lock), and a
@@ -86,12 +86,12 @@ def main() -> int:
     """Draw, compare and print."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--ordinary", type=int, default=1000)
-    parser.add_argument("--hostile", type=int, default=300)
+    parser.add_argument("--extreme", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     random, solver = Random(options.seed), integrator()  # noqa: S311  draws, no secrets
-    hostile = [name for name in TOPS if name != ORDINARY]
-    names = [ORDINARY] * options.ordinary + list(islice(cycle(hostile), options.hostile))
+    extreme = [name for name in TOPS if name != ORDINARY]
+    names = [ORDINARY] * options.ordinary + list(islice(cycle(extreme), options.extreme))
     worst, refused = dict[str, Errors](), dict[str, int]()
     for name in names:
         try:

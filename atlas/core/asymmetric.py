@@ -167,22 +167,22 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @cached_property
     def H(self) -> Any:
-        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K), theorem-lie-poisson."""
+        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K), theorem-lie-poisson. DomainError beyond all floats."""
         return finite(self._of_each(lambda one: _float(one.exact.H)), "H")
 
     @cached_property
     def F(self) -> Any:
-        """Clebsch's F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch."""
+        """Clebsch's F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch. DomainError beyond all floats."""
         return finite(self._of_each(lambda one: _float(one.exact.F)), "F")
 
     @cached_property
     def MK(self) -> Any:
-        """The Casimir (M, K), |B'| times the canonical momentum along B."""
+        """The Casimir (M, K), |B'| times the canonical momentum along B. DomainError beyond all floats."""
         return finite(self._of_each(lambda one: _float(one.exact.MK)), "(M, K)")
 
     @cached_property
     def energy(self) -> Any:
-        """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy."""
+        """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy. DomainError beyond all floats."""
         return finite(self._of_each(lambda one: _float(one.exact.energy)), "The energy")
 
     @cached_property

@@ -92,18 +92,18 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
 
         It is [4 b^2 P + s (P'^2 - 2 P P'')]/D^2, in 1/time^2, with P = v^2 as a polynomial in z and
         s = sum K_i^2/(z + D/I_i). For I1 = I2 = 1 that is (1 + z/D)^2 times the squared frequency of nutation of
-        `Hyperbola.stability`.
+        `Hyperbola.stability`. DomainError beyond all floats.
         """
         return finite(self._scalar("splitting"), "splitting")
 
     @cached_property
     def v(self) -> Any:
-        """The root v of prod(z + D/I_i), of the sign of the branch, in the unit of inertia cubed."""
+        """The root v of prod(z + D/I_i), of the sign of the branch, in inertia^3. DomainError beyond all floats."""
         return finite(self._scalar("v"), "v")
 
     @cached_property
     def omega(self) -> tuple[Any, Any, Any]:
-        """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B'."""
+        """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B'; DomainError beyond floats."""
         found = self._each("omega", lambda exact: [float(arb(x).mid()) for x in enclosed(lambda: exact.omega, BITS)])
         finite(found, "omega")
         return (found[..., 0], found[..., 1], found[..., 2]) if self.shape else tuple(found)

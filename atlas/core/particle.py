@@ -94,7 +94,7 @@ class ParticleMotion(Shown):
 
     @property
     def period(self) -> Any:
-        """Time 2 pi/|omega| of one turn."""
+        """Time 2 pi/|omega| of one turn. Raises DomainError where no magnetic force turns it."""
         self._all.needs_field("period")
         return 2 * np.pi / abs(self.cyclotron_frequency)
 

@@ -71,7 +71,10 @@ class Quadric(Shown):
 
     @cached_property
     def beta(self) -> Any:
-        """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], (53); only its tangent is rounded before."""
+        """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], (53); only its tangent is rounded before.
+
+        Raises DomainError for B = 0.
+        """
         I2, I3, B2, B3 = self._directed()
         vertical = B2 == 0
         slope = over(quadric.tangent, I2, I3, np.where(vertical, 1.0, B2), B3, unit=slice(2, 4), degree=0)
@@ -80,7 +83,7 @@ class Quadric(Shown):
 
     @cached_property
     def a2(self) -> Any:
-        """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54)."""
+        """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54). Raises DomainError for B2 = 0, B3 >= 0."""
         I2, I3, B2, B3 = self._directed()
         if np.any((B2 == 0) & (B3 > 0)):
             raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
@@ -88,7 +91,7 @@ class Quadric(Shown):
 
     @cached_property
     def a3(self) -> Any:
-        """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54)."""
+        """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54). Raises DomainError for B2 = 0, B3 <= 0."""
         I2, I3, B2, B3 = self._directed()
         if np.any((B2 == 0) & (B3 < 0)):
             raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
@@ -111,7 +114,10 @@ class Quadric(Shown):
 
     @cached_property
     def axes(self) -> FloatArray:
-        """Directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3)."""
+        """Directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3).
+
+        Raises DomainError for B = 0.
+        """
         I2, I3, B2, B3 = self._directed()
         cos, sin = over(quadric.half_angle, I2, I3, B2, B3, unit=slice(2, 4), degree=(0, 0))
         cos, sin = np.where((B2 < 0) & (B3 >= 0), -cos, cos), np.where((B2 < 0) & (B3 < 0), -sin, sin)

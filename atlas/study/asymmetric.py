@@ -1,4 +1,4 @@
-"""Regimes of motions of bodies with three moments: each draws a body, a field and a start, ordinary ones or hostile."""
+"""Regimes of motions of bodies with three moments: each draws a body, a field and a start, ordinary ones or extreme."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -47,39 +47,6 @@ def _flat(random: Random) -> Asymmetric:
     return draw._replace(inertia=(first, second, (first + second) * (1 - less)))
 
 
-def _disk(random: Random) -> Asymmetric:
-    return _ordinary(random)._replace(inertia=(1.0, 1.25, 2.0))
-
-
-def _rod(random: Random) -> Asymmetric:
-    return _ordinary(random)._replace(inertia=(1.0, 1.003, 10 ** random.uniform(-2, -1)))
-
-
-def _weak_field(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(field=_scaled(draw.field, 10 ** random.uniform(-4, -1)))
-
-
-def _strong_field(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(field=_scaled(draw.field, 10 ** random.uniform(1, 2)))
-
-
-def _field_along_an_axis(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(field=(0.0, 0.0, draw.field[2]))
-
-
-def _fast_spin(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(omega=_scaled(draw.omega, 10 ** random.uniform(1, 2)))
-
-
-def _nearly_at_rest(random: Random) -> Asymmetric:
-    draw = _ordinary(random)
-    return draw._replace(omega=_scaled(draw.omega, 10 ** random.uniform(-5, -2)))
-
-
 def _near_a_spin(random: Random) -> Asymmetric:
     """Draw next to a turn about a principal axis along the field."""
     draw, axis = _ordinary(random), random.randrange(3)
@@ -99,17 +66,22 @@ def _near_the_elliptic_family(random: Random) -> Asymmetric:
     return draw._replace(omega=tuple(omega))
 
 
+def _changed(change: Callable[[Random, Asymmetric], dict[str, Vector]]) -> Callable[[Random], Asymmetric]:
+    """Return the regime that changes an ordinary motion."""
+    return lambda random: (draw := _ordinary(random))._replace(**change(random, draw))
+
+
 ASYMMETRIC: Mapping[str, Callable[[Random], Asymmetric]] = {
     "asymmetric, ordinary": _ordinary,
     "asymmetric, nearly symmetric": _nearly_symmetric,
     "asymmetric, flat": _flat,
-    "asymmetric, disk": _disk,
-    "asymmetric, rod": _rod,
-    "asymmetric, weak field": _weak_field,
-    "asymmetric, strong field": _strong_field,
-    "asymmetric, field along an axis": _field_along_an_axis,
-    "asymmetric, fast spin": _fast_spin,
-    "asymmetric, nearly at rest": _nearly_at_rest,
+    "asymmetric, disk": _changed(lambda _r, _d: {"inertia": (1.0, 1.25, 2.0)}),
+    "asymmetric, rod": _changed(lambda r, _: {"inertia": (1.0, 1.003, 10 ** r.uniform(-2, -1))}),
+    "asymmetric, weak field": _changed(lambda r, draw: {"field": _scaled(draw.field, 10 ** r.uniform(-4, -1))}),
+    "asymmetric, strong field": _changed(lambda r, draw: {"field": _scaled(draw.field, 10 ** r.uniform(1, 2))}),
+    "asymmetric, field along an axis": _changed(lambda _, draw: {"field": (0.0, 0.0, draw.field[2])}),
+    "asymmetric, fast spin": _changed(lambda r, draw: {"omega": _scaled(draw.omega, 10 ** r.uniform(1, 2))}),
+    "asymmetric, nearly at rest": _changed(lambda r, draw: {"omega": _scaled(draw.omega, 10 ** r.uniform(-5, -2))}),
     "asymmetric, near a spin": _near_a_spin,
     "asymmetric, near the elliptic family": _near_the_elliptic_family,
 }

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import NamedTuple
 
-from atlas.study.regimes import Vector, near, sign, size
+from atlas.study.regimes import Vector, near, number, sign, size
 
 
 class Elliptic(NamedTuple):
@@ -22,10 +22,6 @@ def rates_of(draw: Elliptic) -> tuple[float, float]:
     b, D = math.hypot(*draw.field), math.prod(draw.inertia)
     v = math.sqrt(math.prod(draw.z + D / I for I in draw.inertia))
     return b or 1.0, b * max(1.0, *(abs(1 + draw.branch * v / (draw.z * I + D)) for I in draw.inertia)) or 1.0
-
-
-def _number(random: Random) -> float:
-    return sign(random) * size(random)
 
 
 def _body(random: Random) -> Vector:
@@ -45,7 +41,7 @@ def _place(inertia: Vector, random: Random) -> float:
 
 
 def _of(inertia: Vector, random: Random) -> Elliptic:
-    field = _number(random), _number(random), _number(random)
+    field = number(random), number(random), number(random)
     return Elliptic(inertia, field, _place(inertia, random), random.choice((1, -1)))
 
 

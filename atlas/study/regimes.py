@@ -19,6 +19,11 @@ def size(random: Random, low: float = -1, high: float = 1) -> float:
     return float(10 ** random.uniform(low, high))
 
 
+def number(random: Random) -> float:
+    """Return a number of either sign, from 0.1 to 10."""
+    return sign(random) * size(random)
+
+
 def near(value: float, random: Random) -> float:
     """Return a neighbour of ``value``: the value, 1 to 3 ulps off, or a relative 1e-16 to 1e-1 off, on either side."""
     kind = random.randrange(4)
@@ -38,62 +43,17 @@ def ratio(random: Random) -> float:
 
 
 def _field(random: Random) -> tuple[float, float]:
-    return sign(random) * size(random), sign(random) * size(random)
+    return number(random), number(random)
 
 
 def _ordinary(random: Random) -> Draw:
     B2, B3 = _field(random)
-    return ratio(random), B2, B3, sign(random) * size(random)
+    return ratio(random), B2, B3, number(random)
 
 
 def _small_integers(random: Random) -> Draw:
     whole = [float(n) for n in range(-8, 9) if n]
     return random.choice((0.5, 1.0, 1.5, 2.0, 0.25)), random.choice(whole), random.choice(whole), random.choice(whole)
-
-
-def _near_the_ball(random: Random) -> Draw:
-    _, B2, B3, w2 = _ordinary(random)
-    return near(1.0, random), B2, B3, w2
-
-
-def _near_the_loop(random: Random) -> Draw:
-    _, B2, B3, w2 = _ordinary(random)
-    return min(near(2.0, random), 2.0), B2, B3, w2
-
-
-def _slender(random: Random) -> Draw:
-    _, B2, B3, w2 = _ordinary(random)
-    return size(random, -14, -1), B2, B3, w2
-
-
-def _near_the_pole(random: Random) -> Draw:
-    I, B2, B3, _ = _ordinary(random)
-    return I, B2, B3, near(-B2, random)
-
-
-def _near_twice_the_pole(random: Random) -> Draw:
-    I, B2, B3, _ = _ordinary(random)
-    return I, B2, B3, near(-2 * B2, random)
-
-
-def _near_the_zero_of_omega3(random: Random) -> Draw:
-    I, B2, B3, _ = _ordinary(random)
-    return I, B2, B3, near(-(2 - I) * B2, random)
-
-
-def _near_rest(random: Random) -> Draw:
-    I, B2, B3, _ = _ordinary(random)
-    return I, B2, B3, random.choice((0.0, -0.0, B2 * sign(random) * size(random, -150, -5)))
-
-
-def _pole_and_ball(random: Random) -> Draw:
-    _, B2, B3, _ = _ordinary(random)
-    return near(1.0, random), B2, B3, near(random.choice((-B2, -2 * B2)), random)
-
-
-def _tilted(random: Random) -> Draw:
-    I, B2, _, w2 = _ordinary(random)
-    return I, B2, B2 * sign(random) * size(random, -12, 12), near(random.choice((w2, -B2, -2 * B2)), random)
 
 
 def _axis_parallel(random: Random) -> Draw:
@@ -122,18 +82,29 @@ def _resonant(random: Random) -> Draw:
     return I, B2, B3, near(B2 * (wanted * I - 2 * pull) / (pull - wanted * I), random)
 
 
+def _changed(change: Callable[..., Draw]) -> Callable[[Random], Draw]:
+    """Return the regime that changes an ordinary motion."""
+    return lambda random: change(random, *_ordinary(random))
+
+
 REGIMES: Mapping[str, Callable[[Random], Draw]] = {
     "ordinary": _ordinary,
     "small integers": _small_integers,
-    "I near 1": _near_the_ball,
-    "I near 2": _near_the_loop,
-    "I near 0": _slender,
-    "omega2 near -B2": _near_the_pole,
-    "omega2 near -2 B2": _near_twice_the_pole,
-    "omega2 near -(2-I) B2": _near_the_zero_of_omega3,
-    "omega2 near 0": _near_rest,
-    "I near 1, omega2 near -B2": _pole_and_ball,
-    "B3/B2 from 1e-12 to 1e12": _tilted,
+    "I near 1": _changed(lambda r, _I, B2, B3, w2: (near(1.0, r), B2, B3, w2)),
+    "I near 2": _changed(lambda r, _I, B2, B3, w2: (min(near(2.0, r), 2.0), B2, B3, w2)),
+    "I near 0": _changed(lambda r, _I, B2, B3, w2: (size(r, -14, -1), B2, B3, w2)),
+    "omega2 near -B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, near(-B2, r))),
+    "omega2 near -2 B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, near(-2 * B2, r))),
+    "omega2 near -(2-I) B2": _changed(lambda r, I, B2, B3, _: (I, B2, B3, near(-(2 - I) * B2, r))),
+    "omega2 near 0": _changed(
+        lambda r, I, B2, B3, _: (I, B2, B3, r.choice((0.0, -0.0, B2 * sign(r) * size(r, -150, -5))))
+    ),
+    "I near 1, omega2 near -B2": _changed(
+        lambda r, _I, B2, B3, _: (near(1.0, r), B2, B3, near(r.choice((-B2, -2 * B2)), r))
+    ),
+    "B3/B2 from 1e-12 to 1e12": _changed(
+        lambda r, I, B2, _, w2: (I, B2, B2 * sign(r) * size(r, -12, 12), near(r.choice((w2, -B2, -2 * B2)), r))
+    ),
     "B3 = 0, B2 = B3": _axis_parallel,
     "scales 1e-140 to 1e140": _huge_and_tiny,
     "mixed scales": _mixed_scales,
@@ -146,53 +117,19 @@ General: TypeAlias = tuple[float, Vector, Vector]
 """I, (B2, B3), (omega1, omega2, omega3)."""
 
 
-def _number(random: Random) -> float:
-    return sign(random) * size(random)
-
-
 def _faint(random: Random) -> float:
     """Return zero, or a number from 1e-300 to 0.1."""
     return random.choice((0.0, sign(random) * size(random, -20, -1), sign(random) * size(random, -300, -20)))
 
 
 def _general_ordinary(random: Random) -> General:
-    return ratio(random), (_number(random), _number(random)), (_number(random), _number(random), _number(random))
-
-
-def _general_near_the_ball(random: Random) -> General:
-    _, B, omega = _general_ordinary(random)
-    return near(1.0, random), B, omega
-
-
-def _general_near_the_loop(random: Random) -> General:
-    _, B, omega = _general_ordinary(random)
-    return min(near(2.0, random), 2.0), B, omega
-
-
-def _general_along_the_field(random: Random) -> General:
-    I, (_, B3), omega = _general_ordinary(random)
-    return I, (_faint(random), B3), random.choice((omega, (_faint(random), _faint(random), omega[2])))
-
-
-def _general_across_the_field(random: Random) -> General:
-    I, (B2, _), omega = _general_ordinary(random)
-    return I, (B2, _faint(random)), random.choice((omega, (_faint(random), near(-B2, random), omega[2])))
+    return ratio(random), (number(random), number(random)), (number(random), number(random), number(random))
 
 
 def _general_small_nutation(random: Random) -> General:
     I, (B2, B3), (_, w2, _) = _general_ordinary(random)
     w3 = B3 * w2 * (w2 + (2 - I) * B2) / (I * B2 * (w2 + B2))
     return I, (B2, B3), (_faint(random), w2, near(w3, random))
-
-
-def _general_zero_spin(random: Random) -> General:
-    I, B, (w1, w2, _) = _general_ordinary(random)
-    return I, B, random.choice(((w1, w2, 0.0), (w1, w2, -B[1]), (0.0, w2, 0.0), (w1, 0.0, 0.0)))
-
-
-def _general_huge_spin(random: Random) -> General:
-    I, B, (w1, w2, w3) = _general_ordinary(random)
-    return I, B, (w1, w2, w3 * size(random, 0, 6))
 
 
 def _general_separatrix(random: Random) -> General:
@@ -218,7 +155,7 @@ def _general_triple_root(random: Random) -> General:
 
 
 def _general_tipping_disk(random: Random) -> General:
-    B3 = _number(random)
+    B3 = number(random)
     return random.choice((2.0, 1.5)), (_faint(random), B3), (_faint(random), _faint(random), near(-B3, random))
 
 
@@ -228,15 +165,28 @@ def _general_scales(random: Random) -> General:
     return I, tuple(x * unit for x in B), tuple(x * unit for x in omega)
 
 
+def _general(change: Callable[..., General]) -> Callable[[Random], General]:
+    """Return the regime that changes an ordinary motion."""
+    return lambda random: change(random, *_general_ordinary(random))
+
+
 GENERAL: Mapping[str, Callable[[Random], General]] = {
     "general, ordinary": _general_ordinary,
-    "general, I near 1": _general_near_the_ball,
-    "general, I near 2": _general_near_the_loop,
-    "general, axis along the field": _general_along_the_field,
-    "general, axis across the field": _general_across_the_field,
+    "general, I near 1": _general(lambda r, _I, B, omega: (near(1.0, r), B, omega)),
+    "general, I near 2": _general(lambda r, _I, B, omega: (min(near(2.0, r), 2.0), B, omega)),
+    "general, axis along the field": _general(
+        lambda r, I, B, omega: (I, (_faint(r), B[1]), r.choice((omega, (_faint(r), _faint(r), omega[2]))))
+    ),
+    "general, axis across the field": _general(
+        lambda r, I, B, omega: (I, (B[0], _faint(r)), r.choice((omega, (_faint(r), near(-B[0], r), omega[2]))))
+    ),
     "general, small nutation": _general_small_nutation,
-    "general, zero spin": _general_zero_spin,
-    "general, huge spin": _general_huge_spin,
+    "general, zero spin": _general(
+        lambda r, I, B, w: (
+            (I, B, r.choice(((w[0], w[1], 0.0), (w[0], w[1], -B[1]), (0.0, w[1], 0.0), (w[0], 0.0, 0.0))))
+        )
+    ),
+    "general, huge spin": _general(lambda r, I, B, w: (I, B, (w[0], w[1], w[2] * size(r, 0, 6)))),
     "general, separatrix": _general_separatrix,
     "general, triple root": _general_triple_root,
     "general, tipping disk": _general_tipping_disk,

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import NamedTuple
 
-from atlas.study.regimes import near, sign, size
+from atlas.study.regimes import near, number, sign, size
 
 Pair = tuple[float, float]
 
@@ -27,18 +27,14 @@ def rate_of(top: Top) -> float:
     return max(*map(abs, top.omega), abs(k2), abs(k3) / I3, *potential) or 1.0
 
 
-def _number(random: Random) -> float:
-    return sign(random) * size(random)
-
-
 def _ordinary(random: Random) -> Top:
     def pair() -> Pair:
-        return _number(random), _number(random)
+        return number(random), number(random)
 
     I3 = random.choice((random.uniform(0.05, 2.0), 0.5, 1.0, 2.0))
-    coupling = random.choice((pair(), (0.0, 0.0), (0.0, _number(random)), (_number(random), 0.0)))
-    potential = random.choice((pair(), (_number(random), 0.0), (0.0, _number(random)), (0.0, 0.0)))
-    return Top((1.0, I3), coupling, pair(), (_number(random), _number(random), _number(random)), *potential)
+    coupling = random.choice((pair(), (0.0, 0.0), (0.0, number(random)), (number(random), 0.0)))
+    potential = random.choice((pair(), (number(random), 0.0), (0.0, number(random)), (0.0, 0.0)))
+    return Top((1.0, I3), coupling, pair(), (number(random), number(random), number(random)), *potential)
 
 
 def _near_the_cubic(random: Random) -> Top:
@@ -60,7 +56,7 @@ def _near_the_vertical(random: Random) -> Top:
     top = _ordinary(random)
     tilt = random.choice((0.0, sign(random) * size(random, -16, -1), sign(random) * size(random, -200, -16)))
     slow = size(random, -16, -1)
-    omega = random.choice((top.omega, (slow * _number(random), slow * _number(random), top.omega[2])))
+    omega = random.choice((top.omega, (slow * number(random), slow * number(random), top.omega[2])))
     return top._replace(direction=(tilt, sign(random)), omega=omega)
 
 

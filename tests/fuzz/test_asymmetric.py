@@ -1,4 +1,4 @@
-"""Bodies with three moments, ordinary and hostile: reduced and direct ways (`make stress`)."""
+"""Bodies with three moments, ordinary and extreme: reduced and direct ways (`make stress`)."""
 
 from random import Random
 

@@ -190,20 +190,20 @@ def test_a_pendulum_is_gone_directly_up_to_a_limit() -> None:
         motion.rotation(10**4)
 
 
-HOSTILE = {
+EXTREME = {
     "nearly symmetric": (("1.1", "1.100268", "1.36"), ("-0.53", "-1.03", "0.78"), ("1.23", "0.28", "0.87")),
     "weak field": (("1.2", "0.9", "0.7"), ("0.01", "-0.02", "0.03"), ("1", "0.5", "-0.6")),
     "flat": (("1", "2", "3"), ("0.3", "-0.2", "0.4"), ("0.5", "0.25", "0.75")),
 }
 
 
-@pytest.mark.parametrize("name", HOSTILE)
+@pytest.mark.parametrize("name", EXTREME)
 def test_reduced_and_direct_ways_meet(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """R(20) by the periods and R(20) by Taylor series all the way have numbers in common, to 20 digits."""
     with ctx.workprec(80):
-        reduced = Balls(*HOSTILE[name]).rotation(20)
+        reduced = Balls(*EXTREME[name]).rotation(20)
         monkeypatch.setattr(asymmetric, "DIRECT", 100)
-        assert overlap(reduced, Balls(*HOSTILE[name]).rotation(20))
+        assert overlap(reduced, Balls(*EXTREME[name]).rotation(20))
     assert narrow(reduced, 1e-16)
 
 

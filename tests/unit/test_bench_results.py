@@ -213,7 +213,7 @@ def synthetic(to_fill: float, to_plain: float, single: float, made: float, avx51
     return Results(FORMAT, "atlas bench", "2020-02-02", False, 1.0, machine, {}, {}, [], runs, setups, costs)
 
 
-def test_limits_are_judged() -> None:
+def test_limits_are_compared() -> None:
     """Each limit is met on its good side and missed on the other; what is not in the record is not measured."""
     good = [item.verdict for item in targets(synthetic(2.1, 0.24, 40e3, 0.9e-3, avx512=True))]
     assert good == ["met"] * 9

@@ -124,7 +124,7 @@ def test_sliders_end_inside_the_domain(one: Family, at: int) -> None:
 
 
 @EVERY
-def test_every_promise_is_of_something_that_is_judged(one: Family) -> None:
+def test_every_promise_is_of_something_that_is_checked(one: Family) -> None:
     """What a quantity is checked by is promised, but of the particle; and the stress run takes each promise over."""
     checked = [x.checked for x in (*one.quantities, *one.sampled) if x.checked]
     assert one.name == "particle" or set(checked) <= set(one.promises)

@@ -100,7 +100,7 @@ def test_every_recipe_draws_with_its_defaults(name: str) -> None:
 
 @pytest.mark.parametrize("field", FIELDS)
 @pytest.mark.parametrize("name", OF_A_BODY)
-def test_hostile_parameters_give_a_picture_or_one_sentence(name: str, field: tuple[float, float]) -> None:
+def test_extreme_parameters_give_a_picture_or_one_sentence(name: str, field: tuple[float, float]) -> None:
     """For bodies in every field there is a whole scene, or a DomainError that says why not in one sentence."""
     drawn, refused = 0, []
     for ratio in RATIOS[FIELDS.index(field) % 2 :: 2]:  # every body in half of the fields

@@ -254,12 +254,12 @@ def motions(inputs: Any, t: Any, rows: Any) -> list[Any]:
 
 
 def test_a_motion_does_not_depend_on_those_beside_it() -> None:
-    """In any order and any part of an array, hostile neighbours or none, each row has the same bits."""
+    """In any order and any part of an array, extreme neighbours or none, each row has the same bits."""
     r = np.random.default_rng(0)
     balls, others, (_, B, omega) = ordinary(300, 0), ordinary(100, 10), ordinary(100, 20)
     balls[0][:] = 1.0
-    hostile = r.choice([0.5, 1.0, 1 + 2.0**-40], 100), *(x * 10.0 ** r.uniform(-12, 40, x.shape) for x in (B, omega))
-    inputs = tuple(np.concatenate(x, axis=-1) for x in zip(balls, others, hostile, strict=True))
+    extremes = r.choice([0.5, 1.0, 1 + 2.0**-40], 100), *(x * 10.0 ** r.uniform(-12, 40, x.shape) for x in (B, omega))
+    inputs = tuple(np.concatenate(x, axis=-1) for x in zip(balls, others, extremes, strict=True))
     t, order = times(inputs, 0), r.permutation(inputs[0].size)
     whole = motions(inputs, t, np.arange(order.size))
     for rows in (*np.array_split(order, 5), order[:1], np.arange(300)):

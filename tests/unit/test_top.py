@@ -340,7 +340,7 @@ def test_the_susceptibility_of_an_ellipsoid_is_its_polarizability() -> None:
     assert gaussian.quadratic == pytest.approx(found * 1e7, rel=1e-8)  # type: ignore[attr-defined]  # erg
 
 
-def test_random_and_hostile_tops_move_as_the_equations_say() -> None:
+def test_random_and_extreme_tops_move_as_the_equations_say() -> None:
     """By DOP853 at three times, to 1e-11, 16 ordinary tops and 6 hard ones; `tests/tops.py` draws 1300."""
     random = Random(7)  # noqa: S311  reproducible, not secret
     for name in [ORDINARY] * 15 + [other for other in TOPS if other != SCALES]:

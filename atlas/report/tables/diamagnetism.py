@@ -23,12 +23,8 @@ def magnetised(case: BodyAndField, asked: DiamagnetismParameters) -> tuple[str, 
     record, body = case.body_record, case.body
     if record is None or body is None or case.physical is None or record.mass is None or record.shape is None:
         raise AtlasError("this table needs bodies with a shape and a mass, and a field with a charge-to-mass ratio.")
-    field = float(hypot(*case.physical.B))
-    return (
-        record.title,
-        body,
-        diamagnetic_energy(asked.susceptibility, record.mass / asked.density, field, record.shape),
-    )
+    field, volume = float(hypot(*case.physical.B)), record.mass / asked.density
+    return record.title, body, diamagnetic_energy(asked.susceptibility, volume, field, record.shape)
 
 
 def diamagnetism(request: Request) -> Data:
