@@ -106,7 +106,7 @@ def test_units_change_no_bit() -> None:
     """A power of two in the unit of time, or in that of the moments, changes no bit of R."""
     one = atlas.simulate(TENSOR, B, OMEGA, TIMES)
     scale = 2.0**300
-    for inertia, rate in ((TENSOR, scale), (TENSOR * scale, 1.0), (TENSOR, 1 / scale)):
+    for inertia, rate in ((TENSOR, scale), (TENSOR * scale**3, 1.0), (TENSOR, 1 / scale)):
         other = atlas.simulate(inertia, np.multiply(B, rate), np.multiply(OMEGA, rate), np.divide(TIMES, rate))
         assert np.array_equal(one.R, other.R)
         assert np.array_equal(one.Omega * rate, other.Omega)
