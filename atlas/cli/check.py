@@ -90,10 +90,10 @@ def command(file: Path, **options: Any) -> int:
     parameters are options, or lines such as '# field = 1 2' at the head of the file.
 
     The motion is one of a symmetric body in a field, of a top (with a direction, as in atlas top), or of a body with
-    three moments of inertia ('# inertia = 0.8 1 1.3', '# field = 0.2 1 0.6', '# omega = 0.3 0.7 0.2'). Without omega,
-    or with the six elements J11 J22 J33 J12 J13 J23 of a tensor, its integrals H, F, (M,K), K^2 and T are watched, and
-    no digits counted. Errors of Omega are in units of its length, of a top and of a body with three moments in units
-    of the largest rate there is.
+    three moments of inertia (--inertia I1 I2 I3, --field B1 B2 B3 and --omega; at the head of the file '# inertia = 0.8
+    1 1.3' and so on). Without omega, or with the six elements J11 J22 J33 J12 J13 J23 of a tensor, its integrals H, F,
+    (M,K), K^2 and T are watched, and no digits counted. Errors of Omega are in units of its length, of a top and of a
+    body with three moments in units of the largest rate there is.
 
     The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
     option is wrong.

@@ -64,7 +64,7 @@ OUT = Out()
         "--quantity stability --out map.npz",
         "atlas sweep ball --list launches.csv --quantity gamma --digits 30 --out gamma.csv",
         "atlas sweep elementary --shape ring --radius 1e-6 --mass 1e-15 --charge 2e-15 --magnetic 0.75 1.3 "
-        "--set omega2=-2:2:401 --quantity k --out ring.csv",
+        "--set omega2=-0.7:2:271 --quantity k --out ring.csv",
         "atlas sweep --file sweep.toml --out table.parquet/",
     ),
 )

@@ -46,7 +46,10 @@ class Explorer(ThreadingHTTPServer):
     daemon_threads = True
 
     def __init__(self, start: str, port: int = 0) -> None:
-        super().__init__((HOST, port), Handler)
+        try:
+            super().__init__((HOST, port), Handler)
+        except OSError as error:
+            raise AtlasError(f"The port {port} cannot be used ({error.strerror}): choose another, or none.") from error
         self.token, self.start = secrets.token_urlsafe(24), start
         self.hosts = {f"{name}:{self.server_address[1]}" for name in (HOST, "localhost")}
 

@@ -223,6 +223,12 @@ def test_what_is_not_there_is_said_before_a_server_starts() -> None:
         subject("hyp_c")
 
 
+def test_a_port_that_is_taken_is_said(server: Explorer) -> None:
+    """One line that names the port and says what would be right, as for any wrong input."""
+    with pytest.raises(AtlasError, match=f"port {server.server_address[1]} cannot be used .*another, or none"):
+        Explorer("general", server.server_address[1])
+
+
 def test_ctrl_c_ends_it() -> None:
     """It prints its address, and an interrupt ends it in peace."""
     words = [sys.executable, "-m", "atlas", "explore", "ball", "--no-browser"]

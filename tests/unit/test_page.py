@@ -319,6 +319,17 @@ def test_properties_say_what_is_not_proven() -> None:
         compute("properties", Request(case, {"family": "nix"}, 8))
 
 
+def test_each_root_has_a_row_of_its_own() -> None:
+    """Real ones are numbers with a unit, a complex one is a text with its i."""
+    for ratio, complex_ones in ((1.3, 0), (0.5, 2)):
+        case = [body_and_field(Body("b", ratio=ratio), Field("f", prime=(1.0, 2.0)))]
+        data = compute("properties", Request(case, {"family": "general", "omega": (3.0, 1.0, 2.0)}, 8))
+        rows = {row[1]: row[2:4] for row in data.rows if str(row[1]).startswith("`roots")}
+        assert list(rows) == [f"`roots[{i}]`" for i in range(4)]
+        assert [unit for _, unit in rows.values()].count("") == complex_ones
+        assert [str(value).endswith(" i") for value, _ in rows.values()].count(True) == complex_ones
+
+
 def test_convergents_are_best_fractions() -> None:
     """Those of pi are the known ones, and a fraction ends with itself."""
     from flint import arb, fmpq

@@ -1,6 +1,7 @@
 import ast
 import csv
 import gc
+import re
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -64,6 +65,23 @@ def test_dask_writes_the_same_bytes(tmp_path: Path) -> None:
 def plain(heading: str) -> list[str]:
     """Return the names in the heading of a CSV file, without their units."""
     return [name.partition(" [")[0] for name in heading.strip().split(",")]
+
+
+def test_one_quantity_may_be_a_word() -> None:
+    """Its letters are not taken for the names of quantities."""
+    given = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.3, 0.7]}
+    assert [*atlas.sweep("elementary", given, "period")] == [*given, "period"]
+
+
+def test_the_example_in_si_of_its_help_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No row of it is the pole of (71), where no motion starts."""
+    monkeypatch.chdir(tmp_path)
+    told = " ".join(CliRunner().invoke(program, ["sweep", "--help"]).output.split())
+    (example,) = re.findall(r"atlas (sweep elementary --shape .*? --out ring.csv)", told)
+    with pytest.raises(SystemExit) as end:
+        main(example.split())
+    assert end.value.code == 0
+    assert len((tmp_path / "ring.csv").read_text().splitlines()) == 272
 
 
 def test_the_heading_of_a_csv_file_names_units_and_is_read_back(tmp_path: Path) -> None:

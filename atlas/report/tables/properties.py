@@ -161,8 +161,8 @@ def _plain(value: Any) -> Any:
 def _parts(q: Quantity, found: Any) -> Iterator[tuple[str, str, Any]]:
     """Go through the components: name, words of its own, text."""
     if q.name == "roots" or (isinstance(found, list | tuple) and found and isinstance(found[0], list | tuple)):
-        parts = [q.text(found)] if not q.lines else [q.text(part) for part in found]
-        symbols = [symbol for symbol, _ in q.lines] or [q.name]
+        parts = [q.text(part if q.lines else [part]) for part in found] or [q.text(found)]
+        symbols = [symbol for symbol, _ in q.lines] or ([f"{q.name}[{i}]" for i in range(len(found))] or [q.name])
         yield from ((name, "", part) for name, part in zip(symbols, parts, strict=True))
     elif isinstance(found, list | tuple):
         names = q.columns or [f"{q.name}[{i}]" for i in range(len(found))]
@@ -182,6 +182,7 @@ def _sure(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) 
     if text == NOT_CERTIFIED:
         value = q.of(thing.kernels())
         value = value if place is None else value[place]
+        value = value[0] if q.name == "roots" else value  # real, or its text would have an i
         promise = thing.family.promises.get(q.checked)
         promised = f"{promise:g} ulp promised" if promise else "not certified"
         return Number(plain(value), proven=False), f"float, {promised}"

@@ -52,6 +52,7 @@ class Plan:
         """Check what a user gave. Raises AtlasError for what is unknown, missing, not a number or not of one length."""
         if family not in FAMILIES:
             raise AtlasError(f"There is no family {family!r} to sweep; there is {', '.join(FAMILIES)}.")
+        quantities = [quantities] if isinstance(quantities, str) else quantities
         FAMILIES[family].check(list(parameters), quantities, digits)
         arrays = {name: np.atleast_1d(real(value, name)) for name, value in parameters.items()}
         for name, array in arrays.items():
