@@ -27,6 +27,9 @@ NUMBER = re.compile(
 )
 """Ways to type a number, without the underscores and foreign digits that Python reads; exponents of four digits."""
 
+LIKE_A_NUMBER = re.compile(r"[+-]?\.?\d[\w.+/-]*")
+"""What was meant as a number, be it one or not."""
+
 
 class Typed(float):
     """A double that remembers the decimal it was typed as."""
@@ -127,13 +130,13 @@ class Command(click.Command):
 def _miscounted(args: Sequence[str], params: Sequence[click.Parameter]) -> str:
     """Say what an option takes that has more or fewer values; nothing if there is none.
 
-    Words that are no values of it may follow where the command has arguments.
+    Where the command has arguments, words that are no numbers may be these.
     """
-    more = any(isinstance(one, click.Argument) for one in params)
+    values = LIKE_A_NUMBER if any(isinstance(one, click.Argument) for one in params) else re.compile("(?!--).*")
     for param in (one for one in params if isinstance(one, click.Option) and one.nargs > 1):
         for at in (i for i, word in enumerate(args) if word in param.opts):
-            following = list(takewhile(lambda word: not word.startswith("--"), args[at + 1 :]))
-            if len(following) < param.nargs or (len(following) > param.nargs and not more):
+            following = list(takewhile(values.fullmatch, args[at + 1 :]))
+            if len(following) != param.nargs:
                 return f"{args[at]} takes {param.nargs} numbers, {param.metavar}."
     return ""
 
@@ -162,7 +165,7 @@ def are_three(args: Sequence[str], option: str) -> bool:
     """Return whether three numbers follow an option."""
     at = args.index(option) + 1 if option in args else len(args)
     following = args[at : at + 3]
-    return len(following) == 3 and all(re.fullmatch(r"[+-]?\.?\d[\d.eE+/-]*", word) for word in following)
+    return len(following) == 3 and all(map(LIKE_A_NUMBER.fullmatch, following))
 
 
 def _spread(args: Sequence[str], many: set[str]) -> Iterator[str]:

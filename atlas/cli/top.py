@@ -81,7 +81,9 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
         raise click.UsageError("--decimal goes with --inertia, --coupling and --direction, not with --heavy or "
                                "--magnetic, from which these are computed.")  # fmt: skip
     if all(options[name] is not None for name in WAYS):
-        raise click.UsageError("the forces are those of --heavy or of --magnetic, not of both.")
+        raise click.UsageError(
+            "the forces are those of --heavy or of --magnetic, not of both; in Python, TopMotion.charged has weight=."
+        )
     for name in ("coupling", "linear", "quadratic"):
         if any(options[name] if isinstance(options[name], tuple) else [options[name]]):
             raise click.UsageError(f"--{name} has no place beside --heavy or --magnetic, from which it is computed.")

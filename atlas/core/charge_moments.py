@@ -5,7 +5,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from atlas.core.body import from_shape
+from atlas.core.body import SHAPES, from_shape
 from atlas.core.inputs import number, real, vectors
 from atlas.core.quantities import CHARGE, LENGTH
 from atlas.errors import AtlasError, DomainError
@@ -48,6 +48,9 @@ class ChargeMoments:
         """
         if "mass" in dimensions:
             raise AtlasError("Moments of a charge take no mass: give the charge and the dimensions of the shape.")
+        if name in SHAPES and {*dimensions, "mass"} != {*SHAPES[name][1]}:
+            sizes, given = (", ".join(size for size in x if size != "mass") for x in (SHAPES[name][1], dimensions))
+            raise AtlasError(f"The moments of a charged {name} take {sizes}, not {given or 'nothing'}.")
         charge = number(charge, "The charge", CHARGE)
         whole = from_shape(name, mass=abs(charge) or 1.0, **dimensions)
         sign = float(np.sign(charge))

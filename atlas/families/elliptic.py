@@ -26,7 +26,10 @@ FAMILY = Family(
     (
         MOMENTS,
         PRINCIPAL_FIELD,
-        Parameter("z", "Place on the curve v^2 = prod(z + D/I_i), D = I1 I2 I3; in the unit of inertia squared.", "inertia^2", (1.7,), (-0.2, 4.0)),
+        Parameter(
+            "z", "Place on the curve v^2 = prod(z + D/I_i), D = I1 I2 I3. In the unit of inertia squared.",
+            "inertia^2", (1.7,), (-0.2, 4.0),
+        ),
         Parameter("branch", "Sign of v, 1 or -1.", "", (1.0,), (-1.0, 1.0), needed=False, omitted=1.0),
     ),
     (

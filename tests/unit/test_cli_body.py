@@ -93,6 +93,8 @@ def test_a_sweep_takes_body_and_field_by_the_same_options(tmp_path: Path) -> Non
         ("classify --ratio 1.5 --magnetic 1 2 --mass 1", "needs --charge"),
         ("classify --ratio 1.5 --mu 1 --magnetic 0 1 2", "--magnetic takes 2 numbers, B2 B3"),
         ("page --ratio 1.5 --field 1 --omega2 0.7", "--field takes 2 numbers, B2 B3"),
+        ("sweep general --ratio 1.5 --mu 1 --magnetic 1 2 2 --quantity k", "--magnetic takes 2 numbers, B2 B3"),
+        ("sweep --ratio 1.5 --field 1 general --quantity k", "--field takes 2 numbers, B2 B3"),
         ("classify --ratio 1.5 --magnetic 1 2 --charge 1", "needs --mass"),
         ("classify --ratio 1.5 --magnetic 1 2 --charge 1 --mass 0", "mass must be positive"),
         ("classify --ratio 1.5 --magnetic 1 2 --charge 1 --mass 1 --mu 1", "--mass has no place"),

@@ -282,6 +282,7 @@ def test_a_coat_of_charge_is_no_ball_and_point_charges_are_summed() -> None:
         (lambda: charged(susceptibility=0.1, volume=1.0, demagnetization=1.5), "in 0 ... 1"),
         (lambda: charged(susceptibility=-1.0, volume=1.0, demagnetization=1.0), "1 . chi N is not positive"),
         (lambda: atlas.ChargeMoments.shape("ring", 1.0, mass=1.0, radius=1.0), "take no mass"),
+        (lambda: atlas.ChargeMoments.shape("ring", 1.0, radius=1.0, held=True), "ring take radius, not radius, held"),
     ],
 )
 def test_what_cannot_be_reduced_to_a_top_is_refused(make: Callable[[], object], words: str) -> None:
