@@ -16,6 +16,7 @@ from atlas.report.blocks.figure import FigureView
 from atlas.report.blocks.prose import ProseView
 from atlas.report.blocks.table import TableView
 from atlas.report.data_package import ascii_name, digits, unique, value, words
+from atlas.report.digits import MINUS
 from atlas.report.document import Document
 from atlas.report.latex_table import table_of
 from atlas.report.templates import typesetting
@@ -95,9 +96,10 @@ def _by_key(cell: re.Match[str], keys: Mapping[str, str]) -> str:
 
 
 def _row_name(row: Sequence[str], at: Mapping[str, int], numeric: Sequence[int], number: int) -> str:
-    """Return the name of a row: its symbol, else its first words, else its number."""
-    if "Symbol" in at and row[at["Symbol"]]:
-        return ascii_name(row[at["Symbol"]].partition("=")[0])
+    """Return the name of a row: its symbol, else its name in Python, else its first words, else its number."""
+    for head in ("Symbol", "Name"):
+        if head in at and row[at[head]]:
+            return ascii_name(row[at[head]].partition("=")[0])
     return (ascii_name(row[0]) if 0 not in numeric else "") or str(number)
 
 
@@ -105,6 +107,7 @@ def _with_unit(number: str, unit: str) -> tuple[str, str]:
     """Return a number with the power of ten that stands before its unit, and the unit as siunitx reads it."""
     power = _POWER.match(unit)
     rest = re.sub(r"\s+", ".", (unit[power.end() :] if power else unit).replace("$", "").strip())
+    rest = re.sub(r"\^([^^{}]+)\^", r"^{\1}", rest).replace(MINUS, "-")  # an exponent in Markdown
     rest = "" if rest == "1" else rest
     return (f"{number}e{power[1]}" if power and "e" not in number else number), rest
 

@@ -251,6 +251,34 @@ def test_latex_rounds_a_number_and_refuses_more_than_is_proven(
 
 
 @needs_latex
+def test_the_report_of_a_page_has_keys_by_the_names_in_python(tmp_path: Path) -> None:
+    """LaTeX prints such a number with its unit; a float that is not certified has no key."""
+    blocks = "".join(
+        f'[[pages.blocks]]\nkind = "table"\ntable = "properties"\nid = "{family}"\nbody = "b"\nfield = "f"\n'
+        f'parameters = {{ family = "{family}", {more} }}\n'
+        for family, more in (("general", "omega = [0.3, 0.7, 0.2]"), ("hyperbola", "given = false"))
+    )
+    text = f"""name = "own"
+title = "Own"
+parameters = {{ bodies.b = {{ title = "b", ratio = 1.5 }}, fields.f = {{ title = "f", prime = [1.0, 2.0] }} }}
+[[pages]]
+slug = "index"
+title = "Own"
+{blocks}"""
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    made = build_tex(tmp_path / "own.toml", tmp_path / "out").parent
+    found = {key: (value, unit) for key, _, value, unit in KEY.findall((made / "atlas-numbers.tex").read_text("utf-8"))}
+    assert {unit for _, unit in found.values()} == {"", "time", "time^{-1}", "time^{-2}"}
+    assert {"general/roots_0", "general/period", "hyperbola/pole"} < set(found)
+    assert "hyperbola/least_stability" not in found
+    head = "\\documentclass{article}\\usepackage{siunitx}\\input{atlas-numbers}\\begin{document}"
+    (made / "all.tex").write_text(head + " ".join(rf"\atlas{{{key}}}" for key in found) + r"\end{document}", "utf-8")
+    status, log, printed = compiled(made, "all.tex")
+    assert status == 0, log[-2000:]
+    assert found["general/period"][0].replace(" ", "") in re.sub(r"[\s\u2009\u202f]", "", printed)
+
+
+@needs_latex
 def test_a_table_higher_than_a_page_goes_on(made: Path) -> None:
     """All its rows are printed, with the heads again on the second page; a lower one stays in one piece."""
     column = ColumnView(0, None, numeric=False)

@@ -178,7 +178,8 @@ def _sure(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) 
     from atlas.exact.digits import MARK, NOT_CERTIFIED
 
     if isinstance(text, float):
-        return (Number.given(text), "float, not certified") if isfinite(text) else (NONE, "beyond the largest float")
+        number = Number(plain(text), proven=False)
+        return (number, "float, not certified") if isfinite(text) else (NONE, "beyond the largest float")
     if text == NOT_CERTIFIED:
         value = q.of(thing.kernels())
         value = value if place is None else value[place]
