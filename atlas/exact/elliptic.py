@@ -119,11 +119,6 @@ class EllipticMotion(Nutating):
         return self.kind not in ("elliptic", "separatrix")
 
     @property
-    def is_plane(self) -> bool:
-        """Whether the motion is a swing in a plane: never."""
-        return False
-
-    @property
     def swings_evenly(self) -> bool:
         """Whether the body turns by nothing about the axis of the pair in a period: wherever that nutates."""
         return not self.is_steady

@@ -36,7 +36,7 @@ class Nutating:
     @property
     def is_plane(self) -> bool:
         """Whether the axis swings in a plane of a frame that turns at the rate `precession`, without any other turn."""
-        raise NotImplementedError
+        return False
 
     @property
     def precession(self) -> Real:

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 from atlas.families import FAMILIES, Family
-from atlas.paper import EQUATIONS
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
+from atlas.report.tables.properties import cited
 from atlas.report.tables.table import Column, Data, Request
 
 Row = tuple[str, str, str, str, str | Number]
@@ -44,18 +44,14 @@ def _rows(one: Family) -> Iterator[Row]:
     for p in one.parameters:
         yield _names(p.names), p.says.rstrip("."), p.unit, "", "given"
     for q in one.quantities:
-        yield _names(q.names or (q.name,)), q.says, q.unit, _cited(q.equation), _promise(one, q.checked)
+        yield _names(q.names or (q.name,)), q.says, q.unit, cited(q.equation), _promise(one, q.checked)
     for s in one.sampled:
         first, *_, last = s.columns
-        yield f"`{first}` ... `{last}`", f"{s.says} at `t`", s.unit, _cited(s.equation), _promise(one, s.checked)
+        yield f"`{first}` ... `{last}`", f"{s.says} at `t`", s.unit, cited(s.equation), _promise(one, s.checked)
 
 
 def _names(names: tuple[str, ...]) -> str:
     return ", ".join(f"`{name}`" for name in names)
-
-
-def _cited(equations: str) -> str:
-    return ", ".join(f"@{label}" for label in equations.split(", ") if label in EQUATIONS)
 
 
 def _promise(one: Family, checked: str) -> str | Number:

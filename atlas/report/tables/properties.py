@@ -122,10 +122,10 @@ def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
     try:
         found = _texts(thing, q, digits)
     except DomainError as reason:
-        yield lettered(q.says), f"`{q.name}`", NONE, "", _cited(q.equation), str(reason).removesuffix(".")
+        yield lettered(q.says), f"`{q.name}`", NONE, "", cited(q.equation), str(reason).removesuffix(".")
         return
     if found is None:
-        yield lettered(q.says), f"`{q.name}`", "none", "", _cited(q.equation), "exactly"
+        yield lettered(q.says), f"`{q.name}`", "none", "", cited(q.equation), "exactly"
         return
     case = getattr(thing.kernels(), "case", "") if q.cases else ""
     says, equation = q.cases.get(case, (q.says, q.equation))
@@ -138,7 +138,7 @@ def rows_of(thing: Thing, q: Quantity, digits: int) -> Iterator[Row]:
             f"`{name}`",
             value,
             unit,
-            "" if place else _cited(equation),
+            "" if place else cited(equation),
             sure,
         )
 
@@ -212,5 +212,6 @@ def _letter(found: re.Match[str]) -> str:
     return f"${'' if len(letter) == 1 else chr(92)}{letter}{primed or ''}{f'_{place}' if place else ''}$"
 
 
-def _cited(equations: str) -> str:
+def cited(equations: str) -> str:
+    """Return equations as citations, those of the ledger."""
     return ", ".join(f"@{name}" for name in equations.split(", ") if name in EQUATIONS)

@@ -9,10 +9,9 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from atlas.core.ball import BallMotion
 from atlas.exact.ball import BallMotion as Exact
+from atlas.study.bench import elementary
 from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
 from atlas.study.bench.peers import Turn, composed, lambdified
 
@@ -35,22 +34,8 @@ def frequencies() -> tuple[float, float, float, float]:
 
 
 def formula(constants: Sequence[float], t: FloatArray) -> FloatArray:
-    """Evaluate (28) in NumPy as anyone would write it, from k2hat, k3hat, gamma and alpha."""
-    k2, k3, gamma, alpha = constants
-    c, s, C, S = np.cos(gamma * t), np.sin(gamma * t), np.cos(alpha * t), np.sin(alpha * t)
-    R = np.empty((*t.shape, 3, 3))
-    m = k2**2 + k3**2 * c
-    v = k2 * k3 * (1 - c)
-    R[..., 0, 0] = c * C - k3 * s * S
-    R[..., 0, 1] = k3 * s * C + m * S
-    R[..., 0, 2] = -k2 * s * C + v * S
-    R[..., 1, 0] = -c * S - k3 * s * C
-    R[..., 1, 1] = -k3 * s * S + m * C
-    R[..., 1, 2] = k2 * s * S + v * C
-    R[..., 2, 0] = k2 * s
-    R[..., 2, 1] = v
-    R[..., 2, 2] = k3**2 + k2**2 * c
-    return R
+    """Evaluate (28) in NumPy from k2hat, k3hat, gamma and alpha: the transposed of (84), so written."""
+    return elementary.formula(constants, t).swapaxes(-2, -1)
 
 
 def turns() -> tuple[Turn, Turn]:
