@@ -12,9 +12,6 @@ from atlas.errors import DomainError
 
 IntArray = NDArray[np.int64]
 
-TRACES = ("steady", "waving", "looping")
-"""What `trace_map` tells of the axis: its precession about the field is steady, keeps its sense, or turns back."""
-
 TOLERANCE = 1e-7
 """Roots closer than this, near the square root of eps, count as one."""
 
@@ -57,7 +54,7 @@ def turning_points(ratio: Any, field: Any, omega: Any) -> tuple[FloatArray, Floa
 
 
 def trace_map(ratio: Any, field: Any, omega: Any) -> IntArray:
-    """Shape of the axis's trace about the field from each initial angular velocity, an index of TRACES.
+    """Shape of the trace about the field from each initial angular velocity: steady, 0, waving, 1, or looping, 2.
 
     The rate of precession is dpsi = (p - M3 nu)/(1 - nu^2) - b, theorem-top; the axis makes loops if it changes sign
     between the turning points. Arguments as for `quartic`.

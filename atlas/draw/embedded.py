@@ -4,7 +4,6 @@ import json
 from base64 import b64encode
 from html import escape
 from io import BytesIO
-from typing import Any
 
 from atlas.draw.panels import to_figure
 from atlas.draw.viewer import data
@@ -36,23 +35,23 @@ still.complete ? start() : still.addEventListener("load", start);
 """  # noqa: E501  lines of a script
 
 
-def mimebundle(scene: Scene, style: Any = None) -> dict[str, str]:
+def mimebundle(scene: Scene) -> dict[str, str]:
     """Return what a notebook shows of a scene: a frame with the document, in words where it shows no HTML."""
     width, height = (round(_SCREEN * length / _INCH) for length in scene.size)
     frame = (
         f'<iframe width="{width}" height="{height}" style="border:0;max-width:100%" sandbox="allow-scripts" '
-        f'title="{escape(scene.title)}" srcdoc="{escape(document(scene, style))}"></iframe>'
+        f'title="{escape(scene.title)}" srcdoc="{escape(document(scene))}"></iframe>'
     )
     return {"text/html": frame, "text/plain": f"{scene.title}. {scene.alt}"}
 
 
-def document(scene: Scene, style: Any = None) -> str:
+def document(scene: Scene) -> str:
     """Return the document: it asks for nothing else, and its policy lets it ask for nothing."""
     file = BytesIO()
-    to_figure(scene, style).savefig(file, format="png", dpi=_DOTS)
+    to_figure(scene).savefig(file, format="png", dpi=_DOTS)
     still = b64encode(file.getvalue()).decode()
     viewer = (folder("templates") / "html" / "scene.js").read_text(encoding="utf-8")
-    content = json.dumps(data(scene, style), ensure_ascii=False, separators=(",", ":")).replace("<", r"\u003c")
+    content = json.dumps(data(scene), ensure_ascii=False, separators=(",", ":")).replace("<", r"\u003c")
     return "\n".join(
         (
             f'<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{_POLICY}">',

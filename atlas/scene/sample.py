@@ -10,7 +10,7 @@ from atlas.scene.layers import FloatArray
 _ROUNDS = 40
 MOST = 1_000_000
 """Points of a curve, beyond which it cannot be drawn."""
-_INCH = 25.4
+_INCH, _DPI = 25.4, 300.0
 _LOOKS = np.array([0.2, 0.45, 0.75])[:, None]
 """Where a piece is looked at: each plain bend, turned over or not, shows 93 of 100 parts of its sag at one of them."""
 _LEAVE, _AIM = 0.9, 0.8
@@ -19,9 +19,9 @@ _ARC, _EVEN, _FEW = 0.2, 1.5, 3
 """What sags less than a fifth of its length, and by one parabola at all looks, is cut at once in all that it needs."""
 
 
-def quarter_pixel(extent: float, millimetres: float, dpi: float = 300.0) -> float:
+def quarter_pixel(extent: float, millimetres: float) -> float:
     """Return a quarter of a pixel in the units of ``extent``, which is drawn ``millimetres`` wide."""
-    return 0.25 * extent * _INCH / (millimetres * dpi)
+    return 0.25 * extent * _INCH / (millimetres * _DPI)
 
 
 def curve(

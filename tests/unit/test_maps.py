@@ -14,8 +14,8 @@ import atlas
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError, DomainError
 from atlas.scene import Image, recipes
+from atlas.study.bench.elementary import constants, formula
 from atlas.study.maps import over_omega2, over_ratio
-from atlas.study.sweep.rotation_errors import plain_rotation
 
 CELLS = (8, 15)
 
@@ -48,7 +48,7 @@ def test_a_map_needs_a_field_across_the_axis() -> None:
 
 def test_the_plain_formula_is_the_rotation_at_short_times() -> None:
     """It is (84), the identity at t = 0."""
-    assert np.array_equal(plain_rotation(1.5, 1.0, 2.0, 0.7, np.zeros(1))[0].round(15), np.eye(3))
+    assert np.array_equal(formula(constants(1.5, 1.0, 2.0, 0.7), np.zeros(1))[0].round(15), np.eye(3))
 
 
 def test_an_error_in_a_table_is_that_of_the_matrix_beside_it() -> None:

@@ -26,7 +26,7 @@ from atlas.exact.digits import enclosed
 from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import FloatArray
 from atlas.study.bench.clock import interleave, one_core, ratio
-from atlas.study.bench.elementary import formula
+from atlas.study.bench.elementary import constants, formula
 from atlas.study.bench.methods import MATRIX, NUTATION, SCALARS, SURFACE, TURNED
 from atlas.study.bench.results import Rows
 from atlas.study.ulps import absolute, own
@@ -185,7 +185,4 @@ def _plain_quadric(I: FloatArray, B2: FloatArray, B3: FloatArray) -> FloatArray:
 
 def _plain_matrix(I: FloatArray, B2: FloatArray, B3: FloatArray, w2: FloatArray, t: FloatArray) -> FloatArray:
     """Evaluate (79), (72) and (84) as anyone would write them."""
-    b = np.hypot(B2, B3)
-    phi = B3 * w2 * (1 - I) * (w2 + 2 * B2) / (I * B2 * (w2 + B2))
-    constants: Any = B2 / b, B3 / b, w2 * b / B2, phi
-    return formula(constants, t)
+    return formula(constants(I, B2, B3, w2), t)

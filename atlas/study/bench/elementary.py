@@ -5,7 +5,6 @@ The question: what does R(t), (84), cost, and how true is it?
 A short solenoid, I = 1.5, in an oblique field B' = (1, 2), launched with omega2 = 0.7; frequencies 1.565 and -0.741.
 """
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -33,15 +32,20 @@ def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
     ]
 
 
-def frequencies() -> tuple[float, float, float, float]:
-    """Return B2hat, B3hat, k and phi, (79) and (72), as anyone would compute them."""
-    I, (B2, B3), omega2 = PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"]
-    b = math.hypot(B2, B3)
+def constants(I: Any, B2: Any, B3: Any, omega2: Any) -> tuple[Any, Any, Any, Any]:
+    """Return B2hat, B3hat, k and phi, (79) and (72), of numbers or arrays, as anyone would compute them."""
+    b = np.hypot(B2, B3)
     phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
     return B2 / b, B3 / b, omega2 * b / B2, phi
 
 
-def formula(constants: Sequence[float], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
+def frequencies() -> tuple[float, float, float, float]:
+    """Return them of the case."""
+    I, (B2, B3), omega2 = PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"]
+    return constants(I, B2, B3, omega2)
+
+
+def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
     """Evaluate (84) in NumPy as anyone would write it, from B2hat, B3hat, k and phi."""
     h2, h3, k, phi = constants
     c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)

@@ -13,7 +13,7 @@ from atlas.errors import DomainError
 from atlas.exact import elementary as exact
 from atlas.exact.digits import enclosed
 from atlas.formulas.numbers import workprec
-from atlas.study.bench.elementary import formula
+from atlas.study.bench.elementary import constants, formula
 from atlas.study.extreme import PHASE_LIMIT
 
 BITS = 110
@@ -32,14 +32,7 @@ def plain_error(made: ElementaryMotion, p: Any) -> FloatArray:
     if np.any(p["B2"] == 0):
         raise DomainError("The error of the plain formula needs B2 different from zero: (71) and (72) divide by it.")
     rows, near = _rows(made, p)
-    return _against_balls(plain_rotation(*rows[:5]), rows, near)
-
-
-def plain_rotation(ratio: Any, B2: Any, B3: Any, omega2: Any, t: FloatArray) -> FloatArray:
-    """Evaluate (84) with k and phi of (79) and (72) as anyone would write it; arrays (m,), shape (m, 3, 3)."""
-    b = np.hypot(B2, B3)
-    phi = B3 * omega2 * (1 - ratio) * (omega2 + 2 * B2) / (ratio * B2 * (omega2 + B2))
-    return formula((B2 / b, B3 / b, omega2 * b / B2, phi), t)
+    return _against_balls(formula(constants(*rows[:4]), rows[4]), rows, near)
 
 
 def _rows(made: ElementaryMotion, p: Any) -> tuple[list[FloatArray], Any]:
