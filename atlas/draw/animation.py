@@ -23,7 +23,7 @@ from atlas.scene.layers import Label, Panel, Plane, Points, Scene, Space
 
 FASTEST = {"mp4": 60, "gif": 50, "apng": 60}
 """Kinds of files, and how many frames a second each can have."""
-FPS, DPI, FRAMES, MOST = 20.0, 120, 60, 2000
+FPS, FRAMES, MOST = 20.0, 60, 2000
 _SCREEN = 96
 Progress: TypeAlias = Callable[[int, int, str], None]
 Extent: TypeAlias = Space | tuple[tuple[float, float], tuple[float, float]]
@@ -179,7 +179,7 @@ def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None
     return lambda k: movement.at(scene, float(moments[k])), len(moments)
 
 
-def save(moving: FuncAnimation, path: Path, kind: str, fps: float = FPS, dpi: float = DPI) -> None:
+def save(moving: FuncAnimation, path: Path, kind: str, fps: float, dpi: float) -> None:
     """Write an animation as an mp4, gif or apng, whole or not at all.
 
     Raises AtlasError where `check` does, and OSError where the file can't be written.

@@ -211,7 +211,7 @@ def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     own = spread.sum() - spread
     assert np.allclose(own / own[1], np.array([0.8, 1.0, 1.3]), atol=1e-8)
     moving = atlas.TopMotion((1, 0.5), (0, 0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=3.0).animate([0.0, 0.4])
-    animation.save(moving, tmp_path / "top.gif", "gif", dpi=30)
+    animation.save(moving, tmp_path / "top.gif", "gif", 10, dpi=30)
     shown = Image.open(BytesIO(b64decode(moving._repr_mimebundle_()["image/gif"])))  # in a notebook
     assert (shown.format, shown.n_frames) == ("GIF", 2)
     with pytest.raises(AtlasError, match="not an array"):

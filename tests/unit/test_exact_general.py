@@ -185,6 +185,14 @@ def test_what_has_no_limit_is_refused_with_a_reason() -> None:
         _ = GeneralMotion(*KINDS["separatrix, triple root"]).nome
 
 
+def test_the_nome_lies_between_0_of_elementary_motions_and_1_of_separatrices() -> None:
+    """It is a limit at both ends."""
+    nome = {kind: GeneralMotion(*KINDS[kind]).nome for kind in KINDS if "triple" not in kind}
+    assert all(nome[kind] == 0 for kind in ("at rest", "spin along the field", "free body", "ball"))
+    assert all(0 < q < 1 for kind, q in nome.items() if kind.startswith("nutation"))
+    assert nome["separatrix"] == nome["separatrix between B and -B"] == 1
+
+
 @pytest.mark.parametrize(
     ("motion", "place"),
     [
