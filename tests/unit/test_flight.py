@@ -10,6 +10,7 @@ from atlas.core.field import Field
 from atlas.core.flight import AGREEMENT, Flight
 from atlas.core.particle import ParticleMotion
 from atlas.errors import AtlasError
+from atlas.scene.flight import of
 
 EPS = float(np.finfo(float).eps)
 FIELD = Field([0.3, -0.5, 1.1], [0.2, 0.1, -0.3], mu=-1.3, c=0.8)
@@ -139,3 +140,18 @@ def test_a_point_has_three_components() -> None:
     """Anything else raises."""
     with pytest.raises(AtlasError, match="three components"):
         Flight(PARTICLE, Tabulated(), [1, 2])
+
+
+def test_a_picture_is_of_one_flight() -> None:
+    """Not of several points, motions or particles."""
+    motion, motions = (ElementaryMotion(ratio, FRAME.field, 0.7) for ratio in (1.5, [1.5, 1.2]))
+    particles = ParticleMotion.in_field(FIELD, [[1.0, 2.0, 3.0], [0.0, 0.0, 0.0]], [0.1, -0.4, 0.2])
+    point = [0.3, -0.1, 0.7]
+    assert of(Flight(PARTICLE, motion, point, FRAME)).panels
+    for several in (
+        Flight(PARTICLE, motion, [point, point], FRAME),
+        Flight(PARTICLE, motions, point, FRAME),
+        Flight(particles, motion, point, FRAME),
+    ):
+        with pytest.raises(AtlasError, match="of one Flight"):
+            of(several)

@@ -105,3 +105,19 @@ def test_a_solid_ends_at_its_rims(angle: float) -> None:
         assert np.abs(ends).min(axis=0).max() <= 1e-14
         assert corners.max() <= 1e-14
         assert np.abs(corners).min(axis=1).max() <= 1e-14
+
+
+def test_solids_know_no_unit() -> None:
+    """Lengths and the tolerance an eighth as large make the same faces, an eighth as large."""
+
+    def made(unit: float) -> list[Surface]:
+        return [
+            solids.sphere(O, unit, 0.01 * unit),
+            solids.cone(O, AXIS, 0.7, unit, 0.01 * unit),
+            solids.disk(O, AXIS, unit, 0.01 * unit),
+            solids.cylinder(O, AXIS, unit, 2.0 * unit, 0.01 * unit),
+        ]
+
+    for one, small in zip(made(1.0), made(0.125), strict=True):
+        for grid, other in zip(one.grids, small.grids, strict=True):
+            assert other == pytest.approx(0.125 * grid, abs=1e-12)

@@ -112,6 +112,13 @@ def test_units_change_no_bit() -> None:
         assert np.array_equal(one.Omega * rate, other.Omega)
 
 
+def test_a_drift_has_no_unit() -> None:
+    """That of a simulation in units of time and of mass that are powers of two is the same, to the last bit."""
+    one = atlas.simulate(TENSOR, B, OMEGA, TIMES)
+    other = atlas.simulate(4 * TENSOR, np.multiply(B, 8), np.multiply(OMEGA, 8), np.divide(TIMES, 8))
+    assert one.drift() == other.drift()
+
+
 def test_a_failure_speaks_with_the_integrators_words(monkeypatch: pytest.MonkeyPatch) -> None:
     """If SciPy gives up, its message is in the error; nothing half-finished comes back."""
     monkeypatch.setattr(
