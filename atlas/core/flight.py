@@ -41,10 +41,10 @@ class Flight(Shown):
     def __init__(
         self, particle: ParticleMotion, motion: Rotation, point: Any, frame: LaboratoryFrame | None = None
     ) -> None:
-        self.arguments = {"particle": particle, "motion": motion, "point": point, "frame": frame}
         self.particle, self.motion, self.point = particle, motion, vectors(point, "The point", LENGTH)
         self._to_user = np.eye(3) if frame is None else frame.matrix.T
         self._arm = self.point @ self._to_user
+        self.arguments = {"particle": particle, "motion": motion, "point": point, "frame": frame}
         self._compare_fields()
 
     def rotation(self, t: Any) -> FloatArray:

@@ -101,13 +101,13 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         motion = cls.__new__(cls)
         motion.ratio, motion.shape = ratio, ()
         motion.made_by = "GeneralMotion.in_laboratory"
-        motion.arguments = {
-            "ratio": ratio, "field": field, "attitude": attitude, "angular_velocity": angular_velocity,
-        }  # fmt: skip
         body = ratio_of(SymmetricBody(I2, float(I3)))
         matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
         motion._turning = SingleGeneral(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class
         motion.field, motion.omega = tuple(field.tolist()), tuple(int(x.p) / int(x.q) for x in w)
+        motion.arguments = {
+            "ratio": ratio, "field": field, "attitude": attitude, "angular_velocity": angular_velocity,
+        }  # fmt: skip
         return motion
 
     @cached_property

@@ -186,10 +186,10 @@ class TopQuadric(Quadric):
 
     def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0) -> None:
         self._top = given(inertia, coupling, direction, linear, quadratic)
-        self.arguments = arguments_of(self._top)
         self._inputs = tuple(plain(self._top[i]) for i in (0, 1, 4, 5))  # n in the place of B'
         self.shape = common_shape(*map(np.shape, self._top))
         self.direction = self._inputs[2:]
+        self.arguments = arguments_of(self._top)
 
     @cached_property
     def kind(self) -> Any:

@@ -1,6 +1,6 @@
 """What an object says of itself: one line here; its tables, pictures and data frames are made by `atlas.notebook`."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from importlib import import_module
 from typing import Any, ClassVar
@@ -23,6 +23,17 @@ class Shown:
     family: ClassVar[str] = ""
     made_by: str = ""
     arguments: Mapping[str, Any]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Refuse another value of what it was made of, on which all else depends."""
+        if name in self.__dict__.get("arguments", ()):
+            raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")
+        super().__setattr__(name, value)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Let it be copied, and sent to another process, as the call that makes it."""
+        own = self.made_by.partition(".")[2] if "made_by" in self.__dict__ else ""
+        return _made, (getattr(type(self), own) if own else type(self), dict(self.arguments))
 
     def __repr__(self) -> str:
         """Return the call that makes it and, behind a #, of which kind it is."""
@@ -66,6 +77,10 @@ class Shown:
         pandas is missing, and for what is unknown.
         """
         return notebook("frames").frame(self, times, quantities)
+
+
+def _made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
+    return make(**arguments)
 
 
 def called(name: str, arguments: Mapping[str, Any]) -> str:

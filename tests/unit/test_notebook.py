@@ -1,5 +1,7 @@
 """What objects, figures and plotters say of themselves in a terminal and in a notebook."""
 
+import copy
+import pickle
 import re
 import struct
 import sys
@@ -76,6 +78,25 @@ def test_a_repr_is_one_line_that_makes_the_same_again(one: Any) -> None:
     assert "\n" not in said
     assert type(again) is type(one)
     assert repr(again) == said
+
+
+@pytest.mark.parametrize("one", [*ONE, ONE[2].closed(2, 3)], ids=name)
+def test_it_can_be_copied_and_sent_to_another_process(one: Any) -> None:
+    """A copy and what pickle makes of it are the same object, with the same matrices to the last bit."""
+    for again in (copy.deepcopy(one), pickle.loads(pickle.dumps(one))):  # noqa: S301  our own bytes
+        assert type(again) is type(one)
+        assert repr(again) == repr(one)
+        if hasattr(one, "rotation"):
+            assert np.array_equal(again.rotation(2.5), one.rotation(2.5))
+
+
+@pytest.mark.parametrize("one", [one for one in ONE if isinstance(one, Shown)], ids=name)
+def test_what_it_was_made_of_cannot_be_changed(one: Any) -> None:
+    """Another value would stand beside numbers of the old one: it is refused, by the name that was typed."""
+    said, argument = repr(one), next(iter(one.arguments))
+    with pytest.raises(AttributeError, match=f"^{argument} of .* can't be changed"):
+        setattr(one, argument, 0.5)
+    assert repr(one) == said
 
 
 @pytest.mark.parametrize(
