@@ -125,7 +125,8 @@ def _graded(file: Path, options: dict[str, Any], given: dict[str, Any]) -> int:
             click.echo(options["figure"])
     failed = [f"{column.name} from t = {column.fails_at:g}" for column in found.columns if column.fails_at is not None]
     if failed:
-        click.echo(f"atlas: fewer than {found.threshold:g} correct digits in {', '.join(failed)}", err=True)
+        hint = "; those of the inverse rotations would do: R takes the body to the laboratory" * found.inverse
+        click.echo(f"atlas: fewer than {found.threshold:g} correct digits in {', '.join(failed)}{hint}", err=True)
     return 1 if failed else 0
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from atlas.errors import AtlasError
 from atlas.scene import Curve, Plane, Scene
 from atlas.study.drift import Drift, Drifts
-from atlas.study.grades import MOST, Column, Envelope, Errors, Grade
+from atlas.study.grades import MOST, Column, Envelope, Errors, Grade, inverse_fits
 from atlas.study.reference import reference
 from atlas.study.trajectory import opened
 from atlas.study.truth import truth_of
@@ -24,7 +24,8 @@ class Check:
     """The grades of a trajectory.
 
     ``errors`` holds for R, Omega and quaternion the largest error of each ``rows_a_point`` rows that follow one
-    another, ``times`` the time of the first of them: so few that a curve can be drawn through them.
+    another, ``times`` the time of the first of them: so few that a curve can be drawn through them. ``inverse`` says
+    that the matrices or quaternions fail, and that those of the inverse rotations would not.
     """
 
     file: str
@@ -38,6 +39,7 @@ class Check:
     rows_a_point: int
     times: tuple[float, ...]
     errors: Mapping[str, tuple[float, ...]]
+    inverse: bool
 
     def record(self) -> dict[str, Any]:
         """Return the grades as plain data for JSON."""
@@ -126,13 +128,14 @@ def check(path: Path, *, threshold: float = 6.0, **given: Any) -> Check:
             )
         graded = [name for name in trajectory.names if name != "t"] if errors else []
         grades = [Grade(name, threshold, errors) for name in graded if errors]
-        drifts, envelope, rows = Drifts(known.deviations), Envelope(), 0
+        drifts, envelope, rows, inverse = Drifts(known.deviations), Envelope(), 0, False
         for block in trajectory.blocks:
             if errors:
                 found = errors.of(block)
                 for grade in grades:
                     grade.add(block, found[grade.name])
                 envelope.add(block["t"], found)
+                inverse |= not rows and inverse_fits(errors, block, found, 10.0**-threshold)
             drifts.add(block)
             rows += len(block["t"])
     if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.found()):
@@ -153,4 +156,5 @@ def check(path: Path, *, threshold: float = 6.0, **given: Any) -> Check:
         rows_a_point=envelope.rows,
         times=tuple(envelope.times()),
         errors={group: tuple(values) for group, values in envelope.errors().items()},
+        inverse=inverse,
     )

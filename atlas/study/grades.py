@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -129,6 +129,21 @@ class Grade:
         worst = self._errors.certified(self._worst_row, 0)[self.name] if sure else self._errors.floor
         at = float(self._worst_row["t"][0])
         return Column(self.name, float(middle.mean()) / 1000, -math.log10(max(worst, LEAST)), at, self._fails_at)
+
+
+def inverse_fits(errors: Errors, block: Block, found: Block, limit: float) -> bool:
+    """Return whether most rotations of a block have errors beyond a limit, and their inverses have not."""
+    names = [name for name in block if name in (*MATRIX, *QUATERNION)]
+    taken = {name: f"R{name[2]}{name[1]}" if name in MATRIX else name for name in names}
+    if not names or not {*taken.values()} <= {*names} or _most(found, names) <= limit:
+        return False
+    turned = {name: -block[other] if name in QUATERNION[1:] else block[other] for name, other in taken.items()}
+    return _most(errors.of({"t": block["t"]} | turned), names) <= limit
+
+
+def _most(errors: Block, names: Sequence[str]) -> float:
+    """Return the error below which half of the rows are in all of some columns."""
+    return float(np.median(np.max([errors[name] for name in names], axis=0)))
 
 
 class Envelope:

@@ -151,14 +151,16 @@ def test_drift_of_an_integral_is_relative_and_dated(write: Writer) -> None:
     assert energy.last == energy.worst
 
 
+def quaternion(t: float) -> Any:
+    """Return a quaternion of the true matrix."""
+    R = np.array(true_row(t)[:9]).reshape(3, 3)
+    w = math.sqrt(max(0.0, 1 + np.trace(R))) / 2
+    return np.array([w, *((R[j, k] - R[k, j]) / (4 * w) for j, k in ((2, 1), (0, 2), (1, 0)))])
+
+
 def test_a_quaternion_of_either_sign_is_graded(write: Writer) -> None:
     """Both quaternions of R are right; one of norm 1 + 1e-8 is seen in the norm and in orthogonality."""
-    rows = []
-    for i, t in enumerate(TIMES):
-        R = np.array(true_row(t)[:9]).reshape(3, 3)
-        w = math.sqrt(max(0.0, 1 + np.trace(R))) / 2
-        q = np.array([w, *((R[j, k] - R[k, j]) / (4 * w) for j, k in ((2, 1), (0, 2), (1, 0)))])
-        rows.append([t, *((-1) ** i * q * (1 + 1e-8 * (t == 10.0))).tolist()])
+    rows = [[t, *((-1) ** i * quaternion(t) * (1 + 1e-8 * (t == 10.0))).tolist()] for i, t in enumerate(TIMES)]
     result = check(write(SETTING + table(["t", "w", "x", "y", "z"], rows)))
     assert [c.name for c in result.columns] == ["q0", "q1", "q2", "q3"]
     assert min(c.median for c in result.columns) > 14
@@ -166,6 +168,20 @@ def test_a_quaternion_of_either_sign_is_graded(write: Writer) -> None:
     assert drifts["|q|"].worst == pytest.approx(1e-8, rel=1e-5)
     assert drifts["|q|"].worst_time == 10.0
     assert drifts["R^T R"].worst > 1e-8
+
+
+def test_matrices_of_the_inverse_rotations_are_known_as_such(write: Writer) -> None:
+    """Transposed, from the laboratory into the body, they fail and would do; else nothing is said."""
+
+    def transposed(_: float, row: list[float]) -> list[float]:
+        return [row[3 * j + i] for i in range(3) for j in range(3)] + row[9:]
+
+    assert graded(write, transposed).inverse
+    assert not graded(write).inverse
+    assert not graded(write, lambda t, row: [x + 1e-3 for x in transposed(t, row)]).inverse
+    assert not check(write(SETTING + table(["t", "R12"], [[t, -true_row(t)[1]] for t in TIMES]))).inverse
+    turned = [[t, *(x * sign for x, sign in zip(quaternion(t).tolist(), (1, -1, -1, -1), strict=True))] for t in TIMES]
+    assert check(write(SETTING + table(["t", "w", "x", "y", "z"], turned))).inverse
 
 
 def test_parameters_come_from_options_or_from_the_file(write: Writer) -> None:
