@@ -65,12 +65,6 @@ def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:
     return formula(*values)
 
 
-def mass_matrix(I2: Any, I3: Any) -> tuple[fmpq, fmpq, fmpq]:
-    """Return the diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix (8)."""
-    I2, I3 = rational(I2, "I2"), rational(I3, "I3")
-    return I3 / 2, I3 / 2, I2 - I3 / 2
-
-
 SHAPES: Mapping[str, tuple[tuple[str, ...], Callable[..., tuple[fmpq, fmpq]]]] = {
     "ring": (("mass", "radius"), lambda m, R: (m * R**2 / 2, m * R**2)),
     "disk": (("mass", "radius"), lambda m, R: (m * R**2 / 4, m * R**2 / 2)),

@@ -8,7 +8,6 @@ from atlas.errors import DomainError
 from atlas.exact.body import ratio_of
 from atlas.exact.inputs import Real, rationals
 from atlas.formulas import quadric
-from atlas.formulas.numbers import root
 
 
 class Quadric:
@@ -28,12 +27,6 @@ class Quadric:
         if self.I == 1:
             return "cone"
         return "two-sheet hyperboloid" if self.I > 1 else "one-sheet hyperboloid"
-
-    @property
-    def sin_beta(self) -> Real:
-        """The sine of beta, which (54) is written in."""
-        self._needs_direction()
-        return self.B3 / root(self.B3**2 + (self.I * self.B2) ** 2)
 
     @property
     def beta(self) -> Real:

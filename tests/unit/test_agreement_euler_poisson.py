@@ -299,14 +299,6 @@ MATTER = (
         floors=("core",),
     ),
     Tie(
-        "body.mass_matrix",
-        "text-mass-matrix",
-        lambda f, p: f.body.mass_matrix(float(p.I2), float(p.I3)),
-        lambda say, p: [say("text-mass-matrix", f"g{n}", **letters(p, "I2 I3")) for n in (1, 2, 3)],
-        SYMMETRIC,
-        floors=("exact",),
-    ),
-    Tie(
         "SymmetricBody.cylindrical_shell",
         "text-short-cylinder",
         lambda f, p: f.SymmetricBody.cylindrical_shell(p.mass, p.c, abs(p.mu)).ratio,

@@ -54,14 +54,6 @@ def off_canonical(say: Ledger, p: Any) -> Any:
 TIES = (
     Tie("Quadric.beta", "text-beta", lambda f, p: f.Quadric(p.body, p.field).beta, beta, POINTS),
     Tie(
-        "Quadric.sin_beta",
-        "text-beta",
-        lambda f, p: f.Quadric(p.body, p.field).sin_beta,
-        lambda say, p: sympy.sin(beta(say, p)),
-        POINTS,
-        floors=("exact",),
-    ),
-    Tie(
         "Quadric.a2",
         "(54) text-beta",
         lambda f, p: f.Quadric(p.body, p.field).a2,

@@ -8,7 +8,7 @@ from flint import fmpq
 from atlas.core.body import SHAPES as CORE_SHAPES
 from atlas.core.body import SymmetricBody, from_shape, moments
 from atlas.errors import AtlasError, DomainError
-from atlas.exact.body import SHAPES, mass_matrix, ratio_of, shape_moments
+from atlas.exact.body import SHAPES, ratio_of, shape_moments
 from atlas.exact.inputs import rational, rationals
 from atlas.formulas.numbers import root
 
@@ -41,7 +41,6 @@ def test_decimal_text_is_taken_exactly() -> None:
 def test_the_quotient_of_a_body_is_exact() -> None:
     """A body of moments 3 and 1 has I = 1/3, which no float is."""
     assert ratio_of(SymmetricBody(3.0, 1.0)) == fmpq(1, 3)
-    assert mass_matrix(3.0, 1.0) == (fmpq(1, 2), fmpq(1, 2), fmpq(5, 2))
 
 
 @pytest.mark.parametrize(
