@@ -10,7 +10,9 @@ from drawing import made
 from numpy.typing import NDArray
 
 from atlas import Hyperbola
+from atlas.core.quadric import Quadric
 from atlas.scene import Arrow, Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, quadric_panel, recipes
+from atlas.scene.course import course
 
 FloatArray = NDArray[np.float64]
 NAMES = [name for name in recipes.names() if not recipes.load(name).records]
@@ -215,3 +217,34 @@ def test_unstable_stands_where_the_nutation_frequency_squared_is_negative(
     for tau, x in line.points[3:-3:5]:
         sides = [Hyperbola(ratio, (1.0, tau + more)).stability(x - 1.0) for more in (-1e-3, 1e-3) if tau + more > 0]
         assert min(sides) < 0 < max(sides) or len(sides) < 2
+
+
+def test_the_angle_of_the_canonical_axes_is_marked_between_them() -> None:
+    """Its arc leads from e2 to omega'_2, no farther out than the line along e2, which ends before the axes do."""
+    quadric = Quadric(1.5, (1.0, 2.0))
+    layers = quadric_panel.canonical(quadric, 3.0, 1.0)
+    centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
+    arrows = [layer for layer in layers if isinstance(layer, Arrow)]
+    lengths = [float((arrow.tip - centre) @ axis) for arrow, axis in zip(arrows, axes, strict=True)]
+    assert sorted(lengths) == pytest.approx([1.0, 1.0, 3.0])
+    for arrow, axis, length in zip(arrows, axes, lengths, strict=True):
+        assert arrow.tip == pytest.approx(centre + length * axis, abs=1e-14)
+        assert -1.0 < (arrow.tail - centre) @ axis < 0.0
+    line, arc = (layer.points - centre for layer in layers if isinstance(layer, Curve))
+    radius = np.linalg.norm(arc, axis=1)
+    assert arc[[0, -1]] == pytest.approx(radius[0] * np.array([[0.0, 1.0, 0.0], axes[1]]), abs=1e-12)
+    assert line == pytest.approx(np.array([[0.0, 0.0, 0.0], [0.0, line[1, 1], 0.0]]), abs=1e-14)
+    assert radius.max() < line[1, 1] < 1.0
+
+
+def test_the_name_of_a_level_stands_straight_above_it() -> None:
+    """As that of each line stands above or below its line."""
+    panel = course(
+        lambda t: np.stack([t, 2.0 - t, 0.0 * t], axis=-1), ("a", "b", "c"), 2.0, "t", "x", "",
+        size=(80.0, 50.0), level=0.5, level_name="level",
+    )  # fmt: skip
+    labels = {layer.text: layer for layer in panel.layers if isinstance(layer, Label)}
+    assert all(label.offset[0] == 0.0 for label in labels.values())
+    assert labels["level"].offset[1] > 0.0
+    (ta, a), (tb, b), (_, c) = (labels[name].at for name in "abc")
+    assert [a, b, c] == pytest.approx([ta, 2.0 - tb, 0.0], abs=1e-12)
