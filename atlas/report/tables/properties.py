@@ -1,7 +1,7 @@
 """What the register has of an object: each quantity with its proven digits, its unit, its equation, how sure it is."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import isfinite
 from typing import Any
@@ -158,19 +158,18 @@ def _plain(value: Any) -> Any:
     return "infinite" if str(value) in {"inf", "+inf", "[+/- inf]"} else value
 
 
-def _parts(q: Quantity, found: Any) -> Iterator[tuple[str, str, Any]]:
-    """Go through the components: name, words of its own, text."""
-    if q.name == "roots" or (isinstance(found, list | tuple) and found and isinstance(found[0], list | tuple)):
+def _parts(q: Quantity, found: Any) -> Iterable[tuple[str, str, Any]]:
+    """Return the components: name, words of its own, text."""
+    if not isinstance(found, list | tuple):
+        return [(q.name, "", found)]
+    numbered = [f"{q.name}[{i}]" for i in range(len(found))]
+    if q.name == "roots" or (found and isinstance(found[0], list | tuple)):
         parts = [q.text(part if q.lines else [part]) for part in found] or [q.text(found)]
-        symbols = [symbol for symbol, _ in q.lines] or ([f"{q.name}[{i}]" for i in range(len(found))] or [q.name])
-        yield from ((name, "", part) for name, part in zip(symbols, parts, strict=True))
-    elif isinstance(found, list | tuple):
-        names = q.columns or [f"{q.name}[{i}]" for i in range(len(found))]
-        of = q.symbol or q.says
-        words = [says for _, says in q.lines] or [f"{of}: {name}" if q.columns else "" for name in names]
-        yield from zip(names, words, found, strict=True)
-    else:
-        yield q.name, "", found
+        symbols = [symbol for symbol, _ in q.lines] or numbered or [q.name]
+        return [(name, "", part) for name, part in zip(symbols, parts, strict=True)]
+    names, of = q.columns or numbered, q.symbol or q.says
+    words = [says for _, says in q.lines] or [f"{of}: {name}" if q.columns else "" for name in names]
+    return zip(names, words, found, strict=True)
 
 
 def _sure(thing: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
