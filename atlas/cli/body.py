@@ -97,7 +97,7 @@ def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     names = (*BODY, *SIZES, "field", "magnetic", "mass", "charge", "mu")
     given: dict[str, Any] = {name: options[name] for name in names if options.get(name) is not None}
     given |= {"points": str(options["points"])} if "points" in given else {}
-    return given | ({"units": system_of(options)} if options["magnetic"] is not None else {})
+    return given | ({"units": system_of(options)} if options.get("magnetic") is not None else {})
 
 
 def shapes() -> dict[str, list[str]]:
@@ -123,7 +123,7 @@ def chosen_body(options: dict[str, Any]) -> Any:
     if options["ratio"] is not None:
         return options["ratio"]
     if options["shape"] is not None:
-        return _of_shape(options["shape"].replace("_", "-"), sizes, options["mass"])
+        return _of_shape(options["shape"].replace("_", "-"), sizes, options.get("mass"))
     if options["points"] is not None:
         return points(options["points"]).body
     from atlas.core.body import SymmetricBody
@@ -176,7 +176,7 @@ def exact_body(options: dict[str, Any]) -> Any:
     if options["points"] is not None and options["decimal"]:
         raise click.UsageError("--decimal goes with --ratio, --inertia or --shape, not with --points.")
     if options["shape"] is not None:
-        sizes = {name: options[name] for name in ("mass", *SIZES) if options[name] is not None}
+        sizes = {name: options[name] for name in ("mass", *SIZES) if options.get(name) is not None}
         sizes = {name: exactly(size, options) for name, size in sizes.items()}
         return Moments(*shape_moments(options["shape"].replace("-", "_"), **({"mass": 1} | sizes)))
     if options["decimal"]:
@@ -193,7 +193,7 @@ def system_of(options: Mapping[str, Any]) -> str:
 
 def units_of(options: Mapping[str, Any]) -> dict[str, str]:
     """Return what the units of times and rates are, where they are known."""
-    return SECONDS if options["magnetic"] is not None and system_of(options) != "natural" else {}
+    return SECONDS if options.get("magnetic") is not None and system_of(options) != "natural" else {}
 
 
 def charge_to_mass_of(options: Mapping[str, Any]) -> float:

@@ -1,6 +1,7 @@
 """Bodies and fields on the command line in SI units: shapes with mass and charge, and point masses from a file."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -9,8 +10,10 @@ import pytest
 from click.testing import CliRunner
 
 import atlas
+from atlas.cli import family
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
+from atlas.families import FAMILIES, Command
 from atlas.report.body_and_field import body_and_field
 from atlas.report.find import find
 from atlas.report.load import load
@@ -24,6 +27,16 @@ def record(*words: str) -> dict:  # type: ignore[type-arg]
     result = CliRunner().invoke(command, [*words, "--json"], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     return json.loads(result.stdout)
+
+
+def test_a_family_without_a_field_may_have_a_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A line in the register is all that it takes: the body may be a shape, and nothing of a field is asked for."""
+    one = replace(FAMILIES["free"], command=Command("free", "", "", (), "free body"))
+    monkeypatch.setattr(family, "FAMILIES", {"free": one})
+    words = "--shape ring --radius 2 --omega 0.1 0.2 0.3 --json".split()
+    found = json.loads(CliRunner().invoke(family.command("free"), words, catch_exceptions=False).stdout)
+    motion = atlas.FreeMotion(2.0, (0.1, 0.2, 0.3))
+    assert (found["k"], found["phi"]) == (motion.k, motion.phi)
 
 
 def test_the_shell_of_a_report_is_the_same_in_a_command() -> None:
