@@ -45,7 +45,7 @@ MAGNETIC_CONSTANT = 1.25663706127e-6
 
 @dataclass(frozen=True)
 class System:
-    """A system of units: the c of its formulas, the names of its units, and one SI unit counted in them."""
+    """A system of units: the c of its formulas, and the names of its units."""
 
     name: str
     c: float
@@ -53,25 +53,10 @@ class System:
     B_unit: str
     E_unit: str
     length_unit: str
-    mu_from_si: float = 1.0
-    B_from_si: float = 1.0
-    E_from_si: float = 1.0
-    length_from_si: float = 1.0
 
 
 SI = System("SI", 1.0, "C/kg", "T", "V/m", "m")
-GAUSSIAN = System(
-    "Gaussian",
-    SPEED_OF_LIGHT * 100,
-    "statC/g",
-    "G",
-    "statV/cm",
-    "cm",
-    mu_from_si=SPEED_OF_LIGHT / 100,
-    B_from_si=1e4,
-    E_from_si=1e4 / SPEED_OF_LIGHT,
-    length_from_si=100.0,
-)
+GAUSSIAN = System("Gaussian", SPEED_OF_LIGHT * 100, "statC/g", "G", "statV/cm", "cm")
 
 
 def system(name: str | System) -> System:
