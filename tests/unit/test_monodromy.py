@@ -22,10 +22,16 @@ CASES: dict[str, tuple[Any, ...]] = {
 """I, coupling, M3, p of the middle of the loop, linear, quadratic; and g1, g2 in what becomes of g3."""
 
 
+def potential(name: str) -> Wells:
+    """Return the potential of one case."""
+    I, (k2, k3), M3, _, linear, quadratic, _ = CASES[name]
+    return Wells(M3, k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear)
+
+
 def carried(name: str, points: int = 32) -> tuple[Wells, Monodromy]:
     """Return the potential and the lattice carried round the loop of one case."""
     I, (k2, k3), M3, p, linear, quadratic, _ = CASES[name]
-    wells = Wells(M3, k3 * k3 / I - k2 * k2 + quadratic, M3 * (k2 - k3 / I) + linear)
+    wells = potential(name)
     return wells, monodromy(I, (k2, k3), M3, around(wells, p, points), linear, quadratic)
 
 
@@ -115,3 +121,14 @@ def test_a_stable_spin_has_no_loop() -> None:
     """With D > 0 the value of the spin lies on the border of all motions."""
     with pytest.raises(atlas.DomainError, match="D is not negative"):
         around(Wells(3.0, 0.0, 1.0), 3.0)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_curves_of_precessions_run_on_from_end_to_end(name: str) -> None:
+    """The rate w rises along each, and its ends lie on the axis, r = 1 or -1, or at the reach."""
+    branches = potential(name).precessions(6.0, 200)
+    assert branches
+    for branch in branches:
+        assert (np.diff(branch.w) > 0.0).all()
+        for w, r in zip(branch.w[[0, -1]], branch.r[[0, -1]], strict=True):
+            assert min(1.0 - abs(r), 6.0 - abs(w)) < 1e-3
