@@ -4,7 +4,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from flint import arb
 
 from atlas.core.clebsch import conserved
 from atlas.core.inputs import FloatArray, finite, plain
@@ -104,7 +103,7 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
     @cached_property
     def omega(self) -> tuple[Any, Any, Any]:
         """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B'; DomainError beyond floats."""
-        found = self._each("omega", lambda exact: [float(arb(x).mid()) for x in enclosed(lambda: exact.omega, BITS)])
+        found = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])
         finite(found, "omega")
         return (found[..., 0], found[..., 1], found[..., 2]) if self.shape else tuple(found)
 

@@ -6,7 +6,6 @@ from math import prod
 from typing import Any, TypeVar
 
 import numpy as np
-from flint import arb
 
 from atlas.core.inputs import FloatArray, finite
 from atlas.core.motion import Motion
@@ -14,6 +13,7 @@ from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.nutating import Nutating
+from atlas.formulas.numbers import nearest
 
 NAME = "U28"
 """Names of kinds, none of which is longer."""
@@ -97,7 +97,7 @@ class NutatingMotion(Motion[Nutation]):
 
         def value(exact: Nutating) -> float:
             try:
-                return float(arb(enclosed(lambda: getattr(exact, name), BITS)).mid())
+                return nearest(enclosed(lambda: getattr(exact, name), BITS))
             except DomainError:
                 if self._turning:
                     raise
@@ -138,7 +138,7 @@ class AloneMotion(NutatingMotion[Nutation]):
 
 def ends_of(exact: Any) -> list[float]:
     """Return the turning points as floats."""
-    return [float(arb(x).mid()) for x in enclosed(lambda: exact.turning_points, BITS)]
+    return [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
 
 
 def padded(roots: list[Any]) -> Any:

@@ -13,6 +13,7 @@ from atlas.core.nutation.exponentials import Exponentials, exponentials
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.nutating import Nutating
+from atlas.formulas.numbers import nearest, workprec
 
 BITS = 60
 """Relative accuracy of a scalar before it is rounded, once."""
@@ -36,7 +37,8 @@ class SingleMotion:
                 "angular velocity across the axis, or none."
             )
         c, s, C, S = enclosed(lambda: [arb(x) for x in exact.tilt()], 2 * BITS)
-        cos, sin, C, S, b = (float(x.mid()) for x in (c * c - s * s, 2 * c * s, C, S, arb(exact.b)))
+        with workprec(2 * BITS):  # else it would be that of the caller
+            cos, sin, C, S, b = map(nearest, (c * c - s * s, 2 * c * s, C, S, arb(exact.b)))
         self.right = np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
         tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
         self.entries = entries(attitude @ self.right.T @ tilt, self.right)

@@ -13,6 +13,7 @@ from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.single import BITS, VECTOR, SingleMotion
 from atlas.exact.digits import enclosed
 from atlas.exact.general import GeneralMotion
+from atlas.formulas.numbers import nearest
 
 NEAR, SLENDER = 2.3, 1.45
 """By how much the largest value that Omega3 could have may exceed the largest component of Omega at a time, and, of the
@@ -63,5 +64,5 @@ class SingleGeneral(SingleMotion):
             left = rows.extreme
         for i in left.tolist():
             third = partial(lambda time: self.exact.angular_velocity(time)[2], float(t[i]))
-            out[i, 2] = float(arb(enclosed(third, BITS)).mid())
+            out[i, 2] = nearest(enclosed(third, BITS))
         return out[:, 2]

@@ -5,13 +5,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from flint import arb
 
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import Evaluation, evaluate
 from atlas.core.nutation.constants import CayleyKlein
 from atlas.core.nutation.single import SingleMotion
 from atlas.exact.top import TopMotion
+from atlas.formulas.numbers import nearest
 
 
 class SingleTop(SingleMotion):
@@ -26,7 +26,7 @@ class SingleTop(SingleMotion):
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3): twice the vector part of the quaternion's logarithmic derivative."""
-        kappa = float(arb(self.exact.quartic.kappa).mid()) if self._sloping.swing else 0.0
+        kappa = nearest(self.exact.quartic.kappa) if self._sloping.swing else 0.0
 
         def prepare(size: int) -> Callable[[FloatArray, FloatArray], None]:
             """Return what fills a block."""
