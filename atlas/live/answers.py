@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Lock
@@ -14,6 +15,7 @@ from atlas.errors import AtlasError, DomainError
 from atlas.exact.digits import MARK, NOT_CERTIFIED, certified
 from atlas.families.family import Quantity
 from atlas.live.subjects import OfFamily, Subject
+from atlas.scene import Scene, Space
 
 DIGITS, SPARE = 10, 1 << 10
 """Digits that are proven when the sliders rest, and bits beyond them in which a proof is looked for."""
@@ -46,10 +48,19 @@ def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dic
         from atlas.draw import viewer
 
         scene = subject.scene(values)
-        deep = bool(viewer.deep(scene))
-        found = {"scene": viewer.data(scene) if deep else None, "size": scene.size}
+        turns = turning(scene) if viewer.deep(scene) else None
+        found = {"scene": turns and viewer.data(turns), "size": (turns or scene).size}
     numbers = list(_numbers(subject, values, proven=proven)) if isinstance(subject, OfFamily) else []
     return found | {"alt": scene.alt, "numbers": numbers, "command": subject.command(values)}
+
+
+def turning(scene: Scene) -> Scene:
+    """Return a scene with its panels in space alone, for no others turn, and no titles: they fill its width."""
+    panels = tuple(replace(panel, title="") for panel in scene.panels if isinstance(panel, Space))
+    columns, rows = min(scene.columns, len(panels)), -(-len(scene.panels) // scene.columns)
+    width, height = scene.size
+    high = height / rows * -(-len(panels) // columns) * scene.columns / columns
+    return replace(scene, panels=panels, columns=columns, rows=(), narrow=(), size=(width, high))
 
 
 def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.scene import solids
+from atlas.scene import sample, solids
 from atlas.scene.camera import frame
 from atlas.scene.captions import quotient
 from atlas.scene.layers import Curve, FloatArray, Layer, Space, Surface
@@ -88,7 +88,9 @@ def solenoid(I: float, attitude: FloatArray, centre: FloatArray, size: float, to
         solids.disk(centre + sign * height / 2 * axis, sign * axis, radius, tolerance, role="opening")
         for sign in (-1.0, 1.0)
     ]
-    coils = [Curve(solids.circle(centre + h * height * axis, axis, radius, tolerance), "coil") for h in places]
+    u, v = (radius * one for one in solids.across(axis))
+    angles = sample.knots(solids.ellipse(centre, u, v), 0.0, solids.TURN, tolerance)
+    coils = [Curve(solids.ellipse(centre + h * height * axis, u, v)(angles), "coil") for h in places]
     return [side, *ends, *coils, _seam(side, centre, (first, second, axis), radius, height)]
 
 

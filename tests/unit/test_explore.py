@@ -156,6 +156,26 @@ def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
         assert found == pytest.approx(list(axis), abs=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("name", "places"),
+    [
+        ("particle", [[0, 0, 1, 1]]),
+        ("figure:geometric_phase", [[0, 0, 1, 1]]),
+        ("figure:tipping_disk", [[0, 0, 1, 1]]),
+        ("figure:cusps", [[0, 0, 0.5, 0.5], [0.5, 0, 0.5, 0.5], [0, 0.5, 0.5, 0.5]]),
+    ],
+)
+def test_what_turns_fills_the_picture(server: Explorer, name: str, places: list[list[float]]) -> None:
+    """Panels with two axes, which do not turn, and titles take no room; the others have the shape of their cells."""
+    found, drawn = own(server, "state", subject=name, proven=0), subject(name)
+    scene = drawn.scene(answers.values_of(drawn, {}))
+    width, height = found["size"]
+    cell = scene.size[0] / scene.columns, scene.size[1] / -(-len(scene.panels) // scene.columns)
+    assert [place[:4] for place in found["scene"]["wide"]["places"]] == places
+    assert width == scene.size[0]
+    assert width * places[0][2] / (height * places[0][3]) == pytest.approx(cell[0] / cell[1])
+
+
 def test_a_motion_is_made_once(server: Explorer) -> None:
     """Picture and numbers share it, and so does the next moment while it plays; another motion is made anew."""
     before = subjects._made.cache_info().misses
