@@ -23,7 +23,7 @@ help:
 	@echo 'make verify    the proofs about the paper'"'"'s equations'
 	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 calls with extreme inputs'
 	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
-	@echo 'make accessibility   the linter axe-core on every page, the search box and what turns, in Chromium: needs node and npm'
+	@echo 'make accessibility   the linter axe-core on every page, the search box and what turns, in Chromium: needs node and npm; FRAMES=1 tells frames a second'
 	@echo 'make newest    the unit tests with the newest libraries that the ranges allow;   make lowest   with the oldest'
 	@echo 'make release TAG=v0.2.0   the sdist and the wheel of a tag, in dist/'
 	@echo 'make lint      ruff, mypy, import-linter;   make clean   removes build/'

@@ -1,7 +1,8 @@
 // The figures of a built report that turn, in a headless browser, opened from disk under the policy of its pages: Enter
 // opens each, it looks as its still picture does, keys and a drag turn it, the wheel brings it nearer, 0 and Escape bring
 // it back; the sliders of the explorer move the motion and the address; nothing is asked for but files of the report, and
-// without WebGL 2 a click follows the link. Run by `make accessibility`, which brings the package from npm.
+// without WebGL 2 a click follows the link. Run by `make accessibility`, which brings the package from npm; with FRAMES=1
+// it prints the frames a second of each as it turns, too, which takes 2.5 minutes more.
 import { readdirSync } from "node:fs";
 import { resolve } from "node:path";
 import { launch } from "./browser.mjs";
@@ -29,6 +30,13 @@ const shades = async link => {
     return places.flatMap(([left, top, w, h]) => [...on.getImageData(left * width, top * height, w * width, h * height).data]);
   }, [shot, await link.evaluate(one => one.places)]);
 };
+// Frames a second of a scene that turns for 3 s, once it has found its resolution.
+const frames = link => link.evaluate(async ({ viewer }) => {
+  const turned = async span => { const start = performance.now(); let count = 0; for (; performance.now() - start < span; count++) { viewer.turn(0.03, 0.01); await new Promise(requestAnimationFrame); } return 1000 * count / (performance.now() - start); };
+  await turned(1500);
+  return turned(3000);
+});
+const rates = [];
 const differ = (a, b) => a.reduce((sum, x, i) => sum + Math.abs(x - b[i]), 0) / a.length;
 for (const name of readdirSync(folder).filter(one => one.endsWith(".html"))) {
   await page.goto(`file://${folder}/${name}`);
@@ -38,6 +46,11 @@ for (const name of readdirSync(folder).filter(one => one.endsWith(".html"))) {
     await link.focus();
     await page.keyboard.press("Enter");
     await page.waitForFunction(one => one.viewer, await link.elementHandle(), { timeout: 120000 });
+    if (process.env.FRAMES) {
+      rates.push([await frames(link), file]);
+      console.log(rates.at(-1)[0].toFixed(1).padStart(5), "frames a second:", file);
+      await page.keyboard.press("0");
+    }
     await link.evaluate(one => { one.places = one.viewer.shown.places; });
     const home = await shades(link);
     await page.keyboard.press("Escape");
@@ -109,5 +122,9 @@ for (const name of first) {
   break;
 }
 await old.close();
+if (rates.length) {
+  const [rate, file] = rates.reduce((least, one) => one[0] < least[0] ? one : least);
+  console.log(`${folder}: at least ${rate.toFixed(1)} frames a second, in ${file}`);
+}
 console.log(`${folder}: ${turned} scenes, ${asked} questions, ${failed} failures`);
 process.exit(failed ? 1 : 0);
