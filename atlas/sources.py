@@ -163,21 +163,28 @@ def _files(name: str) -> tuple[Path, ...]:
     for public in homes & set(_HOMES):
         files += _files(_HOMES[public])
     for part in parts:
-        package, module = here / part / "__init__.py", here / f"{part}.py"
-        if package.is_file():
+        package, module = _below(here, part)
+        if package:
             files.append(package)
-            here /= part
+            here = package.parent
         else:
-            if module.is_file():
-                files.append(module)
+            files += [module] if module else []
             break  # what follows is a name inside the module or the package
     return tuple(files)
 
 
 @lru_cache(maxsize=4096)
+def _below(folder: Path, name: str) -> tuple[Path | None, Path | None]:
+    """Return the file of a package and that of a module of some name in a folder, each if it is there."""
+    package, module = folder / name / "__init__.py", folder / f"{name}.py"
+    return package if package.is_file() else None, module if module.is_file() else None
+
+
+@lru_cache(maxsize=4096)
 def _place(path: Path) -> str:
     """Return the path from the folder that holds the package, whatever it is called here."""
-    for base in (PACKAGE / "_data", PACKAGE.parent):
-        if path.is_relative_to(base):
-            return path.relative_to(base).as_posix()
+    text = path.as_posix()
+    for base in (f"{PACKAGE.as_posix()}/_data/", f"{PACKAGE.parent.as_posix()}/"):
+        if text.startswith(base):
+            return text.removeprefix(base)
     return path.name
