@@ -4,12 +4,15 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from threading import Thread
 from typing import Any
 
 SAFE = "PYTHONSAFEPATH"
 """As the option -P of Python, which a process inherits."""
+DRAWING = "atlas.build.loaded"
+"""The module that loads what figures are drawn with."""
 
 
 def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "spawn") -> ProcessPoolExecutor | None:
@@ -24,6 +27,22 @@ def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "s
             return _Pool(workers, get_context(context), begin)
     except (OSError, ImportError, NotImplementedError):
         return None
+
+
+def prepare(module: str) -> str:
+    """Start the process of which workers are forks, which loads a module meanwhile, and return the context for `pool`.
+
+    Where it can't be started, as without a folder for its socket, workers load what they need themselves.
+    """
+    from multiprocessing import forkserver
+
+    try:
+        with _without_main():
+            forkserver.set_forkserver_preload([module])
+            forkserver.ensure_running()
+    except (OSError, ImportError):
+        return "spawn"
+    return "forkserver"
 
 
 def end_with_parent() -> None:
@@ -45,8 +64,11 @@ class _Pool(ProcessPoolExecutor):
 
     def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Start a process if one is wanted, and hand over the call."""
-        with _without_main():
-            return super().submit(function, *args, **kwargs)
+        try:
+            with _without_main():
+                return super().submit(function, *args, **kwargs)
+        except (EOFError, ConnectionError) as error:  # the process that it would be a fork of has ended
+            raise BrokenProcessPool from error
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """End the processes; of a broken pool also one that was started while the others were ended (CPython waits)."""

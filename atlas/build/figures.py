@@ -137,17 +137,18 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
 def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[tuple[FigureBuild, str]]:
     """Draw figures, and go through them as they are finished, each with the reason if it failed.
 
-    If a worker dies, what was not finished is drawn again by a single one, so that it is known which figure it is that
-    kills its process; the others are drawn.
+    If a worker dies, what was not finished is drawn again by a single one, which is no fork, so that it is known which
+    figure it is that kills its process; the others are drawn.
     """
     settle_matplotlib()
     waiting = {
         one: worker.Task(one.recipe, one.parameters, one.renderer, one.style, one.missing(), cache.folder, one.targets)
         for one in figures
     }
-    workers = min(jobs, len(waiting))
+    several, workers = len(figures) > 1, min(jobs, len(waiting))
+    context = processes.prepare(processes.DRAWING) if several else ""
     while waiting:
-        pool = processes.pool(workers, worker.begin) if len(figures) > 1 else None
+        pool = processes.pool(workers, worker.begin, context) if several else None
         if pool is None:
             yield from ((figure, worker.draw(task)) for figure, task in waiting.items())
             return
@@ -169,11 +170,11 @@ def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[
                     yield futures[future], failure
         finally:
             pool.shutdown(cancel_futures=True)
-        if broken and workers == 1:
+        if broken and workers == 1 and context == "spawn":
             figure = next(iter(waiting))
             del waiting[figure]
             yield figure, "the process that drew it came to a sudden end"
-        workers = 1
+        workers, context = 1, "spawn"
 
 
 def cores() -> int:

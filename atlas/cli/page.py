@@ -92,7 +92,7 @@ def command() -> None:
 
 def asked(family: Family, options: dict[str, Any]) -> Any:
     """Return what a page is asked for by the options of its command."""
-    from atlas.report.page import Asked
+    from atlas.report.asked import Asked
 
     context, own = click.get_current_context(), {"out", "digits", "title", "jobs"}
     typed = {
@@ -161,10 +161,14 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
 
 def make(wanted: Any, out: Path, jobs: int | None) -> int:
     """Write the report file of a page and build it. Raises AtlasError where the file was changed since it was made."""
+    from atlas import processes
+
+    file = out / f"{wanted.name}.toml"
+    if not file.exists():  # its figures are to be drawn: what they need is loaded meanwhile
+        processes.prepare(processes.DRAWING)
     from atlas.build.report import build_report
     from atlas.report.page import edited, text
 
-    file = out / f"{wanted.name}.toml"
     if file.exists() and edited(file.read_text(encoding="utf-8")):
         raise AtlasError(
             f"{file} was changed since it was made: build it by `atlas report {file} --format single pdf`, or move it."

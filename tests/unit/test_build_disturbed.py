@@ -131,16 +131,19 @@ def _alive(group: int) -> bool:
     return True
 
 
-def test_workers_killed_at_random_moments_stop_nothing(undisturbed: dict[str, str], tmp_path: Path) -> None:
+@pytest.mark.parametrize("loading", [True, False])
+def test_workers_killed_at_random_moments_stop_nothing(
+    undisturbed: dict[str, str], tmp_path: Path, *, loading: bool
+) -> None:
     """When the processes that draw are killed, the build draws again what they had, and ends in the same bytes."""
     chance = random.Random(7)  # noqa: S311  reproducible, not secret
     with subprocess.Popen(
         command(tmp_path, "-j", "2"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
     ) as build:
         deadline = time.monotonic() + 30.0
-        while not (workers := _workers(build.pid)) and time.monotonic() < deadline:
+        while not (workers := _workers(build.pid, loading=loading)) and time.monotonic() < deadline:
             time.sleep(0.01)
-        time.sleep(chance.uniform(0.0, 1.0))
+        time.sleep(chance.uniform(0.0, 0.2 if loading else 1.0))
         for worker in workers:
             with suppress(ProcessLookupError):
                 os.kill(worker, signal.SIGKILL)
@@ -150,11 +153,15 @@ def test_workers_killed_at_random_moments_stop_nothing(undisturbed: dict[str, st
     assert content(tmp_path) == undisturbed
 
 
-def _workers(parent: int) -> list[int]:
-    """Return the worker processes of a build."""
-    children = Path(f"/proc/{parent}/task/{parent}/children").read_text().split()
-    command_lines = {int(child): Path(f"/proc/{child}/cmdline").read_bytes() for child in children}
-    return [child for child, words in command_lines.items() if b"spawn_main" in words]
+def _workers(parent: int, *, loading: bool = False) -> list[int]:
+    """Return the processes that draw for a build: the one that loads what they need, and its forks once there are."""
+    servers = [child for child in _children(parent) if b"forkserver" in Path(f"/proc/{child}/cmdline").read_bytes()]
+    forks = [fork for server in servers for fork in _children(server)]
+    return [*servers, *forks] if loading or forks else []
+
+
+def _children(parent: int) -> list[int]:
+    return [int(child) for child in Path(f"/proc/{parent}/task/{parent}/children").read_text().split()]
 
 
 def test_damaged_entries_of_the_cache_are_made_again(undisturbed: dict[str, str], copy: Path) -> None:

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any
 
@@ -315,6 +316,43 @@ def test_a_single_figure_is_drawn_in_this_process(tmp_path: Path, monkeypatch: p
 
 def _denied(*_: object) -> None:
     raise PermissionError(13, "Permission denied")
+
+
+TELLING = """'''Tell what is loaded.'''
+
+import sys
+
+from atlas.errors import AtlasError
+
+
+def scene(*, number: int = 0):
+    raise AtlasError(f"{number}: {'matplotlib.backends.backend_pdf' in sys.modules}")
+"""
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_workers_have_loaded_what_draws(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, there: bool) -> None:
+    """They are forks of one process that has; where it can't be started, each loads what it needs."""
+    if not there:
+        monkeypatch.setattr(forkserver, "ensure_running", _denied)
+    (tmp_path / "telling.py").write_text(TELLING)
+    wanted = [figure(str(tmp_path / "telling.py"), number=number) for number in (1, 2, 3)]
+    assert [one.failure for one in made(wanted, Cache(tmp_path / "cache"), 2)] == [f"{k}: {there}" for k in (1, 2, 3)]
+
+
+def test_a_library_that_cannot_be_loaded_is_told(tmp_path: Path) -> None:
+    """What Matplotlib refuses when it is loaded is a failure of each figure, in a line."""
+    command = [sys.executable, "-m", "atlas", "figure", "magn", "lssc", "--out", str(tmp_path), "--jobs", "2"]
+    done = subprocess.run(
+        command,
+        env=os.environ | {"MPLBACKEND": "nonsense", "ATLAS_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert "Traceback" not in done.stderr
+    assert done.stderr.count("nonsense") >= 2
 
 
 def test_a_script_without_a_guard_builds(tmp_path: Path) -> None:

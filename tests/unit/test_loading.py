@@ -102,7 +102,8 @@ CASES = [
     Case("diff before/prose after/prose --json", "msgspec", status=1),
     Case("diff before/prose after/prose", "msgspec rich", status=1),
     Case("report nosuchreport", "msgspec", status=2),
-    Case("page --ratio 3 --field 1 2", "msgspec numpy flint", status=2),
+    Case("page --ratio 1.3 --field 1", "", status=2),
+    Case("page --ratio 3 --field 1 2", f"{DRAWING} msgspec", status=2),  # which are loaded before it is known
     Case("tex prose.toml", "msgspec numpy flint multiprocessing jinja2"),
     Case("data prose.toml", "msgspec numpy flint pylatexenc multiprocessing"),
 ]

@@ -1,0 +1,26 @@
+"""What the process has loaded of which the workers are forks: what draws, once for all of them."""
+
+import gc
+import signal
+from contextlib import suppress
+from importlib import import_module
+
+from atlas.places import settle_matplotlib
+
+signal.signal(signal.SIGINT, signal.SIG_IGN)  # what Ctrl-C means is decided by the process that started this one
+settle_matplotlib()
+for name in (
+    "atlas.build.worker",
+    "atlas.core.elementary",
+    "atlas.draw.files",
+    "atlas.draw.moves",
+    "fontTools.subset",
+    "fontTools.ttLib.tables.otTables",
+    "matplotlib._constrained_layout",
+    "matplotlib.backends.backend_pdf",
+    "matplotlib.backends.backend_svg",
+    "matplotlib.style",
+):
+    with suppress(Exception):  # what can't be loaded is told by the worker that needs it
+        import_module(name)
+gc.freeze()  # what all of them have is not searched for garbage again by each
