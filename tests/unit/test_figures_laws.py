@@ -248,3 +248,15 @@ def test_the_name_of_a_level_stands_straight_above_it() -> None:
     assert labels["level"].offset[1] > 0.0
     (ta, a), (tb, b), (_, c) = (labels[name].at for name in "abc")
     assert [a, b, c] == pytest.approx([ta, 2.0 - tb, 0.0], abs=1e-12)
+
+
+@pytest.mark.parametrize("which", ["origin", "both"])
+@pytest.mark.parametrize("field", [(1.0, 2.0), (-1.0, -2.0), (1.0, -2.0), (-1.0, 2.0)])
+def test_arrows_of_a_surface_grow_with_the_field(field: tuple[float, float], which: str) -> None:
+    """Four times the field is another unit of time, on whichever side of the centre the sheet lies."""
+
+    def tips(unit: float) -> FloatArray:
+        layers = quadric_panel.surface_layers(1.5, (unit * field[0], unit * field[1]), which)
+        return np.array([layer.tip for layer in layers if isinstance(layer, Arrow)])
+
+    assert tips(4.0) == pytest.approx(4.0 * tips(1.0), abs=1e-9)

@@ -91,6 +91,7 @@ def test_an_equation_that_is_cited_can_be_shown(volumes: dict[str, Document]) ->
     atlas = volumes["atlas"]
     names = {name for text in atlas.texts.texts for name in citations(text.markdown) if name in EQUATIONS}
     assert names <= {*atlas.targets, *atlas.ledger, *atlas.formulas}
+    assert not atlas.formulas.keys() & {*atlas.targets, *atlas.ledger}
     assert set(atlas.formulas) & set(volumes["trial"].ledger)
 
 
