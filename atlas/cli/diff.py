@@ -29,6 +29,7 @@ def command(old: Path, new: Path, as_json: bool) -> int:
     not a built report.
     """
     from atlas.report.compare import compare
+    from atlas.report.data_package import words
     from atlas.report.manifest import read
 
     found = compare(read(old), read(new))
@@ -42,7 +43,7 @@ def command(old: Path, new: Path, as_json: bool) -> int:
             changes = list(group)
             width = 5 if kind == "number" else 1 if kind == "words" else 3
             heading = ("where", "old", "new", "new - old", "relative")[:width]
-            rows = [(one.where, one.old, one.new, *map(rounded, one[4:]))[:width] for one in changes]
+            rows = [(words(one.where), one.old, one.new, *map(rounded, one[4:]))[:width] for one in changes]
             show(Printout(f"{TITLES[kind]}: {len(rows)}", heading=heading, rows=rows, justify="left"))
     return int(bool(found))
 

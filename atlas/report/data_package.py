@@ -209,7 +209,8 @@ def digits(number: str) -> int:
 
 def words(markdown: str) -> str:
     """Return a text without markup, on one line."""
-    text = plain(markdown.replace("`", "").replace("**", ""))
+    powers = re.sub(rf"\^([{MINUS}-]?\d+)\^", lambda power: f"^{power[1].replace(MINUS, '-')}", markdown)
+    text = plain(powers.replace("`", "").replace("**", ""))
     return " ".join(re.sub(r"\^\{(-?\d+)\}", r"^\1", text).split())
 
 

@@ -19,7 +19,7 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion as Balls
-from atlas.report.data_package import ascii_name, package
+from atlas.report.data_package import ascii_name, package, words
 from atlas.scene import recipes
 from atlas.scene.data import table
 
@@ -214,3 +214,17 @@ def test_what_is_not_proven_is_said_beside_its_column(data: Path, monkeypatch: p
     (said,) = [name for name in names if name.endswith("_proven")]
     assert said == f"{names[1]}_proven"
     assert [row[said] for row in csv.DictReader(StringIO(content))] == ["false", "true"]
+
+
+@pytest.mark.parametrize(
+    ("markdown", "plainly"),
+    [
+        ("s^\N{MINUS SIGN}1^", "s^-1"),
+        ("(inertia/s)^2^", "(inertia/s)^2"),
+        ("$\\omega_2$ (m $s^{-1}$)", "\N{GREEK SMALL LETTER OMEGA}_2 (m s^-1)"),
+        ("$x^2 + y^2$, `f`", "x^2 + y^2, f"),
+    ],
+)
+def test_units_and_heads_are_plain_text(markdown: str, plainly: str) -> None:
+    """Powers stand behind one circumflex with a hyphen for minus, whether they were Markdown or TeX."""
+    assert words(markdown) == plainly

@@ -73,6 +73,8 @@ def test_a_built_report_is_compared_with_another(built: Callable[..., Path]) -> 
     done = CliRunner().invoke(program, ["diff", str(one), str(two / "index.html")], standalone_mode=False)
     assert done.return_value == 1
     assert "fig-body: ratio" in done.output
+    assert "semi-axis, C_3 | Value" in done.output
+    assert "$" not in done.output  # a terminal sets no TeX
     same = CliRunner().invoke(program, ["diff", str(one), str(one), "--json"], standalone_mode=False)
     assert same.return_value == 0
     assert json.loads(same.stdout) == {"changed": False, "changes": []}
