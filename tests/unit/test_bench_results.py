@@ -5,21 +5,24 @@ import os
 import re
 import socket
 from dataclasses import replace
+from functools import partial
 from itertools import count
 from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from atlas.errors import AtlasError
+from atlas.exact.digits import enclosed
 from atlas.study.bench import arrays, elementary, integrators
 from atlas.study.bench.case import Case, FloatArray, Grid, Method, Solve
 from atlas.study.bench.clock import interleave, one_core, ratio
 from atlas.study.bench.limits import targets
 from atlas.study.bench.precision import Plan
 from atlas.study.bench.results import FORMAT, Cost, Machine, Results, Run, Setup, read, stored, write
-from atlas.study.bench.run import Scope, run
+from atlas.study.bench.run import CASES, Scope, run
 from atlas.study.bench.tables import tables
 
 SMALL = Scope(
@@ -90,6 +93,8 @@ def test_planted_methods_are_reported(record: Results) -> None:
     assert (rows["slow"].error or 1.0) < 1e-12
     assert (rows["nothing"].status, rows["nothing"].note) == ("failed", "a value is not finite")
     assert (rows["broken"].status, rows["broken"].note) == ("failed", "ZeroDivisionError: on purpose")
+    remarks = {row[-1] for table in tables(record) if table.title.startswith("Error and time") for row in table.rows}
+    assert {"failed: a value is not finite", "failed: ZeroDivisionError: on purpose", ""} <= remarks
     last = tables(record)[-1]
     assert last.title == "Not measured"
     assert {"nothing", "broken"} == {row[1] for row in last.rows}
@@ -279,3 +284,14 @@ def test_what_arrays_are_compared_with_answers_the_same_question() -> None:
     """Formulas as anyone would write them lose digits of ordinary rows, but no more than half of them."""
     for row in arrays.rows(12, 1):
         assert row.error < (8.0 if row.method == "ours" else 2.0**26), (row.quantity, row.method)
+
+
+@pytest.mark.parametrize("name", sorted(CASES))
+def test_the_equations_of_a_case_lead_to_its_true_values(name: str) -> None:
+    """By SciPy, to t = 1/2."""
+    case = CASES[name]()
+    start = [float(x) for x in case.initial()]
+    rates = partial(case.rates, p=case.parameters)
+    run = solve_ivp(lambda _, y: rates(y.tolist()), (0.0, 0.5), start, "DOP853", rtol=1e-12, atol=1e-13)
+    true = [float(x) for x in np.ravel(np.array(enclosed(lambda: case.exact(0.5), 64), dtype=object))]
+    assert run.y[: case.size, -1] == pytest.approx(true, abs=1e-10)

@@ -235,6 +235,9 @@ def test_the_angle_of_the_canonical_axes_is_marked_between_them() -> None:
     assert arc[[0, -1]] == pytest.approx(radius[0] * np.array([[0.0, 1.0, 0.0], axes[1]]), abs=1e-12)
     assert line == pytest.approx(np.array([[0.0, 0.0, 0.0], [0.0, line[1, 1], 0.0]]), abs=1e-14)
     assert radius.max() < line[1, 1] < 1.0
+    (name,) = (layer.at - centre for layer in layers if isinstance(layer, Label))
+    assert np.linalg.norm(name, axis=1) == pytest.approx(radius[0])
+    assert (name[:, 1] >= arc[-1, 1] - 1e-12).all()
 
 
 def test_the_name_of_a_level_stands_straight_above_it() -> None:
