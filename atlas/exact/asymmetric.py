@@ -143,11 +143,11 @@ class OnTorus:
         """Return R(t) as rows."""
         arrival, angle = self.state(t)
         w, *q = arrival.q
-        n, i = dot(arrival.q, arrival.q), self.pendulum
+        i = self.pendulum
         if i is None:
             swing: list[list[Real]] = matrix(arrival.q)
         else:
-            swing = two_turns.turn([fmpq(int(i == j)) for j in range(3)], (w * w - q[i] * q[i]) / n, 2 * w * q[i] / n)
+            swing = two_turns.turn([fmpq(int(i == j)) for j in range(3)], w * w - q[i] * q[i], 2 * w * q[i])
         return two_turns.product(two_turns.turn(self.field, angle.cos(), angle.sin()), swing)
 
     def field_in_body(self, t: Any) -> list[Real]:
