@@ -1,10 +1,12 @@
 """Figures: what each depends on, taken from the cache or drawn by worker processes side by side."""
 
+import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -146,9 +148,9 @@ def _drawn(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -> Iterator[
         for one in figures
     }
     several, workers = len(figures) > 1, min(jobs, len(waiting))
-    context = processes.prepare(processes.DRAWING) if several else ""
+    begin, context = partial(worker.begin, {**os.environ}), processes.prepare(processes.DRAWING) if several else ""
     while waiting:
-        pool = processes.pool(workers, worker.begin, context) if several else None
+        pool = processes.pool(workers, begin, context) if several else None
         if pool is None:
             yield from ((figure, worker.draw(task)) for figure, task in waiting.items())
             return

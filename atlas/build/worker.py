@@ -162,9 +162,14 @@ def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
     return json.loads(facts), content
 
 
-def begin() -> None:
-    """Prepare a worker process: it ends with the process that started it, which alone decides what Ctrl-C means."""
+def begin(environment: Mapping[str, str]) -> None:
+    """Prepare a worker process: it ends with the process that started it, which alone decides what Ctrl-C means.
+
+    The variables of that process may have changed since the one was started of which this is a fork.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.environ.clear()
+    os.environ.update(environment)
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     if not sys.warnoptions:  # as on the command line: a float that overflows is told by what shows it
         warnings.simplefilter("ignore", RuntimeWarning)
