@@ -19,6 +19,7 @@ from atlas.core.arithmetic import phase
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.study import extreme
+from atlas.study.arrays import check_rows
 from atlas.study.elliptic import ELLIPTIC
 from atlas.study.promises import check_motion
 from atlas.study.regimes import GENERAL, REGIMES, near
@@ -119,6 +120,14 @@ def test_small_entries_are_promised_before_they_are_large(
     check_motion(motion, "small", found)
     ulps = max(w.ulps for (name, _), w in found.worst.items() if name == "R13, R23 for |kt| < 1")
     assert ulps > 1e9 if seen else ulps <= LIMITS["R13, R23 for |kt| < 1"]
+
+
+def test_arrays_of_elementary_motions_keep_the_promises() -> None:
+    """20 000 rows, each rounded once, and as good as single motions."""
+    worst = check_rows(3, 0).worst
+    assert {name for name, _ in worst} == {"omega3", "k", "phi", "R", "R orthogonality", "R determinant"}
+    for (name, _), one in worst.items():
+        assert one.ulps <= (0.5 if name in {"omega3", "k", "phi"} else LIMITS[name]), name
 
 
 def test_a_refusal_is_kept_with_its_input(monkeypatch: pytest.MonkeyPatch) -> None:
