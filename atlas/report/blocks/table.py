@@ -77,9 +77,9 @@ class ColumnView:
 
     head: int
     unit: int | None
-    numeric: bool = False
-    before: float = 0.0
-    after: float = 0.0
+    numeric: bool
+    before: float
+    after: float
 
 
 @dataclass(frozen=True)
