@@ -18,6 +18,13 @@ def plain(markdown: str) -> str:
     return _CITATION.sub("", converter.latex_to_text(markdown, latex_context=macros))
 
 
+def words(markdown: str) -> str:
+    """Return a text without markup, on one line; powers stand behind a circumflex, with a hyphen for minus."""
+    powers = re.sub(r"\^([\u2212-]?\d+)\^", lambda power: "^" + power[1].replace("\u2212", "-"), markdown)
+    text = plain(powers.replace("`", "").replace("**", ""))
+    return " ".join(re.sub(r"\^\{(-?\d+)\}", r"^\1", text).split())
+
+
 @cache
 def _converter() -> "tuple[LatexNodes2Text, Any]":
     """Return pylatexenc's converter, and the macros that its reader knows."""

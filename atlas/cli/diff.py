@@ -29,7 +29,6 @@ def command(old: Path, new: Path, as_json: bool) -> int:
     not a built report.
     """
     from atlas.report.compare import compare
-    from atlas.report.data_package import words
     from atlas.report.manifest import read
 
     found = compare(read(old), read(new))
@@ -39,6 +38,8 @@ def command(old: Path, new: Path, as_json: bool) -> int:
     elif not found:
         click.echo("The two reports are the same.")
     else:
+        from atlas.plain import words
+
         for kind, group in groupby(found, attrgetter("kind")):
             changes = list(group)
             width = 5 if kind == "number" else 1 if kind == "words" else 3

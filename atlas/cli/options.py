@@ -27,7 +27,7 @@ NUMBER = re.compile(
 )
 """Ways to type a number, without the underscores and foreign digits that Python reads; exponents of four digits."""
 
-LIKE_A_NUMBER = re.compile(r"[+-]?\.?\d[\w.+/-]*")
+LIKE_A_NUMBER = re.compile("[+\N{MINUS SIGN}-]?" + r"\.?\d[\w.+/-]*")
 """What was meant as a number, be it one or not."""
 
 
@@ -64,7 +64,7 @@ class Real(click.ParamType[Typed]):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Typed:
         """Turn what was typed into a number, or say what is wrong with it."""
-        text = str(value)
+        text = str(value).replace("\N{MINUS SIGN}", "-")  # as it is copied from a page
         try:
             number = Typed(text)
         except OverflowError:

@@ -18,7 +18,7 @@ import msgspec
 
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
-from atlas.plain import plain
+from atlas.plain import words
 from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.digits import MINUS, THIN
 from atlas.report.document import Document
@@ -205,13 +205,6 @@ def value(cell: Cell, texts: Sequence[str]) -> str:
 def digits(number: str) -> int:
     """Return how many significant digits a number has."""
     return len(re.sub(r"e.*|[-.]", "", number).lstrip("0"))
-
-
-def words(markdown: str) -> str:
-    """Return a text without markup, on one line."""
-    powers = re.sub(rf"\^([{MINUS}-]?\d+)\^", lambda power: f"^{power[1].replace(MINUS, '-')}", markdown)
-    text = plain(powers.replace("`", "").replace("**", ""))
-    return " ".join(re.sub(r"\^\{(-?\d+)\}", r"^\1", text).split())
 
 
 def ascii_name(head: str) -> str:

@@ -11,11 +11,12 @@ from itertools import groupby
 from typing import Any
 
 import atlas
+from atlas.plain import words
 from atlas.report.blocks.equation import EquationView
 from atlas.report.blocks.figure import FigureView
 from atlas.report.blocks.prose import ProseView
 from atlas.report.blocks.table import TableView
-from atlas.report.data_package import ascii_name, digits, unique, value, words
+from atlas.report.data_package import ascii_name, digits, unique, value
 from atlas.report.digits import MINUS
 from atlas.report.document import Document
 from atlas.report.latex_table import table_of

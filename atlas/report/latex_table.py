@@ -4,8 +4,9 @@ import re
 from collections.abc import Iterator, Sequence
 from math import ceil
 
+from atlas.plain import words
 from atlas.report.blocks.table import Cell, ColumnView, TableView
-from atlas.report.data_package import value, words
+from atlas.report.data_package import value
 
 LETTERS, BOTH, LONG, LEAST = 46, 115, 30, 24
 """Letters of a table that fit in a column and across the page; more of a cell than LONG are broken into lines, which

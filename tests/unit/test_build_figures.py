@@ -459,3 +459,13 @@ def test_a_shaded_figure_is_a_png(tmp_path: Path) -> None:
     with pytest.raises(AtlasError, match="a shaded figure is a PNG; 'svg'"):
         list(build_figures(["cone"], ("png", "svg"), tmp_path, renderer="shaded"))
     assert not list(tmp_path.iterdir())
+
+
+def test_a_worker_has_the_variables_of_the_process_that_asks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that was set after the process was started of which workers are forks counts, such as ATLAS_GL."""
+    context = processes.prepare(processes.DRAWING)
+    monkeypatch.setenv("ATLAS_GL", "set late")
+    made = processes.pool(1, context=context)
+    assert made is not None
+    with made:
+        assert made.submit(os.getenv, "ATLAS_GL").result() == "set late"

@@ -404,6 +404,19 @@ def test_negative_numbers_are_numbers() -> None:
     assert [sample["t"] for sample in out["samples"]] == [-1e-5, -2.0, 3.0]
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        "motion --ratio 1.5 --field -1 -2e0 --omega2 -7e-1 --times -1e-5 -2 3 --digits 30 --decimal",
+        "general --inertia 0.8 1 1.3 --field -0.2 1 0 --omega 0.3 -0.7 0.2",
+    ],
+)
+def test_the_minus_of_a_page_is_one(words: str) -> None:
+    """Numbers that were copied from a page, with a true minus sign, are read as the same numbers."""
+    printed = re.sub(r" -(?=\d)", " \N{MINUS SIGN}", words)
+    assert record(*printed.split()) == record(*words.split())
+
+
 @pytest.mark.parametrize("text", ["0.1", "1/3", "1e-3", "-2.5", "0x1.8p1", "+1.", ".5E+3", "0X.8P-1"])
 def test_a_typed_number_remembers_what_was_typed(text: str) -> None:
     """The double is the nearest one, and the exact number is kept."""

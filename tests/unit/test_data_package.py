@@ -19,7 +19,8 @@ from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
 from atlas.exact.elementary import ElementaryMotion as Balls
-from atlas.report.data_package import ascii_name, package, words
+from atlas.plain import words
+from atlas.report.data_package import ascii_name, package
 from atlas.scene import recipes
 from atlas.scene.data import table
 
