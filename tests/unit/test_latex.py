@@ -281,7 +281,7 @@ title = "Own"
 @needs_latex
 def test_a_table_higher_than_a_page_goes_on(made: Path) -> None:
     """All its rows are printed, with the heads again on the second page; a lower one stays in one piece."""
-    column = ColumnView(0, None, numeric=False)
+    column = ColumnView(0, None, numeric=False, before=0.0, after=0.0)
     words = "words that are broken into several lines, " * 4
 
     def of(count: int) -> str:
@@ -303,5 +303,7 @@ def test_a_table_higher_than_a_page_goes_on(made: Path) -> None:
 def test_a_number_that_is_not_proven_has_no_key() -> None:
     """Of two numbers of a column only the proven one can be printed by its key."""
     cells = [(Cell(None, "1", ".5"),), (Cell(None, "2", ".5", "", proven=False),)]
-    table = TableView(1, "tab-x", (ColumnView(0, None, numeric=True),), tuple(cells), 0, 0, None, "x")
+    table = TableView(
+        1, "tab-x", (ColumnView(0, None, numeric=True, before=0.0, after=0.0),), tuple(cells), 0, 0, None, "x"
+    )
     assert [one.value for one in _numbers(table, ["k"])] == ["1.5"]
