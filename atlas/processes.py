@@ -24,17 +24,9 @@ def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "s
 
     try:
         with _without_main():
-            return _Pool(workers, get_context(context), _begin, (dict(os.environ), begin))
+            return _Pool(workers, get_context(context), begin)
     except (OSError, ImportError, NotImplementedError):
         return None
-
-
-def _begin(environment: dict[str, str], begin: Callable[[], Any] | None) -> None:
-    """Take over the variables of the process that asks for work: a fork has those of when what it is of was started."""
-    os.environ.clear()
-    os.environ.update(environment)
-    if begin:
-        begin()
 
 
 def prepare(module: str) -> str:

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any
@@ -465,7 +466,7 @@ def test_a_worker_has_the_variables_of_the_process_that_asks(monkeypatch: pytest
     """One that was set after the process was started of which workers are forks counts, such as ATLAS_GL."""
     context = processes.prepare(processes.DRAWING)
     monkeypatch.setenv("ATLAS_GL", "set late")
-    made = processes.pool(1, context=context)
+    made = processes.pool(1, partial(worker.begin, {**os.environ}), context)
     assert made is not None
     with made:
         assert made.submit(os.getenv, "ATLAS_GL").result() == "set late"
