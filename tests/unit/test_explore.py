@@ -250,12 +250,20 @@ def test_a_port_that_is_taken_is_said(server: Explorer) -> None:
 
 
 def test_ctrl_c_ends_it() -> None:
-    """It prints its address, and an interrupt ends it in peace."""
+    """It prints its address, and an interrupt ends it in peace, also where tests run in the background of a script."""
     words = [sys.executable, "-m", "atlas", "explore", "ball", "--no-browser"]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # there it is ignored, by what is started, too
+    try:
+        program = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    with program:
         assert program.stdout is not None
         assert program.stdout.readline().startswith("http://127.0.0.1:")
         program.send_signal(signal.SIGINT)
-        _, said = program.communicate(timeout=60)
+        try:
+            _, said = program.communicate(timeout=60)
+        finally:
+            program.kill()
     assert program.returncode in {0, 130}
     assert said in {"ended\n", "atlas: interrupted\n"}
