@@ -34,12 +34,14 @@ def prepare(module: str) -> str:
 
     Where it can't be started, as without a folder for its socket, workers load what they need themselves.
     """
-    from multiprocessing import forkserver
+    from multiprocessing import forkserver, resource_tracker
 
     try:
         with _without_main():
+            resource_tracker.ensure_running()
             forkserver.set_forkserver_preload([module])
-            forkserver.ensure_running()
+            with _deaf():
+                forkserver.ensure_running()
     except (OSError, ImportError):
         return "spawn"
     return "forkserver"
@@ -76,6 +78,18 @@ class _Pool(ProcessPoolExecutor):
             for process in list((self._processes or {}).values()):
                 process.kill()
         super().shutdown(wait, cancel_futures=cancel_futures)
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Let Ctrl-C not reach a process that is started meanwhile: what it means is decided by this one."""
+    from signal import SIG_BLOCK, SIG_SETMASK, SIGINT, pthread_sigmask
+
+    before = pthread_sigmask(SIG_BLOCK, {SIGINT})
+    try:
+        yield
+    finally:
+        pthread_sigmask(SIG_SETMASK, before)
 
 
 @contextmanager

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import Any
 
@@ -25,16 +26,20 @@ def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> su
     TimeoutExpired where these were not enough.
     """
     started = partial(_bound, os.getpid(), seconds)
-    found = subprocess.run(  # noqa: S603  each caller runs a program of ours
-        command,
-        input=text,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-        timeout=PATIENCE * seconds,
-        preexec_fn=started if os.name == "posix" else None,
-        **more,
-    )
+    with ThreadPoolExecutor(1) as thread:  # an interrupt in the midst of a fork would leave locks held for ever
+        call = thread.submit(
+            lambda: subprocess.run(  # noqa: S603  each caller runs a program of ours
+                command,
+                input=text,
+                capture_output=True,
+                encoding="utf-8",
+                check=False,
+                timeout=PATIENCE * seconds,
+                preexec_fn=started if os.name == "posix" else None,
+                **more,
+            )
+        )
+        found = call.result()
     if -found.returncode in {signal.SIGXCPU, signal.SIGKILL} if os.name == "posix" else False:
         raise subprocess.TimeoutExpired(command, seconds)
     return found

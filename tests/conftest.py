@@ -5,6 +5,8 @@ And where tests keep what they build: none finds what another has left.
 
 import gc
 import os
+import signal
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import given, settings, strategies
@@ -39,3 +41,11 @@ def _cache_of_all(tmp_path_factory: pytest.TempPathFactory) -> None:
 def _cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
     """Give each test an empty cache."""
     monkeypatch.setenv(CACHE, str(tmp_path_factory.getbasetemp() / "caches" / os.urandom(8).hex()))
+
+
+@pytest.fixture
+def interrupts() -> Iterator[None]:
+    """Let programs that a test starts heed Ctrl-C, which a script's jobs in the background, and theirs, ignore."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)

@@ -1,13 +1,14 @@
 """What the process has loaded of which the workers are forks: what draws, once for all of them."""
 
 import gc
-import signal
+import sys
 from contextlib import suppress
 from importlib import import_module
 
 from atlas.places import settle_matplotlib
 
-signal.signal(signal.SIGINT, signal.SIG_IGN)  # what Ctrl-C means is decided by the process that started this one
+# A worker that can't start is missed by its pool; where there is none any more, after Ctrl-C, nobody is to be told.
+sys.excepthook = lambda *_: None
 settle_matplotlib()
 for name in (
     "atlas.build.worker",

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -134,6 +135,37 @@ def test_builds_that_are_killed_leave_whole_files_and_heal(tmp_path: Path, versi
     assert ended(start(tmp_path, version)) == (0, "")
     assert content(tmp_path) == versions[version]
     print(f"{killed} builds killed, {finished} between them ended")  # noqa: T201  the count of a hunt: pytest -s
+
+
+@pytest.mark.usefixtures("interrupts")
+def test_pages_that_are_ended_leave_no_process(tmp_path: Path) -> None:
+    """At any moment, by Ctrl-C, of which one line is said, or killed: the workers end, too."""
+    said = "atlas: interrupted"
+    print(f"seed {os.getpid()}")  # noqa: T201  shown if the test fails
+    chance = random.Random(os.getpid())  # noqa: S311
+    words = [sys.executable, "-m", "atlas", "page", "--ratio", "1.3", "--field", "1", "2", "--omega2", "0.7"]
+    for count in range(KILLS):
+        surroundings = os.environ | {"ATLAS_CACHE": str(tmp_path / f"cache{count}")}
+        with subprocess.Popen(
+            [*words, "--out", "out"],
+            cwd=tmp_path,
+            env=surroundings,
+            start_new_session=True,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        ) as process:
+            time.sleep(0.3 + 4 * chance.random())
+            killed = chance.random() < 0.5
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGINT) if not killed else process.kill()
+            told = process.communicate(timeout=60)[1].strip()
+        # the status is the signal's where Python was about to make a dataclass, whose `exec` asks for it once more, and
+        # where Python itself starts and ends
+        ends = {(0, ""), (130, said), (-signal.SIGINT, said), (-signal.SIGINT, "")}
+        end = (process.returncode, told)
+        assert end[0] in {0, -signal.SIGKILL} if killed else end in ends, "\n".join(map(str, end))
+        wait_until_alone(process.pid)
 
 
 def test_two_builds_at_once_do_no_harm(tmp_path: Path, versions: dict[int, Content]) -> None:

@@ -2,7 +2,6 @@
 
 from copy import copy
 from dataclasses import replace
-from fractions import Fraction
 from functools import cache
 
 import numpy as np
@@ -88,7 +87,7 @@ def test_more_starts_on_the_torus_prove_the_same(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(clebsch_proof, "PARTS", (2,))
     assert bound(made()) < 1e-36
     real = Flow.go
-    monkeypatch.setattr(Flow, "go", lambda flow, H, F, bits: real(flow, H + Fraction(1, 2**70), F, bits))
+    monkeypatch.setattr(Flow, "go", lambda flow, H, F, bits: real(flow, H + fmpq(1, 2**70), F, bits))
     assert bound(made()) > 2.0**-80
 
 

@@ -249,15 +249,11 @@ def test_a_port_that_is_taken_is_said(server: Explorer) -> None:
         Explorer("general", server.server_address[1])
 
 
+@pytest.mark.usefixtures("interrupts")
 def test_ctrl_c_ends_it() -> None:
-    """It prints its address, and an interrupt ends it in peace, also where tests run in the background of a script."""
+    """It prints its address, and an interrupt ends it in peace."""
     words = [sys.executable, "-m", "atlas", "explore", "ball", "--no-browser"]
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # there it is ignored, by what is started, too
-    try:
-        program = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    finally:
-        signal.signal(signal.SIGINT, before)
-    with program:
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
         assert program.stdout is not None
         assert program.stdout.readline().startswith("http://127.0.0.1:")
         program.send_signal(signal.SIGINT)
