@@ -196,13 +196,13 @@ def units_of(options: Mapping[str, Any]) -> dict[str, str]:
     return SECONDS if options.get("magnetic") is not None and system_of(options) != "natural" else {}
 
 
-def charge_to_mass_of(options: Mapping[str, Any]) -> float:
-    """Return mu, from --mu, from --mass and --charge or from --points.
+def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> float:
+    """Return mu, from --mu, from --mass and --charge or from --points, where there are such; `needs` is what needs it.
 
     Raises click.UsageError where none of them or several are given.
     """
     both = [f"--{name}" for name in ("mass", "charge") if options[name] is not None]
-    if options["points"] is not None:
+    if options.get("points") is not None:
         if both or options["mu"] is not None:
             raise click.UsageError(
                 f"--points holds masses and charges: {(both or ['--mu'])[0]} has no place beside it."
@@ -214,7 +214,7 @@ def charge_to_mass_of(options: Mapping[str, Any]) -> float:
         return float(options["mu"])
     if len(both) != 2:
         missing = "--mass and --charge, or --mu" if not both else "--mass" if both == ["--charge"] else "--charge"
-        raise click.UsageError(f"--magnetic needs {missing}, for the charge-to-mass ratio.")
+        raise click.UsageError(f"{needs} needs {missing}, for the charge-to-mass ratio.")
     from atlas.core.unit_systems import charge_to_mass
 
     return charge_to_mass(options["charge"], options["mass"])

@@ -11,6 +11,7 @@ from atlas.cli.body import (
     any_body_options,
     body_options,
     body_parameters,
+    charge_to_mass_of,
     chosen_body,
     chosen_field,
     chosen_moments,
@@ -49,6 +50,9 @@ UNKNOWN = (
 OTHERWISE = ("inertia", "direction")
 """Parameters of a top that --heavy or --magnetic may stand for."""
 
+CHARGE = ("mass", "charge")
+"""Options that may stand for the charge-to-mass ratio of a point charge."""
+
 OF_BODY = ("inertia", "field")
 """Parameters for which bodies with three moments have options of their own."""
 
@@ -65,6 +69,11 @@ units_option: Callable[[Any], Any] = click.option(
     default="natural",
     show_default=True,
     help="c = 1; statvolt/cm, gauss, cm; volt/m, tesla, m (no factor c).",
+)
+
+charge_options = stack(
+    click.option("--mass", type=REAL, help="Mass, with --charge."),
+    click.option("--charge", type=REAL, help="Charge, either sign, with --mass: mu is their ratio."),
 )
 
 
@@ -96,7 +105,8 @@ def _made(family: Family, described: Described) -> click.Command:
         parameters = body_parameters(options) if in_field(family) else {}
         parameters |= {p.name: options[p.name] for p in given if options[p.name] is not None}
         parameters = parameters_of_top(names, options) if ways and given_otherwise(options) else parameters
-        parameters |= {"units": options["units"]} if "c" in names else {}
+        if "c" in names:
+            parameters |= {name: options[name] for name in (*CHARGE, "units") if options[name] is not None}
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
             show(_printout(family, described, texts, options))
@@ -116,12 +126,12 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
         *([field_options] if in_plane(family) else []),
         *([any_body_options] if of_any_body(family) else []),
         *(
-            _option(p, needed=p.needed and not (ways and p.name in OTHERWISE))
+            _option(p, needed=p.needed and not (ways and p.name in OTHERWISE) and p.name != "mu")
             for p in family.parameters
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
         *([top_options] if ways else []),
-        *([units_option] if "c" in names else []),
+        *([charge_options, units_option] if "c" in names else []),
     ]
 
 
@@ -167,11 +177,24 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
             yield (exact_moments if exact else chosen_moments)(options)
         elif p.name == "field" and (not p.option or of_any_body(family)):
             yield (exact_field if exact else chosen_field)(options)
+        elif p.name == "mu":
+            yield _charge_to_mass(options, exact=exact)
         elif p.name == "c":
             yield _speed_of_light(options["units"])
         else:
             value = options[p.name]
             yield exactly(value, options) if exact and value is not None else value
+
+
+def _charge_to_mass(options: dict[str, Any], *, exact: bool) -> Any:
+    """Return mu of a point charge, as it was typed or from its charge and mass."""
+    mu = charge_to_mass_of(options, "A point charge")
+    if not exact:
+        return mu
+    if options["mu"] is not None:
+        return exactly(options["mu"], options)
+    charge, mass = exactly([options["charge"], options["mass"]], options)
+    return charge / mass
 
 
 def _speed_of_light(units: str) -> float:

@@ -1,6 +1,7 @@
 """Floats and certified digits come from two floors that share no code; they must say the same."""
 
 import json
+from decimal import Decimal
 from itertools import pairwise
 from typing import Any
 
@@ -36,6 +37,7 @@ COMMANDS = [
     "particle --mu -2 --electric 0.1 0.5 -1 --magnetic 0.3 -0.2 1 --velocity 1 2 3 --times 0 1 50",
     "particle --mu 2 --electric 0.1 0.5 -1 --velocity 1 2 3 --position 1 1 1 --times 0 1 50",
     "particle --mu 1.7e11 --magnetic 0 0 1e-3 --electric 10 0 0 --velocity 1e5 0 0 --times 1e-9 --units si",
+    "particle --mass 9.1e-31 --charge -1.6e-19 --magnetic 0 0 1e-3 --velocity 1e5 0 0 --times 1e-9 --units si",
     "particle --mu 5e17 --magnetic 0 0 1e2 --velocity 1e5 0 0 --times 1e-9 --units gaussian",
 ]
 
@@ -94,3 +96,11 @@ def test_decimals_are_taken_as_typed_when_asked() -> None:
     # phi = B3 w2 (1-I)(w2 + 2 B2)/(I B2 (w2 + B2)) = 0.1*2.1/1.1 = 21/110
     assert answer(f"{words} --decimal")["phi"] == "0.1909090909090909090909090909090909090909"
     assert answer(words)["phi"] != answer(f"{words} --decimal")["phi"]
+
+
+def test_the_ratio_of_a_charge_to_a_mass_is_exact_in_decimals() -> None:
+    """0.1/0.3 is 1/3 with --decimal, and else the double that the floats go on from."""
+    words = "particle --mass 0.3 --charge 0.1 --magnetic 0 0 1 --digits 25"
+    assert answer(f"{words} --decimal")["cyclotron_frequency"] == "0.3333333333333333333333333"
+    assert answer(words)["cyclotron_frequency"] == f"{Decimal(0.1 / 0.3):.25f}"
+    assert answer("particle --mu 0.1 --magnetic 0 0 1 --digits 25 --decimal")["cyclotron_frequency"].strip("0") == ".1"
