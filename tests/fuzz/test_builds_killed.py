@@ -47,12 +47,15 @@ def start(folder: Path, version: int) -> Process:
     file = folder / str(version) / "small.toml"
     file.parent.mkdir(exist_ok=True)
     file.write_text(REPORT.format(version=version))
-    words = [sys.executable, "-m", "atlas", "report", str(file), "--out", "out", "-j", "2"]
-    surroundings = os.environ | {"ATLAS_CACHE": str(folder / "cache")}
+    return begun(folder, "cache", "report", str(file), "--out", "out", "-j", "2")
+
+
+def begun(folder: Path, cache: str, *words: str) -> Process:
+    """Start a command in a folder, with a cache of this name, as the leader of a group of processes."""
     return subprocess.Popen(
-        words,
+        [sys.executable, "-m", "atlas", *words],
         cwd=folder,
-        env=surroundings,
+        env=os.environ | {"ATLAS_CACHE": str(folder / cache)},
         start_new_session=True,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
@@ -143,18 +146,9 @@ def test_pages_that_are_ended_leave_no_process(tmp_path: Path) -> None:
     said = "atlas: interrupted"
     print(f"seed {os.getpid()}")  # noqa: T201  shown if the test fails
     chance = random.Random(os.getpid())  # noqa: S311
-    words = [sys.executable, "-m", "atlas", "page", "--ratio", "1.3", "--field", "1", "2", "--omega2", "0.7"]
+    page = ("page", "--ratio", "1.3", "--field", "1", "2", "--omega2", "0.7", "--out", "out")
     for count in range(KILLS):
-        surroundings = os.environ | {"ATLAS_CACHE": str(tmp_path / f"cache{count}")}
-        with subprocess.Popen(
-            [*words, "--out", "out"],
-            cwd=tmp_path,
-            env=surroundings,
-            start_new_session=True,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
-        ) as process:
+        with begun(tmp_path, f"cache{count}", *page) as process:
             time.sleep(0.3 + 4 * chance.random())
             killed = chance.random() < 0.5
             with suppress(ProcessLookupError):
