@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import mpmath
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from lxml import html as reader
@@ -290,6 +291,21 @@ def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, An
         exec(code[1], {})  # noqa: S102  what the page tells the reader to type
     motion = ElementaryMotion(2.0, (0.375, 0.65), 0.35)
     assert float(out.getvalue().split()[1]) == pytest.approx(motion.omega3, rel=1e-14)
+
+
+def test_neighbours_are_what_their_words_say(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+    """The pair turns with phi of the other sign, (80); the one that turns as a whole has phi = 0; at rest R is 1."""
+    record = unbuilt("--ratio 1.3 --field 1 2 --omega2 0.7")
+    (rows,) = (block["rows"] for block in record["pages"][0]["blocks"] if block.get("id") == "neighbours")
+    found = {words.split()[1 if words.startswith("the") else 0]: cells for words, cells in rows}
+    motions = {
+        word: ElementaryMotion(1.3, (1, 2), float(cells.split("--omega2 ")[1].strip("`")))
+        for word, cells in found.items()
+        if word in {"pair", "at", "$\\phi=0$:"}
+    }
+    assert motions["pair"].phi == pytest.approx(-ElementaryMotion(1.3, (1, 2), 0.7).phi, rel=1e-14)
+    assert motions["$\\phi=0$:"].phi == 0
+    assert (motions["at"].rotation(3.0) == np.eye(3)).all()
 
 
 def test_the_figures_of_a_family_draw_it() -> None:
