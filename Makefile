@@ -94,7 +94,7 @@ lint: setup
 	@$(BIN)/lint-imports --no-cache
 
 test: lint
-	@echo 'the tests: about 4 minutes on two cores'
+	@echo 'the tests: about 5 minutes on two cores'
 	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(JOBS) --dist worksteal   # without bytecode, each of their programs is compiled
 
 # The sdist and the wheel of a tag, from what the tag holds and nothing else.
