@@ -30,9 +30,9 @@ def pool(workers: int, begin: Callable[[], Any] | None = None, context: str = "s
 
 
 def prepare(module: str) -> str:
-    """Start the process of which workers are forks, which loads a module meanwhile, and return the context for `pool`.
+    """Start multiprocessing's fork server, which imports a module for its workers; return the start method for `pool`.
 
-    Where it can't be started, as without a folder for its socket, workers load what they need themselves.
+    Where it can't be started, as without a folder for its socket, workers are spawned and import what they need.
     """
     from multiprocessing import forkserver, resource_tracker
 
@@ -40,7 +40,7 @@ def prepare(module: str) -> str:
         with _without_main():
             resource_tracker.ensure_running()
             forkserver.set_forkserver_preload([module])
-            with _deaf():
+            with _without_interrupts():
                 forkserver.ensure_running()
     except (OSError, ImportError):
         return "spawn"
@@ -81,8 +81,8 @@ class _Pool(ProcessPoolExecutor):
 
 
 @contextmanager
-def _deaf() -> Iterator[None]:
-    """Let Ctrl-C not reach a process that is started meanwhile: what it means is decided by this one."""
+def _without_interrupts() -> Iterator[None]:
+    """Block SIGINT in a process that is started meanwhile: what Ctrl-C means is decided by this one."""
     from signal import SIG_BLOCK, SIG_SETMASK, SIGINT, pthread_sigmask
 
     before = pthread_sigmask(SIG_BLOCK, {SIGINT})

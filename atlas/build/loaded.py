@@ -1,4 +1,4 @@
-"""What the process has loaded of which the workers are forks: what draws, once for all of them."""
+"""What multiprocessing's fork server imports once for all workers that draw figures."""
 
 import gc
 import sys

@@ -165,7 +165,7 @@ def read(entry: bytes) -> tuple[dict[str, Any], bytes]:
 def begin(environment: Mapping[str, str]) -> None:
     """Prepare a worker process: it ends with the process that started it, which alone decides what Ctrl-C means.
 
-    The variables of that process may have changed since the one was started of which this is a fork.
+    Its environment is that of the caller now, which may have changed since the fork server was started.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ.clear()

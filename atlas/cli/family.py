@@ -47,8 +47,8 @@ UNKNOWN = (
     "symmetry of the motion."
 )
 
-OTHERWISE = ("inertia", "direction")
-"""Parameters of a top that --heavy or --magnetic may stand for."""
+OTHERWISE = {"top": ("inertia", "direction"), "particle": ("mu",)}
+"""Parameters that other options may stand for, by family: --heavy or --magnetic, --mass and --charge."""
 
 CHARGE = ("mass", "charge")
 """Options that may stand for the charge-to-mass ratio of a point charge."""
@@ -126,7 +126,7 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
         *([field_options] if in_plane(family) else []),
         *([any_body_options] if of_any_body(family) else []),
         *(
-            _option(p, needed=p.needed and not (ways and p.name in OTHERWISE) and p.name != "mu")
+            _option(p, needed=p.needed and p.name not in OTHERWISE.get(family.name, ()))
             for p in family.parameters
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
