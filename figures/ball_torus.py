@@ -48,7 +48,7 @@ def scene(
         m2 = larmor * float(np.sqrt(ratio * ratio - least * least))
         ball = BallMotion(1.0, larmor, momentum=(m2, m3))
         stop = count * 2 * np.pi / larmor
-        panels += [torus(ball, larmor, stop), trace(ball, larmor, stop)]
+        panels += [torus(ball, larmor, stop), trace(ball, larmor, stop, named=not panels)]
     shown = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
         title=title(__doc__),
@@ -76,16 +76,16 @@ def torus(ball: BallMotion, larmor: float, stop: float) -> Space:
     return Space((*net(), *seen(line, "trajectory"), Points(line[:1], "start")), *VIEW)
 
 
-def trace(ball: BallMotion, larmor: float, stop: float) -> Space:
-    """Return the panel of the ball with the way of R_1, the field and the axis k at t = 0."""
+def trace(ball: BallMotion, larmor: float, stop: float, *, named: bool) -> Space:
+    """Return the panel of the ball with the way of R_1, the field and the axis k at t = 0, named or not."""
     fine = quadric_panel.tolerance(1.5)
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     way = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, fine, pieces=pieces)
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine, role="ball"),
         Curve(way, "trajectory" if larmor * stop < FEW else "second_trace"),
-        Points(way[:1], "start", r"$\mathbf{R}_1(0)$"),
+        Points(way[:1], "start", r"$\mathbf{R}_1(0)$" if named else ""),
         Arrow(quadric_panel.E3, 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
     ]
     k = quadric_panel.in_plane(*ball.k_hat)
-    return Space((*layers, Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$")), 25.0, 20.0)
+    return Space((*layers, Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$" if named else "")), 25.0, 20.0)

@@ -77,7 +77,8 @@ def _curves(ratios: tuple[float, ...], field: tuple[float, float], view: Window)
     for ratio, role in zip(ratios if apart else ratios[:1], roles, strict=False):
         name = f"$I={tex(quotient(ratio))}$" if apart else "every $I$"
         pieces = branches(ratio, field, view, (WIDTH - MARGIN, HEIGHT - MARGIN))
-        layers += [Curve(piece, role, "" if order else name) for order, piece in enumerate(pieces)]
+        turned = -1 if quotient(ratio) < 1.0 else 1  # the name stands at the end, here that at the pole, alone there
+        layers += [Curve(piece[::turned], role, "" if order else name) for order, piece in enumerate(pieces)]
     return layers
 
 

@@ -105,5 +105,5 @@ def course(motions: list[Companion], last: float, unit: str) -> Plane:
         shown = ", shown in (a)" if motion is motions[0] else ""
         name = ("upper" if motion.c3 - motion.b * motion.turning > rest else "lower") + shown
         layers += [Curve(line, role), Label(line[[len(line) // 2]], name, role, (30.0, 0.0))]
-    layers.append(Label(np.array([0.85 * last, rest]), "unstable precession", "unstable", (-10.0, 6.0)))
+    layers.append(Label(np.array([0.85 * last, rest]), "precession", "unstable", (0.0, 5.0)))
     return Plane(tuple(layers), f"$t$ ({unit})", rf"$\Omega_3$ (1/{unit})", *view, title=r"(b) $\Omega_3$")

@@ -10,7 +10,7 @@ from atlas.errors import AtlasError
 from atlas.scene.captions import listed, plain, title
 from atlas.scene.layers import Layer, Plane, Points, Scene
 from atlas.study.bench.figures import by_method, decades, line, measured, pairs, power, runs_of
-from atlas.study.bench.methods import MARKS, case_title
+from atlas.study.bench.methods import LINES, case_title
 from atlas.study.bench.methods import title as name
 from atlas.study.bench.results import Results, Run, read
 
@@ -55,7 +55,7 @@ def panels(record: Results, cases: tuple[str, ...], horizon: float) -> tuple[Pla
             x_label=f"largest error up to $t = {power(horizon)}$",
             y_label="time for one sample (µs)",
             x_limits=decades((x for some in points for x in some[:, 0]), 1.6, 0.5),
-            y_limits=decades((y for some in points for y in some[:, 1]), 0.5, 0.5),
+            y_limits=decades((y for some in points for y in some[:, 1]), 0.9, 0.5),
             x_scale="log",
             y_scale="log",
             title=case_title(case).capitalize(),
@@ -69,6 +69,6 @@ def drawn(runs: list[Run]) -> Iterator[Layer]:
     for method, group in by_method(runs).items():
         points = pairs(group, lambda run: run.error, lambda run: run.seconds / run.samples * 1e6)
         if group[0].tolerance is None:
-            yield Points(points, MARKS.get(method, "point"), name(method))
+            yield Points(points, LINES.get(method, "eighth"), name(method))
         else:
             yield from line(points, method)

@@ -23,6 +23,8 @@ _FAR, _SIGHT = 5.0, 30.0
 _KEPT = 100
 _HEIGHT = 20.0
 _HALO, _BOX = 2.2, 0.85
+NOBODY = -2
+"""The owner of ink that a name is never taken for the name of."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,8 @@ def place(
         best = np.argsort(cost, kind="stable")[:_KEPT]
         candidates, cost = candidates[best], cost[best]
         if owners is not None and tag.owner >= 0:
-            cost += _doubt(candidates, tag.extent, ink, owners == tag.owner)
+            named = owners != NOBODY
+            cost += _doubt(candidates, tag.extent, ink[named], owners[named] == tag.owner)
         alone[i] = candidates, cost
     for _ in range(2):
         for i, (candidates, cost) in alone.items():

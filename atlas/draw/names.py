@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.draw.labels import Tag, along, place
+from atlas.draw.labels import NOBODY, Tag, along, place
 from atlas.draw.labels import write as write_tags
 from atlas.draw.style import style_of, zoom
 from atlas.draw.text import extent, points
@@ -80,7 +80,10 @@ def _backwards(points: FloatArray) -> FloatArray:
 
 
 def _ink(size: tuple[float, float], panel: Plane, places: Places) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:
-    """Return points of all lines and marks inside the panel, how much it hurts to cover each, and its layer."""
+    """Return points of all lines and marks inside the panel, how much it hurts to cover each, and its layer.
+
+    Guides are pale lines without a name, and no other is taken for theirs: they belong to nobody.
+    """
     ink, weights, owners = [np.empty((0, 2))], [np.empty(0)], [np.empty(0, dtype=np.int64)]
     for owner, layer in enumerate(panel.layers):
         if isinstance(layer, Curve):
@@ -93,6 +96,7 @@ def _ink(size: tuple[float, float], panel: Plane, places: Places) -> tuple[Float
             continue
         points = points[((points >= -_OVER) & (points <= np.array(size) + _OVER)).all(axis=1)]
         ink.append(points)
-        weights.append(np.full(len(points), 6.0 if isinstance(layer, Points) else 1.5))
-        owners.append(np.full(len(points), owner))
+        guide = layer.role == "guide"
+        weights.append(np.full(len(points), 6.0 if isinstance(layer, Points) else 0.2 if guide else 1.5))
+        owners.append(np.full(len(points), NOBODY if guide else owner))
     return np.concatenate(ink), np.concatenate(weights), np.concatenate(owners)

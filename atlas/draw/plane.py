@@ -17,6 +17,8 @@ from atlas.scene.style import INK, WHITE
 _AREAS, _LINES, _MARKS = 1.0, 2.0, 3.0
 _DECADES = 6
 """An axis with more powers of ten has no ticks between them: a reader could not tell them apart."""
+_NEAR, _TOUCH = 0.47, 1e-9
+"""How far from the middle a mark meets the frame, and how far beyond it still is on it, in sizes of the panel."""
 _BAR = (1.03, 0.0, 1.0 / 30.0, 1.0)
 
 
@@ -27,7 +29,8 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
     """
     _scale(axes, panel)
     axes.spines[:].set_in_layout(False)  # they are where the axes are
-    entries = []
+    entries: list[Any] = []
+    nameless: dict[str, Any] = {}
     edge = WHITE if any(isinstance(layer, Image) for layer in panel.layers) else ""
     for order, layer in enumerate(panel.layers):
         artist = _draw(axes, layer, 1e-3 * order, edge)
@@ -36,10 +39,15 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
         if artist is not None and layer.label and not isinstance(layer, Arrow | Image):
             artist.set_label(typeset(layer.label))
             entries.append(artist)
+        elif artist is not None and isinstance(layer, Curve | Points):
+            nameless[layer.role] = artist
+        elif isinstance(layer, Label) and layer.role in nameless:
+            nameless.pop(layer.role).set_label(typeset(layer.text))  # where a user asks for a legend
     axes.set(xlabel=typeset(panel.x_label), ylabel=typeset(panel.y_label))
     axes.set(**{key: at for key, at in (("xlim", panel.x_limits), ("ylim", panel.y_limits)) if at is not None})
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x_limits and panel.y_limits else "datalim")
+    _whole(axes)
     _ticks(axes)
     above = _factor(axes.yaxis) or mpl.rcParams["xtick.labeltop"]
     axes.set_title(typeset(panel.title), y=None if above else 1.0)  # None: it is measured what stands above the axes
@@ -47,6 +55,15 @@ def draw_plane(axes: Axes, panel: Plane, number: int = 1) -> None:
         axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     elif panel.legend and entries:
         axes.legend(handles=entries, loc="best").set_in_layout(False)
+
+
+def _whole(axes: Axes) -> None:
+    """Draw marks on the frame whole, where none is outside."""
+    for line in axes.lines:
+        away = np.abs((axes.transData - axes.transAxes).transform(line.get_xydata()) - 0.5)
+        if line.get_marker() != "None" and _NEAR < np.max(away, initial=0.0) <= 0.5 + _TOUCH:
+            line.set_clip_on(False)
+            line.set_in_layout(False)
 
 
 def _ticks(axes: Axes) -> None:

@@ -98,7 +98,7 @@ def _fitted(
     part = min(1.0, (room[1] - sum(words)) / (sum(rows) - sum(words)))
     rows = [word + part * (row - word) for row, word in zip(rows, words, strict=True)]
     scale = min(_scale(one, (wide, rows[k // columns]), before) for k, one in enumerate(panels))
-    shown = [replace(one, legend=True) if isinstance(one, Plane) and one.legend == "beside" else one for one in panels]
+    shown = [replace(one, legend=False) if isinstance(one, Plane) and one.legend == "beside" else one for one in panels]
     return Arrangement(tuple(panels if wide >= before[0] else shown), columns, tuple(rows), scale)
 
 

@@ -56,7 +56,8 @@ class Arrow:
 class Label:
     """Text at a place, ``offset`` printer's points away from it; with offset (0, 0) it is centred there and stays.
 
-    ``at`` may hold several places (N, 2) or (N, 3), the first the best, the others for when it is taken.
+    ``at`` may hold several places (N, 2) or (N, 3), the first the best, the others for when it is taken. In a panel
+    with two axes it is also the label, for a legend, of the last curve or points of its role before it without one.
     """
 
     at: FloatArray
@@ -118,8 +119,8 @@ Layer: TypeAlias = Curve | Points | Arrow | Label | Surface | Region | Image
 class Plane:
     """A panel with two axes.
 
-    With ``legend`` the layers' labels stand in a key (where there is most room, or beside the panel); without it they
-    stand at the layers themselves.
+    With ``legend`` the layers' labels stand in a key (where there is most room, or beside the panel if that is not made
+    narrower); without it they stand at the layers themselves.
     """
 
     layers: tuple[Layer, ...]

@@ -83,7 +83,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "trajectory": Style(TEAL, 1.2, tube=2.6),
         "flight_path": Style(TEAL, 1.2, hidden=False, tube=2.4),
         "trace": Style("#2a57a5", 1.2, tube=2.6),
-        "second_trace": Style("#6b8fc9", 0.7, tube=1.4),
+        "second_trace": Style("#4a74bd", 0.8, tube=1.4),
         "coil": Style("#8a5a1f", 0.5, hidden=False, tube=1.0),
         "loop": Style("#8a5a1f", 2.0, tube=5.0),
         "seam_line": Style("#6b4517", 2.0, tube=4.0),
@@ -97,7 +97,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "guide": Style(PALE, _THIN, tube=0.8),
         "rim": Style(INK, 0.7, tube=1.1),
         "silhouette": Style(INK, 0.9, tube=0.0),
-        "wire": Style("#828e9b", 0.3, hidden=False, tube=0.35),
+        "wire": Style("#9aa4af", 0.3, hidden=False, tube=0.35),
         # the bodies, where they are compared
         "loop_body": Style("#c0309a", 1.2),
         "short_body": Style("#0b6470", 1.2, (5.0, 1.6)),

@@ -15,7 +15,7 @@ from atlas.scene import recipes
 from atlas.scene.captions import tex
 from atlas.scene.layers import Curve, Plane, Points, Scene
 from atlas.study.bench import results
-from atlas.study.bench.methods import LINES, MARKS, OURS, title
+from atlas.study.bench.methods import LINES, OURS, title
 
 NAMES = ("work_precision", "horizon", "cost")
 
@@ -125,7 +125,7 @@ def test_every_method_of_the_record_has_a_name_and_a_look() -> None:
     """No method of the record is drawn by default alone."""
     for run in results.read().runs:
         assert run.method in LINES
-        assert run.tolerance or (run.method in MARKS and title(run.method) != run.method)
+        assert run.tolerance or title(run.method) != run.method
 
 
 def test_drawing_measures_nothing() -> None:

@@ -54,8 +54,6 @@ LINES = {
 
 OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "even_out", "third_axis")
 
-MARKS = {"ours": "start", "ours_grid": "point", "plain": "special", "lambdify": "rest", "rotation": "centre"}
-
 
 def title(method: str) -> str:
     """Return the name of a method in words; one that is not known keeps its own."""
