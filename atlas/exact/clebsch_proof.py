@@ -27,7 +27,7 @@ from atlas.errors import NotCertifiedError
 from atlas.exact.cayley_klein import matrix
 from atlas.exact.clebsch_periods import BITS, centre, complex_of
 from atlas.exact.clebsch_theta import ThetaMotion
-from atlas.exact.theta_sums import CHARACTERISTICS, Array, needed
+from atlas.exact.theta_sums import CHARACTERISTICS, Array, near, needed
 from atlas.exact.torus import Period, Torus
 from atlas.formulas.numbers import dot, rational, workprec
 
@@ -106,8 +106,8 @@ class Cell:
         self.times = np.array([[float(p.H.mid()) for p in periods], [float(p.F.mid()) for p in periods]])
         self.into: Array = np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
         self.Y = np.array([[complex_of(self.hat[i, j]).imag for j in range(2)] for i in range(2)])
-        corners = HALF * np.array(list(product((-1, 1), repeat=2))).T
-        self.places = needed(self.hat, [theta.denominator], self.origin, self.into @ corners, FAINT)
+        self.corners = self.into @ (HALF * np.array(list(product((-1, 1), repeat=2))).T)
+        self.places = needed(self.hat, [theta.denominator], self.origin, self.corners, FAINT)
         self.middle = np.round(self.places.mean(axis=0))
         turns = np.array([complex_of(x) for x in self.lines]) @ self.times
         start = complex_of(dot(theta.l, theta.start)).imag
@@ -154,12 +154,12 @@ class Cell:
     def _defects(self) -> tuple[Floats, Floats]:
         """Return places S (n, 2) and logarithms of bounds on coefficients there, (n, 6): of M, K, N by each flow."""
         low = np.round(-4 * np.linalg.solve(self.Y, self._imaginary(0.0))).astype(int) - 1
-        reach = 2 * np.sqrt(LEFT_OUT / self.narrow) + 3 * abs(np.linalg.solve(self.Y, self.into.imag)).max()
-        line = 4 * np.arange(-int(reach / 4) - 2, int(reach / 4) + 3)
-        shifts = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
+        away = self._imaginary(0.0)[:, None] + self.corners.imag / np.pi
+        peaks = -4 * np.linalg.solve(self.Y, away).T  # where coefficients are largest
         found, parts = [], np.array([0.0, 0.0, 0.5] * 2)
         for S in product(*(range(int(s), int(s) + 4) for s in low)):
             place: Floats = np.array(S)
+            shifts = 4 * near(self.Y, (peaks - place) / 4, LEFT_OUT / (2 * np.pi))
             less = [self._left_out(place, part) for part in parts]
             defects = [
                 np.linalg.norm([float(abs(c).upper()) + spare for c in components])
@@ -211,11 +211,8 @@ class Cell:
 
     def _places(self, middle: Floats) -> list[Place]:
         """Return the places of the terms that matter, round the middle and round the middle plus a shift."""
-        reach = int(np.sqrt(2 * LEFT_OUT / np.pi / self.narrow) + abs(self.away).max()) + 2
-        line = np.arange(-reach, reach + 1)
-        grid = np.floor(middle).astype(int) + np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
-        far = [np.einsum("ni,ij,nj->n", p, self.Y, p) for p in (grid - middle, grid - middle - self.away)]
-        return [(int(P), int(Q)) for P, Q in grid[np.minimum(*far) * np.pi / 2 < LEFT_OUT]]
+        found = near(self.Y, np.array([middle, middle + self.away]), 2 * LEFT_OUT / np.pi)
+        return [(int(P), int(Q)) for P, Q in found]
 
     def _left_out(self, S: Floats, part: float) -> float:
         """Return a bound on what the terms that are left out add to a coefficient at S.
@@ -240,7 +237,7 @@ class Cell:
             found = list[acb]()
             for form, power in zip(self.forms, powers, strict=True):
                 e, d = CHARACTERISTICS[form.place]
-                found.append(acb(0) if (Q - e) % 2 else form.weights[P % 2] * power * acb(0, 1) ** (Q * d % 4))
+                found.append(acb(0) if e != Q % 2 else form.weights[P % 2] * power * acb(0, 1) ** (Q * d % 4))
             self._known[place] = found
         return self._known[place]
 

@@ -18,7 +18,7 @@ from atlas.formulas.numbers import workprec
 
 
 def quartic_roots(polynomial: fmpq_poly) -> list[acb]:
-    """Return the four roots of a quartic that has no double root, real ones first; the balls do not overlap.
+    """Return the four roots of a quartic that has no double root; the balls do not overlap.
 
     At least two of the roots must be real. The precision is raised above that of the moment as far as it takes.
     """
@@ -53,7 +53,6 @@ def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any
         inner = _root(ball(12 * H * H - a0 * a0 * g2))
         squares = [3 * h + r * inner for r in (1, -1)]
         z = [s * (_root(x.real) if x.imag.is_zero() else x.sqrt()) for x, s in product(squares, (1, -1))]
-        z.sort(key=lambda x: not x.imag.is_zero())
     elif sign(discriminant) > 0:
         angle, size = arb.atan2((ball(discriminant) / 27).sqrt(), ball(g3)) / 3, (ball(g2) / 3).sqrt()
         x, y, w = (_root(h - lead * size * (angle - 2 * k * arb.pi() / 3).cos()) for k in range(3))
@@ -72,7 +71,7 @@ def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any
 
 
 def three_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
-    """Return the roots of b0 x^3 + 3 b1 x^2 + 3 b2 x + b3, real ones first, as `four_roots` does."""
+    """Return the roots of b0 x^3 + 3 b1 x^2 + 3 b2 x + b3, as `four_roots` does."""
     b0, b1, b2, b3 = b
     H, G = b1 * b1 - b0 * b2, b0 * b0 * b3 - 3 * b0 * b1 * b2 + 2 * b1 * b1 * b1
     discriminant, h = 4 * H * H * H - G * G, ball(H)

@@ -66,7 +66,7 @@ class Form:
         e, d = CHARACTERISTICS[self.place]
         v = [x - y for x, y in zip(origin, self.shift, strict=True)]
         for P, Q in places:
-            if (Q - e) % 2 == 0:
+            if e == Q % 2:
                 x, y = arb(P) / 2, arb(Q) / 2
                 square = hat[0, 0] * x * x + 2 * hat[0, 1] * x * y + hat[1, 1] * y * y
                 exponent = acb(0, 1) * arb.pi() * (square + 2 * (x * v[0] + y * v[1]) + y * d)
@@ -167,18 +167,17 @@ def needed(
     shifts = np.array([[complex_of(x) for x in form.shift] for form in forms])
     v0 = np.array([complex_of(x) for x in origin])
     away = (v0[:, None] + region / np.pi).imag[None] - shifts.imag[:, :, None]
-    reach = int(np.ceil(2 * np.sqrt(left_out / np.pi / np.linalg.eigvalsh(Y)[0]))) + 1
-    peaks = -2 * np.einsum("ij,fjm->fim", np.linalg.inv(Y), away)  # where terms are largest
-    low, high = (
-        np.floor(peaks.min(axis=(0, 2))).astype(int) - reach,
-        np.ceil(peaks.max(axis=(0, 2))).astype(int) + reach,
-    )
-    grid = np.stack(
-        np.meshgrid(*[np.arange(a, b + 1) for a, b in zip(low, high, strict=True)], indexing="ij"), -1
-    ).reshape(-1, 2)
-    flat = peaks.transpose(0, 2, 1).reshape(-1, 2)
+    peaks = -2 * np.einsum("ij,fjm->fmi", np.linalg.inv(Y), away)  # where terms are largest
+    return near(Y, np.unique(np.round(peaks.reshape(-1, 2), 1), axis=0), 4 * left_out / np.pi)
+
+
+def near(Y: NDArray[np.float64], peaks: NDArray[np.float64], most: float) -> NDArray[np.int64]:
+    """Return the whole places n (m, 2) with (n - p, Y (n - p)) below `most` for one of the peaks p (k, 2)."""
+    reach = np.sqrt(most / np.linalg.eigvalsh(Y)[0])
+    ends = zip(np.ceil(peaks.min(axis=0) - reach), peaks.max(axis=0) + reach, strict=True)
+    lines = np.meshgrid(*(np.arange(low, high) for low, high in ends), indexing="ij")
+    grid = np.stack(lines, -1).reshape(-1, 2).astype(int)
     kept = np.zeros(len(grid), bool)
-    for peak in np.unique(np.round(flat, 1), axis=0):
-        far = grid - peak
-        kept |= np.pi / 4 * np.einsum("ni,ij,nj->n", far, Y, far) < left_out
+    for peak in peaks:
+        kept |= np.einsum("ni,ij,nj->n", grid - peak, Y, grid - peak) < most
     return np.asarray(grid[kept])

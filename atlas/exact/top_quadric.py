@@ -166,8 +166,8 @@ class TopHyperbola:
             if n % 2:
                 ends += _real_roots(factor)
             else:  # the frequency touches zero: unstable at the point itself, but for a fourfold root
-                held = gcd(factor, self._fourfold) if self._leading < 0 else (n2.of(1),)
-                ends += 2 * _real_roots(divided(factor, held)[0])
+                left = divided(factor, gcd(factor, self._fourfold))[0] if self._leading < 0 else factor
+                ends += 2 * _real_roots(left)
         found = sorted(((u - k2) * n2.value for u in ends), key=lambda end: end.mid())
         return list(zip(found[::2], found[1::2], strict=True))
 

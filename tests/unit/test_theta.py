@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from itertools import count
+from typing import Any
 
 import pytest
 from flint import arb
@@ -10,23 +11,41 @@ from atlas.exact import swing
 from atlas.exact.theta import Lattice, Sum, vanishing_at
 from atlas.formulas.numbers import workprec
 
+FACTOR = 0.75
+
 SUMS: dict[str, Callable[[Lattice], tuple[Sum, ...]]] = {
     "a zero": lambda lattice: (vanishing_at(lattice, arb("0.2"), beyond=False),),
     "a zero beyond": lambda lattice: (vanishing_at(lattice, arb("0.2"), beyond=True),),
-    "two poles, apart": lambda lattice: swing._apart(lattice, arb("0.4"), arb(1)),
-    "a double pole": lambda lattice: swing._merged(lattice, arb(1)),
-    "two poles, across": lambda lattice: swing._across(lattice, arb("0.2"), arb(1)),
+    "two poles, apart": lambda lattice: swing._apart(lattice, arb("0.4"), arb(FACTOR)),
+    "a double pole": lambda lattice: swing._merged(lattice, arb(FACTOR)),
+    "two poles, across": lambda lattice: swing._across(lattice, arb("0.2"), arb(FACTOR)),
 }
+OBLIQUE = "a zero", "a zero beyond", "two poles, across"
+"""Those of lattices that may be oblique."""
+
+STATED = {
+    "a zero": [(6, 5.127e-5), (7, 1.975e-14), (9, 7.784e-6), (11, 6.889e-20)],
+    "a zero beyond": [(6, 5.127e-5), (8, 8.504e-19), (9, 7.784e-6), (12, 3.661e-23)],
+    "two poles, apart": [(7, 2.025e-9), (8, 5.178e-19)],
+    "a double pole": [(7, 3.428e-9), (8, 9.062e-21)],
+    "two poles, across": [(7, 5.310e-9), (7, 1.975e-14), (9, 5.686e-6), (11, 6.889e-20)],
+}
+"""Terms at 53 bits, and the bound on what is left out: trigonometric, hyperbolic, and both for an oblique lattice."""
 
 
-@pytest.mark.parametrize("name", SUMS)
-@pytest.mark.parametrize("form", ["trigonometric", "hyperbolic"])
-@pytest.mark.parametrize("precision", [24, 53, 64, 106, 150])
-def test_what_a_sum_leaves_out_is_within_its_bound(name: str, form: str, precision: int) -> None:
-    """The terms that forty times the bits have more, where they are largest, and those of the derivative."""
+def of_form(form: str, *, oblique: bool) -> Lattice:
+    """Return a lattice whose sums have some ten terms."""
     half, imaginary = (arb(1), arb("0.4")) if form == "trigonometric" else (arb("0.4"), arb(1))
     rate = arb.pi() / (2 * (half if form == "trigonometric" else imaginary))
-    lattice = Lattice(form, half, imaginary, oblique=False, rate=rate)
+    return Lattice(form, half, imaginary, oblique=oblique, rate=rate)
+
+
+@pytest.mark.parametrize(("name", "oblique"), [*((name, False) for name in SUMS), *((name, True) for name in OBLIQUE)])
+@pytest.mark.parametrize("form", ["trigonometric", "hyperbolic"])
+@pytest.mark.parametrize("precision", [24, 53, 64, 106, 150])
+def test_what_a_sum_leaves_out_is_within_its_bound(name: str, oblique: bool, form: str, precision: int) -> None:
+    """The terms that forty times the bits have more, where they are largest, and those of the derivative."""
+    lattice = of_form(form, oblique=oblique)
     with workprec(precision):
         few = SUMS[name](lattice)
     with workprec(40 * precision):
@@ -42,3 +61,19 @@ def test_what_a_sum_leaves_out_is_within_its_bound(name: str, form: str, precisi
             assert len(high.odd) > n
             assert 0 < rest < low.bound
             assert slope < 2 * first * low.bound
+
+
+@pytest.mark.parametrize("name", SUMS)
+def test_a_sum_has_no_more_terms_than_it_needs_and_a_bound_that_is_stated(name: str) -> None:
+    """So many terms at 53 bits, and the bound in units of 2^-53: a larger one would be a loss of digits."""
+    forms = [(form, oblique) for oblique in (False, True) for form in ("trigonometric", "hyperbolic")]
+    found = list[Any]()
+    for form, oblique in forms[: 4 if name in OBLIQUE else 2]:
+        lattice = of_form(form, oblique=oblique)
+        with workprec(53):
+            first, *others = SUMS[name](lattice)
+        assert all((len(x.odd), x.bound) == (len(first.odd), first.bound) for x in others)
+        found.append((len(first.odd), float(first.bound) * 2.0**53))
+    for (terms, bound), (needed, stated) in zip(found, STATED[name], strict=True):
+        assert terms == needed
+        assert bound == pytest.approx(stated, rel=1e-3)

@@ -1,0 +1,107 @@
+"""Periods of the torus of a body with three moments: how narrow they are proved, and by which way."""
+
+from functools import cache
+from typing import Any
+
+import pytest
+from flint import arb, ctx
+
+from atlas.errors import NotCertifiedError
+from atlas.exact import torus
+from atlas.exact.asymmetric import AsymmetricMotion
+from atlas.exact.torus import Torus
+
+QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
+
+
+@cache
+def kept() -> Torus:
+    """Return the torus of a motion whose periods are short beside its rates."""
+    motion = AsymmetricMotion(*QUICK).on_torus
+    assert motion is not None
+    return motion.torus
+
+
+def made() -> Torus:
+    """Return it without what was found of it but for the lattice."""
+    found = Torus(kept().moments, kept().W, kept().K)
+    found.__dict__["lattice"] = kept().lattice
+    return found
+
+
+def radii(torus: Torus, bits: int) -> list[float]:
+    """Return the radii of both periods and of their angles in units of 2^-bits."""
+    return [
+        float(x.rad() * arb(2) ** bits) for period in torus.periods(bits) for x in (period.H, period.F, period.angle)
+    ]
+
+
+def test_periods_are_known_to_some_twenty_bits_more_than_are_asked_for() -> None:
+    """They are proved with whole words of 32 bits, and kept."""
+    found = made()
+    periods = found.periods(100)
+    assert radii(found, 128) == pytest.approx([4.397e-6, 3.863e-6, 6.449e-5, 8.507e-6, 7.475e-6, 7.515e-5], rel=1e-3)
+    assert found.periods(128) is periods
+
+
+def test_more_bits_come_by_newtons_method(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beyond GOOD bits a start is improved, each time to nearly twice the bits; a way without a proof costs less."""
+    true, gone, real = kept().periods(128), list[tuple[int, bool]](), torus.Flow.go
+
+    def go(flow: Any, H: Any, F: Any, bits: int, *, proven: bool = True) -> Any:
+        gone.append((bits, proven))
+        return real(flow, H, F, bits, proven=proven)
+
+    monkeypatch.setattr(torus.Flow, "go", go)
+    monkeypatch.setattr(torus, "GOOD", 96)
+    monkeypatch.setattr(torus, "FIRST", 90)
+    periods = made().periods(150)
+    assert gone == [(90, False), (140, False), (200, True)] * 2
+    for x, y in zip(periods, true, strict=True):
+        assert all(p.overlaps(q) and p.rad() < q.rad() for p, q in ((x.H, y.H), (x.F, y.F), (x.angle, y.angle)))
+
+
+def test_a_rough_start_is_refused_before_it_is_improved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A start that is off by 1e-19 is no start."""
+    monkeypatch.setattr(torus, "GOOD", 96)
+    monkeypatch.setattr(torus, "FIRST", 90)
+    found = made()
+    first, second = found._approximate()
+    for error, refused in ((1e-19, True), (1e-21, False)):
+        found._starts = [(first[0] + torus.fmpq(*error.as_integer_ratio()), first[1]), second]
+        if refused:
+            with pytest.raises(NotCertifiedError, match="does not find a period"):
+                found.periods(128)
+        else:
+            assert all(x.H.overlaps(y.H) for x, y in zip(found.periods(128), kept().periods(128), strict=True))
+
+
+def test_more_bits_are_tried_where_few_are_too_few(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no period is proved with 160 bits it is tried with 320, and with no more."""
+    tried, real = list[int](), Torus._enclosed
+
+    def enclosed(self: Any, start: Any, bits: int) -> Any:
+        tried.append(bits)
+        if bits < limit:
+            raise NotCertifiedError("not certified: it might grow.")
+        return real(self, start, 128)
+
+    monkeypatch.setattr(Torus, "_enclosed", enclosed)
+    limit = 320
+    found = made()
+    assert found.periods(160)[0] is found.periods(320)[0]
+    assert tried == [160, 320, 320]
+    limit = 1000
+    tried.clear()
+    with pytest.raises(NotCertifiedError):
+        made().periods(128)
+    assert tried == [128, 256]
+
+
+def test_components_that_do_not_tell_states_apart_prove_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The two that tell best are those whose rates along both flows make the largest parallelogram."""
+    with ctx.workprec(100):
+        assert kept()._coordinates() == (1, 5)
+        monkeypatch.setattr(Torus, "_told_apart", lambda *_: False)
+        with pytest.raises(NotCertifiedError, match="could not be proved"):
+            made().periods(128)
