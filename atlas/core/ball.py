@@ -42,7 +42,7 @@ class BallMotion(Motion[Ball]):
     """
 
     family = "ball"
-    _unit = slice(1, 4)
+    _unit = slice(1, None)
     _inverse = True
 
     def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
@@ -85,4 +85,4 @@ class BallMotion(Motion[Ball]):
 
     def _vectors(self) -> dict[str, Any]:
         inertia, _, m2, m3 = self._inputs
-        return {"m": (0.0, m2, m3), "Omega": (0.0, *over(rates, inertia, m2, m3, unit=slice(1, 3), degree=(1, 1)))}
+        return {"m": (0.0, m2, m3), "Omega": (0.0, *over(rates, inertia, m2, m3, unit=slice(1, None), degree=(1, 1)))}

@@ -89,7 +89,7 @@ class ElementaryMotion(Motion[Elementary]):
     """
 
     family = "elementary"
-    _unit = slice(2, 6)
+    _unit = slice(2, None)
 
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
         self.ratio = ratio
@@ -231,7 +231,7 @@ class ElementaryMotion(Motion[Elementary]):
         B2, B3 = self.field
         if not np.all(B2):
             raise DomainError("With B2 = 0 the free body beside the motion, (87), has no omega3.")
-        omega3 = over(quotient, I2, I3, B2, B3, self.omega2, unit=slice(2, 5))
+        omega3 = over(quotient, I2, I3, B2, B3, self.omega2, unit=slice(2, None))
         if not np.isfinite(omega3).all():
             raise DomainError("omega3 of the free body beside the motion, (87), is too large for a float.")
         return FreeMotion(self.ratio, (0.0, self.omega2, omega3))
@@ -257,7 +257,7 @@ class FreeMotion(Motion[Free]):
     """
 
     family = "free"
-    _unit = slice(2, 5)
+    _unit = slice(2, None)
 
     def __init__(self, ratio: Any, omega: Any) -> None:
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)

@@ -167,7 +167,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         if self._turning:
             return [nearest(x) for x in self._turning.exact.invariants.values()]
         I2, I3 = moments(self.ratio)
-        return over(constants, I2, I3, *self.omega, 0.0, *self.field, unit=slice(2, 8), degree=(2, 2, 1, 2, 2))
+        return over(constants, I2, I3, *self.omega, 0.0, *self.field, unit=slice(2, None), degree=(2, 2, 1, 2, 2))
 
     def _momentum(self, Omega: FloatArray) -> FloatArray:
         """Return (Omega1, Omega2, I Omega3)."""

@@ -167,7 +167,7 @@ class Hyperbola(Shown):
         """
         if np.any(np.equal(self.B2, 0)):
             raise DomainError("With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
-        return over(least_stability, self.I2, self.I3, self.B2, self.B3, unit=slice(2, 4), degree=2) + 0.0
+        return over(least_stability, self.I2, self.I3, self.B2, self.B3, unit=slice(2, None), degree=2) + 0.0
 
     @property
     def unstable_band(self) -> tuple[float, float] | None:
@@ -266,4 +266,4 @@ class Hyperbola(Shown):
         if np.any(pole):
             found = np.broadcast_to(omega2, pole.shape)[pole].flat[0]
             raise DomainError(f"omega2 = -B2 = {found} is the pole of omega3(omega2), (71).")
-        return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, 5), **more)
+        return over(formula, self.I2, self.I3, self.B2, self.B3, omega2, unit=slice(2, None), **more)

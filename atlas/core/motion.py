@@ -62,7 +62,7 @@ def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> l
 class Motion(Shown, Generic[Turning]):
     """Motions R(t) = R_n(k t) R_z(phi t), (85), of the shape of the parameters, which broadcasts with the times."""
 
-    _unit = slice(0)
+    _unit: slice
     """Which of the inputs are frequencies."""
 
     def __init__(self, make: Callable[..., Turning], *inputs: Any) -> None:

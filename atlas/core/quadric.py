@@ -77,7 +77,7 @@ class Quadric(Shown):
         """
         I2, I3, B2, B3 = self._directed()
         vertical = B2 == 0
-        slope = over(quadric.tangent, I2, I3, np.where(vertical, 1.0, B2), B3, unit=slice(2, 4), degree=0)
+        slope = over(quadric.tangent, I2, I3, np.where(vertical, 1.0, B2), B3, unit=slice(2, None), degree=0)
         y = np.copysign(np.where(vertical, 1.0, abs(slope)), B3)
         return plain(np.arctan2(y, np.where(vertical, 0.0, np.copysign(1.0, B2))))
 
@@ -87,7 +87,7 @@ class Quadric(Shown):
         I2, I3, B2, B3 = self._directed()
         if np.any((B2 == 0) & (B3 > 0)):
             raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
-        return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
+        return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @cached_property
     def a3(self) -> Any:
@@ -95,14 +95,14 @@ class Quadric(Shown):
         I2, I3, B2, B3 = self._directed()
         if np.any((B2 == 0) & (B3 < 0)):
             raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
-        return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, 4), degree=0)
+        return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
     @cached_property
     def semi_axes(self) -> Any:
         """Semi-axes C1, C2, C3 of (55), (57): the roots of |1-I| B2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
         along = np.asarray(B2) == 0
-        found = over(quadric.semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, 4), degree=(1, 1, 1))
+        found = over(quadric.semi_axes, I2, I3, np.where(along, 1.0, B2), B3, unit=slice(2, None), degree=(1, 1, 1))
         C1, C2, C3 = (plain(np.where(along, 0.0, C)) for C in found)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
@@ -119,7 +119,7 @@ class Quadric(Shown):
         Raises DomainError for B = 0.
         """
         I2, I3, B2, B3 = self._directed()
-        cos, sin = over(quadric.half_angle, I2, I3, B2, B3, unit=slice(2, 4), degree=(0, 0))
+        cos, sin = over(quadric.half_angle, I2, I3, B2, B3, unit=slice(2, None), degree=(0, 0))
         cos, sin = np.where((B2 < 0) & (B3 >= 0), -cos, cos), np.where((B2 < 0) & (B3 < 0), -sin, sin)
         axes = np.zeros((*cos.shape, 3, 3))
         rows, flat = axes.reshape(-1, 9), np.stack([cos, sin]).reshape(2, -1)
@@ -149,7 +149,7 @@ class Quadric(Shown):
         are no vectors.
         """
         points = np.moveaxis(vectors(omega, "omega", RATE), -1, 0)
-        return over(quadric.residual, *self._inputs, *points, unit=slice(2, 7), degree=3)
+        return over(quadric.residual, *self._inputs, *points, unit=slice(2, None), degree=3)
 
     def _directed(self) -> tuple[Any, ...]:
         """Return the inputs as arrays; DomainError where I^-1 B' has no direction."""

@@ -116,7 +116,7 @@ class TopHyperbola(Shown):
         I2, I3, _, _, n2, n3, a0, _ = self._top
         if n3 == 0 and a0 == 0:
             raise DomainError("With n3 = 0 and no linear potential the curve is the two lines w = 0 and v = 0.")
-        across = n2 / np.hypot(n2, n3)
+        across = abs(n2) / np.hypot(n2, n3)
         D = 0.0 if n3 == 0 else abs(float(self.quadric.D))
         push = abs(a0) / I2 * across if n3 == 0 else D * abs(n3 / n2) * across**2
         b = max(float(np.hypot(*self.quadric.centre[1:])), D**0.5, push**0.5)

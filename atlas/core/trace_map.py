@@ -29,12 +29,11 @@ def quartic(ratio: Any, field: Any, omega: Any) -> FloatArray:
     return np.stack([A + zero, zero, -g - A - M3 * M3, 2 * p * M3, g - p * p], axis=-1)
 
 
-def turning_points(ratio: Any, field: Any, omega: Any) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the range of nu = K3/b, and the real roots of q, theorem-top.
+def turning_points(ratio: Any, field: Any, omega: Any) -> tuple[FloatArray, FloatArray]:
+    """Return the range of nu = K3/b, theorem-top: the real roots of q next to the start.
 
-    Arguments as for `quartic`. Returns the least and the largest nu, shape (...), equal in an equilibrium, and the
-    roots in ascending order, shape (..., 4), where the complex ones are given as 2, which no cosine is. Near a double
-    root the error is the square root of eps.
+    Arguments as for `quartic`. Returns the least and the largest nu, shape (...), equal in an equilibrium. Near a
+    double root the error is the square root of eps.
     """
     q = quartic(ratio, field, omega)
     _, _, b, B3, w, _, _ = _state(ratio, field, omega)
@@ -42,7 +41,7 @@ def turning_points(ratio: Any, field: Any, omega: Any) -> tuple[FloatArray, Floa
     slope = 4 * q[..., 0] * nu**3 + 2 * q[..., 2] * nu + q[..., 3]
     roots = _roots(q)
     real = np.abs(roots.imag) <= TOLERANCE
-    found = np.sort(np.where(real, roots.real, 2.0), axis=-1)
+    found = np.where(real, roots.real, np.inf)
     # where the motion starts at a turning point that root is nu itself, and q' tells the side
     start = w[..., 0] * B2 == 0
     below = np.where(found <= nu - TOLERANCE, found, -np.inf).max(axis=-1)
@@ -50,7 +49,7 @@ def turning_points(ratio: Any, field: Any, omega: Any) -> tuple[FloatArray, Floa
     size = np.abs(q).max(axis=-1)
     low = np.where(start & (slope > -TOLERANCE * size), nu, below)
     high = np.where(start & (slope < TOLERANCE * size), nu, above)
-    return np.clip(low, -1.0, 1.0), np.clip(high, -1.0, 1.0), found
+    return np.clip(low, -1.0, 1.0), np.clip(high, -1.0, 1.0)
 
 
 def trace_map(ratio: Any, field: Any, omega: Any) -> IntArray:
@@ -59,7 +58,7 @@ def trace_map(ratio: Any, field: Any, omega: Any) -> IntArray:
     The rate of precession is dpsi = (p - M3 nu)/(1 - nu^2) - b, theorem-top; the axis makes loops if it changes sign
     between the turning points. Arguments as for `quartic`.
     """
-    low, high, _ = turning_points(ratio, field, omega)
+    low, high = turning_points(ratio, field, omega)
     _, _, b, _, _, M3, p = _state(ratio, field, omega)
 
     def rate(nu: Any) -> Any:
@@ -84,13 +83,13 @@ def _state(ratio: Any, field: Any, omega: Any) -> tuple[Any, ...]:
 
 
 def _roots(q: FloatArray) -> NDArray[np.complex128]:
-    """Return the roots (..., 4) of quartics (..., 5), those at infinity as 2."""
+    """Return the roots (..., 4) of quartics (..., 5), those at infinity as inf."""
     lead = 0 if np.all(q[..., 0]) else 2
     monic = q[..., lead + 1 :] / q[..., lead, None]
     degree = 4 - lead
     companion = np.zeros((*q.shape[:-1], degree, degree))
     companion[..., 0, :] = -monic
     companion[..., np.arange(1, degree), np.arange(degree - 1)] = 1
-    roots = np.full((*q.shape[:-1], 4), 2.0 + 0j)
+    roots = np.full((*q.shape[:-1], 4), complex(np.inf))
     roots[..., :degree] = np.linalg.eigvals(companion)
     return roots

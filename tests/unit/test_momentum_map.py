@@ -163,7 +163,7 @@ def test_maps_tell_what_a_simulation_does(ratio: float) -> None:
     for first in (0.0, 0.5):
         omega = rng.normal(size=(2, 3))
         omega[:, 0] *= first
-        low, high, _ = turning_points(ratio, field, omega)
+        low, high = turning_points(ratio, field, omega)
         traces = trace_map(ratio, field, omega)
         for start, a, z, trace in zip(omega, low, high, traces, strict=True):
             run = atlas.simulate(ratio, field, start, np.linspace(0, 60, 12001), rtol=1e-8)

@@ -141,9 +141,10 @@ def test_the_trochoid_of_the_paper(mu: float, radius: float, kind: str) -> None:
     ],
 )
 def test_each_path_and_field_has_its_name(E: Any, B: Any, v: Any, kind: str, case: str) -> None:
-    """Kinds and cases are decided exactly on the inputs."""
-    p = ParticleMotion(1, E, B, ORIGIN, v)
-    assert (p.kind, p.case) == (kind, case)
+    """Kinds and cases are decided exactly on the inputs, whichever axis is called the first."""
+    for first in range(3):
+        p = ParticleMotion(1, *(np.roll(x, first) for x in (E, B)), ORIGIN, np.roll(v, first))
+        assert (p.kind, p.case) == (kind, case)
 
 
 @given(vectors, vectors.filter(lambda B: np.linalg.norm(B) > 0.1), vectors, charges.filter(lambda mu: abs(mu) > 0.1))

@@ -216,6 +216,24 @@ def test_branches_lie_on_the_quadric_on_either_side_of_the_pole(name: str) -> No
     assert len(curve.sample(20)[0]) == 20
 
 
+CYLINDER = (1.0, 0.5), (0.5, 0.0), (-2.0, 0.0), 3.0, 0.0
+
+
+@pytest.mark.parametrize("top", [*TOPS.values(), CYLINDER])
+def test_branches_reach_as_far_along_both_asymptotes(top: tuple) -> None:
+    """|w| ends at `reach` times b, and begins where |v|, but for its part along the other asymptote, is that.
+
+    b is the distance of the centre from rest, or if larger sqrt|D|, or for n3 = 0 that of |n2 a0|/(I2 |n|).
+    """
+    curve, ((I2, I3), _, (n2, n3), a0, _) = atlas.Hyperbola.of_top(*top), top
+    size = abs(curve.quadric.D) if n3 else abs(a0) / I2
+    b = max(np.hypot(*curve.quadric.centre[1:]), size**0.5)
+    for branch in curve.branches(8, reach=5.0):
+        w, v = branch[0] - curve.pole, branch[1] - curve.quadric.centre[2]
+        assert abs(w[-1]) == pytest.approx(5 * b, rel=1e-12)
+        assert abs(v[0] - I2 * n3 * w[0] / (I3 * n2)) == pytest.approx(5 * b, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("make", "says"),
     [

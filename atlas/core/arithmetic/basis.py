@@ -60,7 +60,7 @@ def multiply(rows: NDArray[Any]) -> None:
     first, second = rows[0:4:2], rows[1:4:2]
     np.multiply(first, second[:, None], out=rows[5:9].reshape(2, 2, -1))
     if len(rows) == 11:
-        np.multiply(rows[4], second, out=rows[9:11])
+        np.multiply(rows[4], second, out=rows[9:])
 
 
 def rodrigues(axis: Axis) -> FloatArray:

@@ -61,7 +61,7 @@ class Blocks:
 
 def _each_block(inputs: Sequence[Any], shape: tuple[int, ...]) -> Iterator[Block]:
     columns = [np.broadcast_to(np.asarray(x, dtype=float), shape) for x in inputs]
-    for rows, _, exponents, (roots,) in blocks(lambda *x: (roots_of(*x),), columns, shape, slice(2, 7), bound=1.0):
+    for rows, _, exponents, (roots,) in blocks(lambda *x: (roots_of(*x),), columns, shape, slice(2, None), bound=1.0):
         frequencies = np.array([abs(x.reshape(-1)[rows]) for x in columns[2:]])
         least = np.where(frequencies == 0, np.inf, frequencies).min(axis=0)
         fine = least >= SPREAD * frequencies.max(axis=0)

@@ -104,8 +104,7 @@ class Hyperbolic:
     def __init__(self, found: Solution, sums: Sequence[Sum]) -> None:
         lattice = found.lattice
         self.periodic = not infinite(lattice.half)
-        self.reach, self.inverse = lattice.reach, arb(2)
-        self.peak = self.part = 0.0
+        self.reach = lattice.reach
         slope, start = lattice.rate, lattice.rate * found.origin
         if self.periodic:
             # W = part (exp 2x + exp -2x), part = peak^2
