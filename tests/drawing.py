@@ -1,11 +1,17 @@
-"""Make a scene once for all tests, and draw one into one file."""
+"""Make a scene once for all tests, draw one into one file, and measure how far off a line is."""
 
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from atlas.draw import save
 from atlas.scene import Scene, recipes
+
+FloatArray = NDArray[np.float64]
 
 
 @lru_cache(maxsize=200)
@@ -19,3 +25,13 @@ def draw(scene: Scene, path: Path | str, renderer: str = "vector", dpi: float = 
     path = Path(path)
     save(scene, {path: path.suffix.lstrip(".")}, renderer, {"savefig.dpi": dpi})
     return path
+
+
+def distance(points: FloatArray, line: FloatArray) -> float:
+    """Return the largest distance of points from the nearest place of a polyline."""
+    nearest = np.full(len(points), np.inf)
+    for a, b in pairwise(line):
+        chord = b - a
+        along = np.clip((points - a) @ chord / (float(chord @ chord) or 1.0), 0.0, 1.0)
+        nearest = np.minimum(nearest, np.linalg.norm(points - a - along[:, None] * chord, axis=1))
+    return float(nearest.max())

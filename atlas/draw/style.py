@@ -16,7 +16,7 @@ from atlas.scene.style import LINES, Style, style
 from atlas.targets import Target
 
 _NO_LATEX = "the style asks for it (text.usetex); with SciencePlots say science,no-latex"
-_DASHES = {"--": (3.7, 1.6), "-.": (6.4, 1.6, 1.0, 1.6), ":": (1.0, 1.65)}
+_DASHES = {"--": "dashed", "-.": "dashdot", ":": "dotted"}
 SHEET = Path(__file__).with_name("atlas.mplstyle")
 _TARGET: ContextVar[Target | None] = ContextVar("_TARGET", default=None)
 _SIDES = ("xtick", "ytick")
@@ -172,5 +172,8 @@ def style_of(role: str) -> Style:
     cycle = list(mpl.rcParams["axes.prop_cycle"])
     line = cycle[LINES.index(role) % len(cycle)]
     width, dashes = line.get("linewidth", mpl.rcParams["lines.linewidth"]), line.get("linestyle", "-")
-    dash = dashes[1] or () if isinstance(dashes, tuple) else _DASHES.get(dashes, ())
+    if isinstance(dashes, str):
+        dash = mpl.rcParams.get(f"lines.{_DASHES.get(dashes, dashes)}_pattern", ())
+    else:
+        dash = dashes[1] or ()
     return replace(found, colour=to_hex(line.get("color", found.colour)), width=width, dash=tuple(dash))

@@ -16,8 +16,8 @@ from atlas.report.tables.layout import NONE
 from atlas.report.tables.properties import SPACE, Thing, rows_of
 
 DIGITS = 10
-DOTS, WIDTH = 160, 300
-"""Pixels an inch of the picture, and how wide it is shown, in pixels of CSS."""
+WIDTH = 300
+"""How wide the picture is shown, in pixels of CSS, each of which has two of its own."""
 SIDES = dict.fromkeys(("Quantity", "Name", "Value", "Unit", "Equation", "Proven"), "left") | {"Value": "right"}
 """Where the text of a column stands; JupyterLab puts all to the right where nothing is said."""
 Row = tuple[str, str, str | Number, str, str, str]
@@ -58,8 +58,8 @@ def rows(shown: Shown) -> Sequence[Row]:
 def picture(shown: Shown) -> str:
     """Return the first panel of the figure of an object, small; nothing where there is none."""
     with suppress(AtlasError):
-        file = BytesIO()
-        plot(shown, None, 1, None, None, None, {}).savefig(file, dpi=DOTS)
+        file, figure = BytesIO(), plot(shown, None, 1, None, None, None, {})
+        figure.savefig(file, dpi=2 * WIDTH / figure.get_figwidth())
         return f'<img width="{WIDTH}" alt="" src="data:image/png;base64,{b64encode(file.getvalue()).decode()}">'
     return ""
 

@@ -3,12 +3,12 @@
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
-from itertools import pairwise
 from typing import Any
 from unittest.mock import patch
 
 import numpy as np
 import pytest
+from drawing import distance
 from numpy.typing import NDArray
 
 from atlas.core.flight import Flight
@@ -20,16 +20,6 @@ from atlas.scene import Curve, Plane, Region, Scene, Surface, recipes
 FloatArray = NDArray[np.float64]
 
 DPI = 300.0
-
-
-def distance(points: FloatArray, line: FloatArray) -> float:
-    """Return the largest distance of points from the nearest place of a polyline."""
-    nearest = np.full(len(points), np.inf)
-    for a, b in pairwise(line):
-        chord = b - a
-        along = np.clip((points - a) @ chord / (float(chord @ chord) or 1.0), 0.0, 1.0)
-        nearest = np.minimum(nearest, np.linalg.norm(points - a - along[:, None] * chord, axis=1))
-    return float(nearest.max())
 
 
 @pytest.mark.parametrize("name", ["motion", "motion_sphere"])

@@ -1,6 +1,8 @@
 """Shaded pictures: translucent surfaces, and labels where the things are."""
 
+import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +14,7 @@ from drawing import draw
 from numpy.typing import NDArray
 
 from atlas.draw import gl
+from atlas.places import folder
 from atlas.scene import Arrow, Curve, Points, Scene, Space, recipes, solids
 
 pytestmark = pytest.mark.skipif(gl.library() is None, reason="no GL library can draw off-screen here")
@@ -54,6 +57,15 @@ def test_what_is_inside_a_translucent_ball_shines_through(tmp_path: Path) -> Non
     plain = int(glass[glass.shape[0] // 2, glass.shape[1] // 2, 0] - glass[glass.shape[0] // 2, glass.shape[1] // 2, 2])
     behind, before = redness(0.0), redness(1.5)
     assert plain + 20 < behind < before
+
+
+def test_the_light_falls_on_the_pages_as_in_the_pictures() -> None:
+    """The lamps of the program that turns a scene are those of its still picture."""
+    from atlas.draw.shaded import _LIGHTS
+
+    text = (folder("templates") / "html" / "scene.js").read_text(encoding="utf-8")
+    (lamps,) = re.findall(r"LAMPS = (\[\[[-\d., \[\]]*\]\])", text)
+    assert json.loads(lamps) == [[*place, strength] for place, strength in _LIGHTS]
 
 
 def test_things_are_drawn_where_the_labels_think(tmp_path: Path) -> None:

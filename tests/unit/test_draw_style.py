@@ -68,6 +68,14 @@ def test_the_look_of_plotted_lines_is_the_cycle_of_the_sheet() -> None:
         assert line.get_linewidth() == wanted["linewidth"]
 
 
+def test_dashes_of_a_sheet_are_those_of_matplotlib() -> None:
+    """By their sign and by their name, of the pattern that the settings have for them."""
+    for linestyle in ("--", "dashed", "-.", "dashdot", ":", "dotted", "-", "solid"):
+        word = {"--": "dashed", "-.": "dashdot", ":": "dotted"}.get(linestyle, linestyle)
+        with context({"axes.prop_cycle": mpl.cycler(linestyle=[linestyle]), "lines.dotted_pattern": [1.5, 2.5]}):
+            assert style_of("main").dash == tuple(mpl.rcParams.get(f"lines.{word}_pattern", ()))
+
+
 def test_a_style_sheet_of_the_user_changes_the_look(tmp_path: Path) -> None:
     """A file or a dict is layered over the sheet of the package: what it says holds, what it does not say stays."""
     sheet = tmp_path / "mine.mplstyle"
@@ -268,6 +276,14 @@ def test_widths_say_what_matters() -> None:
     assert (np.diff(scale) > 0.4).all()
     assert scale[-1] <= 2.0 * widest
     assert max(width for role, width in wide.items() if "nutation" not in role) < 2.0 * thinnest
+
+
+def test_dashes_gaps_and_tints_can_be_seen() -> None:
+    """A dot is as long as a line is wide, a dash three times that; ink is read on a tint."""
+    for role, look in STYLES.items():
+        assert all(1.0 <= on <= 1.2 or 3.0 <= on <= 5.0 for on in look.dash[::2]), role
+        assert all(1.5 <= off <= 2.5 for off in look.dash[1::2]), role
+    assert all(0.1 < STYLES[role].fill < 0.4 for role in ("region", "unstable_region", "shade"))
 
 
 @pytest.mark.parametrize("role", ["surface", "sphere", "ball", "cone", "tangent_plane", "plane"])

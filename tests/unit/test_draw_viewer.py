@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from drawing import distance
 
-from atlas.draw import viewer
+from atlas.draw import labels, moves
 from atlas.draw.panels import laid_out, places
 from atlas.draw.style import context, style_of
+from atlas.draw.view import fit
 from atlas.draw.viewer import GRID, STEPS, data, script
 from atlas.places import folder
 from atlas.scene import Scene, recipes, solids
@@ -32,6 +34,21 @@ def handed(name: str) -> dict[str, Any]:
 def line(packed: str) -> FloatArray:
     """Return the points of a line."""
     return np.frombuffer(b64decode(packed), "<i2").reshape(-1, 3) / STEPS
+
+
+def test_the_program_counts_as_we_do() -> None:
+    """Steps of points, letters and turns, and where names may stand at what cost, are the same on both sides."""
+    text = {name: (HTML / name).read_text(encoding="utf-8") for name in ("scene.js", "motion.js")}
+
+    def numbers(pattern: str, name: str = "scene.js") -> list[float]:
+        (found,) = re.findall(pattern, text[name], re.DOTALL)
+        return [float(number) for number in re.findall(r"-?\d[\d.]*", found)]
+
+    assert numbers(r"STEPS = (\d+, GRID = \d+)") == [STEPS, GRID]
+    assert numbers(r"FINE = (\d+)", "motion.js") == [moves.FINE]
+    assert numbers(r"TURNS = (\[.*?\])") == pytest.approx(np.degrees(labels._TURNS))
+    steps = numbers(r"PLACES = .*?(\[[\d, ]*\]\.map\(step => .*?\]\))")
+    assert steps == [*labels._STEPS, labels._TURN, labels._STEP]
 
 
 def full(form: list[float]) -> FloatArray:
@@ -54,34 +71,28 @@ def test_points_of_surfaces_obey_what_is_handed_over() -> None:
     y = np.array(low) + 1e-3 + (seen - seen.min(axis=0)) * ((np.array(high) - low - 2e-3) / size)
     one = np.concatenate([y, np.ones((len(y), 1))], axis=1)
     assert np.abs(np.einsum("ni,ij,nj->n", one, full(form), one)).max() < 2e-6
-    for *normal, distance in np.reshape(planes, (-1, 4)):
-        assert (y @ normal).max() < distance + 1e-6
+    for *normal, reach in np.reshape(planes, (-1, 4)):
+        assert (y @ normal).max() < reach + 1e-6
     look = style_of(surface.role)
     assert (within, front, back, dense) == ([], look.colour, look.back, look.glass)
 
 
 def test_lines_and_marks_are_all_there() -> None:
-    """A line has no point twice, no more than the curve, and its extent as it is thinned; marks and eye are there."""
+    """A line has no point twice, less than the curve, and is nowhere half a point away from it; marks are there."""
     scene = recipes.load("nutation_traces").scene()
     wide = data(scene)["wide"]
-    for panel, given, place in zip(scene.panels, wide["panels"], wide["places"], strict=True):
-        near = viewer._NEAR / place[6]  # of what was thinned, at either end
+    for panel, given, (*_, right, top, scale, _, _) in zip(scene.panels, wide["panels"], wide["places"], strict=True):
         assert isinstance(panel, Space)
+        view = fit(panel, (right, top))
         assert np.allclose(np.reshape(given["frame"], (3, 3)), frame(panel), atol=1e-6)
-        curves = [layer for layer in panel.layers if isinstance(layer, Curve) and not style_of(layer.role).dash]
+        (curve,) = (x.points for x in view.panel.layers if isinstance(x, Curve) and not style_of(x.role).dash)
+        same = max((line(packed) for _, _, packed in given["lines"]), key=len)
+        assert distance(same, curve) < 1.0 / STEPS
+        assert distance(curve, same) < 0.5 / scale
+        assert len(same) <= 0.7 * len(curve)
+        assert np.any(np.diff(same, axis=0), axis=1).all()
         marks = [layer for layer in panel.layers if isinstance(layer, Points)]
-        lines = [line(packed) for _, _, packed in given["lines"]]
-        for curve in curves:
-            (same,) = (one for one in lines if np.allclose(shape(one), shape(curve.points), atol=2.0 * near))
-            assert len(same) <= len(curve.points)
-            assert np.any(np.diff(same, axis=0), axis=1).all()
         assert len(given["dots"]) == sum(len(np.atleast_2d(one.points)) for one in marks)
-
-
-def shape(points: FloatArray) -> FloatArray:
-    """Return what of a curve is the same wherever the origin is: its extent, measured by the largest."""
-    size = np.ptp(points, axis=0)
-    return np.asarray(size / size.max())
 
 
 def test_letters_are_outlines_about_their_middle() -> None:

@@ -278,6 +278,29 @@ title = "Own"
     assert found["general/period"][0].replace(" ", "") in re.sub(r"[\s\u2009\u202f]", "", printed)
 
 
+@pytest.mark.parametrize(
+    ("letters", "count", "says"),
+    [
+        ((20, 22), 1, r"{table}"),  # 46 letters with two between columns: in a column of the page, and no more
+        ((20, 23), 1, r"{table*}"),
+        ((13, 13, 15), 1, r"{table*}"),
+        ((20, 91), 1, r"{tabular}{ll}"),  # 115 letters fit across the page
+        ((20, 92), 1, r"{tabular}{l>{\raggedright\arraybackslash}p{0.81\textwidth}}"),
+        ((28,) * 5, 1, r"{tabular}{lllll}"),  # short words stay whole, of longer ones some are left, 24 letters
+        ((28, 28, 28, 28, 29), 1, r"{tabular}{llll>{\raggedright\arraybackslash}p{0.21\textwidth}}"),
+        ((20, 20), 60, r"\begin{table}"),
+        ((20, 20), 61, r"\begin{longtable*}"),
+        ((20, 2 * 92 - 1), 31, r"\begin{longtable*}"),  # two lines each
+    ],
+)
+def test_a_table_is_as_wide_and_as_high_as_its_words(letters: tuple[int, ...], count: int, says: str) -> None:
+    """In a column of the page, across both or over several pages, with words broken where they do not fit."""
+    texts = ["Head", *("x" * number for number in letters)]
+    columns = tuple(ColumnView(0, None, numeric=False, before=0.0, after=0.0) for _ in letters)
+    rows = tuple(tuple(Cell(n) for n in range(1, len(texts))) for _ in range(count))
+    assert says in table_of(TableView(1, "tab-x", columns, rows, 0, 0, None, "x"), texts, texts)
+
+
 @needs_latex
 def test_a_table_higher_than_a_page_goes_on(made: Path) -> None:
     """All its rows are printed, with the heads again on the second page; a lower one stays in one piece."""

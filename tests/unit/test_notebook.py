@@ -5,6 +5,7 @@ import pickle
 import re
 import struct
 import sys
+from base64 import b64decode
 from typing import Any
 
 import numpy as np
@@ -143,10 +144,19 @@ def test_html_has_proven_digits() -> None:
     assert sides == ("left", "left", "right", "left", "left", "left")
 
 
+def pixels(html: str) -> tuple[int, int]:
+    """Return width and height of the PNG in a piece of HTML."""
+    (png,) = re.findall(r"data:image/png;base64,([\w+/=]+)", html)
+    width, height = struct.unpack(">2I", b64decode(png)[16:24])
+    return width, height
+
+
 def test_html_has_a_small_picture_where_a_recipe_draws_it() -> None:
-    """One panel, as a picture in the text; nothing of an array."""
+    """One panel, as a picture in the text, with twice the pixels of the width that it is shown in; none of an array."""
     assert picture(Quadric([1.5, 0.5], (1, 2))) == ""
-    assert re.match(r'<img width="300" alt="" src="data:image/png;base64,[\w+/=]+">$', picture(Hyperbola(1.5, (1, 2))))
+    shown = picture(Hyperbola(1.5, (1, 2)))
+    assert re.match(r'<img width="300" alt="" src="data:image/png;base64,[\w+/=]+">$', shown)
+    assert pixels(shown)[0] in {599, 600}
 
 
 def test_arrays_and_what_has_no_family_have_a_line() -> None:
@@ -172,6 +182,10 @@ def test_a_plotter_shows_a_viewer_that_asks_for_nothing() -> None:
     frame = bundle["text/html"]
     assert re.match(r'<iframe [^>]*sandbox="allow-scripts"[^>]*srcdoc="[^"]*"></iframe>$', frame)
     assert "default-src &#x27;none&#x27;" in frame
+    (size,) = re.findall(r'<iframe width="(\d+)" height="(\d+)"', frame)
+    css = 96 / 25.4 * np.array(scene.size)
+    assert np.abs(np.array(size, dtype=int) - css).max() <= 0.5
+    assert np.abs(pixels(frame) - 2 * css).max() <= 1.0  # sharp on a fine screen
     assert "http://www.w3.org/2000/svg" in frame  # a name, and the only address
     assert not set(re.findall(r"https?://[^&;\"`]+", frame)) - {"http://www.w3.org/2000/svg"}
     assert "atlasViewer" in frame

@@ -18,9 +18,11 @@ from syrupy.assertion import SnapshotAssertion
 from atlas.core.arithmetic import phase
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
-from atlas.study import extreme
+from atlas.study import extreme, nutating
 from atlas.study.arrays import check_rows
+from atlas.study.asymmetric import ASYMMETRIC, size_of
 from atlas.study.elliptic import ELLIPTIC
+from atlas.study.nutating import _times
 from atlas.study.promises import check_motion
 from atlas.study.regimes import GENERAL, REGIMES, near
 from atlas.study.stress import LIMITS, SHORT, Result, read_record, record_name, stress, write_record
@@ -196,6 +198,40 @@ def test_every_regime_draws_what_it_drew_for_the_record(snapshot: SnapshotAssert
         parts = (x == 0).sum(0), (x > 0).sum(0), size.mean(0), np.arange(100) @ size / 100
         found.append(f"{regime}: " + " ".join("[" + " ".join(f"{one:.11g}" for one in part) + "]" for part in parts))
     assert found == snapshot.use_extension(lines.Lines)
+
+
+@pytest.mark.parametrize(
+    ("period", "size", "low", "high"),
+    [(3.0, 2.0, 3e-3, 3e6), (math.inf, 2.0, 5e-3, 5e6), (1e12, 4.0, 1e9, 2.0**44)],
+)
+def test_times_of_a_nutation_reach_from_a_thousandth_of_a_period_to_a_million(
+    period: float, size: float, low: float, high: float
+) -> None:
+    """Of five radians at the largest rate where there is none, no phase beyond 2^46; on both sides, evenly in size."""
+    random = Random(3)  # noqa: S311  reproducible, not secret
+    t = np.concatenate([_times(period, size, random) for _ in range(60)])
+    assert t.size == 300
+    assert low <= abs(t).min() < 1.2 * low
+    assert t.max() == pytest.approx(high, rel=0.2)
+    assert t.min() == pytest.approx(-high, rel=0.2)
+    assert max(t.max(), -t.min()) <= high
+    assert abs(np.mean(t > 0) - 0.5) < 0.1
+
+
+def test_a_body_with_three_moments_is_checked_at_early_late_and_very_late_times(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """In units of the largest rate from 0.1 to 100, 1e4 to 1e9 and 1e10 to 10^14.5, on both sides of zero."""
+    asked: list[list[float]] = []
+    monkeypatch.setattr(nutating, "check", lambda *_, times, **__: asked.append(times))
+    random = Random(3)  # noqa: S311  reproducible, not secret
+    draw = next(iter(ASYMMETRIC.values()))(random)
+    for _ in range(300):
+        nutating.check_asymmetric(draw, "a regime", random, WorstErrors())
+    phases = size_of(draw) * np.array(asked)
+    assert np.log10(abs(phases).min(axis=0)) == pytest.approx([-1, 4, 10], abs=0.1)
+    assert np.log10(abs(phases).max(axis=0)) == pytest.approx([2, 9, 14.5], abs=0.1)
+    assert (abs(np.mean(phases > 0, axis=0) - 0.5) < 0.2).all()
 
 
 def test_neighbours_lie_on_both_sides_at_every_distance() -> None:
