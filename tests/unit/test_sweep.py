@@ -14,7 +14,7 @@ import atlas
 from atlas.cli.app import atlas as program
 from atlas.cli.app import main
 from atlas.core.elementary import ElementaryMotion
-from atlas.errors import AtlasError
+from atlas.errors import DomainError
 from atlas.study.sweep.families import FAMILIES, NAME
 from atlas.study.sweep.tables import csv_part
 
@@ -220,13 +220,19 @@ def test_a_row_without_a_number_says_why_and_the_table_goes_on(tmp_path: Path, d
     assert found["missing"].to_pylist() == [reason or None for reason in REASONS]
 
 
-def test_rows_outside_the_domain_are_named(tmp_path: Path) -> None:
-    """The error says in which rows it is, and leaves no folder behind."""
-    with pytest.raises(AtlasError, match=r"rows 0 to 2: .*pole"):
-        atlas.sweep(
-            "elementary", {"ratio": 0.5, "B2": 1, "B3": 1, "omega2": [1, -1, 2]}, ["k"], tmp_path / "a.csv", jobs=1
-        )
-    assert not list(tmp_path.iterdir())
+@pytest.mark.parametrize("listed", [False, True])
+@pytest.mark.parametrize("rows", [None, 1, 4])
+def test_the_first_row_outside_the_domain_is_named(tmp_path: Path, listed: bool, rows: int | None) -> None:
+    """By its number in the whole table, in whichever part it is, and its parameters; what was done before is kept."""
+    given: dict[str, Any] = {"ratio": [0.5, 1.5], "B2": 1, "B3": 1, "omega2": [1, 3, 4, -1, 2, -1]}
+    if listed:
+        given["ratio"] = 6 * [0.5]
+    where = r"In row 4 of the table, ratio = 0.5, B2 = 1.0, B3 = 1.0, omega2 = -1.0: .*pole"
+    with pytest.raises(DomainError, match=where):
+        atlas.sweep("elementary", given, ["k"], tmp_path / "a.csv", jobs=1, rows=rows, listed=listed)
+    with pytest.raises(DomainError, match=where):
+        atlas.sweep("elementary", given, ["k"], listed=listed)
+    assert bool(list(tmp_path.iterdir())) is (rows == 1)
 
 
 @pytest.mark.parametrize("family", FAMILIES)

@@ -137,12 +137,30 @@ class Plan:
         return self.at(np.arange(self.count))
 
     def rows(self, span: "Span") -> Columns:
-        """Return some rows of the table. An AtlasError says in which they are."""
+        """Return some rows of the table. An AtlasError names the first of them that it is in, and its parameters."""
         try:
             return self.at(np.arange(span.start, span.stop))
         except AtlasError as error:
-            last = span.first + span.stop - span.start - 1
-            raise type(error)(f"In the rows {span.first} to {last}: {error}") from error
+            row = self._failing(span.start, span.stop)
+            given = ", ".join(f"{name} = {value.item()}" for name, value in self._given(np.array([row])).items())
+            number = span.first + row - span.start + 1
+            reason = self._refusal(row, row + 1) or error
+            raise type(error)(f"In row {number} of the table, {given}: {reason}") from error
+
+    def _failing(self, low: int, high: int) -> int:
+        """Return the first of some rows for which there is no answer, as there is none for all of them together."""
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if self._refusal(low, middle) else (middle, high)
+        return low
+
+    def _refusal(self, low: int, high: int) -> AtlasError | None:
+        """Return why there is no answer for some rows, if there is none."""
+        try:
+            self.at(np.arange(low, high))
+        except AtlasError as error:
+            return error
+        return None
 
     def at(self, rows: NDArray[np.int64]) -> Columns:
         """Return some rows of the table, by number."""

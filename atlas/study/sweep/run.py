@@ -55,14 +55,14 @@ def sweep(
     Where a quantity has no value, as an angle a period on a separatrix, its cell is empty (NaN in the columns and .npz,
     null in .parquet, no text), and the column `missing` says why.
 
-    Raises AtlasError for what is unknown, missing or outside the domain of the family, with the rows that it is in; for
+    Raises AtlasError for what is unknown, missing or outside the domain of the family, with the row that it is in; for
     a table that another sweep is writing, with who that is; and for a folder that is not of a sweep.
     """
     if rows is not None and rows < 1:
         raise AtlasError(f"A part has at least one row, not {rows}.")
     plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits, time=time)
     if out is None:
-        return plan.columns()
+        return plan.rows(Span(0, plan.count, 0))
     table = target(out)
     with held(table.lock, str(table)):
         table.check()
