@@ -77,9 +77,8 @@ class Quadric(Shown):
         """
         I2, I3, B2, B3 = self._directed()
         vertical = B2 == 0
-        slope = over(quadric.tangent, I2, I3, np.where(vertical, 1.0, B2), B3, unit=slice(2, None), degree=0)
-        y = np.copysign(np.where(vertical, 1.0, abs(slope)), B3)
-        return plain(np.arctan2(y, np.where(vertical, 0.0, np.copysign(1.0, B2))))
+        slope = over(quadric.tangent, I2, I3, np.where(vertical, B3, B2), B3, unit=slice(2, None), degree=0)
+        return plain(np.arctan2(np.copysign(slope, B3), np.where(vertical, 0.0, np.copysign(1.0, B2))))
 
     @cached_property
     def a2(self) -> Any:
@@ -184,7 +183,7 @@ class TopQuadric(Quadric):
     family = ""
     made_by = "Quadric.of_top"
 
-    def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any = 0.0, quadratic: Any = 0.0) -> None:
+    def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: Any, quadratic: Any) -> None:
         self._top = given(inertia, coupling, direction, linear, quadratic)
         self._inputs = tuple(plain(self._top[i]) for i in (0, 1, 4, 5))  # n in the place of B'
         self.shape = common_shape(*map(np.shape, self._top))

@@ -33,9 +33,7 @@ class TopHyperbola(Shown):
 
     made_by = "Hyperbola.of_top"
 
-    def __init__(
-        self, inertia: Any, coupling: Any, direction: Any, linear: float = 0.0, quadratic: float = 0.0
-    ) -> None:
+    def __init__(self, inertia: Any, coupling: Any, direction: Any, linear: float, quadratic: float) -> None:
         linear, quadratic = number(linear, "linear", ENERGY), number(quadratic, "quadratic", ENERGY)
         self._top = [number(x, "A parameter") for x in given(inertia, coupling, direction, linear, quadratic)]
         self.arguments = arguments_of(self._top)

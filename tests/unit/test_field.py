@@ -104,6 +104,12 @@ def test_a_negative_charge_turns_b_prime_round() -> None:
     assert np.array_equal(frame.to_laboratory(field.B), [0, -3, 4])
 
 
+def test_what_is_left_out_of_a_field_is_nothing() -> None:
+    """No electric field, unit charge-to-mass ratio and no c, in SI too."""
+    for field in (Field([0, 3, 4]), Field.si([0, 3, 4], mu=1.0)):
+        assert (field.E.tolist(), field.mu, field.c) == ([0.0, 0.0, 0.0], 1.0, 1.0)
+
+
 def test_vectors_and_rotations_come_back_in_the_users_frame() -> None:
     """Stacks of vectors make the round trip; a rotation acts on the user's components as on the laboratory's."""
     rng = np.random.default_rng(5)

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
-from itertools import chain
+from itertools import chain, permutations, product
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 import atlas
 from atlas.core.ball import BallMotion
 from atlas.core.elementary import ElementaryMotion, FreeMotion
-from atlas.core.general import GeneralMotion
+from atlas.core.general import GeneralMotion, exact_attitude
 from atlas.core.hyperbola import Hyperbola
 from atlas.core.nutation import grid as general_grid
 from atlas.errors import AtlasError, DomainError
@@ -213,6 +213,18 @@ def test_any_field_and_any_attitude() -> None:
         GeneralMotion.in_laboratory(1.5, (0, 1, 2), np.eye(3) * 2, (0.3, 0.7, 0.2))
     with pytest.raises(DomainError, match="rotation matrix"):
         GeneralMotion.in_laboratory(1.5, (0, 1, 2), -np.eye(3), (0.3, 0.7, 0.2))
+
+
+def test_an_attitude_is_kept_whichever_part_of_its_quaternion_is_largest() -> None:
+    """Of the 24 rotations of a cube each entry, and of those a little off each to 4 ulp(1), is the given one."""
+    entries = np.array([np.eye(3)[list(order)] for order in permutations(range(3))])
+    cube = [R for one in entries for s in product((1, -1), repeat=3) if np.linalg.det(R := one * s) > 0]
+    assert len(cube) == 24
+    c, s = np.cos(0.1), np.sin(0.1)
+    off = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
+    for R, most in [*((R, 0.0) for R in cube), *((off @ R, 4 * ULP1) for R in cube)]:
+        found = [[float(Fraction(int(x.p), int(x.q))) for x in row] for row in exact_attitude(R)]
+        assert np.abs(R - found).max() <= most
 
 
 @pytest.mark.parametrize("inputs", [(1.5, (1, 2), 0.7), (0.5, (1, 0.1), -0.5), (1, (1, 2), 0.7), (0.7, (-1, 3), 2.0)])

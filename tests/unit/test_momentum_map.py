@@ -174,6 +174,13 @@ def test_maps_tell_what_a_simulation_does(ratio: float) -> None:
             assert (P.min() < -1e-3 and P.max() > 1e-3) == (trace == 2)
 
 
+def test_where_the_axis_stops_the_potential_is_the_energy() -> None:
+    """With omega1 = 0 and K in the plane (e2, e3) dtheta = 0 and V = h, for any body, field and rate, to rounding."""
+    for B2, B3, w2, w3, I in np.random.default_rng(4).uniform(0.2, 2.0, (20, 5)):
+        found, b = momentum_map(I, (0.0, w2, w3), (0.0, B2, B3)), np.hypot(B2, B3)
+        assert potential(I, b, found.M3, found.p, B3 / b) == pytest.approx(found.h, rel=64 * EPS)
+
+
 def test_what_the_map_does_not_take_is_refused() -> None:
     """No field, a cosine of 1, and an end that is none."""
     with pytest.raises(atlas.DomainError, match="not zero"):

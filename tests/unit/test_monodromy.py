@@ -124,6 +124,17 @@ def test_a_stable_spin_has_no_loop() -> None:
 
 
 @pytest.mark.parametrize("name", CASES)
+def test_a_loop_takes_half_the_room_that_the_motions_leave(name: str) -> None:
+    """Twice as wide it would touch their least energies, on one side; it goes down half as far as these."""
+    wells, p, nu = potential(name), CASES[name][3], np.linspace(-1.0, 1.0, 2001)[1:-1]
+    wide, high = np.ptp(around(wells, p, 4), axis=0) / np.sqrt(2.0)
+    g = wells.energy(np.sign(p * wells.M3) or 1.0, 0.0)
+    least = [np.min(wells.potential(x, nu)) for x in (p - 2 * wide, p, p + 2 * wide)]
+    assert high == pytest.approx((g - least[1]) / 2, rel=1e-9)
+    assert g - max(least[0], least[2]) == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", CASES)
 def test_curves_of_precessions_run_on_from_end_to_end(name: str) -> None:
     """The rate w rises along each, and its ends lie on the axis, r = 1 or -1, or at the reach."""
     branches = potential(name).precessions(6.0, 200)

@@ -52,6 +52,17 @@ def test_phases_are_those_of_the_exact_times(start: float, step: float, origin: 
                 assert abs(rest[n, m]) < 2.0**-12
 
 
+def test_what_is_left_of_a_frequency_is_at_most_half_its_last_digit() -> None:
+    """A and S are rounded to the nearest: the last digit of both in A D and S D is at least twice a and s."""
+    turns = [rational(x) for x in np.random.default_rng(2).uniform(-1, 1, 40).tolist()]
+    first, last = np.split(Progression(turns, 0.3, 0.0117, 5, 4000).table, 2)
+    for whole, rest in zip(first, last, strict=True):
+        digit = (
+            min(abs(Fraction(x)).numerator & -abs(Fraction(x)).numerator for x in whole * 2.0**200) / Fraction(2) ** 200
+        )
+        assert max(abs(rest)) <= float(digit) / 2 * np.pi / 2
+
+
 @pytest.mark.parametrize("refined", [False, True])
 def test_circles_are_those_of_single_times(refined: bool) -> None:
     """Cosine, sine and versine at times that are doubles agree with those of `Phases`, to the errors of both."""

@@ -127,6 +127,7 @@ def test_degenerate_kinds_have_a_value_or_a_reason() -> None:
     assert (pair.beta, pair.a2, pair.a3, pair.semi_axes[1:]) == (0.0, 0.0, 0.0, (0.0, 0.0))
     assert Quadric(1.5, (-1.0, 0.0)).beta == np.pi
     assert (line.beta, line.a3, line.semi_axes) == (np.pi / 2, 1.0, (0.0, 0.0, 0.0))
+    assert Quadric(2.0, (0.0, -5e-324)).beta == -np.pi / 2
     with pytest.raises(DomainError, match="infinite"):
         _ = line.a2
     with pytest.raises(DomainError, match="infinite"):
@@ -146,6 +147,9 @@ def test_arrays_of_parameters_broadcast() -> None:
     assert quadric.centre.shape == (2, 3, 3)
     assert quadric.axes.shape == (2, 3, 3, 3)
     assert quadric.beta[1, 2] == Quadric(1.5, (1.0, 2.0)).beta
+    points = np.random.default_rng(0).normal(size=(4, 2, 3, 3))
+    assert np.array_equal(quadric.canonical(points)[3, 1, 2], Quadric(1.5, (1.0, 2.0)).canonical(points[3, 1, 2]))
+    assert np.array_equal(quadric.residual(points)[3, 1, 2], Quadric(1.5, (1.0, 2.0)).residual(points[3, 1, 2]))
 
 
 @pytest.mark.parametrize("bad", [(2.5, (1.0, 2.0)), (-1.0, (1.0, 2.0)), (1.0, (np.inf, 1.0)), (1.0, (1.0,))])

@@ -20,9 +20,12 @@ def codata(name: str) -> float:
 
 
 def test_the_constants_are_those_of_codata() -> None:
-    """The speed of light and e are exact, the masses those of CODATA 2022."""
+    """The speed of light, e and Boltzmann's are exact, the masses and vacuum's constants those of CODATA 2022."""
     assert codata("speed of light in vacuum") == units.SPEED_OF_LIGHT
     assert codata("elementary charge") == units.ELEMENTARY_CHARGE
+    assert codata("Boltzmann constant") == units.BOLTZMANN
+    assert abs(codata("vacuum electric permittivity") / units.ELECTRIC_CONSTANT - 1) < 1e-9
+    assert abs(codata("vacuum mag. permeability") / units.MAGNETIC_CONSTANT - 1) < 1e-9
     assert abs(codata("electron mass") / units.ELECTRON_MASS - 1) < 1e-9
     assert abs(codata("proton mass") / units.PROTON_MASS - 1) < 1e-9
 

@@ -90,8 +90,7 @@ def _integers(turn: Number) -> tuple[int, int]:
 
 def _cut(first: int, step: int, e: int, bits: int) -> tuple[float, ...]:
     """Return S D, A D, s, a for the phases (first + i step) 2^e in half turns, |i| < 2^bits; s and a in radians/2."""
-    if e > 0:
-        first, step, e = first << e, step << e, 0
+    e = min(e, 0)  # above zero only for a frequency that is zero
     half = 1 << -e
     mask = 2 * half - 1
     first, step = (first + half & mask) - half, (step + half & mask) - half
