@@ -18,8 +18,8 @@ Edge: TypeAlias = tuple[FloatArray, NDArray[np.uint8]]
 
 
 def facing(quadric: FloatArray, points: FloatArray, towards: FloatArray) -> FloatArray:
-    """Return grad F . d at points (..., 3): above zero where the outer side (F > 0) is seen."""
-    return 2.0 * (points @ (quadric[:3, :3] @ towards) + quadric[:3, 3] @ towards)
+    """Return half of grad F . d at points (..., 3): above zero where the outer side (F > 0) is seen."""
+    return np.asarray(points @ (quadric[:3, :3] @ towards) + quadric[:3, 3] @ towards)
 
 
 def areas(surface: Surface, towards: FloatArray) -> list[tuple[bool, bool, Edge]]:
