@@ -97,7 +97,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "guide": Style(PALE, _THIN, tube=0.8),
         "rim": Style(INK, 0.7, tube=1.1),
         "silhouette": Style(INK, 0.9, tube=0.0),
-        "wire": Style("#9aa4af", 0.3, hidden=False, tube=0.35),
+        "wire": Style("#949ea8", 0.3, hidden=False, tube=0.35),
         # the bodies, where they are compared
         "loop_body": Style("#c0309a", 1.2),
         "short_body": Style("#0b6470", 1.2, (5.0, 1.6)),
