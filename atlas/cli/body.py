@@ -187,7 +187,7 @@ def exact_body(options: dict[str, Any]) -> Any:
 
 def system_of(options: Mapping[str, Any]) -> str:
     """Return the system of units of --magnetic: SI where a charge is given and nothing is said."""
-    charged = options["charge"] is not None or options["points"] is not None
+    charged = options["charge"] is not None or options.get("points") is not None
     return options["units"] or ("si" if charged else "natural")
 
 

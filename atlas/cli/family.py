@@ -19,6 +19,7 @@ from atlas.cli.body import (
     exact_field,
     exact_moments,
     field_options,
+    system_of,
     units_of,
 )
 from atlas.cli.options import (
@@ -66,9 +67,8 @@ UNITS = {
 units_option: Callable[[Any], Any] = click.option(
     "--units",
     type=click.Choice(list(UNITS)),
-    default="natural",
-    show_default=True,
-    help="c = 1; statvolt/cm, gauss, cm; volt/m, tesla, m (no factor c).",
+    help="c = 1; statvolt/cm, gauss, cm, esu, g; volt/m, tesla, m, C, kg (no factor c). SI where a charge is given, else "
+    "natural.",
 )
 
 charge_options = stack(
@@ -106,7 +106,8 @@ def _made(family: Family, described: Described) -> click.Command:
         parameters |= {p.name: options[p.name] for p in given if options[p.name] is not None}
         parameters = parameters_of_top(names, options) if ways and given_otherwise(options) else parameters
         if "c" in names:
-            parameters |= {name: options[name] for name in (*CHARGE, "units") if options[name] is not None}
+            parameters |= {name: options[name] for name in CHARGE if options[name] is not None}
+            parameters["units"] = system_of(options)
         texts = answer(options, parameters, floats, balls, **({"spare": SPARE} if described.undecided else {}))
         if texts is not None:
             show(_printout(family, described, texts, options))
@@ -180,7 +181,7 @@ def values_of(family: Family, options: dict[str, Any], *, exact: bool) -> Iterat
         elif p.name == "mu":
             yield _charge_to_mass(options, exact=exact)
         elif p.name == "c":
-            yield _speed_of_light(options["units"])
+            yield _speed_of_light(system_of(options))
         else:
             value = options[p.name]
             yield exactly(value, options) if exact and value is not None else value
@@ -237,7 +238,7 @@ def _printout(family: Family, described: Described, texts: dict[str, Any], optio
     from atlas.exact.digits import NOT_CERTIFIED
 
     case, names = texts[described.named] if described.named else "", [p.name for p in family.parameters]
-    units = UNITS[options["units"]] if "c" in names else units_of(options) if in_field(family) else {}
+    units = UNITS[system_of(options)] if "c" in names else units_of(options) if in_field(family) else {}
     units = top_units(options) if family.name == "top" else units
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]

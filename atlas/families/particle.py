@@ -68,7 +68,10 @@ FAMILY = Family(
         "particle",
         "Move a point charge.",
         "Position and velocity of a point charge in any constant E and B (93) to (99).",
-        ("atlas particle --mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1 2",),
+        (
+            "atlas particle --mu 1 --electric 0 0.5 0 --magnetic 0 0 1 --velocity 1 0 0 --times 0 1 2",
+            "atlas particle --mass 9.11e-31 --charge -1.602e-19 --magnetic 0 0 1e-3 --velocity 1e5 0 0 --times 1e-9",
+        ),
         "point charge in constant fields",
     ),
     figures=("particle_motion",),

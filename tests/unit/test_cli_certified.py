@@ -104,3 +104,14 @@ def test_the_ratio_of_a_charge_to_a_mass_is_exact_in_decimals() -> None:
     assert answer(f"{words} --decimal")["cyclotron_frequency"] == "0.3333333333333333333333333"
     assert answer(words)["cyclotron_frequency"] == f"{Decimal(0.1 / 0.3):.25f}"
     assert answer("particle --mu 0.1 --magnetic 0 0 1 --digits 25 --decimal")["cyclotron_frequency"].strip("0") == ".1"
+
+
+@pytest.mark.parametrize(
+    ("words", "system"),
+    [("--mu 2", "natural"), ("--mass 1 --charge 2", "si"), ("--mass 1 --charge 2 --units gaussian", "gaussian")],
+)
+def test_a_charge_is_in_coulomb_unless_another_system_is_named(words: str, system: str) -> None:
+    """SI where a charge is given, as in every other command; of mu alone nothing is known."""
+    found = answer(f"particle {words} --magnetic 0 0 3")
+    assert found["parameters"]["units"] == system
+    assert found["cyclotron_frequency"] == pytest.approx(6.0 if system != "gaussian" else 6.0 / 2.99792458e10, rel=1e-15)
