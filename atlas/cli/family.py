@@ -67,8 +67,8 @@ UNITS = {
 units_option: Callable[[Any], Any] = click.option(
     "--units",
     type=click.Choice(list(UNITS)),
-    help="c = 1; statvolt/cm, gauss, cm, esu, g; volt/m, tesla, m, C, kg (no factor c). SI where a charge is given, else "
-    "natural.",
+    help="c = 1; statvolt/cm, gauss, cm, esu, g; volt/m, tesla, m, C, kg (no factor c). SI where a charge is given, "
+    "else natural.",
 )
 
 charge_options = stack(

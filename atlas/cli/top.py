@@ -1,6 +1,7 @@
 """What ``atlas top`` takes in the place of moments and couplings: a heavy body, or a charged one in a field."""
 
 from collections.abc import Callable, Mapping, Sequence
+from math import hypot
 from typing import Any
 
 import click
@@ -16,9 +17,11 @@ OF_HEAVY, OF_CHARGED = ("mass",), ("charged", "coat", "charge", "moment", "polar
 
 top_options: Callable[[F], F] = stack(
     click.option("--heavy", type=REAL, nargs=2, metavar="G L", help="Lagrange's top: gravity, and the distance of the "
-                 "centre of mass along the axis from the point at which the body is held, in SI. Needs --mass."),
+                 "centre of mass along the axis from the point at which the body is held, in SI. Needs --mass, but "
+                 "with --points."),
     click.option("--magnetic", type=REAL, nargs=2, metavar="B2 B3", help="A charged body in this magnetic field, which "
-                 "is the direction too. Needs --charged, --coat or --points."),
+                 "is the direction too. Needs --charged, --coat or --points. With --heavy, a charged heavy top, up is "
+                 "along the field, or as --direction says against it."),
     click.option("--mass", type=REAL, help="Mass of the body: with --heavy or --shape."),
     click.option("--shape", metavar="NAME", help="A body with dimensions for --inertia: ring, disk, ...; see atlas "
                  "list."),
@@ -27,7 +30,7 @@ top_options: Callable[[F], F] = stack(
     click.option("--points", type=click.Path(exists=True, dir_okay=False), metavar="FILE", help="Point masses and "
                  "charges instead: a CSV file with the columns x, y, z, mass, charge; the axis is z."),
     click.option("--charged", type=REAL, nargs=2, metavar="J2 J3", help="Moments of the charges, across and along the "
-                 "axis: charge times length squared."),
+                 "axis, about the centre of mass, with --heavy about the point: charge times length squared."),
     click.option("--coat", metavar="NAME", help="The charge is spread over this shape, of the dimensions of the body; "
                  "needs --charge."),
     click.option("--charge", type=REAL, help="Charge of the coat, either sign."),
@@ -75,32 +78,46 @@ def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[
 
 def chosen_top(options: Mapping[str, Any]) -> Any:
     """Return the top that --heavy or --magnetic describes. Raises click.UsageError for what does not go together."""
-    from atlas.core.top import TopMotion
-
     if options["decimal"]:
         raise click.UsageError("--decimal goes with --inertia, --coupling and --direction, not with --heavy or "
                                "--magnetic, from which these are computed.")  # fmt: skip
-    if all(options[name] is not None for name in WAYS):
-        raise click.UsageError(
-            "the forces are those of --heavy or of --magnetic, not of both; in Python, TopMotion.charged has weight=."
-        )
     for name in ("coupling", "linear", "quadratic"):
         if any(options[name] if isinstance(options[name], tuple) else [options[name]]):
             raise click.UsageError(f"--{name} has no place beside --heavy or --magnetic, from which it is computed.")
     omega = tuple(map(float, options["omega"]))
-    if options["heavy"] is not None:
-        _nothing_of(options, (*OF_CHARGED, "points"), "--magnetic", "--heavy")
+    if options["magnetic"] is not None:
+        return _charged(options, omega)
+    _nothing_of(options, (*OF_CHARGED, "points"), "--magnetic", "--heavy")
+    _needs(options, "direction", "--heavy")
+    return _heavy(options, _pair(options["direction"]), omega)
+
+
+def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
+    """Return the top under its weight, with upwards as a direction."""
+    from atlas.core.top import TopMotion
+
+    if options["points"] is None:
         _needs(options, "mass", "--heavy")
-        _needs(options, "direction", "--heavy")
-        gravity, length = options["heavy"]
-        n = _pair(options["direction"])
-        return TopMotion.heavy(_body(options), gravity, length, n, omega, mass=options["mass"])
-    if options["direction"] is not None:
+    body, (gravity, length) = _body(options), options["heavy"]
+    mass = options["mass"] if options["points"] is None else sum(_points(options["points"])["mass"])
+    return TopMotion.heavy(body, gravity, length, direction, omega, mass=mass)
+
+
+def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
+    """Return the charged top, which may be held at a point and have a weight along the field."""
+    from atlas.core.body import SymmetricBody
+    from atlas.core.top import TopMotion
+
+    field, body, length, weight = _pair(options["magnetic"]), _body(options), None, (0.0, 0.0)
+    if options["heavy"] is not None:
+        n2, n3 = _pair(options["direction"] or field)
+        held, length, size = _heavy(options, (n2, n3), omega), float(options["heavy"][1]), hypot(n2, n3)
+        body, weight = SymmetricBody(*held.inertia), (held.linear * (n2 / size), held.linear * (n3 / size))
+    elif options["direction"] is not None:
         raise click.UsageError("--direction has no place beside --magnetic: it is that of the field.")
     return TopMotion.charged(
-        _body(options), _charges(options), _pair(options["magnetic"]), omega,
-        units=options["units"] or "si", moment=options["moment"] or 0.0,
-        polarizability=_pair(options["polarizability"] or (0.0, 0.0)),
+        body, _charges(options, length), field, omega, units=options["units"] or "si",
+        moment=options["moment"] or 0.0, polarizability=_pair(options["polarizability"] or (0.0, 0.0)), weight=weight,
     )  # fmt: skip
 
 
@@ -110,6 +127,8 @@ def _body(options: Mapping[str, Any]) -> Any:
 
     _one_of(options, "body", BODY)
     if options["points"] is not None:
+        if options["mass"] is not None:
+            raise click.UsageError("--mass has no place beside --points, which has the masses.")
         columns = _points(options["points"])
         return SymmetricBody.from_point_masses(columns["mass"], _centred(columns))
     if options["inertia"] is not None:
@@ -118,18 +137,20 @@ def _body(options: Mapping[str, Any]) -> Any:
     return from_shape(options["shape"].replace("-", "_"), mass=options["mass"], **_sizes(options))
 
 
-def _charges(options: Mapping[str, Any]) -> Any:
-    """Return the moments of the charges of --charged, --coat or --points."""
+def _charges(options: Mapping[str, Any], length: float | None) -> Any:
+    """Return the moments of the charges of --charged, --coat or --points, of a body held so far from its centre."""
     from atlas.core.charge_moments import ChargeMoments
 
     _one_of(options, "charge", CHARGES)
     if options["points"] is not None:
         columns = _points(options["points"])
-        return ChargeMoments.points(columns["charge"], _centred(columns))
+        from_point = _centred(columns, length or 0.0)
+        return ChargeMoments.points(columns["charge"], from_point, held=length is not None)
     if options["charged"] is not None:
         return ChargeMoments(*_pair(options["charged"]))
     _needs(options, "charge", "--coat")
-    return ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **_sizes(options))
+    coat = ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **_sizes(options))
+    return coat + ChargeMoments(options["charge"] * (length or 0.0) ** 2, 0.0)
 
 
 def _one_of(options: Mapping[str, Any], what: str, names: Sequence[str]) -> None:
@@ -154,12 +175,12 @@ def _points(path: str) -> dict[str, Any]:
     return columns
 
 
-def _centred(columns: Mapping[str, Any]) -> Any:
-    """Return the places of points from their centre of mass."""
+def _centred(columns: Mapping[str, Any], along: float = 0.0) -> Any:
+    """Return the places of points whose centre of mass lies so far along the axis."""
     import numpy as np
 
     places, masses = np.transpose([columns[name] for name in "xyz"]), np.array(columns["mass"])
-    return places - masses @ places / masses.sum()
+    return places - masses @ places / masses.sum() + np.array([0.0, 0.0, along])
 
 
 def _pair(typed: Any) -> tuple[float, float]:

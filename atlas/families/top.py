@@ -95,6 +95,7 @@ FAMILY = Family(
             "atlas top --inertia 1 0.5 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3 --times 0 1 1e6",
             "atlas top --inertia 1 0.75 --coupling 1 1.5 --direction 1 2 --omega 0.3 0.7 0.2 --times 1e12 --digits 40",
             "atlas top --shape disk --radius 0.03 --mass 0.1 --heavy 9.81 0.04 --direction 0.3 1 --omega 0 0 150",
+            "atlas top --inertia 1 0.5 --mass 1 --heavy 9.81 0.5 --charged 0.2 0.3 --magnetic 0.3 1 --omega 0 0 9",
             "atlas top --inertia 2e-27 1e-27 --charged 1e-23 2e-23 --magnetic 1 2 --omega 0.1 0.2 0.3",
             "atlas top --inertia 1 0.5 --direction 0 1 --omega 1e-3 0 1 --linear 2 --grid 0 1 40 --json",
         ),

@@ -86,7 +86,7 @@ CASES = [
     (f"{TOP}", "--inertia is missing"),
     ("top --inertia 1 1 --omega 1 2 3", "--direction is missing"),
     (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --decimal --digits 30", "--decimal goes with"),
-    (f"{TOP} --inertia 1 1 --heavy 1 1 --magnetic 1 2", "not of both"),
+    (f"{TOP} --inertia 1 1 --heavy 1 1 --magnetic 1 2", "--heavy needs --mass"),
     *((f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --{one}", f"--{one.split()[0]} has no place")
       for one in ("coupling 0 1", "linear 1", "quadratic 1")),
     ("top --inertia 1 1 --magnetic 1 2 --charged 1 1 --direction 1 2 --omega 1 2 3", "--direction has no place"),
@@ -95,6 +95,7 @@ CASES = [
     ("top --inertia 1 1 --magnetic 1 2 --omega 1 2 3", "the charge is one of"),
     ("top --inertia 1 1 --magnetic 1 2 --charged 1 1 --coat ring --omega 1 2 3", "found --charged and --coat"),
     ("top --points {place}/plain.csv --magnetic 1 2 --omega 1 2 3", "the columns x, y, z, mass, charge; it has x,"),
+    ("top --points {place}/charged.csv --mass 1 --magnetic 1 2 --omega 1 2 3", "--mass has no place beside --points"),
     (f"{TOP} --inertia 1 1 --heavy 1 1", "--heavy needs --mass"),
     ("top --inertia 1 1 --heavy 1 1 --mass 1 --omega 1 2 3", "--heavy needs --direction"),
     ("top --shape ring --radius 1 --magnetic 1 2 --charged 1 1 --omega 1 2 3", "--shape needs --mass"),

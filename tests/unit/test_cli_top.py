@@ -70,6 +70,28 @@ def test_point_masses_may_have_any_charges(tmp_path: Path) -> None:
     assert "centre of charge is off the centre of mass" in str(wrong.exception)
 
 
+@pytest.mark.parametrize(("up", "sign"), [("", 1), ("--direction -3 -4", -1)])
+def test_a_charged_heavy_top_has_both_forces(tmp_path: Path, up: str, sign: int) -> None:
+    """A charged ring on a rod, from its shape, its moments and its points: what m, e, g, l and B make by hand."""
+    m, e, r, g, l, B = 3.0, 0.5, 2.0, 9.81, 0.7, 5.0
+    J2, J3 = e * (r * r / 2 + l * l), e * r * r
+    byhand = atlas.TopMotion(
+        (m * (r * r / 2 + l * l), m * r * r), (J2 * B / 2, J3 * B / 2), (3, 4), (0.1, 0.2, 3), linear=sign * m * g * l
+    )
+    path = tmp_path / "points.csv"
+    ring = "\n".join(f"{x},{y},9,{m / 4},{e / 4}" for x, y in ((r, 0), (-r, 0), (0, r), (0, -r)))
+    path.write_text(f"x,y,z,mass,charge\n{ring}\n", "utf-8")
+    ways = (
+        f"--shape ring --radius {r} --mass {m} --coat ring --charge {e}",
+        f"--inertia {m * r * r / 2} {m * r * r} --mass {m} --charged {J2} {J3}",
+        f"--points {path}",
+    )
+    for way in ways:
+        found = record(f"{way} --heavy {g} {l} --magnetic 3 4 --omega 0.1 0.2 3 {up}")
+        assert found["period"] == pytest.approx(byhand.period, rel=1e-13)
+        assert found["precession_per_period"] == pytest.approx(byhand.precession_per_period, rel=1e-12)
+
+
 def test_a_steady_motion_says_whether_it_is_stable() -> None:
     """The sleeping top beyond and within its band."""
     words = "--inertia 1 0.5 --direction 0 1 --linear 4 --omega 0 0"
@@ -88,7 +110,9 @@ def test_a_steady_motion_says_whether_it_is_stable() -> None:
         ("--inertia 1 nan --direction 0 1 --omega 0 0 1", "finite"),
         ("--inertia 1 0.5 --direction 0 1 --omega 0 0 1e400", "beyond the largest float"),
         ("--inertia 1 0.5 --direction 0 1 --omega 0 0 1 --mass 2", "goes with --heavy or --magnetic"),
-        (f"{HEAVY} --magnetic 1 2", "not of both"),
+        (f"{HEAVY} --magnetic 1 2", "the charge is one of"),
+        (f"{HEAVY} --coat disk --charge 1 --magnetic 1 2", "not parallel to the field"),
+        (f"{HEAVY} --coat disk --charge 1 --magnetic 0 0", "no direction"),
         (f"{HEAVY} --linear 2", "--linear has no place"),
         (f"{HEAVY} --charge 2", "--charge goes with --magnetic"),
         (f"{HEAVY} --decimal --digits 20", "--decimal goes with"),
