@@ -12,7 +12,7 @@ from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.turnings import Group
 from atlas.core.arithmetic.words import ZERO, exact
 from atlas.core.body import moments
-from atlas.core.inputs import FloatArray, plain, real
+from atlas.core.inputs import FloatArray, plain, real, turn_time
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.invariants import invariants
 from atlas.core.motion import Motion, components
@@ -140,6 +140,11 @@ class ElementaryMotion(Motion[Elementary]):
     def phi(self) -> Any:
         """Frequency of proper rotation phi, (72)."""
         return self._scalars[2]
+
+    @property
+    def period(self) -> Any:
+        """Time 2 pi/|k| of one precession, after which the axis is back; inf without one. See `Hyperbola.closed`."""
+        return turn_time(self.k)
 
     @cached_property
     def _scalars(self) -> Any:
@@ -274,6 +279,11 @@ class FreeMotion(Motion[Free]):
     def phi(self) -> Any:
         """Frequency of proper rotation phi = (1 - I) omega3, (87)."""
         return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._unit)
+
+    @property
+    def period(self) -> Any:
+        """Time 2 pi/k of one precession, after which the axis is back; inf at rest."""
+        return turn_time(self.k)
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body: it turns about the third axis with frequency phi; shape (..., 3).

@@ -110,6 +110,12 @@ def plain(array: Any) -> Any:
     return array if np.ndim(array) else float(array)
 
 
+def turn_time(rate: Any) -> Any:
+    """Return the time 2 pi/|rate| of one turn; infinite where nothing turns."""
+    with np.errstate(divide="ignore", over="ignore"):
+        return plain(np.divide(2 * np.pi, np.abs(rate)))
+
+
 def largest(vectors: FloatArray) -> FloatArray:
     """Return the size of the largest component of each vector (m, 3), by columns, which NumPy does faster."""
     x, y, z = np.abs(vectors).T

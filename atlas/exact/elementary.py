@@ -2,12 +2,12 @@
 
 from typing import Any
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from atlas.errors import DomainError
 from atlas.exact.body import float_text, ratio_of
 from atlas.exact.hyperbola import Hyperbola
-from atlas.exact.inputs import Real, rational, rationals, sin_cos
+from atlas.exact.inputs import Real, rational, rationals, sin_cos, turn_time
 from atlas.formulas import elementary
 from atlas.formulas.integrals import NAMES, along_field, integrals
 from atlas.formulas.numbers import root
@@ -94,6 +94,11 @@ class ElementaryMotion:
         """Frequency of proper rotation: omega3 - B3 omega2/B2, (72); of the free body (1-I) omega3, (87)."""
         found: fmpq = self._turning[2]
         return found
+
+    @property
+    def period(self) -> arb:
+        """Time 2 pi/|k| of one precession; infinite without one."""
+        return turn_time(self.k)
 
     @property
     def _turning(self) -> tuple[Any, Real, Any]:

@@ -2,10 +2,10 @@
 
 from typing import Any
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from atlas.exact.body import ratio_of
-from atlas.exact.inputs import Real, rational, rationals, sin_cos
+from atlas.exact.inputs import Real, rational, rationals, sin_cos, turn_time
 from atlas.formulas import elementary
 
 
@@ -27,6 +27,11 @@ class FreeMotion:
         """Frequency of proper rotation (1 - I) omega3, (87)."""
         found: fmpq = elementary.free(fmpq(1), self.I, *self.omega)[2]
         return found
+
+    @property
+    def period(self) -> arb:
+        """Time 2 pi/|k| of one precession; infinite without one."""
+        return turn_time(self.k)
 
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows: the turn about m = (omega1, omega2, I omega3) times that about the third axis."""

@@ -24,20 +24,6 @@ def _balls() -> Any:
     return ElementaryMotion
 
 
-def _period(made: Any) -> Any:
-    """Return 2 pi/|k|; infinite where there is no precession."""
-    import numpy as np
-
-    with np.errstate(divide="ignore"):
-        return np.divide(2 * np.pi, abs(np.asarray(made.k)))
-
-
-def _exact_period(made: Any) -> Any:
-    from flint import arb
-
-    return 2 * arb.pi() / abs(made.k) if made.k != 0 else arb("inf")
-
-
 def _stability(made: Any) -> Any:
     """Return the square of the frequency of small nutations: of the hyperbola, at the motion's omega2."""
     from atlas.core.hyperbola import Hyperbola
@@ -98,8 +84,7 @@ FAMILY = Family(
             checked="phi", certified=True,
         ),
         Quantity(
-            "period", "period of precession, 2 pi/|k|", TIME, get=_period, exact=_exact_period, certified=True,
-            printed=False,
+            "period", "period of precession, 2 pi/|k|", TIME, certified=True, printed=False,
         ),
         Quantity(
             "stability", "square of the frequency of small nutations", "1/time^2", "theorem-band", get=_stability,

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from atlas.families.family import RATE, Family, Quantity, Sampled
+from atlas.families.family import RATE, TIME, Family, Quantity, Sampled
 from atlas.families.shared import OMEGA, RATIO, rotation
 
 
@@ -27,6 +27,7 @@ FAMILY = Family(
     (
         Quantity("k", "frequency of precession about m", RATE, "(87)", checked="free k", certified=True),
         Quantity("phi", "frequency of proper rotation", RATE, "(87)", checked="free phi", certified=True),
+        Quantity("period", "period of precession, 2 pi/k", TIME, certified=True),
     ),
     (
         rotation("(87)", "free R"),

@@ -11,7 +11,6 @@ import pytest
 from flint import arb, ctx
 from syrupy.assertion import SnapshotAssertion
 
-import atlas
 from atlas.exact.digits import enclosed
 from atlas.families import FAMILIES, Family, Quantity
 from atlas.paper import EQUATIONS
@@ -148,18 +147,19 @@ def test_every_equation_of_the_register_is_in_the_ledger() -> None:
             assert word == "given" or word in EQUATIONS, (one.name, word)
 
 
-def test_an_elementary_motion_has_the_period_of_its_precession() -> None:
+@pytest.mark.parametrize(
+    ("family", "moving", "resting"),
+    [("elementary", ((1.0, 2.0), 0.7), ((1.0, 2.0), 0.0)), ("free", ((0.3, 0.7, 0.2),), ((0.0, 0.0, 0.0),))],
+)
+def test_a_motion_without_nutation_has_the_period_of_its_precession(family: str, moving: Any, resting: Any) -> None:
     """It is 2 pi/|k|, after which the body's axis is where it was; without precession it is infinite."""
-    (period,) = [q for q in FAMILIES["elementary"].quantities if q.name == "period"]
-    made = atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7)
-    exact = FAMILIES["elementary"].balls()(1.5, (1.0, 2.0), 0.7)
-    T = float(period.of(made))
+    made, rest = (FAMILIES[family].kernels()(1.5, *start) for start in (moving, resting))
+    exact, still = (FAMILIES[family].balls()(1.5, *start) for start in (moving, resting))
+    T = made.period
     assert np.abs(made.third_axis(0.4 + T) - made.third_axis(0.4)).max() < 1e-15
     assert np.abs(made.third_axis(0.4 + T / 2) - made.third_axis(0.4)).max() > 0.1
     with ctx.workprec(128):
-        assert period.of(exact, exact=True).overlaps(2 * arb.pi() / abs(arb(exact.k)))
-    rest = FAMILIES["elementary"].balls()(1.5, (1.0, 2.0), 0)
-    assert period.of(rest, exact=True) == arb("inf")
-    assert atlas.sweep("elementary", {"ratio": 1.5, "B2": 1, "B3": 2, "omega2": [0.0, 0.7]}, ["period"])[
-        "period"
-    ].tolist() == [np.inf, T]
+        assert abs(arb(T) - exact.period) <= 4 * 2.0**-53 * T
+    assert (rest.period, still.period) == (np.inf, arb("inf"))
+    both = FAMILIES[family].kernels()([1.5, 1.2], *moving)
+    assert both.period.tolist() == [T, FAMILIES[family].kernels()(1.2, *moving).period]
