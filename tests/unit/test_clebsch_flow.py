@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import numpy as np
 import pytest
 from flint import ctx, fmpq
 
@@ -55,3 +56,22 @@ def test_errors_that_grow_too_far_are_said() -> None:
     """In steps of few bits errors beyond a fourth of the bits have no bound; nor have steps that are too many."""
     with pytest.raises(NotCertifiedError, match="grow beyond their bounds"):
         flow("quick").go(fmpq(1), fmpq(0), 60)
+
+
+def test_the_derivative_of_a_step_is_within_its_bound() -> None:
+    """That of (W, K) after h = 1/8 by differences of starts that are 2^-90 apart."""
+    h, bits, start = fmpq(1, 8), 128, flow("quick").start
+    way = clebsch_flow._Way(flow("quick").rates(fmpq(1), fmpq(2)), [int(x * 2**bits) for x in start], bits, proven=True)
+    rows = way._series(h)
+    found, bound = way._derivative(rows, h, 4.0)
+    true = np.empty((6, 6))
+    with ctx.workprec(400):
+        for i in range(6):
+            ends = []
+            for sign in (1, -1):
+                near = [x + sign * fmpq(int(i == j), 2**90) for j, x in enumerate(start)]
+                end = Flow(flow("quick").moments, near[:3], near[3:]).go(h, 2 * h, 300, proven=False)
+                ends.append([*end.W, *end.K])
+            true[:, i] = [float((x - y) * 2**89) for x, y in zip(*ends, strict=True)]
+    assert np.linalg.norm(found - true) < bound
+    assert bound == pytest.approx(2.91432e-10, rel=1e-3)
