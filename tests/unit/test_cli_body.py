@@ -78,14 +78,14 @@ def test_points_are_the_body_that_they_are(tmp_path: Path) -> None:
     """Four points on a ring are a ring, with the charge-to-mass ratio of each; their place does not matter."""
     (tmp_path / "ring.csv").write_text(TETRAGON, encoding="utf-8")
     points = record("motion", "--points", str(tmp_path / "ring.csv"), *"--magnetic 1 2 --omega2 0.7".split())
-    assert points["omega3"] == pytest.approx(atlas.ElementaryMotion(2.0, (-1.0, -2.0), 0.7).omega3, rel=1e-14)
+    assert points["omega3"] == pytest.approx(atlas.ElementaryMotion(2.0, (-1.0, -2.0), 0.7).omega3, rel=1e-14, abs=0.0)
     mass, at = np.array([1.0, 1.0, 2.0]), np.array([[1.0, 0, 0], [-1.0, 0, 0], [0, 0, 1.0]])
     four = np.concatenate([at[:2], at[:2][:, [1, 0, 2]], at[2:]]) + np.array([3.0, -2.0, 7.0])
     rows = [",".join(map(repr, map(float, (*x, m)))) for x, m in zip(four, [1, 1, 1, 1, 2], strict=True)]
     (tmp_path / "kite.csv").write_text("\n".join(["x,y,z,mass", *rows]), encoding="utf-8")
     body = atlas.SymmetricBody.from_point_masses([1, 1, 1, 1, mass[2]], four)
     found = record("classify", "--points", str(tmp_path / "kite.csv"), "--field", "1", "2")
-    assert found["beta"] == pytest.approx(atlas.Quadric(body.ratio, (1.0, 2.0)).beta, rel=1e-13)
+    assert found["beta"] == pytest.approx(atlas.Quadric(body.ratio, (1.0, 2.0)).beta, rel=1e-13, abs=0.0)
 
 
 def test_a_sweep_takes_body_and_field_by_the_same_options(tmp_path: Path) -> None:
@@ -96,7 +96,7 @@ def test_a_sweep_takes_body_and_field_by_the_same_options(tmp_path: Path) -> Non
     heading, first, _ = out.read_text(encoding="utf-8").splitlines()
     assert heading == "ratio,B2 [1/s],B3 [1/s],omega2 [1/s],k [1/s]"
     expected = record("motion", *SHELL.split(), "--omega2", "0.5")["k"]
-    assert float(first.rpartition(",")[2]) == pytest.approx(expected, rel=1e-15)
+    assert float(first.rpartition(",")[2]) == pytest.approx(expected, rel=1e-15, abs=0.0)
 
 
 @pytest.mark.parametrize(

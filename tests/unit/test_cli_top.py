@@ -43,7 +43,7 @@ def test_a_charged_top_takes_moments_in_si_or_in_gaussian_units() -> None:
         f"--inertia 2e-20 1e-20 --charged {1e-23 * charge!r} {2e-23 * charge!r} --magnetic 1e4 2e4 --omega 0.1 0.2 0.3 "
         "--units gaussian"
     )
-    assert si["period"] == pytest.approx(gaussian["period"], rel=1e-14)
+    assert si["period"] == pytest.approx(gaussian["period"], rel=1e-14, abs=0.0)
     coat = record(
         "--shape solid-cylinder --coat cylindrical-shell --radius 2 --height 3 --mass 3 --charge 5 --magnetic 1 2 "
         "--omega 0 1 1"
@@ -64,7 +64,7 @@ def test_point_masses_may_have_any_charges(tmp_path: Path) -> None:
     top = atlas.TopMotion.charged(
         atlas.SymmetricBody(12.0, 4.0), atlas.ChargeMoments(4.0, 8.0), (1, 2), (0.1, 0.2, 0.3), units="SI"
     )
-    assert found["period"] == pytest.approx(top.period, rel=1e-14)
+    assert found["period"] == pytest.approx(top.period, rel=1e-14, abs=0.0)
     path.write_text("\n".join(["x,y,z,mass,charge", *rows[:-1], "0,0,-1,5,3"]), "utf-8")
     wrong = CliRunner().invoke(TOP, f"--points {path} --magnetic 1 2 --omega 0.1 0.2 0.3".split())
     assert "centre of charge is off the centre of mass" in str(wrong.exception)

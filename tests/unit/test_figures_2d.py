@@ -397,7 +397,7 @@ def test_trochoids_are_those_of_the_paper(mu: float) -> None:
         a = speed * V / abs(omega)
         assert np.array_equal(line[0], points(panel, "start")[0])
         assert np.allclose(line[0], [0.0, a], rtol=0, atol=8 * EPS * V)
-        assert line[-1, 0] == pytest.approx(2.5 * 2 * np.pi * V / abs(omega) + a * np.sin(5 * np.pi), rel=1e-14)
+        assert line[-1, 0] == pytest.approx(2.5 * 2 * np.pi * V / abs(omega) + a * np.sin(5 * np.pi), rel=1e-14, abs=0.0)
         # the time from y alone, up to whole turns and mirrored halves, then x
         phase = np.arccos(np.clip(line[:, 1] / a, -1, 1)) if a else np.zeros(len(line))
         turn = np.arange(4) * 2 * np.pi
@@ -416,7 +416,7 @@ def test_trochoids_have_one_width_that_holds_them(turns: float, speed: float) ->
     margin = 0.05 * (x.max() - x.min())
     for panel in panels:
         assert isinstance(panel, Plane)
-        assert panel.x_limits == pytest.approx((x.min() - margin, x.max() + margin), rel=1e-14)
+        assert panel.x_limits == pytest.approx((x.min() - margin, x.max() + margin), rel=1e-14, abs=0.0)
 
 
 def test_the_cycloid_has_cusps_and_the_others_do_not() -> None:
@@ -469,7 +469,7 @@ def test_libration_is_the_motion_of_omega3(
     assert np.abs(path[:, 1] - truth).max() <= 1e-12
     low, high = libration.range
     assert path[0].tolist() == pytest.approx([0.0, omega[2]], abs=4 * EPS)
-    assert path[-1, 0] == pytest.approx(libration.period, rel=1e-14)
+    assert path[-1, 0] == pytest.approx(libration.period, rel=1e-14, abs=0.0)
     assert ((path[:, 1] >= low) & (path[:, 1] <= high)).all()
 
 

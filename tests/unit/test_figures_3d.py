@@ -110,7 +110,7 @@ def test_the_axis_of_a_single_sheet_ends_beyond_it_or_is_as_long_as_the_others(f
     if heights.max() > 0.0:
         assert heights.max() < lengths[which] < 1.5 * heights.max()
     else:
-        assert lengths == pytest.approx([lengths[0]] * 3, rel=1e-14)
+        assert lengths == pytest.approx([lengths[0]] * 3, rel=1e-14, abs=0.0)
 
 
 def test_the_planes_of_the_loop_touch_its_sheets() -> None:
@@ -147,7 +147,7 @@ def test_the_shell_of_the_laboratory_system_has_the_ratio() -> None:
     for ratio in (1e-3, 0.02, 0.5, 1.2, 1.99):
         (shell,) = layers("lssc", Surface, ratio=ratio)
         height, radius = np.ptp(shell.grids[0][..., 2]), np.hypot(*np.moveaxis(shell.grids[0][..., :2], -1, 0)).max()
-        assert SymmetricBody.cylindrical_shell(1.0, radius, height).ratio == pytest.approx(ratio, rel=1e-12)
+        assert SymmetricBody.cylindrical_shell(1.0, radius, height).ratio == pytest.approx(ratio, rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize("field", [(1.0, 1.2), (0.0, 2.0), (3.0, 0.0), (-1.0, -0.5)])

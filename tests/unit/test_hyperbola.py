@@ -40,7 +40,7 @@ def test_the_branches_lie_on_either_side_of_the_pole_and_reach_out_evenly(
     assert np.all(x > curve.pole)
     assert np.all(u < curve.pole)
     for a, b in ((x, y), (u, v)):
-        assert np.abs(a - curve.pole).max() == pytest.approx(reach, rel=1e-12)
+        assert np.abs(a - curve.pole).max() == pytest.approx(reach, rel=1e-12, abs=0.0)
         assert 0.5 * reach < np.abs(b + field[1])[np.abs(a - curve.pole).argmin()] < 4 * reach
 
 
@@ -187,8 +187,8 @@ def test_a_branch_begins_at_the_reach_of_one_axis_and_ends_at_that_of_the_other(
     far = reach * np.hypot(1.0, 0.7)
     for omega2, _ in Hyperbola(ratio, (1.0, -0.7)).branches(reach=reach):
         X = np.abs(omega2 + 1.0)
-        assert X[-1] == pytest.approx(far, rel=1e-12)
-        assert X[0] == pytest.approx(min(abs(1 - ratio) * 0.7 / ratio / far, far / np.e), rel=1e-12)
+        assert X[-1] == pytest.approx(far, rel=1e-12, abs=0.0)
+        assert X[0] == pytest.approx(min(abs(1 - ratio) * 0.7 / ratio / far, far / np.e), rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize("I", [0.5, 1.5])
@@ -198,8 +198,8 @@ def test_a_sample_reaches_as_far_as_it_says(I: float) -> None:
     for branches, reach in ((curve.branches(40), 4.0), (curve.branches(40, reach=9.0), 9.0)):
         for omega2, omega3 in branches:
             X, Y = np.abs(omega2 + 1.0), np.abs(omega3 + 2.0)
-            assert X.max() == pytest.approx(reach * b, rel=1e-12)
-            assert 2.0 / I * abs(1 - I) / X.min() == pytest.approx(reach * b, rel=1e-12)
+            assert X.max() == pytest.approx(reach * b, rel=1e-12, abs=0.0)
+            assert 2.0 / I * abs(1 - I) / X.min() == pytest.approx(reach * b, rel=1e-12, abs=0.0)
             assert Y[X.argmin()] == pytest.approx(abs(2.0 / I * X.min() - np.sign(1 - I) * reach * b), rel=1e-9)
             assert np.allclose(np.diff(np.log(X)), np.diff(np.log(X))[0], rtol=1e-9)
 

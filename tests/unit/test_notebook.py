@@ -315,7 +315,7 @@ def test_a_trace_is_the_way_of_the_axis(one: Any) -> None:
     t, axis = one.trace(10, tolerance=1e-3)
     frame = one.to_dataframe()
     assert t[0] == 0.0
-    assert t[-1] == pytest.approx(10 * frame["period"][0], rel=1e-15)
+    assert t[-1] == pytest.approx(10 * frame["period"][0], rel=1e-15, abs=0.0)
     assert np.array_equal(axis, one.third_axis(t))
     way, chord = one.third_axis((t[1:] + t[:-1]) / 2) - axis[:-1], axis[1:] - axis[:-1]
     share = np.sum(way * chord, axis=1, keepdims=True) / np.sum(chord * chord, axis=1, keepdims=True)
@@ -331,7 +331,7 @@ def test_a_data_frame_has_a_row_for_each_motion() -> None:
     assert frame["period"][0] == np.inf
     for i in (1, 6):
         assert frame["k"][i] == ElementaryMotion(1.5, (1.0, 2.0), omega2[i]).k
-        assert frame["period"][i] == pytest.approx(2 * np.pi / frame["k"][i], rel=1e-15)
+        assert frame["period"][i] == pytest.approx(2 * np.pi / frame["k"][i], rel=1e-15, abs=0.0)
     assert [*frame["case"][:2]] == ["at rest", "precession"]
     assert frame.attrs["units"]["period"] == "time"
 

@@ -290,7 +290,7 @@ def test_the_code_of_a_page_makes_any_body(unbuilt: Callable[[str], dict[str, An
     with redirect_stdout(StringIO()) as out:
         exec(code[1], {})  # noqa: S102  what the page tells the reader to type
     motion = ElementaryMotion(2.0, (0.375, 0.65), 0.35)
-    assert float(out.getvalue().split()[1]) == pytest.approx(motion.omega3, rel=1e-14)
+    assert float(out.getvalue().split()[1]) == pytest.approx(motion.omega3, rel=1e-14, abs=0.0)
 
 
 def test_neighbours_are_what_their_words_say(unbuilt: Callable[[str], dict[str, Any]]) -> None:
@@ -303,7 +303,7 @@ def test_neighbours_are_what_their_words_say(unbuilt: Callable[[str], dict[str, 
         for word, cells in found.items()
         if word in {"pair", "at", "$\\phi=0$:"}
     }
-    assert motions["pair"].phi == pytest.approx(-ElementaryMotion(1.3, (1, 2), 0.7).phi, rel=1e-14)
+    assert motions["pair"].phi == pytest.approx(-ElementaryMotion(1.3, (1, 2), 0.7).phi, rel=1e-14, abs=0.0)
     assert motions["$\\phi=0$:"].phi == 0
     assert (motions["at"].rotation(3.0) == np.eye(3)).all()
 

@@ -62,7 +62,7 @@ def test_where_a_curve_lies_changes_nothing(pieces: int) -> None:
 
 def test_quarter_pixel_of_an_inch() -> None:
     """An inch at 300 dots has 1200 quarters of a pixel."""
-    assert quarter_pixel(1.0, 25.4) == pytest.approx(1.0 / 1200.0, rel=1e-15)
+    assert quarter_pixel(1.0, 25.4) == pytest.approx(1.0 / 1200.0, rel=1e-15, abs=0.0)
 
 
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3])
