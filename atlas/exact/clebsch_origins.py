@@ -107,4 +107,4 @@ def fields(moments: Sequence[fmpq], state: Array) -> Array:
     M, K = state[:3], state[3:]
     J = -I.prod() / I
     first = np.concatenate([np.cross(M, M / I) + np.cross(K, I * K), np.cross(K, M / I)])
-    return np.stack([first, np.concatenate([np.cross(K, J * K), np.cross(K, M)])], -1)
+    return np.column_stack([first, np.concatenate([np.cross(K, J * K), np.cross(K, M)])])

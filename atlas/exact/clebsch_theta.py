@@ -247,8 +247,8 @@ def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
     found = (adjoint * A).solve(adjoint * B)
     rest = A * found - B
     size = max(abs(complex_of(x)) for x in values) or 1.0
-    return [centre(found[i, 0]) for i in range(len(rows[0]))], max(
-        abs(complex_of(rest[i, 0])) for i in range(len(rows))
+    return [centre(found[i, 0]) for i in range(A.ncols())], max(
+        abs(complex_of(rest[i, 0])) for i in range(A.nrows())
     ) / size
 
 

@@ -2,10 +2,13 @@
 
 import numpy as np
 import pytest
+from flint import ctx
 
 import atlas
 from atlas.core.asymmetric import SingleAsymmetric
 from atlas.exact.asymmetric import AsymmetricMotion
+from atlas.exact.clebsch_lattice import _polarization, _reduced, _shortest, _symplectic
+from atlas.exact.clebsch_periods import complex_of, sums
 
 EPS = 2.0**-52
 
@@ -31,6 +34,19 @@ STATED = {
 """What is stated of rounding errors and, as proved, of those of the formulas: wider ones would hold, and be a loss."""
 
 
+ACROSS = (1.0, 0.75, 0.5), (1.0, 0.5, -0.25), (-1.25, 0.5, 1.25)
+"""A motion with (M, K) = 0."""
+
+
+def reduced(tau: np.ndarray) -> None:
+    """Assert that a Riemann matrix is Siegel-reduced, of type (1,2): no single move makes det Im tau larger."""
+    x, y = tau.real, tau.imag
+    assert abs(tau[0, 0]) > 1 - 1e-5
+    assert abs(tau[1, 1]) > 2 - 2e-5
+    assert 2 * abs(y[0, 1]) <= min(2 * y[0, 0], y[1, 1]) * (1 + 1e-9)
+    assert (abs(x) <= np.array([[0.5, 1.0], [1.0, 1.0]]) * (1 + 1e-9)).all()
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_the_closed_form_is_found_and_proved(name: str) -> None:
     """And it is the certified twin at a time that nobody has tried."""
@@ -42,11 +58,13 @@ def test_the_closed_form_is_found_and_proved(name: str) -> None:
         assert np.abs(found - true).max() <= (closed.accuracy + EPS) * size
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_real_periods_have_no_imaginary_part(name: str) -> None:
+@pytest.mark.parametrize("case", [*CASES.values(), ACROSS], ids=[*CASES, "(M, K) = 0"])
+def test_real_periods_have_no_imaginary_part(case: tuple[tuple[float, ...], ...]) -> None:
     """Sums of integrals along paths, some close to other zeros, keep their digits."""
-    motion = AsymmetricMotion(*CASES[name]).on_torus
+    motion = AsymmetricMotion(*case).on_torus
     assert motion is not None
+    tau = motion.torus.lattice.tau
+    reduced(np.array([[complex_of(tau[i, j]) for j in range(2)] for i in range(2)]))
     for period in motion.torus.lattice.real:
         for x in period[:2]:
             assert abs(float(x.imag.mid())) < 1e-30 * max(abs(float(y.real.mid())) for y in period[:2])
@@ -62,3 +80,20 @@ def test_periods_too_long_to_be_gone_are_an_error_in_one_line() -> None:
     assert np.abs(R.T @ R - np.eye(3)).max() < 4 * EPS
     ball = atlas.AsymmetricMotion((1.0, 1.0, 1.0), motion.field, motion.omega)
     assert np.abs(R - ball.rotation(50.0)).max() < 1e-5
+
+
+def test_real_periods_are_the_shortest_whatever_basis_is_given() -> None:
+    """Sums and differences of them, and both in the other order, are reduced to the same two, up to signs."""
+    motion = AsymmetricMotion(*CASES["weak field"]).on_torus
+    assert motion is not None
+    lattice = motion.torus.lattice
+    known = [complex_of(x[0]) for x in lattice.real]
+    periods = [*lattice.real, *lattice.others]
+    with ctx.workprec(200):
+        basis = np.array(_reduced(periods, _symplectic(_polarization(periods))))
+        for U, V in (([[0, 1], [1, 0]], [[0, 1], [1, 0]]), ([[1, 3], [0, 1]], [[1, -3], [0, 1]])):
+            given = [*sums(periods[:2], U), *periods[2:]]
+            more = basis.copy()
+            more[:, :2] = basis[:, :2] @ np.array(V)
+            found = [complex_of(x[0]) for x in sums(given[:2], _shortest(given, more))]
+            assert np.abs(np.abs(np.array(found)) - np.abs(np.array(known))).max() < 1e-12 * np.abs(known).max()

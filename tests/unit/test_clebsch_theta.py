@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 from itertools import product
 from typing import Any
@@ -29,6 +30,8 @@ EPS = 2.0**-52
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
 """A motion whose periods are short beside its rates."""
 WEAK = (1.25, 0.9375, 0.7), (0.01, -0.02, 0.03), (1.0, 0.5, -0.6)
+NEAR = (1.0, 1.00390625, 1.006640625), (-0.41, -1.04, 0.92), (-0.65, -1.37, 0.32)
+"""One whose forms are large far from the real times."""
 TIMES = np.array([-2.0e3, 8.0e11])
 
 Three = tuple[float, float, float]
@@ -71,29 +74,77 @@ def test_the_closed_form_is_the_certified_twin(case: tuple[Three, Three, Three])
 
 
 @pytest.mark.parametrize("slip", ["", "lower words", "rest"])
-def test_bounds_on_sums_hold_and_need_every_word(slip: str, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("case", [QUICK, NEAR])
+def test_bounds_on_sums_hold_and_need_every_word(
+    case: tuple[Three, Three, Three], slip: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Sums at 40 places are those of 200 bits within the bound; without lower words, or what x lacks, they are not."""
-    sums = kernel(*QUICK).sums
+    closed = kernel(*case)
+    sums = closed.sums
     if slip == "lower words":
         monkeypatch.setattr(sums, "lower", 0 * sums.lower)
-    rng = np.random.default_rng(4)
-    x, rest = rng.uniform(-1.5, 1.5, (2, 2, 40)) * np.array([1.0, 2.0**-48])[:, None, None]
-    found = sums.at(x + 0j, (rest + 0j) * (slip != "rest"))
+    phases, rest = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 2, 40))
+    x, rest = closed.rounding.into @ phases, rest * 2.0**-48
+    found = sums.at(x, (rest + 0j) * (slip != "rest"))
     P, Q = (np.arange(a, b + 1) - c for a, b, c in zip(sums.low, sums.high, sums.centre, strict=True))
-    errors = (abs(sums.table) * sums.steps).sum(axis=(1, 2))  # x is real
     first, second = np.exp(1j * np.outer(P, x[0])), np.exp(1j * np.outer(Q, x[1]))
+    errors = np.einsum("fpq,pm,qm->fm", abs(sums.table) * sums.steps, abs(first), abs(second))
     slopes = [np.einsum("fpq,pm,qm->fm", sums.table * n, first, second) for n in (P[:, None], Q)]
     worst = 0.0
     with ctx.workprec(200):
         for i in range(40):
-            y = [arb(float(a)) + arb(float(b)) for a, b in zip(x[:, i], rest[:, i], strict=True)]
+            y = [acb(complex(a)) + acb(float(b)) for a, b in zip(x[:, i], rest[:, i], strict=True)]
             powers = [[(acb(0, 1) * int(n) * z).exp() for n in row] for row, z in zip((P, Q), y, strict=True)]
             for f, table in enumerate(sums.table):
                 true = sum(acb(complex(table[p, q])) * powers[0][p] * powers[1][q] for p, q in np.argwhere(table))
-                allowed = errors[f] + clebsch_rounding.EXPONENTIAL * sum(abs(slope[f, i]) for slope in slopes)
+                allowed = errors[f, i] + clebsch_rounding.EXPONENTIAL * sum(abs(slope[f, i]) for slope in slopes)
                 worst = max(worst, float(abs(true - acb(complex(found[f, i]))).upper()) * 2.0**53 / allowed)
     assert (worst < 1) == (not slip)
     assert worst > 0.02
+
+
+def test_sums_of_upper_words_are_exact() -> None:
+    """Products of upper words of weights and of powers, many orders apart, and sums of them: not a digit is lost.
+
+    And upper words of powers have twenty digits of the largest.
+    """
+    closed = kernel(*NEAR)
+    sums = closed.sums
+    phases = [0.55 * np.pi * np.array(x) for x in ((-1, -1), (-1, 1), (1, -1), (1, 1), (0.3, 0.1), (-0.2, 0.4))]
+    w = np.exp(1j * closed.rounding.into @ np.transpose(phases))
+    second = powers(np.array([w.real, w.imag]), sums.reach)[:, sums.columns, 1].reshape(sums.cut.size, -1)
+    high = second + sums.cut - sums.cut
+    largest = np.hypot(*np.split(second, 2)).max(axis=1, keepdims=True)
+    assert (np.abs(second - high) <= 2.0**-21 * np.tile(largest, (2, 1))).all()
+    assert sums.upper.any()
+    for words, powered in product(sums.upper.reshape(-1, sums.upper.shape[-1]), high.T):
+        pairs = zip(words.tolist(), powered.tolist(), strict=True)
+        exact = sum((Fraction(x) * Fraction(y) for x, y in pairs), Fraction(0))
+        assert Fraction(float(words @ powered)) == exact
+
+
+def test_no_bound_is_given_where_powers_are_too_small(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The limit is that of the largest logarithm of a power at a corner of all phases."""
+    rounding = kernel(*NEAR).rounding
+    corners = [rounding.into @ (0.55 * np.pi * np.array(x)) for x in product((-1, 1), repeat=2)]
+    largest = rounding.sums.reach * np.abs(np.imag(corners)).max()
+    assert largest > 10
+    monkeypatch.setattr(clebsch_rounding, "FARTHEST", largest * (1 - 1e-9))
+    assert rounding.accuracy() == np.inf
+    monkeypatch.setattr(clebsch_rounding, "FARTHEST", largest * (1 + 1e-9))
+    assert rounding.accuracy() == pytest.approx(6.72664e-15, rel=1e-3, abs=0.0)
+
+
+def test_errors_of_vectors_are_counted_by_operations() -> None:
+    """K takes an inverse, 3, and a product, 2; Omega = W - K an inverse, a sum, and products of both."""
+    rounding = replace(kernel(*QUICK).rounding, b=4.0, size=1e-3)  # then errors of R are none beside these
+    none, y = np.zeros((10, 1)), np.zeros((13, 1))
+    y[5] = 3.0
+    assert rounding._of_quotients(none, np.zeros((13, 1)), y) == pytest.approx(15e3)
+    y[5] = 5.0  # K is no longer than b
+    assert rounding._of_quotients(none, np.zeros((13, 1)), y) == pytest.approx(20e3)
+    y[8], y[11] = 7.0, 2.0
+    assert rounding._of_quotients(none, np.zeros((13, 1)), y) == pytest.approx((2 * (4 + 7) + 4 * 2) * 1e3)
 
 
 def test_bounds_in_cells_are_those_at_their_points() -> None:

@@ -397,7 +397,8 @@ def test_trochoids_are_those_of_the_paper(mu: float) -> None:
         a = speed * V / abs(omega)
         assert np.array_equal(line[0], points(panel, "start")[0])
         assert np.allclose(line[0], [0.0, a], rtol=0, atol=8 * EPS * V)
-        assert line[-1, 0] == pytest.approx(2.5 * 2 * np.pi * V / abs(omega) + a * np.sin(5 * np.pi), rel=1e-14, abs=0.0)
+        end = 2.5 * 2 * np.pi * V / abs(omega) + a * np.sin(5 * np.pi)
+        assert line[-1, 0] == pytest.approx(end, rel=1e-14, abs=0.0)
         # the time from y alone, up to whole turns and mirrored halves, then x
         phase = np.arccos(np.clip(line[:, 1] / a, -1, 1)) if a else np.zeros(len(line))
         turn = np.arange(4) * 2 * np.pi
