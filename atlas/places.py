@@ -66,10 +66,15 @@ def _passing() -> Path:
 def settle_matplotlib() -> None:
     """Give Matplotlib a folder, where it can't write its own: else each process warns and makes one of its own.
 
-    Its list of fonts is kept there, and nothing is said of its being made. To be called before it is loaded.
+    Its list of fonts is kept there, and nothing is said of its being made. A backend and a date that the environment
+    asks for are of no use here, and end it where they are none. To be called before it is loaded.
     """
+    for name in ("MPLBACKEND", "SOURCE_DATE_EPOCH"):
+        os.environ.pop(name, None)
     logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
     logging.getLogger("matplotlib.animation").setLevel(logging.CRITICAL)  # what it says is in what it raises
-    if "MPLCONFIGDIR" in os.environ or os.access(os.path.expanduser("~"), os.W_OK):  # noqa: PTH111  Path.home raises without HOME
+    home = os.path.expanduser("~")  # noqa: PTH111  Path.home raises without HOME
+    its = (os.environ.get(name) or home for name in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME"))
+    if "MPLCONFIGDIR" in os.environ or all(os.access(folder, os.W_OK) for folder in its):
         return
     os.environ["MPLCONFIGDIR"] = str((own_folder() or _passing()) / "matplotlib")

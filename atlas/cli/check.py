@@ -15,6 +15,7 @@ from atlas.cli.body import (
     chosen_moments,
     field_options,
 )
+from atlas.cli.encoding import printable
 from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
 from atlas.cli.present import Printout, dump, show
 
@@ -132,7 +133,7 @@ def _graded(file: Path, options: dict[str, Any], given: dict[str, Any]) -> int:
 
 def tables(found: "Check") -> None:
     """Show the grades of the columns, and what drifts."""
-    title = f"{found.file}: {found.rows} row{'s' * (found.rows != 1)}, case {found.case}"
+    title = f"{printable(str(found.file))}: {found.rows} row{'s' * (found.rows != 1)}, case {found.case}"
     heading, rows = found.column_table()
     if rows:
         show(Printout(title, heading=heading, rows=rows))

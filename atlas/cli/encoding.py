@@ -1,4 +1,4 @@
-"""Letters that the terminal's encoding does not have: written in ASCII, as near as it gets."""
+"""Letters that the terminal's encoding does not have: written in ASCII, as near as it gets; and what it would obey."""
 
 import codecs
 import sys
@@ -29,6 +29,11 @@ def write_plainly() -> None:
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
             reconfigure(errors=NAME, line_buffering=True)
+
+
+def printable(text: str) -> str:
+    """Return a text without what a terminal would obey."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
 def _replaced(error: UnicodeError) -> tuple[str, int]:

@@ -49,7 +49,7 @@ def show(printout: Printout) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    console = Console(width=None if sys.stdout.isatty() else 250, highlight=False, soft_wrap=True)
+    console = Console(width=None if sys.stdout.isatty() else 250, emoji=False, highlight=False, soft_wrap=True)
     if printout.title:
         console.print(printout.title, style="bold", markup=False)
     if printout.lines:

@@ -10,7 +10,7 @@ from flint import arb
 from atlas.core.arithmetic.rotation import target
 from atlas.core.certified import Certified
 from atlas.core.clebsch_theta import ThetaKernel, closed_form
-from atlas.core.inputs import FloatArray, finite, plain, real
+from atlas.core.inputs import FloatArray, finite, kept, plain, real
 from atlas.core.motion import Motion, components
 from atlas.core.quantities import INERTIA, RATE
 from atlas.errors import AtlasError, NotCertifiedError
@@ -160,37 +160,37 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
         self.arguments = {"inertia": self.inertia, "field": self.field, "omega": self.omega}
 
-    @cached_property
+    @kept
     def kind(self) -> Any:
         """Name of the kind of motion, a string, or an array of them."""
         return self._of_each(lambda one: one.exact.kind)
 
-    @cached_property
+    @kept
     def H(self) -> Any:
         """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K), theorem-lie-poisson. DomainError beyond all floats."""
         return finite(self._of_each(lambda one: _float(one.exact.H)), "H")
 
-    @cached_property
+    @kept
     def F(self) -> Any:
         """Clebsch's F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch. DomainError beyond all floats."""
         return finite(self._of_each(lambda one: _float(one.exact.F)), "F")
 
-    @cached_property
+    @kept
     def MK(self) -> Any:
         """The Casimir (M, K), |B'| times the canonical momentum along B. DomainError beyond all floats."""
         return finite(self._of_each(lambda one: _float(one.exact.MK)), "(M, K)")
 
-    @cached_property
+    @kept
     def energy(self) -> Any:
         """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy. DomainError beyond all floats."""
         return finite(self._of_each(lambda one: _float(one.exact.energy)), "The energy")
 
-    @cached_property
+    @kept
     def agreement(self) -> Any:
         """What is known of the truth of the closed form, or why there is none: a sentence, or an array of them."""
         return self._of_each(lambda one: one.agreement)
 
-    @cached_property
+    @kept
     def accuracy(self) -> Any:
         """Bound on errors of entries of R, and of Omega and K beside the largest rate, at any time.
 
@@ -200,7 +200,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return self._of_each(lambda one: one.closed.accuracy if one.closed else 2.0**-52)
 
-    @cached_property
+    @kept
     def frequencies(self) -> Any:
         """Angular frequencies (f1, f2, f3) of a motion on a torus, shape (..., 3), each rounded once from proven balls.
 
@@ -211,7 +211,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         found = self._of_each(lambda one: [_float(x) for x in enclosed(lambda: one.exact.frequencies, BITS)])
         return np.asarray(finite(np.array(found), "A frequency"))
 
-    @cached_property
+    @kept
     def riemann_matrix(self) -> Any:
         """Riemann matrix tau of the torus of type (1, 2), symmetric with Im tau > 0, shape (..., 2, 2).
 

@@ -1,6 +1,5 @@
 """General motion of a charged ball, (20) to (30)."""
 
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -9,7 +8,7 @@ from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.turnings import Group
 from atlas.core.arithmetic.words import ONE, ZERO, exact
-from atlas.core.inputs import FloatArray, plain, real
+from atlas.core.inputs import FloatArray, kept, plain, real
 from atlas.core.motion import Motion, components
 from atlas.core.quantities import INERTIA, MOMENTUM, RATE
 from atlas.errors import DomainError
@@ -55,12 +54,12 @@ class BallMotion(Motion[Ball]):
         self.larmor = plain(larmor)
         self.arguments = {"inertia": plain(inertia), "larmor": self.larmor, "momentum": (plain(m2), plain(m3))}
 
-    @cached_property
+    @kept
     def gamma(self) -> Any:
         """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, (29)."""
         return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._unit)
 
-    @cached_property
+    @kept
     def k_hat(self) -> tuple[Any, Any]:
         """Axis (k2, k3) of (29); (0, -1) where gamma = 0, and (29) is 0/0."""
         k2, k3 = over(lambda *inputs: direction(turning(*inputs)[0]), *self._inputs, unit=self._unit, degree=(0, 0))

@@ -13,7 +13,7 @@ from atlas.core.inertia import (
     mass_matrix_from_inertia,
     mass_matrix_of_points,
 )
-from atlas.core.inputs import FloatArray, number, positive, real
+from atlas.core.inputs import FloatArray, matrix, number, positive, real
 from atlas.core.quantities import INERTIA, LENGTH, MASS
 from atlas.errors import AtlasError, DomainError
 
@@ -43,6 +43,11 @@ def moments(ratio: Any) -> tuple[float, Any]:
     return 1.0, I if I.ndim else float(I)
 
 
+def kept_ratio(ratio: Any, I3: Any) -> Any:
+    """Return what an object keeps of its `ratio`: the body, or the I3 of `moments`, never an array of the user's."""
+    return ratio if isinstance(ratio, SymmetricBody) else I3
+
+
 @dataclass(frozen=True)
 class SymmetricBody:
     """A body with I1 = I2, as in (33): its moments of inertia I2 and I3 about the centre of mass.
@@ -68,6 +73,7 @@ class SymmetricBody:
             raise DomainError(f"No body has I2 = {I2}, I3 = {I3}: I3 is at most 2 I2, {NO_SUCH_BODY}.")
         object.__setattr__(self, "I2", I2)
         object.__setattr__(self, "I3", I3)
+        object.__setattr__(self, "axes", matrix(self.axes, "The axes"))
 
     @property
     def ratio(self) -> float:

@@ -8,7 +8,7 @@ from flint import arb, fmpq
 
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.words import TURN, ZERO, middle
-from atlas.core.body import moments
+from atlas.core.body import kept_ratio, moments
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import number
 from atlas.core.motion import components
@@ -73,8 +73,8 @@ class ClosedMotion(ElementaryMotion):
         """phi/k = p/q in lowest terms."""
         inputs = [fmpq(*x.as_integer_ratio()) for x in (I2, I3, B2, B3, self.winding)]
         _check(*inputs)
-        self.ratio, self.field, self.shape = ratio, (B2, B3), ()
-        self.arguments = {"ratio": ratio, "field": self.field, "p": p, "q": q}
+        self.ratio, self.field, self.shape = kept_ratio(ratio, I3), (B2, B3), ()
+        self.arguments = {"ratio": self.ratio, "field": self.field, "p": p, "q": q}
         self._closed = Closed(*inputs)
         self._turning = self._closed  # type: ignore[assignment]  # it has all that one elementary motion has
 

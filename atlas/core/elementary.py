@@ -11,8 +11,8 @@ from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.turnings import Group
 from atlas.core.arithmetic.words import ZERO, exact
-from atlas.core.body import moments
-from atlas.core.inputs import FloatArray, plain, real, turn_time
+from atlas.core.body import kept_ratio, moments
+from atlas.core.inputs import FloatArray, kept, plain, real, turn_time
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.invariants import invariants
 from atlas.core.motion import Motion, components
@@ -92,20 +92,20 @@ class ElementaryMotion(Motion[Elementary]):
     _unit = slice(2, None)
 
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
-        self.ratio = ratio
         if isinstance(omega2, tuple | list) and len(omega2) == 3 and not any(np.ndim(x) for x in omega2):
             raise AtlasError(
                 f"omega2 is one number, or an array of them, but {tuple(omega2)} reads as a vector: "
                 "GeneralMotion(ratio, field, omega) takes all three components; for three motions write np.array."
             )
         I2, I3 = moments(ratio)
+        self.ratio = kept_ratio(ratio, I3)
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         omega2 = real(omega2, "omega2", RATE)
         given = np.array(None) if omega3 is None else real(omega3, "omega3", RATE)
         super().__init__(Elementary, I2, I3, B2, B3, omega2, given)
         self.field = (plain(B2), plain(B3))
         free = None if omega3 is None else plain(given)
-        self.arguments = {"ratio": ratio, "field": self.field, "omega2": plain(omega2), "omega3": free}
+        self.arguments = {"ratio": self.ratio, "field": self.field, "omega2": plain(omega2), "omega3": free}
         if self.shape:
             self._refuse((self._codes == len(CASES)) | ((self._codes < FREE) & (omega3 is None)))
             if omega3 is not None:
@@ -116,27 +116,27 @@ class ElementaryMotion(Motion[Elementary]):
         for i in np.flatnonzero(rows)[:1]:
             self._alone(i)
 
-    @cached_property
+    @kept
     def case(self) -> Any:
         """Name of the case, a string, or an array of them."""
         return self._turning.case if self._turning else np.array(CASES)[self._codes]
 
-    @cached_property
+    @kept
     def omega2(self) -> Any:
         """Initial Omega2, as given."""
         return plain(np.broadcast_to(self._inputs[4], self.shape))
 
-    @cached_property
+    @kept
     def omega3(self) -> Any:
         """Constant Omega3 = omega3, (71), or as given where it is free."""
         return self._scalars[0]
 
-    @cached_property
+    @kept
     def k(self) -> Any:
         """Frequency of precession about B, k = omega2/B2hat, (79)."""
         return self._scalars[1]
 
-    @cached_property
+    @kept
     def phi(self) -> Any:
         """Frequency of proper rotation phi, (72)."""
         return self._scalars[2]
@@ -266,16 +266,17 @@ class FreeMotion(Motion[Free]):
 
     def __init__(self, ratio: Any, omega: Any) -> None:
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
-        super().__init__(Free, *moments(ratio), *omega)
-        self.ratio, self.omega = ratio, tuple(map(plain, omega))
-        self.arguments = {"ratio": ratio, "omega": self.omega}
+        I2, I3 = moments(ratio)
+        super().__init__(Free, I2, I3, *omega)
+        self.ratio, self.omega = kept_ratio(ratio, I3), tuple(map(plain, omega))
+        self.arguments = {"ratio": self.ratio, "omega": self.omega}
 
-    @cached_property
+    @kept
     def k(self) -> Any:
         """Frequency of precession about m, k = |m|/I2."""
         return over(lambda *inputs: free(*inputs)[1], *self._inputs, unit=self._unit)
 
-    @cached_property
+    @kept
     def phi(self) -> Any:
         """Frequency of proper rotation phi = (1 - I) omega3, (87)."""
         return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._unit)

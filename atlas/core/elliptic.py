@@ -1,12 +1,11 @@
 """Elliptic motions: the paper's family for a body with any three moments of inertia (not in the paper)."""
 
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from atlas.core.clebsch import conserved
-from atlas.core.inputs import FloatArray, finite, plain
+from atlas.core.inputs import FloatArray, finite, kept, plain
 from atlas.core.motion import components
 from atlas.core.nutating import AloneMotion
 from atlas.core.nutation.constants import FIRST
@@ -71,12 +70,12 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
         )
         self.arguments = {"inertia": self.inertia, "field": self.field, "z": self.z, "branch": self.branch}
 
-    @cached_property
+    @kept
     def period(self) -> Any:
         """Period T of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
         return self._scalar("period")
 
-    @cached_property
+    @kept
     def stability(self) -> Any:
         """Whether every motion that starts near stays beside the curve of K and M: a string, or an array of them.
 
@@ -85,7 +84,7 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
         """
         return self._each("stability", lambda exact: exact.stability)
 
-    @cached_property
+    @kept
     def splitting(self) -> Any:
         """Squared frequency of small departures in the flow of H + (z/D) F/2, theorem-splitting; negative: unstable.
 
@@ -95,12 +94,12 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
         """
         return finite(self._scalar("splitting"), "splitting")
 
-    @cached_property
+    @kept
     def v(self) -> Any:
         """The root v of prod(z + D/I_i), of the sign of the branch, in inertia^3. DomainError beyond all floats."""
         return finite(self._scalar("v"), "v")
 
-    @cached_property
+    @kept
     def omega(self) -> tuple[Any, Any, Any]:
         """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B'; DomainError beyond floats."""
         found = self._each("omega", lambda exact: [nearest(x) for x in enclosed(lambda: exact.omega, BITS)])

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.core import unit_systems
 from atlas.core.arithmetic.words import exact
-from atlas.core.inputs import FloatArray, finite, number, positive, real, vector, vectors
+from atlas.core.inputs import FloatArray, finite, frozen, number, positive, real, vector, vectors
 from atlas.core.quantities import NO_FIELDS, RATE, SI_FIELDS
 from atlas.core.shown import called
 from atlas.errors import AtlasError, DomainError
@@ -38,7 +38,7 @@ class Field:
         object.__setattr__(self, "B", vector(self.B, "B", unit["B"]))
         object.__setattr__(self, "E", vector(self.E, "E", unit["E"]))
         object.__setattr__(self, "mu", number(self.mu, "mu", unit["mu"]))
-        object.__setattr__(self, "prime", unit_systems.prime(self.mu, self.B, self.c))
+        object.__setattr__(self, "prime", frozen(unit_systems.prime(self.mu, self.B, self.c)))
 
     def __repr__(self) -> str:
         made = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
@@ -112,7 +112,7 @@ class LaboratoryFrame:
         object.__setattr__(self, "B", B)
         object.__setattr__(self, "alignment", alignment)
         object.__setattr__(self, "field", finite(field, "A length or a frequency"))
-        object.__setattr__(self, "matrix", matrix)
+        object.__setattr__(self, "matrix", frozen(matrix))
 
     def __repr__(self) -> str:
         made = called("LaboratoryFrame", {"axis": self.axis, "B": self.B})

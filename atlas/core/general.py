@@ -7,8 +7,8 @@ import numpy as np
 from flint import fmpq
 
 from atlas.core.arithmetic.double_double import over
-from atlas.core.body import SymmetricBody, moments
-from atlas.core.inputs import FloatArray, finite, plain, real, vector
+from atlas.core.body import SymmetricBody, kept_ratio, moments
+from atlas.core.inputs import FloatArray, finite, kept, plain, real, vector
 from atlas.core.integrals import integrals, shape_factors
 from atlas.core.motion import components
 from atlas.core.nutating import NutatingMotion, ends_of, padded
@@ -76,13 +76,13 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
     _in_arrays, _exact, _kinds = (*IN_ARRAYS, "roots"), staticmethod(_balls), KINDS
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
-        self.ratio = ratio
         I2, I3 = moments(ratio)
+        self.ratio = kept_ratio(ratio, I3)
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
         super().__init__(standing, I2, I3, B2, B3, *omega)
         self.field, self.omega = (plain(B2), plain(B3)), tuple(plain(w) for w in omega)
-        self.arguments = {"ratio": ratio, "field": self.field, "omega": self.omega}
+        self.arguments = {"ratio": self.ratio, "field": self.field, "omega": self.omega}
 
     @classmethod
     def in_laboratory(cls, ratio: Any, field: Any, attitude: Any, angular_velocity: Any) -> Self:
@@ -95,22 +95,23 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         Raises DomainError if the attitude is no rotation to 1e-9. AtlasError is raised for what is no number.
         """
         I2, I3 = moments(ratio)
+        attitude = real(attitude, "The attitude")
         start = exact_attitude(attitude)
         field, angular_velocity = vector(field, "The field", RATE), vector(angular_velocity, "omega", RATE)
         B, w = _transposed(start, field), _transposed(start, angular_velocity)
         motion = cls.__new__(cls)
-        motion.ratio, motion.shape = ratio, ()
+        motion.ratio, motion.shape = kept_ratio(ratio, I3), ()
         motion.made_by = "GeneralMotion.in_laboratory"
         body = ratio_of(SymmetricBody(I2, float(I3)))
         matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
         motion._turning = SingleGeneral(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class
         motion.field, motion.omega = tuple(field.tolist()), tuple(int(x.p) / int(x.q) for x in w)
         motion.arguments = {
-            "ratio": ratio, "field": field, "attitude": attitude, "angular_velocity": angular_velocity,
+            "ratio": motion.ratio, "field": field, "attitude": attitude, "angular_velocity": angular_velocity,
         }  # fmt: skip
         return motion
 
-    @cached_property
+    @kept
     def roots(self) -> Any:
         """Roots of Q in Omega3, complex, shape (..., 4): the real ones ascending, then the complex pair.
 
@@ -118,7 +119,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         """
         return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
 
-    @cached_property
+    @kept
     def turning_points(self) -> tuple[Any, Any]:
         """Least and largest Omega3; one of them is approached and never reached on a separatrix."""
         ends = self._each("turning_points", ends_of)
@@ -161,7 +162,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         along = finite(plain((self._momentum(Omega + K) * K).sum(-1)), CONSTANTS[-1])
         return dict(zip(CONSTANTS, (four.E, four.K2, four.c3, four.c5, along), strict=True))
 
-    @cached_property
+    @kept
     def _constants(self) -> Any:
         """Return E', K^2, c3, c5 and (M, B')/I2 of the inputs."""
         if self._turning:

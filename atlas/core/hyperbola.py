@@ -9,7 +9,7 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.words import exact
-from atlas.core.body import moments
+from atlas.core.body import kept_ratio, moments
 from atlas.core.branches import Branch, halves
 from atlas.core.closed import ClosedMotion
 from atlas.core.inputs import FloatArray, plain, positive, real, whole
@@ -52,8 +52,8 @@ class Hyperbola(Shown):
         I2, I3 = moments(ratio)
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
         self.I2, self.I3, self.B2, self.B3 = I2, I3, plain(B2), plain(B3)
-        self._ratio = ratio
-        self.arguments = {"ratio": ratio, "field": (self.B2, self.B3)}
+        self._ratio = kept_ratio(ratio, I3)
+        self.arguments = {"ratio": self._ratio, "field": (self.B2, self.B3)}
 
     @classmethod
     def of_top(

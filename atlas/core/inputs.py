@@ -1,9 +1,10 @@
 """What a user typed, as float64, or one sentence that says what is wrong with it."""
 
 import reprlib
+from functools import cached_property
 from math import isfinite
 from numbers import Number
-from typing import Any
+from typing import Any, Self, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +13,11 @@ from atlas.core.quantities import bare
 from atlas.errors import AtlasError, DomainError
 
 FloatArray = NDArray[np.float64]
+Value = TypeVar("Value")
 
 
 def real(value: Any, name: str, unit: str = "") -> FloatArray:
-    """Return `value` as a float64 array of any shape, finite everywhere; `-0.0` becomes `0.0`.
+    """Return `value` as a read-only float64 array of any shape, finite everywhere; `-0.0` becomes `0.0`.
 
     A quantity of pint or astropy is taken in that `unit` of SI, and refused where it has none.
     """
@@ -36,7 +38,7 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
         worst = array[~np.isfinite(array)].flat[0]
         raise DomainError(f"{name} must be finite, but holds {worst}.")
     array += 0.0
-    return array
+    return frozen(array)
 
 
 def _not_real(value: Any, name: str) -> AtlasError:
@@ -88,6 +90,14 @@ def vectors(value: Any, name: str, unit: str = "") -> FloatArray:
     return array
 
 
+def matrix(value: Any, name: str) -> FloatArray:
+    """Return `value` as a finite matrix, shape (3, 3)."""
+    array = real(value, name)
+    if array.shape != (3, 3):
+        raise AtlasError(f"{name} must be a matrix of shape (3, 3), not of shape {array.shape}.")
+    return array
+
+
 def finite(values: Any, name: str) -> Any:
     """Return what was computed, a number or an array, or several; DomainError where one is too large for a float."""
     if not all(np.isfinite(value).all() for value in (values if isinstance(values, tuple) else (values,))):
@@ -103,6 +113,26 @@ def common_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
         raise AtlasError(
             f"The shapes {', '.join(map(str, shapes))} of the inputs do not broadcast together."
         ) from error
+
+
+def frozen(value: Value) -> Value:
+    """Return what an object keeps and hands out: an array can no longer be written into, nor one of several."""
+    for array in value if isinstance(value, tuple | list) else (value,):
+        if isinstance(array, np.ndarray):
+            array.flags.writeable = False
+    return value
+
+
+class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
+    """A `cached_property` whose arrays can't be written into: other values hang on them."""
+
+    @overload
+    def __get__(self, instance: None, owner: type[Any] | None = None) -> Self: ...
+    @overload
+    def __get__(self, instance: object, owner: type[Any] | None = None) -> Value: ...
+    def __get__(self, instance: object | None, owner: type[Any] | None = None) -> Any:
+        found = super().__get__(instance, owner)
+        return found if instance is None else frozen(found)
 
 
 def plain(array: Any) -> Any:

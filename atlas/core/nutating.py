@@ -1,13 +1,12 @@
 """What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
 
 from collections.abc import Callable, Container, Sequence
-from functools import cached_property
 from math import prod
 from typing import Any, TypeVar
 
 import numpy as np
 
-from atlas.core.inputs import FloatArray, finite
+from atlas.core.inputs import FloatArray, finite, kept
 from atlas.core.motion import Motion
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.errors import DomainError
@@ -32,17 +31,17 @@ class NutatingMotion(Motion[Nutation]):
     _kinds: Sequence[str] = ()
     """Names of the kinds of arrays, by their codes."""
 
-    @cached_property
+    @kept
     def kind(self) -> Any:
         """Name of the kind of motion, a string, or an array of them."""
         return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
 
-    @cached_property
+    @kept
     def period(self) -> Any:
         """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation."""
         return self._scalar("period")
 
-    @cached_property
+    @kept
     def precession_per_period(self) -> Any:
         """Angle of precession about the field in one period; a passage through a pole counts as half a turn less.
 
@@ -52,7 +51,7 @@ class NutatingMotion(Motion[Nutation]):
         """
         return self._scalar("precession_per_period")
 
-    @cached_property
+    @kept
     def spin_per_period(self) -> Any:
         """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt.
 
@@ -60,7 +59,7 @@ class NutatingMotion(Motion[Nutation]):
         """
         return self._scalar("spin_per_period")
 
-    @cached_property
+    @kept
     def modulus(self) -> Any:
         """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix.
 
@@ -68,12 +67,12 @@ class NutatingMotion(Motion[Nutation]):
         """
         return self._scalar("modulus")
 
-    @cached_property
+    @kept
     def complementary_modulus(self) -> Any:
         """Complementary modulus sqrt(1 - k^2), which keeps its digits next to a separatrix."""
         return self._scalar("complementary_modulus")
 
-    @cached_property
+    @kept
     def nome(self) -> Any:
         """Nome q = exp(-pi K'/K) of the elliptic functions."""
         return self._scalar("nome")

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.core.charge import BLOCK, Charge
 from atlas.core.field import Field
-from atlas.core.inputs import FloatArray, common_shape, plain, real, vectors
+from atlas.core.inputs import FloatArray, common_shape, frozen, plain, real, vectors
 from atlas.core.quantities import NO_FIELDS, SI_FIELDS, TIME
 from atlas.core.shown import Shown
 from atlas.errors import DomainError
@@ -143,8 +143,8 @@ class ParticleMotion(Shown):
         """Return an attribute of each particle, shape (..., its own); a number or a name if there is but one."""
         values = getattr(self._all, name)
         if self.shape:
-            return values.reshape(self.shape + values.shape[1:])
-        return values if np.ndim(values) else np.asarray(values).item()
+            return frozen(values.reshape(self.shape + values.shape[1:]))
+        return frozen(values) if np.ndim(values) else np.asarray(values).item()
 
     def _spread(self, fill: Callable[[Charge, FloatArray, FloatArray], None], t: Any) -> FloatArray:
         """Return vectors (..., 3) that `fill` writes for times (m,) into an array (m, 3)."""

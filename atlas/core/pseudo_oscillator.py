@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.body import moments
-from atlas.core.inputs import FloatArray, common_shape, finite, plain, real, vectors
+from atlas.core.body import kept_ratio, moments
+from atlas.core.inputs import FloatArray, common_shape, finite, kept, plain, real, vectors
 from atlas.core.integrals import Integrals, integrals, shape_factors
 from atlas.errors import AtlasError
 
@@ -44,14 +44,15 @@ class PseudoOscillator:
     """
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
-        self.ratio = ratio
+        I3 = moments(ratio)[1]
+        self.ratio = kept_ratio(ratio, I3)
         try:
             B2, B3 = field
         except (TypeError, ValueError) as error:
             raise AtlasError(f"The field must be two components (B2, B3) of B', not {field!r}.") from error
         self.B2, self.B3 = real(B2, "B2"), real(B3, "B3")
         self.omega1, self.omega2, self.omega3 = np.moveaxis(vectors(omega, "omega"), -1, 0)
-        self.shape = common_shape(np.shape(moments(ratio)[1]), self.B2.shape, self.B3.shape, self.omega1.shape)
+        self.shape = common_shape(np.shape(I3), self.B2.shape, self.B3.shape, self.omega1.shape)
 
     @cached_property
     def integrals(self) -> Integrals:
@@ -59,7 +60,7 @@ class PseudoOscillator:
         K = np.stack(np.broadcast_arrays(0.0, self.B2, self.B3), axis=-1)
         return integrals(self.ratio, np.stack([self.omega1, self.omega2, self.omega3], axis=-1), K)
 
-    @cached_property
+    @kept
     def coefficients(self) -> tuple[Any, Any, Any, Any]:
         """Coefficients (a0, a1, a2, a3) of the cubic, (48)."""
         with np.errstate(over="ignore", invalid="ignore"):
@@ -67,7 +68,7 @@ class PseudoOscillator:
         finite(values, "A coefficient of the cubic (47)")
         return values
 
-    @cached_property
+    @kept
     def quartic_coefficients(self) -> tuple[Any, Any, Any, Any, Any]:
         """Coefficients (q0, ..., q4) of the first integral Q."""
         with np.errstate(over="ignore", invalid="ignore"):

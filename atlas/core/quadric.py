@@ -1,13 +1,12 @@
 """The quadric of initial data with constant Omega3, (51), its canonical form (54) to (57), and that of every top."""
 
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from atlas.core.arithmetic.double_double import BLOCK, over
-from atlas.core.body import moments
-from atlas.core.inputs import FloatArray, common_shape, plain, vectors
+from atlas.core.body import kept_ratio, moments
+from atlas.core.inputs import FloatArray, common_shape, kept, plain, vectors
 from atlas.core.motion import components
 from atlas.core.quantities import RATE
 from atlas.core.shown import Shown
@@ -43,10 +42,11 @@ class Quadric(Shown):
 
     def __init__(self, ratio: Any, field: Any) -> None:
         B2, B3 = components(field, ("B2", "B3"), "The field", RATE)
-        self._inputs = (*moments(ratio), plain(B2), plain(B3))
+        I2, I3 = moments(ratio)
+        self._inputs = (I2, I3, plain(B2), plain(B3))
         self.shape = common_shape(*map(np.shape, self._inputs))
         self.field = self._inputs[2:]
-        self.arguments = {"ratio": ratio, "field": self.field}
+        self.arguments = {"ratio": kept_ratio(ratio, I3), "field": self.field}
 
     @classmethod
     def of_top(
@@ -58,7 +58,7 @@ class Quadric(Shown):
         """
         return TopQuadric(inertia, coupling, direction, linear, quadratic)
 
-    @cached_property
+    @kept
     def kind(self) -> Any:
         """Kind of the surface, decided on the inputs as given: I3 against I2, never a rounded quotient.
 
@@ -69,7 +69,7 @@ class Quadric(Shown):
         names = np.select([(B2 == 0) & (B3 == 0), B2 == 0, B3 == 0, I3 == I2, I3 > I2], KINDS[:-1], KINDS[-1])
         return names if names.ndim else str(names)
 
-    @cached_property
+    @kept
     def beta(self) -> Any:
         """Angle from e2 to I^-1 B', tan(beta) = B3/(I B2), in (-pi, pi], (53); only its tangent is rounded before.
 
@@ -80,7 +80,7 @@ class Quadric(Shown):
         slope = over(quadric.tangent, I2, I3, np.where(vertical, B3, B2), B3, unit=slice(2, None), degree=0)
         return plain(np.arctan2(np.copysign(slope, B3), np.where(vertical, 0.0, np.copysign(1.0, B2))))
 
-    @cached_property
+    @kept
     def a2(self) -> Any:
         """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54). Raises DomainError for B2 = 0, B3 >= 0."""
         I2, I3, B2, B3 = self._directed()
@@ -88,7 +88,7 @@ class Quadric(Shown):
             raise DomainError("With B2 = 0 and B3 > 0 sin(beta) = 1, and a2 of (54) is infinite.")
         return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
-    @cached_property
+    @kept
     def a3(self) -> Any:
         """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54). Raises DomainError for B2 = 0, B3 <= 0."""
         I2, I3, B2, B3 = self._directed()
@@ -96,7 +96,7 @@ class Quadric(Shown):
             raise DomainError("With B2 = 0 and B3 < 0 sin(beta) = -1, and a3 of (54) is infinite.")
         return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
-    @cached_property
+    @kept
     def semi_axes(self) -> Any:
         """Semi-axes C1, C2, C3 of (55), (57): the roots of |1-I| B2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
@@ -105,13 +105,13 @@ class Quadric(Shown):
         C1, C2, C3 = (plain(np.where(along, 0.0, C)) for C in found)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
-    @cached_property
+    @kept
     def centre(self) -> FloatArray:
         """Centre -B' = (0, -B2, -B3), shape (..., 3)."""
         _, I3, B2, B3 = self._inputs
         return 0.0 - np.stack(np.broadcast_arrays(0.0, B2, B3, I3)[:3], -1)
 
-    @cached_property
+    @kept
     def axes(self) -> FloatArray:
         """Directions of omega'_1..3 as rows, (53): the angle beta/2 + pi/4 in the plane (e2, e3); (..., 3, 3).
 
@@ -190,7 +190,7 @@ class TopQuadric(Quadric):
         self.direction = self._inputs[2:]
         self.arguments = arguments_of(self._top)
 
-    @cached_property
+    @kept
     def kind(self) -> Any:
         """Kind of the surface, the sign of D: decided exactly on the inputs as given.
 
@@ -201,13 +201,13 @@ class TopQuadric(Quadric):
         names = np.array([_exactly(row).kind for row in rows]).reshape(self.shape)
         return names if names.ndim else str(names)
 
-    @cached_property
+    @kept
     def D(self) -> Any:
         """D = A + kappa^2 + a0/n3, over I2, in 1/time^2, rounded once."""
         self._needs_finite()
         return self._over(top.D, lambda exact: (exact.D,))
 
-    @cached_property
+    @kept
     def semi_axes(self) -> Any:
         """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|); a tuple, or shape (..., 3)."""
         self._needs_finite()
@@ -215,7 +215,7 @@ class TopQuadric(Quadric):
         C1, C2, C3 = (plain(np.where(np.asarray(self._top[4]) == 0, 0.0, C)) for C in found)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
-    @cached_property
+    @kept
     def centre(self) -> FloatArray:
         """Centre w = v = 0, shape (..., 3)."""
         second, third = self._over(top.centre, lambda exact: exact.centre[1:], degree=(1, 1))

@@ -9,7 +9,7 @@ from flint import fmpq
 from atlas.core.arithmetic.double_double import over
 from atlas.core.body import SymmetricBody
 from atlas.core.charge_moments import ChargeMoments
-from atlas.core.inputs import FloatArray, finite, number, plain, positive
+from atlas.core.inputs import FloatArray, finite, kept, number, plain, positive
 from atlas.core.laboratory import anisotropy
 from atlas.core.motion import components
 from atlas.core.nutating import NutatingMotion, ends_of, padded
@@ -163,7 +163,7 @@ class TopMotion(NutatingMotion[SingleTop]):
         coupling = charges.J2 * half, charges.J3 * half
         linear = along((B2, B3), weight) - number(moment, "The moment", "J/T") * size
         if susceptibility:
-            a3 += anisotropy(susceptibility, volume, demagnetization, c != 1)
+            a3 = a3 + anisotropy(susceptibility, volume, demagnetization, c != 1)
         quadratic = -(a3 - a2) * size * size
         return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
 
@@ -193,18 +193,18 @@ class TopMotion(NutatingMotion[SingleTop]):
         """Scalars of all tops in arrays."""
         return TopScalars(self._blocks)
 
-    @cached_property
+    @kept
     def roots(self) -> Any:
         """Roots in nu of (dnu/dt)^2, complex, shape (..., 4): the real ones ascending, the others, and inf."""
         return self._each("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
 
-    @cached_property
+    @kept
     def turning_points(self) -> tuple[Any, Any]:
         """Least and largest nu = cos theta; one of them is approached and never reached on a separatrix."""
         ends = self._each("turning_points", ends_of)
         return (ends[..., 0], ends[..., 1]) if self.shape else tuple(ends)
 
-    @cached_property
+    @kept
     def stable(self) -> Any:
         """Whether a motion with constant theta is stable against nutation, decided exactly, theorem-top-nutation.
 

@@ -19,6 +19,7 @@ import numpy as np
 from flint import acb, acb_series, arb, fmpq, fmpq_poly, fmpz_mat
 from numpy.typing import NDArray
 
+from atlas.errors import NotCertifiedError
 from atlas.formulas.numbers import workprec
 
 BITS = 200
@@ -30,6 +31,9 @@ is left out is 2^-BITS, exp(-2 NODES ROOM)."""
 
 LEAST = 1e-10
 """That of the ellipse round a whole path from which on it is gone."""
+
+SHORTEST = fmpq(1, 2**100)
+"""Part of a path below which no place beside it is looked for."""
 
 NEAR, FAR = 2, 4
 """Cells along each period of wp to which paths go, and those whose zeros are taken into account."""
@@ -194,11 +198,16 @@ def _rule() -> list[tuple[arb, arb]]:
 
 
 def _parts(angles: Array) -> Iterator[tuple[arb, arb]]:
-    """Yield parts of (0, 1), in order, whose ellipses leave angles out, in units of half a turn."""
+    """Yield parts of (0, 1), in order, whose ellipses leave angles out, in units of half a turn.
+
+    NotCertifiedError where one is too near the path to be told from a place on it.
+    """
     left = [(fmpq(0), fmpq(1))]
     while left:
         low, high = left.pop()
         a, b = (np.pi * int(x.p) / int(x.q) for x in (low, high))
+        if a == b or high - low < SHORTEST:
+            raise NotCertifiedError("not certified: zeros of the motion's torus are too close to one another.")
         if (_rates(a, b, angles) >= ROOM).all():
             yield arb(low), arb(high)
         else:

@@ -41,7 +41,7 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     D = np.array([1.0, -1.0 / quadric.a2, 1.0 / quadric.a3])
     w = sheet_axis(quadric)
     i, j = (k for k in range(3) if k != w)
-    centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
+    centre, axes = quadric.centre, quadric.axes
     rest = 0.0 if quadric.kind == "cone" else -float(centre_value(Q, centre))
     radius, height, parameter = profile(rest, float(D[w]), 1.0 if high > -low else -1.0)
 

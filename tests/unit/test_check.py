@@ -10,11 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles import closed_form
 
+from atlas.cli.app import atlas as program
 from atlas.core.elementary import ElementaryMotion
 from atlas.core.general import GeneralMotion
 from atlas.errors import AtlasError
@@ -340,6 +342,15 @@ def test_a_binary_file_is_no_trajectory(tmp_path: Path) -> None:
     path.write_bytes(b"\x89PNG\xff\xfe\x00")
     with pytest.raises(AtlasError, match=r"plot\.png is not a text file"):
         check(path)
+
+
+@pytest.mark.parametrize(("name", "shown"), [(":smile:.csv", ":smile:.csv"), ("[b]\x1b[2J\n", "[b]\ufffd[2J\ufffd")])
+def test_the_name_of_a_file_is_printed_as_it_is(tmp_path: Path, name: str, shown: str) -> None:
+    """No markup, no picture, nothing that a terminal obeys."""
+    path = tmp_path / name
+    path.write_text(SETTING + table(["t", *MATRIX], [[t, *true_row(t)[:9]] for t in TIMES]), encoding="utf-8")
+    done = CliRunner().invoke(program, ["check", str(path)])
+    assert done.output.startswith(f"{shown}: {len(TIMES)} rows")
 
 
 def test_the_record_is_json_and_the_scene_shows_the_errors(write: Writer) -> None:

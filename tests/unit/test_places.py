@@ -64,19 +64,21 @@ def test_a_papers_folder_gets_the_figure_and_nothing_else(tmp_path: Path, monkey
     assert sorted(path.name for path in tmp_path.iterdir()) == ["elsewhere", "magn.svg"]
 
 
-def test_matplotlib_has_a_folder_where_home_cannot_be_written(tmp_path: Path) -> None:
-    """No process says a word about it."""
-    folder = tmp_path / "no" / "home"
+@pytest.mark.parametrize("cache", [None, "/proc/none"])
+def test_matplotlib_has_a_folder_where_it_cannot_write_its_own(tmp_path: Path, cache: str | None) -> None:
+    """No process says a word about it, nor of a backend and a date that are none."""
+    folder = tmp_path / "no" / "home" if cache is None else tmp_path
     environment = {key: value for key, value in os.environ.items() if key not in {"MPLCONFIGDIR", "XDG_CACHE_HOME"}}
+    more = {"MPLBACKEND": "none", "SOURCE_DATE_EPOCH": "none"} | ({"XDG_CACHE_HOME": cache} if cache else {})
     done = subprocess.run(
-        [sys.executable, "-m", "atlas", "figure", "magn", "lssc", "--format", "svg", "--out", str(tmp_path / "out")],
-        env=environment | {"HOME": str(folder), "PYTHONPATH": str(ROOT)},
+        [sys.executable, "-m", "atlas", "figure", "magn", "lssc", "--format", "pdf", "--out", str(tmp_path / "out")],
+        env=environment | more | {"HOME": str(folder), "PYTHONPATH": str(ROOT)},
         capture_output=True,
         text=True,
         check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
-    assert len(list((tmp_path / "out").glob("*.svg"))) == 2
+    assert len(list((tmp_path / "out").glob("*.pdf"))) == 2
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
