@@ -162,6 +162,7 @@ UNTIED = {
     "Hyperbola.growth_rate": "the root of the negative of Hyperbola.stability, which is tied",
     "Hyperbola.stable": NAME,
     "body.moments": GIVEN,
+    "body.kept_ratio": GIVEN,
     "body.ratio_of": GIVEN,
     "body.from_shape": GIVEN,
     "body.float_text": NAME,

@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import atlas
@@ -112,3 +113,49 @@ def test_what_cannot_be_counted_or_named_is_one_sentence(call: Callable[[], Any]
         call()
     assert "\n" not in str(told.value)
     assert len(str(told.value)) < 200
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda rows: atlas.GeneralMotion(1.5, (1.0, 2.0), rows),
+        lambda rows: atlas.FreeMotion(1.5, rows),
+        lambda rows: atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), rows),
+        lambda rows: atlas.EllipticMotion((0.8, 1.0, 1.3), rows, 1.7),
+        lambda rows: atlas.Quadric(1.5, rows[:2, :2]) if isinstance(rows, np.ndarray) else atlas.FreeMotion(1.5, rows),
+    ],
+)
+@pytest.mark.parametrize("kind", [np.array, list])
+def test_a_square_array_is_no_vectors_in_rows(make: Callable[[Any], Any], kind: Callable[[Any], Any]) -> None:
+    """Three vectors would be read as three others, transposed, where two or four are an error; a tuple is clear."""
+    rows = [[0.3, 0.7, 0.2], [0.1, 0.5, 0.4], [0.9, 0.2, 0.6]]
+    with pytest.raises(atlas.AtlasError, match=r"in the rows or in the columns of a square array: give a tuple"):
+        make(kind(rows))
+
+
+def test_a_tuple_of_components_is_an_array_of_vectors() -> None:
+    """As many as each component has numbers, three too."""
+    rows = np.array([[0.3, 0.7, 0.2], [0.1, 0.5, 0.4], [0.9, 0.2, 0.6]])
+    found = atlas.FreeMotion(1.5, tuple(rows.T)).k
+    assert found.tolist() == [atlas.FreeMotion(1.5, row).k for row in rows]
+
+
+@pytest.mark.parametrize(
+    "value", [{1.0: 2.0, 2.0: 3.0}, {1.0, 2.0}, b"\x01\x02", bytearray(2), pd.DataFrame(np.eye(2))]
+)
+def test_what_has_no_order_or_other_names_is_no_vector(value: Any) -> None:
+    """Keys, bytes and names of columns are numbers, too, but not those of a field."""
+    with pytest.raises(AtlasError):
+        atlas.ElementaryMotion(1.5, value, 0.7)
+
+
+def test_a_series_is_its_values() -> None:
+    """Whatever its index."""
+    assert atlas.ElementaryMotion(1.5, pd.Series([1.0, 2.0], index=[7, 3]), 0.7).field == (1.0, 2.0)
+
+
+@pytest.mark.parametrize("axes", [[1.0, 2.0], "x", np.full((3, 3), np.nan)])
+def test_axes_of_a_body_are_a_matrix(axes: Any) -> None:
+    """Nothing else is kept for those who ask later."""
+    with pytest.raises(AtlasError, match="The axes must"):
+        atlas.SymmetricBody(1.0, 0.5, axes)
