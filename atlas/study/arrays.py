@@ -197,7 +197,7 @@ def check_general_rows(seed: int, index: int) -> WorstErrors:
             worst.add(name, GENERAL_REGIME, errors, same)
     # on a separatrix there are no angles to check
     chosen = [i for i in range(len(GENERAL) + CHECKED) if kinds[i].startswith("nutation")]
-    some = GeneralMotion(I[chosen], B[:, chosen], omega[:, chosen])
+    some = GeneralMotion(I[chosen], tuple(B[:, chosen]), tuple(omega[:, chosen]))
     found = np.stack([getattr(some, name) for name in SCALARS], -1)
     for i, values in zip(chosen, found.tolist(), strict=True):
         true = enclosed(partial(_angles, Balls(*(x[i] for x in rows[:3]))), BITS)

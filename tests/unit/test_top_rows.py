@@ -31,7 +31,7 @@ def arrayed(tops: list[Top]) -> atlas.TopMotion:
     """Return an array of tops."""
     rows = [(*t.inertia, *t.coupling, *t.direction, *t.omega, t.linear, t.quadratic) for t in tops]
     x = np.array(rows).T
-    return atlas.TopMotion(x[0:2], x[2:4], x[4:6], x[6:9], *x[9:])
+    return atlas.TopMotion(tuple(x[0:2]), tuple(x[2:4]), tuple(x[4:6]), tuple(x[6:9]), *x[9:])
 
 
 def evaluated(motion: atlas.TopMotion, times: Any, what: str) -> tuple[Any, Any]:

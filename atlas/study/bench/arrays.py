@@ -112,7 +112,7 @@ def _general_tasks(count: int) -> list[Task]:
     t = r.uniform(-1e4, 1e4, count)
 
     def motions(rows: Any = slice(None)) -> GeneralMotion:
-        return GeneralMotion(I[rows], B[:, rows], omega[:, rows])
+        return GeneralMotion(I[rows], tuple(B[:, rows]), tuple(omega[:, rows]))
 
     def one_by_one(value: Callable[[Any, int], Any]) -> FloatArray:
         return np.array([value(motions(i), i) for i in range(min(count, ALONE))])
