@@ -27,8 +27,8 @@ LONGEST = 40
 T = TypeVar("T")
 
 
-class StrictStruct(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A table of the file; a key that it does not have is an error."""
+class StrictStruct(msgspec.Struct, frozen=True):
+    """A table of the file; `convert` refuses a key that it does not have."""
 
 
 class SchemaError(AtlasError):
