@@ -23,7 +23,6 @@ _MARKUP = re.compile(r"<[^>]+>")
 _INLINE = re.compile(r"</?(?:a|b|i|em|strong|span|code|sup|sub)\b[^>]*>")
 _RELATION = re.compile(r"\s*([=≤≥≈≠])\s*")
 _ACCENTS = {"′": "'", "−": "-", "\u2061": "", "\u2062": "", "⃗": ""}
-_SHORT = 2
 _TAG = re.compile(r'<div class="tag">(.*?)</div>', re.DOTALL)
 
 
@@ -87,7 +86,7 @@ def _line(node: ET.Element) -> str:
     parts = [_line(child) for child in node]
     text = "".join(_ACCENTS.get(letter, letter) for letter in normalize("NFKC", node.text or ""))
     if tag == "mfrac":
-        return "/".join(part if len(part) < _SHORT or part.isalnum() else f"({part})" for part in parts)
+        return "/".join(part if part.isalnum() else f"({part})" for part in parts)
     if tag in {"msup", "mover"}:
         base, above = parts
         return base + above if above in {"'", "''", "˙", "^", "¨", "~", "¯", ""} else f"{base}^{above}"

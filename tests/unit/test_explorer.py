@@ -101,20 +101,37 @@ def test_tables_of_general_motions_give_the_motion() -> None:
         assert off.max() < 1 / 500
 
 
+class Texts:
+    """A composer that takes in nothing."""
+
+    @staticmethod
+    def paragraphs(_text: str) -> int:
+        """Return no text's number."""
+        return 0
+
+
+def test_general_motions_are_tabled_at_each_place_of_their_sliders() -> None:
+    """In the order in which the script counts them; they start at one of them, with numbers that do for a pixel."""
+    body, push, time = view(Explorer("x", motion="general"), Texts()).sliders  # type: ignore[arg-type]
+    assert (body.low, body.step, body.high) == (0.5, 0.5, 2.0)
+    assert (push.low, push.step, push.high) == (0.0, pytest.approx(0.6), 3.0)
+    assert (time.low, time.step, time.high, time.start) == (0.0, 0.01, 60.0, 0.0)
+    places = [np.arange(one.low, one.high + one.step / 2, one.step) for one in (body, push)]
+    assert all(np.abs(at - one.start).min() < 1e-12 for at, one in zip(places, (body, push), strict=True))
+    made = json.loads(tables())
+    words = [table["command"].split() for table in made]
+    given = [(float(word[3]), float(word[8])) for word in words]
+    assert given == pytest.approx(np.stack(np.meshgrid(*places, indexing="ij"), axis=-1).reshape(-1, 2))
+    assert all(number == round(number, 4) for table in made for row in table["columns"] for number in row)
+
+
 def test_sliders_have_the_ranges_of_the_register() -> None:
     """I and omega2 go from end to end of their ranges, and all start at the register's motion."""
     known = {one.name: one for one in FAMILIES["elementary"].parameters}
-
-    class Texts:
-        """A composer that takes in nothing."""
-
-        @staticmethod
-        def paragraphs(_text: str) -> int:
-            """Return no text's number."""
-            return 0
-
     made: Any = view(Explorer("x"), Texts())  # type: ignore[arg-type]
     sliders = {one.name: one for one in made.sliders}
+    assert (sliders["angle"].low, sliders["angle"].high) == (1.0, 89.0)
+    assert {one.step for one in made.sliders} == {0.01}
     assert (sliders["I"].low, sliders["I"].high) == known["ratio"].range
     assert (sliders["omega2"].low, sliders["omega2"].high) == known["omega2"].range
     angle = np.radians(sliders["angle"].start)

@@ -24,6 +24,7 @@ from atlas.cli.page import best
 from atlas.core.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
+from atlas.report.asked import Asked
 from atlas.report.body_and_field import body_and_field
 from atlas.report.given import Body, Field
 from atlas.report.single import single
@@ -346,12 +347,27 @@ def test_each_root_has_a_row_of_its_own() -> None:
         assert [str(value).endswith(" i") for value, _ in rows.values()].count(True) == complex_ones
 
 
+def test_a_long_name_of_a_page_ends_with_a_digest() -> None:
+    """A hundred characters of it stay, so that files can have it, and two that begin alike are told apart."""
+    whole, one, other = (
+        Asked(FAMILIES["general"], {"omega": ("1" * 82 + last,)}, {}).name for last in ("2222", "22223", "22224")
+    )
+    assert whole == f"general-omega-{'1' * 82}2222"
+    assert len(whole) == 100
+    assert [(name[:101], len(name)) for name in (one, other)] == [(f"{whole}-", 109)] * 2
+    assert one != other
+
+
 def test_convergents_are_best_fractions() -> None:
-    """Those of pi are the known ones, and a fraction ends with itself."""
+    """Those of pi are the known ones, and a fraction ends with itself; six at most, with denominators to 10 000."""
     from flint import arb, fmpq
 
     assert list(convergents(arb.pi())) == [(3, 1), (22, 7), (333, 106), (355, 113)]
     assert list(convergents(arb(fmpq(-7, 4)))) == [(-2, 1), (-7, 4)]
+    golden = (1 + arb(5).sqrt()) / 2
+    assert list(convergents(golden)) == [(1, 1), (2, 1), (3, 2), (5, 3), (8, 5), (13, 8)]
+    assert list(convergents(1 / arb(10_000.5))) == [(0, 1), (1, 10_000)]
+    assert list(convergents(1 / arb(10_001.5))) == [(0, 1)]
 
 
 def test_plain_words_get_their_letters() -> None:

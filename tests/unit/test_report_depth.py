@@ -26,6 +26,14 @@ def set_in_typst(*texts: str) -> list[str]:
     return made.set("typst", lambda name, _: Link(name))
 
 
+def test_a_text_may_be_nested_ten_deep() -> None:
+    """A formula with ten levels of braces is set, one with eleven refused."""
+    ten, eleven = (f"${'x^{' * count}x{'}' * count}$" for count in (10, 11))
+    assert set_in_typst(ten)
+    with pytest.raises(AtlasError, match=r"nested more than 10 deep"):
+        set_in_typst(eleven)
+
+
 @pytest.mark.parametrize(
     "text",
     [

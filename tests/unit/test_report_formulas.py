@@ -54,6 +54,16 @@ def test_what_is_wrong_with_a_formula_is_told_in_a_line(tex: str, reason: str) -
     assert len(str(caught.value)) <= 200
 
 
+def test_of_a_long_formula_a_message_shows_the_beginning_and_where_it_goes_wrong() -> None:
+    """Ninety characters of it, with the mark of what is left out, and twenty from the mistake on."""
+    tail = "+b" * 60
+    with pytest.raises(AtlasError) as caught:
+        one(rf"$\begin{{pmatrix}}a\end{{matrix}}{tail}$")
+    shown = re.fullmatch(r"here: the formula (.*) can't be read: unexpected .* at (.*)\.", str(caught.value))
+    assert shown
+    assert (len(shown[1]), shown[1][-1], len(shown[2])) == (90, "…", 20)
+
+
 def test_a_fraction_below_a_fraction_is_refused_in_print() -> None:
     """Typst would read a/b/c from left to right, so the user is told."""
     with pytest.raises(AtlasError, match="slash"):

@@ -130,6 +130,14 @@ def test_blocks_of_markdown_are_set_in_page_and_pdf(block: str, tmp_path: Path) 
     assert len(page.xpath("//h1")) == 1
 
 
+def test_a_message_shows_forty_characters_of_a_wrong_value() -> None:
+    """A longer one is cut, with a mark."""
+    for count, shown in ((38, f"'{'a' * 38}'"), (39, f"'{'a' * 39}…")):
+        with pytest.raises(AtlasError) as caught:
+            convert("a" * count, float)
+        assert str(caught.value) == f"at the top: must be a number, not {shown}"
+
+
 def test_random_signs_never_break_the_pdf_or_leave_a_tag(tmp_path: Path) -> None:
     """Seeded strings of the signs that mean something to Markdown, HTML, TeX or Typst stand in page and PDF."""
     random, texts = Random(13), Texts()  # noqa: S311  no secret

@@ -10,7 +10,7 @@ import pytest
 from fontTools.ttLib import TTFont
 
 from atlas.errors import AtlasError
-from atlas.report.blocks.table import POWER
+from atlas.report.blocks.table import POWER, Cell, ColumnView, TableView
 from atlas.report.body_and_field import body_and_field
 from atlas.report.digits import MINUS, THIN, Number, room
 from atlas.report.fonts import FACES, source
@@ -272,6 +272,14 @@ def test_a_number_reads_back_from_each_way_to_print_it(digits: str) -> None:
     tex, _, high = number.tex().strip("$").removesuffix("}").partition(r"\times 10^{")
     assert Decimal(tex) * Decimal(10) ** int(high or 0) == value
     assert bool(high) == bool(exponent)
+
+
+def test_a_table_of_more_than_a_dozen_rows_may_be_broken_over_pages() -> None:
+    """Its rows are single lines then, of words too."""
+    column = ColumnView(0, None, numeric=False, before=0.0, after=0.0)
+    for count in (12, 13):
+        table = TableView(1, "tab-x", (column, column), ((Cell(0), Cell(0)),) * count, 0, 0, None)
+        assert table.tall == table.tight == (count > 12)
 
 
 def test_the_room_of_a_number_is_its_width_in_the_font() -> None:
