@@ -52,7 +52,8 @@ class Swing:
 class Crossing:
     """kappa times the integral of nu = sense tanh(slope s), on the separatrix between n and -n, where it has no rate.
 
-    It is kappa sense (|s| + log((1 + exp(-2 slope |s|))/2)/slope): kappa the one way before s = 0 and the other after.
+    It is, but for a constant, kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): kappa the one way before s = 0 and
+    the other after.
     """
 
     kappa: arb
@@ -63,9 +64,9 @@ class Crossing:
     """Size of the rate of the integral long before and after."""
 
     def at(self, _: arb, s: arb) -> arb:
-        """Return kappa times the integral of nu from s = 0."""
+        """Return kappa times an integral of nu."""
         x = self.slope * abs(s)
-        return self.kappa * self.sense * (x + ((1 + (-2 * x).exp()) / 2).log()) / self.slope
+        return self.kappa * self.sense * (x + (1 + (-2 * x).exp()).log()) / self.slope
 
 
 def bent(odd: arb, even: arb, A: arb) -> arb:

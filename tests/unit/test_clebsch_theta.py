@@ -147,9 +147,10 @@ def test_errors_of_vectors_are_counted_by_operations() -> None:
     assert rounding._of_quotients(none, np.zeros((13, 1)), y) == pytest.approx((2 * (4 + 7) + 4 * 2) * 1e3)
 
 
-def test_bounds_in_cells_are_those_at_their_points() -> None:
+@pytest.mark.parametrize("case", [QUICK, NEAR])
+def test_bounds_in_cells_are_those_at_their_points(case: tuple[Three, Three, Three]) -> None:
     """In a cell the bound is no less than at nine points of it, and that on all phases at most 1.1 of that at 10^4."""
-    rounding = kernel(*QUICK).rounding
+    rounding = kernel(*case).rounding
     rng = np.random.default_rng(7)
     cells, half = rng.uniform(-1.6, 1.6, (2, 60)), 0.08
     inside = cells[:, :, None] + half * rng.uniform(-1, 1, (2, 60, 9))
@@ -157,6 +158,23 @@ def test_bounds_in_cells_are_those_at_their_points() -> None:
     line = np.linspace(-0.55 * np.pi, 0.55 * np.pi, 100)
     most = rounding.wrong(np.stack(np.meshgrid(line, line)).reshape(2, -1), 0.0).max() * 2.0**-53
     assert most <= rounding.accuracy() <= 1.1 * most
+
+
+@pytest.mark.parametrize("place", [(1.7, 1.72), (-1.69, 1.0), (0.4, -1.71), (-1.2, -0.3)])
+def test_cells_are_cut_where_a_bound_is_largest_and_leave_nothing_out(
+    place: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of 1 + 10 exp(-(2 distance)^2) from a place, taken at the nearest point of a cell, the largest is found."""
+
+    def wrong(_: Any, cells: Any, half: float) -> Any:
+        cut.append((cells.shape[1], half))
+        return 1 + 10 * np.exp(-4 * (np.maximum(abs(cells.T - place) - half, 0) ** 2).sum(axis=1))
+
+    cut = list[tuple[int, float]]()
+    monkeypatch.setattr(clebsch_rounding.Rounding, "wrong", wrong)
+    assert 11 <= kernel(*QUICK).rounding.accuracy() * 2.0**53 <= 11 * 1.02
+    assert cut[0] == (24**2, 0.0)
+    assert cut[1] == (24**2, pytest.approx(0.55 * np.pi / 24))
 
 
 def test_powers_are_wrong_by_what_is_said_at_most() -> None:

@@ -12,6 +12,7 @@ from atlas.exact.theta import Lattice, Sum, vanishing_at
 from atlas.formulas.numbers import workprec
 
 FACTOR = 0.75
+FORMS = [(form, oblique) for oblique in (False, True) for form in ("trigonometric", "hyperbolic")]
 
 SUMS: dict[str, Callable[[Lattice], tuple[Sum, ...]]] = {
     "a zero": lambda lattice: (vanishing_at(lattice, arb("0.2"), beyond=False),),
@@ -66,9 +67,8 @@ def test_what_a_sum_leaves_out_is_within_its_bound(name: str, oblique: bool, for
 @pytest.mark.parametrize("name", SUMS)
 def test_a_sum_has_no_more_terms_than_it_needs_and_a_bound_that_is_stated(name: str) -> None:
     """So many terms at 53 bits, and the bound in units of 2^-53: a larger one would be a loss of digits."""
-    forms = [(form, oblique) for oblique in (False, True) for form in ("trigonometric", "hyperbolic")]
     found = list[Any]()
-    for form, oblique in forms[: 4 if name in OBLIQUE else 2]:
+    for form, oblique in FORMS[: 4 if name in OBLIQUE else 2]:
         lattice = of_form(form, oblique=oblique)
         with workprec(53):
             first, *others = SUMS[name](lattice)
@@ -77,3 +77,24 @@ def test_a_sum_has_no_more_terms_than_it_needs_and_a_bound_that_is_stated(name: 
     for (terms, bound), (needed, stated) in zip(found, STATED[name], strict=True):
         assert terms == needed
         assert bound == pytest.approx(stated, rel=1e-3, abs=0.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "terms"),
+    [
+        ("a zero", [494, 573, 708, 878]),
+        ("a zero beyond", [494, 610, 708, 911]),
+        ("two poles, apart", [521, 631]),
+        ("a double pole", [521, 631]),
+        ("two poles, across", [528, 573, 710, 878]),
+    ],
+)
+def test_terms_are_as_many_as_the_precision_asks_for(name: str, terms: list[int]) -> None:
+    """All those of sums at 40 to 109 bits: one bit more to spare would be seen."""
+    found = [0] * len(terms)
+    for place, (form, oblique) in enumerate(FORMS[: len(terms)]):
+        lattice = of_form(form, oblique=oblique)
+        for bits in range(40, 110):
+            with workprec(bits):
+                found[place] += len(SUMS[name](lattice)[0].odd)
+    assert found == terms
