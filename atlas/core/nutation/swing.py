@@ -41,7 +41,7 @@ LOG2 = float(np.log(2.0))
 class Swing:
     """Half of the periodic part, in radians, as a function of the time in a period; in numbers of `type`.
 
-    `twist` is what is proportional to that time, in radians by half turns of v.
+    `twist` is what is proportional to that time, in radians by half turns of v, if there is a period.
     """
 
     def __init__(self, exact: Exact) -> None:
@@ -52,9 +52,8 @@ class Swing:
         merged = not size > MERGED
         self.sign = 0 if merged else 1 if exact.A > 0 else -1
         self.factor = self._number(exact.kappa if merged else exact.kappa / size)
-        self.twist = self._number(
-            0 if infinite(lattice.half) else 2 * exact.kappa * exact.twist * lattice.half / arb.pi()
-        )
+        if not infinite(lattice.half):
+            self.twist = self._number(2 * exact.kappa * exact.twist * lattice.half / arb.pi())
         odd, even = ([x.real for x in sum_] for sum_ in (exact.odd.odd, exact.even.even))
         odd = odd if merged else [x * size for x in odd]
         count = max(self._needed(odd), self._needed(even))
@@ -89,17 +88,15 @@ class Swing:
 
     def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
         """Return half of the whole turn where there is no period: `half` is that of its rate, x + rest = rate s."""
-        return half + self.half_on_line(x, rest)
+        return half + self._rounded(self.of_line(self._sum(x, rest)))
 
-    def half_on_line(
-        self, x: FloatArray, rest: FloatArray, v: FloatArray | float = 0.0, left: FloatArray | float = 0.0
-    ) -> FloatArray:
+    def half_on_line(self, x: FloatArray, rest: FloatArray, v: FloatArray, left: FloatArray) -> FloatArray:
         """Return it from x + rest = rate s and, within a period, v + left, half a phase; rounded once."""
         return self._rounded(self.of_line(self._sum(x, rest)) + self.twist * self._sum(v, left))
 
-    def _sum(self, x: FloatArray | float, rest: FloatArray | float) -> Numbers:
+    def _sum(self, x: FloatArray, rest: FloatArray) -> Numbers:
         """Return the sum of two doubles as a number of the type."""
-        return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(rest, dtype=self.type))
+        return np.asarray(x.astype(self.type) + rest)
 
     def _rounded(self, angle: Numbers) -> FloatArray:
         """Return an angle as doubles; a large one less whole half turns."""
