@@ -14,7 +14,7 @@ import numpy as np
 from atlas.core.arithmetic.double_double import over
 from atlas.core.arithmetic.frequencies import Frequencies, words_of
 from atlas.core.arithmetic.gyration import Gyration, gyration
-from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.phase import Phases, room
 from atlas.core.arithmetic.words import TURN
 from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
@@ -181,7 +181,7 @@ class Charge:
         """Write the three components, block by block."""
         for start in range(0, t.size, BLOCK):
             piece = t[start : start + BLOCK]
-            halves, work = np.empty((3, 1, piece.size)), np.empty((8, 1, piece.size))
+            halves, work = np.empty((3, 1, piece.size)), room(1, piece.size)
             self.phases.circle(piece, work, halves[0], halves[1], halves[2, 0])
             functions = gyration(self.rate * piece, *(2 * halves[:, 0]))
             with np.errstate(over="ignore", invalid="ignore"):

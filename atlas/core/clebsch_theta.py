@@ -15,7 +15,7 @@ import numpy as np
 from flint import acb, arb
 
 from atlas.core.arithmetic.grid import check_grid
-from atlas.core.arithmetic.phase import EVEN, Phases
+from atlas.core.arithmetic.phase import EVEN, Phases, room
 from atlas.core.arithmetic.words import TURN, middle
 from atlas.core.clebsch_rounding import Rounding
 from atlas.core.inputs import FloatArray
@@ -179,7 +179,7 @@ class ThetaKernel:
 
     def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
         """Return half the phases less whole turns, in radians, and what rounding left out of them."""
-        half, rest, *_ = self.phases.reduced(t, np.empty((8, 3, t.size)), low)
+        half, rest, *_ = self.phases.reduced(t, room(3, t.size), low)
         return half, rest
 
 

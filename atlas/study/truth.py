@@ -11,7 +11,7 @@ import numpy as np
 from flint import arb
 from numpy.typing import NDArray
 
-from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.phase import Phases, room
 from atlas.core.arithmetic.words import BITS, TURN, magnitude, middle, scaled, words
 from atlas.core.asymmetric import SingleAsymmetric
 from atlas.core.certified import REACH
@@ -60,7 +60,7 @@ class Truth:
 
     def at(self, t: FloatArray) -> tuple[Long, Long, Long]:
         """Return R (m, 9), Omega (m, 3) and one of the two quaternions (m, 4), all at times `within`; by (84), (73)."""
-        half, left_out, sign, _ = self._phases.angles(t, np.empty((8, 2, t.size)))
+        half, left_out, sign, _ = self._phases.angles(t, room(2, t.size))
         x = half.astype(np.longdouble) + left_out  # half the phase, less whole quarter turns; sign tells their parity
         sines, cosines = np.sin(x), np.cos(x)
         S, s = sign[1] * 2 * sines[1] * cosines[1], sign[0] * 2 * sines[0] * cosines[0]

@@ -1,10 +1,123 @@
-"""A linear function of time as the sum of two doubles."""
+"""What a motion made alone is made of: lines in two words, the further turn of a top, sums of exponentials."""
 
+from collections.abc import Iterator
+from random import Random
+from typing import Any
+
+import lines
 import numpy as np
 import pytest
 from flint import arb, ctx
+from syrupy.assertion import SnapshotAssertion
 
+from atlas.core.general import standing
+from atlas.core.nutation.exponentials import cancelling
 from atlas.core.nutation.functions import Line
+from atlas.core.nutation.single import SingleMotion
+from atlas.core.nutation.single_top import SingleTop
+from atlas.core.nutation.swing import Swing
+from atlas.core.top import balls
+from atlas.errors import DomainError
+from atlas.study.regimes import GENERAL
+from atlas.study.tops import TOPS
+
+EPS = 2.0**-52
+
+
+def top(*parts: Any) -> SingleTop:
+    """Return a top made alone."""
+    return SingleTop(balls(*np.hstack(parts).tolist()), np.eye(3))
+
+
+def drawn(regime: str, count: int) -> Iterator[SingleMotion]:
+    """Yield motions of a regime, those left out that floats do not hold."""
+    random = Random(3)  # noqa: S311  reproducible, not secret
+    for _ in range(count):
+        try:
+            if regime in TOPS:
+                yield top(*TOPS[regime](random))
+            else:
+                I, B, omega = GENERAL[regime](random)
+                yield standing(1.0, I, *B, *omega)
+        except DomainError:
+            continue
+
+
+def test_what_is_made_of_a_motion_is_what_it_was(snapshot: SnapshotAssertion) -> None:
+    """A line a regime: digits that the constants took, functions of time, terms of the further turn, exponentials."""
+    found = []
+    for regime in (*GENERAL, *TOPS):
+        words = []
+        for one in drawn(regime, 5):
+            parts, sums, swing = one.parts, one.exponentials, one.parts.swing
+            kind = f"{type(parts.functions).__name__.lower()} {parts.functions.count}, {parts.precision} digits"
+            faint, turn = " faint" * parts.faint, f", turn {swing.odd.size}{' large' * swing.is_large}" if swing else ""
+            words.append(kind + faint + turn + (f", {len(sums[0].turns)} + {len(sums[1].turns)}" if sums else ""))
+        found.append(f"{regime}: {'; '.join(words)}")
+    assert found == snapshot.use_extension(lines.Lines)
+
+
+def swinging() -> Iterator[SingleTop]:
+    """Yield tops with a further turn, first some ever nearer to the separatrix between n and -n."""
+    for e, d in ((0.0, 1e-30), (1e-15, 0.0), (0.0, 1e-10), (1e-3, 0.0)):
+        yield top((1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (2.0 + e, 0.0, d), 0.0, 3.0)
+    for regime in TOPS:
+        for one in drawn(regime, 29 if regime == "top, near the cubic" else 9):
+            if isinstance(one, SingleTop) and isinstance(one.parts.swing, Swing):
+                yield one
+
+
+def test_the_further_turn_of_a_top_is_that_of_balls() -> None:
+    """Its part that is periodic, all through half a period, within 8 ulp of one or of itself, in all its forms."""
+    forms = set()
+    for one in swinging():
+        swing = one.parts.swing
+        with ctx.workprec(one.parts.precision + 64):
+            exact = one.exact.solution.swing
+            half, rate = exact.lattice.half, exact.lattice.rate
+            forms.add((swing.form, swing.sign))
+            ends = (half, exact.depth / rate if swing.form == "hyperbolic" and swing.sign > 0 else half / 3)
+            for s in (end * k / 7 for end in ends for k in (-7, -5, 1, 2, 4, 6, 8) if abs(end * k / 7) <= half):
+                x, true = rate * s, exact.kappa * exact.bent(s) / 2
+                if swing.form == "trigonometric":
+                    parts = (2 * x).cos(), (2 * x).sin()
+                    found = swing.of_circle(*(np.asarray(swing._number(part)) for part in parts))
+                else:
+                    found = swing.of_line(np.asarray(swing._number(x)))
+                assert abs(float(true) - float(found)) <= 8 * EPS * max(1.0, abs(float(true)))
+    assert {("hyperbolic", 1), ("hyperbolic", -1), ("trigonometric", -1), ("trigonometric", 1)} <= forms
+
+
+@pytest.mark.parametrize("k3", [0.0, 1.25, 20.0])
+def test_a_top_with_the_integrals_of_a_spin_moves_as_balls_do(k3: float) -> None:
+    """One of its two parameters is constant; R is within 16 ulp(1) at any time, whatever the further turn."""
+    omega, potential = (0.0, 0.5, 2.0 - 6.0 * k3 / 5.0), (1.5625 + 2.0 * k3, -1.5625 - 2.0 * k3 * k3)
+    one = top((1.0, 0.5), (0.0, k3), (4.0, 3.0), omega, potential)
+    assert one.parts.functions.constant
+    assert (one.parts.swing and one.parts.swing.is_large) == {0.0: None, 1.25: False, 20.0: True}[k3]
+    for t in (0.3, -7.7, 1e4):
+        with ctx.workprec(300):
+            true = [[float(x) for x in row] for row in one.exact.rotation(t)]
+        assert np.abs(one.rotation(t) - true).max() <= 16 * EPS
+
+
+def test_how_far_exponentials_cancel_is_what_is_left_of_them_at_some_time() -> None:
+    """The sum of their weights over the least |(alpha, beta)| at many times, to a hundredth."""
+    checked = 0
+    for one in [
+        one for regime in ("general, ordinary", "general, I near 2", "top, needle") for one in drawn(regime, 6)
+    ]:
+        if (pair := one.exponentials) is None:
+            continue
+        rates = [np.array([float(f - x.turns[0]) for f in x.turns]) for x in pair]
+        times = np.linspace(0.0, 1.0, 4001) / min(abs(f) for f in np.concatenate(rates) if f)
+        square = sum(
+            abs(np.exp(2j * np.pi * np.outer(times, f)) @ x.weights) ** 2 for x, f in zip(pair, rates, strict=True)
+        )
+        most = max(abs(x.weights).sum() for x in pair)
+        assert cancelling(*pair) == pytest.approx(most / np.sqrt(square.min()), rel=0.01)
+        checked += 1
+    assert checked > 9
 
 
 @pytest.mark.parametrize(("slope", "start"), [(0.7, 0.0), (0.7, 1.3), (-3e-5, 2e9), (1e120, -1e3), (2.0, -1e-30)])
@@ -26,6 +139,6 @@ def test_times_beyond_which_nothing_changes_are_cut() -> None:
     for slope, start in ((0.7, 1.3), (-2.0, 300.0), (5.0, -40.0)):
         line = Line(arb(slope), arb(start))
         for side in (1.0, -1.0):
-            assert 700 < abs(line.at(np.array([side * line.longest]))[0][0]) < 3000
+            assert 700 < abs(line.at(np.array([side * line.longest]), 0.0)[0][0]) < 3000
         assert np.isinf(Line(arb(slope), arb(start), saturates=False).longest)
     assert np.isinf(Line(arb(0), arb(1)).longest)

@@ -1,4 +1,4 @@
-"""One bad entry of an array is refused, and is the one that is named; an array without one is not."""
+"""Arrays of motions are their motions, one by one; one bad entry is refused and named, and none is not."""
 
 from collections.abc import Callable
 from typing import Any
@@ -74,3 +74,35 @@ def test_one_bad_entry_is_refused_and_none_is_not(
         with pytest.raises(atlas.AtlasError) as told, np.errstate(all="ignore"):
             make(np.array(entries))
         assert says in str(told.value)
+
+
+TWO = np.array([0.7, 1.2])
+FAMILIES: list[Callable[[Any], Any]] = [
+    lambda x: atlas.ElementaryMotion(x, (1.0, 2.0), 0.7),
+    lambda x: atlas.FreeMotion(x, (0.3, 0.7, 0.2)),
+    lambda x: atlas.BallMotion(x, 0.5, (0.3, -0.7)),
+    lambda x: atlas.GeneralMotion(x, (1.0, 2.0), (0.3, 0.7, 0.2)),
+    lambda x: atlas.TopMotion((1.0, x), (0.5, 0.25), (0.6, 0.8), (0.3, 0.7, 0.2), 3.0),
+    lambda x: particle(mu=x, v=(0.3, 0.7, 0.2)),
+]
+OF_TIME = (
+    "rotation", "third_axis", "angular_velocity", "field_in_body", "angular_momentum", "position", "velocity",
+    "guiding_centre",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("make", FAMILIES, ids=lambda make: type(make(1.0)).__name__)
+@pytest.mark.parametrize("shape", [(), (1,), (0, 2), (3, 2), (1001, 2)], ids=str)
+def test_functions_of_time_of_an_array_are_those_of_each_motion(make: Callable[[Any], Any], shape: Any) -> None:
+    """Shapes too, at no, a few and many times each, within 24 ulp(1); what is constant is so to the bit."""
+    many, each = make(TWO), [make(float(x)) for x in TWO]
+    t = np.linspace(-2.0, 3.0, int(np.prod(shape))).reshape(shape)
+    for name in OF_TIME:
+        if not hasattr(many, name):
+            continue
+        found, true = (
+            getattr(many, name)(t),
+            [getattr(one, name)(np.broadcast_to(t, (*shape[:-1], 2))[..., i]) for i, one in enumerate(each)],
+        )
+        assert found.shape == np.stack(true, axis=len(shape[:-1])).shape
+        assert np.abs(found - np.stack(true, axis=len(shape[:-1]))).max(initial=0.0) <= 24 * 2.0**-52 * 4, name

@@ -48,6 +48,8 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: placed(np.eye(3) * (1 - 0.6e-9)), "R^T R = 1 to 1e-9"),
     (lambda: Particle(1, SPIN, SPIN, SPIN, SPIN, 0), "speed of light"),
     (lambda: Particle(0, SPIN, SPIN, SPIN, SPIN).drift, "Without a magnetic force"),
+    (lambda: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).column(0, 1.0), "are 1, 2 and 3, not 0"),
+    (lambda: atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7).column(4, 1.0), "are 1, 2 and 3, not 4"),
     (lambda: Ball(0, 1, (1, 1)), "must be positive"),
     (lambda: Balls(1.5, (0, 1)).omega3(1), "is the axis omega2 = 0"),
     (lambda: Balls(1.5, (1, 1)).omega3(-1), "is the pole"),

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.phase import Phases, room
 from atlas.core.arithmetic.progression import Progression
 from atlas.core.arithmetic.words import words
 from atlas.core.inputs import FloatArray
@@ -36,7 +36,7 @@ class Basis:
 
     def __init__(self, phases: Phases | Progression, size: int, count: int = 3) -> None:
         self.phases = phases
-        self.work = np.empty((8, 1 if count == 3 else 2, size))
+        self.work = room(1 if count == 3 else 2, size)
         self.rows = np.empty((count, size))
 
     def at(self, t: FloatArray) -> FloatArray:

@@ -11,7 +11,7 @@ from math import ceil
 import numpy as np
 
 from atlas.core.arithmetic.basis import Basis, multiply
-from atlas.core.arithmetic.phase import QUANTUM
+from atlas.core.arithmetic.phase import QUANTUM, room
 from atlas.core.arithmetic.progression import Progression
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.threads import shared
@@ -94,7 +94,7 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
     terms of an entry add up to 5 (|cos phi tau| + |sin phi tau|) < 8 at most, and what is added is below 2^-20.
     """
     phases = Progression(turning.turns, 0.0, step, 0, FINE)
-    head, rest, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE], np.empty((8, 2, FINE)))
+    head, rest, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE], room(2, FINE))
     x = head.astype(np.longdouble) + rest
     sine, cosine = np.sin(x), np.cos(x)
     versine = 2 * sine * sine

@@ -265,6 +265,11 @@ def _exponents(halves: Sequence[Number]) -> list[int]:
     return [magnitude(p) if p != 0 else NEVER for p in halves]
 
 
+def room(frequencies: int, times: int) -> FloatArray:
+    """Return memory to evaluate so many phases at so many times in, see `Phases.angles`."""
+    return np.empty((8, frequencies, times))
+
+
 def farthest(t: FloatArray) -> float:
     """Return the largest |t|; not a number where a time is none."""
     return max(t.item(t.argmax()), -t.item(t.argmin())) if t.size else 0.0

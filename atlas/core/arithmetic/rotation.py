@@ -40,7 +40,7 @@ class DoubleRotation:
         with workprec():
             self.turns = [f / TURN for f in self.frequencies]
         self.phases = Phases(self.turns)
-        weights = SCALE[:, None, None][: 11 if inverse else 9] * np.matmul(
+        weights = SCALE[:, None, None][: None if inverse else 9] * np.matmul(
             *resolution(generators(axis), third_row=inverse)
         )
         self.weights = np.ascontiguousarray(weights.swapaxes(1, 2)) if inverse else weights

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from atlas.core.arithmetic.double_double import DoubleDouble, over
 from atlas.core.arithmetic.frequencies import Frequencies, words_of
-from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.phase import Phases, room
 from atlas.core.arithmetic.words import exact
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
@@ -126,9 +126,7 @@ class Turnings:
     def _circle(self, i: int, t: FloatArray) -> FloatArray:
         """Return cos, sin and 1 - cos of the first or second phase, (3, m)."""
         halves = np.empty((3, 1, t.size))
-        Phases.of_words(self.words[:, i : i + 1]).circle(
-            t, np.empty((8, 1, t.size)), halves[0], halves[1], halves[2, 0]
-        )
+        Phases.of_words(self.words[:, i : i + 1]).circle(t, room(1, t.size), halves[0], halves[1], halves[2, 0])
         halves *= 2
         return halves[:, 0]
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.circle import WHOLE
+from atlas.core.arithmetic.phase import room
 from atlas.core.arithmetic.rotation import target
 from atlas.core.arithmetic.threads import shared
 from atlas.core.inputs import FloatArray, real
@@ -36,7 +37,7 @@ class Evaluation:
         self.of = parameters
         count = parameters.phases.words.shape[1]
         self.table = parameters.values
-        self.work = np.empty((8, count, size))
+        self.work = room(count, size)
         self.rows = np.empty((parameters.functions.count, size))
         self.sums = np.empty((2, len(self.table), size))
         self.circles, self.products = np.empty((2, 2, size)), Products(size)

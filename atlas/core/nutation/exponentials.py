@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 from flint import acb, arb, fmpq
 
-from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.phase import Phases, room
 from atlas.core.arithmetic.words import middle, turn_of
 from atlas.core.inputs import FloatArray
 from atlas.exact.cayley_klein import Parameter
@@ -49,7 +49,7 @@ class Exponentials:
 
     def fine(self, step: fmpq) -> FloatArray:
         """Return z_m exp(i f_m j step), j < FINE, as rows for cos and for sin of the coarse phase, (2 M, 2, FINE)."""
-        phases, work = Phases(self._turned(step)), np.empty((8, len(self.turns), FINE))
+        phases, work = Phases(self._turned(step)), room(len(self.turns), FINE)
         half, rest, sign, _ = phases.angles(np.arange(float(FINE)), work)
         angle = 2 * (half.astype(np.longdouble) + rest)
         z = 2 * self.weights[:, None] * (sign * np.cos(angle) + 1j * (sign * np.sin(angle))).astype(complex)

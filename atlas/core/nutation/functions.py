@@ -218,7 +218,7 @@ class Line:
         self.halves = float(head), float(self.slope - head)
         self.longest = (2 * SATURATED + abs(self.start)) / abs(self.slope) if self.slope and saturates else np.inf
 
-    def at(self, t: FloatArray, rest: FloatArray | float = 0.0) -> tuple[FloatArray, FloatArray]:
+    def at(self, t: FloatArray, rest: FloatArray | float) -> tuple[FloatArray, FloatArray]:
         """Return x at t + rest, and what rounding left out of it."""
         upper = t * SPLITTER
         upper -= upper - t

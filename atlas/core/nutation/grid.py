@@ -18,7 +18,7 @@ from flint import fmpq
 
 from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.arithmetic.grid import check_grid
-from atlas.core.arithmetic.phase import Phases
+from atlas.core.arithmetic.phase import Phases, room
 from atlas.core.arithmetic.threads import shared
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import BLOCK, Evaluation, Products, combined
@@ -227,5 +227,5 @@ def circles(phases: Phases, i: FloatArray) -> FloatArray:
     """Return cos and sin of all phases, halved, (m, 2 M)."""
     count, m = phases.words.shape[1], i.size
     table = np.empty((2, count, m))
-    phases.circle(i, np.empty((8, count, m)), table[0], table[1], np.empty(m))
+    phases.circle(i, room(count, m), table[0], table[1], np.empty(m))
     return np.ascontiguousarray(table.reshape(2 * count, m).T)

@@ -14,7 +14,7 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.arithmetic.frequencies import LOST, PER_RADIAN
-from atlas.core.arithmetic.phase import LIMIT, Phases
+from atlas.core.arithmetic.phase import LIMIT, Phases, room
 from atlas.core.arithmetic.turnings import REACH
 from atlas.core.inputs import FloatArray, largest
 from atlas.core.nutation.blocks import Block, Blocks
@@ -253,6 +253,6 @@ def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, 
 
     Half the last phase, less whole quarter turns, comes after them, and what rounding left out of it.
     """
-    half, rest, sign, _ = Phases.of_words(words).angles(t, np.empty((8, *words.shape[1:])))
+    half, rest, sign, _ = Phases.of_words(words).angles(t, room(*words.shape[1:]))
     cos, sin = np.cos(2 * half), np.sin(2 * half)
     return (cos - 2 * rest * sin) * sign, (sin + 2 * rest * cos) * sign, (half[-1], rest[-1])
