@@ -96,7 +96,7 @@ class Swing:
 
     def _sum(self, x: FloatArray, rest: FloatArray) -> Numbers:
         """Return the sum of two doubles as a number of the type."""
-        return np.asarray(x.astype(self.type) + rest)
+        return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(rest, dtype=self.type))
 
     def _rounded(self, angle: Numbers) -> FloatArray:
         """Return an angle as doubles; a large one less whole half turns."""
