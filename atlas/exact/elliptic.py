@@ -169,7 +169,6 @@ class EllipticMotion(Nutating):
         return Sphere(
             start=start,
             length=length,
-            momentum=(zero, zero, zero),
             poles={pole: arb(-pole * b) for pole in POLES},
             torques=dict.fromkeys(POLES, torque),
             signs={pole: self.quartic.sign_beside(pole) for pole in POLES},

@@ -138,7 +138,10 @@ class GeneralMotion(Nutating):
         sphere = self.sphere(name)
         if self.is_steady:
             return self._steady(sphere, *(self._steady_rates() if name == "field" else (fmpq(0), self._steady_turn())))
-        return self._ball(sphere) if self.kind == "ball" else Nutation(self.quartic, sphere).solution()
+        if self.kind != "ball":
+            return Nutation(self.quartic, sphere).solution()
+        M1, M2, M3 = (w + K for w, K in zip(self.quartic.Omega, self.quartic.K, strict=True))
+        return self._ball(sphere, (M1, M2, M3) if name == "field" else (M2, M1, -M3))
 
     @cached_property
     def _axis(self) -> tuple[fmpq, fmpq, fmpq]:
@@ -182,9 +185,9 @@ class GeneralMotion(Nutating):
             half = arb.pi() / k
         return steady(sphere.tilt, k, phi, half)
 
-    def _ball(self, sphere: Sphere) -> Solution:
+    def _ball(self, sphere: Sphere, M: tuple[fmpq, fmpq, fmpq]) -> Solution:
         """Return the turn of the vector about M, which stands in the body."""
-        (c, s, C, S), M = sphere.tilt, [fmpq(x) for x in sphere.momentum]
+        c, s, C, S = sphere.tilt
         size = root(M[0] ** 2 + M[1] ** 2 + M[2] ** 2)
         m1, m2, m3 = (M[0] * C - M[1] * S) / size, (M[0] * S + M[1] * C) / size, M[2] / size
         lattice = Lattice("trigonometric", arb.pi() / size, arb("inf"), oblique=False, rate=arb(size) / 2)

@@ -28,13 +28,12 @@ POLES = (-1, 1)
 class Sphere:
     """Poles -1 (of alpha) and 1 (of beta): values of Omega3, torques, their exact signs, rates f of the frame.
 
-    `start` is the vector at t = 0, of that `length`, and `momentum` M in its axes. `slopes` are the derivatives of
-    alpha and beta at t = 0, for the one that is zero there. The frame has the rates `precession` and `spin`.
+    `start` is the vector at t = 0, of that `length`. `slopes` are the derivatives of alpha and beta at t = 0, for the
+    one that is zero there. The frame has the rates `precession` and `spin`.
     """
 
     start: tuple[Real, Real, Real]
     length: Real
-    momentum: tuple[Real, Real, Real]
     poles: Mapping[int, arb]
     torques: Mapping[int, arb]
     signs: Mapping[int, int]
@@ -58,13 +57,11 @@ class Sphere:
 
 def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
     """Return the sphere of K; of a free body, where K = 0, that of its momentum, along `axis`."""
-    (w1, w2, w3), (K1, K2, K3) = q.Omega, q.K
-    x, y, z = axis
+    (w1, w2, _), (x, y, z) = q.Omega, axis
     b = root(q.K2)
     return Sphere(
         start=axis,
         length=root(x * x + y * y + z * z),
-        momentum=(w1 + K1, w2 + K2, q.I * (w3 + K3)),
         poles={pole: q.c3 - pole * arb(b) for pole in POLES},
         torques={pole: q.momentum - pole * arb(b) * q.I * q.c3 for pole in POLES},
         signs={pole: sign_of_sum(q.momentum, -pole * q.I * q.c3, q.K2) for pole in POLES},
@@ -77,14 +74,13 @@ def sphere_of_field(q: Quartic, axis: Vector) -> Sphere:
 
 def sphere_of_velocity(q: Quartic) -> Sphere:
     """Return the sphere of Omega."""
-    (w1, w2, w3), (K1, K2, K3) = q.Omega, q.K
+    (w1, w2, w3), (K1, K2, _) = q.Omega, q.K
     square = q.E / q.I
     end, short = arb(root(square)), root(q.I)
     turn = acb(K1, K2) * acb(0, 1) * arb(short) / 2
     return Sphere(
         start=(w2, w1, -short * w3),
         length=root(q.E),
-        momentum=(w2 + K2, w1 + K1, -q.I * (w3 + K3)),
         poles={pole: -pole * end for pole in POLES},
         torques={pole: square + q.c5 + pole * (2 - q.I) * q.c3 * end for pole in POLES},
         signs={pole: sign_of_sum(square + q.c5, pole * (2 - q.I) * q.c3, square) for pole in POLES},

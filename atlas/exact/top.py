@@ -104,7 +104,6 @@ class TopMotion(Nutating):
         return Sphere(
             start=(fmpq(0), q.across.value, q.nu.value),
             length=fmpq(1),
-            momentum=(w1, (q.across * k2 + w2).value, q.M3.value),
             poles={pole: arb(-pole) for pole in POLES},
             torques={pole: p - pole * M3 for pole in POLES},
             signs={pole: q.sign_beside(pole) for pole in POLES},
