@@ -1,5 +1,6 @@
 """Any motion of a body with three moments: against Taylor series of (12), (16), and the laws that it obeys."""
 
+import re
 from fractions import Fraction
 from typing import Any
 
@@ -328,3 +329,68 @@ def test_the_command_prints_proven_digits_or_one_line(more: list[str], words: st
     assert isinstance(refused.exception, atlas.AtlasError)
     assert words in str(refused.exception)
     assert "\n" not in str(refused.exception)
+
+
+class Fake:
+    """A closed form of which nothing is known but what it says."""
+
+    def __init__(self, proved: float | None, accuracy: float) -> None:
+        self.proved, self.accuracy = proved, accuracy
+
+
+@pytest.mark.parametrize(
+    ("fake", "apart", "times", "words"),
+    [
+        (Fake(1e-40, 5e-15), 4e-15, [-4.05e11], r"^proved .* within 1.0e-40; rounding adds 5.0e-15 at most$"),
+        (
+            Fake(None, 1e-13),
+            9e-15,
+            [2.65, -30.85, 1.45e5, -4.05e11],
+            r"^not proved; .* within 9.0e-15 at 4 times up to \|t\| = 4.05e\+11; rounding adds 1.0e-13 at most$",
+        ),
+        (
+            Fake(1e-40, 5e-15),
+            6e-15,
+            [-4.05e11],
+            "^certified at each time: .* differ from the certified twin by 6.0e-15",
+        ),
+        (Fake(1e-40, 1e-13), 1.1e-14, [-4.05e11], "^certified at each time: .* differ .* by 1.1e-14"),
+        (Fake(None, 1e-13), float("nan"), [2.65, -30.85, 1.45e5, -4.05e11], "^certified at each time: .* by nan"),
+    ],
+)
+def test_a_closed_form_is_held_against_the_twin(
+    fake: Fake, apart: float, times: list[float], words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At the last time alone where it is proved, else at four; within its bound and 1e-14, or it is not taken."""
+    asked = list[float]()
+    monkeypatch.setattr(kernels, "closed_form", lambda *_: fake)
+    monkeypatch.setattr(kernels.SingleAsymmetric, "_difference", lambda *given: (asked.append(given[-1]), apart)[1])
+    one = kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, -2.0, 0.2)))
+    assert re.match(words, one.agreement)
+    assert asked == pytest.approx(times, rel=1e-12)
+    assert (one.closed is fake) == (not words.startswith("^cert"))
+
+
+def test_a_grid_has_the_exact_start_where_it_meets_it() -> None:
+    """Of a ball: the matrix at t = 0 is exactly one, wherever that stands; a grid that ends before it has none."""
+    motion = atlas.AsymmetricMotion((1.0, 1.0, 1.0), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2))
+    assert motion.accuracy == 2.0**-52
+    for start, step, count in (
+        (-1.0, 0.5, 4),
+        (-1.5, 0.5, 3),
+        (0.5, 0.5, 3),
+        (1.0, -0.5, 3),
+        (-0.7, 0.5, 3),
+        (0.0, 0.0, 2),
+    ):
+        times = start + step * np.arange(count)
+        found = motion.rotation_grid(start, step, count)
+        assert np.abs(found - motion.rotation(times)).max() <= 4 * EPS
+        for R, t in zip(found, times, strict=True):
+            assert (np.eye(3) == R).all() == (t == 0.0)
+
+
+def test_a_body_at_rest_has_the_unit_rate() -> None:
+    """Where nothing turns no rate is the largest; else it is, of field and omega, in size."""
+    assert kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0, 0, 0), (0, 0, 0))).size == 1.0
+    assert kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0, -3, 1), (2, 0, 0))).size == 3.0

@@ -1,6 +1,7 @@
 """The closed form of bodies with three moments: against the certified twin, and the laws that it obeys."""
 
 import re
+from copy import copy
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -385,3 +386,49 @@ def test_three_moments_are_taken_by_the_command_of_general_motions() -> None:
     found = CliRunner().invoke(command, "sweep general --inertia 0.8 1 1.3 --set B2=1 --out x.csv".split())
     assert found.exit_code == 2
     assert "the family asymmetric, with --set I1=0.8" in found.output
+
+
+def test_what_is_proved_is_the_largest_error_of_any_entry(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of R that of N and of K/b, of Omega beside the largest rate those of K and of M over the least moment."""
+    closed = copy(kernel(*QUICK))
+    torus = motion()._turnings[0].exact.on_torus.torus  # type: ignore[union-attr]
+    b, least, size = np.linalg.norm(QUICK[1]), 0.625, 1.25
+    for apart in ((0.0, 1e-20, 3e-20), (1e-20, 3e-20, 0.0), (4e-20, 1e-20, 1e-21)):
+        monkeypatch.setattr(core, "distances", lambda *_, apart=apart: apart)
+        closed.prove(None, torus, ())  # type: ignore[arg-type]
+        M, K, N = apart
+        assert closed.proved == pytest.approx(max(N + K / b, (K + M / least) / size), rel=1e-12, abs=0.0)
+    for error, proved in ((0.999, True), (1.001, False)):
+        monkeypatch.setattr(core, "distances", lambda *_, error=error: (0.0, 0.0, error * 2.0**-54))
+        closed.prove(None, torus, ())  # type: ignore[arg-type]
+        assert (closed.proved is not None) == proved
+
+
+@cache
+def constants() -> clebsch_theta.ThetaMotion:
+    """Return the constants of the quick motion."""
+    torus = motion()._turnings[0].exact.on_torus.torus  # type: ignore[union-attr]
+    return clebsch_theta.ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "words"),
+    [(1.99e-13, None), (2.01e-13, "rounding would be wrong by up to 2.0e-13"), (float("nan"), "wrong by up to nan")],
+)
+def test_a_closed_form_that_rounds_badly_is_refused(
+    accuracy: float, words: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beyond 2e-13 there is none; nor where numbers are infinite or a matrix singular: one line says so."""
+    exact = motion()._turnings[0].exact
+    monkeypatch.setattr(core, "ThetaMotion", lambda *_: constants())
+    monkeypatch.setattr(clebsch_rounding.Rounding, "accuracy", lambda _: accuracy)
+    monkeypatch.setattr(core, "distances", lambda *_: (0.0, 0.0, 0.0))
+    if words is None:
+        assert closed_form(exact, 1.25).accuracy == accuracy
+    else:
+        with pytest.raises(atlas.NotCertifiedError, match=words):
+            closed_form(exact, 1.25)
+    for error in (ZeroDivisionError("of zero"), ValueError("no number"), np.linalg.LinAlgError("singular")):
+        monkeypatch.setattr(core, "ThetaMotion", lambda *_, error=error: (_ for _ in ()).throw(error))
+        with pytest.raises(atlas.NotCertifiedError, match=f"badly conditioned, {error}"):
+            closed_form(exact, 1.25)
