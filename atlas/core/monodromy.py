@@ -18,7 +18,7 @@ from flint import arb
 
 from atlas.core.inputs import FloatArray, whole
 from atlas.core.wells import Wells
-from atlas.errors import DomainError
+from atlas.errors import DomainError, NotCertifiedError
 from atlas.exact.top import TopMotion
 from atlas.formulas.numbers import workprec
 
@@ -63,6 +63,7 @@ def monodromy(
     balls, formed at each point from the theta functions; between neighbours the angles are continued to the nearest.
     Raises DomainError for a value that no motion has, or that is critical, and for a loop so coarse that an angle
     changes by more than a quarter of a turn in one step: give it more points, or keep it from critical values.
+    NotCertifiedError where the balls tell nothing.
     """
     wells = Wells.at(M3, I, coupling, linear, quadratic)
     whole(len(loop), "The number of points", 3)
@@ -73,6 +74,8 @@ def monodromy(
             if not top.kind.startswith(("nutation", "regular")):
                 raise DomainError(f"At p = {p:g}, g = {g:g} the motion is a {top.kind}: a loop keeps off such values.")
             rows.append((top.period, top.precession_per_period, top.spin_per_period))
+            if not all(x.is_finite() for x in rows[-1]):
+                raise NotCertifiedError(f"not certified: the periods of the motion at p = {p:g}, g = {g:g}.")
         T, turn, step = [float(row[0]) for row in rows], 2 * arb.pi(), 0.0
         turns = [(rows[0][1] / turn, rows[0][2] / turn)]
         for _, *angles in [*rows[1:], rows[0]]:
@@ -85,7 +88,7 @@ def monodromy(
             turns.append((fresh[0], fresh[1]))
         if not step < 1 / 4:
             raise DomainError(
-                f"An angle changes by {step:.2f} of a turn from one point of the loop to the next: give more points."
+                f"An angle changes by {step:.3g} of a turn from one point of the loop to the next: give more points."
             )
         radius = max(float(x.rad()) for row in turns for x in row)
     closed = np.concatenate([loop, loop[:1]])

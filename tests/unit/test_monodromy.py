@@ -117,6 +117,13 @@ def test_loops_that_tell_nothing_are_refused(loop: list[tuple[float, float]], te
         monodromy(0.5, (0.0, 0.0), 1.0, np.array(loop), 1.0)
 
 
+def test_periods_that_balls_do_not_tell_are_refused() -> None:
+    """In one line, where a moment is so small that 1/I and I have no common digits."""
+    loop = np.array([[5e-161, 2.5173847e-160]] * 3)
+    with pytest.raises(atlas.NotCertifiedError, match="not certified: the periods of the motion"):
+        monodromy(1e-160, (0.0, 0.0), 5e-161, loop, 1e-160)
+
+
 def test_a_stable_spin_has_no_loop() -> None:
     """With D > 0 the value of the spin lies on the border of all motions."""
     with pytest.raises(atlas.DomainError, match="D is not negative"):
