@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from atlas.core.inputs import kept
 from atlas.errors import AtlasError
 
 FEW, MANY = 9, 4096
@@ -25,8 +26,8 @@ class Shown:
     arguments: Mapping[str, Any]
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Refuse another value of what it was made of, on which all else depends."""
-        if name in self.__dict__.get("arguments", ()):
+        """Refuse another value of what it was made of, on which all else depends, and of what was computed from it."""
+        if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), kept):
             raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")
         super().__setattr__(name, value)
 

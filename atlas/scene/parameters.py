@@ -106,7 +106,9 @@ def _kind(default: Any) -> Any:
 
 
 def _fit(value: Any, kind: Any) -> Any:
-    """Return a value in its kind; raises _Unfit."""
+    """Return a value in its kind, NumPy's as Python's; raises _Unfit."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
     origin, inner = get_origin(kind), get_args(kind)
     if origin in {Union, UnionType}:
         missing = value is None and NoneType in inner

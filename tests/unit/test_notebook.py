@@ -100,6 +100,15 @@ def test_what_it_was_made_of_cannot_be_changed(one: Any) -> None:
     assert repr(one) == said
 
 
+def test_what_was_computed_cannot_be_changed() -> None:
+    """It would be one number more, and none of the others would hang on it."""
+    motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
+    k = motion.k
+    with pytest.raises(AttributeError, match=r"^k of an? ElementaryMotion can't be changed"):
+        motion.k = 3.0
+    assert motion.k == k
+
+
 @pytest.mark.parametrize(
     ("one", "kind"),
     [

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 import pytest
 
 from atlas import AtlasError
@@ -108,6 +109,7 @@ def scene(*, ratio: Any = 1.5, field: tuple[float, float] = (1.0, 2.0), levels: 
         ({"free": [2, "y"]}, {"free": (2, "y")}),
         ({"names": ["b", "c"]}, {"names": ("b", "c")}),
         ({"ratio": 1}, {"ratio": 1.0}),
+        ({"ratio": np.float32(0.5), "field": np.array([1.0, 2.0])}, {"ratio": 0.5, "field": (1.0, 2.0)}),
     ],
 )
 def test_a_parameter_comes_in_its_type(folder: Path, given: dict[str, Any], fitted: dict[str, Any]) -> None:
