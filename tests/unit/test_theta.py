@@ -21,6 +21,11 @@ SUMS: dict[str, Callable[[Lattice], tuple[Sum, ...]]] = {
     "a double pole": lambda lattice: swing._merged(lattice, arb(FACTOR)),
     "two poles, across": lambda lattice: swing._across(lattice, arb("0.2"), arb(FACTOR)),
 }
+SLOW: dict[str, Callable[[Lattice], tuple[Sum, ...]]] = {
+    "a zero": lambda lattice: (vanishing_at(lattice, arb("0.0002"), beyond=False),),
+    "a zero beyond": lambda lattice: (vanishing_at(lattice, arb("0.0002"), beyond=True),),
+    "two poles, across": lambda lattice: swing._across(lattice, arb("0.0002"), arb(FACTOR)),
+}
 OBLIQUE = "a zero", "a zero beyond", "two poles, across"
 """Those of lattices that may be oblique."""
 
@@ -98,3 +103,26 @@ def test_terms_are_as_many_as_the_precision_asks_for(name: str, terms: list[int]
             with workprec(bits):
                 found[place] += len(SUMS[name](lattice)[0].odd)
     assert found == terms
+
+
+@pytest.mark.parametrize(
+    ("name", "terms"),
+    [
+        ("a zero", 184),
+        ("a zero beyond", 184),
+        ("two poles, apart", 368),
+        ("a double pole", 368),
+        ("two poles, across", 552),
+    ],
+)
+def test_next_to_a_separatrix_sums_go_on_until_their_terms_fall(name: str, terms: int) -> None:
+    """With the nome 0.998 terms are small long before each is half of the one before, on which the bound rests."""
+    lattice = Lattice("trigonometric", arb(1), arb("0.0006"), oblique=False, rate=arb.pi() / 2)
+    with workprec(24):
+        few = (SUMS | SLOW)[name](lattice)
+    with workprec(800):
+        many = (SUMS | SLOW)[name](lattice)
+    for low, high in zip(few, many, strict=True):
+        rest = sum((abs(a) + abs(b) for a, b in zip(high.odd[terms:], high.even[terms:], strict=True)), arb(0))
+        assert len(low.odd) == terms
+        assert rest < low.bound
