@@ -103,7 +103,9 @@ def test_bounds_are_as_large_as_they_were(snapshot: SnapshotAssertion, family: s
         if family == "top":
             pair, swings = TopPairAt(constants, t, rows.swings), rows.swings
             turn, error = swings.half(PairAt(constants, t).half, t)
-            found.append(f"size of Omega {bits(velocity(pair, np.empty((len(t), 3))) / rows.largest, 1.0)}")
+            found.append(
+                f"size of Omega {bits(np.minimum(velocity(pair, np.empty((len(t), 3))) / rows.largest, 64.0), 1.0)}"
+            )
             found.append(f"swing {bits(error.astype(float))} {bits(np.abs(turn.astype(float)), 1.0)}")
             found.append(f"slope {bits(swings.slope, 1.0)} lack {bits(swings.lack * abs(t))}")
     assert found == snapshot.use_extension(lines.Lines)

@@ -58,6 +58,13 @@ def test_what_was_computed_is_finite_in_every_place(place: int, bad: float) -> N
             inputs.finite(values, "It")
 
 
+def test_an_array_in_which_nothing_is_masked_is_an_array() -> None:
+    """A mask that covers nothing is let go; one that covers something is refused."""
+    assert inputs.real(np.ma.masked_array([1.0, 2.0], [False, False]), "x").tolist() == [1.0, 2.0]
+    with pytest.raises(AtlasError, match="without masked entries"):
+        inputs.real(np.ma.masked_array([1.0, 2.0], [False, True]), "x")
+
+
 def test_shapes_that_do_not_broadcast_are_one_sentence() -> None:
     """The sentence holds the shapes."""
     assert inputs.common_shape((3, 1), (2,), ()) == (3, 2)

@@ -90,6 +90,26 @@ def test_the_demagnetising_factors_are_means_over_the_wall(shape: str) -> None:
     assert abs(N[0, 0] - N[2, 2] - laboratory.DEMAGNETIZATION[shape]) <= 1e-12
 
 
+@pytest.mark.parametrize("along", [0.0, 0.1, 1 / 3, 0.4, 0.9, 1.0])
+@pytest.mark.parametrize("gaussian", [False, True])
+def test_a_susceptibility_is_taken_while_no_moment_is_infinite(along: float, gaussian: bool) -> None:
+    """Down to -1/N, N the larger of both factors, over 4 pi in Gaussian units, and no factor outside 0 ... 1.
+
+    The anisotropy is the difference of the two polarizabilities V chi/(1 + chi N).
+    """
+    scale = 4 * np.pi if gaussian else 1.0
+    border, across = -1 / max(along, (1 - along) / 2) / scale, (1 - along) / 2
+    chi, unit = border * (1 - 1e-6), 1.0 if gaussian else MAGNETIC_CONSTANT
+    found = laboratory.anisotropy(chi, 2.0, along, gaussian)
+    first, second = (2.0 * chi / (unit * (1 + scale * chi * n)) for n in (along, across))
+    assert found == pytest.approx(first - second, rel=1e-9, abs=1e-9 * abs(first))
+    with pytest.raises(AtlasError, match="is not positive"):
+        laboratory.anisotropy(border * (1 + 1e-6), 2.0, along, gaussian)
+    for outside in (-1e-9, 1 + 1e-9):
+        with pytest.raises(AtlasError, match="in 0 ... 1"):
+            laboratory.anisotropy(chi, 2.0, outside, gaussian)
+
+
 def test_the_energy_of_a_magnetised_body_is_that_of_its_moment() -> None:
     """-(m, B)/2 with m = chi V (1 - chi N) B/mu_0, along the field less across it: 1e-9, either sign of chi."""
     chi, V, B = -0.01, 3e-6, 2.0

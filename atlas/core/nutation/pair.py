@@ -180,12 +180,7 @@ class Pair:
     def _length(self, sums: DoubleDouble) -> DoubleDouble:
         """Return |alpha|^2 + |beta|^2 where the sums are these."""
         x, y = self.sums.start
-        factors = chosen(
-            self.sphere.meets,
-            DoubleDouble(abs(self.factors[0]) ** 2, None, 2.0**-50),
-            self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y),
-        )
-        both = sums * sums * factors
+        both = sums * sums * (self.sphere.amplitudes * self.sphere.amplitudes / (x * x + y * y))
         return part(both, 0) + part(both, 1)
 
     @cached_property
