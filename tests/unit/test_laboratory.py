@@ -106,7 +106,7 @@ def test_a_susceptibility_is_taken_while_no_moment_is_infinite(along: float, gau
     with pytest.raises(AtlasError, match="is not positive"):
         laboratory.anisotropy(border * (1 + 1e-6), 2.0, along, gaussian)
     for outside in (-1e-9, 1 + 1e-9):
-        with pytest.raises(AtlasError, match="in 0 ... 1"):
+        with pytest.raises(AtlasError, match=r"in 0 \.\.\. 1"):
             laboratory.anisotropy(chi, 2.0, outside, gaussian)
 
 
