@@ -214,5 +214,7 @@ def test_a_motion_shows_its_body_where_it_is(tmp_path: Path) -> None:
     animation.save(moving, tmp_path / "top.gif", "gif", 10, dpi=30)
     shown = Image.open(BytesIO(b64decode(moving._repr_mimebundle_()["image/gif"])))  # in a notebook
     assert (shown.format, shown.n_frames) == ("GIF", 2)
+    assert np.abs(np.array(shown.size) - 96 * moving._fig.get_size_inches()).max() <= 1  # as large as on paper
+    assert shown.info["duration"] == 1000 / 20  # without a wish twenty frames a second, as by the command
     with pytest.raises(AtlasError, match="not an array"):
         ElementaryMotion(1.5, (1.0, 2.0), [0.1, 0.2]).animate()

@@ -9,10 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from atlas.build.cache import DAY, UNUSED, Cache
+from atlas.build.cache import Cache
 from atlas.sources import digest
 
-KEY, OTHER = digest("key"), digest("other")
+KEY, OTHER, RECENT = digest("key"), digest("other"), digest("recent")
+DAY, UNUSED = 86_400.0, 90 * 86_400.0
 LARGE = b"x" * 2_000_000
 
 
@@ -108,6 +109,11 @@ def test_what_is_out_of_use_is_removed(tmp_path: Path) -> None:
         cache.put(key, b"x")
         os.utime(path_of(cache, key), (now - UNUSED - 10, now - UNUSED - 10))
     assert cache.get(OTHER) == b"x"
+    cache.put(RECENT, b"x")
+    fresh = path_of(cache, RECENT).with_name(".fresh.part")
+    fresh.write_text("half")
+    for path, age in ((path_of(cache, RECENT), UNUSED), (fresh, DAY)):
+        os.utime(path, (now - age + 60, now - age + 60))
     left = [tmp_path / "tmp" / "killed" / "file", path_of(cache, OTHER).with_name(".half.part")]
     for path in left:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -120,6 +126,8 @@ def test_what_is_out_of_use_is_removed(tmp_path: Path) -> None:
     assert cache.get(OTHER) == b"x"
     assert not list(tmp_path.glob(f"*/{KEY}"))
     assert not any(path.exists() for path in left)
+    assert fresh.exists()
+    assert path_of(cache, RECENT).exists()
 
 
 def test_a_digest_tells_values_apart() -> None:

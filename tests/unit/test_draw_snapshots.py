@@ -167,7 +167,8 @@ def lit(renderer: Any) -> Iterator[tuple[str, str, lines.Numbers]]:
     """Yield what a renderer shows; lengths in hundredths, so that a twentieth is small beside them."""
     for name, actor in renderer.actors.items():
         if name.endswith("labels"):
-            yield "labels", f" {actor.GetVisibility()}", {}
+            size = actor.mapper.GetInputAlgorithm().GetTextProperty().GetFontSize()
+            yield "labels", f" {actor.GetVisibility()} of {size} points", {}
             continue
         mesh = actor.mapper.dataset
         props = [prop for prop in (actor.prop, actor.backface_prop) if prop is not None]
