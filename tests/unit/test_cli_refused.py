@@ -3,12 +3,14 @@
 import ast
 import re
 from pathlib import Path
+from typing import Any
 
 import click
 import pytest
 
 from atlas import cli
 from atlas.cli.app import atlas as command
+from atlas.cli.app import main
 from atlas.errors import AtlasError
 
 BODY = "--ratio 1.5 --field 1 2"
@@ -200,3 +202,29 @@ def test_each_refusal_of_the_command_line_is_reached_and_says_why(place: Path) -
                 found = any((path.name, line) in reached for line in lines)
                 elsewhere = any(words in ast.unparse(node) for words in ELSEWHERE)
                 assert found or elsewhere, f"{path.name}:{node.lineno}"
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "says"),
+    [
+        (click.UsageError("wrong"), 2, "wrong"),
+        (AtlasError("wrong"), 2, "wrong"),
+        (OSError(28, "no space", "a.csv"), 1, "no space: a.csv"),
+        (KeyboardInterrupt(), 130, "interrupted"),
+        (AtlasError(f"{'a' * 400} {'b' * 401}"), 2, f"{'a' * 400} {'b' * 200}…{'b' * 100}"),  # long words are cut
+    ],
+    ids=["usage", "input", "disk", "interrupt", "long"],
+)
+def test_what_goes_wrong_is_one_line_and_a_status(
+    error: BaseException, status: int, says: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """2 for what was typed, 1 for what failed, 130 for what was interrupted."""
+
+    def failing(*_: Any, **__: Any) -> None:
+        raise error
+
+    monkeypatch.setattr(command, "main", failing)
+    with pytest.raises(SystemExit) as ended:
+        main([])
+    assert ended.value.code == status
+    assert capsys.readouterr().err == f"atlas: {says}\n"

@@ -79,7 +79,9 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def described(data: Path) -> dict[str, Any]:
     """Return what the description says of each file."""
-    found = json.loads((data / "datapackage.json").read_text("utf-8"))
+    text = (data / "datapackage.json").read_text("utf-8")
+    found = json.loads(text)
+    assert f"{json.dumps(found, indent=1, ensure_ascii=False)}\n" == text  # for people, too
     return found | {"resources": {one["path"]: one for one in found["resources"]}}
 
 
