@@ -8,11 +8,12 @@ docstring does (the title of a figure is one). Any other file, and one that is n
 import ast
 import hashlib
 import json
-from collections.abc import Iterable, Iterator
-from functools import lru_cache
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from functools import lru_cache, partial
 from pathlib import Path
 from threading import Lock
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 from atlas import _HOMES
 from atlas.places import folder
@@ -21,6 +22,9 @@ PACKAGE = Path(__file__).resolve().parent
 OURS = {"atlas", "figures"}
 """The names that imports of ours begin with."""
 MANY = 3000
+Below: TypeAlias = Callable[[Path, str], tuple[Path | None, Path | None]]
+DISTURBED = sys.version_info < (3, 11, 8)
+"""Whether two threads that parse disturb each other, CPython issue 106905: a SystemError now and then."""
 _PARSING = Lock()
 
 
@@ -51,6 +55,7 @@ class Sources:
         self._known: dict[str, Any] = cache.load("sources") if cache else {}
         self._used: dict[str, Any] = {}
         self._seen: dict[Path, dict[str, Any]] = {}
+        self._modules = lru_cache(maxsize=None)(partial(_files, below=lru_cache(maxsize=None)(_below)))
 
     def reached(self, roots: Iterable[Path]) -> tuple[Path, ...]:
         """Return the files and every module of ours that they import, sorted."""
@@ -59,7 +64,7 @@ class Sources:
             path = waiting.pop()
             if path not in found:
                 found.add(path)
-                waiting += [module for name in self._facts(path)["imports"] for module in _files(name)]
+                waiting += [module for name in self._facts(path)["imports"] for module in self._modules(name)]
         return tuple(sorted(found, key=str))
 
     def closure(self, roots: Iterable[Path]) -> str:
@@ -99,7 +104,7 @@ def _read(path: Path, content: bytes) -> dict[str, Any]:
 def syntax_tree(content: bytes, file: str = "<unknown>") -> ast.Module:
     """Return the syntax tree of a module. Raises SyntaxError or ValueError for what is no Python.
 
-    One thread at a time: before Python 3.11.8 two disturb each other, CPython issue 106905: a SystemError now and then.
+    One thread at a time, since they may be `DISTURBED`; those of libraries, as Matplotlib's style sheets, know no lock.
     """
     with _PARSING:
         return ast.parse(content, file)
@@ -149,8 +154,7 @@ def _bound(alias: ast.alias) -> Iterator[str]:
         yield alias.name.split(".")[0]
 
 
-@lru_cache(maxsize=4096)
-def _files(name: str) -> tuple[Path, ...]:
+def _files(name: str, below: Below) -> tuple[Path, ...]:
     """Return the files that importing a dotted name runs: each package on the way and the module itself.
 
     A public name of the package brings the module that it comes from, and the bare package brings them all.
@@ -161,9 +165,9 @@ def _files(name: str) -> tuple[Path, ...]:
     homes = {parts[0]} if parts else set(_HOMES)
     files, here = [PACKAGE / "__init__.py"], PACKAGE
     for public in homes & set(_HOMES):
-        files += _files(_HOMES[public])
+        files += _files(_HOMES[public], below)
     for part in parts:
-        package, module = _below(here, part)
+        package, module = below(here, part)
         if package:
             files.append(package)
             here = package.parent
@@ -173,7 +177,6 @@ def _files(name: str) -> tuple[Path, ...]:
     return tuple(files)
 
 
-@lru_cache(maxsize=4096)
 def _below(folder: Path, name: str) -> tuple[Path | None, Path | None]:
     """Return the file of a package and that of a module of some name in a folder, each if it is there."""
     package, module = folder / name / "__init__.py", folder / f"{name}.py"

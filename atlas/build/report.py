@@ -22,7 +22,7 @@ from atlas.libraries import versions
 from atlas.places import cache_folder, folder
 from atlas.report.find import find, related_to
 from atlas.report.manifest import MANIFEST
-from atlas.sources import PACKAGE, Sources, digest
+from atlas.sources import DISTURBED, PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
     from atlas.build.figures import FigureBuild
@@ -157,6 +157,8 @@ def _build(
     steps, jobs = len(wanted) + 2, jobs or figures.cores()
     with ThreadPoolExecutor(1) as beside:
         found_out = beside.submit(lambda: key or key_of(file, sources, style))
+        if DISTURBED:  # by Matplotlib, which parses its style sheets
+            found_out.result()
         figures.draw(list(wanted), cache, jobs, lambda done, _, what: progress(done, steps, what))
     key = found_out.result()
     times["figures"] = time.perf_counter()

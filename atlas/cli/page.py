@@ -108,6 +108,7 @@ def asked(family: Family, options: dict[str, Any]) -> Any:
             strict=True,
         )
     )
+    family.kernels()(*found.values())  # refuses what there is not, before figures are thought of
     values = {p.name: _plain(found[p.name]) for p in family.parameters if p.option and found[p.name] is not None}
     values |= {"c": found["c"]} if "c" in found else {}
     records: dict[str, Any] = {"time": top_units(options).get("time", "time")} if family.name == "top" else {}

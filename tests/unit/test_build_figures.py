@@ -50,7 +50,6 @@ def use(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (sources_module, figures_module, report_module):
         monkeypatch.setattr(module, "PACKAGE", copy / "atlas")
     monkeypatch.setattr(places, "_PACKAGE", copy / "atlas")
-    sources_module._files.cache_clear()
 
 
 @pytest.fixture
@@ -59,8 +58,7 @@ def checkout(pristine: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     copy = tmp_path / "checkout"
     shutil.copytree(pristine, copy)
     use(copy, monkeypatch)
-    yield copy  # type: ignore[misc]
-    sources_module._files.cache_clear()
+    return copy
 
 
 def figure(recipe: str, *kinds: str, renderer: str = "vector", **parameters: Any) -> FigureBuild:

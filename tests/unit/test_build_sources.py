@@ -154,18 +154,12 @@ def test_a_module_that_became_a_package_is_found(tmp_path: Path, monkeypatch: py
         (package / name).write_text("")
     monkeypatch.setattr(sources_module, "PACKAGE", package)
     recipe = write(tmp_path / "recipe.py", "from atlas.core import ball\n")
-    sources_module._files.cache_clear()
-    sources_module._below.cache_clear()
     sources = Sources(cache)
     assert package / "core/ball.py" in sources.reached([recipe])
     sources.save()
     (package / "core/ball").mkdir()
     (package / "core/ball.py").rename(package / "core/ball/__init__.py")
-    sources_module._files.cache_clear()
-    sources_module._below.cache_clear()
     assert package / "core/ball/__init__.py" in Sources(cache).reached([recipe])
-    sources_module._files.cache_clear()
-    sources_module._below.cache_clear()
 
 
 def test_one_thread_parses_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,11 +13,12 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+from click import ClickException
 from click.testing import CliRunner
 from lxml import html as reader
 from pypdf import PdfReader
 
-from atlas import toml
+from atlas import processes, toml
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import best
@@ -180,8 +181,8 @@ def test_the_code_of_a_page_gives_its_numbers(made: Path) -> None:
     with redirect_stdout(StringIO()) as out:
         exec(code.text_content(), {})  # noqa: S102  what the page tells the reader to type
     found = rows(made, "properties-elementary")
-    printed = dict(zip(("case", "omega3", "k", "phi"), out.getvalue().splitlines(), strict=True))
-    for name in ("omega3", "k", "phi"):
+    printed = dict(zip(("case", "omega3", "k", "phi", "period"), out.getvalue().splitlines(), strict=True))
+    for name in ("omega3", "k", "phi", "period"):
         assert float(printed[name]) == pytest.approx(float(number(found[name][2])), rel=1e-9)
 
 
@@ -314,6 +315,19 @@ def test_the_figures_of_a_family_draw_it() -> None:
     for one in FAMILIES.values():
         for name in one.figures:
             assert set(load(name).parameters) & {p.name for p in one.parameters}
+
+
+@pytest.mark.parametrize(
+    "words", ["--ratio 1.5 --field 1 2 --omega2 -1", "--ratio 2.5 --field 1 2", "particle --mu inf", "ball --inertia 0"]
+)
+def test_a_page_of_what_there_is_not_is_refused_at_once(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before anything is loaded for its figures, in the background or here."""
+    monkeypatch.setattr(processes, "prepare", pytest.fail)
+    with pytest.raises((AtlasError, ClickException)):
+        command.main(["page", *words.split(), "--out", str(tmp_path)], standalone_mode=False)
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_report_of_several_pages_is_not_one_file() -> None:
