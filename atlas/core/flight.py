@@ -83,7 +83,7 @@ class Flight(Shown):
             return
         flying = self.particle.prime @ self._to_user
         apart = np.abs(np.stack(np.broadcast_arrays(0.0, *turning), axis=-1) - flying).max()
-        if apart > AGREEMENT * max(np.abs(flying).max(), np.abs(turning).max()):
+        if apart > AGREEMENT * np.abs(flying).max():
             raise AtlasError(
                 f"The centre of mass flies in the field B' = {flying.tolist()} of the laboratory frame, "
                 f"but the body turns in (B2, B3) = {turning}: they must be the same."

@@ -236,3 +236,15 @@ def test_what_cannot_be_drawn_is_refused_with_the_name_of_the_figure(name: str, 
     """Each figure says in one line what it needs."""
     with pytest.raises(DomainError, match=f"figure {name}"):
         recipes.load(name).scene(**parameters)
+
+
+@pytest.mark.parametrize("c", [0.7, -1.9])
+def test_the_diagram_does_not_depend_on_the_unit_of_time(c: float) -> None:
+    """With b twice and c four times as large places are the same, F, H and C/D^2 four times as large, to the bit."""
+    one, other = Bifurcation((0.8, 1.0, 1.3), 1.25, c), Bifurcation((0.8, 1.0, 1.3), 2.5, 4 * c)
+    assert [*one.stretches()] == [*other.stretches()]
+    for stretch in one.stretches():
+        z = np.linspace(stretch.low, stretch.high, 7)[1:-1]
+        assert np.array_equal(4 * one.values(z, stretch.branch), other.values(z, stretch.branch))
+        assert np.array_equal(4 * one.splitting(z, stretch.branch), other.splitting(z, stretch.branch))
+    assert [(x.axis, x.kind, 4 * x.F, 4 * x.H) for x in one.spins] == [(x.axis, x.kind, x.F, x.H) for x in other.spins]

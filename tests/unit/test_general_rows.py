@@ -137,6 +137,20 @@ def test_a_kind_next_to_a_border_is_decided_exactly() -> None:
             assert kind == Balls(row[0], row[1:3], row[3:]).kind
 
 
+def test_rest_and_spin_along_the_field_are_told_in_arrays() -> None:
+    """No such motion is made alone for its kind; one beside it is of another kind."""
+    I, B, _ = ordinary(20, 4)
+    none, push = np.zeros(20), np.array([[0.0], [1e-3], [0.0]])
+    for field, omega, kind in (
+        (B, np.array([none, none, none]), "at rest"),
+        (np.array([none, B[1]]), np.array([none, none, B[0]]), "spin along the field"),
+    ):
+        motion = GeneralMotion(I, field, omega)
+        assert motion._scalars["kind"].sure.all()
+        assert (motion.kind == kind).all()
+        assert kind not in GeneralMotion(I, field, omega + push).kind
+
+
 def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
     """An array has NaN where a motion made alone says that it has no number, there only, and else the same bits."""
     rows = [

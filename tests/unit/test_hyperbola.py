@@ -246,3 +246,11 @@ def test_a_sample_of_components_too_far_apart_is_an_error(ratio: float, field: t
     """Where B3/(I B2), or the reach in units of the curve, is no float."""
     with pytest.raises(DomainError, match="too far apart"):
         Hyperbola(ratio, field).sample(3)
+
+
+@pytest.mark.parametrize("power", [-600, 600])
+def test_a_sampled_curve_does_not_depend_on_the_unit(power: int) -> None:
+    """In a field 2^600 times as strong or as weak the points are as far out, within rounding of the exponential."""
+    near, far = Hyperbola(0.6, (1.0, -2.5)), Hyperbola(0.6, (2.0**power, -2.5 * 2.0**power))
+    for one, other in zip(near.sample(20), far.sample(20), strict=True):
+        assert np.ldexp(other, -power) == pytest.approx(one, rel=1e-11, abs=1e-11)
