@@ -1,5 +1,6 @@
 """Any motion of a body with three moments: against Taylor series of (12), (16), and the laws that it obeys."""
 
+import math
 import re
 from fractions import Fraction
 from typing import Any
@@ -86,6 +87,9 @@ def test_thirty_digits_are_proven_at_a_trillion() -> None:
         F = sum(m * m - D * k * k / x for m, x, k in zip(M, I, K, strict=True))
         c = sum(m * k for m, k in zip(M, K, strict=True))
         assert overlap([H, F, c], [motion.H, motion.F, motion.MK])
+        m = motion.angular_momentum(10**12)
+        assert overlap(np.array(m, object).dot(rows), [x * w for x, w in zip(I, Omega, strict=True)])
+        assert narrow(m, 2.0**-100)
 
 
 def test_a_motion_goes_on_from_where_it_is() -> None:
@@ -169,14 +173,15 @@ def test_each_kind_has_its_name_and_is_the_motion(case: tuple[Any, ...], kind: s
 
 
 @pytest.mark.parametrize("v", [2, -2])
-def test_an_elliptic_motion_is_found_with_its_place(v: int) -> None:
+@pytest.mark.parametrize("inertia", [(1, 2, 3), (2, 3, 1)])
+def test_an_elliptic_motion_is_found_with_its_place(inertia: tuple[int, ...], v: int) -> None:
     """From the start of an elliptic motion with rational v, z = -4 of (1, 2, 3): that motion, to every digit."""
     field = 1, -2, fmpq(1, 2)
-    omega = [-(1 + fmpq(v, -4 * I + 6)) * K for I, K in zip((1, 2, 3), field, strict=True)]
-    motion = Balls((1, 2, 3), field, omega)
+    omega = [-(1 + fmpq(v, -4 * I + 6)) * K for I, K in zip(inertia, field, strict=True)]
+    motion = Balls(inertia, field, omega)
     assert motion.kind == "elliptic motion"
     with ctx.workprec(150):
-        true = EllipticMotion((1, 2, 3), field, -4, v // 2)
+        true = EllipticMotion(inertia, field, -4, v // 2)
         assert overlap(motion.rotation(10**6), true.rotation(10**6))
         assert narrow(motion.rotation(10**6))
         assert overlap(motion.angular_velocity(10**6), true.angular_velocity(10**6))
@@ -206,6 +211,18 @@ def test_reduced_and_direct_ways_meet(name: str, monkeypatch: pytest.MonkeyPatch
         monkeypatch.setattr(asymmetric, "DIRECT", 100)
         assert overlap(reduced, Balls(*EXTREME[name]).rotation(20))
     assert narrow(reduced, 1e-16)
+
+
+@pytest.mark.parametrize("case", [QUICK, EXTREME["flat"]])
+def test_in_a_period_the_body_turns_by_half_a_turn_at_most(case: tuple[Any, ...]) -> None:
+    """f3 + b times the times of a period are its angle, less whole turns, along both flows."""
+    motion = Balls(*case)
+    f1, f2, f3 = (float(arb(x).mid()) for x in motion.frequencies)
+    on_torus = motion.on_torus
+    assert on_torus is not None
+    angles = [math.remainder(float(period.angle.mid()), 2 * math.pi) for period in on_torus.torus.periods(128)]
+    b = math.hypot(*map(float, fractions(case[1])))
+    assert f3 + b == pytest.approx(np.dot(angles, [f1, f2]) / (2 * math.pi), rel=1e-11)
 
 
 def test_the_unit_of_time_changes_nothing() -> None:
