@@ -7,6 +7,7 @@ import pytest
 
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS
+from atlas.report.mathml import _upright
 from atlas.report.pandoc import Target
 from atlas.report.texts import Link, Texts
 
@@ -76,6 +77,11 @@ def test_vectors_are_upright_and_primes_not_raised_twice() -> None:
     assert "".join(math.itertext()) == "\N{MATHEMATICAL BOLD CAPITAL B}\N{PRIME}2"
     assert math.find(".//msup") is None
     assert math.find(".//msubsup") is None
+
+
+def test_bold_italic_letters_become_upright_and_no_others() -> None:
+    """From A to z; Greek and script letters, which stand beside them in Unicode, stay."""
+    assert "".join(map(_upright, "𝑨𝒁𝒂𝒛 𝑧𝒜𝜶")) == "𝐀𝐙𝐚𝐳 𝑧𝒜𝜶"
 
 
 def test_functions_have_their_spaces() -> None:

@@ -1,5 +1,7 @@
 """Tables: every digit printed is that of the true value, computed here in another way."""
 
+import string
+import unicodedata
 from decimal import Decimal
 from fractions import Fraction
 
@@ -13,7 +15,7 @@ from atlas.errors import AtlasError
 from atlas.report.blocks.table import POWER, Cell, ColumnView, TableView
 from atlas.report.body_and_field import body_and_field
 from atlas.report.digits import MINUS, THIN, Number, room
-from atlas.report.fonts import FACES, source
+from atlas.report.fonts import ALWAYS, FACES, ITALIC, source
 from atlas.report.given import Body, Field
 from atlas.report.tables import TABLES, compute
 from atlas.report.tables.table import Data, Request, column, scaled
@@ -272,6 +274,17 @@ def test_a_number_reads_back_from_each_way_to_print_it(digits: str) -> None:
     tex, _, high = number.tex().strip("$").removesuffix("}").partition(r"\times 10^{")
     assert Decimal(tex) * Decimal(10) ** int(high or 0) == value
     assert bool(high) == bool(exponent)
+
+
+def test_fonts_have_what_is_written_anywhere() -> None:
+    """All that a keyboard has, the whole italic alphabet of formulas, and the weight that the font itself says."""
+    assert {*string.ascii_letters, *string.digits, *string.punctuation, " "} <= {*ALWAYS}
+    assert all(letter.isprintable() or letter.isspace() for letter in ALWAYS)
+    named = {letter: unicodedata.name(letter, "") for letter in map(chr, range(0x1D400, 0x1D800))}
+    italic = {x for x, name in named.items() if name.startswith("MATHEMATICAL ITALIC") and "DOTLESS" not in name}
+    assert {letter for letter in ITALIC if unicodedata.name(letter, "")} == italic | {"\N{PLANCK CONSTANT}"}
+    for face in FACES.values():
+        assert face.weight == TTFont(source(face))["OS/2"].usWeightClass
 
 
 def test_a_table_of_more_than_a_dozen_rows_may_be_broken_over_pages() -> None:
