@@ -12,6 +12,7 @@ from atlas.errors import AtlasError, unknown
 from atlas.places import folder
 from atlas.plain import plain
 from atlas.report.blocks.figure import FigureView
+from atlas.report.definition import Thumbnail
 from atlas.report.document import Document, PageView
 from atlas.report.fonts import FACES, Recall, all_subsets, anew
 from atlas.report.search import index
@@ -24,13 +25,11 @@ turns figures in space, what lets figures move in time, and what moves an elemen
 
 
 class Card(NamedTuple):
-    """A figure that stands for a page on the front page, and how it is cut: the place (percent) and the zoom."""
+    """A figure that stands for a page on the front page, and how it is cut."""
 
     page: PageView
     figure: FigureView
-    across: float = 50.0
-    down: float = 50.0
-    zoom: float = 1.0
+    thumbnail: Thumbnail = Thumbnail()
 
 
 def pages(document: Document) -> dict[str, str]:
@@ -106,7 +105,7 @@ def cut(card: Card, document: Document) -> Card:
     chosen = card.figure if not wanted.figure else next((f for f in figures if f.id == f"fig-{wanted.figure}"), None)
     if chosen is None:
         raise AtlasError(f"page {card.page.slug!r}, thumbnail: no figure {wanted.figure!r} is drawn on this page.")
-    return Card(card.page, chosen, 100 * wanted.at[0], 100 * wanted.at[1], wanted.zoom)
+    return Card(card.page, chosen, wanted)
 
 
 def _cover(document: Document, figures: Sequence[Card]) -> Card | None:

@@ -1,6 +1,7 @@
 """The script of the explorer beside Python: the same motions, rotation matrices and quadrics."""
 
 import json
+import re
 import shutil
 import subprocess
 from typing import Any
@@ -15,6 +16,7 @@ from atlas.report.blocks.explorer import Explorer, tables, view
 from atlas.report.compose import compose
 from atlas.report.html import pages
 from atlas.report.load import load
+from atlas.report.pictures import pictures
 
 SCRIPT = folder("templates") / "html" / "explorer.js"
 COUNT, WITHIN = 10_000, 1e-11
@@ -151,3 +153,22 @@ def test_an_explorer_is_hidden_until_its_script_runs(tmp_path: Any) -> None:
     assert made["index.html"].count("explorer.js") == 1
     assert "explorer.js" not in made["plain.html"]
     assert " hidden>" in made["index.html"]
+
+
+def test_the_front_page_shows_a_cut_of_a_figure_of_each_page(tmp_path: Any) -> None:
+    """The first figure about its middle, as large as it is, or the one that the page names, about the place named."""
+
+    def page(slug: str, more: str = "") -> str:
+        figures = (f"[[pages.blocks]]\nkind = 'figure'\nid = '{slug}-{x}'\nrecipe = '{x}'\n" for x in ("cone", "loop"))
+        return f"[[pages]]\nslug = '{slug}'\ntitle = 'T'\n{more}" + "".join(figures)
+
+    named = "thumbnail = {figure = 'other-loop', at = [0.25, 1.0], zoom = 1.5}\n"
+    file = tmp_path / "mine.toml"
+    file.write_text("name = 'mine'\ntitle = 'M'\n" + page("index") + page("other", named))
+    report = load(file)
+    document = compose(report, pictures(report))
+    document.set("html")
+    places = re.findall(
+        r"object-position:(.*?);transform-origin:(.*?);transform:scale\((.*?)\)", pages(document)["index.html"]
+    )
+    assert places == [("50% 50%", "50% 50%", "1"), ("25% 100%", "25% 100%", "1.5")]
