@@ -113,7 +113,7 @@ class SingleAsymmetric:
 @lru_cache(maxsize=KEPT)
 def _single(*row: float) -> SingleAsymmetric:
     """Return a motion; those made last are kept, since a sweep asks for the same one at many times."""
-    return SingleAsymmetric(Balls(row[0:3], row[3:6], row[6:9]))
+    return SingleAsymmetric(Balls(row[:3], row[3:6], row[6:]))
 
 
 def forget() -> None:

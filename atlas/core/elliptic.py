@@ -23,7 +23,7 @@ CONSTANTS = ("H", "F", "(M,K)", "K^2", "energy")
 def balls(*row: float) -> Balls:
     """Return one motion as balls: I1, I2, I3, B1, B2, B3, z, branch."""
     with workprec(FIRST):
-        return Balls(row[0:3], row[3:6], *row[6:])
+        return Balls(row[:3], row[3:6], *row[6:])
 
 
 class EllipticMotion(AloneMotion[SingleElliptic]):
