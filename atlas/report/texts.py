@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from atlas.errors import AtlasError
 from atlas.report import pandoc
+from atlas.report.leading import kept
 from atlas.report.mathml import mend_all
 from atlas.report.pandoc import FormulaError, Target, Tree
 
@@ -98,6 +99,8 @@ class Texts:
         if len(self._trees) < len(self.texts):
             self.read()
         trees = [_Checked(text, target, cite).tree(tree) for text, tree in zip(self.texts, self._trees, strict=True)]
+        if target == "typst":
+            trees = [tree if text.inline else kept(tree) for text, tree in zip(self.texts, trees, strict=True)]
         keys = [
             json.dumps([pandoc.release(), target, text.inline, tree])
             for text, tree in zip(self.texts, trees, strict=True)

@@ -145,7 +145,7 @@ def test_random_signs_never_break_the_pdf_or_leave_a_tag(tmp_path: Path) -> None
         texts.add("".join(random.choices(TOKENS, k=random.randint(1, 12))), "here", inline=number % 2 == 0)
     pieces = texts.set("html", lambda name, _: Link(name))
     assert inert(reader.fromstring("<div>" + "".join(pieces) + "</div>"))
-    rule = "#let horizontalrule = line(length: 40%)\n"
+    rule = "#let horizontalrule = line(length: 40%)\n#let leading(indented, body) = body\n"
     pdf.Compiler(tmp_path).compile(
         rule + "".join(f"#block([{one}])\n\n" for one in texts.set("typst", lambda name, _: Link(name)))
     )
