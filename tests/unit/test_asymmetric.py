@@ -297,6 +297,10 @@ def test_floats_are_balls_rounded_and_arrays_are_motions_one_by_one() -> None:
     assert (one._turnings[0].certified.rotation(1.5) == true).all()
     assert one.energy == pytest.approx(sum(I * w * w for I, w in zip(inertia, omega, strict=True)) / 2, rel=4 * EPS)
     assert np.abs(Omega[0] - omega).max() <= EPS
+    both = atlas.AsymmetricMotion((1.0, np.array([[0.7], [0.7]]), 0.6), field, omega)
+    assert both.frequencies.shape == (2, 1, 3)
+    assert (both.frequencies == one.frequencies).all()
+    assert (both.energy == one.energy).all()
 
 
 def test_the_start_is_known_without_a_closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -397,6 +401,7 @@ def test_a_grid_has_the_exact_start_where_it_meets_it() -> None:
         (-1.5, 0.5, 3),
         (0.5, 0.5, 3),
         (1.0, -0.5, 3),
+        (-3.0, 2.0, 3),
         (-0.7, 0.5, 3),
         (0.0, 0.0, 2),
     ):
