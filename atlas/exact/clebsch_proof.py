@@ -165,7 +165,7 @@ class Cell:
                 np.linalg.norm([float(abs(c).upper()) + spare for c in components])
                 for components, spare in zip(self._coefficients(S), less, strict=True)
             ]
-            more = np.stack([self._size(place + shifts, part) - self._size(place, part) for part in parts], -1)
+            more = np.column_stack([self._size(place + shifts, part) - self._size(place, part) for part in parts])
             found.append((place + shifts, more + np.log(defects)))
         return np.concatenate([x for x, _ in found]), np.concatenate([x for _, x in found])
 

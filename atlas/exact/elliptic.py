@@ -102,10 +102,10 @@ class EllipticMotion(Nutating):
 
         At rest and at Omega = -2 K the curve is that of the flow of F, along which neighbours drift slowly.
         """
-        C, within = self.splitting, self._change() if self.is_steady else fmpq(0)
-        if self._rests or (C > 0 and within >= 0 and self.kind != "separatrix"):
+        C, stays = self.splitting, self._change() >= 0 if self.is_steady else self.kind != "separatrix"
+        if self._rests or (C > 0 and stays):
             return "stable"
-        return "undecided" if C == 0 and within >= 0 and self.kind != "separatrix" else "unstable"
+        return "undecided" if C == 0 and stays else "unstable"
 
     def _change(self) -> fmpq:
         """Return the squared frequency of a small change in the family of a K that is constant."""

@@ -12,6 +12,7 @@ from flint import arb, ctx, fmpq
 from atlas.errors import DomainError
 from atlas.exact.elliptic import EllipticMotion
 from atlas.exact.general import GeneralMotion
+from atlas.exact.theta import infinite
 from atlas.exact.top import TopMotion
 
 BITS = 128
@@ -130,3 +131,12 @@ def test_no_more_digits_are_lost_than_is_stated(family: Any, inputs: tuple[Any, 
         found = [float(x * arb(2) ** BITS) for x in radii(family(*inputs))]
     assert len(found) == len(lost)
     assert all(x < 2.0 ** (bits + 2) for x, bits in zip(found, lost, strict=True))
+
+
+@pytest.mark.parametrize(("family", "inputs", "lost"), LOST)
+def test_the_pair_has_the_period_of_the_motion(family: Any, inputs: tuple[Any, ...], lost: list[int]) -> None:
+    """With alpha and beta, whose theta nutates or would, comes half of it; infinite where the motion's is."""
+    del lost
+    motion = family(*inputs)
+    pair, whole = arb(motion.solution.period), arb(motion.period)
+    assert pair.overlaps(whole) or (infinite(pair) and infinite(whole))

@@ -1,10 +1,11 @@
 """Periods of the torus of a body with three moments: how narrow they are proved, and by which way."""
 
 from functools import cache
+from itertools import combinations
 from typing import Any
 
 import pytest
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
 from atlas.errors import NotCertifiedError
 from atlas.exact import torus
@@ -106,3 +107,14 @@ def test_components_that_do_not_tell_states_apart_prove_nothing(monkeypatch: pyt
         monkeypatch.setattr(Torus, "_told_apart", lambda *_: False)
         with pytest.raises(NotCertifiedError, match="could not be proved"):
             made().periods(128)
+
+
+def test_where_both_flows_are_one_no_components_tell_states_apart() -> None:
+    """Elliptic motions: gradients of H, F and both Casimirs depend on one another, and no two components will do."""
+    I, K = (fmpq(2), fmpq(3), fmpq(1)), (fmpq(1), fmpq(-2), fmpq(1, 2))
+    W = tuple(-fmpq(2, -4 * int(i.p) + 6) * k for i, k in zip(I, K, strict=True))
+    curve, pairs = Torus(I, W, K), list(combinations(range(6), 2))
+    with ctx.workprec(100):
+        assert not any(curve._told_apart([arb(x) for x in (*W, *K)], pair) for pair in pairs)
+        regular = [arb(x) for x in (*kept().W, *kept().K)]
+        assert all(kept()._told_apart(regular, pair) for pair in ((1, 5), (0, 4)))
