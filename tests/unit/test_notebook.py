@@ -33,9 +33,9 @@ from atlas import (
 from atlas.core.shown import Shown
 from atlas.draw.embedded import mimebundle
 from atlas.families import FAMILIES
-from atlas.notebook.pictures import scene_of
+from atlas.notebook.pictures import alone, scene_of
 from atlas.notebook.show import picture
-from atlas.scene import Curve, recipes
+from atlas.scene import Curve, Plane, Scene, recipes
 
 TOP = {"inertia": (1.0, 0.5), "coupling": (0.0, 0.0), "direction": (0.6, 0.8), "omega": (0.1, 0.2, 5.0), "linear": 3.0}
 ONE: list[Any] = [
@@ -151,6 +151,16 @@ def test_html_has_proven_digits() -> None:
     sides, cells = zip(*re.findall(r'<td style="text-align:(\w+)">(.*?)</td>', line), strict=True)
     assert cells[1:] == ("<code>period</code>", digits, "time", "", "10 digits")
     assert sides == ("left", "left", "right", "left", "left", "left")
+
+
+@pytest.mark.parametrize(
+    ("count", "columns", "size"), [(3, 2, (50.0, 40.0)), (1, 3, (100.0, 80.0)), (4, 1, (100.0, 20.0))]
+)
+def test_a_panel_alone_is_as_large_as_in_its_figure(count: int, columns: int, size: tuple[float, float]) -> None:
+    """The figure is divided into its columns and as many rows as its panels fill."""
+    panels = tuple(Plane((), f"x{k}", "y") for k in range(1, count + 1))
+    one = alone(Scene("t", "c", "a", panels, columns=columns, size=(100.0, 80.0)), count)
+    assert (one.size, one.panels, one.columns) == (size, panels[-1:], 1)
 
 
 def pixels(html: str) -> tuple[int, int]:
