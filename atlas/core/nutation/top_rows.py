@@ -73,7 +73,6 @@ class TopBlock(Block):
         return found._replace(
             words=np.where(twisted, words, found.words),
             lack=np.where(twisted, lack, found.lack),
-            sure=found.sure & (np.isfinite(lack).all(axis=0) | ~twisted),
         )
 
 
