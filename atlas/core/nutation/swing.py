@@ -35,9 +35,6 @@ LARGE = 2.0
 """Angle from which on a double is too coarse, and extended precision is taken where the processor has it."""
 
 
-LOG2 = float(np.log(2.0))
-
-
 class Swing:
     """Half of the periodic part, in radians, as a function of the time in a period; in numbers of `type`.
 
@@ -158,7 +155,7 @@ class Crossing:
     def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
         """Return it from `half`, half of kappa s less whole half turns, and from x + rest = slope s/2."""
         s = x + rest
-        bent = self.factor * (np.log1p(np.exp(-4 * np.abs(s))) - LOG2)
+        bent = self.factor * np.log1p(np.exp(-4 * np.abs(s)))
         return np.asarray(self.sense * (np.where(s < 0, -half, half) + bent))
 
 
