@@ -58,6 +58,15 @@ def test_errors_that_grow_too_far_are_said() -> None:
         flow("quick").go(fmpq(1), fmpq(0), 60)
 
 
+def test_a_way_of_too_many_steps_is_not_gone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of one with fourteen steps the limit may be fourteen, not thirteen."""
+    monkeypatch.setattr(clebsch_flow, "MOST", 14)
+    flow("quick").go(fmpq(3), fmpq(-2), 128, proven=False)
+    monkeypatch.setattr(clebsch_flow, "MOST", 13)
+    with pytest.raises(NotCertifiedError, match="more than 13 steps"):
+        flow("quick").go(fmpq(3), fmpq(-2), 128, proven=False)
+
+
 def test_the_derivative_of_a_step_is_within_its_bound() -> None:
     """That of (W, K) after h = 1/8 by differences of starts that are 2^-90 apart."""
     h, bits, start = fmpq(1, 8), 128, flow("quick").start
