@@ -14,8 +14,9 @@ from atlas.errors import NotCertifiedError
 from atlas.exact import clebsch_proof
 from atlas.exact.asymmetric import AsymmetricMotion as Balls
 from atlas.exact.clebsch_flow import Flow
+from atlas.exact.clebsch_periods import complex_of
 from atlas.exact.clebsch_proof import Cell, distances
-from atlas.exact.clebsch_theta import ThetaMotion
+from atlas.exact.clebsch_theta import Rough, ThetaMotion
 from atlas.exact.theta_sums import near
 from atlas.exact.torus import Torus
 from atlas.formulas.numbers import cross, dot, workprec
@@ -290,3 +291,14 @@ def test_a_denominator_no_larger_than_its_errors_is_no_proof(monkeypatch: pytest
         cell = Cell(theta, torus().periods(128))
         monkeypatch.setattr(clebsch_proof, "FLOATS", 1.0)
         assert np.isinf(cell.rates()).all()
+
+
+def test_a_rough_start_is_found_to_nine_digits() -> None:
+    """By Newton's method in doubles, from a tenth of a unit beside it along both flows."""
+    theta = made()
+    rough, target = Rough(theta), np.array([complex_of(x) for x in theta.at_start.all[:6]])
+    X = np.array([[complex_of(theta.X[i, j]) for j in range(2)] for i in range(2)])
+    times = X @ np.array([complex_of(x) for x in theta.start])
+    found = rough.near(times + np.array([0.1, -0.1]), target)
+    assert found is not None
+    assert np.linalg.norm(rough.states(found[None])[0] - target) < 1e-9 * np.linalg.norm(target)
