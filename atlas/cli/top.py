@@ -126,11 +126,13 @@ def _body(options: Mapping[str, Any]) -> Any:
     from atlas.core.body import SymmetricBody, from_shape
 
     _one_of(options, "body", BODY)
+    _goes_with(options, SIZES, ("shape", "coat"))
     if options["points"] is not None:
         if options["mass"] is not None:
             raise click.UsageError("--mass has no place beside --points, which has the masses.")
         columns = _points(options["points"])
         return SymmetricBody.from_point_masses(columns["mass"], _centred(columns))
+    _goes_with(options, ("mass",), ("heavy", "shape"))
     if options["inertia"] is not None:
         return SymmetricBody(*_pair(options["inertia"]))
     _needs(options, "mass", "--shape")
@@ -142,6 +144,7 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     from atlas.core.charge_moments import ChargeMoments
 
     _one_of(options, "charge", CHARGES)
+    _goes_with(options, ("charge",), ("coat",))
     if options["points"] is not None:
         columns = _points(options["points"])
         from_point = _centred(columns, length or 0.0)
@@ -191,6 +194,13 @@ def _pair(typed: Any) -> tuple[float, float]:
 def _needs(options: Mapping[str, Any], name: str, other: str) -> None:
     if options[name] is None:
         raise click.UsageError(f"{other} needs --{name}.")
+
+
+def _goes_with(options: Mapping[str, Any], names: Sequence[str], others: Sequence[str]) -> None:
+    """Refuse options that say nothing without one of some others."""
+    for name in names:
+        if options.get(name) is not None and all(options[other] is None for other in others):
+            raise click.UsageError(f"--{name} goes with {' or '.join(f'--{other}' for other in others)}.")
 
 
 def _nothing_of(options: Mapping[str, Any], names: tuple[str, ...], way: str, other: str) -> None:
