@@ -25,6 +25,10 @@ from atlas.formulas.numbers import workprec
 BITS = 200
 """Precision of the integrals."""
 
+APART = 200
+"""Largest difference, in bits, between coefficients of the polynomial of the zeros: that of a spin 2^50 times the
+field, or of a field 2^100 times the spin. Isolating the zeros takes hours for the largest."""
+
 NODES, ROOM = 64, 1.1
 """Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: what
 is left out is 2^-BITS, exp(-2 NODES ROOM)."""
@@ -114,12 +118,12 @@ class Curve:
     def _zeros(self) -> Iterator[tuple[acb, acb]]:
         motion = self.motion
         if motion.c == 0:
-            for z, _ in self.g.complex_roots():
+            for z in _roots(self.g):
                 v = value(motion.P, z).sqrt()
                 yield z, v
                 yield z, -v
             return
-        for z, _ in (self.g * self.g - 4 * motion.c * motion.c * motion.P).complex_roots():
+        for z in _roots(self.g * self.g - 4 * motion.c * motion.c * motion.P):
             yield z, -value(self.g, z) / (2 * motion.c)
 
     def _periods(self, cells: int) -> list[tuple[acb, acb]]:
@@ -185,8 +189,18 @@ class Curve:
                 first += part
                 second += z * part
                 third += v * part
+        if not all(x.is_finite() for x in (first, second, third)):
+            raise NotCertifiedError("not certified: integrals between zeros of the motion's torus are not finite.")
         factor = acb(0, -1) * way
         return centre(first * factor * self.motion.D), centre(second * factor), centre(third * factor)
+
+
+def _roots(polynomial: fmpq_poly) -> list[acb]:
+    """Return the roots; NotCertifiedError where the coefficients are too far apart."""
+    sizes = [int(abs(x)).bit_length() for x in polynomial.numer().coeffs() if x]
+    if max(sizes) - min(sizes) > APART:
+        raise NotCertifiedError("not certified: the field and the angular velocity are too far apart in size.")
+    return [root for root, _ in polynomial.complex_roots()]
 
 
 @lru_cache(maxsize=1)

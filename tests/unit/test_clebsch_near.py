@@ -116,3 +116,24 @@ def test_a_zero_near_a_path_divides_it_as_its_distance_has_digits() -> None:
     assert float(parts[-1][1]) == 1.0
     assert all(high == low for (_, high), (low, _) in pairwise(parts))
     assert len(parts) < 2 * 42
+
+
+@pytest.mark.parametrize(
+    ("field", "omega"), [((0.2, 1.0, 0.6), (1e308, 0.7, 1e308)), ((2e35, 1e36, 6e35), (1.0, 0.7, 2.0))]
+)
+def test_rates_that_are_too_far_apart_have_no_closed_form_and_say_so_at_once(
+    field: tuple[float, ...], omega: tuple[float, ...]
+) -> None:
+    """Isolating zeros that are 2^2000 apart would take hours; matrices are those of balls."""
+    motion = atlas.AsymmetricMotion((0.8, 1.0, 1.3), field, omega)
+    assert motion.agreement.endswith("the field and the angular velocity are too far apart in size.")
+    rate = max(*field, *omega)
+    R = motion.rotation(1 / rate)
+    np.testing.assert_allclose(R.T @ R, np.eye(3), rtol=0, atol=1e-15)
+
+
+def test_integrals_that_are_no_numbers_are_an_error_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As where the zeros are so far apart that the precision of the integrals has no digits between them."""
+    monkeypatch.setattr(clebsch_periods, "APART", 10**6)
+    motion = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (3e35, 1e36, 6e35), (1.0, 0.7, 2.0))
+    assert motion.agreement == ("certified at each time: integrals between zeros of the motion's torus are not finite.")
