@@ -164,6 +164,13 @@ PRECESSION = (
         for name in ("omega3", "k", "phi")
     ),
     Tie(
+        "ElementaryMotion.period",
+        CONSTANTS,
+        lambda f, p: motion(f, p).period,
+        lambda say, p: 2 * sympy.pi / abs(elementary(say, p)["k"]),
+        POINTS,
+    ),
+    Tie(
         "ElementaryMotion.rotation",
         MATRIX,
         lambda f, p: motion(f, p).rotation(p.t),
@@ -297,6 +304,13 @@ SPECIAL = (
             FREE,
         )
         for name in ("k", "phi")
+    ),
+    Tie(
+        "FreeMotion.period",
+        FREE_LABELS,
+        lambda f, p: f.FreeMotion(p.body, p.omega).period,
+        lambda say, p: 2 * sympy.pi / abs(free_constants(say, p, whole=True)["k"]),
+        SPINS,
     ),
     Tie(
         "ElementaryMotion.rotation",

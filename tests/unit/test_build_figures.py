@@ -341,10 +341,13 @@ def test_workers_have_loaded_what_draws(tmp_path: Path, monkeypatch: pytest.Monk
 
 def test_a_library_that_cannot_be_loaded_is_told(tmp_path: Path) -> None:
     """What Matplotlib refuses when it is loaded is a failure of each figure, in a line."""
+    broken = tmp_path / "broken" / "contourpy"
+    broken.mkdir(parents=True)
+    (broken / "__init__.py").write_text('raise ImportError("nonsense")\n', encoding="utf-8")
     command = [sys.executable, "-m", "atlas", "figure", "magn", "lssc", "--out", str(tmp_path), "--jobs", "2"]
     done = subprocess.run(
         command,
-        env=os.environ | {"MPLBACKEND": "nonsense", "ATLAS_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(ROOT)},
+        env=os.environ | {"ATLAS_CACHE": str(tmp_path / "cache"), "PYTHONPATH": f"{broken.parent}{os.pathsep}{ROOT}"},
         capture_output=True,
         text=True,
         check=False,

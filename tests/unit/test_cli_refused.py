@@ -100,6 +100,7 @@ CASES = [
     ("top --points {place}/charged.csv --mass 1 --magnetic 1 2 --omega 1 2 3", "--mass has no place beside --points"),
     (f"{TOP} --inertia 1 1 --heavy 1 1", "--heavy needs --mass"),
     ("top --inertia 1 1 --heavy 1 1 --mass 1 --omega 1 2 3", "--heavy needs --direction"),
+    ("top --inertia 1 1 --mass 1 --magnetic 1 2 --charged 1 1 --omega 1 2 3", "--mass goes with --heavy or --shape"),
     ("top --shape ring --radius 1 --magnetic 1 2 --charged 1 1 --omega 1 2 3", "--shape needs --mass"),
     ("top --inertia 1 1 --magnetic 1 2 --coat ring --radius 1 --omega 1 2 3", "--coat needs --charge"),
     (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --charged 1 1", "--charged goes with --magnetic, not with --heavy"),

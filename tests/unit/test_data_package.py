@@ -98,6 +98,8 @@ def test_each_file_is_described_and_nothing_else_is_there(data: Path, described:
         content = (data / path).read_bytes()
         assert one["bytes"] == len(content)
         assert one["hash"] == f"sha256:{hashlib.sha256(content).hexdigest()}"
+        assert one["format"] == path.rpartition(".")[2]
+        assert one["name"].endswith("-parquet") == (one["format"] == "parquet")
         if one["format"] == "csv":
             assert content.decode().splitlines()[0].split(",") == [field["name"] for field in one["schema"]["fields"]]
     assert described["description"] == "One body, I=3/2."

@@ -102,6 +102,18 @@ def test_scaled_rows_have_the_bits_of_the_rows_themselves() -> None:
     assert np.array_equal(huge[1], plain[1] * 2.0**480)
 
 
+def test_results_below_the_smallest_normal_double_are_rounded_once() -> None:
+    """A row that is scaled by a power of two is not rounded again where doubles have fewer digits."""
+    x, y = np.random.default_rng(3).uniform(1.0, 2.0, (2, 200)) * 2.0**-512
+    found = over(lambda a, b: a * b, x, y, unit=slice(0, 2), degree=2)
+    true = [float(Fraction(a) * Fraction(b)) for a, b in zip(x.tolist(), y.tolist(), strict=True)]
+    assert found.tolist() == true
+    assert over(lambda a, b: a * b, np.array([0.0, 2.0**-600]), 2.0**-600, unit=slice(0, 2), degree=2).tolist() == [
+        0,
+        0,
+    ]
+
+
 def test_a_dropped_second_word_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Were products rounded to one word, the bits would differ from those of 256 digits."""
     x, y = np.random.default_rng(1).normal(size=(2, 200))

@@ -76,6 +76,7 @@ def test_a_folder_that_cannot_be_written_does_no_harm(fresh: Path, monkeypatch: 
     """The answer is then found again each time."""
     (fresh / "file").write_text("", encoding="utf-8")
     monkeypatch.setenv("XDG_CACHE_HOME", str(fresh / "file"))
+    monkeypatch.setattr(sys, "prefix", str(fresh / "file"))
     monkeypatch.setattr(gl, "_draws", lambda name: name == "egl")
     assert gl.library() == "egl"
 

@@ -278,6 +278,15 @@ def test_drawn_frequencies_obey_their_equations(ratio: float, field: tuple[float
         assert np.allclose(line[:, 1] * k, phi, rtol=1e-12, atol=1e-12 * b)
 
 
+@pytest.mark.parametrize(("ratio", "field"), [(1.0, (1.0, 2.0)), (1.5, (1.0, 0.0))])
+def test_without_a_free_part_the_quotient_is_zero(ratio: float, field: tuple[float, float]) -> None:
+    """Phi vanishes for a ball and for a field across the axis, (72)."""
+    _, lower = load("frequencies").scene(ratio=ratio, field=field).panels
+    (line,) = curves(lower, "main")
+    assert not line[:, 1].any()
+    assert Hyperbola(ratio, field).frequencies(0.7)[1] == 0.0
+
+
 def test_quotient_levels_out_at_the_free_body() -> None:
     """The dashed line is phi/k of the free body beside the motion, (87)."""
     _, lower = load("frequencies").scene(ratio=1.5, field=(1.0, 2.0)).panels

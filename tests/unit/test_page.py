@@ -361,6 +361,14 @@ def test_each_root_has_a_row_of_its_own() -> None:
         assert [str(value).endswith(" i") for value, _ in rows.values()].count(True) == complex_ones
 
 
+def test_a_neighbour_has_no_negative_zero() -> None:
+    """What a link to it says is what would be typed."""
+    near = Asked(FAMILIES["general"], {"ratio": ("1.5",), "omega": ("1", "2", "3")}, {}).changed(
+        "general", omega=(-0.0, -1.0, 2.0)
+    )
+    assert near.options["omega"] == ("0", "-1", "2")
+
+
 def test_a_long_name_of_a_page_ends_with_a_digest() -> None:
     """A hundred characters of it stay, so that files can have it, and two that begin alike are told apart."""
     whole, one, other = (
