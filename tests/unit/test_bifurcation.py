@@ -115,6 +115,7 @@ def test_random_motions_lie_in_the_shaded_region_and_fill_it() -> None:
         F = np.vecdot(M, M) - np.vecdot(K, BODY.prod() / BODY * K)
         points = np.column_stack([F, H - F / 2])[region.points[0, 0] > F]
         edge, (left, right), (low, high) = Path(region.points), panel.x_limits, panel.y_limits
+        assert low < region.points[:, 1].min() < region.points[:, 1].max() < high
         wide = 1e-3 * (high - low)
         assert (edge.contains_points(points, radius=wide) | edge.contains_points(points, radius=-wide)).all()
         count, xs, ys = np.histogram2d(*points.T, bins=(12, 12), range=((left, right), (low, high)))

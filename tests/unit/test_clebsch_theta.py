@@ -26,6 +26,8 @@ from atlas.exact.asymmetric import AsymmetricMotion as Balls
 from atlas.exact.clebsch_lattice import Lattice
 from atlas.exact.digits import enclosed
 from atlas.exact.powers import powers, wrong
+from atlas.report.tables import compute
+from atlas.report.tables.table import Request
 
 EPS = 2.0**-52
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
@@ -432,3 +434,11 @@ def test_a_closed_form_that_rounds_badly_is_refused(
         monkeypatch.setattr(core, "ThetaMotion", lambda *_, error=error: (_ for _ in ()).throw(error))
         with pytest.raises(atlas.NotCertifiedError, match=f"badly conditioned, {error}"):
             closed_form(exact, 1.25)
+
+
+def test_a_table_of_periods_names_them_from_one_on() -> None:
+    """With both times and the turn, beside the numbers of `theorem-lie-poisson` that they belong to."""
+    asked = {"inertia": [0.8, 1.0, 1.3], "field": [0.2, 1.0, 0.6], "omega": [0.3, 0.7, 0.2]}
+    found = compute("periods", Request([], asked, 8))
+    assert [row[0] for row in found.rows] == ["$r_1$", "$r_2$"]
+    assert [len(row) for row in found.rows] == [4, 4]

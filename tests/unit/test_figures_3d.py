@@ -150,6 +150,12 @@ def test_the_shell_of_the_laboratory_system_has_the_ratio() -> None:
         assert SymmetricBody.cylindrical_shell(1.0, radius, height).ratio == pytest.approx(ratio, rel=1e-12, abs=0.0)
 
 
+def test_a_flat_body_has_one_winding_in_its_middle() -> None:
+    """However flat it is, there is a current to be seen."""
+    (coil,) = layers("lssc", Curve, "coil", ratio=1.995)
+    assert not coil.points[:, 2].any()
+
+
 @pytest.mark.parametrize("field", [(1.0, 1.2), (0.0, 2.0), (3.0, 0.0), (-1.0, -0.5)])
 def test_the_laboratory_system_shows_the_field_and_its_components(field: tuple[float, float]) -> None:
     """The arrow has the field's direction, a name stands at each component that is not zero; no field, no arrow."""
