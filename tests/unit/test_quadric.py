@@ -94,6 +94,14 @@ def test_the_axes_are_a_rotation_and_the_centre_is_minus_the_field() -> None:
     assert quadric.canonical(quadric.centre).tolist() == [0.0, 0.0, 0.0]
 
 
+@pytest.mark.parametrize("direction", [(1.0, 0.3), (-1.0, 0.3), (1.0, -0.3), (-1.0, -0.3), (-1.0, 0.0)])
+def test_the_axes_are_those_of_a_stronger_field(direction: tuple[float, float]) -> None:
+    """Their signs, too, depend on the direction of the field alone."""
+    axes = [Quadric(1.5, tuple(2.0**n * B for B in direction)).axes for n in (0, 7, -7)]
+    assert (axes[0] == axes[1]).all()
+    assert (axes[0] == axes[2]).all()
+
+
 def test_coordinates_at_the_far_end_are_finite_or_infinite() -> None:
     """Near the largest float the coordinates are those of a smaller copy, and inf beyond it; none is NaN."""
     near, copy = Quadric(1.5, (1e308, 1e308)), Quadric(1.5, (1.0, 1.0))
