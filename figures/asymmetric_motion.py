@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
-from atlas.core.asymmetric import AsymmetricMotion
 from atlas.core.inputs import FloatArray, positive
+from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.any_motion import Upright
 from atlas.scene.captions import plain_vector, tex_vector, title

@@ -6,7 +6,7 @@ B with the Larmor frequency alpha, (26), while the ball turns about the axis k, 
 
 import numpy as np
 
-from atlas.core.ball import BallMotion
+from atlas.core.motions.ball import BallMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import plain, tex, title

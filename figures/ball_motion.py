@@ -6,7 +6,7 @@ Larmor's. A point of the ball draws a trochoid on the sphere.
 
 from math import pi
 
-from atlas.core.ball import BallMotion
+from atlas.core.motions.ball import BallMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import tex, title
 

@@ -7,8 +7,8 @@ point of the ball; if not, both come as near as one likes to where they have bee
 
 import numpy as np
 
-from atlas.core.ball import BallMotion
 from atlas.core.inputs import positive
+from atlas.core.motions.ball import BallMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import listed, plain, tex, title

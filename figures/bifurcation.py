@@ -7,8 +7,8 @@ the walls inside, which are unstable, but for a swallowtail at small p.
 
 import numpy as np
 
-from atlas.core.bifurcation import Bifurcation, Stretch
 from atlas.core.inputs import FloatArray
+from atlas.core.maps.bifurcation import Bifurcation, Stretch
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.captions import listed, plain, tex, tex_vector, title

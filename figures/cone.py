@@ -3,7 +3,7 @@
 The quadric (51) for I = 1, (56): both sheets of the hyperboloid have met in its centre -B'.
 """
 
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Scene, Space, quadric_panel
 from atlas.scene.captions import plain_setting, tex_setting, title

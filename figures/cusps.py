@@ -8,8 +8,8 @@ where the energy is that of rest at the cosine nu = p/M3.
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.top import TopMotion
-from atlas.core.wells import Wells
+from atlas.core.maps.wells import Wells
+from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene, axis_trace
 from atlas.scene.captions import listed, plain, tex, title

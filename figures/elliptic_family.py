@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.inertia import inertia_tensor
+from atlas.core.bodies.inertia import inertia_tensor
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
 from atlas.formulas.elliptic import splitting

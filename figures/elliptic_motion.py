@@ -4,7 +4,7 @@ The paper's family for three different moments of inertia: the field in the body
 velocity is a constant matrix times it.
 """
 
-from atlas.core.elliptic import EllipticMotion
+from atlas.core.motions.elliptic import EllipticMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.wells import Branch, Wells
+from atlas.core.maps.wells import Branch, Wells
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import listed, plain, tex, title

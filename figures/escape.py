@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.general import GeneralMotion
-from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.general import GeneralMotion
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title

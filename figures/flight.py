@@ -6,10 +6,10 @@ body turns about it by the elementary motion (84). Both feel one magnetic field,
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.flight import Flight
 from atlas.core.inputs import number, vector
-from atlas.core.particle import ParticleMotion
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.flight import Flight
+from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene
 from atlas.scene.captions import plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title

@@ -6,9 +6,9 @@ point charge, (4), (99), and about the centre it turns by the elementary motion 
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray, number, positive, vector, whole
-from atlas.core.particle import ParticleMotion
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space, quadric_panel
 from atlas.scene.bodies import proportions, solenoid

@@ -7,7 +7,7 @@ goes round the axis, (87).
 from math import pi
 from typing import Any
 
-from atlas.core.elementary import FreeMotion
+from atlas.core.motions.elementary import FreeMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import plain, quotient, tex, tex_equals, title
 

@@ -8,10 +8,10 @@ from fractions import Fraction
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray, whole
-from atlas.core.integrals import shape_factors
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.integrals import shape_factors
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, plain_setting, tex_equals, tex_setting, title

@@ -6,7 +6,7 @@ components of Omega(t) are elliptic functions of time.
 
 from typing import Any
 
-from atlas.core.general import GeneralMotion
+from atlas.core.motions.general import GeneralMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import plain_setting, tex_setting, title
 

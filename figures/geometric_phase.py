@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.elliptic import EllipticMotion
 from atlas.core.inputs import FloatArray, vector
+from atlas.core.motions.elliptic import EllipticMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import listed, plain, tex, tex_vector, title

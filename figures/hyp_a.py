@@ -5,7 +5,7 @@ The paper's Figure Hyp (a): the sheet of the quadric (51) through the origin for
 
 from typing import Any
 
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Scene, Space, quadric_panel
 from atlas.scene.captions import plain_setting, quotient, tex_setting, title

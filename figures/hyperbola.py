@@ -7,7 +7,7 @@ omega3). Where the family is unstable against nutation (which is not in the pape
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.integrals import shape_factors
+from atlas.core.motions.integrals import shape_factors
 from atlas.scene import Curve, Label, Layer, Points, Region, Scene
 from atlas.scene.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting, title
 from atlas.scene.hyperbola_plane import asymptote, branches, components, places, unstable, window

@@ -6,8 +6,8 @@ are: the largest change so far of each, as a part of the sum of the sizes of its
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.integrals import shape_factors
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.integrals import shape_factors
 from atlas.scene import Curve, Label, Layer, Plane, Scene
 from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title
 from atlas.scene.sample import quarter_pixel

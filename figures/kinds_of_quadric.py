@@ -9,7 +9,7 @@ import numpy as np
 from contourpy import contour_generator
 
 from atlas.core.inputs import FloatArray, whole
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
 from atlas.scene.captions import listed, title

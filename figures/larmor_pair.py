@@ -9,8 +9,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from atlas.core.general import GeneralMotion
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import plain_setting, spelt, tex, tex_setting, title

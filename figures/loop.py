@@ -3,7 +3,7 @@
 For I = 2 the sheets of the quadric (51) touch the planes omega_3 = 0, at the origin, and omega_3 = -2 B'_3, at -2 B'.
 """
 
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import plain_setting, tex_setting, title

@@ -6,7 +6,7 @@ the particle, (93) and (98), drifts along [E, B] while it goes round B and is dr
 
 import numpy as np
 
-from atlas.core.particle import ParticleMotion
+from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title

@@ -1,6 +1,6 @@
 """Monodromy of a heavy top and of a charged disk.
 
-A motion with given momenta p, M3 and energy g comes back after a lattice of turns and times, atlas.core.monodromy.
+A motion with given momenta p, M3 and energy g comes back after a lattice of turns and times, atlas.core.maps.monodromy.
 Followed once round the value of an unstable spin about the field or the vertical, the lattice comes back, but its basis
 does not, theorem-residue.
 """
@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.monodromy import Monodromy, around, monodromy
-from atlas.core.wells import Wells
+from atlas.core.maps.monodromy import Monodromy, around, monodromy
+from atlas.core.maps.wells import Wells
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, tex, title

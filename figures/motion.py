@@ -6,8 +6,8 @@ phi, (72): the body at the start with the way of that axis, (84); Omega(t), (73)
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import positive
+from atlas.core.motions.elementary import ElementaryMotion
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
 from atlas.scene.bodies import drawn_body
 from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting, title

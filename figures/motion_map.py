@@ -11,7 +11,7 @@ import numpy as np
 from contourpy import contour_generator
 
 from atlas.core.inputs import FloatArray
-from atlas.core.trace_map import trace_map
+from atlas.core.maps.trace_map import trace_map
 from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Layer, Plane, Points, Scene
 from atlas.scene.captions import body_name, listed, tex, tex_vector, title

@@ -6,7 +6,7 @@ precession, its trace waves; if it moves against it, the trace loops; if it stan
 
 from typing import Any
 
-from atlas.core.general import GeneralMotion
+from atlas.core.motions.general import GeneralMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
 from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title

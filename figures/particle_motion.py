@@ -7,7 +7,7 @@ acceleration, and adrift across both fields.
 import numpy as np
 
 from atlas.core.inputs import FloatArray, positive
-from atlas.core.particle import ParticleMotion
+from atlas.core.motions.particle import ParticleMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
 from atlas.scene.course import course

@@ -11,10 +11,10 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray
-from atlas.core.integrals import shape_factors
-from atlas.core.momentum_map import momentum_map, potential
+from atlas.core.maps.momentum_map import momentum_map, potential
+from atlas.core.motions.integrals import shape_factors
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 from atlas.scene import Curve, Layer, Plane, Points, Region, Scene
 from atlas.scene.captions import plain, plain_setting, plain_vector, tex, tex_equals, tex_setting, tex_vector, title
 from atlas.scene.libration import Libration

@@ -6,7 +6,7 @@ canonical axes omega' turned by beta/2 + pi/4, and the hyperbola omega_1 = 0 on 
 
 from typing import Any
 
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.quadric import Quadric
 from atlas.scene import Scene, Space, quadric_panel
 from atlas.scene.captions import plain_setting, tex_setting, title
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import FloatArray, number
-from atlas.core.integrals import shape_factors
-from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.core.motions.integrals import shape_factors
+from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Plane, Points, Scene
 from atlas.scene.captions import listed, plain, plain_setting, tex, tex_equals, tex_setting, title

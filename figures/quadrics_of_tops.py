@@ -7,7 +7,7 @@ plane below holds all tops of one ratio I, by their potential and by how far out
 
 import numpy as np
 
-from atlas.core.quadric import TopQuadric
+from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene, quadric_panel, quadric_row, quadrics
 from atlas.scene.captions import tex, title

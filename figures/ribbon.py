@@ -9,9 +9,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, Surface, quadric_panel, quadrics
 from atlas.scene.bodies import drawn_body

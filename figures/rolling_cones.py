@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion, FreeMotion
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.camera import frame

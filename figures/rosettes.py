@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.separatrix import Companion, companions
+from atlas.core.maps.separatrix import Companion, companions
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, Space, quadric_panel, solids
 from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title

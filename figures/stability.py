@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray
-from atlas.core.integrals import shape_factors
+from atlas.core.motions.integrals import shape_factors
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting, title

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.general import GeneralMotion
 from atlas.core.inputs import FloatArray
-from atlas.core.integrals import shape_factors
+from atlas.core.motions.general import GeneralMotion
+from atlas.core.motions.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene, quadric_panel
 from atlas.scene.bodies import drawn_body, row

@@ -4,7 +4,7 @@ The axis of a symmetric top nods between two parallels about the field or the ve
 the components of Omega(t) are elliptic functions of time.
 """
 
-from atlas.core.top import TopMotion
+from atlas.core.motions.top import TopMotion
 from atlas.scene import Scene, any_motion
 from atlas.scene.captions import plain, tex, title
 

@@ -6,7 +6,7 @@ of its axis under its weight, and turned by what a field induces in it.
 
 from typing import Any
 
-from atlas.core.top import TopMotion
+from atlas.core.motions.top import TopMotion
 from atlas.errors import DomainError
 from atlas.scene import Scene, axis_trace
 from atlas.scene.captions import plain, spelt, tex, title

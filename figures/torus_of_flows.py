@@ -73,8 +73,8 @@ def periods(
     inertia: tuple[float, ...], field: tuple[float, ...], omega: tuple[float, ...]
 ) -> list[tuple[float, float]]:
     """Return two pairs (T_H, T_F) that generate all times after which M and K are back, the least T_H first."""
-    from atlas.exact.asymmetric import AsymmetricMotion
-    from atlas.exact.torus import Torus
+    from atlas.exact.motions.asymmetric import AsymmetricMotion
+    from atlas.exact.motions.torus import Torus
 
     motion = AsymmetricMotion(inertia, field, omega)
     if motion.kind != "on a torus":

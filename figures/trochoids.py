@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import positive
-from atlas.core.particle import ParticleMotion
+from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Curve, Plane, Points, Scene
 from atlas.scene.captions import listed, plain, plain_vector, tex, tex_equals, tex_vector, title

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, quadric_panel, solids
 from atlas.scene.bodies import drawn_body, row

@@ -8,7 +8,7 @@ on a straight line, theorem-top-precession; the envelope of these lines borders 
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.wells import border, rest
+from atlas.core.maps.wells import border, rest
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Plane, Region, Scene
 from atlas.scene.captions import listed, plain, tex, title

@@ -22,7 +22,7 @@ import pytest
 import sympy
 from flint import arb, fmpq
 
-from atlas.core.body import SymmetricBody
+from atlas.core.bodies.body import SymmetricBody
 from atlas.exact.digits import enclosed, numbers
 from atlas.proof.formula import value
 

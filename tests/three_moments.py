@@ -20,9 +20,9 @@ from typing import NamedTuple
 import click
 import numpy as np
 
-from atlas.core.asymmetric import SingleAsymmetric
+from atlas.core.motions.asymmetric import SingleAsymmetric
 from atlas.errors import AtlasError
-from atlas.exact.asymmetric import AsymmetricMotion
+from atlas.exact.motions.asymmetric import AsymmetricMotion
 from atlas.study.asymmetric import ASYMMETRIC, Asymmetric
 
 EPS = 2.0**-52

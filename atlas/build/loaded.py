@@ -12,7 +12,7 @@ sys.excepthook = lambda *_: None
 settle_matplotlib()
 for name in (
     "atlas.build.worker",
-    "atlas.core.elementary",
+    "atlas.core.motions.elementary",
     "atlas.draw.files",
     "atlas.draw.moves",
     "fontTools.subset",

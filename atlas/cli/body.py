@@ -102,7 +102,7 @@ def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
 
 def shapes() -> dict[str, list[str]]:
     """Return the shapes that --shape takes, each with the options of its dimensions."""
-    from atlas.core.body import SHAPES
+    from atlas.core.bodies.body import SHAPES
 
     named = {name.replace("_", "-"): names for name, (_, names) in SHAPES.items()}
     return {name: [size for size in names if size != "mass"] for name, names in named.items() if name != ROD}
@@ -126,14 +126,14 @@ def chosen_body(options: dict[str, Any]) -> Any:
         return _of_shape(options["shape"].replace("_", "-"), sizes, options.get("mass"))
     if options["points"] is not None:
         return points(options["points"]).body
-    from atlas.core.body import SymmetricBody
+    from atlas.core.bodies.body import SymmetricBody
 
     return SymmetricBody(*options["inertia"])
 
 
 def _of_shape(shape: str, sizes: Mapping[str, Typed], mass: Typed | None) -> Any:
     """Return the body of a shape with the dimensions that were typed; its mass is 1 where none was."""
-    from atlas.core.body import from_shape
+    from atlas.core.bodies.body import from_shape
 
     known = shapes()
     if shape == ROD:
@@ -170,7 +170,7 @@ def exact_moments(options: dict[str, Any]) -> Any:
 
 def exact_body(options: dict[str, Any]) -> Any:
     """Return the body of `chosen_body` for the certified floor: what was typed, nothing rounded."""
-    from atlas.exact.body import Moments, shape_moments
+    from atlas.exact.bodies.body import Moments, shape_moments
 
     body = chosen_body(options)
     if options["points"] is not None and options["decimal"]:
@@ -215,7 +215,7 @@ def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> 
     if len(both) != 2:
         missing = "--mass and --charge, or --mu" if not both else "--mass" if both == ["--charge"] else "--charge"
         raise click.UsageError(f"{needs} needs {missing}, for the charge-to-mass ratio.")
-    from atlas.core.unit_systems import charge_to_mass
+    from atlas.core.bodies.units import charge_to_mass
 
     return charge_to_mass(options["charge"], options["mass"])
 
@@ -233,7 +233,7 @@ def chosen_field(options: Mapping[str, Any]) -> tuple[float, ...]:
             if options[name] is not None:
                 raise click.UsageError(f"--{name} goes with --magnetic only: --field holds B', in 1/time.")
         return tuple(options["field"])
-    from atlas.core.field import Field
+    from atlas.core.bodies.field import Field
 
     maker = {"natural": Field, "gaussian": Field.gaussian, "si": Field.si}[system_of(options)]
     typed = options["magnetic"]

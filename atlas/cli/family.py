@@ -202,7 +202,7 @@ def _speed_of_light(units: str) -> float:
     """Return the factor c of (93) in a system of units."""
     if units == "natural":
         return 1.0
-    from atlas.core.unit_systems import system
+    from atlas.core.bodies.units import system
 
     return system(units).c
 

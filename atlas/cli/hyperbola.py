@@ -47,7 +47,7 @@ def command(**options: Any) -> None:
         return described(curve, points, along(curve.omega3, points), k, phi, along(curve.stability, points))
 
     def balls() -> dict[str, Any]:
-        from atlas.exact.hyperbola import Hyperbola
+        from atlas.exact.surfaces.hyperbola import Hyperbola
 
         curve = Hyperbola(exact_body(options), exact_field(options))
         at = [exactly(x, options) for x in points]
@@ -62,7 +62,7 @@ def command(**options: Any) -> None:
 
 def curve_of(options: dict[str, Any]) -> Any:
     """Return the curve in floats."""
-    from atlas.core.hyperbola import Hyperbola
+    from atlas.core.surfaces.hyperbola import Hyperbola
 
     return Hyperbola(chosen_body(options), chosen_field(options))
 

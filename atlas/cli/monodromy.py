@@ -54,9 +54,9 @@ def command(
     p and M3 are the momenta along n and the axis, in the unit of inertia/time; g that of theorem-every-top. Round an
     unstable spin the lattice of periods comes back by an integer matrix that is not one: monodromy (not in the paper).
     """
-    from atlas.core.monodromy import around, monodromy
-    from atlas.core.symmetric_top import given
-    from atlas.core.wells import Wells
+    from atlas.core.bodies.symmetric_top import given
+    from atlas.core.maps.monodromy import around, monodromy
+    from atlas.core.maps.wells import Wells
     from atlas.errors import DomainError
 
     middle = along if p is None else p

@@ -94,7 +94,7 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
 
 def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
     """Return the top under its weight, with upwards as a direction."""
-    from atlas.core.top import TopMotion
+    from atlas.core.motions.top import TopMotion
 
     if options["points"] is None:
         _needs(options, "mass", "--heavy")
@@ -105,8 +105,8 @@ def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tu
 
 def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
     """Return the charged top, which may be held at a point and have a weight along the field."""
-    from atlas.core.body import SymmetricBody
-    from atlas.core.top import TopMotion
+    from atlas.core.bodies.body import SymmetricBody
+    from atlas.core.motions.top import TopMotion
 
     field, body, length, weight = _pair(options["magnetic"]), _body(options), None, (0.0, 0.0)
     if options["heavy"] is not None:
@@ -123,7 +123,7 @@ def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
 
 def _body(options: Mapping[str, Any]) -> Any:
     """Return the body of --inertia, --shape or --points."""
-    from atlas.core.body import SymmetricBody, from_shape
+    from atlas.core.bodies.body import SymmetricBody, from_shape
 
     _one_of(options, "body", BODY)
     _goes_with(options, SIZES, ("shape", "coat"))
@@ -141,7 +141,7 @@ def _body(options: Mapping[str, Any]) -> Any:
 
 def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     """Return the moments of the charges of --charged, --coat or --points, of a body held so far from its centre."""
-    from atlas.core.charge_moments import ChargeMoments
+    from atlas.core.bodies.charge import ChargeMoments
 
     _one_of(options, "charge", CHARGES)
     _goes_with(options, ("charge",), ("coat",))

@@ -1,6 +1,7 @@
 """What a user typed, as float64, or one sentence that says what is wrong with it."""
 
 import reprlib
+from collections.abc import Sequence
 from functools import cached_property
 from math import isfinite
 from numbers import Number
@@ -14,6 +15,14 @@ from atlas.errors import AtlasError, DomainError
 
 FloatArray = NDArray[np.float64]
 Value = TypeVar("Value")
+
+NO_VECTORS = (dict, set, frozenset, bytes, bytearray)
+"""What can be gone through and may give numbers, but keys, in no order, or bytes."""
+
+_OF_FIELD = (
+    " B' lies in the plane of e2 and e3, so that B1 = 0 is left out; of a Field they are field.prime[1:] or, for an "
+    "axis in any direction, field.frame(axis).field."
+)
 
 
 def real(value: Any, name: str, unit: str = "") -> FloatArray:
@@ -96,6 +105,34 @@ def matrix(value: Any, name: str) -> FloatArray:
     if array.shape != (3, 3):
         raise AtlasError(f"{name} must be a matrix of shape (3, 3), not of shape {array.shape}.")
     return array
+
+
+def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> list[Any]:
+    """Return the components of a vector in that unit, each a finite number or array, by name for the errors.
+
+    A square array, or a list of lists, may hold them in its rows or in its columns: AtlasError.
+    """
+    try:
+        parts = [] if isinstance(value, NO_VECTORS) else list(getattr(value, "values", value))  # of a data frame
+    except TypeError:
+        parts = []
+    if len(parts) != len(names):
+        raise AtlasError(
+            f"{what} must have the {len(names)} components ({', '.join(names)}), not {reprlib.repr(value)}."
+            f"{_OF_FIELD if tuple(names) == ('B2', 'B3') else ''}"
+        )
+    rows = np.ndim(value) > 1 if hasattr(value, "ndim") else isinstance(value, list) and _listed(parts)
+    if rows and all(len(part) == len(parts) for part in parts):
+        raise AtlasError(
+            f"{what} may have its components ({', '.join(names)}) in the rows or in the columns of a square array: "
+            "give a tuple of them, such as tuple(rows.T)."
+        )
+    return [real(x, name, unit) for x, name in zip(parts, names, strict=True)]
+
+
+def _listed(parts: Sequence[Any]) -> bool:
+    """Whether all are lists or tuples."""
+    return all(isinstance(part, list | tuple) for part in parts)
 
 
 def finite(values: Any, name: str) -> Any:

@@ -7,13 +7,13 @@ from atlas.families.shared import MOMENTS, OMEGA, PRINCIPAL_FIELD, rotation
 
 
 def _kernels() -> Any:
-    from atlas.core.asymmetric import AsymmetricMotion
+    from atlas.core.motions.asymmetric import AsymmetricMotion
 
     return AsymmetricMotion
 
 
 def _balls() -> Any:
-    from atlas.exact.asymmetric import AsymmetricMotion
+    from atlas.exact.motions.asymmetric import AsymmetricMotion
 
     return AsymmetricMotion
 

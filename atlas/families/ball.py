@@ -9,13 +9,13 @@ MOMENT = "inertia/time"
 
 
 def _kernels() -> Any:
-    from atlas.core.ball import BallMotion
+    from atlas.core.motions.ball import BallMotion
 
     return BallMotion
 
 
 def _balls() -> Any:
-    from atlas.exact.ball import BallMotion
+    from atlas.exact.motions.ball import BallMotion
 
     return BallMotion
 

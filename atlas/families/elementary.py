@@ -13,39 +13,39 @@ FREE_SPIN = ("spin along the field", "transverse field, free spin", "ball, free 
 
 
 def _kernels() -> Any:
-    from atlas.core.elementary import ElementaryMotion
+    from atlas.core.motions.elementary import ElementaryMotion
 
     return ElementaryMotion
 
 
 def _balls() -> Any:
-    from atlas.exact.elementary import ElementaryMotion
+    from atlas.exact.motions.elementary import ElementaryMotion
 
     return ElementaryMotion
 
 
 def _stability(made: Any) -> Any:
     """Return the square of the frequency of small nutations: of the hyperbola, at the motion's omega2."""
-    from atlas.core.hyperbola import Hyperbola
+    from atlas.core.surfaces.hyperbola import Hyperbola
 
     return Hyperbola(made.ratio, made.field).stability(made.omega2)
 
 
 def _exact_stability(made: Any) -> Any:
-    from atlas.exact.hyperbola import Hyperbola
+    from atlas.exact.surfaces.hyperbola import Hyperbola
 
     return Hyperbola(made.I, (made.B2, made.B3)).stability(made.omega2)
 
 
 def _verdict(made: Any) -> str:
     """Say whether the motion, one alone, is stable against nutation: decided without rounding."""
-    from atlas.exact.hyperbola import Hyperbola
+    from atlas.exact.surfaces.hyperbola import Hyperbola
 
     return _stable(Hyperbola(made.ratio, made.field), made.omega2)
 
 
 def _exact_verdict(made: Any) -> str:
-    from atlas.exact.hyperbola import Hyperbola
+    from atlas.exact.surfaces.hyperbola import Hyperbola
 
     return _stable(Hyperbola(made.I, (made.B2, made.B3)), made.omega2)
 

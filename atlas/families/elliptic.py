@@ -7,13 +7,13 @@ from atlas.families.shared import MOMENTS, PRINCIPAL_FIELD, in_brackets, rotatio
 
 
 def _kernels() -> Any:
-    from atlas.core.elliptic import EllipticMotion
+    from atlas.core.motions.elliptic import EllipticMotion
 
     return EllipticMotion
 
 
 def _balls() -> Any:
-    from atlas.exact.elliptic import EllipticMotion
+    from atlas.exact.motions.elliptic import EllipticMotion
 
     return EllipticMotion
 

@@ -7,13 +7,13 @@ from atlas.families.shared import OMEGA, RATIO, rotation
 
 
 def _kernels() -> Any:
-    from atlas.core.elementary import FreeMotion
+    from atlas.core.motions.elementary import FreeMotion
 
     return FreeMotion
 
 
 def _balls() -> Any:
-    from atlas.exact.free import FreeMotion
+    from atlas.exact.motions.free import FreeMotion
 
     return FreeMotion
 

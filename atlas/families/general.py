@@ -7,13 +7,13 @@ from atlas.families.shared import FIELD, OMEGA, RATIO, integrals, rotation
 
 
 def _kernels() -> Any:
-    from atlas.core.general import GeneralMotion
+    from atlas.core.motions.general import GeneralMotion
 
     return GeneralMotion
 
 
 def _balls() -> Any:
-    from atlas.exact.general import GeneralMotion
+    from atlas.exact.motions.general import GeneralMotion
 
     return GeneralMotion
 

@@ -7,13 +7,13 @@ from atlas.families.shared import FIELD, RATIO
 
 
 def _kernels() -> Any:
-    from atlas.core.hyperbola import Hyperbola
+    from atlas.core.surfaces.hyperbola import Hyperbola
 
     return Hyperbola
 
 
 def _balls() -> Any:
-    from atlas.exact.hyperbola import Hyperbola
+    from atlas.exact.surfaces.hyperbola import Hyperbola
 
     return Hyperbola
 

@@ -9,13 +9,13 @@ SPEED = "length/time"
 
 
 def _kernels() -> Any:
-    from atlas.core.particle import ParticleMotion
+    from atlas.core.motions.particle import ParticleMotion
 
     return ParticleMotion
 
 
 def _balls() -> Any:
-    from atlas.exact.particle import ParticleMotion
+    from atlas.exact.motions.particle import ParticleMotion
 
     return ParticleMotion
 

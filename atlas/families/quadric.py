@@ -7,13 +7,13 @@ from atlas.families.shared import FIELD, RATIO, in_brackets
 
 
 def _kernels() -> Any:
-    from atlas.core.quadric import Quadric
+    from atlas.core.surfaces.quadric import Quadric
 
     return Quadric
 
 
 def _balls() -> Any:
-    from atlas.exact.quadric import Quadric
+    from atlas.exact.surfaces.quadric import Quadric
 
     return Quadric
 

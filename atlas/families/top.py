@@ -7,13 +7,13 @@ from atlas.families.shared import OMEGA, rotation
 
 
 def _kernels() -> Any:
-    from atlas.core.top import TopMotion
+    from atlas.core.motions.top import TopMotion
 
     return TopMotion
 
 
 def _balls() -> Any:
-    from atlas.exact.top import TopMotion
+    from atlas.exact.motions.top import TopMotion
 
     return TopMotion
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from atlas.core.flight import Flight
+from atlas.core.motions.flight import Flight
 from atlas.core.shown import Shown
 from atlas.draw.panels import into, to_figure
 from atlas.errors import AtlasError, unknown

@@ -20,7 +20,7 @@ class Finding:
     note            what the verdict means, where it needs a word
     tried, noticed  forms changed in one place that were tried as well, and those that the trial refuted
     unrefuted       why the others are not
-    modules         the modules that cite the entry, such as ``core/hyperbola.py``
+    modules         the modules that cite the entry, such as ``core/surfaces/hyperbola.py``
     grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
     false           a false sentence near a claim in words, which the trial refutes
     """

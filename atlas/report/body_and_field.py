@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.body import SHAPES, SymmetricBody
-from atlas.core.field import Field as PhysicalField
-from atlas.core.field import LaboratoryFrame
-from atlas.core.unit_systems import System, charge_to_mass, system
+from atlas.core.bodies.body import SHAPES, SymmetricBody
+from atlas.core.bodies.field import Field as PhysicalField
+from atlas.core.bodies.field import LaboratoryFrame
+from atlas.core.bodies.units import System, charge_to_mass, system
 from atlas.errors import AtlasError, unknown
 from atlas.report.given import BodiesAndFields, Body, Field
 
@@ -32,7 +32,7 @@ class BodyAndField:
     @property
     def exact(self) -> Any:
         """The moments without rounding: of a shape, from its dimensions."""
-        from atlas.exact.body import Moments, shape_moments
+        from atlas.exact.bodies.body import Moments, shape_moments
 
         record = self.body_record
         if self.body is None or record is None:
@@ -51,7 +51,7 @@ class BodyAndField:
     @property
     def ratio(self) -> float:
         """The double nearest to the exact I = I3/I2, for figures."""
-        from atlas.exact.body import ratio_of
+        from atlas.exact.bodies.body import ratio_of
 
         I = ratio_of(self.exact)
         return int(I.p) / int(I.q)

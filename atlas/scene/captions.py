@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from atlas.core.body import moments
+from atlas.core.bodies.body import moments
 
 DIGITS = 6
 MINUS = "\N{MINUS SIGN}"

@@ -7,8 +7,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from atlas.core.flight import Flight
 from atlas.core.inputs import FloatArray, positive
+from atlas.core.motions.flight import Flight
 from atlas.errors import AtlasError, DomainError
 from atlas.scene.any_motion import turns as turns_of
 from atlas.scene.camera import frame

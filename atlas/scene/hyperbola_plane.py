@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.core.hyperbola import Hyperbola
 from atlas.core.inputs import FloatArray, number
-from atlas.core.integrals import shape_factors
-from atlas.core.motion import components as parts
+from atlas.core.inputs import components as parts
+from atlas.core.motions.integrals import shape_factors
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene.layers import Layer, Plane
 from atlas.scene.sample import flat

@@ -10,8 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.core.integrals import shape_factors
-from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.core.motions.integrals import shape_factors
+from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 from atlas.errors import DomainError
 
 _TERMS = 1 << 15

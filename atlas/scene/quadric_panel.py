@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.quadric import Quadric
 from atlas.scene import quadrics, solids
 from atlas.scene.camera import frame, shown
 from atlas.scene.captions import quotient

@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from atlas.core.quadric import Quadric, TopQuadric
+from atlas.core.surfaces.quadric import Quadric, TopQuadric
 from atlas.scene import conics, mesh, sample, solids
 from atlas.scene.layers import FloatArray, Surface
 

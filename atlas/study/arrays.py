@@ -15,12 +15,12 @@ import numpy as np
 from flint import arb, fmpq
 
 from atlas import processes
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.general import GeneralMotion
-from atlas.exact import elementary as exact_elementary
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.general import GeneralMotion
 from atlas.exact.digits import enclosed
-from atlas.exact.general import GeneralMotion as Balls
 from atlas.exact.inputs import Real
+from atlas.exact.motions import elementary as exact_elementary
+from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import FloatArray
 from atlas.study.nutating import narrow

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.clebsch import cofactors
+from atlas.core.motions.clebsch import cofactors
 
 Value = tuple[str, str, str, Any, Any]
 

@@ -8,9 +8,9 @@ import numpy as np
 from flint import fmpq
 
 from atlas.core.inputs import FloatArray
-from atlas.exact.elementary import ElementaryMotion
-from atlas.exact.general import GeneralMotion
-from atlas.exact.top import TopMotion
+from atlas.exact.motions.elementary import ElementaryMotion
+from atlas.exact.motions.general import GeneralMotion
+from atlas.exact.motions.top import TopMotion
 from atlas.study.conserved import Value, conserved
 from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 from atlas.study.truth import long

@@ -8,16 +8,16 @@ from typing import Any, TypeAlias
 import numpy as np
 from flint import arb
 
-from atlas.core.body import SymmetricBody
-from atlas.core.inertia import inertia_tensor
+from atlas.core.bodies.body import SymmetricBody
+from atlas.core.bodies.inertia import inertia_tensor
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
-from atlas.exact.asymmetric import AsymmetricMotion
 from atlas.exact.digits import certified
-from atlas.exact.elementary import ElementaryMotion
-from atlas.exact.general import GeneralMotion
 from atlas.exact.inputs import Real
-from atlas.exact.top import TopMotion
+from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.elementary import ElementaryMotion
+from atlas.exact.motions.general import GeneralMotion
+from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import workprec
 from atlas.study.drift import AnyBody, Deviation, of_motion, of_top
 from atlas.study.truth import Motion

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.clebsch import Clebsch, body_tensor, clebsch
-from atlas.core.euler_poisson import field_in_body, hat
-from atlas.core.inertia import mass_matrix
+from atlas.core.bodies.inertia import mass_matrix
 from atlas.core.inputs import FloatArray, positive, real, vector
+from atlas.core.motions.clebsch import Clebsch, body_tensor, clebsch
+from atlas.core.motions.euler_poisson import field_in_body, hat
 from atlas.core.quantities import RATE, TIME
 from atlas.errors import AtlasError, DomainError
 

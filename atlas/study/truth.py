@@ -13,17 +13,17 @@ from numpy.typing import NDArray
 
 from atlas.core.arithmetic.phase import Phases, room
 from atlas.core.arithmetic.words import BITS, TURN, magnitude, middle, scaled, words
-from atlas.core.asymmetric import SingleAsymmetric
-from atlas.core.certified import REACH
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.asymmetric import SingleAsymmetric
+from atlas.core.motions.certified import REACH
 from atlas.core.nutation.single_general import SingleGeneral
 from atlas.core.nutation.single_top import SingleTop
-from atlas.exact.asymmetric import AsymmetricMotion
 from atlas.exact.digits import enclosed
-from atlas.exact.elementary import ElementaryMotion
-from atlas.exact.general import GeneralMotion
 from atlas.exact.inputs import Real
-from atlas.exact.top import TopMotion
+from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.elementary import ElementaryMotion
+from atlas.exact.motions.general import GeneralMotion
+from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import workprec
 
 Long = NDArray[np.longdouble]

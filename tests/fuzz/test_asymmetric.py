@@ -7,7 +7,7 @@ from flint import arb, ctx
 from values import EXAMPLES
 
 import atlas
-from atlas.exact import asymmetric
+from atlas.exact.motions import asymmetric
 from atlas.study.asymmetric import ASYMMETRIC, size_of
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from atlas.exact.body import ratio_of
+from atlas.exact.bodies.body import ratio_of
 from atlas.exact.inputs import rational, rationals
 
 PART = 4

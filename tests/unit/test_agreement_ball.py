@@ -8,8 +8,8 @@ import pytest
 import sympy
 from agreement import Floor, Ledger, Tie, agree, disagree, each, length, letters, signed, unit
 
-from atlas.core import ball
 from atlas.core.arithmetic.rotation import DoubleRotation
+from atlas.core.motions import ball
 
 GRID = (0.7, 0.31, 3)
 TIMES = [sympy.Rational(0.7) + i * sympy.Rational(0.31) for i in range(3)]

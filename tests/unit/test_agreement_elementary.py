@@ -20,7 +20,7 @@ from agreement import (
     unit_field,
 )
 
-from atlas.core import elementary as kernel
+from atlas.core.motions import elementary as kernel
 from atlas.formulas import elementary as formulas
 from atlas.proof.ball import rodrigues
 

@@ -8,7 +8,7 @@ import pytest
 import sympy
 from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, letters, power, signed, vector
 
-from atlas.core import euler_poisson
+from atlas.core.motions import euler_poisson
 
 
 def states(seed: int, count: int) -> list[Any]:

@@ -7,7 +7,7 @@ import pytest
 import sympy
 from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, elementary, letters
 
-from atlas.core import hyperbola
+from atlas.core.surfaces import hyperbola
 from atlas.formulas import hyperbola as formulas
 from atlas.proof import formula
 from atlas.proof.run import trial

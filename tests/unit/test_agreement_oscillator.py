@@ -6,8 +6,8 @@ import pytest
 import sympy
 from agreement import Floor, Ledger, Tie, agree, bodies, disagree, each, letters, power
 
-from atlas.core import pseudo_oscillator
-from atlas.core.integrals import Integrals
+from atlas.core.motions import pseudo_oscillator
+from atlas.core.motions.integrals import Integrals
 
 POINTS = bodies(55, 8)
 MOVING = bodies(50, 8, u=lambda p: p.omega[2])

@@ -22,7 +22,7 @@ from agreement import (
     vector,
 )
 
-from atlas.core import charge
+from atlas.core.motions import particle_rows as charge
 from atlas.formulas import particle as formulas
 
 

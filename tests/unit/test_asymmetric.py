@@ -14,11 +14,11 @@ from oracles.taylor import taylor
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.core import asymmetric as kernels
-from atlas.exact import asymmetric, clebsch_flow, torus
-from atlas.exact.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.elliptic import EllipticMotion
-from atlas.exact.general import GeneralMotion
+from atlas.core.motions import asymmetric as kernels
+from atlas.exact.motions import asymmetric, clebsch_flow, torus
+from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
+from atlas.exact.motions.elliptic import EllipticMotion
+from atlas.exact.motions.general import GeneralMotion
 
 EPS = 2.0**-52
 BODY, FIELD, OMEGA = ("0.8", "1", "1.3"), ("0.2", "1", "0.6"), ("0.3", "0.7", "0.2")

@@ -8,7 +8,7 @@ from mpmath import mp, mpf
 from oracles import closed_form
 from oracles.taylor import taylor
 
-from atlas.core.ball import BallMotion
+from atlas.core.motions.ball import BallMotion
 from atlas.errors import AtlasError
 
 ULP1 = 2.0**-52

@@ -10,11 +10,11 @@ from flint import fmpq
 from matplotlib.path import Path
 
 from atlas import AsymmetricMotion, DomainError, EllipticMotion
-from atlas.core.bifurcation import Bifurcation
-from atlas.core.clebsch import clebsch
 from atlas.core.inputs import FloatArray
-from atlas.exact.elliptic import EllipticMotion as ExactElliptic
-from atlas.exact.torus import Torus
+from atlas.core.maps.bifurcation import Bifurcation
+from atlas.core.motions.clebsch import clebsch
+from atlas.exact.motions.elliptic import EllipticMotion as ExactElliptic
+from atlas.exact.motions.torus import Torus
 from atlas.formulas.numbers import workprec
 from atlas.scene import Curve, Points, Region, recipes
 from atlas.study.elliptic import ELLIPTIC

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from atlas.core.body import (
+from atlas.core.bodies.body import (
     SHAPES,
     SymmetricBody,
     from_shape,
@@ -16,7 +16,7 @@ from atlas.core.body import (
     mass_matrix_from_inertia,
     moments,
 )
-from atlas.core.inertia import inertia_tensor, mass_matrix_of_points
+from atlas.core.bodies.inertia import inertia_tensor, mass_matrix_of_points
 from atlas.errors import AtlasError, DomainError
 
 EPS = float(np.finfo(float).eps)

@@ -11,12 +11,12 @@ from flint import arb, ctx
 from syrupy.assertion import SnapshotAssertion
 
 import atlas
-from atlas.core.elementary import ElementaryMotion
+from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.nutation.blocks import Block
 from atlas.core.nutation.rows import PairAt
 from atlas.core.nutation.top_rows import TopBlock, TopPairAt, velocity
-from atlas.exact.general import GeneralMotion
-from atlas.exact.top import TopMotion
+from atlas.exact.motions.general import GeneralMotion
+from atlas.exact.motions.top import TopMotion
 from atlas.study.regimes import GENERAL, REGIMES
 from atlas.study.tops import TOPS, Top, rate_of
 

@@ -102,18 +102,24 @@ def edit(path: Path, old: str, new: str) -> None:
 
 EVERY = set(WANTED)
 CHANGES = [
-    ("a comment in a kernel", "atlas/core/hyperbola.py", "\nclass", "\n# said again\nclass", set()),
+    ("a comment in a kernel", "atlas/core/surfaces/hyperbola.py", "\nclass", "\n# said again\nclass", set()),
     ("a line break in a recipe", "figures/hyperbola.py", "def scene(", "def scene(\n ", set()),
     ("the code of a recipe", "figures/hyperbola.py", "def scene(", "NEW = 1\n\n\ndef scene(", {"hyperbola"}),
     ("the title of a recipe", "figures/trochoids.py", '"""', '"""New: ', {"trochoids"}),
     (
         "a kernel that two reach",
-        "atlas/core/hyperbola.py",
+        "atlas/core/surfaces/hyperbola.py",
         "\nclass",
         "\nNEW = 1\n\n\nclass",
         {"hyperbola", "frequencies"},
     ),
-    ("a kernel that one reaches", "atlas/core/charge.py", "\nclass", "\nNEW = 1\n\n\nclass", {"trochoids"}),
+    (
+        "a kernel that one reaches",
+        "atlas/core/motions/particle_rows.py",
+        "\nclass",
+        "\nNEW = 1\n\n\nclass",
+        {"trochoids"},
+    ),
     ("the style", "atlas/scene/style.py", '"""', '"""New: ', EVERY),
     ("the vector renderer", "atlas/draw/plane.py", '"""', '"""New: ', EVERY),
     ("the shaded renderer", "atlas/draw/shaded.py", '"""', '"""New: ', EVERY),

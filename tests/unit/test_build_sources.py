@@ -19,7 +19,7 @@ RECIPE = '''"""A title."""
 
 import numpy as np
 
-from atlas.core.hyperbola import Hyperbola
+from atlas.core.surfaces.hyperbola import Hyperbola
 
 
 def scene():
@@ -45,12 +45,12 @@ def test_a_recipe_reaches_what_it_imports_and_nothing_else(tmp_path: Path) -> No
     assert {
         "__init__.py",
         "core/__init__.py",
-        "core/hyperbola.py",
+        "core/surfaces/hyperbola.py",
         "core/arithmetic/rotation.py",
-        "core/body.py",
+        "core/bodies/body.py",
     } <= reached
     assert not {name for name in reached if name.startswith(("cli", "draw", "report", "proof", "study"))}
-    assert "core/particle.py" not in reached
+    assert "core/motions/particle.py" not in reached
 
 
 @pytest.mark.parametrize(
@@ -118,11 +118,11 @@ def test_a_file_that_is_no_python_has_a_digest(tmp_path: Path, text: str) -> Non
 @pytest.mark.parametrize(
     ("statement", "module"),
     [
-        ("from atlas import Hyperbola", "core/hyperbola.py"),
-        ("from atlas import *", "core/quadric.py"),
-        ("import atlas", "core/flight.py"),
-        ("import atlas.core.arithmetic.phase", "core/flight.py"),
-        ("import atlas as a", "core/particle.py"),
+        ("from atlas import Hyperbola", "core/surfaces/hyperbola.py"),
+        ("from atlas import *", "core/surfaces/quadric.py"),
+        ("import atlas", "core/motions/flight.py"),
+        ("import atlas.core.arithmetic.phase", "core/motions/flight.py"),
+        ("import atlas as a", "core/motions/particle.py"),
         ("from atlas import simulate", "study/simulate.py"),
     ],
 )
@@ -136,8 +136,8 @@ def test_one_public_name_reaches_no_other(tmp_path: Path) -> None:
     """A recipe that uses one public name does not depend on the kernels of the others."""
     recipe = write(tmp_path / "recipe.py", "from atlas import ParticleMotion, __version__\n")
     reached = {path.relative_to(PACKAGE).as_posix() for path in Sources().reached([recipe]) if path != recipe}
-    assert "core/particle.py" in reached
-    assert "core/hyperbola.py" not in reached
+    assert "core/motions/particle.py" in reached
+    assert "core/surfaces/hyperbola.py" not in reached
 
 
 def test_a_recipe_reaches_another_that_it_imports(tmp_path: Path) -> None:
@@ -150,15 +150,15 @@ def test_a_module_that_became_a_package_is_found(tmp_path: Path, monkeypatch: py
     """What an import leads to is looked up anew, even if the file with the import is remembered."""
     package, cache = tmp_path / "atlas", Cache(tmp_path / "cache")
     (package / "core").mkdir(parents=True)
-    for name in ("__init__.py", "core/__init__.py", "core/ball.py"):
+    for name in ("__init__.py", "core/__init__.py", "core/motions/ball.py"):
         (package / name).write_text("")
     monkeypatch.setattr(sources_module, "PACKAGE", package)
     recipe = write(tmp_path / "recipe.py", "from atlas.core import ball\n")
     sources = Sources(cache)
-    assert package / "core/ball.py" in sources.reached([recipe])
+    assert package / "core/motions/ball.py" in sources.reached([recipe])
     sources.save()
     (package / "core/ball").mkdir()
-    (package / "core/ball.py").rename(package / "core/ball/__init__.py")
+    (package / "core/motions/ball.py").rename(package / "core/ball/__init__.py")
     assert package / "core/ball/__init__.py" in Sources(cache).reached([recipe])
 
 

@@ -17,11 +17,11 @@ from hypothesis import strategies as st
 from oracles import closed_form
 
 from atlas.cli.app import atlas as program
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.general import GeneralMotion
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.general import GeneralMotion
 from atlas.errors import AtlasError
-from atlas.exact import elementary as exact
 from atlas.exact.digits import enclosed
+from atlas.exact.motions import elementary as exact
 from atlas.scene import Curve, Plane
 from atlas.study import extreme, grades, trajectory, truth
 from atlas.study.check import Check, check

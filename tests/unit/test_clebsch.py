@@ -7,7 +7,7 @@ from oracles.taylor import taylor
 import atlas
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.words import exact
-from atlas.core.integrals import integrals
+from atlas.core.motions.integrals import integrals
 
 EPS = float(np.finfo(float).eps)
 TENSOR = np.array([[2.0, 0.3, -0.1], [0.3, 1.5, 0.2], [-0.1, 0.2, 1.7]])

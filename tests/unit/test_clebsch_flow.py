@@ -7,8 +7,8 @@ import pytest
 from flint import ctx, fmpq
 
 from atlas.errors import NotCertifiedError
-from atlas.exact import clebsch_flow
-from atlas.exact.clebsch_flow import Flow
+from atlas.exact.motions import clebsch_flow
+from atlas.exact.motions.clebsch_flow import Flow
 
 BODIES = {
     "quick": ((1.0, 0.6875, 0.625), (1.75, -0.4375, 1.0625), (1.25, -0.75, 0.875)),

@@ -7,11 +7,11 @@ import pytest
 from flint import ctx
 
 import atlas
-from atlas.core.asymmetric import SingleAsymmetric
-from atlas.exact import clebsch_periods
-from atlas.exact.asymmetric import AsymmetricMotion
-from atlas.exact.clebsch_lattice import _polarization, _reduced, _shortest, _symplectic
-from atlas.exact.clebsch_periods import complex_of, sums
+from atlas.core.motions.asymmetric import SingleAsymmetric
+from atlas.exact.motions import clebsch_periods
+from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.clebsch_lattice import _polarization, _reduced, _shortest, _symplectic
+from atlas.exact.motions.clebsch_periods import complex_of, sums
 
 EPS = 2.0**-52
 

@@ -11,14 +11,14 @@ import pytest
 from flint import acb, arb, fmpq
 
 from atlas.errors import NotCertifiedError
-from atlas.exact import clebsch_proof
-from atlas.exact.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.clebsch_flow import Flow
-from atlas.exact.clebsch_periods import complex_of
-from atlas.exact.clebsch_proof import Cell, distances
-from atlas.exact.clebsch_theta import Rough, ThetaMotion
-from atlas.exact.theta_sums import near
-from atlas.exact.torus import Torus
+from atlas.exact.motions import clebsch_proof
+from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
+from atlas.exact.motions.clebsch_flow import Flow
+from atlas.exact.motions.clebsch_periods import complex_of
+from atlas.exact.motions.clebsch_proof import Cell, distances
+from atlas.exact.motions.clebsch_theta import Rough, ThetaMotion
+from atlas.exact.motions.theta_sums import near
+from atlas.exact.motions.torus import Torus
 from atlas.formulas.numbers import cross, dot, workprec
 
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)

@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from atlas.core.clebsch_rounding import D, quotients
+from atlas.core.motions.clebsch_rounding import D, quotients
 
 INTO = np.array([[0.5, -1.0], [0.25, 2.0]], dtype=complex)
 CELL = 0.3

@@ -15,17 +15,17 @@ from flint import acb, arb, ctx, fmpq
 
 import atlas
 from atlas.cli.app import atlas as command
-from atlas.core import asymmetric as kernels
-from atlas.core import certified, clebsch_rounding
-from atlas.core import clebsch_theta as core
-from atlas.core.asymmetric import SingleAsymmetric
-from atlas.core.clebsch_theta import ThetaKernel, closed_form
+from atlas.core.motions import asymmetric as kernels
+from atlas.core.motions import certified, clebsch_rounding
+from atlas.core.motions import clebsch_theta as core
+from atlas.core.motions.asymmetric import SingleAsymmetric
+from atlas.core.motions.clebsch_theta import ThetaKernel, closed_form
 from atlas.errors import DomainError
-from atlas.exact import clebsch_theta, torus
-from atlas.exact.asymmetric import AsymmetricMotion as Balls
-from atlas.exact.clebsch_lattice import Lattice
+from atlas.exact.arithmetic.powers import powers, wrong
 from atlas.exact.digits import enclosed
-from atlas.exact.powers import powers, wrong
+from atlas.exact.motions import clebsch_theta, torus
+from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
+from atlas.exact.motions.clebsch_lattice import Lattice
 from atlas.report.tables import compute
 from atlas.report.tables.table import Request
 

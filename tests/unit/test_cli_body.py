@@ -44,7 +44,7 @@ def test_the_shell_of_a_report_is_the_same_in_a_command() -> None:
     known = load(find("short_solenoid")).parameters
     case = body_and_field(known.bodies["shell"], known.fields["magnet"])
     from atlas.exact.digits import certified
-    from atlas.exact.quadric import Quadric
+    from atlas.exact.surfaces.quadric import Quadric
 
     quadric = Quadric(case.exact, case.components)
     found = record("classify", *SHELL.split(), "--digits", "40")

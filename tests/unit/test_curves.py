@@ -11,7 +11,7 @@ import pytest
 from drawing import distance
 from numpy.typing import NDArray
 
-from atlas.core.flight import Flight
+from atlas.core.motions.flight import Flight
 from atlas.draw import to_figure
 from atlas.draw.space import window
 from atlas.draw.view import fit
@@ -29,7 +29,7 @@ def test_a_trace_asks_for_one_column(name: str, monkeypatch: pytest.MonkeyPatch)
     def never(*_: Any) -> None:
         raise AssertionError
 
-    from atlas.core.elementary import ElementaryMotion
+    from atlas.core.motions.elementary import ElementaryMotion
 
     for owner in ElementaryMotion.__mro__:
         for method in ("rotation", "rotation_grid"):

@@ -15,10 +15,10 @@ from click.testing import CliRunner
 from atlas.build.composed import composed
 from atlas.build.data import build_data
 from atlas.cli.app import atlas as program
-from atlas.core.elementary import ElementaryMotion
+from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
-from atlas.exact.elementary import ElementaryMotion as Balls
+from atlas.exact.motions.elementary import ElementaryMotion as Balls
 from atlas.plain import words
 from atlas.report.data_package import ascii_name, package
 from atlas.scene import recipes

@@ -9,10 +9,10 @@ from mpmath import mp, mpf
 from oracles import closed_form
 from oracles.taylor import taylor
 
-from atlas.core.body import SymmetricBody
-from atlas.core.elementary import ElementaryMotion, FreeMotion
+from atlas.core.bodies.body import SymmetricBody
+from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import AtlasError, DomainError
-from atlas.exact import elementary as exact
+from atlas.exact.motions import elementary as exact
 from atlas.study.ulps import approximate
 
 ULP1 = 2.0**-52

@@ -13,8 +13,8 @@ from oracles.taylor import taylor
 
 import atlas
 from atlas.exact.digits import certified
-from atlas.exact.elementary import ElementaryMotion as ElementaryBalls
-from atlas.exact.elliptic import EllipticMotion as Balls
+from atlas.exact.motions.elementary import ElementaryMotion as ElementaryBalls
+from atlas.exact.motions.elliptic import EllipticMotion as Balls
 
 EPS = 2.0**-52
 BODY, FIELD = (0.8, 1.0, 1.3), (0.2, 1.0, 0.6)

@@ -5,10 +5,10 @@ from fractions import Fraction
 import pytest
 from flint import fmpq
 
-from atlas.core.body import SHAPES as CORE_SHAPES
-from atlas.core.body import SymmetricBody, from_shape, moments
+from atlas.core.bodies.body import SHAPES as CORE_SHAPES
+from atlas.core.bodies.body import SymmetricBody, from_shape, moments
 from atlas.errors import AtlasError, DomainError
-from atlas.exact.body import SHAPES, ratio_of, shape_moments
+from atlas.exact.bodies.body import SHAPES, ratio_of, shape_moments
 from atlas.exact.inputs import rational, rationals
 from atlas.formulas.numbers import root
 

@@ -11,12 +11,12 @@ from oracles.balls import taylor
 from oracles.taylor import taylor as integrated
 
 from atlas.errors import DomainError
-from atlas.exact.cayley_klein import matrix
 from atlas.exact.digits import certified
-from atlas.exact.elementary import ElementaryMotion
-from atlas.exact.free import FreeMotion
-from atlas.exact.general import GeneralMotion
-from atlas.exact.top import TopMotion
+from atlas.exact.motions.elementary import ElementaryMotion
+from atlas.exact.motions.free import FreeMotion
+from atlas.exact.motions.general import GeneralMotion
+from atlas.exact.motions.top import TopMotion
+from atlas.exact.nutation.cayley_klein import matrix
 
 KINDS: dict[str, tuple[float, tuple[float, float], tuple[float, float, float]]] = {
     "at rest": (1.5, (1, 2), (0, 0, 0)),

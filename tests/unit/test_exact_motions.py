@@ -12,16 +12,16 @@ from hypothesis import strategies as st
 from oracles import closed_form, taylor
 
 from atlas.errors import DomainError
-from atlas.exact.ball import BallMotion
 from atlas.exact.digits import certified, enclosed, numbers
-from atlas.exact.elementary import ElementaryMotion
-from atlas.exact.flight import Flight
-from atlas.exact.free import FreeMotion
-from atlas.exact.hyperbola import Hyperbola
 from atlas.exact.inputs import Real
-from atlas.exact.particle import ParticleMotion
-from atlas.exact.pseudo_oscillator import PseudoOscillator
-from atlas.exact.quadric import Quadric
+from atlas.exact.motions.ball import BallMotion
+from atlas.exact.motions.elementary import ElementaryMotion
+from atlas.exact.motions.flight import Flight
+from atlas.exact.motions.free import FreeMotion
+from atlas.exact.motions.particle import ParticleMotion
+from atlas.exact.motions.pseudo_oscillator import PseudoOscillator
+from atlas.exact.surfaces.hyperbola import Hyperbola
+from atlas.exact.surfaces.quadric import Quadric
 
 DIGITS = 60
 

@@ -10,10 +10,10 @@ import pytest
 from flint import arb, ctx, fmpq
 
 from atlas.errors import DomainError
-from atlas.exact.elliptic import EllipticMotion
-from atlas.exact.general import GeneralMotion
-from atlas.exact.theta import infinite
-from atlas.exact.top import TopMotion
+from atlas.exact.motions.elliptic import EllipticMotion
+from atlas.exact.motions.general import GeneralMotion
+from atlas.exact.motions.top import TopMotion
+from atlas.exact.nutation.theta import infinite
 
 BITS = 128
 SCALARS = "period", "precession_per_period", "spin_per_period", "nome", "modulus", "complementary_modulus"

@@ -19,7 +19,7 @@ from click.testing import CliRunner
 
 from atlas import AtlasError, GeneralMotion
 from atlas.cli.app import atlas as command_line
-from atlas.core import asymmetric
+from atlas.core.motions import asymmetric
 from atlas.families import FAMILIES
 from atlas.live import answers, subjects
 from atlas.live.server import HEADERS, PAGES, Explorer

@@ -9,7 +9,7 @@ from hypothesis.extra.numpy import arrays
 from mpmath import mp
 from scipy.spatial.transform import Rotation
 
-from atlas.core.field import Field, LaboratoryFrame
+from atlas.core.bodies.field import Field, LaboratoryFrame
 from atlas.errors import AtlasError, DomainError
 
 EPS = float(np.finfo(float).eps)

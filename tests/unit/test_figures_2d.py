@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from oracles.taylor import taylor
 
-from atlas.core.body import SymmetricBody
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.hyperbola import Hyperbola
-from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.core.bodies.body import SymmetricBody
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.pseudo_oscillator import PseudoOscillator
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import AtlasError, DomainError
 from atlas.scene import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface
 from atlas.scene.hyperbola_plane import asymptote, branches, places, unstable, window

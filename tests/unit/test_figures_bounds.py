@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from atlas import AtlasError, ElementaryMotion
-from atlas.core.pseudo_oscillator import PseudoOscillator
+from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 from atlas.scene import Curve, recipes
 from atlas.scene.libration import Libration
 

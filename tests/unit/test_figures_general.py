@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from oracles.top import taylor
 
 from atlas import DomainError, ElementaryMotion, EllipticMotion, GeneralMotion, Hyperbola, TopMotion, simulate
-from atlas.core.momentum_map import momentum_map, potential
-from atlas.core.separatrix import companions
-from atlas.exact.general import GeneralMotion as Balls
+from atlas.core.maps.momentum_map import momentum_map, potential
+from atlas.core.maps.separatrix import companions
+from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes
 from atlas.study.nutating import narrow
 

@@ -10,7 +10,7 @@ from drawing import made
 from numpy.typing import NDArray
 
 from atlas import Hyperbola
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.quadric import Quadric
 from atlas.scene import Arrow, Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, quadric_panel, recipes
 from atlas.scene.course import course
 

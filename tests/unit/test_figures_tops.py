@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from atlas import DomainError, TopMotion
-from atlas.core.quadric import TopQuadric
-from atlas.core.wells import Wells
+from atlas.core.maps.wells import Wells
+from atlas.core.surfaces.quadric import TopQuadric
 from atlas.scene import Arrow, Curve, Label, Points, Region, Scene, Space, Surface, recipes
 from atlas.scene.narrow import narrowed
 

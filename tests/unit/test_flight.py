@@ -5,10 +5,10 @@ import pytest
 from numpy.typing import NDArray
 from oracles.taylor import taylor
 
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.field import Field
-from atlas.core.flight import AGREEMENT, Flight
-from atlas.core.particle import ParticleMotion
+from atlas.core.bodies.field import Field
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.flight import AGREEMENT, Flight
+from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import AtlasError
 from atlas.scene.flight import of
 

@@ -11,13 +11,13 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import atlas
-from atlas.core.ball import BallMotion
-from atlas.core.elementary import ElementaryMotion, FreeMotion
-from atlas.core.general import GeneralMotion, exact_attitude
-from atlas.core.hyperbola import Hyperbola
+from atlas.core.motions.ball import BallMotion
+from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
+from atlas.core.motions.general import GeneralMotion, exact_attitude
 from atlas.core.nutation import grid as general_grid
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import AtlasError, DomainError
-from atlas.exact.general import GeneralMotion as Balls
+from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.study.nutating import narrow
 from atlas.study.ulps import absolute
 

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-from atlas.core import general
 from atlas.core.arithmetic.double_double import DoubleDouble
-from atlas.core.general import GeneralMotion
+from atlas.core.motions import general
+from atlas.core.motions.general import GeneralMotion
 from atlas.core.nutation import pair as nutation_pair
 from atlas.core.nutation import roots as nutation_roots
 from atlas.core.nutation.blocks import Blocks
 from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
-from atlas.exact.general import GeneralMotion as Balls
+from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.study.arrays import GENERAL_REGIME, check_general_rows, state
 from atlas.study.nutating import narrow
 from atlas.study.regimes import GENERAL

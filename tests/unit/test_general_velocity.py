@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-from atlas.core.general import GeneralMotion
+from atlas.core.motions.general import GeneralMotion
 from atlas.core.nutation import rows, single_general
-from atlas.exact.general import GeneralMotion as Balls
+from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.study.regimes import GENERAL
 from tests.oracles.taylor import taylor
 

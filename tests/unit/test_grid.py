@@ -7,8 +7,8 @@ from mpmath import mp, mpf
 from oracles import closed_form
 
 from atlas.core.arithmetic import grid
-from atlas.core.ball import BallMotion
-from atlas.core.elementary import ElementaryMotion
+from atlas.core.motions.ball import BallMotion
+from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 
 ULP1 = 2.0**-52

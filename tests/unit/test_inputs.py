@@ -12,7 +12,7 @@ import pytest
 
 import atlas
 from atlas.core import inputs
-from atlas.core.unit_systems import larmor_field
+from atlas.core.bodies.units import larmor_field
 from atlas.errors import AtlasError, DomainError
 from atlas.scene import recipes
 

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from oracles.taylor import taylor
 
 import atlas
-from atlas.core import euler_poisson as equations
-from atlas.core.body import SymmetricBody
-from atlas.core.integrals import integrals, shape_factors
+from atlas.core.bodies.body import SymmetricBody
+from atlas.core.motions import euler_poisson as equations
+from atlas.core.motions.integrals import integrals, shape_factors
 from atlas.errors import AtlasError
 
 EPS = float(np.finfo(float).eps)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from atlas import BallMotion, DomainError
-from atlas.core import laboratory
-from atlas.core.unit_systems import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
+from atlas.core.bodies import laboratory
+from atlas.core.bodies.units import ELECTRIC_CONSTANT, MAGNETIC_CONSTANT, SPEED_OF_LIGHT
 from atlas.errors import AtlasError
 
 EPS = float(np.finfo(float).eps)

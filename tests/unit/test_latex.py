@@ -13,7 +13,7 @@ from pypdf import PdfReader
 from atlas.build.tex import build_tex
 from atlas.errors import AtlasError
 from atlas.exact.digits import certified
-from atlas.exact.elementary import ElementaryMotion as Balls
+from atlas.exact.motions.elementary import ElementaryMotion as Balls
 from atlas.report.blocks.table import Cell, ColumnView, TableView
 from atlas.report.latex import _numbers, _with_unit
 from atlas.report.latex_table import _format, table_of

@@ -10,13 +10,13 @@ import pytest
 from flint import arb, ctx
 from syrupy.assertion import SnapshotAssertion
 
-from atlas.core.general import standing
+from atlas.core.motions.general import standing
+from atlas.core.motions.top import balls
 from atlas.core.nutation.exponentials import cancelling
 from atlas.core.nutation.functions import Line
 from atlas.core.nutation.single import SingleMotion
 from atlas.core.nutation.single_top import SingleTop
 from atlas.core.nutation.swing import Swing
-from atlas.core.top import balls
 from atlas.errors import DomainError
 from atlas.study.regimes import GENERAL
 from atlas.study.tops import TOPS

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.momentum_map import momentum_map, potential
-from atlas.core.pseudo_oscillator import PseudoOscillator
-from atlas.core.trace_map import quartic, trace_map, turning_points
-from atlas.core.wells import Branch, Wells, border, nutation_squared, rest
+from atlas.core.maps.momentum_map import momentum_map, potential
+from atlas.core.maps.trace_map import quartic, trace_map, turning_points
+from atlas.core.maps.wells import Branch, Wells, border, nutation_squared, rest
+from atlas.core.motions.pseudo_oscillator import PseudoOscillator
 
 EPS = float(np.finfo(float).eps)
 BODIES = [(0.5, (1.0, 0.1), -0.5), (2.0, (1.0, -2.0), -3.0), (1.0, (1.0, 2.0), 0.7), (1.5, (-1.0, 2.0), 0.4)]

@@ -22,7 +22,7 @@ from atlas import processes, toml
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.page import best
-from atlas.core.elementary import ElementaryMotion
+from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 from atlas.report.asked import Asked

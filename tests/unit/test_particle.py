@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from mpmath import mp
 
-from atlas.core.particle import ParticleMotion
+from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import AtlasError, DomainError
 
 EPS = float(np.finfo(float).eps)

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from atlas.core import euler_poisson as equations
-from atlas.core.integrals import integrals
-from atlas.core.pseudo_oscillator import PseudoOscillator, cubic, quartic
+from atlas.core.motions import euler_poisson as equations
+from atlas.core.motions.integrals import integrals
+from atlas.core.motions.pseudo_oscillator import PseudoOscillator, cubic, quartic
 from atlas.errors import AtlasError
 
 EPS = float(np.finfo(float).eps)

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 from oracles import closed_form
 
-from atlas.core.body import SymmetricBody
-from atlas.core.hyperbola import Hyperbola
-from atlas.core.quadric import Quadric
+from atlas.core.bodies.body import SymmetricBody
+from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import AtlasError, DomainError
 
 KINDS = {

@@ -10,7 +10,7 @@ import pytest
 from astropy import units as astropy_units
 
 import atlas
-from atlas.core.unit_systems import charge_to_mass, larmor_field
+from atlas.core.bodies.units import charge_to_mass, larmor_field
 
 
 class Units(Protocol):

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.inertia import inertia_tensor
+from atlas.core.bodies.inertia import inertia_tensor
 from atlas.errors import AtlasError
-from atlas.exact.ball import BallMotion as Ball
-from atlas.exact.hyperbola import Hyperbola as Balls
 from atlas.exact.inputs import rationals
-from atlas.exact.particle import ParticleMotion as Particle
+from atlas.exact.motions.ball import BallMotion as Ball
+from atlas.exact.motions.particle import ParticleMotion as Particle
+from atlas.exact.surfaces.hyperbola import Hyperbola as Balls
 from atlas.study.extreme import times
 from atlas.study.sweep.plan import Plan
 

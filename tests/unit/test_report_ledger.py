@@ -185,7 +185,7 @@ def test_every_use_and_its_entry_link_to_each_other(pages: dict[str, reader.Html
 def test_modules_that_cite_an_entry_are_named(pages: dict[str, reader.HtmlElement]) -> None:
     """The frequency of proper rotation is computed where the docstrings say so."""
     (found,) = [element for name, _, element in entries(pages) if name == "(72)"]
-    assert "core/hyperbola.py" in found.xpath(".//code/text()")
+    assert "core/surfaces/hyperbola.py" in found.xpath(".//code/text()")
 
 
 def test_every_refuted_claim_is_in_the_errata_with_its_counterexample(pages: dict[str, reader.HtmlElement]) -> None:

@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 from oracles import closed_form
 
 import atlas.core.arithmetic.rotation
-from atlas.core.elementary import ElementaryMotion, FreeMotion
+from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import AtlasError
 
 ULP1 = 2.0**-52

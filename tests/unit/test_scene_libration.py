@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 from flint import fmpq, fmpq_poly
 
-from atlas.core.pseudo_oscillator import PseudoOscillator
-from atlas.exact.quartic import Quartic
+from atlas.core.motions.pseudo_oscillator import PseudoOscillator
+from atlas.exact.nutation.quartic import Quartic
 from atlas.scene import recipes
 from atlas.scene.layers import Curve
 from atlas.scene.libration import Libration

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from atlas.core.quadric import Quadric
+from atlas.core.surfaces.quadric import Quadric
 from atlas.scene import Surface, mesh, quadric_panel, solids
 
 FloatArray = NDArray[np.float64]

@@ -6,7 +6,7 @@ import pytest
 from oracles.taylor import taylor
 
 import atlas
-from atlas.core.separatrix import Companion, companions
+from atlas.core.maps.separatrix import Companion, companions
 
 EPS = float(np.finfo(float).eps)
 UNSTABLE = (0.5, (1.0, 0.1), -0.5)  # inside the band: x = 1/2
@@ -37,7 +37,7 @@ def test_a_companion_solves_the_euler_poisson_equations(case: tuple) -> None:
 @pytest.mark.parametrize("case", [UNSTABLE, STABLE, TRIPLE])
 def test_a_companion_has_the_integrals_of_the_elementary_motion(case: tuple) -> None:
     """E', K^2, c3 and c5 agree within 32 eps of their size."""
-    from atlas.core.integrals import integrals
+    from atlas.core.motions.integrals import integrals
 
     elementary = atlas.ElementaryMotion(*case).invariants()
     for motion in companions(*case):

@@ -10,7 +10,7 @@ from oracles import closed_form
 from oracles.taylor import taylor
 
 import atlas
-from atlas.core import euler_poisson as equations
+from atlas.core.motions import euler_poisson as equations
 from atlas.errors import AtlasError
 from atlas.study.simulate import METHODS, Simulation
 

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from syrupy.assertion import SnapshotAssertion
 
 from atlas.core.arithmetic import phase
-from atlas.core.elementary import ElementaryMotion
+from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.study import extreme, nutating
 from atlas.study.arrays import check_rows

@@ -6,8 +6,8 @@ from random import Random
 import pytest
 from flint import acb, acb_poly, ctx, fmpq
 
-from atlas.exact.surd import Polynomial, Surd, evaluated, roots, squarefree, trimmed
-from atlas.exact.top import TopMotion
+from atlas.exact.arithmetic.surd import Polynomial, Surd, evaluated, roots, squarefree, trimmed
+from atlas.exact.motions.top import TopMotion
 
 
 def drawn(random: Random, degree: int) -> Polynomial:

@@ -169,7 +169,7 @@ def test_the_key_is_that_of_the_code_that_computes(monkeypatch: pytest.MonkeyPat
     reached = {path.relative_to(sources.PACKAGE).as_posix() for path in sources.Sources().reached(
         [sources.PACKAGE / "study" / "sweep" / "plan.py"]
     )}  # fmt: skip
-    assert {"core/elementary.py", "core/arithmetic/double_double.py", "exact/general.py"} <= reached
+    assert {"core/motions/elementary.py", "core/arithmetic/double_double.py", "exact/motions/general.py"} <= reached
     assert not any(path.startswith(("draw/", "report/", "cli/")) for path in reached)
     before = keys.code.__wrapped__()
     facts = sources.Sources._facts

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from flint import arb
 
-from atlas.exact import swing
-from atlas.exact.theta import Lattice, Sum, vanishing_at
+from atlas.exact.nutation import swing
+from atlas.exact.nutation.theta import Lattice, Sum, vanishing_at
 from atlas.formulas.numbers import workprec
 
 FACTOR = 0.75

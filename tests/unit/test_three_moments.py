@@ -9,10 +9,10 @@ import pytest
 from scipy.special import ellipk
 
 from atlas.build.tex import build_tex
-from atlas.exact.asymmetric import AsymmetricMotion
-from atlas.exact.clebsch_periods import real_periods
 from atlas.exact.digits import certified
-from atlas.exact.elliptic import EllipticMotion
+from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.clebsch_periods import real_periods
+from atlas.exact.motions.elliptic import EllipticMotion
 from atlas.report.blocks.figure import Figure
 from atlas.report.blocks.table import Table
 from atlas.report.digits import Number

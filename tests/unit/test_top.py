@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 
 import atlas
 from atlas.exact.digits import certified
-from atlas.exact.top import TopMotion as Balls
+from atlas.exact.motions.top import TopMotion as Balls
 from atlas.study.tops import TOPS, rate_of
 
 EPS = 2.0**-52

@@ -8,9 +8,9 @@ import pytest
 from flint import arb, ctx, fmpq
 
 from atlas.errors import NotCertifiedError
-from atlas.exact import torus
-from atlas.exact.asymmetric import AsymmetricMotion
-from atlas.exact.torus import Torus
+from atlas.exact.motions import torus
+from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.torus import Torus
 
 QUICK = (1.0, 0.6875, 0.625), (1.25, -0.75, 0.875), (0.5, 0.3125, 0.1875)
 

@@ -6,13 +6,13 @@ import pytest
 from flint import arb, ctx
 
 from atlas.core.arithmetic.rotation import DoubleRotation
-from atlas.core.ball import BallMotion
-from atlas.core.elementary import ElementaryMotion, FreeMotion
-from atlas.core.hyperbola import Hyperbola
-from atlas.core.particle import ParticleMotion
-from atlas.core.quadric import Quadric
+from atlas.core.motions.ball import BallMotion
+from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
+from atlas.core.motions.particle import ParticleMotion
+from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import AtlasError, DomainError
-from atlas.exact import elementary as exact_elementary
+from atlas.exact.motions import elementary as exact_elementary
 from atlas.study import extreme
 from atlas.study.regimes import REGIMES
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy import constants
 
-from atlas.core import unit_systems as units
-from atlas.core.field import Field
-from atlas.core.particle import ParticleMotion
+from atlas.core.bodies import units
+from atlas.core.bodies.field import Field
+from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import AtlasError
 
 EPS = float(np.finfo(float).eps)

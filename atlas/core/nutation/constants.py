@@ -14,9 +14,9 @@ from atlas.core.arithmetic.words import ZERO, middle
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric
 from atlas.core.nutation.swing import Crossing, Swing
-from atlas.exact.cayley_klein import Solution
-from atlas.exact.swing import Crossing as ExactCrossing
-from atlas.exact.theta import infinite
+from atlas.exact.nutation.cayley_klein import Solution
+from atlas.exact.nutation.swing import Crossing as ExactCrossing
+from atlas.exact.nutation.theta import infinite
 from atlas.formulas.numbers import workprec
 
 FIRST = 256

@@ -1,9 +1,9 @@
 """The turning points of many general motions in two words, and what else the quartic Q has of roots.
 
-In v = Omega3 - omega3 the quartic of `atlas.exact.quartic` starts with the square of dOmega3/dt at t = 0, so that v = 0
-lies between the turning points, however close these are: its coefficients are written anew, since a shift of those of
-`atlas.formulas.integrals` would cancel. With the turning points Q = (v - low)(v - high)(f2 v^2 + f1 v + f0), and all
-else follows from that, whether the other two roots are real or not.
+In v = Omega3 - omega3 the quartic of `atlas.exact.nutation.quartic` starts with the square of dOmega3/dt at t = 0, so
+that v = 0 lies between the turning points, however close these are: its coefficients are written anew, since a shift of
+those of `atlas.formulas.integrals` would cancel. With the turning points Q = (v - low)(v - high)(f2 v^2 + f1 v + f0),
+and all else follows from that, whether the other two roots are real or not.
 """
 
 from dataclasses import dataclass

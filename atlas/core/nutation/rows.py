@@ -1,9 +1,10 @@
 """Many general motions in arrays at a few times each: matrices, fields and angular velocities; none is made alone.
 
 With y = M t + y0 the pair (alpha, beta) of the axis, and that of the angular velocity, is exp(i l t) F times the sum
-over odd k of even_k cos k y + i odd_k sin k y, the trigonometric sums of `atlas.exact.theta`. What two words do not
-hold for certain is not `sure`, and is left to the motion made alone: next to a separatrix or a triple root, where the
-sums are long or cancel; where Omega3 is constant, for the matrix; where the inputs are of very different sizes.
+over odd k of even_k cos k y + i odd_k sin k y, the trigonometric sums of `atlas.exact.nutation.theta`. What two words
+do not hold for certain is not `sure`, and is left to the motion made alone: next to a separatrix or a triple root,
+where the sums are long or cancel; where Omega3 is constant, for the matrix; where the inputs are of very different
+sizes.
 """
 
 from collections.abc import Callable

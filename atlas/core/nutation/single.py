@@ -12,7 +12,7 @@ from atlas.core.nutation.constants import CayleyKlein
 from atlas.core.nutation.exponentials import Exponentials, exponentials
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
-from atlas.exact.nutating import Nutating
+from atlas.exact.nutation.nutating import Nutating
 from atlas.formulas.numbers import nearest, workprec
 
 BITS = 60

@@ -8,7 +8,7 @@ from flint import arb
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.exact.digits import enclosed
-from atlas.exact.elliptic import EllipticMotion
+from atlas.exact.motions.elliptic import EllipticMotion
 
 
 class SingleElliptic(SingleMotion):

@@ -12,7 +12,7 @@ from atlas.core.nutation.constants import CayleyKlein
 from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.single import BITS, VECTOR, SingleMotion
 from atlas.exact.digits import enclosed
-from atlas.exact.general import GeneralMotion
+from atlas.exact.motions.general import GeneralMotion
 from atlas.formulas.numbers import nearest
 
 NEAR, SLENDER = 2.3, 1.45

@@ -10,7 +10,7 @@ from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import Evaluation, evaluate
 from atlas.core.nutation.constants import CayleyKlein
 from atlas.core.nutation.single import SingleMotion
-from atlas.exact.top import TopMotion
+from atlas.exact.motions.top import TopMotion
 from atlas.formulas.numbers import nearest
 
 

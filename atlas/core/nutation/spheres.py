@@ -1,4 +1,4 @@
-"""The two vectors of constant length that move with Omega3, in two words: see `atlas.exact.spheres`.
+"""The two vectors of constant length that move with Omega3, in two words: see `atlas.exact.nutation.spheres`.
 
 Their poles are two values of v = Omega3 - omega3 beyond the turning points, one on each side: alpha is zero at
 the upper, beta at the lower.

@@ -1,7 +1,8 @@
 """The further turn of a top about its axis, kappa times the integral of nu, at many times: its part that is periodic.
 
-It is (2 kappa/sqrt(|A|)) at(sqrt(|A|) O/E), at = arctan for A < 0 and artanh for A > 0, of `atlas.exact.swing`; where A
-is zero 2 kappa O/E. So it goes through A = 0 without a gap: O/sqrt(|A|) was formed in balls before it was rounded.
+It is (2 kappa/sqrt(|A|)) at(sqrt(|A|) O/E), at = arctan for A < 0 and artanh for A > 0, of
+`atlas.exact.nutation.swing`; where A is zero 2 kappa O/E. So it goes through A = 0 without a gap: O/sqrt(|A|) was
+formed in balls before it was rounded.
 """
 
 from typing import Any, TypeAlias
@@ -11,9 +12,9 @@ from flint import arb
 from numpy.typing import NDArray
 
 from atlas.core.inputs import FloatArray
-from atlas.exact.swing import Crossing as ExactCrossing
-from atlas.exact.swing import Swing as Exact
-from atlas.exact.theta import infinite
+from atlas.exact.nutation.swing import Crossing as ExactCrossing
+from atlas.exact.nutation.swing import Swing as Exact
+from atlas.exact.nutation.theta import infinite
 
 Numbers: TypeAlias = NDArray[Any]
 """Numbers of the type."""

@@ -1,7 +1,7 @@
 """What the integral of nu adds to the turn of many tops about their axes, kappa times it, in arrays.
 
-It is that of `atlas.exact.swing`, with v = M s, M = pi/T, s the time since the turning point next to where nu is
-infinite, and cosines and sines of a multiple of an angle c, cos^2 + A sin^2 = 1, which join across A = 0:
+It is that of `atlas.exact.nutation.swing`, with v = M s, M = pi/T, s the time since the turning point next to where nu
+is infinite, and cosines and sines of a multiple of an angle c, cos^2 + A sin^2 = 1, which join across A = 0:
 
     integral of nu = rate t + (2/sqrt(|A|)) at(sqrt(|A|) O/E),
     E = 1 + 2 sum (-1)^n q^(n^2) cos(n c) cos(2 n v),     O = -2 sum (-1)^n q^(n^2) sin(n c) sin(2 n v).

@@ -15,7 +15,7 @@ class BallParameters(StrictStruct, frozen=True):
 
 def ball(request: Request) -> Data:
     """Frequencies alpha, gamma and axis k_hat for initial angular velocity (0, omega2, omega3) in a field along e3."""
-    from atlas.exact.ball import BallMotion
+    from atlas.exact.motions.ball import BallMotion
 
     asked = request.take(BallParameters)
     if asked.larmor == 0:

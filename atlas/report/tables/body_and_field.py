@@ -61,7 +61,7 @@ def _given(one: BodyAndField) -> Iterator[tuple[str, str, float, str]]:
 
 def _follows(one: BodyAndField, digits: int) -> Iterator[tuple[str, str, Any, str]]:
     """Go through what the formulas take of it."""
-    from atlas.exact.body import ratio_of
+    from atlas.exact.bodies.body import ratio_of
 
     exact = one.exact
     if one.body_record is not None and one.body_record.shape:

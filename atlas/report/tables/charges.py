@@ -2,7 +2,7 @@
 
 from math import inf, isfinite, pi
 
-from atlas.core.unit_systems import ELECTRIC_CONSTANT
+from atlas.core.bodies.units import ELECTRIC_CONSTANT
 from atlas.errors import AtlasError
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct

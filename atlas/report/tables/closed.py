@@ -48,7 +48,7 @@ def closed(request: Request) -> Data:
 
 def _elementary(thing: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
     """Give the closed motion of each fraction that has one."""
-    from atlas.core.closed import ClosedMotion
+    from atlas.core.surfaces.closed import ClosedMotion
 
     ratio, field, omega2, *_ = thing.floats
     rows = []

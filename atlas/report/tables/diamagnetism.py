@@ -2,8 +2,8 @@
 
 from math import hypot
 
-from atlas.core.body import SymmetricBody
-from atlas.core.laboratory import diamagnetic_energy
+from atlas.core.bodies.body import SymmetricBody
+from atlas.core.bodies.laboratory import diamagnetic_energy
 from atlas.errors import AtlasError
 from atlas.report.body_and_field import BodyAndField
 from atlas.report.digits import Number

@@ -35,8 +35,8 @@ def motion(request: Request) -> Data:
 
 def quantities(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]:
     """Return what belongs to a motion: (67), k and phi of (72), nutation, the integrals (36) to (41) and (88)."""
-    from atlas.exact.elementary import ElementaryMotion
-    from atlas.exact.hyperbola import Hyperbola
+    from atlas.exact.motions.elementary import ElementaryMotion
+    from atlas.exact.surfaces.hyperbola import Hyperbola
 
     made = ElementaryMotion(case.exact, case.components, asked.omega2, asked.omega3)
     k, invariants = certified(lambda: (made.k, made.invariants), digits)
@@ -63,7 +63,7 @@ def quantities(case: BodyAndField, asked: Motion, digits: int) -> list[Quantity]
 
 def samples(request: Request) -> Data:
     """Omega(t), (73), and the third axis of the body R_3(t), (84), at some `times`."""
-    from atlas.exact.elementary import ElementaryMotion
+    from atlas.exact.motions.elementary import ElementaryMotion
 
     asked = request.take(Samples)
     made = ElementaryMotion(request.case.exact, request.case.components, asked.omega2, asked.omega3)

@@ -2,8 +2,8 @@
 
 from math import hypot, isfinite, pi, sqrt
 
-from atlas.core.body import from_shape
-from atlas.core.charge_moments import ChargeMoments
+from atlas.core.bodies.body import from_shape
+from atlas.core.bodies.charge import ChargeMoments
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct
 from atlas.report.tables.diamagnetism import DiamagnetismParameters, magnetised
@@ -51,7 +51,7 @@ def coats(request: Request) -> Data:
 
 def swings(request: Request) -> Data:
     """Return how bodies at rest in Larmor's frame swing there: by their charge alone, and magnetised too."""
-    from atlas.core.top import TopMotion
+    from atlas.core.motions.top import TopMotion
 
     asked = request.take(DiamagnetismParameters)
     rows: list[tuple[str | Number, ...]] = []

@@ -13,7 +13,7 @@ from atlas.report.tables.table import Column, Data, Request, certified, column, 
 
 def exact_particle(case: BodyAndField, position: Any, velocity: Any) -> Any:
     """Return the centre of mass of a body in a field that was given as B and E, as a certified motion, (101)."""
-    from atlas.exact.particle import ParticleMotion
+    from atlas.exact.motions.particle import ParticleMotion
 
     if case.physical is None:
         raise AtlasError("this needs a field that is given as B (and E), not as B'.")

@@ -17,7 +17,7 @@ class PointsParameters(StrictStruct, frozen=True):
 
 def points(request: Request) -> Data:
     """Points (omega2, omega3) of (67) with k, phi of (72) and the nutation frequency squared; `omega2` adds more."""
-    from atlas.exact.hyperbola import Hyperbola
+    from atlas.exact.surfaces.hyperbola import Hyperbola
 
     more = request.take(PointsParameters).omega2
     h = Hyperbola(request.case.exact, request.case.components)

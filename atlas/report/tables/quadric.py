@@ -17,7 +17,7 @@ def quantities(case: BodyAndField, digits: int) -> list[Quantity]:
     """Return what belongs to the quadric of a body in a field: along or across the axis its kind alone."""
     from flint import arb
 
-    from atlas.exact.quadric import Quadric
+    from atlas.exact.surfaces.quadric import Quadric
 
     q = Quadric(case.exact, case.components)
     first = [

@@ -2,9 +2,15 @@
 
 from math import atan2, hypot, pi
 
-from atlas.core.hyperbola import Hyperbola
-from atlas.core.laboratory import damping_of_flight, greatest_charge, greatest_ratio, magnetic_power, quadrupole_power
-from atlas.core.unit_systems import BOLTZMANN, ELEMENTARY_CHARGE, cyclotron_frequency
+from atlas.core.bodies.laboratory import (
+    damping_of_flight,
+    greatest_charge,
+    greatest_ratio,
+    magnetic_power,
+    quadrupole_power,
+)
+from atlas.core.bodies.units import BOLTZMANN, ELEMENTARY_CHARGE, cyclotron_frequency
+from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import AtlasError
 from atlas.report.digits import Number
 from atlas.report.schema import StrictStruct

@@ -33,7 +33,7 @@ class Samples(Motion, frozen=True):
 
 def elliptic(request: Request) -> Data:
     """List elliptic motions of one body in one field, a row each, theorem-elliptic."""
-    from atlas.exact.elliptic import EllipticMotion
+    from atlas.exact.motions.elliptic import EllipticMotion
 
     asked = request.take(Family)
     motions = [EllipticMotion(asked.inertia, asked.field, z, branch) for z, branch in asked.places]
@@ -58,7 +58,7 @@ def periods(request: Request) -> Data:
     """List two pairs of times after which M and K are back, and the turn about the field, with proven digits."""
     from flint import fmpq
 
-    from atlas.exact.torus import Torus
+    from atlas.exact.motions.torus import Torus
     from atlas.report.tables.table import bits
 
     asked = request.take(Motion)
@@ -80,7 +80,7 @@ def periods(request: Request) -> Data:
 
 def asymmetric(request: Request) -> Data:
     """List the third axis of the body and its spin about it at some times, whatever the motion."""
-    from atlas.exact.asymmetric import AsymmetricMotion
+    from atlas.exact.motions.asymmetric import AsymmetricMotion
 
     asked = request.take(Samples)
     made = AsymmetricMotion(asked.inertia, asked.field, asked.omega)

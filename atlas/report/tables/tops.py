@@ -79,7 +79,7 @@ def _row(numbers: tuple[float, ...]) -> str:
 
 def _nutation(one: Top) -> tuple[Any, Any, Any]:
     """Return the period and both angles as balls."""
-    from atlas.exact.top import TopMotion
+    from atlas.exact.motions.top import TopMotion
 
     top = TopMotion((1.0, one.ratio), one.coupling, one.direction, one.omega, one.linear, one.quadratic)
     return top.period, top.precession_per_period, top.spin_per_period
@@ -87,8 +87,8 @@ def _nutation(one: Top) -> tuple[Any, Any, Any]:
 
 def loops(request: Request) -> Data:
     """Return what becomes of the basis of periods on loops round unstable spins, theorem-residue."""
-    from atlas.core.monodromy import around, monodromy
-    from atlas.core.wells import Wells
+    from atlas.core.maps.monodromy import around, monodromy
+    from atlas.core.maps.wells import Wells
 
     asked = request.take(MonodromyParameters)
     rows: list[tuple[str | Number, ...]] = []

@@ -17,12 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
-from atlas.core.general import GeneralMotion
-from atlas.core.hyperbola import Hyperbola
-from atlas.core.quadric import Quadric
-from atlas.exact import elementary, general, hyperbola, quadric
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.general import GeneralMotion
+from atlas.core.surfaces.hyperbola import Hyperbola
+from atlas.core.surfaces.quadric import Quadric
 from atlas.exact.digits import enclosed
+from atlas.exact.motions import elementary, general
+from atlas.exact.surfaces import hyperbola, quadric
 from atlas.formulas.numbers import workprec
 from atlas.study.bench.case import FloatArray
 from atlas.study.bench.clock import interleave, one_core, ratio

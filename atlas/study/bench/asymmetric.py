@@ -10,9 +10,9 @@ motion, timed beside, stands for a second of work. True values are certified and
 from collections.abc import Sequence
 from typing import Any
 
-from atlas.core import asymmetric as kernels
-from atlas.core.asymmetric import AsymmetricMotion
-from atlas.exact.asymmetric import AsymmetricMotion as Exact
+from atlas.core.motions import asymmetric as kernels
+from atlas.core.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.asymmetric import AsymmetricMotion as Exact
 from atlas.study.bench import elementary
 from atlas.study.bench.case import Case, Parameters, cross, rotation_case
 

@@ -9,8 +9,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from atlas.core.ball import BallMotion
-from atlas.exact.ball import BallMotion as Exact
+from atlas.core.motions.ball import BallMotion
+from atlas.exact.motions.ball import BallMotion as Exact
 from atlas.study.bench import elementary
 from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
 from atlas.study.bench.peers import Turn, composed, lambdified

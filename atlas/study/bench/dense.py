@@ -15,7 +15,7 @@ from statistics import median
 import numpy as np
 
 from atlas.exact.digits import enclosed
-from atlas.exact.general import GeneralMotion as Exact
+from atlas.exact.motions.general import GeneralMotion as Exact
 from atlas.formulas.numbers import workprec
 from atlas.study.bench import elementary, general
 from atlas.study.bench.case import Grid, Solve

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.elementary import ElementaryMotion
-from atlas.exact.elementary import ElementaryMotion as Exact
+from atlas.core.motions.elementary import ElementaryMotion
+from atlas.exact.motions.elementary import ElementaryMotion as Exact
 from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
 from atlas.study.bench.peers import Turn, composed, lambdified
 

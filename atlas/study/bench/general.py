@@ -6,8 +6,8 @@ The body and field of the elementary case, launched with omega = (0.3, 0.7, 0.2)
 plain formula to compare with; the plain formula of the elementary motion, timed beside, stands for a second of work.
 """
 
-from atlas.core.general import GeneralMotion
-from atlas.exact.general import GeneralMotion as Exact
+from atlas.core.motions.general import GeneralMotion
+from atlas.exact.motions.general import GeneralMotion as Exact
 from atlas.study.bench import elementary
 from atlas.study.bench.case import Case, Parameters, rotation_case
 

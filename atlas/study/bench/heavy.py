@@ -11,9 +11,9 @@ the frequencies are like those of the other cases; as a power of two it rounds n
 from collections.abc import Sequence
 from typing import Any
 
-from atlas.core.body import SymmetricBody
-from atlas.core.top import TopMotion
-from atlas.exact.top import TopMotion as Exact
+from atlas.core.bodies.body import SymmetricBody
+from atlas.core.motions.top import TopMotion
+from atlas.exact.motions.top import TopMotion as Exact
 from atlas.study.bench import elementary
 from atlas.study.bench.case import Case, Parameters, cross, rotation_case
 

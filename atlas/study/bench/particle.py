@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.particle import ParticleMotion
-from atlas.exact.particle import ParticleMotion as Exact
+from atlas.core.motions.particle import ParticleMotion
+from atlas.exact.motions.particle import ParticleMotion as Exact
 from atlas.study.bench.case import Case, FloatArray, Grid, Method, Parameters, Solve, cross
 
 PARAMETERS: Parameters = {

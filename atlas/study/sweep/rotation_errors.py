@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from atlas.core.elementary import ElementaryMotion
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
-from atlas.exact import elementary as exact
 from atlas.exact.digits import enclosed
+from atlas.exact.motions import elementary as exact
 from atlas.formulas.numbers import workprec
 from atlas.study.bench.elementary import constants, formula
 from atlas.study.extreme import PHASE_LIMIT

@@ -1,0 +1,255 @@
+"""Symmetric bodies: the moments of inertia I1 = I2 and I3, and the mass matrix (8) behind them."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+import numpy as np
+
+from atlas.core.bodies.inertia import (
+    ROUNDING,
+    diagonal_or_matrices,
+    inertia_from_mass_matrix,
+    mass_matrix_from_inertia,
+    mass_matrix_of_points,
+)
+from atlas.core.inputs import FloatArray, matrix, number, positive, real
+from atlas.core.quantities import INERTIA, LENGTH, MASS
+from atlas.errors import AtlasError, DomainError
+
+__all__ = ["SHAPES", "SymmetricBody", "from_shape", "inertia_from_mass_matrix", "mass_matrix_from_inertia", "moments"]
+
+NO_SUCH_BODY = "since the mass matrix element g3 = (2 I2 - I3)/2 is a sum of m x^2 and so cannot be negative"
+
+
+def moments(ratio: Any) -> tuple[float, Any]:
+    """Return (I2, I3) of a body, or (1.0, I) for a number or an array of numbers I = I3/I2, (33).
+
+    The inputs stay exact: a body is never rounded to its quotient. Domain: 0 < I3 <= 2 I2.
+    Raises DomainError outside it, and for a thin rod (I3 = 0), whose turn about its own axis has no inertia.
+    """
+    if isinstance(ratio, SymmetricBody):
+        if ratio.I3 == 0:
+            raise DomainError(
+                "A thin rod has I3 = 0: its turn about its own axis carries no inertia, so Omega3 is not determined; "
+                "give it a radius."
+            )
+        return ratio.I2, ratio.I3
+    I = real(ratio, "The ratio I = I3/I2")
+    if (I <= 0).any():
+        raise DomainError(f"The ratio I = I3/I2 must lie in (0, 2], not {I.min()}: a moment of inertia is positive.")
+    if (I > 2).any():
+        raise DomainError(f"No body has I = I3/I2 = {I.max()}: I is at most 2, {NO_SUCH_BODY}.")
+    return 1.0, I if I.ndim else float(I)
+
+
+def kept_ratio(ratio: Any, I3: Any) -> Any:
+    """Return what an object keeps of its `ratio`: the body, or the I3 of `moments`, never an array of the user's."""
+    return ratio if isinstance(ratio, SymmetricBody) else I3
+
+
+@dataclass(frozen=True)
+class SymmetricBody:
+    """A body with I1 = I2, as in (33): its moments of inertia I2 and I3 about the centre of mass.
+
+    `I2` > 0 across the symmetry axis, `I3` along it, 0 <= I3 <= 2 I2, in any one unit.
+    `axes` (3, 3): its rows are the principal axes, the symmetry axis last, in the frame in which a mass matrix or
+    point masses were given; the unit matrix otherwise. Raises DomainError for moments that no body has, AtlasError for
+    what is no number.
+    """
+
+    I2: float
+    I3: float
+    axes: FloatArray = field(default_factory=lambda: np.eye(3), compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Check that such a body exists."""
+        I2, I3 = number(self.I2, "I2", INERTIA), number(self.I3, "I3", INERTIA)
+        if I2 <= 0:
+            raise DomainError(f"I2 must be positive, not {I2}: about an axis across it, every body has some inertia.")
+        if I3 < 0:
+            raise DomainError(f"I3 must not be negative, but is {I3}.")
+        if I3 > 2 * I2:
+            raise DomainError(f"No body has I2 = {I2}, I3 = {I3}: I3 is at most 2 I2, {NO_SUCH_BODY}.")
+        object.__setattr__(self, "I2", I2)
+        object.__setattr__(self, "I3", I3)
+        object.__setattr__(self, "axes", matrix(self.axes, "The axes"))
+
+    @property
+    def ratio(self) -> float:
+        """I = I3/I2, (33), rounded to a float; the kernels take I2 and I3 themselves."""
+        return self.I3 / self.I2
+
+    @property
+    def inertia(self) -> tuple[float, float, float]:
+        """Diagonal (I2, I2, I3) of the inertia tensor."""
+        return self.I2, self.I2, self.I3
+
+    @property
+    def mass_matrix(self) -> tuple[float, float, float]:
+        """Diagonal 1/2 (I3, I3, 2 I2 - I3) of the mass matrix (8)."""
+        return self.I3 / 2, self.I3 / 2, self.I2 - self.I3 / 2
+
+    @classmethod
+    def ring(cls, mass: float, radius: float) -> Self:
+        """Thin ring (a loop): I3 = m R^2 = 2 I2.
+
+        Raises AtlasError unless all are positive numbers.
+        """
+        across = positive(mass, "The mass", MASS) * _square(radius, "The radius") / 2
+        return cls(across, 2 * across)
+
+    @classmethod
+    def disk(cls, mass: float, radius: float) -> Self:
+        """Thin disk: I3 = m R^2/2 = 2 I2.
+
+        Raises AtlasError unless all are positive numbers.
+        """
+        across = positive(mass, "The mass", MASS) * _square(radius, "The radius") / 4
+        return cls(across, 2 * across)
+
+    @classmethod
+    def cylindrical_shell(cls, mass: float, radius: float, height: float) -> Self:
+        """Open cylindrical surface (a solenoid): I3 = m R^2, I2 = m (6 R^2 + h^2)/12; I = 1 at h = R sqrt(6).
+
+        Raises AtlasError unless all are positive numbers.
+        """
+        m, R2, h2 = _cylinder(mass, radius, height)
+        return cls(m * (R2 / 2 + h2 / 12), m * R2)
+
+    @classmethod
+    def solid_cylinder(cls, mass: float, radius: float, height: float) -> Self:
+        """Solid cylinder: I3 = m R^2/2, I2 = m (3 R^2 + h^2)/12; I = 1 at h = R sqrt(3).
+
+        Raises AtlasError unless all are positive numbers.
+        """
+        m, R2, h2 = _cylinder(mass, radius, height)
+        return cls(m * (R2 / 4 + h2 / 12), m * (R2 / 2))
+
+    @classmethod
+    def thin_rod(cls, mass: float, length: float) -> Self:
+        """Rod without thickness: I2 = m l^2/12, I3 = 0. A body, but `moments` refuses it.
+
+        Raises AtlasError unless all are positive numbers.
+        """
+        return cls(positive(mass, "The mass", MASS) * _square(length, "The length") / 12, 0.0)
+
+    @classmethod
+    def sphere(cls, mass: float, radius: float) -> Self:
+        """Solid ball: I2 = I3 = 2 m R^2/5.
+
+        Raises AtlasError unless all are positive numbers.
+        """
+        moment = 2 * positive(mass, "The mass", MASS) * _square(radius, "The radius") / 5
+        return cls(moment, moment)
+
+    @classmethod
+    def spherical_shell(cls, mass: float, radius: float) -> Self:
+        """Hollow sphere: I2 = I3 = 2 m R^2/3.
+
+        Raises AtlasError unless all are positive numbers.
+        """
+        moment = 2 * positive(mass, "The mass", MASS) * _square(radius, "The radius") / 3
+        return cls(moment, moment)
+
+    @classmethod
+    def spheroid(cls, mass: float, equatorial: float, polar: float) -> Self:
+        """Solid ellipsoid of revolution: I3 = 2 m a^2/5, I2 = m (a^2 + c^2)/5, `equatorial` a and `polar` c.
+
+        Raises AtlasError unless all are positive numbers.
+        """
+        m, a2, c2 = (
+            positive(mass, "The mass", MASS),
+            _square(equatorial, "The equatorial radius"),
+            _square(polar, "The polar radius", zero=True),
+        )
+        return cls(m * (a2 / 5 + c2 / 5), 2 * m * (a2 / 5))
+
+    @classmethod
+    def from_point_masses(cls, masses: Any, positions: Any, *, tolerance: float = 1e-9) -> Self:
+        """Body of point masses, (8): `masses` (N,), `positions` (N, 3) from any origin; then `from_mass_matrix`.
+
+        Raises AtlasError for what are no positive masses at places, or no symmetric body.
+        """
+        return cls.from_mass_matrix(mass_matrix_of_points(masses, positions), tolerance=tolerance)
+
+    @classmethod
+    def from_mass_matrix(cls, mass_matrix: Any, *, tolerance: float = 1e-9) -> Self:
+        """Body of a mass matrix (8), by its principal axes: I2 = g1 + g3, I3 = 2 g1 where g1 = g2.
+
+        `mass_matrix` is (3, 3), or (3,) for a diagonal. Two principal values that differ by no more than `tolerance`
+        times the largest are equal, and their mean is taken. If all three are, the body is totally symmetric and
+        keeps the axes it was given in. The symmetry axis points to where its largest component is positive.
+
+        Raises DomainError if no two are equal, or one is negative beyond rounding. AtlasError is raised for what is no
+        such matrix.
+        """
+        matrix, _ = diagonal_or_matrices(mass_matrix, "The mass matrix")
+        if matrix.ndim > 2:
+            raise AtlasError(f"A body has one mass matrix (3, 3) or diagonal (3,), not the shape {matrix.shape}.")
+        g, vectors = np.linalg.eigh(np.diag(matrix) if matrix.ndim == 1 else matrix)
+        largest = g[2]
+        if not matrix.any():
+            raise DomainError("The mass matrix is zero: all of the body is in one point, and has no rotation.")
+        if g[0] < -ROUNDING * abs(largest):
+            raise DomainError(
+                f"A mass matrix is a sum of m x x^T and so not negative, but its principal values are {g}."
+            )
+        g = np.where(g < ROUNDING * largest, 0.0, g)
+        if g[2] - g[0] <= tolerance * largest:
+            moment = float(2 * g.mean())
+            return cls(moment, moment)
+        third = 0 if g[2] - g[1] < g[1] - g[0] else 2
+        first, second = (g[1], g[2]) if third == 0 else (g[0], g[1])
+        if second - first > tolerance * largest:
+            raise DomainError(
+                f"The body is not symmetric: its principal mass moments {g} are all different, "
+                f"where two must agree to {tolerance:g} of the largest."
+            )
+        across = float((first + second) / 2)
+        return cls(across + float(g[third]), 2 * across, _frame(vectors[:, third]))
+
+
+SHAPES: Mapping[str, tuple[Callable[..., SymmetricBody], tuple[str, ...]]] = {
+    "ring": (SymmetricBody.ring, ("mass", "radius")),
+    "disk": (SymmetricBody.disk, ("mass", "radius")),
+    "cylindrical_shell": (SymmetricBody.cylindrical_shell, ("mass", "radius", "height")),
+    "solid_cylinder": (SymmetricBody.solid_cylinder, ("mass", "radius", "height")),
+    "thin_rod": (SymmetricBody.thin_rod, ("mass", "length")),
+    "sphere": (SymmetricBody.sphere, ("mass", "radius")),
+    "spherical_shell": (SymmetricBody.spherical_shell, ("mass", "radius")),
+    "spheroid": (SymmetricBody.spheroid, ("mass", "equatorial", "polar")),
+}
+"""Shapes by name: the constructor and the names of its dimensions."""
+
+
+def from_shape(name: str, **dimensions: Any) -> SymmetricBody:
+    """Make the body `SHAPES[name]` from its dimensions, all of them and no others."""
+    if name not in SHAPES:
+        raise AtlasError(f"There is no shape {name!r}; the shapes are {', '.join(SHAPES)}.")
+    constructor, names = SHAPES[name]
+    if set(dimensions) != set(names):
+        given = ", ".join(dimensions) or "nothing"
+        raise AtlasError(f"The shape {name} is given by {', '.join(names)}, not by {given}.")
+    return constructor(**dimensions)
+
+
+def _square(length: Any, name: str, *, zero: bool = False) -> float:
+    """Return the square of a length that must be positive (or may be zero)."""
+    given = number(length, name, LENGTH)
+    return 0.0 if zero and given == 0 else positive(given, name) * given
+
+
+def _cylinder(mass: Any, radius: Any, height: Any) -> tuple[float, float, float]:
+    """Return the mass and the squares of the radius and the height, which may be zero."""
+    squares = _square(radius, "The radius"), _square(height, "The height", zero=True)
+    return positive(mass, "The mass", MASS), *squares
+
+
+def _frame(axis: FloatArray) -> FloatArray:
+    """Complete the symmetry axis to a right-handed frame whose rows are e1, e2, e3 = axis."""
+    e3 = axis * np.sign(axis[np.argmax(np.abs(axis))])
+    e1 = np.eye(3)[np.argmin(np.abs(e3))]
+    e1 = e1 - (e1 @ e3) * e3
+    e1 /= np.linalg.norm(e1)
+    return np.array([e1, np.cross(e3, e1), e3])

@@ -1,0 +1,143 @@
+"""Constant fields as the user has them, and the laboratory frame of figure Lssc, in which the paper works."""
+
+from dataclasses import dataclass
+from dataclasses import field as attribute
+from typing import Any, Self
+
+import numpy as np
+
+from atlas.core.arithmetic.words import exact
+from atlas.core.bodies import units as unit_systems
+from atlas.core.inputs import FloatArray, finite, frozen, number, positive, real, vector, vectors
+from atlas.core.quantities import NO_FIELDS, RATE, SI_FIELDS
+from atlas.core.shown import called
+from atlas.errors import AtlasError, DomainError
+from atlas.formulas.numbers import cross, dot, nearest, root, unit, workprec
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Constant fields B and E that act on matter of charge-to-mass ratio mu, in any frame of the user.
+
+    `B`, `E` (3,); `mu` of either sign, or 0; `c` > 0, the speed of light where the units have it in the Lorentz force
+    (89) (Gaussian), 1 where not (SI); see `atlas.core.bodies.units`. Raises AtlasError for what is not finite, and
+    for c that is not positive.
+    """
+
+    B: FloatArray
+    E: FloatArray = (0.0, 0.0, 0.0)  # type: ignore[assignment]  # a sequence is made an array
+    mu: float = 1.0
+    c: float = 1.0
+    prime: FloatArray = attribute(init=False)
+    """B' = mu B/(2c), (32), shape (3,), in 1/time: for mu < 0 opposite to B."""
+
+    def __post_init__(self) -> None:
+        """Check the numbers, and make B'."""
+        object.__setattr__(self, "c", positive(self.c, "c"))
+        unit = SI_FIELDS if self.c == 1 else NO_FIELDS
+        object.__setattr__(self, "B", vector(self.B, "B", unit["B"]))
+        object.__setattr__(self, "E", vector(self.E, "E", unit["E"]))
+        object.__setattr__(self, "mu", number(self.mu, "mu", unit["mu"]))
+        object.__setattr__(self, "prime", frozen(unit_systems.prime(self.mu, self.B, self.c)))
+
+    def __repr__(self) -> str:
+        made = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
+        return f"{made}  # B' = {self.prime.tolist()}"
+
+    @classmethod
+    def si(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+        """Fields in SI: B in T, E in V/m, mu in C/kg; B' in rad/s.
+
+        Raises AtlasError as `Field` does.
+        """
+        return cls(B, E, mu, unit_systems.SI.c)
+
+    @classmethod
+    def gaussian(cls, B: Any, E: Any = (0.0, 0.0, 0.0), *, mu: float) -> Self:
+        """Fields in Gaussian units: B in G, E in statV/cm, mu in statC/g; B' in rad/s.
+
+        Raises AtlasError as `Field` does.
+        """
+        return cls(B, E, mu, unit_systems.GAUSSIAN.c)
+
+    def frame(self, axis: Any) -> "LaboratoryFrame":
+        """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0.
+
+        Raises AtlasError for an axis without a direction.
+        """
+        return LaboratoryFrame(axis, self.prime)
+
+
+@dataclass(frozen=True, eq=False)
+class LaboratoryFrame:
+    """Frame of figure Lssc: e3 along the body's axis at t = 0, B' in the plane of e2 and e3 with B2 >= 0, (32).
+
+    `axis` (3,), not zero; `B` (3,), the vector B' (for mu < 0 it is not B that has B2 >= 0, but B'), both in the
+    user's frame. Both are taken as exact, and whether they are parallel is decided exactly.
+
+    `alignment` names the case: `oblique`; `perpendicular` (B3 = 0); `parallel` and `antiparallel` (B2 = 0, B3 > 0 and
+    < 0) and `no field`, where the plane is not determined and e1 is taken from the user's axis farthest from e3. Raises
+    AtlasError for an axis or a field that is no vector.
+    """
+
+    axis: FloatArray
+    B: FloatArray
+    alignment: str = attribute(init=False)
+    field: tuple[float, float] = attribute(init=False)
+    """(B2, B3), each rounded once."""
+    matrix: FloatArray = attribute(init=False)
+    """(3, 3); the rows are e1, e2, e3 in the user's frame, each component rounded once."""
+
+    def __post_init__(self) -> None:
+        """Find the frame in rational numbers, where nearly parallel vectors lose no digits."""
+        axis, B = vector(self.axis, "The axis"), vector(self.B, "B", RATE)
+        n, b = exact(*axis), exact(*B)
+        n2, b2, along, across = dot(n, n), dot(b, b), dot(n, b), cross(b, n)
+        if n2 == 0:
+            raise DomainError("The axis of the body must have a direction, but is the zero vector.")
+        oblique = dot(across, across) != 0
+        if oblique:
+            alignment = "oblique" if along != 0 else "perpendicular"
+            e2 = [n2 * y - along * x for x, y in zip(n, b, strict=True)]
+        else:
+            alignment = "no field" if b2 == 0 else "parallel" if along > 0 else "antiparallel"
+            e1 = exact(*np.eye(3)[np.argmin(np.abs(axis))])
+            across = tuple(n2 * y - dot(n, e1) * x for x, y in zip(n, e1, strict=True))
+            e2 = list(cross(n, e1))
+        with workprec():
+            third = nearest(root(along * along / n2))
+            field = (nearest(root(dot(across, across) / n2)) if oblique else 0.0, -third if along < 0 else third)
+            matrix = np.array([[nearest(x) for x in unit(row)] for row in (across, e2, n)])
+        object.__setattr__(self, "axis", axis)
+        object.__setattr__(self, "B", B)
+        object.__setattr__(self, "alignment", alignment)
+        object.__setattr__(self, "field", finite(field, "A length or a frequency"))
+        object.__setattr__(self, "matrix", frozen(matrix))
+
+    def __repr__(self) -> str:
+        made = called("LaboratoryFrame", {"axis": self.axis, "B": self.B})
+        return f"{made}  # {self.alignment}, (B2, B3) = {self.field}"
+
+    def to_laboratory(self, v: Any) -> FloatArray:
+        """Components (..., 3) in the laboratory of vectors given in the user's frame.
+
+        Raises AtlasError for what are no vectors.
+        """
+        return vectors(v, "v") @ self.matrix.T
+
+    def to_user(self, v: Any) -> FloatArray:
+        """Components (..., 3) in the user's frame of vectors given in the laboratory.
+
+        Raises AtlasError for what are no vectors.
+        """
+        return vectors(v, "v") @ self.matrix
+
+    def rotation_to_user(self, R: Any) -> FloatArray:
+        """Rotations (..., 3, 3) that act on the user's components as R does on the laboratory's.
+
+        Raises AtlasError for what are no matrices.
+        """
+        rotations = real(R, "R")
+        if rotations.shape[-2:] != (3, 3):
+            raise AtlasError(f"R must be matrices (..., 3, 3), not of shape {rotations.shape}.")
+        return self.matrix.T @ rotations @ self.matrix

@@ -1,0 +1,157 @@
+"""Critical values of H and F of a charged body with three moments, at one b and one c = (M, K), theorem-bifurcation.
+
+They are the values of elliptic motions, a rational curve of the place z on v^2 = P = prod(z + D/I_i) with
+v of the sign of -c on the unbounded oval and of both signs on the bounded one,
+
+    F = -c P'/v - 2 b^2 z - e2 b^2,     2 D H = -2 c v - b^2 z^2 - z (F + e2 b^2),
+
+where K is real: s = sum K_i^2/(z + D/I_i) = -c/v lies between the least and the largest b^2/(z + D/I_i). It is at one
+of these bounds where K lies along an axis, in the values of a spin about that axis along the field, and there
+
+    c^2 (z + D/I_i) = b^4 (z + D/I_j) (z + D/I_k).
+
+Such a spin is stable if both roots z are real and above -D/I_i, theorem-splitting; where they are complex its values
+stand alone. All is in plain floats and serves figures; it certifies nothing.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from atlas.core.bodies.inertia import inertia_tensor
+from atlas.core.inputs import FloatArray, number, positive, vector
+from atlas.errors import DomainError
+from atlas.formulas.elliptic import split
+
+Oval = Literal["bounded", "unbounded"]
+
+
+ROUNDS, LOOKS = 60, 400
+"""Bisections for a border of stability, and places of a stretch between which one is looked for."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Elliptic motions from one place z of an oval to another, v of the sign `branch`, all stable or all unstable."""
+
+    oval: Oval
+    branch: int
+    low: float
+    high: float
+    stable: bool
+
+
+@dataclass(frozen=True)
+class Spin:
+    """A spin about a principal axis, 0 to 2, along the field: its values, and what neighbours do."""
+
+    axis: int
+    F: float
+    H: float
+    kind: Literal["stable", "saddle", "focus-focus"]
+
+
+class Bifurcation:
+    """The critical values of a body `inertia` (I1, I2, I3), all different, at b > 0 and c not 0.
+
+    Raises DomainError for moments that no body has or of which two are equal, and for c = 0, where the curve is three
+    straight lines and a parabola.
+    """
+
+    def __init__(self, inertia: Any, b: float, c: float) -> None:
+        self.inertia = vector(inertia, "inertia")
+        inertia_tensor(self.inertia)
+        self.b, self.c = positive(b, "b"), number(c, "c")
+        if len(set(self.inertia)) < 3:
+            raise DomainError(f"Two of the moments {self.inertia.tolist()} are equal: give three different ones.")
+        if self.c == 0:
+            raise DomainError("c = (M, K) must not be 0.")
+        self.D = float(self.inertia.prod())
+        self.a = self.D / self.inertia
+        self.e2 = float(self.a.sum())
+
+    def values(self, z: FloatArray, branch: int) -> FloatArray:
+        """Return F and H, shape (N, 2), of the elliptic motions at places z (N,)."""
+        P, first, _ = self._cubic(z)
+        v, square = branch * np.sqrt(P), self.b * self.b
+        linear = -self.c * first / v - 2 * square * z
+        H = -(2 * self.c * v + square * z * z + z * linear) / (2 * self.D)
+        return np.stack([linear - self.e2 * square, H], axis=-1)
+
+    def splitting(self, z: FloatArray, branch: int) -> FloatArray:
+        """Return C/D^2, whose sign decides on stability, theorem-splitting."""
+        v = branch * np.sqrt(self._cubic(z)[0])
+        return np.asarray(split(tuple(self.inertia), self.b * self.b, -self.c / v, z))
+
+    def _cubic(self, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return P, P' and the z + D/I_i, shape (N, 3)."""
+        x = np.asarray(z)[..., None] + self.a
+        first, second, third = np.moveaxis(x, -1, 0)
+        return np.maximum(first * second * third, 0.0), first * second + second * third + third * first, x
+
+    def _roots(self, axis: int) -> NDArray[np.complex128]:
+        """Return the places (2,), complex perhaps, at which the curve has the values of a spin about an axis."""
+        own, (j, k), fourth = self.a[axis], (self.a[axis - 1], self.a[axis - 2]), self.b**4
+        return np.asarray(np.roots([fourth, fourth * (j + k) - self.c**2, fourth * j * k - self.c**2 * own]), complex)
+
+    @cached_property
+    def spins(self) -> tuple[Spin, ...]:
+        """The spins about the three axes."""
+        found = []
+        for axis, (I, own) in enumerate(zip(self.inertia, self.a, strict=True)):
+            roots, turn = self._roots(axis), self.c / self.b
+            F, H = turn * turn - self.b**2 * own, (turn * turn / I + I * self.b**2) / 2
+            real = bool(np.isreal(roots).all())
+            kind = "focus-focus" if not real else "stable" if (roots.real > -own).all() else "saddle"
+            found.append(Spin(axis, float(F), float(H), kind))  # type: ignore[arg-type]  # one of the three
+        return tuple(found)
+
+    def stretches(self) -> Iterator[Stretch]:
+        """Yield the parts of both ovals on which K is real."""
+        low, middle, high = np.sort(-self.a)
+        roots = np.concatenate([self._roots(axis) for axis in range(3)])
+        places = np.sort(roots[np.isreal(roots)].real)
+        sides: tuple[tuple[Oval, int, list[float]], ...] = (
+            ("unbounded", int(-np.sign(self.c)), [high, *places[places > high]]),
+            ("bounded", 1, [low, *places[(places > low) & (places < middle)], middle]),
+            ("bounded", -1, [low, *places[(places > low) & (places < middle)], middle]),
+        )
+        for oval, branch, ends in sides:
+            for start, stop in pairwise(ends):
+                P, _, x = self._cubic(np.array((start + stop) / 2))
+                s = -self.c / (branch * float(np.sqrt(P)) * self.b**2)
+                if start < stop and (1 / x).min() <= s <= (1 / x).max():
+                    borders = [float(start), *self._borders(start, stop, branch), float(stop)]
+                    for one, other in pairwise(borders):
+                        stable = bool(self.splitting(np.array((one + other) / 2), branch) > 0)
+                        yield Stretch(oval, branch, one, other, stable)
+
+    def _borders(self, start: float, stop: float, branch: int) -> list[float]:
+        """Return the places between two others where stability changes: the cusps of the curve."""
+        z = start + (stop - start) * np.sin(np.linspace(0, np.pi / 2, LOOKS + 2)[1:-1]) ** 2
+        stable = self.splitting(z, branch) > 0
+        found = []
+        for k in np.flatnonzero(stable[1:] != stable[:-1]):
+            low, high = z[k], z[k + 1]
+            for _ in range(ROUNDS):
+                middle = (low + high) / 2
+                if bool(self.splitting(middle, branch) > 0) == stable[k]:
+                    low = middle
+                else:
+                    high = middle
+            found.append(float(high))
+        return found
+
+    @property
+    def rest(self) -> FloatArray | None:
+        """Values (F, H) of the body at rest, c > 0, or with Omega = -2 K, c < 0; None if it has none at this c."""
+        moment = abs(self.c) / self.b**2
+        if not self.inertia.min() <= moment <= self.inertia.max():
+            return None
+        (found,) = self.values(np.zeros(1), int(-np.sign(self.c)))
+        return np.asarray(found)

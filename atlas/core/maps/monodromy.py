@@ -1,0 +1,139 @@
+"""Monodromy of a symmetric top: what becomes of the periods on a loop round a focus-focus value, theorem-residue.
+
+At regular values of (M3, p, g) the motion lies on a torus. Its periods are the lattice of all (s, t, u) for which the
+turn by s about n, the turn by t about the body's axis and the motion for the time u, one after the other, bring the
+top back. A basis is
+
+    g1 = (2 pi, 0, 0),     g2 = (0, 2 pi, 0),     g3 = (-Delta psi, -Delta chi, T),
+
+T the period of nutation and Delta psi, Delta chi the angles of precession and spin in it. g1 and g2 are the same
+everywhere; g3 continued along a loop comes back as another vector of the lattice. Not in the paper.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.core.inputs import FloatArray, whole
+from atlas.core.maps.wells import Wells
+from atlas.errors import DomainError, NotCertifiedError
+from atlas.exact.motions.top import TopMotion
+from atlas.formulas.numbers import workprec
+
+PRECISION = 128
+"""Binary digits of the balls of period and angles."""
+
+
+@dataclass(frozen=True, eq=False)
+class Monodromy:
+    """What became of the lattice of periods on one loop."""
+
+    p: FloatArray
+    g: FloatArray
+    """The loop in the plane of p and g, arrays (N + 1,) whose last point is the first, at one M3."""
+    period: FloatArray
+    """T on it."""
+    turns: FloatArray
+    """Delta psi and Delta chi over 2 pi, continued along the loop, shape (N + 1, 2)."""
+    step: float
+    """The largest change of a turn between neighbours, below 1/2: what continuing from one to the next rests on."""
+    radius: float
+    """The largest radius of the balls of the turns."""
+
+    @property
+    def matrix(self) -> tuple[tuple[int, int, int], ...]:
+        """Rows of the new g1, g2, g3 in the old."""
+        m, n = (round(float(x)) for x in self.turns[-1] - self.turns[0])
+        return (1, 0, 0), (0, 1, 0), (-m, -n, 1)
+
+
+def monodromy(
+    I: float,
+    coupling: tuple[float, float],
+    M3: float,
+    loop: FloatArray,
+    linear: float = 0.0,
+    quadratic: float = 0.0,
+) -> Monodromy:
+    """Carry the periods of a top round a `loop` (N, 2) of values (p, g) at one M3, closed by its first point.
+
+    `I` = I3/I2, `coupling` = (k2/I2, k3/I2), `linear` and `quadratic` over I2 as in `TopMotion`. Period and angles are
+    balls, formed at each point from the theta functions; between neighbours the angles are continued to the nearest.
+    Raises DomainError for a value that no motion has, or that is critical, and for a loop so coarse that an angle
+    changes by more than a quarter of a turn in one step: give it more points, or keep it from critical values.
+    NotCertifiedError where the balls tell nothing.
+    """
+    wells = Wells.at(M3, I, coupling, linear, quadratic)
+    whole(len(loop), "The number of points", 3)
+    rows = []
+    with workprec(PRECISION):
+        for p, g in loop.tolist():
+            top = TopMotion((1.0, I), coupling, *state(wells, p, g, I, coupling), linear, quadratic)
+            if not top.kind.startswith(("nutation", "regular")):
+                raise DomainError(f"At p = {p:g}, g = {g:g} the motion is a {top.kind}: a loop keeps off such values.")
+            rows.append((top.period, top.precession_per_period, top.spin_per_period))
+            if not all(x.is_finite() for x in rows[-1]):
+                raise NotCertifiedError(f"not certified: the periods of the motion at p = {p:g}, g = {g:g}.")
+        T, turn, step = [float(row[0]) for row in rows], 2 * arb.pi(), 0.0
+        turns = [(rows[0][1] / turn, rows[0][2] / turn)]
+        for _, *angles in [*rows[1:], rows[0]]:
+            fresh = []
+            for before, angle in zip(turns[-1], angles, strict=True):
+                here = angle / turn
+                here -= round(float(here - before))
+                step = max(step, float(abs(here - before).upper()))
+                fresh.append(here)
+            turns.append((fresh[0], fresh[1]))
+        if not step < 1 / 4:
+            raise DomainError(
+                f"An angle changes by {step:.3g} of a turn from one point of the loop to the next: give more points."
+            )
+        radius = max(float(x.rad()) for row in turns for x in row)
+    closed = np.concatenate([loop, loop[:1]])
+    return Monodromy(
+        closed[:, 0], closed[:, 1], np.array([*T, T[0]]), np.array([[float(x) for x in row] for row in turns]),
+        step, radius,
+    )  # fmt: skip
+
+
+def state(wells: Wells, p: float, g: float, I: float, coupling: tuple[float, float]) -> tuple[Any, Any]:
+    """Return a direction (n2, n3) and an angular velocity that have these values, as near as floats are."""
+    k2, k3 = coupling
+    nu = np.linspace(-1.0, 1.0, 2001)[1:-1]
+    depth = (g - wells.potential(p, nu)) * (1 - nu) * (1 + nu)
+    best = int(np.argmax(depth))
+    if not depth[best] > 0:
+        raise DomainError(f"No motion has p = {p:g} and g = {g:g} at M3 = {wells.M3:g}.")
+    r = float(nu[best])
+    s = float(np.sqrt((1 - r) * (1 + r)))
+    omega = float(np.sqrt(depth[best])) / s, (p - wells.M3 * r) / s - k2 * s, (wells.M3 - k3 * r) / I
+    return (s, r), omega
+
+
+def around(wells: Wells, p: float, points: int = 48) -> FloatArray:
+    """Return a loop (points, 2) of regular values (p, g), counter-clockwise, round the one at p and g = a + A.
+
+    It is an ellipse with half the room that the least energies of all motions leave it, below and to both sides.
+    Raises DomainError where there is no room, for then the value is no isolated one.
+    """
+    g = float(wells.energy(np.sign(p * wells.M3) or 1.0, 0.0))
+    nu = np.linspace(-1.0, 1.0, 2001)[1:-1]
+
+    def room(x: float) -> float:
+        return g - float(np.min(wells.potential(x, nu)))
+
+    if not room(p) > 0:
+        raise DomainError(f"The value p = {p:g}, g = {g:g} at M3 = {wells.M3:g} is no isolated one: D is not negative.")
+    widths = []
+    for sense in (1, -1):
+        near, far = 0.0, 1.0
+        while room(p + sense * far) > 0:
+            near, far = far, 2 * far
+        for _ in range(40):
+            middle = (near + far) / 2
+            near, far = (middle, far) if room(p + sense * middle) > 0 else (near, middle)
+        widths.append(near)
+    t = 2 * np.pi * (np.arange(points) + 0.5) / points
+    return np.stack([p + min(widths) / 2 * np.cos(t), g + room(p) / 2 * np.sin(t)], axis=-1)

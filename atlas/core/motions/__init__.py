@@ -1,0 +1,1 @@
+"""Motions: one file a family, and what they share."""

@@ -1,0 +1,275 @@
+"""Any motion of a charged body with three different moments of inertia (not in the paper)."""
+
+from collections.abc import Callable
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.core.arithmetic.rotation import target
+from atlas.core.inputs import FloatArray, components, finite, kept, plain, real
+from atlas.core.motions.certified import Certified
+from atlas.core.motions.clebsch_theta import ThetaKernel, closed_form
+from atlas.core.motions.motion import Motion
+from atlas.core.quantities import INERTIA, RATE
+from atlas.errors import AtlasError, NotCertifiedError
+from atlas.exact.digits import enclosed
+from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
+from atlas.formulas.numbers import workprec
+
+BITS = 60
+"""Relative accuracy of a frequency before it is rounded, once."""
+
+KEPT = 16
+"""Motions that are kept with what was found of them."""
+
+CHECKED = (5.3, -61.7, 2.9e5, -8.1e11)
+"""Times, over the largest rate, at which a closed form is held against the certified twin; the last if it is proved."""
+
+WORST = 1e-14
+"""Largest difference from it."""
+
+
+class SingleAsymmetric:
+    """One motion: the closed form where there is one, else matrices and vectors from balls, rounded once."""
+
+    def __init__(self, exact: Balls) -> None:
+        self.exact = exact
+        self.size = max(float(abs(arb(x)).upper()) for x in (*exact.field, *exact.omega)) or 1.0
+        self.certified = Certified(exact, self.size)
+
+    @cached_property
+    def _choice(self) -> tuple[ThetaKernel | None, str]:
+        """The closed form if there is one, and what is known of its truth, or why there is none."""
+        try:
+            closed = closed_form(self.exact, self.size)
+            times = CHECKED if closed.proved is None else CHECKED[-1:]
+            worst = max(self._difference(closed, t / self.size) for t in times)
+        except NotCertifiedError as reason:
+            return None, f"certified at each time: {str(reason).removeprefix('not certified: ')}"
+        if not worst <= min(closed.accuracy, WORST):
+            return None, f"certified at each time: theta functions differ from the certified twin by {worst:.1e}."
+        known = (
+            f"not proved; agrees with the certified twin within {worst:.1e} at {len(times)} times up to |t| = "
+            f"{max(map(abs, times)) / self.size:.3g}"
+            if closed.proved is None
+            else f"proved for this motion, at all times within {closed.proved:.1e}"
+        )
+        return closed, f"{known}; rounding adds {closed.accuracy:.1e} at most"
+
+    def _difference(self, closed: ThetaKernel, t: float) -> float:
+        """Return how far the closed form is from the certified twin at a time."""
+        pairs = (
+            (x.rotation(t), x.field_in_body(t) / self.size, x.angular_velocity(t) / self.size)
+            for x in (closed, self.certified)
+        )
+        return float(max(np.abs(x - y).max() for x, y in zip(*pairs, strict=True)))
+
+    @property
+    def closed(self) -> ThetaKernel | None:
+        """The closed form by theta functions, where there is one that agrees with the certified twin."""
+        return self._choice[0]
+
+    @property
+    def theta(self) -> ThetaKernel:
+        """The closed form; AtlasError where there is none."""
+        if self.closed is None:
+            raise AtlasError(f"The motion has no closed form; it is {self.agreement}")
+        return self.closed
+
+    @property
+    def agreement(self) -> str:
+        """What is known of the truth of the closed form, or why there is none."""
+        return self._choice[1]
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+        return self._started("rotation", np.eye(3), t, out)
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
+        return self._started("column", np.eye(3)[j - 1], t, out, j)
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t), shape (..., 3)."""
+        return self._started("angular_velocity", _floats(self.exact.omega), t, out)
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K(t), shape (..., 3)."""
+        return self._started("field_in_body", _floats(self.exact.field), t, out)
+
+    def _started(self, name: str, start: FloatArray, t: Any, out: FloatArray | None, *which: int) -> FloatArray:
+        """Return the values of a function of time, which is known at zero, without a closed form."""
+        known = np.asarray(real(t, "The time") == 0)
+        if known.all():
+            found = target(out, known.shape + start.shape)
+        else:
+            found = getattr(self.closed or self.certified, name)(*which, t, out)
+        found[known] = start
+        return found
+
+
+@lru_cache(maxsize=KEPT)
+def _single(*row: float) -> SingleAsymmetric:
+    """Return a motion; those made last are kept, since a sweep asks for the same one at many times."""
+    return SingleAsymmetric(Balls(row[:3], row[3:6], row[6:]))
+
+
+def forget() -> None:
+    """Forget the motions that are kept."""
+    _single.cache_clear()
+
+
+class AsymmetricMotion(Motion[SingleAsymmetric]):
+    """Motion R(t), R(0) = 1, of a charged body of any inertia tensor, from any start (not in the paper).
+
+    `inertia` (I1, I2, I3), the principal moments; `field` (B1, B2, B3), the components of B' in the principal axes at
+    t = 0, and `omega` (omega1, omega2, omega3), the initial angular velocity there, in 1/time. The inputs are taken as
+    exact and broadcast with one another and with t. The body is Clebsch's case, theorem-clebsch: M and K move on a
+    torus with two commuting flows. Their periods are found by integrals between branch points and proved by Newton's
+    method in balls; times are reduced modulo them, and Taylor series with a proven remainder do the rest. `kind` is
+
+    - "at rest", "spin about an axis"; "ball" and "symmetric body", which `GeneralMotion` answers; "Euler's top", free;
+    - "on a torus": any other; "elliptic motion", where the torus shrinks to a curve, see `EllipticMotion`;
+    - "on the discriminant": other states without two periods, for which there is an answer up to a time that the error
+      states.
+
+    On a torus M, K and the attitude are quotients of theta functions of two variables: a second for the first time that
+    is asked for, then two or three microseconds each, however long. That they are is proved for each motion, see
+    `atlas.exact.motions.clebsch_proof`; where no proof is found they are held against the certified twin at a few
+    times. `agreement` says which, and `accuracy` bounds what rounding adds. Where there is no closed form, or it
+    differs, and for other kinds, every value is proved and rounded once, in tenths of a second each. For proven digits
+    see `atlas.exact`. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
+    others; NotCertifiedError, an AtlasError, for what cannot be proved; AtlasError for what is no finite number.
+
+        >>> atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), omega=(0.3, 0.7, 0.2)).kind
+        'on a torus'
+    """
+
+    family = "asymmetric"
+
+    def __init__(self, inertia: Any, field: Any, omega: Any) -> None:
+        parts = [
+            *components(inertia, ("I1", "I2", "I3"), "The inertia", INERTIA),
+            *components(field, ("B1", "B2", "B3"), "The field", RATE),
+            *components(omega, ("omega1", "omega2", "omega3"), "The initial angular velocity", RATE),
+        ]
+        super().__init__(_single, *parts)
+        self._turnings  # noqa: B018  what is no motion is refused here
+        self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
+        self.arguments = {"inertia": self.inertia, "field": self.field, "omega": self.omega}
+
+    @kept
+    def kind(self) -> Any:
+        """Name of the kind of motion, a string, or an array of them."""
+        return self._of_each(lambda one: one.exact.kind)
+
+    @kept
+    def H(self) -> Any:
+        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K), theorem-lie-poisson. DomainError beyond all floats."""
+        return finite(self._of_each(lambda one: _float(one.exact.H)), "H")
+
+    @kept
+    def F(self) -> Any:
+        """Clebsch's F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch. DomainError beyond all floats."""
+        return finite(self._of_each(lambda one: _float(one.exact.F)), "F")
+
+    @kept
+    def MK(self) -> Any:
+        """The Casimir (M, K), |B'| times the canonical momentum along B. DomainError beyond all floats."""
+        return finite(self._of_each(lambda one: _float(one.exact.MK)), "(M, K)")
+
+    @kept
+    def energy(self) -> Any:
+        """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy. DomainError beyond all floats."""
+        return finite(self._of_each(lambda one: _float(one.exact.energy)), "The energy")
+
+    @kept
+    def agreement(self) -> Any:
+        """What is known of the truth of the closed form, or why there is none: a sentence, or an array of them."""
+        return self._of_each(lambda one: one.agreement)
+
+    @kept
+    def accuracy(self) -> Any:
+        """Bound on errors of entries of R, and of Omega and K beside the largest rate, at any time.
+
+        In closed form it is that of rounding, to first order, proved in cells that cover the torus, if exponentials and
+        sines of the library are within an ulp; errors that were seen are some ten times smaller. Where `agreement` says
+        that the formulas are not proved, it bounds rounding alone. Else it is that of a value that is rounded once.
+        """
+        return self._of_each(lambda one: one.closed.accuracy if one.closed else 2.0**-52)
+
+    @kept
+    def frequencies(self) -> Any:
+        """Angular frequencies (f1, f2, f3) of a motion on a torus, shape (..., 3), each rounded once from proven balls.
+
+        M and K turn with f1 and f2, and R with f3 about B besides. Which basis f1, f2 are is a choice, and f3 is one
+        but for integer multiples of them: in a period the body turns by at most half a turn about B beside -B'.
+        Raises DomainError for other motions.
+        """
+        found = self._of_each(lambda one: [_float(x) for x in enclosed(lambda: one.exact.frequencies, BITS)])
+        return np.asarray(finite(np.array(found), "A frequency"))
+
+    @kept
+    def riemann_matrix(self) -> Any:
+        """Riemann matrix tau of the torus of type (1, 2), symmetric with Im tau > 0, shape (..., 2, 2).
+
+        It is Siegel-reduced, so that theta series need few terms, and not proved; a part below 1e-35, which symmetry
+        makes zero, is shown as zero. Raises AtlasError for motions without
+        closed form.
+        """
+        return np.asarray(self._of_each(lambda one: one.theta.riemann_matrix))
+
+    def _of_each(self, value: Callable[[SingleAsymmetric], Any]) -> Any:
+        """Return one value for each motion: plain for one motion, else an array."""
+        if self._turning:
+            return value(self._turning)
+        found = np.array([value(one) for one in self._turnings])
+        return found.reshape(self.shape + found.shape[1:])
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
+        """
+        return self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,))
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
+        """
+        return self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,))
+
+    def angular_momentum(self, t: Any) -> FloatArray:
+        """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
+
+        Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
+        """
+        m = self.angular_velocity(t) * np.stack(np.broadcast_arrays(*self.inertia), -1)
+        return np.asarray(finite(np.matvec(self.rotation(t), m), "m"))
+
+    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
+        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), one by one."""
+        motions = np.broadcast_to(np.arange(len(self._turnings)).reshape(own), times.shape).ravel()
+        for i, one in enumerate(self._turnings):
+            places = np.flatnonzero(motions == i)
+            out[places] = evaluate(one, times.flat[places], None)
+
+    def _fill_grid(self, turning: SingleAsymmetric, start: float, step: float, out: FloatArray) -> None:
+        """Fill the matrices of one motion on a grid, at exact times."""
+        (turning.closed or turning.certified).fill_grid(start, step, out)
+        if step and (start / step).is_integer() and 0 <= -start / step < len(out):
+            out[round(-start / step)] = np.eye(3)
+
+
+def _float(x: Any) -> float:
+    """Return the float nearest to a rational number."""
+    with workprec():
+        return float(arb(x).mid())
+
+
+def _floats(vector: Any) -> FloatArray:
+    """Return the floats nearest to rational numbers."""
+    return np.array([_float(x) for x in vector])

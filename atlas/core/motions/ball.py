@@ -1,0 +1,87 @@
+"""General motion of a charged ball, (20) to (30)."""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.arithmetic.double_double import over
+from atlas.core.arithmetic.rotation import DoubleRotation
+from atlas.core.arithmetic.turnings import Group
+from atlas.core.arithmetic.words import ONE, ZERO, exact
+from atlas.core.inputs import FloatArray, components, kept, plain, real
+from atlas.core.motions.motion import Motion
+from atlas.core.quantities import INERTIA, MOMENTUM, RATE
+from atlas.errors import DomainError
+from atlas.formulas.ball import rates, turning
+from atlas.formulas.numbers import alone, direction, workprec
+
+
+class Ball(DoubleRotation):
+    """One ball: R = R_z(-alpha t) R_k(-gamma t), the transposed of R_k(gamma t) R_z(alpha t), (28)."""
+
+    def __init__(self, inertia: float, larmor: float, m2: float, m3: float) -> None:
+        with workprec():
+            along, gamma, alpha = turning(*exact(inertia, larmor, m2, m3))
+            # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
+            axis = (ZERO, *direction(along)) if gamma != 0 else (ZERO, ZERO, -ONE)
+        self.vectors = {"m": (0.0, m2, m3), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
+        super().__init__(axis, gamma, alpha, inverse=True)
+
+
+class BallMotion(Motion[Ball]):
+    """Motion of a ball with the field along e3 and m(0) = (0, m2, m3): R = R_z(-alpha t) R_k(-gamma t), (28).
+
+    `inertia` I0 > 0; `larmor` alpha = mu |B|/(2c), (27), of either sign, in 1/time; `momentum` (m2, m3) in
+    inertia/time. Arrays broadcast; the inputs are taken as exact. The frame is that of Figure Ball, e3 along the field
+    and m(0) in the plane (e2, e3), not that of the symmetric body. For m2 = 0 the two turns are one, (30). Raises
+    DomainError for an inertia that is not positive, AtlasError for what is no number.
+
+        >>> round(atlas.BallMotion(1.0, 0.5, momentum=(0.3, -0.7)).gamma, 9)
+        0.360555128
+    """
+
+    family = "ball"
+    _unit = slice(1, None)
+    _inverse = True
+
+    def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
+        m2, m3 = components(momentum, ("m2", "m3"), "The momentum", MOMENTUM)
+        inertia = real(inertia, "The inertia", INERTIA)
+        if (inertia <= 0).any():
+            raise DomainError(f"The inertia of a ball must be positive, not {inertia.min()}.")
+        larmor = real(larmor, "The Larmor frequency", RATE)
+        super().__init__(Ball, inertia, larmor, m2, m3)
+        self.larmor = plain(larmor)
+        self.arguments = {"inertia": plain(inertia), "larmor": self.larmor, "momentum": (plain(m2), plain(m3))}
+
+    @kept
+    def gamma(self) -> Any:
+        """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, (29)."""
+        return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._unit)
+
+    @kept
+    def k_hat(self) -> tuple[Any, Any]:
+        """Axis (k2, k3) of (29); (0, -1) where gamma = 0, and (29) is 0/0."""
+        k2, k3 = over(lambda *inputs: direction(turning(*inputs)[0]), *self._inputs, unit=self._unit, degree=(0, 0))
+        return k2, plain(np.where(self.gamma == 0, -1.0, k3))
+
+    def angular_momentum(self, t: Any) -> FloatArray:
+        """Angular momentum m(t) = (m2 sin alpha t, m2 cos alpha t, m3) in the laboratory, (26); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return self._spread(lambda one, t, out: one.swung(one.vector("m"), t, out), t, (3,))
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below (25); shape (..., 3).
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return self._spread(lambda one, t, out: one.turned(one.vector("Omega"), t, out), t, (3,))
+
+    def _groups(self) -> list[Group]:
+        return [(turning, slice(None), self._inputs)]
+
+    def _vectors(self) -> dict[str, Any]:
+        inertia, _, m2, m3 = self._inputs
+        return {"m": (0.0, m2, m3), "Omega": (0.0, *over(rates, inertia, m2, m3, unit=slice(1, None), degree=(1, 1)))}

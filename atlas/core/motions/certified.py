@@ -1,0 +1,84 @@
+"""Matrices and vectors of one motion from balls: each value is proved, and rounded once."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from flint import arb
+
+from atlas.core.arithmetic.rotation import target
+from atlas.core.inputs import FloatArray, real
+from atlas.errors import AtlasError, NotCertifiedError
+from atlas.exact.digits import numbers
+from atlas.exact.inputs import rational
+from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.formulas.numbers import workprec
+
+FIRST = 80
+"""Binary digits with which a matrix is computed first, and of which all but a few are proven as a rule."""
+
+REACH = 2.0**50
+"""Largest phase: that of the last time that a float tells from its neighbours."""
+
+NARROW = 2.0**-58
+"""Radius of a ball that is rounded, beside 1 or beside the largest rate."""
+
+
+class Certified:
+    """Matrices and vectors of one motion from balls, each rounded once."""
+
+    def __init__(self, exact: AsymmetricMotion, size: float) -> None:
+        self.exact, self.size = exact, size
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+        return self._filled(self.exact.rotation, t, (3, 3), 1.0, out)
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
+        return self._filled(lambda t: self.exact.column(j, t), t, (3,), 1.0, out)
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t), shape (..., 3)."""
+        return self._filled(self.exact.angular_velocity, t, (3,), self.size, out)
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K(t), shape (..., 3)."""
+        return self._filled(self.exact.field_in_body, t, (3,), self.size, out)
+
+    def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
+        """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
+        first, further = rational(start, "The start"), rational(step, "The step")
+        for i, matrix in enumerate(out):
+            matrix[...] = rounded(lambda i=i: self.exact.rotation(first + i * further), 1.0).reshape(3, 3)  # type: ignore[misc]
+
+    def _filled(
+        self, function: Callable[[Any], Any], t: Any, shape: tuple[int, ...], size: float, out: FloatArray | None
+    ) -> FloatArray:
+        """Return the values of a function at times of any shape."""
+        times = real(t, "The time")
+        if times.size and not np.abs(times).max() * self.size <= REACH:
+            raise AtlasError(
+                f"A time is {np.abs(times).max()}, but |t| may be {REACH / self.size:.6g} at most, where a phase "
+                "reaches 2^50 and is lost."
+            )
+        out = target(out, times.shape + shape)
+        rows = out.reshape(times.size, *shape)
+        for row, at in zip(rows, times.flat, strict=True):
+            row[...] = rounded(lambda at=at: function(float(at)), size).reshape(shape)  # type: ignore[misc]
+        return out
+
+
+def rounded(function: Callable[[], Any], size: float) -> FloatArray:
+    """Return the floats nearest to balls that are made ever more precisely until they are narrow beside a size."""
+    precision = FIRST
+    while True:
+        try:
+            with workprec(precision):
+                values = [arb(x) for x in numbers(function())]
+                if all(x.is_finite() and float(x.rad()) <= NARROW * size for x in values):
+                    return np.array([float(x.mid()) for x in values])
+        except NotCertifiedError:  # with so few digits
+            if precision > FIRST:
+                raise
+        precision *= 2

@@ -1,0 +1,219 @@
+"""The motion of a body with three moments by theta functions, at many times.
+
+Times go to two phases of the torus and one about the field, each reduced to less than a turn without loss; on the torus
+M, K and N = S^T (e_x + i e_y) are quotients of sums of exponentials, see `atlas.exact.motions.theta_sums`. With x the
+phases in turns, n the whole ones that are left out of f t, and theta_k the angles of the periods,
+
+    R^T (e_x + i e_y) = exp(i alpha) exp(-i theta x) N(x),    alpha = (theta f - b) t.
+"""
+
+from collections.abc import Callable
+from itertools import chain
+from typing import Any
+
+import numpy as np
+from flint import acb, arb
+
+from atlas.core.arithmetic.grid import check_grid
+from atlas.core.arithmetic.phase import EVEN, Phases, room
+from atlas.core.arithmetic.words import TURN, middle
+from atlas.core.inputs import FloatArray
+from atlas.core.motions.clebsch_rounding import Rounding
+from atlas.core.nutation.cayley_klein import BLOCK, combined, evaluate
+from atlas.core.nutation.grid import moments
+from atlas.errors import NotCertifiedError
+from atlas.exact.motions.asymmetric import AsymmetricMotion
+from atlas.exact.motions.clebsch_periods import complex_of
+from atlas.exact.motions.clebsch_proof import HALF, distances
+from atlas.exact.motions.clebsch_theta import ThetaMotion, frame
+from atlas.exact.motions.theta_sums import Array, Sums
+from atlas.exact.motions.torus import Period, Torus
+from atlas.formulas.numbers import workprec
+
+PART = 768
+"""Times whose sums are made at once, so that they stay in the second-level cache."""
+
+UPPER = 24
+"""Binary digits of upper words of angles and of their factors: sums of two of their products are exact."""
+
+CUT = np.array(1.5 * 2.0 ** (52 - UPPER))
+"""Adding and subtracting it rounds to 2^-24."""
+
+BITS = 200
+"""Precision of the constants."""
+
+PERIODS = 128
+"""Bits to which the real periods are proved: those that the certified twin needs, too."""
+
+PROVED = 2.0**-54
+"""Largest bound on errors of the formulas that is a proof of them."""
+
+NOTHING = 1e-35
+"""Parts of the Riemann matrix below it are shown as zero: they are known to some forty digits."""
+
+LOST = 2e-13
+"""Largest bound on rounding errors: those that are seen are some twenty times smaller."""
+
+
+class ThetaKernel:
+    """R, K and W = II^-1 M of one motion at many times; `periods` are those of its torus, `rate` the unit 1/time.
+
+    `proved` bounds what its formulas, without rounding, are wrong by at any time; None where there is no proof.
+    """
+
+    def __init__(self, theta: ThetaMotion, periods: tuple[Period, Period], rate: float, size: float) -> None:
+        with workprec(BITS):
+            motion, X = theta.motion, theta.X.inv()
+            area = periods[0].H * periods[1].F - periods[0].F * periods[1].H
+            f = [periods[1].F / area, -periods[0].F / area]
+            into = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
+            lines = [theta.l[0] * into[0][k] + theta.l[1] * into[1][k] for k in range(2)]
+            # the angles of the periods are known but for whole turns: those nearest to what N turns by
+            angles = [
+                p.angle + TURN * round(float(((x.real - p.angle) / TURN).mid()))
+                for p, x in zip(periods, lines, strict=True)
+            ]
+            self.b = arb(motion.square).sqrt()
+            about = angles[0] * f[0] + angles[1] * f[1] - self.b
+            self.frequencies = [x * arb(rate) for x in (TURN * f[0], TURN * f[1], about)]
+            self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
+            turning = [(x - a) / arb.pi() for x, a in zip(lines, angles, strict=True)]
+            ways = [[2 * x for x in into[0]], into[1], turning]
+            rounded: Array = np.array([[complex_of(x) for x in row] for row in ways])
+            unit = 2.0 ** (np.ceil(np.log2(abs(rounded).max())) - UPPER)
+            self.upper: Array = np.round(rounded / unit) * unit
+            lower = [complex_of(x - acb(y)) for x, y in zip(chain(*ways), self.upper.flat, strict=True)]
+            self.lower: Array = np.reshape(lower, (3, 2))
+            start = (2 * theta.start[0], theta.start[1])
+            *forms, M1, M2, M3 = theta.forms
+            W = [x.over(I) for x, I in zip((M1, M2, M3), motion.moments, strict=True)]
+            line = np.linspace(-HALF * np.pi, HALF * np.pi, 13)
+            region = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
+            self.sums = Sums(theta.hat, [*forms, *W], start, rounded[:2] @ region)
+            ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
+            n = [float((x / arb(motion.square)).mid()) for x in theta.field]
+        self.rate, self.size = rate, size / rate
+        self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
+        self.rounding = Rounding(self.sums, rounded[:2], rounded[2], float(self.b.mid()), self.size)
+        self.accuracy = self.rounding.accuracy()
+        self.proved: float | None = None
+        tau = np.array([[complex_of(theta.tau[i, j]) for j in range(2)] for i in range(2)])
+        self.riemann_matrix = np.where(abs(tau.real) < NOTHING, 0, tau.real) + 1j * np.where(
+            abs(tau.imag) < NOTHING, 0, tau.imag
+        )
+
+    def prove(self, theta: ThetaMotion, torus: Torus, periods: tuple[Period, Period]) -> None:
+        """Prove the closed form for this motion, if that can be done: see `atlas.exact.motions.clebsch_proof`."""
+        try:
+            M, K, N = distances(theta, torus, periods)
+        except NotCertifiedError:
+            return
+        error = max(N + K / float(self.b.mid()), (K + M / float(arb(min(torus.moments)).mid())) / self.size)
+        self.proved = error if error <= PROVED else None
+
+    def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return R(t), shape (..., 3, 3)."""
+        return evaluate(t, (3, 3), out, lambda _: self._attitude(self.entries))
+
+    def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the column R_j(t), shape (..., 3)."""
+        return evaluate(t, (3,), out, lambda _: self._attitude(self.entries[:, j - 1 :: 3]))
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K(t), shape (..., 3)."""
+        return evaluate(t, (3,), out, lambda _: self._vectors(slice(3, 7), np.eye(3)))
+
+    def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return Omega(t) = W - K, shape (..., 3)."""
+        return evaluate(t, (3,), out, lambda _: self._vectors(slice(3, 10), np.concatenate([-np.eye(3), np.eye(3)])))
+
+    def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
+        """Fill `out` (count, 3, 3) with R at the exact real numbers start + i step."""
+        count, rows = len(out), out.reshape(-1, 9)
+        check_grid(start, step, count, self.phases.reach)
+        fill = self._attitude(self.entries)
+        for i in range(0, count, BLOCK):
+            index = np.arange(float(i), float(min(i + BLOCK, count)))
+            t, low = moments(self.phases, start, step, index)
+            fill(t, rows[i : i + BLOCK], low)
+
+    def _attitude(self, weights: FloatArray) -> Callable[..., None]:
+        """Return what fills rows with combinations of Re N, Im N and K of the motion."""
+
+        def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
+            for i in range(0, t.size, PART):
+                half, rest = self._phases(t[i : i + PART], None if low is None else low[i : i + PART])
+                (*x, angle), (*less, lacking) = self._places(half, rest)
+                found = self.sums.at(np.array(x), np.array(less), slice(0, 7))
+                inverse = _inverse(found[3])
+                turned = np.exp(1j * angle)
+                turned += turned * (1j * lacking)
+                N = found[:3] * (turned * inverse)
+                combined(np.concatenate([N.real, N.imag, _real(found[4:], inverse)]), weights, rows[i : i + PART])
+
+        return fill
+
+    def _vectors(self, part: slice, weights: FloatArray) -> Callable[..., None]:
+        """Return what fills rows with combinations of K, or of K and W."""
+
+        def fill(t: FloatArray, rows: FloatArray) -> None:
+            for i in range(0, t.size, PART):
+                half, rest = self._phases(t[i : i + PART])
+                x, less = self._places(half, rest)
+                D, *found = self.sums.at(x[:2], less[:2], part)
+                combined(_real(np.array(found), _inverse(D)) * self.rate, weights, rows[i : i + PART])
+
+        return fill
+
+    def _places(self, half: FloatArray, rest: FloatArray) -> tuple[Array, Array]:
+        """Return the arguments of the sums, and the angle by which N turns, at half phases: two words, (3, m)."""
+        upper = half[:2] + CUT
+        upper -= CUT
+        x = self.upper[:, :1] * upper[0] + self.upper[:, 1:] * upper[1]  # exact
+        both = self.lower + self.upper
+        low = both @ (half[:2] - upper + rest[:2]) + self.lower @ upper
+        low[2] += 2 * rest[2]
+        x[2], more = _sum(x[2], 2 * half[2] + 0j)
+        low[2] += more
+        return _sum(x, low)
+
+    def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
+        """Return half the phases less whole turns, in radians, and what rounding left out of them."""
+        half, rest, *_ = self.phases.reduced(t, room(3, t.size), low)
+        return half, rest
+
+
+def _sum(x: Array, y: Array) -> tuple[Array, Array]:
+    """Return a sum and what its rounding left out, by Knuth."""
+    s = x + y
+    part = s - x
+    return s, (x - (s - part)) + (y - part)
+
+
+def _inverse(D: Array) -> Array:
+    """Return 1/D, by operations whose errors are counted."""
+    return D.conj() / (D.real * D.real + D.imag * D.imag)
+
+
+def _real(x: Array, y: Array) -> FloatArray:
+    """Return the real part of a product."""
+    return x.real * y.real - x.imag * y.imag
+
+
+def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
+    """Return the closed form of a motion with rates of some size; NotCertifiedError says why there is none."""
+    motion = exact.on_torus
+    if motion is None:
+        raise NotCertifiedError(f"not certified: the kind of motion is {exact.kind!r}, not 'on a torus'.")
+    torus = motion.torus
+    try:
+        theta, periods = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice), torus.periods(PERIODS)
+        found = ThetaKernel(theta, periods, int(motion.rate.p) / int(motion.rate.q), size)
+    except NotCertifiedError:
+        raise
+    except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:  # infinite, or not a number, or singular
+        raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
+    if not found.accuracy <= LOST:
+        raise NotCertifiedError(f"not certified: rounding would be wrong by up to {found.accuracy:.1e} in its sums.")
+    found.prove(theta, torus, periods)
+    return found

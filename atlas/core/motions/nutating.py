@@ -1,0 +1,146 @@
+"""What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
+
+from collections.abc import Callable, Container, Sequence
+from math import prod
+from typing import Any, TypeVar
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray, finite, kept
+from atlas.core.motions.motion import Motion
+from atlas.core.nutation.single import BITS, SingleMotion
+from atlas.errors import DomainError
+from atlas.exact.digits import enclosed
+from atlas.exact.nutation.nutating import Nutating
+from atlas.formulas.numbers import nearest
+
+NAME = "U28"
+"""Names of kinds, none of which is longer."""
+
+Nutation = TypeVar("Nutation", bound=SingleMotion)
+
+
+class NutatingMotion(Motion[Nutation]):
+    """Motions R(t) whose axis nutates, with the numbers of a period."""
+
+    _in_arrays: Container[str] = ()
+    """Values that `_scalars` has for all motions at once; the others are made of each by itself."""
+    _scalars: Any
+    _exact: Callable[..., Any]
+    """Makes one motion of balls."""
+    _kinds: Sequence[str] = ()
+    """Names of the kinds of arrays, by their codes."""
+
+    @kept
+    def kind(self) -> Any:
+        """Name of the kind of motion, a string, or an array of them."""
+        return self._each("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
+
+    @kept
+    def period(self) -> Any:
+        """Period T of nutation, inf on a separatrix; where Omega3 is constant, that of an infinitesimal nutation."""
+        return self._scalar("period")
+
+    @kept
+    def precession_per_period(self) -> Any:
+        """Angle of precession about the field in one period; a passage through a pole counts as half a turn less.
+
+        It is the integral of dpsi/dt = (p - M3 nu)/(1 - nu^2) - b, nu = cos theta, with M3 = I c3, p = (M, K)/b;
+        for a top n stands for the field, and k2/I2 for b.
+        Where the period is infinite there is none: DomainError for one motion, NaN for one of an array.
+        """
+        return self._scalar("precession_per_period")
+
+    @kept
+    def spin_per_period(self) -> Any:
+        """Angle by which the body turns about its own axis in one period, the integral of Omega3 - nu dpsi/dt.
+
+        Where the period is infinite there is none, as for `precession_per_period`.
+        """
+        return self._scalar("spin_per_period")
+
+    @kept
+    def modulus(self) -> Any:
+        """Modulus k of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix.
+
+        At a triple root it has no limit, nor has the nome: DomainError for one motion, NaN for one of an array.
+        """
+        return self._scalar("modulus")
+
+    @kept
+    def complementary_modulus(self) -> Any:
+        """Complementary modulus sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        return self._scalar("complementary_modulus")
+
+    @kept
+    def nome(self) -> Any:
+        """Nome q = exp(-pi K'/K) of the elliptic functions."""
+        return self._scalar("nome")
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body; shape (..., 3); within the bound that the class states.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
+
+    def field_in_body(self, t: Any) -> FloatArray:
+        """Field K(t) = R^T B' in the body, (32); shape (..., 3); within the bound that the class states.
+
+        Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
+        """
+        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
+
+    def _scalar(self, name: str) -> Any:
+        """Return a number for each motion, in an array NaN for a motion that has none."""
+
+        def value(exact: Nutating) -> float:
+            try:
+                return nearest(enclosed(lambda: getattr(exact, name), BITS))
+            except DomainError:
+                if self._turning:
+                    raise
+                return np.nan
+
+        return self._each(name, value)
+
+    def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
+        """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
+        if self._turning:
+            return value(self._turning.exact)
+        if name in self._in_arrays:
+            values, sure = self._scalars[name]
+            found = np.moveaxis(shown(values), -1, 0)
+            for i in np.flatnonzero(~sure).tolist():
+                found[i] = value(self._exact(*self._row(i)))
+        else:
+            found = np.array([value(one.exact) for one in self._turnings])
+        return found.reshape(self.shape + found.shape[1:])
+
+    def _fill_grid(self, one: Nutation, start: float, step: float, out: FloatArray) -> None:
+        """Fill the matrices of one motion on a grid."""
+        from atlas.core.nutation.grid import fill_grid
+
+        fill_grid(one, start, step, out)
+
+
+class AloneMotion(NutatingMotion[Nutation]):
+    """Motions of which each in an array is made by itself, some milliseconds each."""
+
+    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
+        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), one by one."""
+        motions = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape).ravel()
+        for i, one in enumerate(self._turnings):
+            places = np.flatnonzero(motions == i)
+            out[places] = evaluate(one, times.flat[places], None)
+
+
+def ends_of(exact: Any) -> list[float]:
+    """Return the turning points as floats."""
+    return [nearest(x) for x in enclosed(lambda: exact.turning_points, BITS)]
+
+
+def padded(roots: list[Any]) -> Any:
+    """Return four roots as complex floats."""
+    found = [complex(float(x.real.mid()), float(x.imag.mid())) for x in roots]
+    return np.array(found + [complex("inf")] * (4 - len(found)))

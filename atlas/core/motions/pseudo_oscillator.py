@@ -1,0 +1,124 @@
+"""The cubic pseudo-oscillator that Omega3 obeys, (46) to (49), and its first integral, a quartic."""
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from atlas.core.bodies.body import kept_ratio, moments
+from atlas.core.inputs import FloatArray, common_shape, finite, kept, plain, real, vectors
+from atlas.core.motions.integrals import Integrals, integrals, shape_factors
+from atlas.errors import AtlasError
+
+
+def cubic(ratio: Any, conserved: Integrals) -> tuple[Any, Any, Any, Any]:
+    """Coefficients (a0, a1, a2, a3) of (47), by (48) with its slip set right.
+
+    a0 = [(2-I) c5 + E'] c3,  a1 = -2 c5 - (1-I)(4-I) c3^2 - E' - I K^2,  a2 = 6 (1-I) c3,  a3 = -2 (1-I).
+    The printed a1 has [I - (2-1)^2] c3^2; true is [I - (2-I)^2] = -(1-I)(4-I), which does not cancel near I = 1.
+    """
+    I, one_less, two_less = shape_factors(ratio)
+    E, K2, c3, c5 = conserved.E, conserved.K2, conserved.c3, conserved.c5
+    a0 = (two_less * c5 + E) * c3
+    a1 = -2 * c5 - one_less * (2 + two_less) * (c3 * c3) - E - I * K2
+    return a0, a1, 6 * one_less * c3, -2 * one_less
+
+
+def quartic(ratio: Any, conserved: Integrals) -> tuple[Any, Any, Any, Any, Any]:
+    """Coefficients (q0, ..., q4) of Q(u) = q0 + q1 u + ... + q4 u^4 with (dOmega3/dt)^2 = Q(Omega3).
+
+    Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2, and Q' = 2 (a0 + a1 u + a2 u^2 + a3 u^3) with
+    the cubic of (47): so q4 = a3/2 = I - 1. Not in the paper: it follows from (36), (37), (40), (41) and (38), as
+    (Omega1 K2 - Omega2 K1)^2 + (Omega1 K1 + Omega2 K2)^2 = (Omega1^2 + Omega2^2)(K1^2 + K2^2).
+    """
+    E, K2, c3, c5 = conserved.E, conserved.K2, conserved.c3, conserved.c5
+    a0, a1, a2, a3 = cubic(ratio, conserved)
+    return E * (K2 - c3 * c3) - c5 * c5, 2 * a0, a1, 2 * a2 / 3, a3 / 2
+
+
+class PseudoOscillator:
+    """The motion of u = Omega3 of a symmetric body, (47): d^2u/dt^2 = p(u), a cubic, from initial data.
+
+    `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B', and `omega` (..., 3), the initial
+    angular velocity, in one unit 1/time; arrays broadcast with one another and with u.
+    """
+
+    def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
+        I3 = moments(ratio)[1]
+        self.ratio = kept_ratio(ratio, I3)
+        try:
+            B2, B3 = field
+        except (TypeError, ValueError) as error:
+            raise AtlasError(f"The field must be two components (B2, B3) of B', not {field!r}.") from error
+        self.B2, self.B3 = real(B2, "B2"), real(B3, "B3")
+        self.omega1, self.omega2, self.omega3 = np.moveaxis(vectors(omega, "omega"), -1, 0)
+        self.shape = common_shape(np.shape(I3), self.B2.shape, self.B3.shape, self.omega1.shape)
+
+    @cached_property
+    def integrals(self) -> Integrals:
+        """The integrals E', K^2, c3, c5 of (36) to (41)."""
+        K = np.stack(np.broadcast_arrays(0.0, self.B2, self.B3), axis=-1)
+        return integrals(self.ratio, np.stack([self.omega1, self.omega2, self.omega3], axis=-1), K)
+
+    @kept
+    def coefficients(self) -> tuple[Any, Any, Any, Any]:
+        """Coefficients (a0, a1, a2, a3) of the cubic, (48)."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            values = cubic(self.ratio, self.integrals)
+        finite(values, "A coefficient of the cubic (47)")
+        return values
+
+    @kept
+    def quartic_coefficients(self) -> tuple[Any, Any, Any, Any, Any]:
+        """Coefficients (q0, ..., q4) of the first integral Q."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            values = quartic(self.ratio, self.integrals)
+        finite(values, "A coefficient of the quartic")
+        return values
+
+    def acceleration(self, u: Any) -> Any:
+        """Acceleration p(u) of Omega3, by (49): through omega3 - u, so that nothing cancels near the start."""
+        I, _, two_less = shape_factors(self.ratio)
+        u, d, P, D, L = self._from_start(u)
+        with np.errstate(over="ignore", invalid="ignore"):
+            value = (two_less * self.B3 - I * self.omega3 + 2 * d) * P - I * u * L + (self.B3 + d) * D
+        return finite(plain(value), "The acceleration p(u)")
+
+    def stiffness(self, u: Any) -> Any:
+        """Return the derivative p'(u) of the cubic (47): a constant solution is stable where it is negative."""
+        _, a1, a2, a3 = self.coefficients
+        u = self._met(u)
+        with np.errstate(over="ignore", invalid="ignore"):
+            return finite(plain(a1 + u * (2 * a2 + 3 * a3 * u)), "The derivative p'(u)")
+
+    def quartic(self, u: Any) -> Any:
+        """First integral Q(u) = (du/dt)^2, negative where the motion cannot be; at the start (omega1 B2)^2.
+
+        Q = D L - P^2 with D = Omega1^2 + Omega2^2, L = K1^2 + K2^2, P = Omega1 K1 + Omega2 K2 as functions of u, with
+        the terms that cancel at d = omega3 - u = 0 taken out.
+        """
+        I, _, two_less = shape_factors(self.ratio)
+        u, d, _, _, L = self._from_start(u)
+        with np.errstate(over="ignore", invalid="ignore"):
+            start = self.omega1**2 + self.omega2**2
+            slope = two_less * (self.B3 + self.omega3) - (self.omega3 + u)
+            rest = I * (self.omega3 + u) * L - start * (2 * self.B3 + d)
+            rest = rest - slope * (2 * self.omega2 * self.B2 + d * slope)
+            return finite(plain((self.omega1 * self.B2) ** 2 + d * rest), "The first integral Q(u)")
+
+    def _from_start(self, u: Any) -> tuple[Any, Any, Any, Any, Any]:
+        """Return u, d = omega3 - u and P, D, L (see `quartic`) as they stand in (49)."""
+        I, _, two_less = shape_factors(self.ratio)
+        u = self._met(u)
+        with np.errstate(over="ignore", invalid="ignore"):
+            d = self.omega3 - u
+            P = self.omega2 * self.B2 + d * (two_less * (self.B3 + self.omega3) - (self.omega3 + u))
+            D = self.omega1**2 + self.omega2**2 + I * d * (self.omega3 + u)
+            L = self.B2**2 - d * (2 * self.B3 + d)
+        return u, d, P, D, L
+
+    def _met(self, u: Any) -> FloatArray:
+        """Return u as an array that broadcasts with the parameters."""
+        array = real(u, "u")
+        common_shape(self.shape, array.shape)
+        return array

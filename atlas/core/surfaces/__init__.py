@@ -1,0 +1,1 @@
+"""Surfaces and curves of initial data: the quadric, the hyperbola on it, the closed motions on that."""

@@ -1,0 +1,1 @@
+"""The arithmetic under the balls: roots of quartics, numbers with one square root, powers."""

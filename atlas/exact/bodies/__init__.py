@@ -1,0 +1,1 @@
+"""Moments of inertia as exact rationals."""

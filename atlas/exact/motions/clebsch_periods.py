@@ -1,0 +1,294 @@
+"""Periods of a motion's torus under the flows of H and F/2: approximate, by integrals between branch points.
+
+Over the curve v^2 = P(z) = prod(z + D/I_i), z = wp(u) - (I1 I2 + I1 I3 + I2 I3)/3, v = wp'(u)/2, let
+
+    eta^2 = Psi = b^2 z^2 + (F + e2 b^2) z + 2 D H + 2 c v,     c = (M, K),
+
+with zeros at four u modulo the periods of wp. For any two of them, -2i times the integral of (D, z) du/eta from one to
+the other is a pair of complex times (T_H, T_F) after which M and K are back, so twice its real part is one of real
+times. What is found here is a start for `atlas.exact.motions.asymmetric`, which proves that it is one, and nothing
+else.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+from typing import Any
+
+import numpy as np
+from flint import acb, acb_series, arb, fmpq, fmpq_poly, fmpz_mat
+from numpy.typing import NDArray
+
+from atlas.errors import NotCertifiedError
+from atlas.formulas.numbers import workprec
+
+BITS = 200
+"""Precision of the integrals."""
+
+APART = 200
+"""Largest difference, in bits, between coefficients of the polynomial of the zeros: that of a spin 2^50 times the
+field, or of a field 2^100 times the spin. Isolating the zeros takes hours for the largest."""
+
+NODES, ROOM = 64, 1.1
+"""Nodes of Gauss's rule on a part of a path, and the logarithm of the ellipse round it that holds no other zero: what
+is left out is 2^-BITS, exp(-2 NODES ROOM)."""
+
+LEAST = 1e-10
+"""That of the ellipse round a whole path from which on it is gone."""
+
+SHORTEST = fmpq(1, 2**100)
+"""Part of a path below which no place beside it is looked for."""
+
+NEAR, FAR = 2, 4
+"""Cells along each period of wp to which paths go, and those whose zeros are taken into account."""
+
+EACH = 3
+"""Paths that are gone for each of the four zeros, the best of each pair first."""
+
+FINE, ONE = 90, 46
+"""Bits of the periods in a search for integer relations, and of an integer there: a relation is one to their half."""
+
+Pair = tuple[arb, arb]
+Array = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Integrals:
+    """The exact integrals of a motion, and the moments."""
+
+    moments: tuple[fmpq, ...]
+    H: fmpq
+    F: fmpq
+    c: fmpq
+    square: fmpq
+
+    @property
+    def D(self) -> fmpq:
+        """Product of the moments."""
+        x, y, z = self.moments
+        return x * y * z
+
+    @property
+    def e2(self) -> fmpq:
+        """Sum of D/I_i."""
+        return sum((self.D / I for I in self.moments), fmpq(0))
+
+    @property
+    def g(self) -> fmpq_poly:
+        """Psi but for 2 c v, a polynomial in z."""
+        return fmpq_poly([2 * self.D * self.H, self.F + self.e2 * self.square, self.square])
+
+    @property
+    def P(self) -> fmpq_poly:
+        """The cubic of the body's curve."""
+        first, second, third = (fmpq_poly([self.D / I, 1]) for I in self.moments)
+        return first * second * third
+
+    def double_points(self) -> fmpq_poly:
+        """Return the polynomial whose roots are the z at which zeros of Psi fall together: a number if they do not."""
+        zeros = self.g * self.g - 4 * self.c * self.c * self.P if self.c else self.g
+        twice = zeros.gcd(zeros.derivative())
+        return twice if self.c else twice * self.g.gcd(self.P)
+
+
+def real_periods(motion: Integrals) -> list[Pair]:
+    """Return two approximate pairs of real times, as short as can be; fewer where the paths are too long."""
+    with workprec(BITS):
+        curve = Curve(motion)
+        found = [curve.along(*path) for path in curve.paths()]
+        pairs = [[2 * x.real, 2 * y.real] for x, y, _ in found]
+        return [(x.mid(), y.mid()) for x, y in sums(pairs, generating(pairs))]
+
+
+class Curve:
+    """The zeros of Psi on the torus of u, and integrals between them, not analytic at `others`."""
+
+    def __init__(self, motion: Integrals) -> None:
+        self.motion, self.g = motion, motion.g
+        self.third = arb(motion.e2) / 3
+        low, middle, high = sorted(motion.e2 / 3 - motion.D / I for I in motion.moments)
+        m, size = arb((middle - low) / (high - low)), arb(high - low).sqrt()
+        self.real = 2 * acb(m).elliptic_k().real / size
+        self.imaginary = acb(0, 2 * acb(1 - m).elliptic_k().real / size)
+        self.tau = centre(self.imaginary / self.real)
+        self.zeros = [self._place(z, v) for z, v in self._zeros()]
+        around = self._periods(FAR)
+        self.others: Array = np.array([complex_of(zero + x + y) for zero in (*self.zeros, acb(0)) for x, y in around])
+
+    def _zeros(self) -> Iterator[tuple[acb, acb]]:
+        motion = self.motion
+        if motion.c == 0:
+            for z in _roots(self.g):
+                v = value(motion.P, z).sqrt()
+                yield z, v
+                yield z, -v
+            return
+        for z in _roots(self.g * self.g - 4 * motion.c * motion.c * motion.P):
+            yield z, -value(self.g, z) / (2 * motion.c)
+
+    def _periods(self, cells: int) -> list[tuple[acb, acb]]:
+        """Return periods of wp, in two parts, up to so many cells along each."""
+        line = range(-cells, cells + 1)
+        return [(m * self.real, n * self.imaginary) for m, n in product(line, repeat=2)]
+
+    def at(self, u: acb) -> tuple[acb, acb]:
+        """Return z and v at u."""
+        both = acb_series([u / self.real, 1 / self.real], prec=2).elliptic_p(self.tau)
+        square = self.real * self.real
+        return both[0] / square - self.third, both[1] / square / 2
+
+    def _place(self, z: acb, v: acb) -> acb:
+        """Return the u of a point of the curve, in the cell about zero."""
+        u = centre(((z + self.third) * self.real * self.real).elliptic_inv_p(self.tau) * self.real)
+        _, found = self.at(u)
+        if _far(found - v) > _far(found + v):
+            u = -u
+        y = round(float(u.imag.mid()) / float(self.imaginary.imag.mid()))
+        u -= y * self.imaginary
+        return centre(u - round(float(u.real.mid()) / float(self.real.mid())) * self.real)
+
+    def paths(self, each: int = EACH) -> list[tuple[acb, acb]]:
+        """Return straight paths between zeros, so many for each of four, those farthest from others first."""
+        found: dict[tuple[int, int], list[tuple[float, acb, acb]]] = {}
+        for i, j in product(range(len(self.zeros)), repeat=2):
+            for x, y in self._periods(NEAR):
+                start, stop = self.zeros[i], self.zeros[j] + x + y
+                a, b = complex_of(start), complex_of(stop)
+                if j < i or a == b:
+                    continue
+                rate = _rates(a, b, self._beside(a, b)).min()
+                if rate > LEAST:
+                    found.setdefault((i, j), []).append((rate, start, stop))
+        rows = [sorted(paths, key=lambda path: -path[0]) for paths in found.values()]
+        chosen = sorted((path for row in rows for path in row[:each]), key=lambda path: -path[0])
+        return [(start, stop) for _, start, stop in chosen[: 4 * each]]
+
+    def _beside(self, a: complex, b: complex) -> Array:
+        """Return the other places but the ends of a path."""
+        return np.asarray(self.others[(self.others != a) & (self.others != b)])
+
+    def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
+        """Return -2i times the integral of (D, z, v) du/eta along a path.
+
+        That is done by Gauss's rule in s, u = start + (stop - start)(1 - cos s)/2, on parts of the path that are
+        shorter where another zero, or the pole of z, is near: as many as its distance has digits.
+        """
+        way = stop - start
+        a, b = complex_of(start), complex_of(stop)
+        angles = 2 * np.arcsin(np.sqrt((self._beside(a, b) - a) / (b - a)))
+        first, second, third, before = acb(0), acb(0), acb(0), None
+        for low, high in _parts(angles[_rates(0.0, np.pi, angles) < ROOM]):
+            half = arb.pi() * (high - low) / 2
+            for x, weight in _rule():
+                s = arb.pi() * low + half * (1 + x)
+                z, v = self.at(start + way * (1 - s.cos()) / 2)
+                root = centre((value(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2).sqrt()
+                if before is not None and _far(root - before) > _far(root + before):
+                    root = -root
+                before, part = root, half * weight / root
+                first += part
+                second += z * part
+                third += v * part
+        if not all(x.is_finite() for x in (first, second, third)):
+            raise NotCertifiedError("not certified: integrals between zeros of the motion's torus are not finite.")
+        factor = acb(0, -1) * way
+        return centre(first * factor * self.motion.D), centre(second * factor), centre(third * factor)
+
+
+def _roots(polynomial: fmpq_poly) -> list[acb]:
+    """Return the roots; NotCertifiedError where the coefficients are too far apart."""
+    sizes = [int(abs(x)).bit_length() for x in polynomial.numer().coeffs() if x]
+    if max(sizes) - min(sizes) > APART:
+        raise NotCertifiedError("not certified: the field and the angular velocity are too far apart in size.")
+    return [root for root, _ in polynomial.complex_roots()]
+
+
+@lru_cache(maxsize=1)
+def _rule() -> list[tuple[arb, arb]]:
+    """Return nodes and weights of Gauss's rule on (-1, 1), from the left."""
+    with workprec(BITS):
+        found = [arb.legendre_p_root(NODES, k, weight=True) for k in range(NODES)]
+    return [(x.mid(), weight.mid()) for x, weight in reversed(found)]
+
+
+def _parts(angles: Array) -> Iterator[tuple[arb, arb]]:
+    """Yield parts of (0, 1), in order, whose ellipses leave angles out, in units of half a turn.
+
+    NotCertifiedError where one is too near the path to be told from a place on it.
+    """
+    left = [(fmpq(0), fmpq(1))]
+    while left:
+        low, high = left.pop()
+        a, b = (np.pi * int(x.p) / int(x.q) for x in (low, high))
+        if a == b or high - low < SHORTEST:
+            raise NotCertifiedError("not certified: zeros of the motion's torus are too close to one another.")
+        if (_rates(a, b, angles) >= ROOM).all():
+            yield arb(low), arb(high)
+        else:
+            middle = (low + high) / 2
+            left += [(middle, high), (low, middle)]
+
+
+def generating(vectors: Sequence[Sequence[arb]]) -> list[list[int]]:
+    """Return the weights of sums that generate all sums of some real vectors, by integer relations that LLL finds."""
+    width = len(vectors[0]) if vectors else 0
+    sizes = [max(abs(float(x[k].mid())) for x in vectors) for k in range(width)]
+    if not (sizes and all(sizes)):
+        return []
+    count = len(vectors)
+    rows = [
+        [
+            *(nearest(x / size * arb(2) ** FINE) for x, size in zip(row, sizes, strict=True)),
+            *(int(i == j) << ONE for j in range(count)),
+        ]
+        for i, row in enumerate(vectors)
+    ]
+    reduced = fmpz_mat(rows).lll().tolist()
+    large = [row for row in reduced if max(abs(int(x)) for x in row[:width]) > 1 << FINE // 2]
+    return [[int(x) >> ONE for x in row[width:]] for row in large]
+
+
+def sums(vectors: Sequence[Sequence[Any]], weights: Iterable[Sequence[int]]) -> list[list[Any]]:
+    """Return sums of vectors with whole weights."""
+    return [
+        [
+            sum((n * x for n, x in zip(row, column, strict=True) if n), 0 * column[0])
+            for column in zip(*vectors, strict=True)
+        ]
+        for row in weights
+    ]
+
+
+def nearest(x: arb) -> int:
+    """Return the whole number nearest to the middle of a ball."""
+    return int((x.mid() + 0.5).floor().unique_fmpz())
+
+
+def value(polynomial: fmpq_poly, z: acb) -> acb:
+    """Return the value of a polynomial with rational coefficients."""
+    found = acb(0)
+    for x in reversed(polynomial.coeffs()):
+        found = found * z + x
+    return found
+
+
+def _rates(a: complex, b: complex, places: Array) -> NDArray[np.float64]:
+    """Return the logarithms of the ellipses with foci a and b through places, 0 on the path between them."""
+    w = (2 * places - a - b) / (b - a)
+    root = np.sqrt(w * w - 1)
+    return np.asarray(np.log(np.maximum(abs(w + root), abs(w - root))))
+
+
+def centre(x: acb) -> acb:
+    """Return the middle of a complex ball, as a ball without radius."""
+    return acb(x.real.mid(), x.imag.mid())
+
+
+def complex_of(x: acb) -> complex:
+    """Return the middle of a complex ball in doubles."""
+    return complex(float(x.real.mid()), float(x.imag.mid()))
+
+
+def _far(x: acb) -> float:
+    return abs(complex_of(x))

@@ -1,0 +1,265 @@
+"""Clebsch's motion on its torus by theta functions of two variables: their constants, approximate to many digits.
+
+With zeta = X^-1 (t, g), t and g the times of the flows of H and F/2 from an origin where M_i = K_i = 0 for one i,
+
+    K_j, M_j = (n0 theta[0,e_j; 0,d_j] + n1 theta[1,e_j; 0,d_j]) / (d0 theta[0,e_0; 0,d_0] + d1 theta[1,e_0; 0,d_0]),
+    N = S^T (e_x + i e_y) = exp(i l zeta) (the same form at zeta - w) / (the same denominator),
+
+e_x, e_y and B' being a right-handed system and the argument (2 zeta_1, zeta_2) with [[2 tau11, tau12], [tau12,
+tau22/2]]: one pair of characteristics for the denominator and one for each axis. Origins are algebraic; the constants
+follow by a linear fit to Taylor's series there, and the place of the start by Newton's method. That the functions are
+of that form rests on a count of dimensions; that they are the motion at hand is proved by
+`atlas.exact.motions.clebsch_proof`.
+"""
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+from flint import acb, acb_mat, arb, fmpq
+
+from atlas.errors import NotCertifiedError
+from atlas.exact.motions.clebsch_lattice import Lattice
+from atlas.exact.motions.clebsch_origins import State, Vector, around, fields, origins
+from atlas.exact.motions.clebsch_periods import BITS, Integrals, centre, complex_of
+from atlas.exact.motions.theta_sums import CHARACTERISTICS, Array, Form, Sums
+from atlas.formulas.numbers import cross, dot, workprec
+
+GRID, CANDIDATES = 48, 24
+"""Points along each real period among which the start is looked for, and those of them that are tried."""
+
+NEWTON = 12
+"""Steps of Newton's method."""
+
+FITTED = 1e-18
+"""Largest residual of a fit, beside its values."""
+
+Pair = tuple[acb, acb]
+
+
+class ThetaMotion:
+    """The constants of one motion: `denominator`, forms of K, M and N, `start` zeta at t = 0, `l` and `w`."""
+
+    def __init__(self, motion: Integrals, W: Sequence[fmpq], K: Sequence[fmpq], lattice: Lattice) -> None:
+        self.motion, self.field, self.lattice = motion, K, lattice
+        with workprec(BITS):
+            self.X, self.tau = lattice.X, lattice.tau
+            t = self.tau
+            self.hat = acb_mat([[2 * t[0, 0], t[0, 1]], [t[0, 1], t[1, 1] / 2]])
+            self.denominator, self.K, self.M = self._fitted()
+            e = frame(K)
+            N = [acb(x, y) for x, y in zip(*e, strict=True)]
+            M = [acb(I * w) for I, w in zip(motion.moments, W, strict=True)]
+            self.at_start = State(M, [acb(x) for x in K], N)
+            self.start = self._place()
+            self.l, self.w = self._quasi_periods()
+            self.N = self._turned()
+
+    @property
+    def forms(self) -> list[Form]:
+        """N, the denominator, K and M as forms of (2 zeta_1, zeta_2); N but for a turn, which is 1 at the start."""
+        factor = (acb(0, 1) * dot(self.l, self.start)).exp()
+        shift = 2 * self.w[0], self.w[1]
+        N = [Form(x.place, (x.weights[0] * factor, x.weights[1] * factor), shift) for x in self.N]
+        return [*N, self.denominator, *self.K, *self.M]
+
+    def zeta(self, T: Sequence[acb]) -> Vector:
+        """Return X^-1 T."""
+        found = self.X.solve(acb_mat([[T[0]], [T[1]]]))
+        return [centre(found[0, 0]), centre(found[1, 0])]
+
+    def pairs(self, zeta: Sequence[acb]) -> list[Pair]:
+        """Return the four pairs of theta functions at zeta."""
+        found = self.hat.theta(acb_mat([[2 * zeta[0]], [zeta[1]]]))
+        return [(found[0, 4 * e + d], found[0, 8 + 4 * e + d]) for e, d in CHARACTERISTICS]
+
+    def state(self, zeta: Sequence[acb]) -> State:
+        """Return M and K at zeta."""
+        pairs = self.pairs(zeta)
+        D = self.denominator.of(pairs)
+        M, K = ([centre(form.of(pairs) / D) for form in forms] for forms in (self.M, self.K))
+        return State(M, K, [])
+
+    def _fitted(self) -> tuple[Form, list[Form], list[Form]]:
+        """Return the forms of the denominator, of K and of M."""
+        axis, origin = origins(self.motion)[0]
+        points = around(self.motion.moments, origin)
+        pairs = [self.pairs(self.zeta((t, acb(0)))) for t, _ in points]
+        j = (axis + 1) % 3
+        tried = list[tuple[float, Form]]()
+        for place in range(3):
+            for other in range(3):
+                if other != place:
+                    rows = [
+                        [state.K[j] * p[place][0], state.K[j] * p[place][1], -p[other][0], -p[other][1]]
+                        for p, (_, state) in zip(pairs, points, strict=True)
+                    ]
+                    null, error = _null(rows)
+                    tried.append((error, Form(place, (null[0], null[1]))))
+        error, denominator = min(tried, key=lambda x: x[0])
+        D = [denominator.of(p) for p in pairs]
+        free = [n for n in range(3) if n != denominator.place]
+        rows = [[x * d for x in state.all] for (_, state), d in zip(points, D, strict=True)]
+        places = [(3,) if i % 3 == axis else free for i in range(6)]
+        forms = [
+            self._form(pairs, list(column), near) for column, near in zip(zip(*rows, strict=True), places, strict=True)
+        ]
+        return denominator, forms[3:], forms[:3]
+
+    def _form(self, pairs: list[list[Pair]], values: Vector, places: Sequence[int]) -> Form:
+        """Return the form that has some values."""
+        tried = list[tuple[float, Form]]()
+        for place in places:
+            weights, error = _least_squares([list(p[place]) for p in pairs], values)
+            tried.append((error, Form(place, (weights[0], weights[1]))))
+        error, form = min(tried, key=lambda x: x[0])
+        if not error < FITTED:
+            raise NotCertifiedError(f"not certified: theta functions do not fit the motion, by {error:.1g}.")
+        return form
+
+    def _place(self) -> Vector:
+        """Return zeta at the start, by Newton's method from the nearest points of a grid.
+
+        Conjugation takes origins to origins, which are half a period apart: so the imaginary part of the times between
+        them and the start is a fourth of that of a period.
+        """
+        motion, target = self.motion, np.array([complex_of(x) for x in self.at_start.all[:6]])
+        real, others = (
+            np.array([[complex_of(x) for x in T[:2]] for T in pair])
+            for pair in (self.lattice.real, self.lattice.others)
+        )
+        steps = np.stack(np.meshgrid(*[np.arange(GRID) / GRID] * 2, indexing="ij"), -1).reshape(-1, 2)
+        quarters = np.stack(np.meshgrid(*[np.arange(4) / 4] * 2, indexing="ij"), -1).reshape(-1, 1, 2)
+        times = ((steps @ real) + (quarters @ others)).reshape(-1, 2)
+        rough = Rough(self)
+        far = np.linalg.norm(rough.states(times) - target, axis=1)
+        for T in times[np.argsort(far)[:CANDIDATES]]:
+            found = rough.near(T, target)
+            if found is not None:
+                return self._improved(found, fields(motion.moments, target))
+        raise NotCertifiedError("not certified: the place of the start on the motion's torus was not found.")
+
+    def _improved(self, T: Array, fields: Array) -> Vector:
+        """Return zeta at the start to all digits, from times near it."""
+        i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(fields[list(p)])))
+        start = self.at_start.all
+        a, b, c, d = (acb(complex(fields[p, q])) for p, q in ((i, 0), (i, 1), (j, 0), (j, 1)))
+        times = [acb(complex(x)) for x in T]
+        for _ in range(NEWTON):
+            found = self.state(self.zeta(times)).all
+            f, g = start[i] - found[i], start[j] - found[j]
+            times = [
+                centre(times[0] + (f * d - g * b) / (a * d - b * c)),
+                centre(times[1] + (g * a - f * c) / (a * d - b * c)),
+            ]
+        zeta = self._near_real(self.zeta(times))
+        if not max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).all, start, strict=False)) < FITTED:
+            raise NotCertifiedError("not certified: Newton's method does not find the start on the motion's torus.")
+        return zeta
+
+    def _near_real(self, zeta: Vector) -> Vector:
+        """Return zeta less an even period of hat, which changes all forms by one factor, near the real times."""
+        Y = np.array([[complex_of(self.hat[i, j]).imag for j in range(2)] for i in range(2)])
+        v = [2 * zeta[0], zeta[1]]
+        m, n = (2 * round(float(x) / 2) for x in np.linalg.solve(Y, [complex_of(x).imag for x in v]))
+        first, second = (v[k] - m * self.hat[0, k] - n * self.hat[1, k] for k in range(2))
+        return [centre(first / 2), centre(second)]
+
+    def _quasi_periods(self) -> tuple[Vector, Vector]:
+        """Return l and w: under a period N gets the factor exp(-i b T_c), which is known but for whole turns."""
+        b = arb(self.motion.square).sqrt()
+        angles = [-b * T[2] for T in (*self.lattice.a, *self.lattice.b)]
+        tau, Y = self.tau, np.array([[complex_of(self.tau[j, k]).imag for k in range(2)] for j in range(2)])
+        # w = (angle_b - tau l)/(4 pi), and l may change by (2 pi m, pi n)
+        l = [angles[0], angles[1] / 2]
+        w = [(angles[2 + k] - l[0] * tau[0, k] - l[1] * tau[1, k]) / (4 * arb.pi()) for k in range(2)]
+        m, n = (round(float(x)) for x in np.linalg.solve(Y * np.array([1 / 2, 1 / 4]), [complex_of(x).imag for x in w]))
+        l = [centre(l[0] + 2 * arb.pi() * m), centre(l[1] + arb.pi() * n)]
+        w = [centre((angles[2 + k] - l[0] * tau[0, k] - l[1] * tau[1, k]) / (4 * arb.pi())) for k in range(2)]
+        return l, w
+
+    def _turned(self) -> list[Form]:
+        """Return the forms of N."""
+        points = around(self.motion.moments, self.at_start)
+        shifted, factors = list[list[Pair]](), Vector()
+        for t, _ in points:
+            zeta = [x + y for x, y in zip(self.zeta((t, acb(0))), self.start, strict=True)]
+            shifted.append(self.pairs([x - y for x, y in zip(zeta, self.w, strict=True)]))
+            factors.append(self.denominator.of(self.pairs(zeta)) / (acb(0, 1) * dot(self.l, zeta)).exp())
+        return [
+            self._form(shifted, [s.N[j] * x for (_, s), x in zip(points, factors, strict=True)], range(4))
+            for j in range(3)
+        ]
+
+
+class Rough:
+    """M and K by the same forms in doubles, at many places anywhere."""
+
+    def __init__(self, motion: ThetaMotion) -> None:
+        self.moments = motion.motion.moments
+        self.hat, X = (
+            np.array([[complex_of(x[i, j]) for j in range(2)] for i in range(2)]) for x in (motion.hat, motion.X)
+        )
+        self.inverse, self.into = np.linalg.inv(self.hat.imag), np.linalg.inv(X) * np.array([[2], [1]])
+        cell = np.array([[x, y] for x in (-1, 0, 1) for y in (-1, 0, 1)])
+        forms = [motion.denominator, *motion.M, *motion.K]
+        self.sums = Sums(motion.hat, forms, (acb(0), acb(0)), 1j * np.pi * (cell @ self.hat.imag).T)
+
+    def states(self, times: Array) -> Array:
+        """Return M and K at pairs of times (m, 2), shape (m, 6)."""
+        v = times @ self.into.T
+        # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
+        v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # such places are no start
+            D, *values = self.sums.at(np.pi * v.T)
+            return np.asarray((np.array(values) / D).T)
+
+    def near(self, T: Array, target: Array) -> Array | None:
+        """Return times at which the state is the target, by Newton's method; None where it leads astray."""
+        size, before = float(np.linalg.norm(target)), np.inf
+        for _ in range(NEWTON):
+            state = self.states(T[None])[0]
+            far = float(np.linalg.norm(state - target))
+            if far < 1e-9 * size:
+                return T
+            if not far < 4 * before:
+                return None
+            before = far
+            T = T + np.linalg.lstsq(fields(self.moments, state), target - state, rcond=None)[0]
+        return None
+
+
+def frame(K: Sequence[fmpq]) -> tuple[Vector, Vector]:
+    """Return e_x and e_y, which with the direction of K are a right-handed system."""
+    size = arb(dot(K, K)).sqrt()
+    n = [x / size for x in K]
+    least = min(range(3), key=lambda i: abs(float(n[i].mid())))
+    e = [arb(int(i == least)) for i in range(3)]
+    x = cross(n, e)
+    length = dot(x, x).sqrt()
+    ex = [a / length for a in x]
+    return ex, list(cross(n, ex))
+
+
+def _least_squares(rows: list[Vector], values: Vector) -> tuple[Vector, float]:
+    """Return the solution of more equations than unknowns, and its residual beside the values."""
+    A, B = acb_mat(rows), acb_mat([[x] for x in values])
+    adjoint = A.transpose().conjugate()
+    found = (adjoint * A).solve(adjoint * B)
+    rest = A * found - B
+    size = max(abs(complex_of(x)) for x in values) or 1.0
+    return [centre(found[i, 0]) for i in range(A.ncols())], max(
+        abs(complex_of(rest[i, 0])) for i in range(A.nrows())
+    ) / size
+
+
+def _null(rows: list[Vector]) -> tuple[Vector, float]:
+    """Return the vector that rows are orthogonal to, with the best of its components 1, and the residual."""
+    found = list[tuple[float, Vector]]()
+    for k in range(2):
+        others = [n for n in range(len(rows[0])) if n != k]
+        part, error = _least_squares([[row[n] for n in others] for row in rows], [-row[k] for row in rows])
+        part.insert(k, acb(1))
+        found.append((error, part))
+    error, vector = min(found, key=lambda x: x[0])
+    return vector, error

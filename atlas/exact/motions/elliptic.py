@@ -1,0 +1,260 @@
+"""The paper's family for a body of any inertia tensor as balls: elliptic motions (not in the paper).
+
+Omega = -[1 + v (z II + D)^-1] K = (E - 1) K for all times, with D = I1 I2 I3, v^2 = prod(z + D/I_i) and
+E_i = -v/(z I_i + D), theorem-elliptic. So
+
+    R(t) = R_B(-b t) S(t),     S' = S (E K)^,     K = R^T B' = S^T B':     K' = [K, E K],
+
+and S is a free top whose inverse tensor E need not be positive and whose angular momentum is B'. About the direction of
+B', with nu = K_a/b for one axis a,
+
+    psi' = E_a b + (p/b)/(1 - nu^2) - b,     chi' = -nu (p/b)/(1 - nu^2),     p = (K, E K) - E_a b^2,
+
+the Cayley-Klein parameters of `atlas.exact.motions.general`. The axis is the one of the largest or least E about which
+K does not circle: K_a passes through zero to and fro, and neither parameter ever becomes small.
+"""
+
+from typing import Any
+
+from flint import acb, arb, ctx, fmpq
+
+from atlas.errors import DomainError
+from atlas.exact.inputs import Real, rational, rationals, sin_cos
+from atlas.exact.motions import two_turns
+from atlas.exact.motions.elliptic_curve import check_moments, square_of_v
+from atlas.exact.nutation.cayley_klein import Solution, matrix, steady
+from atlas.exact.nutation.constants import Nutation
+from atlas.exact.nutation.elliptic_quartic import EllipticQuartic
+from atlas.exact.nutation.nutating import Nutating
+from atlas.exact.nutation.spheres import POLES, Sphere
+from atlas.formulas.elliptic import splitting
+from atlas.formulas.integrals import clebsch
+from atlas.formulas.numbers import nearest, root
+
+
+class EllipticMotion(Nutating):
+    """The motion R(t), R(0) = 1, of a body with moments (I1, I2, I3) in the field B' = (B1, B2, B3) at t = 0.
+
+    Every value is computed anew at the precision of the moment, see `atlas.exact.digits`; which case it is, is decided
+    on the exact inputs.
+    """
+
+    _frame = 1
+    """Rate of Larmor's frame about the field, in units of -b."""
+
+    def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
+        self.inertia = moments = rationals(inertia, "inertia (I1, I2, I3)", 3)
+        self.field = rationals(field, "field (B1, B2, B3)", 3)
+        self.z, sign = rational(z, "z"), rational(branch, "branch")
+        if sign not in (1, -1):
+            raise DomainError(f"The branch, the sign of v, is 1 or -1, not {nearest(sign)}.")
+        self.branch = int(sign.p)
+        check_moments(moments)
+        self.square = square_of_v(moments, self.z)
+        D = moments[0] * moments[1] * moments[2]
+        self._e = tuple(1 / (self.z * I + D) for I in moments)
+        self.places = self._order()
+        e, K = self._turned(self._e), self._turned(self.field)
+        self.quartic: EllipticQuartic = EllipticQuartic(e, K, self.square, self.branch)
+        self.kind = self._kind()
+        self._known: tuple[int, Solution] | None = None
+
+    def _order(self) -> tuple[int, int, int]:
+        """Return the axes in a cyclic order, the one last whose component nutates, or about which K turns."""
+        e, K = self._e, self.field
+        low, middle, high = sorted(range(3), key=lambda i: e[i])
+        if sum(x != 0 for x in K) == 1:
+            last = next(i for i in range(3) if K[i] != 0)
+        elif e[middle] in (e[low], e[high]):  # of two equal ones neither; of a ball any
+            last = high if e[middle] == e[low] else low
+        else:
+            last = low if sum((c - e[middle]) * x * x for c, x in zip(e, K, strict=True)) > 0 else high
+        return (last + 1) % 3, (last + 2) % 3, last
+
+    def _kind(self) -> str:
+        e, K = self._e, self.field
+        if self._rests and all(x == 0 or c * self.branch < 0 for c, x in zip(e, K, strict=True)):
+            return "at rest"
+        if self.z == 0:
+            return "Omega = -2 K"
+        if e[0] == e[1] == e[2]:
+            return "ball"
+        if sum(x != 0 for x in K) == 1:
+            return "field along an axis"
+        if len(set(e)) == 2:
+            return "elementary"
+        return "separatrix" if any(x.multiplicity > 1 for x in self.quartic.roots()) else "elliptic"
+
+    @property
+    def _rests(self) -> bool:
+        """Whether |E_i| = 1 wherever K_i is not zero: the body is at rest, or at -2 K."""
+        return all(x == 0 or c * c * self.square == 1 for c, x in zip(self._e, self.field, strict=True))
+
+    @property
+    def splitting(self) -> fmpq:
+        """C/D^2, whose sign decides on stability: see `atlas.formulas.elliptic`."""
+        found: fmpq = splitting(self.inertia, self.field, self.z)
+        return found
+
+    @property
+    def stability(self) -> str:
+        """Whether all motions that start near stay beside the curve of K and M: "stable", "unstable" or "undecided".
+
+        At rest and at Omega = -2 K the curve is that of the flow of F, along which neighbours drift slowly.
+        """
+        C, stays = self.splitting, self._change() >= 0 if self.is_steady else self.kind != "separatrix"
+        if self._rests or (C > 0 and stays):
+            return "stable"
+        return "undecided" if C == 0 and stays else "unstable"
+
+    def _change(self) -> fmpq:
+        """Return the squared frequency of a small change in the family of a K that is constant."""
+        first, second, last = self.places
+        e = self._e
+        return (e[first] - e[last]) * (e[second] - e[last]) * self.square * self.quartic.N
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether R(t) is two turns one after the other, about the field and about a principal axis."""
+        return self.kind not in ("elliptic", "separatrix")
+
+    @property
+    def swings_evenly(self) -> bool:
+        """Whether the body turns by nothing about the axis of the pair in a period: wherever that nutates."""
+        return not self.is_steady
+
+    @property
+    def v(self) -> Real:
+        """The root v of prod(z + D/I_i), of the sign of the branch."""
+        return self.branch * root(self.square)
+
+    @property
+    def E(self) -> tuple[Real, Real, Real]:
+        """The tensor E_i = -v/(z I_i + D), along the principal axes: Omega = (E - 1) K."""
+        v = self.v
+        return -v * self._e[0], -v * self._e[1], -v * self._e[2]
+
+    @property
+    def omega(self) -> list[Real]:  # type: ignore[override]  # it is a root of what is given
+        """The initial angular velocity."""
+        return self.rate_of(self.field)
+
+    @property
+    def invariants(self) -> list[Real]:
+        """H, F, (M, K), K^2 and the kinetic energy, theorem-clebsch."""
+        J = [self.inertia[i // 4] if i % 4 == 0 else fmpq(0) for i in range(9)]
+        H, F, MK, K2, energy = clebsch(*J, *self.omega, *self.field)
+        return [H / 2, F, MK, K2, energy / 2]
+
+    def rate_of(self, K: Any) -> list[Real]:
+        """Return Omega where the field in the body is K."""
+        return [(E - self._frame) * x for E, x in zip(self.E, K, strict=True)]
+
+    @property
+    def b(self) -> Real:
+        """Length of the field."""
+        return root(self.quartic.N)
+
+    @property
+    def precession(self) -> Real:
+        """Rate E_a b - b of the frame about the field in which the pair has its own rates."""
+        return (self.E[self.places[2]] - self._frame) * self.b
+
+    @property
+    def sphere(self) -> Sphere:
+        """The sphere of K, at the precision of the moment, its last axis a."""
+        K, b = self._turned(self.field), self.b
+        torque, zero = arb(root(self.square)) * self.quartic.torque, fmpq(0)
+        start, length = (K, b) if self.quartic.N else ((zero, zero, fmpq(1)), fmpq(1))
+        return Sphere(
+            start=start,
+            length=length,
+            poles={pole: arb(-pole * b) for pole in POLES},
+            torques=dict.fromkeys(POLES, torque),
+            signs={pole: self.quartic.sign_beside(pole) for pole in POLES},
+            frames=dict.fromkeys(POLES, arb(self.precession) / 2),
+            slopes=dict.fromkeys(POLES, acb(0)),
+            precession=self.precession,
+            spin=zero,
+        )
+
+    @property
+    def solution(self) -> Solution:
+        """The constants of alpha and beta, from which R follows, at the precision of the moment."""
+        if self._known is None or self._known[0] != ctx.prec:
+            self._known = ctx.prec, self.trigonometric(hyperbolic=True)
+        return self._known[1]
+
+    def trigonometric(self, *, hyperbolic: bool = False) -> Solution:
+        """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
+        if self.is_steady:
+            return steady(self.tilt(), *self.steady_rates(), self.period / 2)
+        return Nutation(self.quartic, self.sphere).solution(trigonometric=not hyperbolic and self.kind == "elliptic")
+
+    def tilt(self) -> tuple[Real, Real, Real, Real]:
+        """Return cos and sin of half the angle between field and axis, and of the azimuth, at t = 0."""
+        return self.sphere.tilt
+
+    def steady_rates(self) -> tuple[Real, Real]:
+        """Return the rates k about the field and phi about the axis a of a motion that is two turns."""
+        first, _, last = self.places
+        if self.kind != "elementary":  # K is constant, along an axis or where E is a number
+            return self.precession, fmpq(0)
+        return (self.E[first] - self._frame) * self.b, (self.E[last] - self.E[first]) * self.field[last]
+
+    @property
+    def period(self) -> arb:
+        """Period of K; where K is constant, that of an infinitesimal change of it, inf where there is none."""
+        if not self.is_steady:
+            return super().period
+        if self.kind == "elementary":
+            rate = abs(arb(self.steady_rates()[1]))
+        else:
+            square = self._change() if sum(x != 0 for x in self.field) == 1 else fmpq(0)
+            rate = arb(root(square)) if square > 0 else arb(0)
+        return arb("inf") if rate.is_zero() else 2 * arb.pi() / rate
+
+    def _periods(self) -> tuple[arb, arb]:
+        return (arb(1), arb("inf")) if self.is_steady else super()._periods()
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t) as rows."""
+        t = rational(t, "the time")
+        if t == 0 or self.kind == "at rest":
+            return [[fmpq(int(i == j)) for j in range(3)] for i in range(3)]
+        if self.is_steady:
+            k, phi = self.steady_rates()
+            (s, c), (S, C) = sin_cos(k * t), sin_cos(phi * t)
+            axis = [fmpq(int(i == self.places[2])) for i in range(3)]
+            return two_turns.product(two_turns.turn(self.field, c, s), two_turns.turn(axis, C, S))
+        a, b, _, _ = self.parameters(t)
+        found, back = matrix(self.from_frame(a, b)), self._back
+        return [[found[i][j] for j in back] for i in back]
+
+    def field_in_body(self, t: Any) -> list[Real]:
+        """Return K(t) = R^T B', the field in the body."""
+        R, B = self.rotation(t), self.field
+        return [R[0][j] * B[0] + R[1][j] * B[1] + R[2][j] * B[2] for j in range(3)]
+
+    def angular_velocity(self, t: Any) -> list[Real]:
+        """Return Omega(t) = (E - 1) K(t) in the body's frame."""
+        return self.rate_of(self.field_in_body(t))
+
+    def angular_momentum(self, t: Any) -> list[Real]:
+        """Return m = R II Omega in the laboratory frame."""
+        m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
+        return [row[0] * m[0] + row[1] * m[1] + row[2] * m[2] for row in self.rotation(t)]
+
+    def quaternion(self, t: Any) -> list[arb]:
+        """Return a unit quaternion of R(t), scalar first."""
+        found = super().quaternion(t)
+        return [found[0], *(found[1 + i] for i in self._back)]
+
+    @property
+    def _back(self) -> list[int]:
+        """Where each body axis stands in the order of the axes."""
+        return [self.places.index(i) for i in range(3)]
+
+    def _turned(self, vector: Any) -> Any:
+        """Return components in the order of the axes."""
+        return tuple(vector[i] for i in self.places)

@@ -1,0 +1,170 @@
+"""The torus of a body with three moments: pairs of times after which its motion repeats, enclosed by Newton's method.
+
+The flows of H and F/2 commute, theorem-involution, and so do their attitudes. After a pair of times r = (T_H, T_F)
+M and K are back, and S = R_B(bt) R has turned about the field by an angle theta; so S(n r + s) = R_B(n theta) S(s) for
+whole n. That a pair r is one is proved by Newton's method in balls: with y where the flow of a start r~ arrives, there
+is exactly one d in a box after which two components of the state are those of the start x, where
+
+    N = -(X_H, X_F)^-1 (y - x)
+
+over the box lies in the box: the derivative of the flow by its times is the field X itself at its end. The other four
+components are then those of the start, since H, F and both Casimirs are, and they tell such states apart.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+
+from flint import arb, arb_mat, fmpq
+
+from atlas.errors import NotCertifiedError
+from atlas.exact.motions.clebsch_flow import Arrival, Flow
+from atlas.exact.motions.clebsch_lattice import Lattice, lattice
+from atlas.exact.motions.clebsch_periods import Integrals, real_periods
+from atlas.formulas.numbers import Vector, cross, dot, workprec
+
+GOOD, FIRST = 320, 200
+"""Bits to which periods are proved at once from where they start, and those of a first flow that improves them."""
+
+GUARD = 40
+"""Bits by which a flow is computed more precisely than its arrival must be known."""
+
+ROUGH = 1e-20
+"""Largest error, in units of time, of a period that is improved."""
+
+
+@dataclass(frozen=True)
+class Period:
+    """Times (T_H, T_F) after which M and K are back, and the angle by which S has turned about the field then."""
+
+    H: arb
+    F: arb
+    angle: arb
+
+
+class Torus:
+    """The motions with the integrals of a state (W, K), W = Omega + K, of a body; all is rational."""
+
+    def __init__(self, moments: tuple[fmpq, ...], W: tuple[fmpq, ...], K: tuple[fmpq, ...]) -> None:
+        self.moments, self.W, self.K = moments, W, K
+        self.flow = Flow(moments, W, K)
+        self._starts: list[tuple[fmpq, fmpq]] | None = None
+        self._known: dict[int, tuple[Period, Period]] = {}
+
+    @property
+    def integrals(self) -> Integrals:
+        """H, F and the Casimirs, exactly."""
+        J, K = self.moments, self.K
+        M = [I * w for I, w in zip(J, self.W, strict=True)]
+        D = J[0] * J[1] * J[2]
+        H = sum((m * m / I + I * k * k for m, k, I in zip(M, K, J, strict=True)), fmpq(0)) / 2
+        return Integrals(J, H, dot(M, M) - dot(K, [D * k / I for k, I in zip(K, J, strict=True)]), dot(M, K), dot(K, K))
+
+    def fields(self, W: Vector, K: Vector) -> tuple[list[arb], list[arb]]:
+        """Return the rates of (W, K) along the flows of H and of F/2."""
+        I, cycle = self.moments, ((1, 2), (2, 0), (0, 1))
+        M = [x * w for x, w in zip(I, W, strict=True)]
+        first = [(I[j] - I[k]) / I[i] * (W[j] * W[k] - K[j] * K[k]) for i, (j, k) in enumerate(cycle)]
+        second = [(I[k] - I[j]) * (K[j] * K[k]) for j, k in cycle]
+        return [*first, *cross(K, W)], [*second, *cross(K, M)]
+
+    def periods(self, bits: int) -> tuple[Period, Period]:
+        """Return two periods with so many bits; NotCertifiedError where none are found."""
+        bits = -(-bits // 32) * 32
+        if bits not in self._known:
+            starts = self._approximate()
+            try:
+                first, second = (self._enclosed(start, bits) for start in starts)
+            except NotCertifiedError:  # near an unstable spin errors may grow beyond the bounds of so few bits
+                if 2 * bits > GOOD:
+                    raise
+                first, second = self.periods(2 * bits)
+            self._known[bits] = first, second
+        return self._known[bits]
+
+    def _approximate(self) -> list[tuple[fmpq, fmpq]]:
+        if self._starts is None:
+            try:
+                found = [(x.real, y.real) for x, y, _ in self.lattice.real]
+            except NotCertifiedError:  # fewer will do here
+                found = real_periods(self.integrals)
+            if len(found) != 2:
+                raise NotCertifiedError("not certified: no two periods of the motion's torus were found.")
+            self._starts = [(x.mid().fmpq(), y.mid().fmpq()) for x, y in found]
+        return self._starts
+
+    @cached_property
+    def lattice(self) -> Lattice:
+        """All periods, approximate; NotCertifiedError where they are not found."""
+        return lattice(self.integrals)
+
+    def _enclosed(self, start: tuple[fmpq, fmpq], bits: int) -> Period:
+        """Prove a period; where its start is too rough for that, improve it first, each round with twice the bits."""
+        chosen, r, precision = self._coordinates(), start, bits if bits <= GOOD else FIRST
+        while precision < bits:
+            with workprec(precision + GUARD):
+                step = self._newton(self.flow.go(*r, precision, proven=False), self.W, self.K, chosen)
+                size = max(float(abs(x).mid()) for x in step)
+                if not size < ROUGH:
+                    raise NotCertifiedError("not certified: Newton's method does not find a period of the torus.")
+                r = r[0] + step[0].mid().fmpq(), r[1] + step[1].mid().fmpq()
+            precision = 2 * precision - GUARD
+        return self._proven(r, bits, chosen)
+
+    def _coordinates(self) -> tuple[int, int]:
+        """Return the two components of the state by which its place on the torus is told best."""
+        X, Y = ([float(arb(x).mid()) for x in row] for row in self.fields(self.W, self.K))
+        return max(combinations(range(6), 2), key=lambda p: abs(X[p[0]] * Y[p[1]] - X[p[1]] * Y[p[0]]))
+
+    def _newton(self, arrival: Arrival, W: Vector, K: Vector, chosen: tuple[int, int]) -> tuple[arb, arb]:
+        """Return -(X_H, X_F)^-1 (y - x), the fields at (W, K)."""
+        X, Y = self.fields(W, K)
+        i, j = chosen
+        state, start = [*arrival.W, *arrival.K], [*self.W, *self.K]
+        f, g = (state[n] - start[n] for n in chosen)
+        determinant = X[i] * Y[j] - X[j] * Y[i]
+        return (g * Y[i] - f * Y[j]) / determinant, (f * X[j] - g * X[i]) / determinant
+
+    def _proven(self, r: tuple[fmpq, fmpq], bits: int, chosen: tuple[int, int]) -> Period:
+        with workprec(bits + 2 * GUARD):
+            arrival = self.flow.go(*r, bits + GUARD)
+            first = self._newton(arrival, self.W, self.K, chosen)
+            reach = 4 * max((abs(x).upper() for x in first), key=float)
+            box = arb(0, reach)
+            X, Y = self.fields(arrival.W, arrival.K)
+            y = [*arrival.W, *arrival.K]
+            wide = [p + 2 * box * (abs(a) + abs(b)) + box for p, a, b in zip(y, X, Y, strict=True)]
+            X, Y = self.fields(wide[:3], wide[3:])
+            inside = all(w.contains_interior(p + box * a + box * b) for w, p, a, b in zip(wide, y, X, Y, strict=True))
+            step = self._newton(arrival, wide[:3], wide[3:], chosen)
+            if not (inside and all(box.contains_interior(x) for x in step) and self._told_apart(wide, chosen)):
+                raise NotCertifiedError("not certified: that the motion's torus has this period could not be proved.")
+            V = [(step[0] + step[1] * I) * w for w, I in zip(wide[:3], self.moments, strict=True)]
+            q = turned(arrival.q, V)
+            b = arb(dot(self.K, self.K)).sqrt()
+            along = dot(q[1:], [k / b for k in self.K])
+            angle = 2 * arb.atan2(along, q[0])
+            return Period(r[0] + step[0], r[1] + step[1], angle)
+
+    def _told_apart(self, wide: list[arb], chosen: tuple[int, int]) -> bool:
+        """Whether states near the start with its integrals differ in the chosen components, if at all."""
+        near = [arb(x).union(w) for x, w in zip((*self.W, *self.K), wide, strict=True)]
+        W, K, J = near[:3], near[3:], self.moments
+        D = J[0] * J[1] * J[2]
+        M = [I * w for I, w in zip(J, W, strict=True)]
+        gradients = [
+            [*M, *(I * k for k, I in zip(K, J, strict=True))],
+            [*(I * m for I, m in zip(J, M, strict=True)), *(-D * k / I for k, I in zip(K, J, strict=True))],
+            [*(I * k for k, I in zip(K, J, strict=True)), *M],
+            [arb(0)] * 3 + K,
+        ]
+        others = [n for n in range(6) if n not in chosen]
+        return not arb_mat([[row[n] for n in others] for row in gradients]).det().contains(0)
+
+
+def turned(q: list[arb], V: list[arb]) -> list[arb]:
+    """Return a unit quaternion after a small turn at a rate in the balls V for a unit of time."""
+    most = arb(0, sum((abs(x) for x in V), arb(0)).upper())
+    w, *vector = (x + most for x in q)  # wherever it is on the way
+    turned = [-dot(vector, V), *(w * x + y for x, y in zip(V, cross(vector, V), strict=True))]
+    return [x + y / 2 for x, y in zip(q, turned, strict=True)]

@@ -1,0 +1,1 @@
+"""The machinery of motions whose axis nutates: quartics, theta functions, the pair (alpha, beta)."""

@@ -1,0 +1,85 @@
+"""The Cayley-Klein parameters of a motion as functions of time, and the rotation matrix that they make."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flint import acb, arb
+
+from atlas.exact.inputs import Real
+from atlas.exact.nutation.theta import Lattice, Sum, constant
+from atlas.formulas.numbers import Number
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A Cayley-Klein parameter up to the common factor: factor exp(i (rate t + twist s)) sum(s), s within a period.
+
+    Its rate is its ``own`` and that of the frame, ``frame``. ``turn`` is the sense, -1, 0 or 1, in which ``sum`` goes
+    half around zero in one period.
+    """
+
+    factor: acb
+    own: arb
+    frame: arb
+    twist: arb
+    sum: Sum
+    turn: int
+
+    @property
+    def rate(self) -> arb:
+        """The whole rate."""
+        return self.own + self.frame
+
+    def at(self, t: Any, s: arb) -> tuple[acb, acb]:
+        """Return the parameter and its derivative at time t, which is s in its own period."""
+        value, slope = self.sum.at(s)
+        phase = self.factor * acb(0, self.rate * t + self.twist * s).exp()
+        return phase * value, phase * (slope + acb(0, self.rate + self.twist) * value)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """All constants of a motion at one precision: ``origin`` is the time since the turning point at t = 0.
+
+    ``precession`` and ``spin`` are the rates of the frame in which alpha and beta have their own: Larmor's, -b, and
+    (1-I) c3; or all there is where theta is constant.
+    """
+
+    lattice: Lattice
+    origin: arb
+    alpha: Parameter
+    beta: Parameter
+    precession: Real
+    spin: Real
+    swing: Any = None
+
+    @property
+    def period(self) -> arb:
+        """Period of nutation, infinite on a separatrix."""
+        return 2 * self.lattice.half
+
+
+def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:
+    """Return the constants of a motion whose axis keeps its tilt: two turns at the rates k and phi.
+
+    `half` is half the period of an infinitesimal nutation.
+    """
+    c, s, *_ = tilt
+    lattice = Lattice("trigonometric", half, arb("inf"), oblique=False, rate=arb(0))
+    alpha, beta = (
+        Parameter(acb(x), arb(0), arb(k + sign * phi) / 2, arb(0), constant(lattice), 0)
+        for x, sign in ((c, 1), (s, -1))
+    )
+    return Solution(lattice, arb(0), alpha, beta, k, phi)
+
+
+def matrix(q: Sequence[Number]) -> list[list[Number]]:
+    """Return the rotation matrix of a quaternion that need not be normalised."""
+    w, x, y, z = q
+    n = w * w + x * x + y * y + z * z
+    return [
+        [(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n],
+        [2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n],
+        [2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n],
+    ]

@@ -1,0 +1,42 @@
+"""The polynomial Q of an elliptic motion: (dK_a/dt)^2 = Q(-K_a), K_a the component of the field along one axis.
+
+K' = [K, E K] with E_i = -v e_i, e_i = 1/(z I_i + D), keeps N = (K, K) and h = sum e_i K_i^2. So the squares of the
+other two components are affine in that of K_a, and with u = -K_a, (b, c, a) a cyclic order of the axes,
+
+    (du/dt)^2 = v^2 [e_c N - h + (e_a - e_c) u^2] [h - e_b N - (e_a - e_b) u^2].
+
+v^2 = prod(z + D/I_i) is rational with the inputs, and so is Q: which case it is, is known exactly.
+"""
+
+from flint import fmpq, fmpq_poly
+
+from atlas.exact.nutation.quartic import Quartic, Root, Vector
+
+
+class EllipticQuartic(Quartic):
+    """Q for the last of three axes, where e and K have their components in the order (b, c, a).
+
+    `sign` is that of v.
+    """
+
+    def __init__(self, e: Vector, K: Vector, square: fmpq, sign: int) -> None:
+        self.K = K
+        self.N = sum((x * x for x in K), fmpq(0))
+        self.h = sum((c * x * x for c, x in zip(e, K, strict=True)), fmpq(0))
+        first = fmpq_poly([e[1] * self.N - self.h, 0, e[2] - e[1]])
+        second = fmpq_poly([self.h - e[0] * self.N, 0, e[0] - e[2]])
+        self.polynomial = square * first * second
+        self.rate = sign * K[0] * K[1] * (e[1] - e[0])
+        self.u = -K[2]
+        self.torque = sign * (e[2] * self.N - self.h)
+        self._known: dict[int, list[Root]] = {}
+
+    @property
+    def leading(self) -> fmpq:
+        """Leading coefficient of Q."""
+        return self.polynomial[4]
+
+    def sign_beside(self, pole: int) -> int:
+        """Return the sign of the torque, one and the same at both poles."""
+        del pole
+        return int(self.torque > 0) - int(self.torque < 0)

@@ -1,0 +1,193 @@
+"""What motions whose axis nutates share as balls: from the pair (alpha, beta) to periods, angles and attitudes."""
+
+from typing import Any
+
+from flint import acb, arb, ctx, fmpq
+
+from atlas.errors import DomainError
+from atlas.exact.inputs import Real, rational
+from atlas.exact.nutation.cayley_klein import Solution
+from atlas.exact.nutation.quartic import Quartic
+from atlas.exact.nutation.theta import infinite
+from atlas.formulas.numbers import workprec
+
+
+class Nutating:
+    """A motion R(t) with a quartic, `kind`, the constants `solution` of its pair, and `tilt` of its axis at t = 0."""
+
+    quartic: Quartic
+    kind: str
+    omega: tuple[fmpq, ...]
+    field: tuple[fmpq, ...]
+    """Vector about which the axis precesses, in the body at t = 0; of any length."""
+    cancelled = 0
+    """Digits, of base two, that the spin in a period loses when it is made of two turns."""
+
+    @property
+    def solution(self) -> Solution:
+        """The constants of alpha and beta at the precision of the moment."""
+        raise NotImplementedError
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether theta is constant."""
+        raise NotImplementedError
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether the axis swings in a plane of a frame that turns at the rate `precession`, without any other turn."""
+        return False
+
+    @property
+    def precession(self) -> Real:
+        """Rate of that frame about the field."""
+        raise NotImplementedError
+
+    @property
+    def swings_evenly(self) -> bool:
+        """Whether the spin in a period is exactly zero, since nu swings evenly about zero."""
+        raise NotImplementedError
+
+    @property
+    def _is_ball(self) -> bool:
+        """Whether seen from a frame that turns about the field the body is a ball without any force."""
+        return False
+
+    @property
+    def b(self) -> Real:
+        """Length of the field, or of the direction."""
+        raise NotImplementedError
+
+    def trigonometric(self) -> Solution:
+        """Return the constants with trigonometric sums also next to a separatrix, where these converge slowly."""
+        raise NotImplementedError
+
+    def tilt(self) -> tuple[Real, Real, Real, Real]:
+        """Return cos and sin of half the angle theta(0), and cos and sin of chi(0)."""
+        raise NotImplementedError
+
+    def rotation(self, t: Any) -> list[list[Real]]:
+        """Return R(t) as rows."""
+        raise NotImplementedError
+
+    @property
+    def period(self) -> arb:
+        """Period of nutation T; of an infinitesimal one where Omega3 is constant, infinite where that is unstable."""
+        return self.solution.period
+
+    @property
+    def precession_per_period(self) -> arb:
+        """Angle by which the body precesses about B in one period, the integral of psi'."""
+        return self._angles()[0]
+
+    @property
+    def spin_per_period(self) -> arb:
+        """Angle by which the body turns about its axis in one period, the integral of chi'."""
+        with workprec(ctx.prec + self.cancelled):
+            return self._angles()[1]
+
+    @property
+    def nome(self) -> arb:
+        """Nome q = exp(-pi K'/K) of the elliptic functions: 0 where nutation is elementary, 1 on a separatrix."""
+        half, imaginary = self._periods()
+        if infinite(half):
+            return arb(1)
+        return arb(0) if infinite(imaginary) else (-arb.pi() * imaginary / half).exp()
+
+    @property
+    def modulus(self) -> arb:
+        """Modulus k of the elliptic functions."""
+        return self._moduli()[0]
+
+    @property
+    def complementary_modulus(self) -> arb:
+        """Complementary modulus k' = sqrt(1 - k^2), which keeps its digits next to a separatrix."""
+        return self._moduli()[1]
+
+    def _periods(self) -> tuple[arb, arb]:
+        """Return half the real and half the imaginary period; DomainError at a triple root, where both are infinite."""
+        found = self.solution.lattice
+        if infinite(found.half) and infinite(found.imaginary) and not self.is_steady:
+            raise DomainError("At a triple root of Q both periods are infinite: modulus and nome have no limit.")
+        return found.half, found.imaginary
+
+    def _moduli(self) -> tuple[arb, arb]:
+        half, imaginary = self._periods()
+        if infinite(half) or infinite(imaginary):
+            return (arb(1), arb(0)) if infinite(half) else (arb(0), arb(1))
+        _, second, third, fourth = (x.real for x in acb(0).modular_theta(acb(0, imaginary / half)))
+        return (second / third) ** 2, (fourth / third) ** 2
+
+    def _angles(self) -> tuple[arb, arb]:
+        found = self.solution
+        T, pi = found.period, arb.pi()
+        if infinite(T):
+            raise DomainError(f"A motion of the kind {self.kind!r} has no period: no angle belongs to one.")
+        # a parameter whose zero the axis meets is real but for its frame's phase, and passes with half a turn less
+        first, second = (
+            T * x.own + pi * x.turn if self.is_steady or self.quartic.sign_beside(pole) else arb(0)
+            for x, pole in ((found.alpha, -1), (found.beta, 1))
+        )
+        # a ball turns once about an axis: alpha and beta go half round zero each, with the signs of their torques
+        same = self.quartic.sign_beside(-1) == self.quartic.sign_beside(1)
+        if self.swings_evenly or (self._is_ball and not self.is_steady and same):
+            return T * found.precession + first + second, arb(0)
+        further = found.swing.kappa * found.swing.rate * T if found.swing else arb(0)
+        return T * found.precession + first + second, T * found.spin + first - second + further
+
+    def parameters(self, t: Any) -> tuple[acb, acb, acb, acb]:
+        """Return alpha and beta up to a common factor, and their derivatives by time."""
+        found, t = self.solution, rational(t, "the time")
+        s = self.in_cell(arb(t) + found.origin)
+        a, da = found.alpha.at(t, s)
+        b, db = found.beta.at(t, s)
+        if found.swing is None:
+            return a, b, da, db
+        turn = acb(0, (found.swing.at(arb(t), s) - found.swing.at(arb(0), found.origin)) / 2).exp()
+        # a square as a product: a power of a ball about zero is no number
+        up, down = (x.real * x.real + x.imag * x.imag for x in (a, b))
+        rate = acb(0, found.swing.kappa * (up - down) / (up + down) / 2)
+        return a * turn, b / turn, (da + rate * a) * turn, (db - rate * b) / turn
+
+    def in_cell(self, s: arb) -> arb:
+        """Return the time since the turning point, less whole periods where the sums are for one period only."""
+        found = self.solution
+        if found.lattice.form != "hyperbolic" or infinite(found.lattice.half):
+            return s
+        whole = ((s / found.period).mid() + 0.5).floor().unique_fmpz()
+        return arb("nan") if whole is None else s - found.period * whole
+
+    def quaternion(self, t: Any) -> list[arb]:
+        """Return a unit quaternion of R(t), scalar first."""
+        a, b, _, _ = self.parameters(t)
+        q = self.from_frame(a, b)
+        size = sum((x * x for x in q), arb(0)).sqrt()
+        return [x / size for x in q]
+
+    def from_frame(self, a: acb, b: acb) -> list[arb]:
+        """Return the quaternion R_z(-chi0) R_x(-theta0) (alpha, beta) R_z(chi0), not normalised."""
+        c, s, C, S = self.tilt()
+        w, x, y, z = a.real, b.real, b.imag, a.imag
+        w, x, y, z = w * c + x * s, x * c - w * s, y * c + z * s, z * c - y * s
+        return [w, x * C + y * S, y * C - x * S, z]
+
+    def column(self, j: int, t: Any) -> list[Real]:
+        """Return the body's axis R_j, j = 1, 2, 3, as it stands at time t."""
+        return [row[j - 1] for row in self.rotation(t)]
+
+    def third_axis(self, t: Any) -> list[Real]:
+        """Return the third column of R(t)."""
+        return self.column(3, t)
+
+    def turning_rate(self, t: Any) -> list[Real]:
+        """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
+        a, b, da, db = self.parameters(t)
+        q, dq = self.from_frame(a, b), self.from_frame(da, db)
+        w, x, y, z = q
+        dw, dx, dy, dz = dq
+        square = (w * w + x * x + y * y + z * z) / 2
+        return [
+            (w * dx - x * dw - y * dz + z * dy) / square,
+            (w * dy - y * dw - z * dx + x * dz) / square,
+            (w * dz - z * dw - x * dy + y * dx) / square,
+        ]

@@ -1,0 +1,170 @@
+"""The quartic Q of nutation: (dOmega3/dt)^2 = Q(Omega3), its roots, and the interval in which Omega3 moves.
+
+With u = Omega3, M3 = I c3 and p = (M, K)/b, in units of I2,
+
+    Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2,
+
+of which (47) is half the derivative. Its coefficients are rational for rational inputs, so that a multiple root is
+known exactly and not to within a tolerance.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from flint import acb, arb, ctx, fmpq, fmpq_poly
+
+from atlas.exact.arithmetic.euler import quartic_roots
+from atlas.formulas.integrals import along_field, integrals, quartic
+from atlas.formulas.numbers import root, workprec
+
+Vector = tuple[fmpq, fmpq, fmpq]
+
+
+@dataclass(frozen=True)
+class Root:
+    """A root of Q as a ball, real or complex, and its multiplicity."""
+
+    value: acb
+    multiplicity: int
+
+    @property
+    def is_real(self) -> bool:
+        """Whether the root is proven to be real, and finite."""
+        return bool(self.value.imag.is_zero()) and not self.is_infinite
+
+    @property
+    def is_complex(self) -> bool:
+        """Whether the root is one of a complex pair."""
+        return not (self.is_real or self.is_infinite)
+
+    @property
+    def is_infinite(self) -> bool:
+        """Whether the root has gone to infinity, where the leading coefficient is zero."""
+        return bool(self.value.real > 0) and not self.value.real.is_finite()
+
+
+class Quartic:
+    """Q of a body of ratio I that turns with Omega where the field is K, both in the body.
+
+    ``low`` and ``high`` are the places, among the distinct real roots in ascending order, of those between which Omega3
+    moves; they are equal, and name a multiple root or a lone point, where Omega3 is constant.
+    """
+
+    def __init__(self, I: fmpq, Omega: Vector, K: Vector) -> None:
+        (w1, w2, w3), (K1, K2, _) = Omega, K
+        self.I, self.u, self.Omega, self.K = I, w3, Omega, K
+        self.E, self.K2, self.c3, self.c5 = conserved = integrals(I, Omega, K)
+        self.across = K1**2 + K2**2
+        self.along = w1 * K1 + w2 * K2
+        self.rate = w1 * K2 - w2 * K1
+        self.momentum = along_field(I, (w1 + K1, w2 + K2, self.c3), K)
+        self.polynomial = fmpq_poly([*quartic(I, *conserved)])
+        self._known: dict[int, list[Root]] = {}
+
+    @property
+    def leading(self) -> fmpq:
+        """Leading coefficient of Q."""
+        return self.I - 1
+
+    @property
+    def bend(self) -> int:
+        """Sign of the leading coefficient: where in the plane of time Omega3 is infinite depends on it."""
+        return _sign(self.leading)
+
+    @property
+    def sense(self) -> int:
+        """Sign of dOmega3/dt at t = 0."""
+        return _sign(self.rate)
+
+    @property
+    def bias(self) -> int:
+        """Sign of the second derivative of Omega3 at t = 0."""
+        return _sign(self.polynomial.derivative()(self.u))
+
+    @cached_property
+    def is_constant(self) -> bool:
+        """Whether Omega3 is constant: Q and its derivative vanish where it starts, or Q is zero throughout."""
+        return bool(self.polynomial(self.u) == 0 and self.polynomial.derivative()(self.u) == 0)
+
+    def sign_beside(self, pole: int) -> int:
+        """Return the sign of p + M3 for ``pole`` -1 and of p - M3 for +1; 0 exactly where the axis meets that pole."""
+        return sign_of_sum(self.momentum, -pole * self.I * self.c3, self.K2)
+
+    def roots(self) -> list[Root]:
+        """Return the distinct roots at the precision of the moment: the real ones ascending, then the complex pair."""
+        if ctx.prec not in self._known:
+            self._known[ctx.prec] = self._isolated()
+        return self._known[ctx.prec]
+
+    def _isolated(self) -> list[Root]:
+        """Isolate the roots; unless there are four simple ones, each belongs to a rational factor of degree two."""
+        p = self.polynomial
+        common = p.gcd(p.derivative())
+        triple = common.gcd(common.derivative())
+        if p.degree() < 4:
+            found = _of_quadratic(p, 1)
+        elif common.degree() == 0:
+            found = [Root(value, 1) for value in quartic_roots(p)]
+        elif triple.degree() == 0:
+            found = _of_quadratic(common, 2) + _of_quadratic(p // common**2, 1)
+        else:
+            line, count = triple if triple.degree() == 1 else triple.derivative(), common.degree() + 1
+            found = _of_quadratic(line, count) + _of_quadratic(p // line**count, 1)
+        real = [root for root in found if root.is_real]
+        real.sort(key=lambda root: root.value.real.mid())
+        return real + [root for root in found if not root.is_real]
+
+    @cached_property
+    def _interval(self) -> tuple[int, int]:
+        """Places of the roots at the ends of the interval, found at rising precision."""
+        precision = ctx.prec
+        while True:
+            with workprec(precision):
+                u = arb(self.u)
+                real = [root.value.real for root in self.roots() if root.is_real]
+                hits = [i for i, x in enumerate(real) if x.overlaps(u)]
+                if self.sense and not hits:
+                    high = next(i for i, x in enumerate(real) if x > u)
+                    return high - 1, high
+                if not self.sense and len(hits) == 1:
+                    first, second = hits[0], hits[0] + self.bias
+                    return min(first, second), max(first, second)
+            precision *= 2
+
+    @property
+    def low(self) -> int:
+        """Place of the lower end."""
+        return self._interval[0]
+
+    @property
+    def high(self) -> int:
+        """Place of the upper end."""
+        return self._interval[1]
+
+
+def sign_of_sum(x: fmpq, y: fmpq, square: fmpq) -> int:
+    """Return the sign of x + y sqrt(square), exactly."""
+    first, second = _sign(x), _sign(y) * _sign(square)
+    if first * second >= 0:
+        return _sign(fmpq(first + second))
+    return first * _sign(x * x - y * y * square)
+
+
+def _sign(x: fmpq) -> int:
+    return int(x > 0) - int(x < 0)
+
+
+def _of_quadratic(p: fmpq_poly, count: int) -> list[Root]:
+    """Return the roots of a polynomial of degree two or less, `count` times each, and a double one twice as often."""
+    c, b, a = p[0], p[1], p[2]
+    if a == 0:
+        return [Root(acb(-c / b), count)] if b != 0 else []
+    square = b * b - 4 * a * c
+    if square == 0:
+        return [Root(acb(-b / (2 * a)), 2 * count)]
+    if square < 0:
+        real, imaginary = arb(-b / (2 * a)), root(-square) / (2 * abs(a))
+        return [Root(acb(real, -imaginary), count), Root(acb(real, imaginary), count)]
+    # of the two roots the one that does not cancel first
+    larger = -(b + root(square)) / 2 if b >= 0 else (root(square) - b) / 2
+    return [Root(acb(larger / a), count), Root(acb(c / larger), count)]

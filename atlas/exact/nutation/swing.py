@@ -1,0 +1,187 @@
+"""What the integral of nu adds to a top's turn about its own axis, kappa times it, as a function of time.
+
+    integral of nu = rate t + twist s + (2 sense/sqrt(|A|)) at(O(s)/E(s)),    at = arctan for A < 0, artanh for A > 0,
+
+s the time since a turning point, less whole periods where the sums are for one only. O and E are the odd and the even
+part of a theta function with its zero where nu is infinite: two simple poles for A != 0. As A goes to 0 they become a
+double one, and O a multiple of sqrt(|A|): so O/sqrt(|A|) is what is kept, at A = 0 the derivative of E.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from flint import acb, arb, ctx
+
+from atlas.exact.nutation.constants import Nutation
+from atlas.exact.nutation.theta import Lattice, Sum, infinite, vanishing_at
+from atlas.exact.nutation.top_quartic import TopQuartic
+
+
+@dataclass(frozen=True)
+class Swing:
+    """kappa times the integral of nu: rates by t and by s, and 2 at(x)/sqrt(|A|), x sqrt(|A|) = odd/even."""
+
+    lattice: Lattice
+    kappa: arb
+    A: arb
+    rate: arb
+    twist: arb
+    odd: Sum
+    even: Sum
+    depth: arb
+    """Where A > 0, rate x: nu is infinite at s = x + i imaginary."""
+
+    def at(self, t: arb, s: arb) -> arb:
+        """Return kappa times the integral of nu from a turning point, at time t, which is s in its own period."""
+        return self.kappa * (self.rate * t + self.twist * s + self.bent(s))
+
+    @property
+    def largest(self) -> arb:
+        """Half of its largest part that is no multiple of time, about."""
+        half = self.lattice.half
+        unit = 8 / self.lattice.rate if infinite(half) else half
+        sizes = [abs(self.kappa * self.bent(unit * k / 8)) / 2 for k in range(1, 9)]
+        return max(sizes, key=lambda x: float(x.mid()))
+
+    def bent(self, s: arb) -> arb:
+        """Return the part that is no multiple of time."""
+        return bent(self.odd.at(s)[0].real, self.even.at(s)[0].real, self.A)
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """kappa times the integral of nu = sense tanh(slope s), on the separatrix between n and -n, where it has no rate.
+
+    It is, but for a constant, kappa sense (|s| + log(1 + exp(-2 slope |s|))/slope): kappa the one way before s = 0 and
+    the other after.
+    """
+
+    kappa: arb
+    slope: arb
+    origin: arb
+    sense: int
+    rate = 1
+    """Size of the rate of the integral long before and after."""
+
+    def at(self, _: arb, s: arb) -> arb:
+        """Return kappa times an integral of nu."""
+        x = self.slope * abs(s)
+        return self.kappa * self.sense * (x + (1 + (-2 * x).exp()).log()) / self.slope
+
+
+def bent(odd: arb, even: arb, A: arb) -> arb:
+    """Return 2 at(odd/even sqrt(|A|))/sqrt(|A|)."""
+    if A == 0:
+        return 2 * odd / even
+    size = abs(A).sqrt()
+    if A > 0:
+        return 2 * (odd / even * size).atanh() / size
+    return 2 * arb.atan2(odd * size, even) / size
+
+
+def swing(of: Nutation, quartic: TopQuartic) -> Swing:
+    """Return the constants of the integral of nu for a motion of that quartic, but for the `crossing` of n and -n."""
+    lattice, A = of.lattice, arb(quartic.A)
+    sense = 1 if of.start.place == quartic.low else -1
+    depth = arb(0)
+    if quartic.A > 0:
+        outermost = of.turning(0 if sense > 0 else len(of.real) - 1)
+        depth = lattice.rate * outermost.real_time_to_infinity()
+        odd, even = _apart(lattice, depth, sense / A.sqrt())
+    elif quartic.A < 0:
+        odd, even = _across(lattice, of.start.imaginary_time_to_infinity(), sense / (-A).sqrt())
+    elif quartic.a.is_zero:
+        amplitude = of.roots[of.other].value.real - of.start.u
+        like = Sum(lattice, (), (), arb(0), doubled=True)
+        odd, even = _split(like, [arb(0), amplitude / (8 * lattice.rate)], [arb(1), arb(0)])
+    else:
+        odd, even = _merged(lattice, lattice.rate / arb(quartic.a.value))
+    # nu is that of the turning point at s = 0
+    whole = -of.start.u - 2 * (odd.at(arb(0))[1] / even.at(arb(0))[0]).real
+    twist = arb(0)
+    if lattice.form == "hyperbolic" and not infinite(lattice.half):
+        twist = -bent(odd.at(lattice.half)[0].real, even.at(lattice.half)[0].real, A) / lattice.half
+    return Swing(lattice, arb(quartic.kappa), A, whole - twist, twist, odd, even, depth)
+
+
+def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
+    """Return the constants for the motion between n and -n that passes the equator at the time -origin."""
+    return Crossing(arb(quartic.kappa), arb(quartic.A).sqrt(), origin, -quartic.sense)
+
+
+def _apart(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
+    """Return O, times a factor, and E for poles at s = x + i imaginary, `depth` being rate x."""
+    if lattice.form == "trigonometric":
+        return _beside_imaginary(lattice, lambda k: ((depth * k).cos(), -factor * (depth * k).sin()))
+    return _beside_imaginary(lattice, lambda k: ((depth * k).cosh(), factor * (depth * k).sinh()))
+
+
+def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
+    """Return O, less the derivative of E over rate times a factor, and E for a double pole at s = i imaginary."""
+    sign = 1 if lattice.form == "trigonometric" else -1
+    return _beside_imaginary(lattice, lambda k: (arb(1), sign * factor * k))
+
+
+def _across(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
+    """Return O, times a factor, and E for poles at s = i y."""
+    if lattice.form == "trigonometric":
+        function = _inclined(lattice, y)
+        odd, even = [x.real for x in function.odd], [x.real for x in function.even]
+    else:
+        function = vanishing_at(lattice, y, beyond=False)
+        linear = lattice.form == "linear"
+        odd, even = [x.real if linear else x.imag for x in function.odd], [x.real for x in function.even]
+        even = [y] if linear else even
+    return _split(function, [x * factor for x in odd], even)
+
+
+def _split(like: Sum, odd: list[arb], even: list[arb]) -> tuple[Sum, Sum]:
+    """Return the odd and the even part as sums."""
+    none = (acb(0),) * len(odd)
+    return (
+        replace(like, odd=tuple(acb(x) for x in odd), even=none),
+        replace(like, odd=none, even=tuple(acb(x) for x in even)),
+    )
+
+
+def _beside_imaginary(lattice: Lattice, weights: Callable[[int], tuple[arb, arb]]) -> tuple[Sum, Sum]:
+    """Return O and E for a zero beside i imaginary, from the weights of C(k rate s) and S(k rate s)."""
+    doubled = lattice.form == "trigonometric"
+    alternating = -1 if doubled else 1
+    nome, odd, even, n = lattice.nome.real, list[arb](), list[arb](), 0
+    growth = 0 if doubled else 2 * lattice.reach + 1
+    if not (nome.is_finite() and arb(growth).is_finite() and nome < 1):
+        return _split(Sum(lattice, (), (), arb(0), doubled), [arb("nan")], [arb("nan")])
+    while True:
+        k, power = (2 * n, n * n) if doubled else (2 * n + 1, n * (n + 1))
+        a, b = weights(k)
+        first = nome**power * (arb(k) * growth).exp() * 4 * (1 + k)
+        falls = nome ** (2 * n + 1) * (2 * arb(growth)).exp() < 0.25
+        if n and (nome == 0 or (falls and first < arb(2) ** -(ctx.prec + 8))):
+            break
+        factor = alternating**n * nome**power * (2 if doubled and n else 1)
+        even.append(factor * a)
+        odd.append(factor * b)
+        n += 1
+    size = abs(b / k) + 1 if doubled else abs(b) + abs(a)
+    left = arb(0) if nome == 0 else 8 * nome**power * (1 + k) * size
+    return _split(Sum(lattice, (), (), left, doubled), odd, even)
+
+
+def _inclined(lattice: Lattice, y: arb) -> Sum:
+    """Return exp(-i v) times the theta function with a zero at i y, v = rate s, in trigonometric form."""
+    nome, eta, odd, even, n = lattice.nome, lattice.rate * y, list[acb](), list[acb](), 0
+    size = abs(nome)
+    if not (size.is_finite() and eta.is_finite() and size < 1):
+        return Sum(lattice, (acb(arb("nan")),), (acb(arb("nan")),), arb(0), doubled=True)
+    while True:
+        up = (-1) ** n * (nome ** (n * (n + 1))).real * (2 * n * eta).exp()
+        down = (-1) ** (n - 1) * (nome ** (n * (n - 1))).real * (-2 * n * eta).exp() if n else arb(0)
+        first = (size ** (n * (n + 1)) * (2 * n * eta).exp() + size ** (n * (n - 1)) * (-2 * n * eta).exp()) * 4
+        falls = n and size ** (2 * n) * ((2 * eta).exp() * size**2 + (-2 * eta).exp()) < 0.25
+        if (nome == 0 and n > 1) or (falls and first < arb(2) ** -(ctx.prec + 8)):
+            break
+        odd.append(acb(up + down) if n else acb(0))
+        even.append(acb(up - down))
+        n += 1
+    return Sum(lattice, tuple(odd), tuple(even), arb(0) if nome == 0 else first, doubled=True)

@@ -1,0 +1,1 @@
+"""The quadric and the hyperbola of initial data as balls."""
