@@ -40,11 +40,11 @@ class Floor:
 
     def __getattr__(self, name: str) -> Any:
         """Return the class or the module of that name."""
-        return getattr(self.module(name), name) if name[0].isupper() else import_module(f"atlas.{self.name}.{name}")
+        return getattr(self.module(name), name) if name[0].isupper() else import_module(modules(self.name)[name])
 
     def module(self, cls: str) -> Any:
         """Return the module in which a class is defined."""
-        return import_module(f"atlas.{self.name}.{_homes(self.name)[cls]}")
+        return import_module(_homes(self.name)[cls])
 
     def owner(self, quantity: str) -> tuple[Any, str]:
         """Return the class or the module that has a quantity, and its name there."""
@@ -56,18 +56,28 @@ class Floor:
 def _homes(floor: str) -> dict[str, str]:
     """Return the module of each class of a floor."""
     return {
-        node.name: path.stem
-        for path in modules(floor).values()
-        for node in ast.parse(path.read_text("utf-8")).body
+        node.name: module
+        for module in modules(floor).values()
+        for node in ast.parse(source(module)).body
         if isinstance(node, ast.ClassDef)
     }
 
 
-def modules(floor: str) -> dict[str, Path]:
-    """Return the files of a floor by the names of their modules, without its folders."""
-    folder = Path(import_module(f"atlas.{floor}").__path__[0])
-    found = pkgutil.iter_modules([str(folder)])
-    return {module.name: folder / f"{module.name}.py" for module in found if not module.ispkg}
+MACHINERY = "core.arithmetic", "core.nutation", "exact.arithmetic"
+"""Folders of what computes and holds no quantity of its own."""
+
+
+def modules(floor: str) -> dict[str, str]:
+    """Return the modules of a floor by their last names."""
+    folder = import_module(f"atlas.{floor}").__path__
+    found = [module.name for module in pkgutil.walk_packages(folder, f"atlas.{floor}.") if not module.ispkg]
+    ours = [name for name in found if not name.removeprefix("atlas.").startswith(MACHINERY)]
+    return {name.rpartition(".")[2]: name for name in ours}
+
+
+def source(module: str) -> str:
+    """Return the text of a module."""
+    return Path(str(import_module(module).__file__)).read_text("utf-8")
 
 
 class Ledger:

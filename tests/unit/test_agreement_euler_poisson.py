@@ -323,17 +323,17 @@ MATTER = (
         floors=("core",),
     ),
     Tie(
-        "unit_systems.prime",
+        "units.prime",
         "(32)",
-        lambda f, p: f.unit_systems.prime(p.mu, p.B, p.c),
+        lambda f, p: f.units.prime(p.mu, p.B, p.c),
         lambda say, p: say("(32)", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
         POINTS,
         floors=("core",),
     ),
     Tie(
-        "unit_systems.larmor_field",
+        "units.larmor_field",
         "(27) (32)",
-        lambda f, p: [f.unit_systems.larmor_field(p.mu, p.B), f.unit_systems.larmor_field(p.mu, p.c, "Gaussian")],
+        lambda f, p: [f.units.larmor_field(p.mu, p.B), f.units.larmor_field(p.mu, p.c, "Gaussian")],
         lambda say, p: [
             *say("(32)", "Bprime", mu=p.mu, c=1, Bf=p.B),
             say("(27)", "alpha", mu=p.mu, b=p.c, c=29_979_245_800),
@@ -342,17 +342,17 @@ MATTER = (
         floors=("core",),
     ),
     Tie(
-        "unit_systems.cyclotron_frequency",
+        "units.cyclotron_frequency",
         "(97)",
-        lambda f, p: f.unit_systems.cyclotron_frequency(p.mu, p.c),
+        lambda f, p: f.units.cyclotron_frequency(p.mu, p.c),
         lambda say, p: say("(97)", "omega", mu=p.mu, b=p.c, c=1),
         POINTS,
         floors=("core",),
     ),
     Tie(
-        "unit_systems.charge_to_mass",
+        "units.charge_to_mass",
         "(89)",
-        lambda f, p: f.unit_systems.charge_to_mass(p.mu, p.mass),
+        lambda f, p: f.units.charge_to_mass(p.mu, p.mass),
         lambda say, p: (
             say("(89)", "m*ddy", e=p.mu, c=1, E=[1, 0, 0], v=[0, 0, 0], Bf=[0, 0, 0])[0] / sympy.Rational(p.mass)
         ),

@@ -60,7 +60,7 @@ def test_a_recipe_reaches_what_it_imports_and_nothing_else(tmp_path: Path) -> No
         ("return Hyperbola, np, rotation", "return (\n        Hyperbola,\n        np,\n        rotation,\n    )", True),
         ("return Hyperbola, np, rotation", "return Hyperbola, np, 1", False),
         ("A title.", "Another title.", False),
-        ("core.hyperbola import Hyperbola", "core.quadric import Quadric as Hyperbola", False),
+        ("core.surfaces.hyperbola import Hyperbola", "core.surfaces.quadric import Quadric as Hyperbola", False),
     ],
 )
 def test_comments_and_formatting_change_no_digest(tmp_path: Path, old: str, new: str, same: bool) -> None:
@@ -150,15 +150,15 @@ def test_a_module_that_became_a_package_is_found(tmp_path: Path, monkeypatch: py
     """What an import leads to is looked up anew, even if the file with the import is remembered."""
     package, cache = tmp_path / "atlas", Cache(tmp_path / "cache")
     (package / "core").mkdir(parents=True)
-    for name in ("__init__.py", "core/__init__.py", "core/motions/ball.py"):
+    for name in ("__init__.py", "core/__init__.py", "core/ball.py"):
         (package / name).write_text("")
     monkeypatch.setattr(sources_module, "PACKAGE", package)
     recipe = write(tmp_path / "recipe.py", "from atlas.core import ball\n")
     sources = Sources(cache)
-    assert package / "core/motions/ball.py" in sources.reached([recipe])
+    assert package / "core/ball.py" in sources.reached([recipe])
     sources.save()
     (package / "core/ball").mkdir()
-    (package / "core/motions/ball.py").rename(package / "core/ball/__init__.py")
+    (package / "core/ball.py").rename(package / "core/ball/__init__.py")
     assert package / "core/ball/__init__.py" in Sources(cache).reached([recipe])
 
 

@@ -96,7 +96,7 @@ def home(floor: str, quantity: str) -> Path:
     try:
         module = Floor(floor).module(owner)
     except KeyError:
-        return ROOT / "atlas" / floor / f"{owner}.py"
+        return Path(str(getattr(Floor(floor), owner).__file__))
     return Path(str(module.__file__))
 
 

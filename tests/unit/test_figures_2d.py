@@ -157,7 +157,7 @@ def test_recipes_import_only_the_floors_below(name: str) -> None:
     tree = ast.parse(load(name).source.read_text(encoding="utf-8"))
     modules = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     modules |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
-    allowed = r"atlas\.(core|scene)(\.\w+)?|atlas\.errors|numpy|collections\.abc|dataclasses|fractions|functools|typing"
+    allowed = r"atlas\.(core|scene)(\.\w+)*|atlas\.errors|numpy|collections\.abc|dataclasses|fractions|functools|typing"
     assert [module for module in modules if not re.fullmatch(allowed, str(module))] == []
 
 
