@@ -11,8 +11,8 @@ from atlas.core.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.scene import Curve, Label, Layer, Points, Scene, Space, quadric_panel, quadrics, solids
 from atlas.scene.bodies import proportions, row, solenoid
-from atlas.scene.camera import frame
 from atlas.scene.captions import body_role, tex_vector, title
+from atlas.scene.layers import frame
 
 WIDTH, HEIGHT = 178.0, 92.0
 BODIES = (

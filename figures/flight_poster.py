@@ -12,8 +12,8 @@ from atlas.core.motions.particle import ParticleMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Scene, Space, quadric_panel
 from atlas.scene.bodies import proportions, solenoid
-from atlas.scene.camera import frame
 from atlas.scene.captions import plain, plain_setting, plain_vector, quotient, tex, tex_setting, tex_vector, title
+from atlas.scene.layers import frame
 from atlas.scene.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 150.0, 200.0

@@ -9,9 +9,9 @@ import numpy as np
 from atlas.core.inputs import positive
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene, Space
+from atlas.scene.any_motion import course
 from atlas.scene.bodies import drawn_body
 from atlas.scene.captions import plain, plain_setting, quotient, tex, tex_equals, tex_setting, title
-from atlas.scene.course import course
 from atlas.scene.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT = 178.0, 62.0

@@ -12,8 +12,8 @@ import numpy as np
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.camera import frame
 from atlas.scene.captions import plain, plain_setting, spelt, tex, tex_setting, title
+from atlas.scene.layers import frame
 from atlas.scene.sample import curve
 
 MANY = 400.0

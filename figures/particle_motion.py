@@ -9,8 +9,8 @@ import numpy as np
 from atlas.core.inputs import FloatArray, positive
 from atlas.core.motions.particle import ParticleMotion
 from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space
+from atlas.scene.any_motion import course
 from atlas.scene.captions import plain, plain_vector, tex, tex_vector, title
-from atlas.scene.course import course
 from atlas.scene.quadric_panel import tolerance
 from atlas.scene.sample import curve
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from atlas.errors import DomainError
 from atlas.scene import Scene, Space, quadric_panel, quadric_row, quadrics, solids
-from atlas.scene.camera import frame
 from atlas.scene.captions import body_name, body_role, listed, tex, tex_vector, title
+from atlas.scene.layers import frame
 from atlas.scene.narrow import stacked
 from atlas.scene.quadric_row import Member
 

@@ -15,8 +15,8 @@ from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, quadric_panel, solids
-from atlas.scene.camera import frame
 from atlas.scene.captions import plain, plain_setting, tex, tex_setting, title
+from atlas.scene.layers import frame
 from atlas.scene.movement import about, riding
 
 

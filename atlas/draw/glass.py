@@ -1,18 +1,95 @@
 """Translucent surfaces as triangles from back to front: sheets of tinted glass, and their wires painted on them."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
 import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
-from atlas.draw.order import cut, distinct_forms, places
+from atlas.draw.hidden import values
 from atlas.draw.outline import facing
 from atlas.draw.style import style_of
 from atlas.draw.view import View
 from atlas.scene.layers import FloatArray, Surface
-from atlas.scene.mesh import normals
+from atlas.scene.sample import normals
+
+Field = Callable[[FloatArray], FloatArray]
+
+_ON = 1e-9
+
+
+def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[int]]:
+    """Return the quadrics without repetition, and for each surface the number of its own."""
+    forms: list[FloatArray] = []
+    numbers = []
+    for surface in surfaces:
+        same = (k for k, form in enumerate(forms) if np.abs(form - surface.quadric).max() <= _ON)
+        number = next(same, len(forms))
+        if number == len(forms):
+            forms.append(surface.quadric)
+        numbers.append(number)
+    return forms, numbers
+
+
+def cut(corners: FloatArray, forms: Sequence[FloatArray], own: int, towards: FloatArray) -> FloatArray:
+    """Return triangles (T, 3, K) cut so that each has one place in front of every quadric.
+
+    The first three of the K numbers of a corner are a point of the quadric number ``own``; the others come along.
+    """
+    for number, form in enumerate(forms):
+        corners = _cut(corners, lambda x, form=form: facing(form, x, towards))
+        if number != own:
+            corners = _cut(corners, lambda x, form=form: values(form, x))
+    return corners
+
+
+def places(corners: FloatArray, forms: Sequence[FloatArray], own: int, towards: FloatArray) -> FloatArray:
+    """Return the sum of the places (T,) of triangles that `cut` has made."""
+    total = np.zeros(len(corners))
+    for number, form in enumerate(forms):
+        sign = 1.0 if towards @ form[:3, :3] @ towards >= 0.0 else -1.0
+        before = sign * facing(form, corners[..., :3], towards).sum(axis=1) > 0.0
+        inside = (
+            np.zeros(len(corners)) if number == own else sign * _snapped(values(form, corners[..., :3])).sum(axis=1)
+        )
+        total += np.where(inside == 0.0, before + 0.5, np.where(inside < 0.0, 1.0, 2.0 * before))
+    return total
+
+
+def _snapped(heights: FloatArray) -> FloatArray:
+    """Return the heights, zero where they are zero but for rounding; panels have the size one, and so have forms."""
+    return np.where(np.abs(heights) <= _ON, 0.0, heights)
+
+
+def _cut(corners: FloatArray, field: Field) -> FloatArray:
+    """Return triangles (T, 3, K) cut where a field of their points, at most of second order, is zero."""
+    height = _snapped(field(corners[..., :3]))
+    above, below = height > 0.0, height < 0.0
+    split = above.any(axis=1) & below.any(axis=1)
+    if not split.any():
+        return corners
+    alone = np.where((above.sum(axis=1) == 1)[:, None], above, below)[split]
+    turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
+    row = np.arange(len(turn))[:, None]
+    a, b, c = (corners[split][row, turn][:, k] for k in range(3))
+    u, v, w = height[split][row, turn].T
+    p, q = _between(a, b, u, v, field), _between(a, c, u, w, field)
+    parts = [np.stack(part, axis=1) for part in ((a, p, q), (p, b, c), (p, c, q))]
+    return np.concatenate([corners[~split], *parts])
+
+
+def _between(a: FloatArray, b: FloatArray, u: FloatArray, v: FloatArray, field: Field) -> FloatArray:
+    """Return the points between a and b (N, K) where a field with the values u and v there is zero."""
+    middle = field(0.5 * (a + b)[:, :3])
+    square, slope = 2.0 * (u - 2.0 * middle + v), 4.0 * middle - 3.0 * u - v
+    with np.errstate(all="ignore"):
+        half = -0.5 * (slope + np.copysign(np.sqrt(slope * slope - 4.0 * square * u), slope))
+        first, second = half / square, u / half
+    share = np.where((first >= 0.0) & (first <= 1.0), first, second)
+    share = np.where(v == 0.0, 1.0, np.clip(share, 0.0, 1.0))
+    return a + share[:, None] * (b - a)
+
 
 Triangles: TypeAlias = tuple[FloatArray, FloatArray, NDArray[np.uint8]]
 """Corners (3 T, 3), unit normals (3 T, 3), and red, green, blue and opacity (3 T, 4) from 0 to 255."""

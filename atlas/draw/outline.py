@@ -11,7 +11,7 @@ from contourpy import contour_generator
 from numpy.typing import NDArray
 
 from atlas.scene.layers import FloatArray, Surface
-from atlas.scene.mesh import normals
+from atlas.scene.sample import normals
 
 Edge: TypeAlias = tuple[FloatArray, NDArray[np.uint8]]
 """Points (N, 3) in space and the codes (N,) that a `matplotlib.path.Path` has for closed polygons."""

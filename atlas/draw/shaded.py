@@ -14,9 +14,8 @@ import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 
-from atlas.draw.arrow import HEAD_WIDTH, head_base
 from atlas.draw.glass import AMBIENT, distinct, glass
-from atlas.draw.style import style_of
+from atlas.draw.style import HEAD_WIDTH, head_base, style_of
 from atlas.draw.view import View, dashes
 from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Surface
 from atlas.scene.style import Style

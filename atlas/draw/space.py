@@ -12,12 +12,11 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 
-from atlas.draw.arrow import HEAD_WIDTH, head_base
 from atlas.draw.hidden import hidden, split
 from atlas.draw.labels import along, place, write
 from atlas.draw.outline import Edge, areas, facing, shadows
 from atlas.draw.plane import gid, marker
-from atlas.draw.style import dashes, stroke, style_of, zoom
+from atlas.draw.style import HEAD_WIDTH, dashes, head_base, stroke, style_of, zoom
 from atlas.draw.view import Held, View, fit
 from atlas.scene import conics
 from atlas.scene.layers import Arrow, Curve, FloatArray, Layer, Points, Space, Surface

@@ -17,14 +17,12 @@ from matplotlib.path import Path
 from matplotlib.textpath import TextPath
 from matplotlib.transforms import Bbox
 
-from atlas.draw.arrow import HEAD_LENGTH, HEAD_WIDTH
 from atlas.draw.glass import distinct
 from atlas.draw.panels import places
-from atlas.draw.style import context, style_of
+from atlas.draw.style import HEAD_LENGTH, HEAD_WIDTH, context, style_of
 from atlas.draw.text import extent, line, points, typeset
 from atlas.draw.view import View, dashes, fit, named
-from atlas.scene.camera import frame, shown
-from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface
+from atlas.scene.layers import Arrow, Curve, FloatArray, Points, Scene, Space, Surface, frame, points_of
 from atlas.scene.narrow import narrowed
 from atlas.scene.style import Style, readable
 
@@ -80,7 +78,8 @@ def _laid_out(
 def _deep(panel: Space) -> bool:
     """Tell whether a panel is more than a drawing across the direction of view."""
     depth = (
-        np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in shown(layer)]) @ frame(panel)[2]
+        np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)])
+        @ frame(panel)[2]
     )
     return bool(np.ptp(depth) > _FLAT * np.abs(depth).max())
 

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 
 from atlas.scene import sample, solids
-from atlas.scene.camera import frame
 from atlas.scene.captions import quotient
-from atlas.scene.layers import Curve, FloatArray, Layer, Space, Surface
+from atlas.scene.layers import Curve, FloatArray, Layer, Space, Surface, frame
 
 _SEAM = 0.16
 _THIN = 0.02

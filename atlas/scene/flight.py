@@ -11,9 +11,8 @@ from atlas.core.inputs import FloatArray, positive
 from atlas.core.motions.flight import Flight
 from atlas.errors import AtlasError, DomainError
 from atlas.scene.any_motion import turns as turns_of
-from atlas.scene.camera import frame
 from atlas.scene.captions import plain_vector, tex_equals, tex_vector
-from atlas.scene.layers import Arrow, Curve, Layer, Plane, Points, Scene, Space
+from atlas.scene.layers import Arrow, Curve, Layer, Plane, Points, Scene, Space, frame
 from atlas.scene.movement import along
 from atlas.scene.sample import curve, quarter_pixel
 

@@ -5,7 +5,7 @@ quantity shown (angular velocities in 1/time, unit vectors on the sphere). Text 
 moves in time ``rides`` on a path of the scene, by its name.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
@@ -181,3 +181,24 @@ class Scene:
     lasts: float = 0.0
     narrowest: float = 0.0
     rows: tuple[float, ...] = ()
+
+
+def frame(space: Space) -> FloatArray:
+    """Return the rows right, up, towards the eye, in (e1, e2, e3); shape (3, 3)."""
+    a, e = np.radians(space.azimuth), np.radians(space.elevation)
+    towards = (np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e))
+    right = (-np.sin(a), np.cos(a), 0.0)
+    up = (-np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e))
+    return np.array([right, up, towards])
+
+
+def points_of(layer: Layer) -> Iterator[FloatArray]:
+    """Yield all the points (..., 3) of a layer that must be seen."""
+    if isinstance(layer, Curve | Points):
+        yield layer.points
+    elif isinstance(layer, Arrow):
+        yield np.stack([layer.tail, layer.tip])
+    elif isinstance(layer, Label):
+        yield layer.at
+    elif isinstance(layer, Surface):
+        yield from (*layer.grids, *layer.rims)

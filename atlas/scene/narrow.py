@@ -6,8 +6,7 @@ from itertools import chain
 
 import numpy as np
 
-from atlas.scene.camera import frame, shown
-from atlas.scene.layers import FloatArray, Layer, Plane, Scene, Space
+from atlas.scene.layers import FloatArray, Layer, Plane, Scene, Space, frame, points_of
 
 WIDTH = 90.0
 """Millimetres: what a phone shows of a figure without making its words smaller."""
@@ -49,5 +48,5 @@ def stacked(
 
 def extent(panel: Space) -> FloatArray:
     """Return how much of the plane of view (right, up) the layers of a panel cover."""
-    points = [np.reshape(part, (-1, 3)) for layer in panel.layers for part in shown(layer)]
+    points = [np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)]
     return np.asarray(np.ptp(np.concatenate(points) @ frame(panel)[:2].T, axis=0))

@@ -11,9 +11,8 @@ import numpy as np
 
 from atlas.core.surfaces.quadric import Quadric
 from atlas.scene import quadrics, solids
-from atlas.scene.camera import frame, shown
 from atlas.scene.captions import quotient
-from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface
+from atlas.scene.layers import Arrow, Curve, FloatArray, Label, Layer, Points, Space, Surface, frame, points_of
 from atlas.scene.sample import quarter_pixel
 
 E1, E2, E3 = np.eye(3)
@@ -39,7 +38,7 @@ def figure_size(panel: Space) -> tuple[float, float]:
 
     It is at most 120 x 98, and no side is below 50; the panel's projection decides the ratio of the sides.
     """
-    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in shown(layer)])
+    seen = np.concatenate([np.reshape(part, (-1, 3)) for layer in panel.layers for part in points_of(layer)])
     flat = seen / np.abs(seen).max() @ frame(panel)[:2].T
     span = np.ptp(flat, axis=0)
     filled = span * ((_PAGE - _NAMES) / span).min() + _NAMES

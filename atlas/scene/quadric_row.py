@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from atlas.scene import quadric_panel, quadrics, solids
-from atlas.scene.camera import frame
-from atlas.scene.layers import Curve, FloatArray, Label, Layer, Space, Surface
+from atlas.scene.layers import Curve, FloatArray, Label, Layer, Space, Surface, frame
 
 PITCH = 0.5
 """Least distance from one to the next, in parts of the height of the tallest."""

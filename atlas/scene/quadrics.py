@@ -6,7 +6,7 @@ from typing import TypeAlias
 import numpy as np
 
 from atlas.core.surfaces.quadric import Quadric, TopQuadric
-from atlas.scene import conics, mesh, sample, solids
+from atlas.scene import conics, sample, solids
 from atlas.scene.layers import FloatArray, Surface
 
 _Line: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -63,9 +63,9 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
     if rest == 0.0:  # straight, but the apex has no normal: it colours a speck only
         u = np.unique(np.clip([a, -tolerance, 0.0, tolerance, b], a, b))
     else:
-        u = mesh.cuts(Q, [meridian(0.0), meridian(0.25 * solids.TURN)], a, b, tolerance)
+        u = sample.cuts(Q, [meridian(0.0), meridian(0.25 * solids.TURN)], a, b, tolerance)
     rings = [ring(s) for s in (a, 0.0, b) if a <= s <= b and (s or rest > 0.0)]
-    v = mesh.cuts(Q, rings, 0.0, solids.TURN, tolerance)
+    v = sample.cuts(Q, rings, 0.0, solids.TURN, tolerance)
     grid = point(u[:, None], v[None, :])
     angles = solids.TURN * (np.arange(_WIRES) + 0.5) / _WIRES
     meridians = [sample.curve(meridian(float(t)), a, b, tolerance) for t in angles]

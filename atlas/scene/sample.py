@@ -1,6 +1,6 @@
-"""Curves sampled to a tolerance: as many points as the bends need, none for what is not seen."""
+"""Curves sampled and surfaces cut into faces to a tolerance: what bends needs more, what is not seen nothing."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -127,3 +127,37 @@ def _distance(y: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
     nearest = a + np.clip(along, 0.0, 1.0)[:, None] * chord
     distance: FloatArray = np.linalg.norm(y - nearest, axis=1)
     return distance
+
+
+SHADE = 1.0 / 512.0
+"""Half of one of 256 shades: what the light may be wrong by between two corners of a face."""
+
+
+def cuts(
+    quadric: FloatArray,
+    lines: Iterable[Callable[[FloatArray], FloatArray]],
+    start: float,
+    stop: float,
+    tolerance: float,
+) -> FloatArray:
+    """Return the parameters (N,), common to some ``lines`` on a quadric, at which its mesh is cut across them.
+
+    Between two cuts no chord of these lines leaves the quadric by more than ``tolerance``, and the unit normal is
+    linear to `SHADE`: turning by an angle d it departs by d^2/8, so that the light on a face is right to its last bit.
+    """
+
+    def of_line(line: Callable[[FloatArray], FloatArray]) -> Callable[[FloatArray], FloatArray]:
+        def point_and_normal(s: FloatArray) -> FloatArray:
+            x = line(s)
+            return np.concatenate([x / tolerance, normals(quadric, x) / SHADE], axis=1)
+
+        return point_and_normal
+
+    return np.unique(np.concatenate([knots(of_line(line), start, stop, 1.0) for line in lines]))
+
+
+def normals(quadric: FloatArray, points: FloatArray) -> FloatArray:
+    """Return the unit normals of a quadric at points (..., 3), zero where it has none: in the apex of a cone."""
+    gradient = points @ quadric[:3, :3] + quadric[:3, 3]
+    length = np.linalg.norm(gradient, axis=-1, keepdims=True)
+    return np.asarray(gradient / np.where(length > 0.0, length, 1.0))

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from atlas.scene import mesh, sample
+from atlas.scene import sample
 from atlas.scene.layers import FloatArray, Surface
 
 TURN = 2.0 * np.pi
@@ -42,7 +42,7 @@ def around(
     quadric: FloatArray, centre: FloatArray, first: FloatArray, second: FloatArray, tolerance: float
 ) -> FloatArray:
     """Return the angles (N,) at which a round surface is cut along its axis; the ellipse given is its widest."""
-    return mesh.cuts(quadric, [ellipse(centre, first, second)], 0.0, TURN, tolerance)
+    return sample.cuts(quadric, [ellipse(centre, first, second)], 0.0, TURN, tolerance)
 
 
 def matrix(form: FloatArray, linear: FloatArray, constant: float) -> FloatArray:
@@ -58,7 +58,7 @@ def sphere(centre: FloatArray, radius: float, tolerance: float, role: str = "sph
     e1, e2, e3 = np.eye(3)
     Q = matrix(np.eye(3), -2.0 * centre, float(centre @ centre) - radius * radius)
     east = around(Q, centre, radius * e1, radius * e2, tolerance)
-    north = mesh.cuts(Q, [ellipse(centre, radius * e1, radius * e3)], -0.5 * np.pi, 0.5 * np.pi, tolerance)
+    north = sample.cuts(Q, [ellipse(centre, radius * e1, radius * e3)], -0.5 * np.pi, 0.5 * np.pi, tolerance)
     v, u = np.meshgrid(east, north)
     grid = centre + radius * np.stack([np.cos(u) * np.cos(v), np.cos(u) * np.sin(v), np.sin(u)], axis=-1)
     wires = [

@@ -3,8 +3,7 @@
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.scene.camera import frame
-from atlas.scene.layers import Curve, Layer, Space
+from atlas.scene.layers import Curve, Layer, Space, frame
 
 RADII = (1.0, 0.42)
 """Radii of the torus, and of its tube."""

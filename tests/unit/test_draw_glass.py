@@ -10,7 +10,7 @@ from drawing import draw
 from numpy.typing import NDArray
 
 from atlas.draw import gl, space
-from atlas.draw.order import cut, distinct_forms, places
+from atlas.draw.glass import cut, distinct_forms, places
 from atlas.draw.view import View, fit
 from atlas.scene import Scene, Space, Surface, recipes, solids
 from atlas.scene.style import style

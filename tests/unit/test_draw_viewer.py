@@ -18,8 +18,7 @@ from atlas.draw.view import fit
 from atlas.draw.viewer import GRID, STEPS, data, script
 from atlas.places import folder
 from atlas.scene import Scene, recipes, solids
-from atlas.scene.camera import frame
-from atlas.scene.layers import Curve, FloatArray, Label, Points, Space, Surface
+from atlas.scene.layers import Curve, FloatArray, Label, Points, Space, Surface, frame
 
 HTML = folder("templates") / "html"
 

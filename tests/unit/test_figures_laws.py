@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from atlas import Hyperbola
 from atlas.core.surfaces.quadric import Quadric
 from atlas.scene import Arrow, Curve, Image, Label, Layer, Panel, Plane, Points, Region, Surface, quadric_panel, recipes
-from atlas.scene.course import course
+from atlas.scene.any_motion import course
 
 FloatArray = NDArray[np.float64]
 NAMES = [name for name in recipes.names() if not recipes.load(name).records]

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from atlas.core.surfaces.quadric import Quadric
-from atlas.scene import Surface, mesh, quadric_panel, solids
+from atlas.scene import Surface, quadric_panel, sample, solids
 
 FloatArray = NDArray[np.float64]
 
@@ -50,10 +50,10 @@ def test_light_is_right_between_corners() -> None:
     for surface in pieces(1e-2):
         grid = surface.grids[0]
         for a, b in ((grid[:-1], grid[1:]), (grid[:, :-1], grid[:, 1:])):
-            normals = [mesh.normals(surface.quadric, points) for points in (a, b)]
+            normals = [sample.normals(surface.quadric, points) for points in (a, b)]
             turn = np.arccos(np.clip(np.sum(normals[0] * normals[1], axis=-1), -1.0, 1.0))
             smooth = (np.linalg.norm(normals[0], axis=-1) > 0.5) & (np.linalg.norm(normals[1], axis=-1) > 0.5)
-            assert (turn[smooth] ** 2 / 8.0).max() < 1.1 * mesh.SHADE
+            assert (turn[smooth] ** 2 / 8.0).max() < 1.1 * sample.SHADE
 
 
 def faces(surface: Surface) -> int:

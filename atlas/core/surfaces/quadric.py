@@ -1,6 +1,6 @@
 """The quadric of initial data with constant Omega3, (51), its canonical form (54) to (57), and that of every top."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,9 +11,11 @@ from atlas.core.inputs import FloatArray, common_shape, components, kept, plain,
 from atlas.core.quantities import RATE
 from atlas.core.shown import Shown
 from atlas.errors import DomainError
-from atlas.exact.surfaces.top_quadric import TopQuadric as Exact
 from atlas.formulas import quadric, top
 from atlas.formulas.numbers import nearest, workprec
+
+if TYPE_CHECKING:
+    from atlas.exact.surfaces.top_quadric import TopQuadric as Exact
 
 KINDS = ("all space", "line", "plane pair", "cone", "two-sheet hyperboloid", "one-sheet hyperboloid")
 
@@ -157,8 +159,10 @@ class Quadric(Shown):
         return I2, I3, B2, B3
 
 
-def _exactly(row: Any) -> Exact:
+def _exactly(row: Any) -> "Exact":
     """Return one quadric in exact numbers, from its eight inputs."""
+    from atlas.exact.surfaces.top_quadric import TopQuadric as Exact
+
     I2, I3, k2, k3, n2, n3, a0, A0 = (float(x) for x in row)
     return Exact((I2, I3), (k2, k3), (n2, n3), a0, A0)
 
