@@ -7,13 +7,10 @@ BIN    := $(VENV)/bin
 ATLAS  := $(BIN)/atlas
 JOBS   ?= 2
 FUZZ_EXAMPLES ?= 10000
-PACKAGES ?= core exact study
-COUNT  ?= 60
-SEED   ?= 0
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures picture accessibility verify bench stress mutants lint clean setup lock newest lowest release FORCE
+.PHONY: help report test figures picture accessibility verify bench stress lint clean setup lock newest lowest release FORCE
 
 help:
 	@echo 'make report    the atlas, the paper on trial and the guide, as pages and PDF: build/report/atlas/index.html'
@@ -22,7 +19,6 @@ help:
 	@echo 'make build/figures/NAME.svg|pdf|png   one figure;   make picture   the picture of the README'
 	@echo 'make verify    the proofs about the paper'"'"'s equations'
 	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 calls with extreme inputs'
-	@echo 'make mutants   slips of one token in PACKAGES="core exact study": which do the tests not notice?'
 	@echo 'make accessibility   the linter axe-core on every page, the search box and what turns, in Chromium: needs node and npm; FRAMES=1 tells frames a second'
 	@echo 'make newest    the unit tests with the newest libraries that the ranges allow;   make lowest   with the oldest'
 	@echo 'make release TAG=v0.2.0   the sdist and the wheel of a tag, in dist/'
@@ -63,7 +59,6 @@ build/figures/%: FORCE | setup
 
 verify: setup
 	@$(ATLAS) verify --record
-	@$(ATLAS) verify --mutants --all --record
 
 bench: setup $(VENV)/.bench
 	@env -u OPENBLAS_CORETYPE $(ATLAS) bench --store   # so that OpenBLAS chooses the kernels of this processor
@@ -83,9 +78,6 @@ accessibility: report
 	@$(LOOK) tests/accessibility.mjs build/report/guide build/accessibility
 	@$(LOOK) tests/search.mjs build/report/atlas build/report/trial build/accessibility
 	@$(LOOK) tests/scenes.mjs build/report/atlas build/accessibility
-
-mutants: setup
-	@$(BIN)/python tests/mutants.py $(PACKAGES) --count $(COUNT) --seed $(SEED) --jobs $(JOBS)
 
 lint: setup
 	@$(BIN)/ruff check .

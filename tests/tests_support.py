@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from atlas.paper import EQUATIONS
 from atlas.proof import recorded
-from atlas.proof.verdict import Sensitivity, Verdict
+from atlas.proof.verdict import Verdict
 
 
 def ulps_apart(found: float, certified: str, size: float) -> float:
@@ -16,11 +16,6 @@ def ulps_apart(found: float, certified: str, size: float) -> float:
     return abs(float(Fraction(found) - Fraction(certified))) / math.ulp(size)
 
 
-def stale(records: Mapping[str, Verdict] | Mapping[str, Sensitivity]) -> list[str]:
+def stale(records: Mapping[str, Verdict]) -> list[str]:
     """Return the names of the ledger without a record, or whose proof has changed since it was recorded."""
-    changes = any(isinstance(entry, Sensitivity) for entry in records.values())
-    return [
-        name
-        for name in EQUATIONS
-        if name not in records or records[name].source != recorded.source(name, changes=changes)
-    ]
+    return [name for name in EQUATIONS if name not in records or records[name].source != recorded.source(name)]

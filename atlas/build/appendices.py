@@ -45,12 +45,10 @@ def gather(report: Report) -> Appendices:
 def _findings() -> dict[str, Finding]:
     """Return what the trial recorded on each entry."""
     from atlas.proof import recorded
-    from atlas.proof.unrefuted import reason
 
-    mutants, modules = recorded.load_mutants(), _modules()
+    modules = _modules()
     findings = {}
     for name, verdict in recorded.load().items():
-        changed = mutants.get(name)
         findings[name] = Finding(
             verdict.verdict,
             verdict.method,
@@ -59,9 +57,6 @@ def _findings() -> dict[str, Finding]:
             verdict.corrected_verdict,
             verdict.counterexample,
             verdict.note,
-            changed.tried if changed else 0,
-            changed.noticed if changed else 0,
-            " ".join(dict.fromkeys(reason(name, line) for _, line, _ in changed.unrefuted)) if changed else "",
             modules.get(name, ()),
             verdict.grade,
             verdict.slip,
@@ -82,42 +77,25 @@ def _modules() -> dict[str, tuple[str, ...]]:
 
 
 def _trial() -> dict[str, Data]:
-    """Return the verdicts in numbers, section by section, and which changes were not refuted."""
+    """Return the verdicts in numbers, section by section, and the slips by grade."""
     from atlas.proof import recorded
-    from atlas.proof.unrefuted import reason
     from atlas.proof.verdict import slips
 
-    verdicts, mutants = recorded.load(), recorded.load_mutants()
+    verdicts = recorded.load()
     kinds = ("proved", "definition", "refuted", "supported", "undecided")
     totals: defaultdict[str, Counter[str]] = defaultdict(Counter)
     for name, entry in EQUATIONS.items():
-        changed = mutants.get(name)
         for key in (entry.section, "all"):
             totals[key]["entries"] += 1
             totals[key][verdicts[name].verdict if name in verdicts else "undecided"] += 1
-            totals[key]["tried"] += changed.tried if changed else 0
-            totals[key]["noticed"] += changed.noticed if changed else 0
     totals["All"] = totals.pop("all")
-    heads = ("Section", "Entries", *(kind.capitalize() for kind in kinds), "Changes tried", "Noticed", "Not refuted")
+    heads = ("Section", "Entries", *(kind.capitalize() for kind in kinds))
     rows: list[tuple[str | Number, ...]] = []
     for key, count in totals.items():
-        count["left"] = count["tried"] - count["noticed"]
-        numbers = (Number(str(count[name])) for name in ("entries", *kinds, "tried", "noticed", "left"))
+        numbers = (Number(str(count[name])) for name in ("entries", *kinds))
         rows.append((_SECTIONS.get(key, key), *numbers))
-    reasons: defaultdict[str, Counter[str]] = defaultdict(Counter)
-    for name, changed in mutants.items():
-        for _, line, _ in changed.unrefuted:
-            reasons[reason(name, line) or "Not explained."][name] += 1
     return {
         "totals": Data(tuple(map(Column, heads)), tuple(rows), "The trial in numbers."),
-        "unrefuted": Data(
-            (Column("Why they are not refuted"), Column("Entries, with the number of changes")),
-            tuple(
-                (why, ", ".join(f"@{name} ({count})" for name, count in counts.items()))
-                for why, counts in reasons.items()
-            ),
-            "Changed forms that the trial does not refute.",
-        ),
         "slips": Data(
             (Column("What is wrong"), Column("Slips"), Column("Entries")),
             tuple(

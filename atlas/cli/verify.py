@@ -1,4 +1,4 @@
-"""``atlas verify``: the paper's equations on trial, and whether the trial would notice a slip."""
+"""``atlas verify``: the paper's equations on trial."""
 
 from collections import Counter
 from pathlib import Path
@@ -29,18 +29,14 @@ COLUMNS = (
 @click.command(
     "verify",
     cls=Command,
-    epilog=examples("atlas verify 48 71", "atlas verify --json", "atlas verify --mutants --all 84"),
+    epilog=examples("atlas verify 48 71", "atlas verify --json"),
 )
 @click.argument("names", nargs=-1, metavar="[NUMBER|NAME...]")
-@click.option("--mutants", is_flag=True, help="Change each true form in one place at a time: does the trial notice?")
-@click.option("--all", "every", is_flag=True, help="With --mutants: every change that can be made, not a sample.")
 @click.option("--record", is_flag=True, help="Keep what was found as the recorded verdicts that reports draw.")
 @click.option("--anew", is_flag=True, help="Try everything, also what was tried before with the same proof.")
 @click.option("--jobs", "-j", type=click.IntRange(min=1), default=1, show_default=True, help="Trials side by side.")
 @click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there.")
-def command(
-    names: tuple[str, ...], mutants: bool, every: bool, record: bool, anew: bool, jobs: int, as_json: bool
-) -> int:
+def command(names: tuple[str, ...], record: bool, anew: bool, jobs: int, as_json: bool) -> int:
     """Try equations and claims of the paper, all if none is named, on the form as printed.
 
     An equation is named by its printed number, 72 or "(72)", one without a number, and a theorem, by its name in the
@@ -48,25 +44,19 @@ def command(
 
     A verdict is proved, refuted (with numbers that anyone can retype, and a corrected form, proved), undecided,
     supported, or definition where there is nothing to prove. Slips are graded. The exit
-    status is 1 if a verdict differs from the recorded one, or a mutant is not refuted and has no reason on record.
+    status is 1 if a verdict differs from the recorded one.
     """
     if record and names:
         raise click.UsageError("--record keeps the verdicts of all equations: name none.")
-    if every and not mutants:
-        raise click.UsageError("--all is about --mutants: give both.")
-    if record and mutants and not every:
-        raise click.UsageError("--record keeps what became of all mutants: give --all too.")
     from atlas import proof
     from atlas.proof.run import CACHE
 
     options: dict[str, Any] = {"jobs": jobs, "cache_folder": None if anew else Path(CACHE)}
-    options |= {"every": every} if mutants else {}
     with bar("trials") as tell:
-        run = proof.mutants if mutants else proof.verify
-        found = run(names or None, lambda name, done, total: tell(done, total, name), **options)
-    status = _mutants(found, as_json) if mutants else _verdicts(found, as_json, record, named=bool(names))
+        found = proof.verify(names or None, lambda name, done, total: tell(done, total, name), **options)
+    status = _verdicts(found, as_json, record, named=bool(names))
     if record:
-        proof.recorded.save(found, *([proof.recorded.MUTANTS] if mutants else []))
+        proof.recorded.save(found)
     return status
 
 
@@ -122,42 +112,3 @@ def _totals(found: Any) -> None:
         each = ", ".join(f"{count} {grade}" for grade, count in graded.items())
         count = sum(graded.values())
         click.echo(f"{count} distinct slip{'s' if count != 1 else ''}: {each}")
-
-
-def _mutants(found: Any, as_json: bool) -> int:
-    """Show what became of the mutants; return the exit status."""
-    from atlas.proof.unrefuted import reason
-
-    why = {(one.name, line): plain(reason(one.name, line)) for one in found for _, line, _ in one.unrefuted}
-    unexplained = [(name, line) for (name, line), text in why.items() if not text]
-    if as_json:
-        dump({"mutants": [one.as_dict() | {"unrefuted": _explained(one, why)} for one in found]})
-    else:
-        rows = [
-            [
-                one.name,
-                str(one.tried),
-                str(one.noticed),
-                str(len(one.unrefuted)),
-                " ".join(dict.fromkeys(why[one.name, line] for _, line, _ in one.unrefuted)),
-            ]
-            for one in found
-        ]
-        heading = ("equation", "mutants", "noticed", "not refuted", "because")
-        show(Printout("forms changed in one place", heading=heading, rows=rows, justify="left"))
-        for one in found:
-            for what, line, decision in one.unrefuted:
-                click.echo(f"{one.name}, {what}, is not refuted: {line} ({decision})")
-        tried, noticed = sum(one.tried for one in found), sum(one.noticed for one in found)
-        click.echo(f"{tried} mutants, {noticed} noticed, {tried - noticed} not refuted")
-    for name, line in unexplained:
-        click.echo(f"atlas: a mutant of {name} is not refuted and no reason is on record: {line}", err=True)
-    return int(bool(unexplained))
-
-
-def _explained(one: Any, why: dict[tuple[str, str], str]) -> list[dict[str, str]]:
-    """Return the changes of an entry that were not refuted, for JSON, each with its reason."""
-    return [
-        {"change": what, "line": line, "verdict": full, "reason": why[one.name, line]}
-        for what, line, full in one.unrefuted
-    ]

@@ -1,4 +1,17 @@
-"""Translucent surfaces as triangles from back to front: sheets of tinted glass, and their wires painted on them."""
+"""Translucent surfaces as triangles from back to front: sheets of tinted glass, and their wires painted on them.
+
+Pieces of quadrics are put from back to front exactly, along parallel rays.
+On the ray x + t d to the eye F = F(x) + B t + A t^2, where A = d.Q.d is one number for the whole picture and
+B = grad F . d is linear in x. Let s be the sign of A. A point has a place in front of a quadric:
+
+    0  behind both hits: s F > 0, s B < 0       1  between them: s F < 0       2  before both: s F > 0, s B > 0
+
+and on it, F = 0, one half at the hit farther from the eye (s B < 0), one and a half at the nearer. Along a ray it
+never goes down: rays that miss the quadric go from 0 to 2 at B = 0, and for A = 0, as for a plane, the other hit is
+infinitely far away. So the sum of the places in front of all quadrics goes up from hit to hit of every ray. Painted in
+the order of this sum, translucent surfaces need no depth peeling, once they are cut where a place changes: at B = 0,
+and where two of them meet.
+"""
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias

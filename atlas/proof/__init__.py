@@ -2,7 +2,6 @@
 
     from atlas import proof
     proof.verify(["(72)"])        try entries of the ledger now, all if none is named
-    proof.mutants(["(72)"])       change each in one place at a time and see whether the trial notices
     proof.recorded.load()           the recorded verdicts, without SymPy
 
 `notation` reads a printed formula, `model` says what stands before it, `decide` decides, `trial` joins the three; one
@@ -14,11 +13,11 @@ from importlib import import_module
 from typing import Any
 
 from atlas.proof import recorded
-from atlas.proof.verdict import Sensitivity, Verdict
+from atlas.proof.verdict import Verdict
 
-__all__ = ["Sensitivity", "Verdict", "mutants", "recorded", "try_mutants", "try_one", "verify"]
+__all__ = ["Verdict", "recorded", "try_one", "verify"]
 
-_LAZY = {"verify", "mutants", "try_one", "try_mutants"}
+_LAZY = {"verify", "try_one"}
 
 
 def __getattr__(name: str) -> Any:

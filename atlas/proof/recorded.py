@@ -16,11 +16,10 @@ from typing import Any
 from atlas import files
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, topic
-from atlas.proof.verdict import Sensitivity, Verdict
+from atlas.proof.verdict import Verdict
 
 FOLDER = Path(__file__).resolve().parent
 VERDICTS = FOLDER / "verdicts.json"
-MUTANTS = FOLDER / "mutants.json"
 MACHINERY = ("notation", "dimensions", "model", "identity", "decide", "trial")
 
 
@@ -46,26 +45,15 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
-def source(name: str, *, changes: bool = False) -> str:
-    """Return the fingerprint of the proof of an entry of the ledger, or of that and of the changes tried on it."""
-    return _fingerprint(topic(name), MACHINERY + (("changes", "quick") if changes else ()))
+def source(name: str) -> str:
+    """Return the fingerprint of the proof of an entry of the ledger."""
+    return _fingerprint(topic(name), MACHINERY)
 
 
 def load(path: Path = VERDICTS) -> dict[str, Verdict]:
     """Return the recorded verdicts by name, in the ledger's order."""
     recorded = {entry["name"]: Verdict(**entry) for entry in _read(path)}
     return {name: recorded[name] for name in EQUATIONS if name in recorded}
-
-
-def load_mutants(path: Path = MUTANTS) -> dict[str, Sensitivity]:
-    """Return the recorded mutants by name, in the ledger's order."""
-    recorded = {entry["name"]: sensitivity(**entry) for entry in _read(path)}
-    return {name: recorded[name] for name in EQUATIONS if name in recorded}
-
-
-def sensitivity(unrefuted: Iterable[Iterable[str]], **entry: Any) -> Sensitivity:
-    """Return the record of mutants that JSON holds."""
-    return Sensitivity(unrefuted=tuple((what, line, found) for what, line, found in unrefuted), **entry)
 
 
 def _read(path: Path) -> list[dict[str, Any]]:
@@ -80,7 +68,7 @@ def _read(path: Path) -> list[dict[str, Any]]:
     return entries
 
 
-def save(found: Iterable[Verdict | Sensitivity], path: Path = VERDICTS) -> None:
+def save(found: Iterable[Verdict], path: Path = VERDICTS) -> None:
     """Write records, over those of the same names that are there; seconds change only where the proof did."""
     old = {entry["name"]: entry for entry in _read(path)}
     for record in found:

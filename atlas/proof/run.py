@@ -6,29 +6,24 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from functools import cache, partial
+from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from atlas import processes
 from atlas.errors import AtlasError
 from atlas.paper import EQUATIONS, equation, find, topic
 from atlas.paper.equation import slug
 from atlas.proof import recorded
-from atlas.proof.changes import changes
 from atlas.proof.decide import Outcome
-from atlas.proof.model import Model
-from atlas.proof.quick import Numbers
 from atlas.proof.trial import Part, Trial
-from atlas.proof.verdict import Sensitivity, Verdict
+from atlas.proof.verdict import Verdict
 
 LIMIT = 60.0  # seconds of the processor that one trial may take; more is undecided
-SAMPLE = 24  # changes of one line that are tried, if not all
 CACHE = Path("build") / "proofs"
 
 Progress = Callable[[str, int, int], None]
-Found = TypeVar("Found", Verdict, Sensitivity)
 
 
 class _OverTimeError(Exception):
@@ -115,36 +110,6 @@ def _within_time(run: Callable[[], Outcome]) -> Outcome:
         return Outcome("undecided", f"out of time after {LIMIT:.0f} s")
 
 
-def try_mutants(name: str, *, every: bool = False) -> Sensitivity:
-    """Change the form of an entry that is proved in one place at a time, and see whether the trial notices.
-
-    every  all changes that the grammar yields, not a sample of them
-    """
-    case = trial(name)
-    start = time.perf_counter()
-    tried, unrefuted = 0, []
-    for part in case.true_parts:
-        cases = part.model()
-        first = cases if isinstance(cases, Model) else cases[0]
-        known = frozenset(first.letters) | set(part.defines)
-        numbers = Numbers(part)
-        for line, what in changes(part.line, known, most=None if every else SAMPLE, seed=name):
-            tried += 1
-            if numbers.refute(line):
-                continue
-            if _within_time(lambda part=part, line=line: part.outcome(line, sample_only=True)).decision != "refuted":  # type: ignore[misc]
-                full = _within_time(lambda part=part, line=line: part.outcome(line)).decision  # type: ignore[misc]
-                unrefuted.append((what, line, full))
-    return Sensitivity(
-        name=name,
-        tried=tried,
-        noticed=tried - len(unrefuted),
-        unrefuted=tuple(unrefuted),
-        seconds=round(time.perf_counter() - start, 2),
-        source=recorded.source(name, changes=True),
-    )
-
-
 def verify(
     names: Iterable[str] | None = None,
     progress: Progress | None = None,
@@ -158,38 +123,13 @@ def verify(
     jobs          processes side by side
     cache_folder  where verdicts are kept by the fingerprint of their proof; None tries everything anew
     """
-    return _run(try_one, "verdict", Verdict, names, progress, jobs, cache_folder)
-
-
-def mutants(
-    names: Iterable[str] | None = None,
-    progress: Progress | None = None,
-    *,
-    every: bool = False,
-    jobs: int = 1,
-    cache_folder: Path | None = None,
-) -> list[Sensitivity]:
-    """Try a sample of the mutants of entries of the ledger, or `every` one; other arguments as for `verify`."""
-    run = partial(try_mutants, every=every)
-    return _run(run, "all-mutants" if every else "mutants", recorded.sensitivity, names, progress, jobs, cache_folder)
-
-
-def _run(
-    run: Callable[[str], Found],
-    kind: str,
-    make: Callable[..., Found],
-    names: Iterable[str] | None,
-    progress: Progress | None,
-    jobs: int,
-    folder: Path | None,
-) -> list[Found]:
     meant = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
     wanted = [name for name in EQUATIONS if name in meant]
-    prints = {name: recorded.source(name, changes=kind != "verdict") for name in wanted}
-    places = {name: folder / f"{kind}-{slug(name)}-{prints[name]}.json" for name in wanted} if folder else {}
-    found = {name: make(**json.loads(path.read_text("utf-8"))) for name, path in places.items() if path.is_file()}
+    folder = cache_folder
+    places = {name: folder / f"verdict-{slug(name)}-{recorded.source(name)}.json" for name in wanted} if folder else {}
+    found = {name: Verdict(**json.loads(path.read_text("utf-8"))) for name, path in places.items() if path.is_file()}
     missing = [name for name in wanted if name not in found]
-    for done, (name, result) in enumerate(_each(run, missing, jobs), len(found) + 1):
+    for done, (name, result) in enumerate(_each(missing, jobs), len(found) + 1):
         found[name] = result
         if folder:
             folder.mkdir(parents=True, exist_ok=True)
@@ -201,10 +141,10 @@ def _run(
     return [found[name] for name in wanted]
 
 
-def _each(run: Callable[[str], Found], names: list[str], jobs: int) -> Iterator[tuple[str, Found]]:
+def _each(names: list[str], jobs: int) -> Iterator[tuple[str, Verdict]]:
     executor = processes.pool(jobs, context="fork") if jobs > 1 and len(names) > 1 else None
     if executor is None:
-        yield from ((name, run(name)) for name in names)
+        yield from ((name, try_one(name)) for name in names)
         return
     with executor as pool:
-        yield from zip(names, pool.map(run, names), strict=True)
+        yield from zip(names, pool.map(try_one, names), strict=True)

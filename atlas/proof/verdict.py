@@ -78,25 +78,3 @@ def slips(verdicts: Iterable[Verdict]) -> dict[Grade, list[str]]:
         if verdict.grade and not verdict.slip:
             found[verdict.grade].append(verdict.name)
     return found
-
-
-@dataclass(frozen=True, slots=True)
-class Sensitivity:
-    """What became of the mutants of one entry: the form that is proved, changed in one place at a time.
-
-    tried       how many there were
-    noticed     how many the trial refuted
-    unrefuted   those that it didn't: what was changed, the line, what the full trial says of it; why, says
-                `unrefuted.reason`
-    """
-
-    name: str
-    tried: int
-    noticed: int
-    unrefuted: tuple[tuple[str, str, str], ...] = ()
-    seconds: float = 0.0
-    source: str = ""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the record for JSON."""
-        return asdict(self)

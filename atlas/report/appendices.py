@@ -18,8 +18,6 @@ class Finding:
     corrected       TeX of the true form where the printed one is refuted, and the verdict on it
     counterexample  values of the letters that break the printed form, and what its two sides then are
     note            what the verdict means, where it needs a word
-    tried, noticed  forms changed in one place that were tried as well, and those that the trial refuted
-    unrefuted       why the others are not
     modules         the modules that cite the entry, such as ``core/surfaces/hyperbola.py``
     grade, slip     what kind of slip it is, if it needs an erratum, and the entry that shares the slip, if one does
     false           a false sentence near a claim in words, which the trial refutes
@@ -32,9 +30,6 @@ class Finding:
     corrected_verdict: str = ""
     counterexample: Mapping[str, str] = field(default_factory=dict)
     note: str = ""
-    tried: int = 0
-    noticed: int = 0
-    unrefuted: str = ""
     modules: tuple[str, ...] = ()
     grade: str = ""
     slip: str = ""

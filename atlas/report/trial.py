@@ -53,9 +53,6 @@ class EntryView:
     corrected_verdict: str
     note: int | None
     counterexample: Counterexample | None
-    tried: int
-    noticed: int
-    unrefuted: int | None
     modules: tuple[str, ...]
     uses: list[Use]
     grade: str = ""
@@ -78,7 +75,7 @@ class EntryView:
         """The places in the manuscript of all its texts."""
         every = (
             *(self.says, self.quote, self.formula, self.assumptions),
-            *(self.how, self.corrected, self.note, self.unrefuted, self.false),
+            *(self.how, self.corrected, self.note, self.false),
         )
         return [number for number in every if number is not None]
 
@@ -116,9 +113,6 @@ def _entry(entry: Equation, found: Finding, keep: Callable[..., int], uses: list
         corrected_verdict=found.corrected_verdict,
         note=words(found.note),
         counterexample=_counterexample(found.counterexample) if found.counterexample else None,
-        tried=found.tried,
-        noticed=found.noticed,
-        unrefuted=words(found.unrefuted),
         modules=found.modules,
         uses=uses,
         grade=found.grade,

@@ -57,7 +57,6 @@ NEVER = {
     "--explain",
     "--jobs",
     "-j",
-    "--mutants",
     "--anew",
 }
 """Options that write or start processes: they have tests of their own."""

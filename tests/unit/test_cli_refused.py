@@ -116,8 +116,6 @@ CASES = [
     ("monodromy --inertia 1 0.5 --linear 1e308 --M3 0", "choose another unit of time"),
     ("figure cone --set field=0,1 --out {place}/new", "cone"),
     ("verify 72 --record", "name none"),
-    ("verify --all", "--all is about --mutants"),
-    ("verify --mutants --record", "give --all too"),
     ("bench --read {place}/ratios.csv --quick", "nothing but --json"),
     ("check {place}/none.csv", "none.csv"),
     ("check {place}/sub", "sub"),

@@ -9,13 +9,11 @@ from atlas.paper import EQUATIONS
 from atlas.paper.citation import cited
 from atlas.plain import plain
 from atlas.proof import recorded
-from atlas.proof.unrefuted import REASONS
 from atlas.study.stress import LIMITS, read_record
 
 TEXTS = [
     *(text for entry in EQUATIONS.values() for text in (entry.says, *entry.assumptions)),
     *(text for verdict in recorded.load().values() for text in (verdict.method, verdict.follows, verdict.note)),
-    *(why for reasons in REASONS.values() for _, why in reasons),
     *(title(name) for key in (*LIMITS, *read_record()) for name in key.split(" | ")),
 ]
 LETTER = re.compile(r"alpha|beta|gamma|lambda|omega|Omega|theta|tau|phi|psi|^sqrt|^hat|[A-Z]'?\d|[a-z]\d|[_^<>=]")

@@ -484,7 +484,6 @@ def test_every_corrected_formula_can_be_typeset() -> None:
 def test_recorded_verdicts_load_without_sympy() -> None:
     """A page that shows verdicts waits for no proof."""
     script = (
-        "import sys; from atlas import proof; assert len(proof.recorded.load()) > 100;"
-        "assert proof.recorded.load_mutants(); proof.recorded.load(); print('sympy' in sys.modules)"
+        "import sys; from atlas import proof; assert len(proof.recorded.load()) > 100;print('sympy' in sys.modules)"
     )
     assert subprocess.check_output([sys.executable, "-c", script], text=True).strip() == "False"

@@ -87,7 +87,6 @@ title = "Records"
     f'[[pages.blocks]]\nkind = "recorded"\nsource = "{source}"\ntable = "{table}"\n'
     for source, table in (
         ("trial", "totals"),
-        ("trial", "unrefuted"),
         ("bench", "Limits of speed"),
         ("stress", "worst errors"),
     )
@@ -241,14 +240,12 @@ def test_the_order_of_grades_is_that_of_the_trial() -> None:
 
 
 def test_totals_are_those_of_the_record(pages: dict[str, reader.HtmlElement]) -> None:
-    """The last row of the totals counts all verdicts and all changed forms."""
+    """The last row of the totals counts all verdicts."""
     verdicts = Counter(verdict.verdict for verdict in recorded.load().values())
-    mutants = recorded.load_mutants().values()
-    tried, noticed = sum(one.tried for one in mutants), sum(one.noticed for one in mutants)
     (row,) = pages["records.html"].xpath("//figure[@id='tab-2']//tr[td[1]='All']")
     numbers = [int(cell.text_content()) for cell in row.xpath("td")[1:]]
     kinds = ("proved", "definition", "refuted", "supported", "undecided")
-    assert numbers == [len(EQUATIONS), *(verdicts[kind] for kind in kinds), tried, noticed, tried - noticed]
+    assert numbers == [len(EQUATIONS), *(verdicts[kind] for kind in kinds)]
 
 
 def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatch, toml: Path) -> None:
@@ -309,5 +306,5 @@ def test_pages_of_recorded_results_load_no_algebra(tmp_path: Path) -> None:
 
 def _with(finding: Finding) -> Appendices:
     """Return appendices with one finding and empty tables."""
-    names = ("trial: totals", "trial: unrefuted", "bench: Limits of speed", "stress: worst errors")
+    names = ("trial: totals", "bench: Limits of speed", "stress: worst errors")
     return Appendices({"(72)": finding}, {name: Data((), (), name) for name in names})
