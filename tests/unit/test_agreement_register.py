@@ -55,7 +55,7 @@ UNTIED = {
         f"GeneralMotion.{name}": SERIES
         for name in (
             "B2 B3 angular_momentum angular_velocity at_state b column complementary_modulus field_in_body from_frame "
-            "in_cell in_laboratory invariants is_plane is_steady kind modulus nome parameters period precession "
+            "in_laboratory invariants is_plane is_steady kind modulus nome period precession "
             "precession_per_period quaternion roots rotation rotation_grid solution sphere spin_per_period "
             "swings_evenly third_axis tilt trigonometric turning_points turning_rate velocity velocity_sizes"
         ).split()
@@ -63,8 +63,8 @@ UNTIED = {
     **{
         f"TopMotion.{name}": TOP
         for name in (
-            "angular_momentum angular_velocity b charged column complementary_modulus field_in_body from_frame in_cell "
-            "heavy invariants is_plane is_steady kind modulus nome parameters period precession precession_per_period "
+            "angular_momentum angular_velocity b charged column complementary_modulus field_in_body from_frame "
+            "heavy invariants is_plane is_steady kind modulus nome period precession precession_per_period "
             "quadric quaternion roots rotation rotation_grid sleeping_bands solution sphere spin_per_period stable "
             "steady_precessions steady_rates swings_evenly third_axis tilt trigonometric turning_points turning_rate"
         ).split()
@@ -72,8 +72,8 @@ UNTIED = {
     **{
         f"EllipticMotion.{name}": "compared with Taylor series of (12), (16), and with its theorem, in test_elliptic"
         for name in (
-            "E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame in_cell "
-            "invariants is_plane is_steady kind modulus nome omega parameters period precession precession_per_period "
+            "E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame "
+            "invariants is_plane is_steady kind modulus nome omega period precession precession_per_period "
             "quaternion rate_of rotation rotation_grid solution sphere spin_per_period splitting stability "
             "steady_rates swings_evenly third_axis tilt trigonometric turning_rate v"
         ).split()

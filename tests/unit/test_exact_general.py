@@ -163,7 +163,7 @@ def test_after_one_period_the_body_has_turned_by_the_two_angles(inputs: Any) -> 
     motion, t = GeneralMotion(*inputs), arb(1) / 3
     T, psi, chi, found = motion.period, motion.precession_per_period, motion.spin_per_period, motion.solution
     for parameter, sign in ((found.alpha, 1), (found.beta, -1)):
-        first, later = (parameter.at(x, motion.in_cell(x + found.origin))[0] for x in (t, t + T))
+        first, later = (parameter.at(x, motion.solution.in_cell(x + found.origin))[0] for x in (t, t + T))
         square, (sine, cosine) = (later / first) ** 2, (psi + sign * chi).sin_cos()
         assert largest([square.real - cosine, square.imag - sine]) < 1e-25
 
@@ -219,7 +219,7 @@ def test_the_attitude_is_exactly_one_at_the_start(motion: GeneralMotion | TopMot
 def test_two_turns_are_the_matrix_of_the_parameters(inputs: Any) -> None:
     """Both roads to R(t) enclose the same entries, narrowly."""
     motion = GeneralMotion(*inputs)
-    two, one = motion.rotation(2.7), matrix(motion.from_frame(*motion.parameters(2.7)[:2]))
+    two, one = motion.rotation(2.7), matrix(motion.from_frame(*motion.solution.parameters(2.7)[:2]))
     assert largest(arb(x) - arb(y) for a, b in zip(two, one, strict=True) for x, y in zip(a, b, strict=True)) < 1e-90
 
 

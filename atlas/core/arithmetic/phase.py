@@ -141,7 +141,7 @@ class Phases:
         """Return what `angles` does with the number of half turns, plus `rounder`, in the place of their sign."""
         far = farthest(t)
         if not far <= self.longest:
-            self._check(t)
+            self.check(t)
         if self.exponents is not None:
             t = np.ldexp(t, self.exponents)
             low = None if low is None else np.ldexp(low, self.exponents)
@@ -246,7 +246,7 @@ class Phases:
         head += rest
         return product, head, whole, rest
 
-    def _check(self, t: FloatArray) -> None:
+    def check(self, t: FloatArray) -> None:
         """Raise AtlasError for a time that is out of reach."""
         far = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
         if far.size:

@@ -7,20 +7,24 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from flint import acb, arb
+from flint import acb, arb, fmpq
 
 from atlas.core.arithmetic.phase import EVEN, ROUNDER, Phases
 from atlas.core.arithmetic.words import ZERO, middle
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.functions import Functions, Hyperbolic, Linear, Steady, Trigonometric
 from atlas.core.nutation.swing import Crossing, Swing
+from atlas.errors import DomainError
 from atlas.exact.nutation.cayley_klein import Solution
 from atlas.exact.nutation.swing import Crossing as ExactCrossing
 from atlas.exact.nutation.theta import infinite
-from atlas.formulas.numbers import workprec
+from atlas.formulas.numbers import rational, workprec
 
 FIRST = 256
 """Binary digits with which the constants are tried first."""
+
+MOST = 1 << 17
+"""Binary digits beyond which they are not tried."""
 
 FREQUENCY, WEIGHT = 2.0**-120, 2.0**-80
 """Radius to which frequencies (of the largest) and weights (of themselves) are known before they are rounded."""
@@ -43,9 +47,38 @@ class CayleyKlein:
     """
 
     def __init__(self, solution: Callable[[], Solution], *, slopes: bool = False) -> None:
-        self.precision, self.sloping = FIRST, slopes
+        self.precision, self.sloping, self._solution = FIRST, slopes, solution
         while not self._made(solution, self.precision):
-            self.precision *= 2
+            self._refine()
+
+    def _refine(self) -> None:
+        """Double the precision. Raises DomainError where that is hopeless."""
+        self.precision *= 2
+        if self.precision > MOST:
+            raise DomainError(
+                f"The constants of this motion are not known with {MOST} binary digits: it is too near to a case of "
+                "its own, as is a separatrix, or its rates are of sizes too different."
+            )
+
+    def in_balls(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
+        """Return what `Evaluation.parts` does, each time by itself: where the turn of a top is too long for words."""
+        self.phases.check(t)
+        lacks = np.zeros(t.size) if low is None else np.broadcast_to(low, t.shape)
+        times = [rational(x) + rational(y) for x, y in zip(t.tolist(), lacks.tolist(), strict=True)]
+        return np.array([self._in_balls(x) for x in times]).T.reshape(8 if self.sloping else 4, t.size)
+
+    def _in_balls(self, t: fmpq) -> list[float]:
+        """Return the real parts, the imaginary parts and, if `sloping`, those of the derivatives at a time."""
+        while True:
+            with workprec(self.precision):
+                a, b, da, db = self._solution().parameters(t, turning=False)
+                unit = (abs(a) ** 2 + abs(b) ** 2).sqrt()
+                parts = [[x / unit for x in (a.real, b.real, a.imag, b.imag)]]
+                parts += [[x / unit for x in (da.real, db.real, da.imag, db.imag)]] * self.sloping
+                sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in parts]
+                if all(_radius(x) <= WEIGHT * float(y) for four, y in zip(parts, sizes, strict=True) for x in four):
+                    return [float(x.mid()) for four in parts for x in four]
+            self._refine()
 
     def _made(self, solution: Callable[[], Solution], precision: int) -> bool:
         """Take the constants at one precision; return whether it suffices."""
@@ -59,6 +92,7 @@ class CayleyKlein:
             kind: Callable[..., Functions] = Steady if lattice.rate.is_zero() else KINDS[lattice.form]
             self.functions = kind(found, [x.sum for x in pair])
             self.swing = _swing(found.swing)
+            self.by_balls = bool(self.swing and self.swing.is_coarse)
             tables = _weights(found, self.functions, slopes=self.sloping)
             largest = max(abs(x).mid() for row in tables[0] for x in row)
             if not all(_known(x, largest) for table in tables for row in table for x in row):
@@ -82,12 +116,14 @@ class CayleyKlein:
     def _phases(self) -> Phases:
         """Return the phases: a sum of hyperbolic functions is for one period, whose sign does not matter.
 
-        It multiplies the phase in the period by a large slope: so this is reduced as if it were long, without any loss.
+        It multiplies the phase in the period by a large slope, as does the turn of a top in a slow nutation: so this is
+        reduced as if it were long, without any loss.
         """
-        if not (self.periodic and isinstance(self.functions, Hyperbolic)):
-            return Phases(self.frequencies, self.origins, EVEN)
-        phases = Phases(self.frequencies, self.origins, np.array([EVEN, EVEN, ROUNDER])[:, None])
-        phases.near = -1.0
+        hyperbolic = self.periodic and isinstance(self.functions, Hyperbolic)
+        rounder = np.array([EVEN, EVEN, ROUNDER])[:, None] if hyperbolic else EVEN
+        phases = Phases(self.frequencies, self.origins, rounder)
+        if hyperbolic or (self.swing and self.swing.is_large):
+            phases.near = -1.0
         return phases
 
 

@@ -32,8 +32,12 @@ FAR = 18.0
 HALF_TURN = 4 * np.arctan(np.longdouble(1))
 """pi in extended precision."""
 
-LARGE = 2.0
-"""Angle from which on a double is too coarse, and extended precision is taken where the processor has it."""
+LARGE, STEEP = 2.0, 16.0
+"""Angle, and change of it by a radian of the phase, from which on a double is too coarse, and extended precision is
+taken where the processor has it."""
+
+ALLOWED = 2.0**-54
+"""Last digit of half the turn, in radians, beyond which that is too coarse as well, and balls are taken."""
 
 
 class Swing:
@@ -44,14 +48,16 @@ class Swing:
 
     def __init__(self, exact: Exact) -> None:
         lattice, size = exact.lattice, abs(exact.A).sqrt()
-        largest = exact.largest
-        self.type = np.longdouble if not largest < LARGE else np.float64
+        largest, steepest = exact.largest, exact.steepest
+        self.type = np.longdouble if not (largest < LARGE and steepest < STEEP) else np.float64
         self.form, self.reach = lattice.form, lattice.reach
         merged = not size > MERGED
         self.sign = 0 if merged else 1 if exact.A > 0 else -1
         self.factor = self._number(exact.kappa if merged else exact.kappa / size)
         if not infinite(lattice.half):
             self.twist = self._number(2 * exact.kappa * exact.twist * lattice.half / arb.pi())
+            steepest += abs(2 * exact.kappa * exact.twist * lattice.half / arb.pi())
+        self.is_coarse = self.is_large and not (steepest + largest) * float(np.finfo(self.type).eps) < ALLOWED
         odd, even = ([x.real for x in sum_] for sum_ in (exact.odd.odd, exact.even.even))
         odd = odd if merged else [x * size for x in odd]
         count = max(self._needed(odd), self._needed(even))
@@ -152,6 +158,7 @@ class Crossing:
 
     def __init__(self, exact: ExactCrossing) -> None:
         self.sense, self.factor = exact.sense, float((exact.kappa / (2 * exact.slope)).mid())
+        self.is_coarse = not abs(self.factor) < LARGE
 
     def along(self, half: FloatArray, x: FloatArray, rest: FloatArray) -> FloatArray:
         """Return it from `half`, half of kappa s less whole half turns, and from x + rest = slope s/2."""

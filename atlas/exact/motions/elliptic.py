@@ -227,7 +227,7 @@ class EllipticMotion(Nutating):
             (s, c), (S, C) = sin_cos(k * t), sin_cos(phi * t)
             axis = [fmpq(int(i == self.places[2])) for i in range(3)]
             return two_turns.product(two_turns.turn(self.field, c, s), two_turns.turn(axis, C, S))
-        a, b, _, _ = self.parameters(t)
+        a, b, _, _ = self.solution.parameters(t)
         found, back = matrix(self.from_frame(a, b)), self._back
         return [[found[i][j] for j in back] for i in back]
 

@@ -24,7 +24,7 @@ def attitude(motion: Nutating, t: fmpq) -> Matrix:
     found = rotation(motion, t)
     if found is not None:
         return found
-    a, b, _, _ = motion.parameters(t)
+    a, b, _, _ = motion.solution.parameters(t)
     return matrix(motion.from_frame(a, b))
 
 
@@ -40,7 +40,7 @@ def rotation(motion: Nutating, t: fmpq) -> Matrix | None:
         return product(larmor, turn(M, c, s))
     # alpha and beta less Larmor's phase: a quaternion whose vector part is along n
     phase = acb(0, -motion.precession * t / 2).exp()
-    a, b, _, _ = motion.parameters(t)
+    a, b, _, _ = motion.solution.parameters(t)
     w, x, y, _ = motion.from_frame(a * phase, b * phase)
     vertical = motion.field[0] == motion.field[1] == 0
     n = (motion.omega[0], motion.omega[1]) if vertical else (motion.field[1], -motion.field[0])

@@ -6,8 +6,8 @@ from typing import Any
 
 from flint import acb, arb
 
-from atlas.exact.inputs import Real
-from atlas.exact.nutation.theta import Lattice, Sum, constant
+from atlas.exact.inputs import Real, rational
+from atlas.exact.nutation.theta import Lattice, Sum, constant, infinite
 from atlas.formulas.numbers import Number
 
 
@@ -58,6 +58,30 @@ class Solution:
     def period(self) -> arb:
         """Period of nutation, infinite on a separatrix."""
         return 2 * self.lattice.half
+
+    def parameters(self, t: Any, *, turning: bool = True) -> tuple[acb, acb, acb, acb]:
+        """Return alpha and beta up to a common factor, and their derivatives by time.
+
+        If not `turning`, these lack the rate at which `swing` turns the body about its own axis.
+        """
+        t = rational(t, "the time")
+        s = self.in_cell(arb(t) + self.origin)
+        a, da = self.alpha.at(t, s)
+        b, db = self.beta.at(t, s)
+        if self.swing is None:
+            return a, b, da, db
+        turn = acb(0, (self.swing.at(arb(t), s) - self.swing.at(arb(0), self.origin)) / 2).exp()
+        # a square as a product: a power of a ball about zero is no number
+        up, down = (x.real * x.real + x.imag * x.imag for x in (a, b))
+        rate = acb(0, self.swing.kappa * (up - down) / (up + down) / 2) if turning else acb(0)
+        return a * turn, b / turn, (da + rate * a) * turn, (db - rate * b) / turn
+
+    def in_cell(self, s: arb) -> arb:
+        """Return the time since the turning point, less whole periods where the sums are for one period only."""
+        if self.lattice.form != "hyperbolic" or infinite(self.lattice.half):
+            return s
+        whole = ((s / self.period).mid() + 0.5).floor().unique_fmpz()
+        return arb("nan") if whole is None else s - self.period * whole
 
 
 def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:

@@ -5,7 +5,7 @@ from typing import Any
 from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
-from atlas.exact.inputs import Real, rational
+from atlas.exact.inputs import Real
 from atlas.exact.nutation.cayley_klein import Solution
 from atlas.exact.nutation.quartic import Quartic
 from atlas.exact.nutation.theta import infinite
@@ -135,31 +135,9 @@ class Nutating:
         further = found.swing.kappa * found.swing.rate * T if found.swing else arb(0)
         return T * found.precession + first + second, T * found.spin + first - second + further
 
-    def parameters(self, t: Any) -> tuple[acb, acb, acb, acb]:
-        """Return alpha and beta up to a common factor, and their derivatives by time."""
-        found, t = self.solution, rational(t, "the time")
-        s = self.in_cell(arb(t) + found.origin)
-        a, da = found.alpha.at(t, s)
-        b, db = found.beta.at(t, s)
-        if found.swing is None:
-            return a, b, da, db
-        turn = acb(0, (found.swing.at(arb(t), s) - found.swing.at(arb(0), found.origin)) / 2).exp()
-        # a square as a product: a power of a ball about zero is no number
-        up, down = (x.real * x.real + x.imag * x.imag for x in (a, b))
-        rate = acb(0, found.swing.kappa * (up - down) / (up + down) / 2)
-        return a * turn, b / turn, (da + rate * a) * turn, (db - rate * b) / turn
-
-    def in_cell(self, s: arb) -> arb:
-        """Return the time since the turning point, less whole periods where the sums are for one period only."""
-        found = self.solution
-        if found.lattice.form != "hyperbolic" or infinite(found.lattice.half):
-            return s
-        whole = ((s / found.period).mid() + 0.5).floor().unique_fmpz()
-        return arb("nan") if whole is None else s - found.period * whole
-
     def quaternion(self, t: Any) -> list[arb]:
         """Return a unit quaternion of R(t), scalar first."""
-        a, b, _, _ = self.parameters(t)
+        a, b, _, _ = self.solution.parameters(t)
         q = self.from_frame(a, b)
         size = sum((x * x for x in q), arb(0)).sqrt()
         return [x / size for x in q]
@@ -181,7 +159,7 @@ class Nutating:
 
     def turning_rate(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame, twice the vector part of the quaternion's logarithmic derivative."""
-        a, b, da, db = self.parameters(t)
+        a, b, da, db = self.solution.parameters(t)
         q, dq = self.from_frame(a, b), self.from_frame(da, db)
         w, x, y, z = q
         dw, dx, dy, dz = dq

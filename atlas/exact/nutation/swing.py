@@ -30,10 +30,17 @@ class Swing:
     even: Sum
     depth: arb
     """Where A > 0, rate x: nu is infinite at s = x + i imaginary."""
+    width: arb
+    """Distance of the turning points of nu."""
 
     def at(self, t: arb, s: arb) -> arb:
         """Return kappa times the integral of nu from a turning point, at time t, which is s in its own period."""
         return self.kappa * (self.rate * t + self.twist * s + self.bent(s))
+
+    @property
+    def steepest(self) -> arb:
+        """Largest change of half of that part by a radian of the phase rate s."""
+        return abs(self.kappa) * self.width / (2 * self.lattice.rate)
 
     @property
     def largest(self) -> arb:
@@ -98,10 +105,10 @@ def swing(of: Nutation, quartic: TopQuartic) -> Swing:
         odd, even = _merged(lattice, lattice.rate / arb(quartic.a.value))
     # nu is that of the turning point at s = 0
     whole = -of.start.u - 2 * (odd.at(arb(0))[1] / even.at(arb(0))[0]).real
-    twist = arb(0)
+    twist, width = arb(0), abs(of.roots[of.other].value.real - of.start.u)
     if lattice.form == "hyperbolic" and not infinite(lattice.half):
         twist = -bent(odd.at(lattice.half)[0].real, even.at(lattice.half)[0].real, A) / lattice.half
-    return Swing(lattice, arb(quartic.kappa), A, whole - twist, twist, odd, even, depth)
+    return Swing(lattice, arb(quartic.kappa), A, whole - twist, twist, odd, even, depth, width)
 
 
 def crossing(quartic: TopQuartic, origin: arb) -> Crossing:
