@@ -9,11 +9,19 @@ With S the sum of the places of two forms, the Fourier coefficients of a defect 
 
     g_S = exp(i pi (S hat S/8 + S (origin - shift/2))),
 
-for whole j, so that the sixteen of a square, in balls, bound it everywhere. If the equations hold but for rates delta
-and the start but for epsilon, then on a straight way through a cell of the periods M, K and N go away from the motion
-by at most exp(growth) (epsilon + delta); to growth a term such as e x W, which turns an error e, adds nothing. Beyond
-the cell the periods tell all, which are proved in `atlas.exact.motions.torus`. Nothing is taken from the theory of the
-torus, and it does not matter how the constants were found.
+for whole j, so that the sixteen of a square, in balls, bound it everywhere: all terms of a defect change by one sign
+with j, because the characteristics of D and of the three axes are all different and those of N are those of the axes
+plus one, which is asserted. Terms left out are those far from all peaks of the cell; their own sum has a bound, which
+is added. If the equations hold but for rates delta and the start but for epsilon, then on a straight way through a cell
+of the periods M, K and N go away from the motion by at most exp(growth) (epsilon + delta); to growth a term such as
+e x W, which turns an error e, adds nothing. Beyond the cell the periods tell all, which are proved in
+`atlas.exact.motions.torus`. Nothing is taken from the theory of the torus, and it does not matter how the constants
+were found.
+
+The weights are balls; sums of exponentials of them are taken in doubles. A product of few factors, an exponential of an
+argument below `ARGUMENT` and a sum of fewer than `ARGUMENT` terms are off by less than 4 `ARGUMENT` 2^-53 < `FLOATS`
+beside the sum of sizes, so that a sum of positive terms is off by a factor below `WIDER` with ease; where arguments or
+sums are larger there is no bound.
 """
 
 from collections.abc import Iterator, Sequence
@@ -26,7 +34,7 @@ from numpy.typing import NDArray
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.clebsch_periods import BITS, centre, complex_of
 from atlas.exact.motions.clebsch_theta import ThetaMotion
-from atlas.exact.motions.theta_sums import CHARACTERISTICS, Array, near, needed
+from atlas.exact.motions.theta_sums import CHARACTERISTICS, Array, near
 from atlas.exact.motions.torus import Period, Torus
 from atlas.exact.nutation.cayley_klein import matrix
 from atlas.formulas.numbers import dot, rational, workprec
@@ -41,8 +49,9 @@ FAINT = 90.0
 """Logarithm of what terms of D that are left out, and those of a defect that are bounded alike in the whole cell, are
 smaller by than the largest one."""
 
-FLOATS = 1e-12
-"""Bound on rounding errors of a sum of exponentials in doubles, beside the sum of their sizes."""
+ARGUMENT, FLOATS = 2000, 1e-12
+"""Bounds on arguments and numbers of exponentials in a sum in doubles, and on its rounding errors beside the sum of
+their sizes."""
 
 WIDER = 2.0
 """By how much bounds in doubles are widened: far more than their rounding can matter."""
@@ -74,6 +83,7 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
     the way begins at the nearest of four, nine or twenty-five other states, to which Taylor's series goes. Raises
     NotCertifiedError where there is no bound.
     """
+    _check_characteristics(theta)
     with workprec(BITS + SPARE), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         cell = Cell(theta, periods)
         H, F = HALF * abs(cell.times).sum(axis=1)
@@ -107,8 +117,8 @@ class Cell:
         self.into: Array = np.array([[complex_of(x) for x in flow] for flow in self.flows]).T @ self.times * np.pi
         self.Y = np.array([[complex_of(self.hat[i, j]).imag for j in range(2)] for i in range(2)])
         self.corners = self.into @ (HALF * np.array(list(product((-1, 1), repeat=2))).T)
-        self.places = needed(self.hat, [theta.denominator], self.origin, self.corners, FAINT)
-        self.middle = np.round(self.places.mean(axis=0))
+        self.middle = np.round(-2 * np.linalg.solve(self.Y, self._imaginary(0.0)))
+        self.places = near_hull(self.Y, self._peaks(0.0), 4 * FAINT / np.pi)
         turns = np.array([complex_of(x) for x in self.lines]) @ self.times
         start = complex_of(dot(theta.l, theta.start)).imag
         self.narrow = float(np.linalg.eigvalsh(self.Y)[0])
@@ -124,22 +134,27 @@ class Cell:
 
     def rates(self) -> Floats:
         """Return bounds on the defects over D^2 of M, K and N along the flows of H and of F/2 in the cell, (2, 3)."""
-        S, size = self._defects()
+        S, size, beyond = self._defects()
         most = size + HALF * abs((S - 2 * self.middle) @ self.into.imag).sum(axis=1)[:, None]
         top = most.max()
         if not np.isfinite(top):
             return np.full((2, 3), np.inf)
         kept = most.max(axis=1) > top - FAINT
-        S, size, faint = S[kept], np.exp(size[kept] - top), np.exp(most[~kept] - top).sum(axis=0)
+        faint = np.exp(most[~kept] - top).sum(axis=0) + np.exp(beyond - top)
+        S, size = S[kept], np.exp(size[kept] - top)
         weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)
         ways, twice = (self.places - self.middle) @ self.into, ((S - 2 * self.middle) @ self.into).imag
+        weight = max(abs(complex_of(x)) for x in self.theta.denominator.weights)
+        spare = weight * np.exp(self._highest(0.0) - top / 2) * _beyond(FAINT, np.pi / 4 * self.narrow)
+        if max(2 * HALF * max(abs(ways).max(), abs(twice).max()), len(ways), len(S)) > ARGUMENT:
+            return np.full((2, 3), np.inf)
         half, worst = HALF / CELLS, np.zeros(6)
         line = np.arange(-CELLS + 1, CELLS, 2) * half
         x = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
         for _ in range(HALVINGS):
             terms = weights * np.exp(1j * x @ ways.T)
             value, slopes, far = abs(terms.sum(axis=1)), abs(terms @ ways).sum(axis=1), half * abs(ways).sum(axis=1)
-            below = value - half * slopes - abs(terms) @ (far**2 / 2 * np.exp(far) + FLOATS)
+            below = value - half * slopes - abs(terms) @ (far**2 / 2 * np.exp(far) + FLOATS) - spare
             good = below > value / 2
             above = np.exp(-x[good] @ twice.T) @ (size * np.exp(half * abs(twice).sum(axis=1))[:, None]) + faint
             worst = np.maximum(worst, (above / below[good, None] ** 2).max(axis=0, initial=0.0))
@@ -151,23 +166,49 @@ class Cell:
                 break
         return np.full((2, 3), np.inf)
 
-    def _defects(self) -> tuple[Floats, Floats]:
-        """Return places S (n, 2) and logarithms of bounds on coefficients there, (n, 6): of M, K, N by each flow."""
+    def _defects(self) -> tuple[Floats, Floats, Floats]:
+        """Return places S (n, 2) and logarithms of bounds on coefficients there, (n, 6): of M, K, N by each flow.
+
+        The third are logarithms of bounds, (6,), on the sums of all others, anywhere in the cell.
+        """
         low = np.round(-4 * np.linalg.solve(self.Y, self._imaginary(0.0))).astype(int) - 1
-        away = self._imaginary(0.0)[:, None] + self.corners.imag / np.pi
-        peaks = -4 * np.linalg.solve(self.Y, away).T  # where coefficients are largest
-        found, parts = [], np.array([0.0, 0.0, 0.5] * 2)
+        found, beyond, parts = [], [], np.array([0.0, 0.0, 0.5] * 2)
+        peaks = {part: 2 * self._peaks(part) for part in (0.0, 0.5)}  # where coefficients are largest
+        highest = np.array([2 * self._highest(part) for part in parts])
+        others = np.log(_beyond(LEFT_OUT, 2 * np.pi * self.narrow))
         for S in product(*(range(int(s), int(s) + 4) for s in low)):
             place: Floats = np.array(S)
-            shifts = 4 * near(self.Y, (peaks - place) / 4, LEFT_OUT / (2 * np.pi))
+            ways = [near_hull(self.Y, (peak - place) / 4, LEFT_OUT / (2 * np.pi)) for peak in peaks.values()]
+            shifts = 4 * np.unique(np.concatenate(ways), axis=0)
             less = [self._left_out(place, part) for part in parts]
             defects = [
                 np.linalg.norm([float(abs(c).upper()) + spare for c in components])
                 for components, spare in zip(self._coefficients(S), less, strict=True)
             ]
-            more = np.column_stack([self._size(place + shifts, part) - self._size(place, part) for part in parts])
+            sizes = np.array([self._size(place, part) for part in parts])
+            more = np.column_stack([self._size(place + shifts, part) for part in parts]) - sizes
             found.append((place + shifts, more + np.log(defects)))
-        return np.concatenate([x for x, _ in found]), np.concatenate([x for _, x in found])
+            beyond.append(np.log(defects) - sizes + highest + others)
+        all_beyond = np.logaddexp.reduce(beyond, axis=0)
+        return np.concatenate([x for x, _ in found]), np.concatenate([x for _, x in found]), all_beyond
+
+    def _peaks(self, part: float) -> Floats:
+        """Return the places (4, 2), not whole, of the largest term of a form at the corners of the cell."""
+        return np.asarray(-2 * np.linalg.solve(self.Y, self._heights(part)).T)
+
+    def _heights(self, part: float) -> Floats:
+        """Return Im v (2, 4) at the corners, less that part of the shift."""
+        return np.asarray(self._imaginary(part)[:, None] + self.corners.imag / np.pi)
+
+    def _highest(self, part: float) -> float:
+        """Return the logarithm of the largest that exp(i pi (n hat n/4 + n v)) is for any real n in the cell.
+
+        It is pi (y, Y^-1 y), y = Im v, but for the power of the middle, which is taken out: convex, so largest in a
+        corner.
+        """
+        y = self._heights(part)
+        quadratic = np.pi * np.einsum("ik,ik->k", y, np.linalg.solve(self.Y, y))
+        return float(np.max(quadratic + self.middle @ self.corners.imag))
 
     def _imaginary(self, part: float) -> Floats:
         """Return the imaginary part of the origin less that part of the shift."""
@@ -224,7 +265,7 @@ class Cell:
         rate = max(abs(complex_of(x)) for flow in self.flows for x in flow)
         slopes = 8 * np.pi * rate * (abs(self.away).max() + 2 / np.sqrt(self.narrow))
         peak = np.pi / 2 * self.away @ self.Y @ self.away if part else 0.0
-        return float(self.weight * sums * slopes * np.exp(self._size(S, part) + peak))
+        return float(self.weight * sums * (1 + slopes) * np.exp(self._size(S, part) + peak))
 
     def _terms(self, place: Place) -> list[acb]:
         """Return the weights of all forms at a place (P, Q)."""
@@ -240,6 +281,45 @@ class Cell:
                 found.append(acb(0) if e != Q % 2 else form.weights[P % 2] * power * acb(0, 1) ** (Q * d % 4))
             self._known[place] = found
         return self._known[place]
+
+
+def _check_characteristics(theta: ThetaMotion) -> None:
+    """Raise NotCertifiedError unless all products in a component of a defect have one law of coefficients.
+
+    From S to S + 4j the product of forms of characteristics d and d' takes the sign (-1)^(j_2 (d + d')), besides g.
+    """
+    axes = [form.place for form in theta.K]
+    turned = {form.place ^ place for form, place in zip(theta.N, axes, strict=True)}
+    different = len({theta.denominator.place, *axes}) == len(CHARACTERISTICS)
+    alike = [form.place for form in theta.M] == axes and len(turned) == 1
+    if not (different and alike) or any(
+        abs(complex_of(x)) for form in (theta.denominator, *theta.K, *theta.M, *theta.N) for x in form.shift
+    ):
+        raise NotCertifiedError("not certified: the characteristics of the theta functions are not one for each axis.")
+
+
+def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
+    """Return at least the whole places n with (n - p, Y (n - p)) below `most` for a p of a parallelogram.
+
+    Its corners (4, 2) are those at (-1, -1), (-1, 1), (1, -1), (1, 1). They are the places near a net of points of it,
+    from one of which no other point is farther than half the diagonal of a mesh.
+    """
+    sides = corners[2] - corners[0], corners[1] - corners[0]
+    lengths = [float(np.sqrt(side @ Y @ side)) for side in sides]
+    steps = [int(np.ceil(min(length, 30.0))) + 1 for length in lengths]
+    far = sum(length / (count - 1) for length, count in zip(lengths, steps, strict=True) if count > 1) / 2
+    s, t = np.meshgrid(*(np.linspace(0, 1, count) for count in steps))
+    points = corners[0] + s.reshape(-1, 1) * sides[0] + t.reshape(-1, 1) * sides[1]
+    return near(Y, points, (np.sqrt(most) + far) ** 2 * (1 + 1e-9))
+
+
+def _beyond(distance: float, narrow: float) -> float:
+    """Return a bound on the sum of exp(-q(n - p)) over whole n of the plane with q >= distance, for any p.
+
+    With q(n) >= narrow n^2 it is exp(-9/10 distance) times the sum of exp(-q/10), a square of a sum over a line, which
+    is below its largest term and the integral.
+    """
+    return float(np.exp(-0.9 * distance) * (1 + np.sqrt(10 * np.pi / narrow)) ** 2)
 
 
 def _apart(theta: ThetaMotion, torus: Torus, times: Floats) -> Floats:
