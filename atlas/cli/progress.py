@@ -1,20 +1,27 @@
-"""A bar on standard error while something long runs: on a terminal only, silent in a pipe."""
+"""A bar on standard error while something long runs; without a terminal nothing, or a line a minute."""
 
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from time import monotonic
+
+import click
 
 Progress = Callable[[int, int, str], None]
 
+MINUTE = 60.0
+"""Seconds between two lines in the log of a batch job."""
+
 
 @contextmanager
-def bar(title: str) -> Iterator[Progress]:
+def bar(title: str, *, lines: bool = False) -> Iterator[Progress]:
     """Give a function to call with what is done, of how many, and what comes next.
 
-    The bar appears at the first call; until then no thread is started, so that a build can still fork.
+    The bar appears at the first call; until then no thread is started, so that a build can still fork. Without a
+    terminal nothing is shown, or with `lines` a line a minute, for the log of a batch job.
     """
     if not sys.stderr.isatty():
-        yield lambda _done, _total, _what: None
+        yield _lines(title) if lines else lambda _done, _total, _what: None
         return
     with ExitStack() as stack:
         shown: list[Progress] = []
@@ -25,6 +32,21 @@ def bar(title: str) -> Iterator[Progress]:
             shown[0](done, total, what)
 
         yield tell
+
+
+def _lines(title: str) -> Progress:
+    """Return what writes a line a minute, none in the first one."""
+    start = last = monotonic()
+
+    def tell(done: int, total: int, _: str) -> None:
+        nonlocal last
+        now = monotonic()
+        if now - last >= MINUTE:
+            last = now
+            done_of = f"{done} of {total} ({100 * done // max(total, 1)} %)"
+            click.echo(f"{title}: {done_of} after {(now - start) / 60:.0f} min", err=True)
+
+    return tell
 
 
 @contextmanager

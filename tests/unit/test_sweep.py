@@ -368,6 +368,16 @@ def test_no_field_of_a_record_shadows_a_name_in_the_annotations_beside_it() -> N
     assert not shadows
 
 
+def test_the_log_of_a_batch_job_shows_a_sweep(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a terminal there is a line a minute on standard error; a sweep of less than a minute says nothing."""
+    words = "sweep ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1:2:3 --quantity gamma --rows 1 -j 1 --out"
+    for minutes, shown in ((0.4, ["sweep: 3 of 3 (100 %) after 1 min"]), (0.1, [])):
+        clock = iter(60 * minutes * i for i in range(10))
+        monkeypatch.setattr("atlas.cli.progress.monotonic", lambda clock=clock: next(clock))
+        ended = CliRunner().invoke(program, [*words.split(), str(tmp_path / "t.csv")])
+        assert ended.stderr.splitlines() == shown
+
+
 def test_errors_at_rest_are_zero() -> None:
     """At t = 0, which stands where no time is given, R is 1: without an error, by the plain formula within 4 eps."""
     rows = {"ratio": [1.5, 0.5], "B2": 1.0, "B3": 0.3, "omega2": 0.7, "t": 0.0}

@@ -73,34 +73,26 @@ def test_a_data_set_at_an_address_is_read_from_there() -> None:
     memory.rm("/sweeps", recursive=True)
 
 
-@pytest.mark.filterwarnings("ignore:The inplace keyword")  # Dask calls pandas so
-def test_dask_writes_the_data_set_itself_and_goes_on_where_it_was_stopped(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Two workers write the rows, no part that is there is made again, and Dask reads the folder as one table."""
+def test_the_workers_of_dask_write_a_data_set_and_go_on_where_it_was_stopped(tmp_path: Path) -> None:
+    """No part that is there is made again, and Dask reads the folder as one table."""
     distributed, frames = pytest.importorskip("distributed"), pytest.importorskip("dask.dataframe")
-    from atlas.study.sweep import on_dask
+    out, kept = tmp_path / "t.parquet", dict[str, int]()
 
-    out, seen, kept = tmp_path / "t.parquet", on_dask._seen, {}
-
-    def until_two(folder: Any, digests: Any) -> Any:
-        if len(kept) == 4:
+    def until_four(done: int, _: int) -> None:
+        if done >= 80:
+            folder = tmp_path / "t.parquet.parts"
+            kept.update({f"part-{i:08d}.parquet": 0 for i in range(4)})
+            kept.update({name: (folder / name).stat().st_mtime_ns for name in kept})
             raise KeyboardInterrupt
-        kept.update({name: (folder.path / name).stat().st_mtime_ns for name in digests})
-        return seen(folder, digests)
 
-    monkeypatch.setattr(on_dask, "BATCH", 1)
     with (
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0"
         ) as cluster,
         distributed.Client(cluster) as client,
     ):
-        with monkeypatch.context() as patch:
-            patch.setattr(on_dask, "_seen", until_two)
-            with pytest.raises(KeyboardInterrupt):
-                atlas.sweep("elementary", GRID, NAMES, f"{out}/", rows=20, executor=client)
-        assert sorted(kept) == [f"part-{i:08d}.parquet" for i in range(4)]
+        with pytest.raises(KeyboardInterrupt):
+            atlas.sweep("elementary", GRID, NAMES, f"{out}/", rows=20, executor=client, progress=until_four)
         assert not out.exists()
         atlas.sweep("elementary", GRID, NAMES, f"{out}/", rows=20, executor=client)
     same(frames.read_parquet(out).compute(scheduler="synchronous"))
@@ -108,7 +100,6 @@ def test_dask_writes_the_data_set_itself_and_goes_on_where_it_was_stopped(
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
 
 
-@pytest.mark.filterwarnings("ignore:The inplace keyword")  # Dask calls pandas so
 @pytest.mark.parametrize("out", ["t.npz", "t.parquet/"])
 def test_dask_keeps_no_parameters_of_parts_that_are_done(tmp_path: Path, out: str) -> None:
     """It keeps its last messages, which would be the whole last axis in each: 300 MB of a client at 1e8 rows."""

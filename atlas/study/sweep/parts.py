@@ -54,15 +54,21 @@ class Parts:
                 f"{self.folder} holds {min(wrong)}, which is of no sweep: move it away, or choose another --out."
             )
 
-    def begin(self, key: str, rows: int) -> None:
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Rows of the first parts, and the most that a part has."""
+        return {name: self.header[name] for name in ("rows", "most")}
+
+    def begin(self, key: str, rows: int, most: int) -> None:
         """Take up the sweep of a key in parts of so many rows, if it is the one whose parts are here; else begin it."""
-        if (self.header.get("key"), self.header.get("rows")) == (key, rows):
+        same = {"key": key, "rows": rows, "most": most}
+        if all(self.header.get(name) == value for name, value in same.items()):
             for name, expected in self.files.items():
                 if expected is not None and digest(self.folder, name) != expected:
                     self.files[name] = None
             return
         self.clear()
-        self.header = {"format": FORMAT, "key": key, "rows": rows, "id": uuid4().hex}
+        self.header = {"format": FORMAT, **same, "id": uuid4().hex}
         self.folder.append(MANIFEST, self.mark)
 
     @property

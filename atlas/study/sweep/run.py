@@ -9,6 +9,7 @@ from uuid import uuid4
 from atlas.errors import AtlasError
 from atlas.families.family import TIME
 from atlas.study.sweep.destinations import DataSet, TableFile, target
+from atlas.study.sweep.families import FAMILIES
 from atlas.study.sweep.lock import held
 from atlas.study.sweep.parts import Parts
 from atlas.study.sweep.plan import Columns, Plan, Span
@@ -20,6 +21,8 @@ SHARES, SHORT = 16, 0.25
 """Parts that each worker should get at least, since some rows take longer; how long a part takes in any case."""
 FEW = 4096
 """Rows that are one part in any case, unless they have certified digits."""
+EQUAL = 64
+"""After so many parts of one size the next ones have twice as many rows: a table has some hundreds, not thousands."""
 
 Progress = Callable[[int, int], None]
 
@@ -45,10 +48,10 @@ def sweep(
     is: a file .csv, .npz or .parquet; or, if `out` ends in / or is an address that fsspec knows, as
     s3://bucket/table.parquet, a Parquet data set, a folder that pandas and Dask read as one table.
 
-    The table is computed in parts of `rows` rows, or of some seconds each, on `jobs` processes, or on an `executor`,
-    any of `concurrent.futures` or a Dask client. They are kept beside it, in a folder whose name ends in .parts, until
+    The table is computed in parts of `rows` rows, or of some seconds and more, on `jobs` processes, or on an
+    `executor`, any of `concurrent.futures` or a Dask client. They are kept beside it, in a folder whose name ends in .parts, until
     the table is whole; a sweep that was stopped goes on from there, and makes damaged parts again. The workers write
-    the parts where they see the folder; on Dask a data set is written by Dask. The bytes of a file do not depend on the
+    the parts where they see the folder or the address. The bytes of a file do not depend on the
     parts or on who computed them. With `digits` the quantities are text with so many certified digits.
     `progress(rows done, rows)` is called after each part. `time` is what headings call the unit of time.
 
@@ -82,15 +85,26 @@ def _begin(plan: Plan, parts: Parts, rows: int | None, executor: Any, jobs: int 
     """Say how many rows a part has: as many as asked for, as the parts have that are there, or by the time of a row."""
     from atlas.study.sweep.keys import key  # which reads the code
 
-    if rows is None and parts.header and parts.header["key"] == key(plan):
-        rows = parts.header["rows"]
-    if rows is None and plan.count <= FEW and plan.digits is None:
-        rows = plan.count
-    if rows is None:
-        pace, share = _pace(plan, executor), plan.count / (SHARES * width(executor, jobs))
-        rows = max(1, min(MOST, int(min(SECONDS / pace, max(SHORT / pace, share)))))
+    rows, most = rows or 0, rows or 0
+    if not rows and parts.header and parts.header["key"] == key(plan):
+        rows, most = parts.header["rows"], parts.header["most"]
+    if not rows and plan.count <= FEW and plan.digits is None:
+        rows = most = plan.count
+    if not rows:
+        rows, most = sizes(plan, _pace(plan, executor), width(executor, jobs))
     # a table of one part is made again: its key need not be known, which takes half a second
-    parts.begin(key(plan) if parts.header or rows < plan.count else uuid4().hex, rows)
+    parts.begin(key(plan) if parts.header or rows < plan.count else uuid4().hex, rows, most)
+
+
+def sizes(plan: Plan, pace: float, count: int) -> tuple[int, int]:
+    """Return the rows of the first parts, by the seconds of a row, and the most that a part has, for so many workers.
+
+    They are no fewer than the family computes at once, whatever a sample of them took.
+    """
+    share = plan.count / (SHARES * count)
+    least = 1 if plan.digits else min(FEW, FAMILIES[plan.family].family.at_once)
+    rows = min(MOST, max(least, int(min(SECONDS / pace, max(SHORT / pace, share)))))
+    return rows, min(MOST, max(rows, int(share)))
 
 
 def _pace(plan: Plan, executor: Any) -> float:
@@ -109,46 +123,44 @@ def _pace(plan: Plan, executor: Any) -> float:
 
 def _names(plan: Plan, table: TableFile | DataSet, parts: Parts) -> list[str]:
     """Return the names of the files of all parts."""
-    return [f"part-{i:08d}.{table.ending}" for i in range(-(-plan.count // parts.header["rows"]))]
+    return [f"part-{i:08d}.{table.ending}" for i in range(len(spans_of(plan.count, **parts.sizes)))]
+
+
+def spans_of(count: int, rows: int, most: int) -> list[tuple[int, int]]:
+    """Return the rows of each part of a table: EQUAL parts of `rows`, then as many of twice as many, up to `most`."""
+    found, start = list[tuple[int, int]](), 0
+    while start < count:
+        size = min(rows << min(len(found) // EQUAL, 40), most)
+        found.append((start, min(start + size, count)))
+        start += size
+    return found
 
 
 def _compute(
     plan: Plan, table: TableFile | DataSet, parts: Parts, executor: Any, jobs: int | None, progress: Progress | None
 ) -> None:
     """Compute the parts that are not there yet, and keep each as soon as it is done."""
-    rows, names = parts.header["rows"], _names(plan, table, parts)
+    spans, names = spans_of(plan.count, **parts.sizes), _names(plan, table, parts)
     missing = [i for i, name in enumerate(names) if parts.files.get(name) is None]
-    done = len(names) - len(missing)
-
-    def tell(count: int) -> None:
-        nonlocal done
-        done += count
-        if progress is not None:
-            progress(min(done * rows, plan.count), plan.count)
-
-    spans = ((i * rows, min((i + 1) * rows, plan.count)) for i in missing)
-    work: Iterator[tuple[Any, Span]] = (plan.part(*span) for span in spans)
-    if hasattr(executor, "get_executor") and not plan.listed:
-        # the plan itself goes there once: Dask keeps its last 1000 messages
-        there = executor.submit(_same, plan, pure=False)
-        work = ((there, Span(start, stop, start)) for start, stop in spans)
-    todo = zip((names[i] for i in missing), work, strict=True)
-    if isinstance(table, DataSet) and hasattr(executor, "get_executor"):
-        from atlas.study.sweep.on_dask import write
-
-        for written in write(executor, todo, parts):
-            tell(len(written))
-        return
+    done = plan.count - sum(spans[i][1] - spans[i][0] for i in missing)
 
     def calls() -> Iterator[tuple[str, tuple[Any, ...]]]:
-        for name, part in todo:
-            parts.announce(name)
-            yield name, (*part, table.ending, parts.folder, name, parts.mark)
+        # on Dask the plan itself goes there once: it keeps its last 1000 messages
+        once = hasattr(executor, "get_executor") and not plan.listed
+        there = executor.submit(_same, plan, pure=False) if once else None
+        for i in missing:
+            start, stop = spans[i]
+            parts.announce(names[i])
+            part = (there, Span(start, stop, start)) if once else plan.part(start, stop)
+            yield names[i], (*part, table.ending, parts.folder, names[i], parts.mark)
 
+    rows = {names[i]: spans[i][1] - spans[i][0] for i in missing}
     with workers(executor, jobs, len(missing)) as (engine, count):
         for name, made in ahead(engine, count, calls()):
             parts.keep(name, made)
-            tell(1)
+            done += rows[name]
+            if progress is not None:
+                progress(done, plan.count)
 
 
 def _same(plan: Plan) -> Plan:
