@@ -73,6 +73,7 @@ def test_a_data_set_at_an_address_is_read_from_there() -> None:
     memory.rm("/sweeps", recursive=True)
 
 
+@pytest.mark.filterwarnings("ignore:The inplace keyword")  # Dask reads so with pandas
 def test_the_workers_of_dask_write_a_data_set_and_go_on_where_it_was_stopped(tmp_path: Path) -> None:
     """No part that is there is made again, and Dask reads the folder as one table."""
     distributed, frames = pytest.importorskip("distributed"), pytest.importorskip("dask.dataframe")

@@ -48,8 +48,8 @@ def sweep(
     is: a file .csv, .npz or .parquet; or, if `out` ends in / or is an address that fsspec knows, as
     s3://bucket/table.parquet, a Parquet data set, a folder that pandas and Dask read as one table.
 
-    The table is computed in parts of `rows` rows, or of some seconds and more, on `jobs` processes, or on an
-    `executor`, any of `concurrent.futures` or a Dask client. They are kept beside it, in a folder whose name ends in .parts, until
+    The table is computed in parts of `rows` rows, or of some seconds and more, by `jobs` processes or an `executor`,
+    any of `concurrent.futures` or a Dask client. They are kept beside it, in a folder whose name ends in .parts, until
     the table is whole; a sweep that was stopped goes on from there, and makes damaged parts again. The workers write
     the parts where they see the folder or the address. The bytes of a file do not depend on the
     parts or on who computed them. With `digits` the quantities are text with so many certified digits.
