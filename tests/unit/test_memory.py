@@ -107,3 +107,36 @@ def test_a_grid_of_nutations_is_made_by_blocks() -> None:
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 9e6
+
+
+CALLS = """
+import resource
+import numpy as np, atlas
+times = np.linspace(0.1, 100.0, 5000)
+motions = [
+    atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7),
+    atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)),
+    atlas.BallMotion(0.4, 0.3, momentum=(0.2, 0.5)),
+    atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.0, 0.0, 0.0), (0.3, 0.7, 0.2)),
+]
+particle = atlas.ParticleMotion(1.0, (0.0, 0.1, 0.2), (0.0, 1.0, 2.0), (0.0, 0.0, 0.0), (0.1, 0.2, 0.3))
+hyperbola = atlas.Hyperbola(1.5, (1.0, 2.0))
+calls = [f for m in motions for f in (m.rotation, m.angular_velocity)]
+calls += [particle.position, hyperbola.frequencies, lambda t: motions[0].rotation_grid(0.0, 0.01, t.size)]
+worst = 0.0
+for call in calls:
+    for _ in range(5):
+        call(times)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+    for _ in range(20):
+        call(times)
+    worst = max(worst, (resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before) / 20)
+print(worst)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="what glibc does with memory is tried")
+def test_thousands_of_times_get_no_new_pages() -> None:
+    """In a new process each family is evaluated at 5000 times, again and again, in memory that it has already."""
+    done = subprocess.run([sys.executable, "-c", CALLS], capture_output=True, text=True, check=True)
+    assert float(done.stdout) < 5

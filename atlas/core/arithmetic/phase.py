@@ -11,6 +11,7 @@ from typing import Self
 import numpy as np
 
 from atlas.core.arithmetic.circle import circle_of, signs
+from atlas.core.arithmetic.memory import keep
 from atlas.core.arithmetic.words import TURN, magnitude, middle, scaled, turn_of, words
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError
@@ -267,6 +268,7 @@ def _exponents(halves: Sequence[Number]) -> list[int]:
 
 def room(frequencies: int, times: int) -> FloatArray:
     """Return memory to evaluate so many phases at so many times in, see `Phases.angles`."""
+    keep()
     return np.empty((8, frequencies, times))
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.basis import SCALE, Axis, Basis, extended, generators, resolution, rodrigues
+from atlas.core.arithmetic.memory import keep
 from atlas.core.arithmetic.phase import QUANTUM, Phases
 from atlas.core.arithmetic.threads import shared
 from atlas.core.arithmetic.words import TURN
@@ -129,6 +130,7 @@ def evaluate(phases: Phases, weights: FloatArray, t: Any, shape: tuple[int, ...]
 
 def target(out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
     """Return the array of this shape to fill: a new one, or the caller's. Raises AtlasError if that does not fit."""
+    keep()
     if out is None:
         try:
             return np.empty(shape)
