@@ -20,8 +20,8 @@ NO_VECTORS = (dict, set, frozenset, bytes, bytearray)
 """What can be gone through and may give numbers, but keys, in no order, or bytes."""
 
 _OF_FIELD = (
-    " B' lies in the plane of e2 and e3, so that B1 = 0 is left out; of a Field they are field.prime[1:] or, for an "
-    "axis in any direction, field.frame(axis).field."
+    " B' lies in the plane of e2 and e3, so that B1 = 0 is left out; a Field itself will do or, for an axis in any "
+    "direction, field.frame(axis).field."
 )
 
 
@@ -110,8 +110,10 @@ def matrix(value: Any, name: str) -> FloatArray:
 def components(value: Any, names: Sequence[str], what: str, unit: str = "") -> list[Any]:
     """Return the components of a vector in that unit, each a finite number or array, by name for the errors.
 
-    A square array, or a list of lists, may hold them in its rows or in its columns: AtlasError.
+    A `Field` gives B2 and B3, and refuses where B1 is not zero. A square array, or a list of lists, may hold them in
+    its rows or in its columns: AtlasError.
     """
+    value = getattr(value, "pair", value) if tuple(names) == ("B2", "B3") else value
     try:
         parts = [] if isinstance(value, NO_VECTORS) else list(getattr(value, "values", value))  # of a data frame
     except TypeError:

@@ -214,7 +214,7 @@ def _python(asked: Asked, name: str) -> str:
         if "prime" in field:
             return str(tuple(field["prime"]))
         mu = field.get("charge_to_mass") or f"{body['charge']!r} / {body['mass']!r}"
-        return f"atlas.Field.{field['system'].lower()}(B={tuple(field['B'])}, mu={mu}).prime[1:]"
+        return f"atlas.Field.{field['system'].lower()}(B={tuple(field['B'])}, mu={mu}).pair"
     value = asked.values.get(name)
     return "" if value is None else repr(tuple(value) if isinstance(value, list | tuple) else value)
 

@@ -9,6 +9,7 @@ from hypothesis.extra.numpy import arrays
 from mpmath import mp
 from scipy.spatial.transform import Rotation
 
+import atlas
 from atlas.core.bodies.field import Field, LaboratoryFrame
 from atlas.errors import AtlasError, DomainError
 
@@ -153,3 +154,17 @@ def test_a_zero_axis_says_what_is_missing() -> None:
     """The error tells that the axis needs a direction."""
     with pytest.raises(DomainError, match="direction"):
         Field([1, 2, 3]).frame([0, 0, 0])
+
+
+def test_a_field_with_a_first_component_is_never_cut_silently() -> None:
+    """A motion takes a Field whose B1 is zero; else it is refused, and so is B'[1:], by a line that names the frame."""
+    plain, oblique = (Field.si(B=(x, 0.75, 1.25), mu=2.0) for x in (0.0, 1.0))
+    assert atlas.Quadric(1.5, plain).field == plain.pair == (0.75, 1.25)
+    cuts: list[Callable[[], object]] = [
+        lambda: oblique.prime[1:],
+        lambda: (2 * oblique.prime)[1:],
+        lambda: atlas.Hyperbola(1.5, oblique),
+    ]
+    for cut in cuts:
+        with pytest.raises(DomainError, match=r"field\.frame\(axis\)"):
+            cut()

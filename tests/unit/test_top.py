@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from random import Random
+from typing import Any
 
 import mpmath
 import numpy as np
@@ -171,6 +172,27 @@ def test_a_period_brings_nu_back_and_turns_the_body_by_its_angles() -> None:
     for t in (0.25, 3.5):
         expected = turn(n, psi) @ motion.rotation(t) @ turn(np.array([0, 0, 1.0]), chi)
         assert np.abs(motion.rotation(t + T) - expected).max() <= 64 * EPS
+
+
+@pytest.mark.parametrize(
+    ("inputs", "zero"),
+    [
+        (((1, 0.5), (1, 0), (3, 4), (0.3, 0.7, 0)), "spin"),  # M3 = 0, kappa not zero
+        (((1, 0.5), (0, 0), (3, 4), (1.3, 0.5, -0.75), 0, 0.2), "precession"),  # p = 0
+        (((1, 1), (0, 0), (3, 4), (5, -0.25, -4)), "precession"),  # a ball, turns equal and opposite
+        (((1, 1), (5, 5), (3, 4), (5, -0.25, -4)), "neither"),
+    ],
+)
+def test_an_angle_that_is_zero_is_exactly_zero(inputs: Any, zero: str) -> None:
+    """A zero that follows from the integrals is proved, alone and in arrays, and the body has turned so in a period."""
+    motion, many = atlas.TopMotion(*inputs), atlas.TopMotion(*inputs[:3], (*inputs[3][:2], [inputs[3][2]]), *inputs[4:])
+    T, psi, chi = motion.period, motion.precession_per_period, motion.spin_per_period
+    assert {"spin": chi, "precession": psi}.get(zero, 0.0) == 0
+    assert (many.precession_per_period, many.spin_per_period) == (psi, chi)
+    n, e3 = np.array([0, *inputs[2]]) / 5, np.array([0, 0, 1.0])
+    assert np.abs(motion.rotation(T) - turn(n, psi) @ turn(e3, chi)).max() <= 64 * EPS
+    along = Balls(*inputs).angular_velocity(1)[2]
+    assert inputs[1][1] or along == arb(inputs[3][2])
 
 
 def turn(axis: np.ndarray, angle: float) -> np.ndarray:

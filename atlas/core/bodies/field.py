@@ -15,6 +15,18 @@ from atlas.errors import AtlasError, DomainError
 from atlas.formulas.numbers import cross, dot, nearest, root, unit, workprec
 
 
+class Prime(np.ndarray[Any, np.dtype[np.float64]]):
+    """The vector B', an array (3,) that is not cut to B2 and B3 where B1 is not zero."""
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, slice) and self.shape == (3,) and key.indices(3) == (1, 3, 1) and self[0] != 0:
+            raise DomainError(
+                f"B1 = {float(self[0])} of this field is not zero, so that B2 and B3 are not all of it: take "
+                "field.frame(axis).field, for a body whose axis points along `axis`."
+            )
+        return super().__getitem__(key)
+
+
 @dataclass(frozen=True, eq=False)
 class Field:
     """Constant fields B and E that act on matter of charge-to-mass ratio mu, in any frame of the user.
@@ -29,7 +41,7 @@ class Field:
     mu: float = 1.0
     c: float = 1.0
     prime: FloatArray = attribute(init=False)
-    """B' = mu B/(2c), (32), shape (3,), in 1/time: for mu < 0 opposite to B."""
+    """B' = mu B/(2c), (32), shape (3,), in 1/time: for mu < 0 opposite to B. Its part [1:] is refused for B1 != 0."""
 
     def __post_init__(self) -> None:
         """Check the numbers, and make B'."""
@@ -38,7 +50,7 @@ class Field:
         object.__setattr__(self, "B", vector(self.B, "B", unit["B"]))
         object.__setattr__(self, "E", vector(self.E, "E", unit["E"]))
         object.__setattr__(self, "mu", number(self.mu, "mu", unit["mu"]))
-        object.__setattr__(self, "prime", frozen(unit_systems.prime(self.mu, self.B, self.c)))
+        object.__setattr__(self, "prime", frozen(unit_systems.prime(self.mu, self.B, self.c).view(Prime)))
 
     def __repr__(self) -> str:
         made = called("Field", {"B": self.B, "E": self.E, "mu": self.mu, "c": self.c})
@@ -59,6 +71,12 @@ class Field:
         Raises AtlasError as `Field` does.
         """
         return cls(B, E, mu, unit_systems.GAUSSIAN.c)
+
+    @property
+    def pair(self) -> tuple[float, float]:
+        """(B2, B3) of B', what a motion takes a field for whose body points along e3, (32). DomainError for B1 != 0."""
+        B2, B3 = self.prime[1:].tolist()
+        return B2, B3
 
     def frame(self, axis: Any) -> "LaboratoryFrame":
         """Laboratory frame of figure Lssc for a body whose symmetry axis points along `axis` at t = 0.

@@ -153,6 +153,8 @@ class TopMotion(NutatingMotion[SingleTop]):
         if units is not None and c != 1:
             raise AtlasError(f"Give units or c, not both: {units!r} says what c is.")
         c = c if units is None else system(units).c
+        if hasattr(field, "pair"):
+            raise AtlasError("A charged top takes B itself, in the units that are said, not a Field, which has B'.")
         parts = components(field, ("B2", "B3"), "The field", SI_FIELDS["B"] if c == 1 else "")
         B2, B3 = (number(x, "A component of the field") for x in parts)
         size = float(np.hypot(B2, B3))

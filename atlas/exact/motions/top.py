@@ -79,9 +79,19 @@ class TopMotion(Nutating):
 
     @property
     def swings_evenly(self) -> bool:
-        """Whether the spin in a period is exactly zero: the potential is even, M3 = 0, and nu swings about zero."""
+        """Whether the spin in a period is exactly zero: M3 = 0, so that chi' is odd in nu, which swings about zero."""
+        return self.quartic.M3.is_zero and self._is_even
+
+    @property
+    def precesses_evenly(self) -> bool:
+        """Whether that in a period is Larmor's alone: p = 0, so that the rest is odd in nu, which swings about zero."""
+        return self.quartic.p.is_zero and self._is_even
+
+    @property
+    def _is_even(self) -> bool:
+        """Whether nu swings evenly about zero: the potential is even, and (p - M3 nu)^2."""
         q = self.quartic
-        even = q.M3.is_zero and q.a.is_zero and q.kappa == 0 and not q.is_constant
+        even = q.a.is_zero and (q.M3.is_zero or q.p.is_zero) and not q.is_constant
         return even and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
     @property
@@ -196,7 +206,11 @@ class TopMotion(Nutating):
 
     def angular_velocity(self, t: Any) -> list[Real]:
         """Return Omega(t) in the body's frame."""
-        return list(self.omega) if rational(t, "the time") == 0 else self.turning_rate(t)
+        if rational(t, "the time") == 0:
+            return list(self.omega)
+        across, other, along = self.turning_rate(t)
+        # without k3 there is no torque about the axis that is not one of n
+        return [across, other, along if self.coupling[1] else self.omega[2]]
 
     def field_in_body(self, t: Any) -> list[Real]:
         """Return b(t) = R^T n, the direction n in the body."""

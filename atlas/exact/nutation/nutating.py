@@ -49,6 +49,11 @@ class Nutating:
         raise NotImplementedError
 
     @property
+    def precesses_evenly(self) -> bool:
+        """Whether the precession in a period is exactly that of the frame."""
+        return False
+
+    @property
     def _is_ball(self) -> bool:
         """Whether seen from a frame that turns about the field the body is a ball without any force."""
         return False
@@ -130,10 +135,13 @@ class Nutating:
         )
         # a ball turns once about an axis: alpha and beta go half round zero each, with the signs of their torques
         same = self.quartic.sign_beside(-1) == self.quartic.sign_beside(1)
-        if self.swings_evenly or (self._is_ball and not self.is_steady and same):
-            return T * found.precession + first + second, arb(0)
+        ball = self._is_ball and not self.is_steady
+        opposite = self.precesses_evenly or (ball and not same)
+        precession = T * found.precession + (arb(0) if opposite else first + second)
+        if self.swings_evenly or (ball and same):
+            return precession, arb(0)
         further = found.swing.kappa * found.swing.rate * T if found.swing else arb(0)
-        return T * found.precession + first + second, T * found.spin + first - second + further
+        return precession, T * found.spin + first - second + further
 
     def quaternion(self, t: Any) -> list[arb]:
         """Return a unit quaternion of R(t), scalar first."""
