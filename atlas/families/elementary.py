@@ -87,10 +87,10 @@ FAMILY = Family(
             "period", "period of precession, 2 pi/|k|", TIME, certified=True, printed=False,
         ),
         Quantity(
-            "stability", "square of the frequency of small nutations", "1/time^2", "theorem-band", get=_stability,
+            "stability", "square of the frequency of small nutations", "1/time^2", "theorem-stability", get=_stability,
             exact=_exact_stability, certified=True, printed=False,
         ),
-        Quantity("nutation", "stable or not against small nutations", "", "theorem-stability", get=_verdict,
+        Quantity("nutation", "stable or not against small nutations", "", "theorem-band", get=_verdict,
                  exact=_exact_verdict, certified=True, printed=False, tabled=False),
         *integrals("m"),
     ),

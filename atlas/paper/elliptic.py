@@ -40,4 +40,14 @@ EQUATIONS = (
         r"-\frac{C}{2P},\qquad\frac{dH}{dF}=-\frac{z}{2D},\qquad\frac{d^2H}{dF^2}=\frac{P}{DC} \end{aligned}",
         assumptions=("$z$ and $v$ as in @theorem-elliptic, $P'=dP/dz$, $C$ and $e_2$ as in @theorem-splitting",),
     ),
+    Equation(
+        name="theorem-edge",
+        section="Atlas",
+        kind="theorem",
+        says=r"For $(\mathbf{M},\mathbf{K})=0$, Neumann's and Weber's case, the lower edge of all motions is a "
+        "straight line, reached by plane pendulums",
+        tex=r"2H-\frac{F}{I_3}-(I_1+I_2)\mathbf{K}^2=\left(\frac1{I_1}-\frac1{I_3}\right)M_1^2+\left(\frac1{I_2}"
+        r"-\frac1{I_3}\right)M_2^2+\frac{(I_3-I_1)(I_3-I_2)}{I_3}K_3^2\ge0",
+        assumptions=("$I_1\\le I_3$, $I_2\\le I_3$, for the sign", r"$H$, $F$, $\mathbf{M}$, $\mathbf{K}$ any"),
+    ),
 )

@@ -33,7 +33,11 @@ def integrals_model() -> Model:
     letters |= {"e2": sum(D / moment for moment in MOMENTS), "s": dot(K, x.inv() * K), "elliptic": -v * x.inv() * K}
     letters["H"] = lambda M: dot(M, AXES.inv() * M) / 2 + dot(K, AXES * K) / 2
     letters["F"] = lambda M: dot(M, M) - D * dot(K, AXES.inv() * K)
-    letters |= dict(zip(("x1", "x2", "x3"), x.diagonal(), strict=True))
+    letters |= dict(zip(("x1", "x2", "x3"), x.diagonal(), strict=True)) | dict(
+        zip(("I1", "I2", "I3"), MOMENTS, strict=True)
+    )
+    letters |= {name: sympy.Matrix(sympy.symbols(f"{name}1:4", real=True)) for name in ("m", "k")}
+    letters["normal"] = x.inv() * (letters["P1"] * sympy.eye(3) - 2 * P * x.inv()) * K
     return Model(letters)
 
 
@@ -94,14 +98,26 @@ TRIALS = (
                 " P1^2 - 2*P*P2 = (x2*x3)^2 - 2*x2*x3*x1*(x2 + x3) + x1^2*(x2 - x3)^2",
                 model=integrals_model,
             ),
+            Part(
+                line="dot(normal,x*m + v*k) = 2*v*(dot(elliptic,m) - D*dot(K,inv(J)*k)) + P1*(dot(elliptic,k)"
+                " + dot(K,m)) + 2*v*(2*z + e2)*dot(K,k) + 2*(v^2 - P)*dot(K,inv(x)*m);"
+                " dot(normal,x*normal) = 4*dot(K,K)*P + s*(P1^2 - 2*P*P2)",
+                model=integrals_model,
+            ),
         ),
         note="The sum of squares is conserved, whatever the motion, because $H$, $F$ and the Casimirs are. If all "
-        "$x_i>0$, on the unbounded oval, it is small only near the motions with $x_iM_i=-vK_i$: these are stable, but "
-        r"for those whose $\mathbf{K}$ runs along a separatrix to another place of their curve. On the bounded oval "
-        "let $x_1>0>x_2,x_3$: there the last identity has positive terms only, and $C=4b^2P+s(P'^2-2PP'')>0$ wherever "
-        r"$s=-(\mathbf{M},\mathbf{K})/v>0$. For $C>0$ the squares are of one sign across the curve of the motion, for "
-        "$C<0$ they are not, and the flow of $DH+zF/2$ has a saddle. Not proved is that neighbours leave *in time* at "
-        "those single places of an unstable stretch where the rate in time is zero.",
+        "$x_i>0$, on the unbounded oval, it is small only near the motions with $x_iM_i=-vK_i$, so that neighbours "
+        r"stay near the curves that $\mathbf{K}$ draws on them. The motion itself is stable where it is all of its "
+        r"curve: not for $z=0$, where $\mathbf{K}$ stands still at a place of a whole curve, and not where "
+        r"$\mathbf{K}$ is on a separatrix or at its middle axis. On the bounded oval "
+        "let $x_1>0>x_2,x_3$: there $P'^2-2PP''$ has positive terms only, and $C=4b^2P+s(P'^2-2PP'')>0$ wherever "
+        r"$s=-(\mathbf{M},\mathbf{K})/v>0$. For $C>0$ the squares are of one sign across the curve of the motion: if "
+        r"$F$ and the Casimirs do not change, the last line but one says for a small change $(\mathbf{m},\mathbf{k})$ "
+        r"that $y_i=x_im_i+vk_i$ is across a vector $\mathbf{n}$, and the last one that $\sum x_in_i^2=C$. On the "
+        r"plane across $\mathbf{n}$ the form $\sum y_i^2/x_i$ has the discriminant $\sum x_in_i^2/P$, but for a "
+        "square, and so is definite if $C>0$, and has both signs if $C<0$, where the flow of $DH+zF/2$ has a saddle. "
+        "Not proved is that neighbours leave *in time* at those single places of an unstable stretch "
+        "where the rate in time is zero.",
         false=Falsehood(
             "The flow of $DH+zF/2$ has no eigenvalue but 0, so that stability is never decided by it",
             "lam^4*(lam^2 + C)",
@@ -130,6 +146,21 @@ TRIALS = (
             "The slope does not depend on the place on the curve",
             "d(G) = -z*d(F)",
             "d(G) = -e2*d(F)",
+        ),
+    ),
+    Trial(
+        name="theorem-edge",
+        printed="2*(H(M) - F(M)/(2*I3)) - (I1 + I2)*dot(K,K) = (1/I1 - 1/I3)*M[1]^2 + (1/I2 - 1/I3)*M[2]^2"
+        " + (I3 - I1)*(I3 - I2)/I3*K[3]^2",
+        model=integrals_model,
+        follows=r"$H$ and $F$",
+        note=r"For $I_3$ the largest moment the right side is not negative, and it is 0 for $\mathbf{M}=(0,0,M_3)$, "
+        r"$\mathbf{K}=(K_1,K_2,0)$, which is as $(\mathbf{M},\mathbf{K})=0$ asks: the body swings or turns about its "
+        r"third axis, which stays across the field, as a plane pendulum.",
+        false=Falsehood(
+            "The bound is the energy of the spin about the axis of the largest moment along the field",
+            "(I1 + I2)*dot(K,K)",
+            "I3*dot(K,K)",
         ),
     ),
 )
