@@ -6,6 +6,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 ATLAS  := $(BIN)/atlas
 JOBS   ?= 2
+KINDS  ?= Prescott Nehalem Sandybridge Haswell SkylakeX
 FUZZ_EXAMPLES ?= 10000
 
 .DEFAULT_GOAL := report
@@ -64,9 +65,11 @@ bench: setup $(VENV)/.bench
 	@env -u OPENBLAS_CORETYPE $(ATLAS) bench --store   # so that OpenBLAS chooses the kernels of this processor
 
 stress: setup $(VENV)/.bench
-	@$(ATLAS) stress   # on this processor; `atlas stress --record` goes through the kinds there are
-	@$(BIN)/python tests/tops.py   # against heyoka
-	@$(BIN)/python tests/three_moments.py   # an hour
+	@cd tests && ../$(BIN)/python -m stress --record --anew
+	@cd tests && for kind in $(KINDS); do OPENBLAS_CORETYPE=$$kind ../$(BIN)/python -m stress --record || test $$? -gt 127; done   # beyond 127: no such instructions here
+	@cd tests && ../$(BIN)/python -m stress --arrays
+	@cd tests && ../$(BIN)/python -m stress.integrated_tops   # against heyoka
+	@cd tests && ../$(BIN)/python -m stress.three_moments   # an hour
 	@HYPOTHESIS_PROFILE=hunt FUZZ_EXAMPLES=$(FUZZ_EXAMPLES) $(BIN)/python -m pytest -n $(JOBS) tests/fuzz
 
 # Needs node, npm and Chromium; `make accessibility FIREFOX=/usr/bin/firefox-esr` looks in that Firefox, and needs Xvfb.

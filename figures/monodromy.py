@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.maps.monodromy import Monodromy, around, monodromy
+from atlas.core.maps.monodromy import Monodromy, around, on_loop
 from atlas.core.maps.wells import Wells
 from atlas.errors import DomainError
 from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene
@@ -37,7 +37,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
     ]
     found = []
     for _, wells, top in cases:
-        found.append(monodromy(ratio, M3=wells.M3, loop=around(wells, wells.M3, points), **top))
+        found.append(on_loop(ratio, M3=wells.M3, loop=around(wells, wells.M3, points), **top))
     maps = [values(f"({'abc'[k]}) {cases[k][0]}", cases[k][1], found[k], k == 0, unit) for k in range(3)]
     lattices = [lattice(f"({'def'[k]}) {words(found[k])}", found[k], k == 0) for k in range(3)]
     error = max(one.step for one in found)

@@ -1,8 +1,9 @@
 """The records that a report shows: verdicts of the trial, the benchmark, the worst errors of the stress runs.
 
-They are read, never made anew: `atlas verify --record`, `atlas bench` and `atlas stress` make them.
+They are read, never made anew: `make verify`, `make bench` and `make stress` make them.
 """
 
+import json
 import math
 import re
 from collections import Counter, defaultdict
@@ -11,6 +12,7 @@ from itertools import groupby
 from atlas.build.reference import described
 from atlas.paper import EQUATIONS
 from atlas.paper.citation import cited
+from atlas.places import folder
 from atlas.report.appendices import Appendices, Finding
 from atlas.report.blocks import Errata, Ledger, Recorded, Reference
 from atlas.report.definition import Report
@@ -132,36 +134,24 @@ def _bench() -> dict[str, Data]:
 
 def _stress() -> dict[str, Data]:
     """Return the worst error of each quantity on record, and the regime in which it was met."""
-    from atlas.study.stress import LIMITS, LONG, PROCESSORS, SHORT, read_record
+    from atlas.families import FAMILIES
 
-    worst: dict[str, tuple[float, str]] = {}
-    for name, ulps in read_record().items():
-        quantity, _, regime = name.partition(" | ")
-        worst[quantity] = max(worst.get(quantity, (-1.0, "")), (ulps, regime))
-    order = [*(name for name in LIMITS if name in worst), *(name for name in worst if name not in LIMITS)]
-    rows: tuple[tuple[str | Number, ...], ...] = tuple(
-        (
-            title(name),
-            _ulps(worst[name][0]),
-            Number(f"{LIMITS[name]:g}") if name in LIMITS else "none",
-            _met(name, *worst[name]),
-        )
-        for name in order
-    )
+    limits = {name: ulps for one in FAMILIES.values() for name, ulps in one.promises.items()}
+    record = json.loads((folder("reports") / "data" / "worst_errors.json").read_text(encoding="utf-8"))
+    worst = record["worst"]
+    order = [*(name for name in limits if name in worst), *(name for name in worst if name not in limits)]
+    rows: list[tuple[str | Number, ...]] = []
+    for name in order:
+        ulps, regime = worst[name]
+        broken = "**limit exceeded:** " if ulps > limits.get(name, math.inf) else ""
+        limit = Number(f"{limits[name]:g}") if name in limits else "none"
+        rows.append((title(name), _ulps(ulps), limit, broken + title(regime) if ulps > BEST else ""))
     note = (
-        f"Worst of {LONG[0]:,} values (seed {LONG[1]}) and of {SHORT[0]:,} (seed {SHORT[1]}) on {len(PROCESSORS)} "
-        "kinds of x86 processors, rounded up. Half a unit is on record where less was found."
+        f"Worst of {record['values']:,} values as on {len(record['processors'])} kinds of x86 processors, rounded up. "
+        "Half a unit is on record where less was found."
     )
     columns = (Column("Quantity"), Column("Worst error", "ulp"), Column("Limit", "ulp"), Column("Met where"))
-    return {"worst errors": Data(columns, rows, "Worst errors on record.", (note,))}
-
-
-def _met(quantity: str, ulps: float, regime: str) -> str:
-    """Say where the worst error was met, if it is one, and whether it breaks a promise."""
-    from atlas.study.stress import LIMITS
-
-    broken = "**limit exceeded:** " if ulps > LIMITS.get(quantity, math.inf) else ""
-    return broken + title(regime) if ulps > BEST else ""
+    return {"worst errors": Data(columns, tuple(rows), "Worst errors on record.", (note,))}
 
 
 def title(name: str) -> str:

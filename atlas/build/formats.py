@@ -56,7 +56,7 @@ def _pages(
     }
     files = {name: page.encode() for name, page in pages.items()} | drawn
     files |= html.fonts(pages, lambda parts, make: cache.recall(digest("font", code, parts), make))
-    files[MANIFEST] = manifest_of(document, drawn)
+    files[MANIFEST] = manifest_of(document)
     return {f"{document.report.name}/{name}": content for name, content in files.items()}
 
 

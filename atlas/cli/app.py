@@ -70,19 +70,16 @@ for name, says in {
     "report": "Build a report.",
     "page": "Make a page of your own body and motion.",
     "data": "Write the data of a report, to be cited.",
-    "diff": "Compare two built reports.",
     "figure": "Draw figures.",
     "animate": "Let a figure move: mp4, gif or apng.",
     "explore": "Turn bodies, move sliders, in the browser.",
     "list": "Name the figures, reports and shapes.",
     "hyperbola": "Sample the hyperbola (67).",
-    "monodromy": "Carry a top's periods round a loop.",
     "sweep": "Tabulate quantities over parameters.",
     "check": "Grade a trajectory of your own.",
     "tex": "Write a report as LaTeX.",
     "verify": "Put the paper's equations on trial.",
     "bench": "Measure error against time.",
-    "stress": "Find the worst errors on extreme inputs.",
 }.items():
     atlas.add_command(LazyCommand(name, short_help=says))
 for family in FAMILIES.values():

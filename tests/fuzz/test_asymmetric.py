@@ -4,11 +4,11 @@ from random import Random
 
 import pytest
 from flint import arb, ctx
+from stress.asymmetric import ASYMMETRIC, size_of
 from values import EXAMPLES
 
 import atlas
 from atlas.exact.motions import asymmetric
-from atlas.study.asymmetric import ASYMMETRIC, size_of
 
 
 @pytest.mark.skipif(not EXAMPLES, reason="a minute for each: in make stress")

@@ -16,7 +16,7 @@ from values import share, watched
 from atlas.cli.app import atlas, main
 from atlas.families import FAMILIES
 
-BUILDERS = {"animate", "data", "explore", "page", "report", "stress", "sweep", "tex"}
+BUILDERS = {"animate", "data", "explore", "page", "report", "sweep", "tex"}
 """Commands that write files or run for long: they have tests of their own."""
 
 COMMANDS: dict[str, click.Command] = {
@@ -39,11 +39,9 @@ EXAMPLES = {
 BASES = EXAMPLES | {
     "asymmetric": ["--inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2"],
     "hyperbola": ["--ratio 1.5 --field 1 2"],
-    "monodromy": ["--inertia 1 0.5 --linear 1 --M3 0.5 --points 12"],
     "check": ["FILE --ratio 1.5 --field 1 2 --omega2 0.7"],
     "figure": [""],
     "list": [""],
-    "diff": ["old new"],
     "verify": ["999"],
     "bench": ["--read nosuch.json"],
 }

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 from matplotlib.path import Path
+from stress.elliptic import ELLIPTIC
 
 from atlas import AsymmetricMotion, DomainError, EllipticMotion
 from atlas.core.inputs import FloatArray
@@ -17,7 +18,6 @@ from atlas.exact.motions.elliptic import EllipticMotion as ExactElliptic
 from atlas.exact.motions.torus import Torus
 from atlas.formulas.numbers import workprec
 from atlas.scene import Curve, Points, Region, recipes
-from atlas.study.elliptic import ELLIPTIC
 from atlas.study.flows import flow
 
 EPS = float(np.finfo(float).eps)

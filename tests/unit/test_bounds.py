@@ -8,6 +8,8 @@ import lines
 import numpy as np
 import pytest
 from flint import arb, ctx
+from stress.regimes import GENERAL, REGIMES
+from stress.tops import TOPS, Top, rate_of
 from syrupy.assertion import SnapshotAssertion
 
 import atlas
@@ -17,8 +19,6 @@ from atlas.core.nutation.rows import PairAt
 from atlas.core.nutation.top_rows import TopBlock, TopPairAt, velocity
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
-from atlas.study.regimes import GENERAL, REGIMES
-from atlas.study.tops import TOPS, Top, rate_of
 
 EACH = 14
 """Motions of a regime."""

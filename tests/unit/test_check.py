@@ -15,6 +15,8 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles import closed_form
+from stress import extreme
+from stress.regimes import REGIMES
 
 from atlas.cli.app import atlas as program
 from atlas.core.motions.elementary import ElementaryMotion
@@ -23,9 +25,8 @@ from atlas.errors import AtlasError
 from atlas.exact.digits import enclosed
 from atlas.exact.motions import elementary as exact
 from atlas.scene import Curve, Plane
-from atlas.study import extreme, grades, trajectory, truth
+from atlas.study import grades, trajectory, truth
 from atlas.study.check import Check, check
-from atlas.study.regimes import REGIMES
 from atlas.study.trajectory import MATRIX, OMEGA
 
 SETTING = "# ratio = 1.5\n# field = 1 2\n# omega2 = 0.7\n"

@@ -104,7 +104,6 @@ CASES = [
     ("top --shape ring --radius 1 --magnetic 1 2 --charged 1 1 --omega 1 2 3", "--shape needs --mass"),
     ("top --inertia 1 1 --magnetic 1 2 --coat ring --radius 1 --omega 1 2 3", "--coat needs --charge"),
     (f"{TOP} --inertia 1 1 --heavy 1 1 --mass 1 --charged 1 1", "--charged goes with --magnetic, not with --heavy"),
-    ("monodromy --inertia 1 0.5 --linear 1e-310 --M3 0", "choose another unit of time"),
     *((f"animate motion --over {text} --out {{place}}/a.mp4", "--over takes KEY=FROM:TO:COUNT")
       for text in ("omega2=0:2", "omega2=0:2:x", "omega2=0:2:3:4")),
     ("classify --ratio 1 --field 1 2 3", "--field takes 2 numbers"),
@@ -113,7 +112,6 @@ CASES = [
         (f"animate motion --over {text} --out {{place}}/new", "from a list to one as long")
         for text in ("field=1,2:3:4", "field=1,2:1,2,3:4", "ratio=x:1:2")
     ),
-    ("monodromy --inertia 1 0.5 --linear 1e308 --M3 0", "choose another unit of time"),
     ("figure cone --set field=0,1 --out {place}/new", "cone"),
     ("verify 72 --record", "name none"),
     ("bench --read {place}/ratios.csv --quick", "nothing but --json"),

@@ -9,12 +9,12 @@ import lines
 import numpy as np
 import pytest
 from flint import arb, ctx
+from stress.run import PROMISES
 from syrupy.assertion import SnapshotAssertion
 
 from atlas.exact.digits import enclosed
 from atlas.families import FAMILIES, Family, Quantity
 from atlas.paper import EQUATIONS
-from atlas.study import stress
 from atlas.study.ulps import absolute, of_length, own
 
 EVERY = pytest.mark.parametrize("one", FAMILIES.values(), ids=list(FAMILIES))
@@ -127,7 +127,7 @@ def test_every_promise_is_of_something_that_is_checked(one: Family) -> None:
     """What a quantity is checked by is promised, but of the particle; and the stress run takes each promise over."""
     checked = [x.checked for x in (*one.quantities, *one.sampled) if x.checked]
     assert one.name == "particle" or set(checked) <= set(one.promises)
-    assert one.promises.items() <= stress.LIMITS.items()
+    assert one.promises.items() <= PROMISES.items()
 
 
 @EVERY

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from oracles.top import taylor
+from stress.nutating import narrow
 
 from atlas import DomainError, ElementaryMotion, EllipticMotion, GeneralMotion, Hyperbola, TopMotion, simulate
 from atlas.core.maps.momentum_map import momentum_map, potential
 from atlas.core.maps.separatrix import companions
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.scene import Arrow, Curve, Image, Points, Surface, recipes
-from atlas.study.nutating import narrow
 
 FloatArray = NDArray[np.float64]
 

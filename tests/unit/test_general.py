@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from stress.nutating import narrow
 
 import atlas
 from atlas.core.motions.ball import BallMotion
@@ -18,7 +19,6 @@ from atlas.core.nutation import grid as general_grid
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.study.nutating import narrow
 from atlas.study.ulps import absolute
 
 Inputs = tuple[float, tuple[float, float], tuple[float, float, float]]

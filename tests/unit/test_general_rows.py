@@ -8,6 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import arb, ctx
+from stress.arrays import GENERAL_REGIME, check_general_rows, state
+from stress.nutating import narrow
+from stress.regimes import GENERAL
+from stress.run import PROMISES
 
 from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.motions import general
@@ -19,10 +23,6 @@ from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
 from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.study.arrays import GENERAL_REGIME, check_general_rows, state
-from atlas.study.nutating import narrow
-from atlas.study.regimes import GENERAL
-from atlas.study.stress import PROMISES
 from atlas.study.ulps import ONE, absolute, error
 
 SCALARS = ("period", "modulus", "complementary_modulus", "nome", "precession_per_period", "spin_per_period")

@@ -9,11 +9,11 @@ import mpmath
 import numpy as np
 import pytest
 from flint import arb, ctx
+from stress.regimes import GENERAL
 
 from atlas.core.motions.general import GeneralMotion
 from atlas.core.nutation import rows, single_general
 from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.study.regimes import GENERAL
 from tests.oracles.taylor import taylor
 
 WANTED = 16

@@ -8,6 +8,8 @@ import lines
 import numpy as np
 import pytest
 from flint import arb, ctx
+from stress.regimes import GENERAL
+from stress.tops import TOPS
 from syrupy.assertion import SnapshotAssertion
 
 from atlas.core.motions.general import standing
@@ -18,8 +20,6 @@ from atlas.core.nutation.single import SingleMotion
 from atlas.core.nutation.single_top import SingleTop
 from atlas.core.nutation.swing import Swing
 from atlas.errors import DomainError
-from atlas.study.regimes import GENERAL
-from atlas.study.tops import TOPS
 
 EPS = 2.0**-52
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.maps.monodromy import Monodromy, around, monodromy
+from atlas.core.maps.monodromy import Monodromy, around, on_loop
 from atlas.core.maps.wells import Wells
 
 CASES: dict[str, tuple[Any, ...]] = {
@@ -32,7 +32,7 @@ def carried(name: str, points: int = 32) -> tuple[Wells, Monodromy]:
     """Return the potential and the lattice carried round the loop of one case."""
     I, (k2, k3), M3, p, linear, quadratic, _ = CASES[name]
     wells = potential(name)
-    return wells, monodromy(I, (k2, k3), M3, around(wells, p, points), linear, quadratic)
+    return wells, on_loop(I, (k2, k3), M3, around(wells, p, points), linear, quadratic)
 
 
 def quadrature(name: str, p: float, g: float) -> np.ndarray:
@@ -96,7 +96,7 @@ def test_a_loop_run_backwards_has_the_inverse_matrix() -> None:
     """And half the points give the same."""
     I, coupling, M3, p, linear, *_ = CASES["heavy top"]
     loop = around(Wells(M3, 0.0, linear), p, 32)
-    there, back, half = (monodromy(I, coupling, M3, one, linear) for one in (loop, loop[::-1], loop[::2]))
+    there, back, half = (on_loop(I, coupling, M3, one, linear) for one in (loop, loop[::-1], loop[::2]))
     assert (np.array(there.matrix) @ np.array(back.matrix) == np.eye(3)).all()
     assert half.matrix == there.matrix
     assert half.step > there.step
@@ -114,14 +114,14 @@ def test_a_loop_run_backwards_has_the_inverse_matrix() -> None:
 def test_loops_that_tell_nothing_are_refused(loop: list[tuple[float, float]], tells: str) -> None:
     """A loop that is too coarse, meets a critical value, or leaves the motions."""
     with pytest.raises(atlas.AtlasError, match=tells):
-        monodromy(0.5, (0.0, 0.0), 1.0, np.array(loop), 1.0)
+        on_loop(0.5, (0.0, 0.0), 1.0, np.array(loop), 1.0)
 
 
 def test_periods_that_balls_do_not_tell_are_refused() -> None:
     """In one line, where a moment is so small that 1/I and I have no common digits."""
     loop = np.array([[5e-161, 2.5173847e-160]] * 3)
     with pytest.raises(atlas.NotCertifiedError, match="not certified: the periods of the motion"):
-        monodromy(1e-160, (0.0, 0.0), 5e-161, loop, 1e-160)
+        on_loop(1e-160, (0.0, 0.0), 5e-161, loop, 1e-160)
 
 
 def test_a_stable_spin_has_no_loop() -> None:
@@ -150,3 +150,42 @@ def test_curves_of_precessions_run_on_from_end_to_end(name: str) -> None:
         assert (np.diff(branch.w) > 0.0).all()
         for w, r in zip(branch.w[[0, -1]], branch.r[[0, -1]], strict=True):
             assert min(1.0 - abs(r), 6.0 - abs(w)) < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("inertia", "M3", "rest", "third"),
+    [
+        ((1.0, 0.5), 0.5, {"linear": 1.0}, (-1, 1, 1)),
+        ((2.0, 3.0), 0.0, {"coupling": (2.0, 3.0), "p": 0.0}, (-2, 0, 1)),
+        ((1e-46, 5e-47), 5e-47, {"linear": 1e-46}, (-1, 1, 1)),
+    ],
+)
+def test_the_matrix_does_not_depend_on_the_unit_of_inertia(
+    inertia: tuple[float, float], M3: float, rest: dict[str, Any], third: tuple[int, int, int]
+) -> None:
+    """Lagrange's top and the disk at M3 = 0; the loop is closed, and the balls of the angles are narrow."""
+    found = atlas.monodromy(inertia, M3, points=32, **rest)
+    assert found.matrix == ((1, 0, 0), (0, 1, 0), third)
+    assert len(found.p) == len(found.turns) == 33
+    assert found.p[0] == found.p[-1]
+    assert found.radius < 1e-30
+    assert found.step < 0.25
+
+
+@pytest.mark.parametrize(
+    ("inertia", "M3", "rest", "says"),
+    [
+        ((1.0, 0.5), 3.0, {"linear": 1.0}, "no isolated one"),
+        ((1.0, 3.0), 1.0, {}, "I3 is at most 2 I2"),
+        ((0.0, 0.0), 1.0, {}, "both are positive"),
+        ((1.0, 1.0), 1e308, {"linear": 1e308}, "too large or too small"),
+        ((1.0, 1.0), 0.0, {"linear": 5e-324}, "too large or too small"),
+        ((1.0, 0.5), 0.5, {"linear": 1.0, "points": 3}, "give more points"),
+    ],
+)
+def test_a_loop_that_says_nothing_is_refused(
+    inertia: tuple[float, float], M3: float, rest: dict[str, Any], says: str
+) -> None:
+    """Round a stable spin, of no body, in units that floats do not hold, of too few points: a sentence, no matrix."""
+    with pytest.raises(atlas.DomainError, match=says):
+        atlas.monodromy(inertia, M3, **rest)

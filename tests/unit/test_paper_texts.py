@@ -1,20 +1,24 @@
 """The texts of the ledger and of the trial: TeX and citations as a report reads them, plain Unicode on a terminal."""
 
+import json
 import re
 
 import pytest
 
 from atlas.build.appendices import title
+from atlas.families import FAMILIES
 from atlas.paper import EQUATIONS
 from atlas.paper.citation import cited
+from atlas.places import folder
 from atlas.plain import plain
 from atlas.proof import recorded
-from atlas.study.stress import LIMITS, read_record
 
+WORST = json.loads((folder("reports") / "data" / "worst_errors.json").read_text())["worst"]
 TEXTS = [
     *(text for entry in EQUATIONS.values() for text in (entry.says, *entry.assumptions)),
     *(text for verdict in recorded.load().values() for text in (verdict.method, verdict.follows, verdict.note)),
-    *(title(name) for key in (*LIMITS, *read_record()) for name in key.split(" | ")),
+    *(title(name) for one in FAMILIES.values() for name in one.promises),
+    *(title(name) for pair in WORST.items() for name in (pair[0], pair[1][1])),
 ]
 LETTER = re.compile(r"alpha|beta|gamma|lambda|omega|Omega|theta|tau|phi|psi|^sqrt|^hat|[A-Z]'?\d|[a-z]\d|[_^<>=]")
 

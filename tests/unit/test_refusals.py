@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from stress.extreme import times
 
 import atlas
 from atlas.core.bodies.inertia import inertia_tensor
@@ -15,7 +16,6 @@ from atlas.exact.inputs import rationals
 from atlas.exact.motions.ball import BallMotion as Ball
 from atlas.exact.motions.particle import ParticleMotion as Particle
 from atlas.exact.surfaces.hyperbola import Hyperbola as Balls
-from atlas.study.extreme import times
 from atlas.study.sweep.plan import Plan
 
 SPIN = (1.0, 2.0, 3.0)

@@ -1,5 +1,6 @@
 """The ledger and the errata in a report: every entry with its verdict, every use linked both ways."""
 
+import json
 import re
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 from lxml import html as reader
 from pypdf import PdfReader
 
+from atlas.build import appendices
 from atlas.build.appendices import gather
 from atlas.build.report import Built, build_report
 from atlas.errors import AtlasError
@@ -24,7 +26,6 @@ from atlas.report.appendices import Appendices, Finding
 from atlas.report.compose import compose
 from atlas.report.load import load
 from atlas.report.tables.table import Data
-from atlas.study import stress
 
 HEAD = r"""
 name = "mine"
@@ -248,10 +249,12 @@ def test_totals_are_those_of_the_record(pages: dict[str, reader.HtmlElement]) ->
     assert numbers == [len(EQUATIONS), *(verdicts[kind] for kind in kinds)]
 
 
-def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatch, toml: Path) -> None:
+def test_a_worst_error_beyond_its_limit_is_marked(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, toml: Path) -> None:
     """An error on record that breaks a promise says so in its row; one that keeps it does not."""
-    found = {"R | ordinary": 5.0, "beta | I near 1": 1.25, "k | ordinary": 0.5}
-    monkeypatch.setattr(stress, "read_record", lambda: found)
+    worst = {"R": (5.0, "ordinary"), "beta": (1.25, "I near 1"), "k": (0.5, "ordinary")}
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "worst_errors.json").write_text(json.dumps({"values": 1, "processors": [], "worst": worst}))
+    monkeypatch.setattr(appendices, "folder", lambda _: tmp_path)
     data = gather(load(toml)).tables["stress: worst errors"]
     assert isinstance(data, Data)
     met = {str(row[0]): str(row[3]) for row in data.rows}

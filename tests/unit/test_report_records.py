@@ -98,7 +98,7 @@ def test_a_mistake_is_told_in_one_sentence_with_file_place_and_nearest_key(tmp_p
 
 @pytest.mark.parametrize("name", names())
 def test_figures_and_tables_have_names_of_their_own(name: str) -> None:
-    """A figure or table keeps its name when another is put before it, so that `atlas diff` finds it again."""
+    """A figure or table keeps its name when another is put before it, so that a link finds it again."""
     for page in load(find(name)).pages:
         for block in page.blocks:
             assert not hasattr(block, "id") or block.id, (page.slug, block)

@@ -12,11 +12,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from oracles.top import integrated, taylor
 from scipy.integrate import solve_ivp
+from stress.tops import TOPS, Top, rate_of
 
 import atlas
 from atlas.exact.digits import certified
 from atlas.exact.motions.top import TopMotion as Balls
-from atlas.study.tops import TOPS, Top, rate_of
 
 EPS = 2.0**-52
 ORDINARY, SCALES = "top, ordinary", "top, scales 1e-120 to 1e120"

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from oracles.top import integrated
+from stress.tops import TOPS, Top, rate_of
 
 import atlas
-from atlas.study.tops import TOPS, Top, rate_of
 
 EPS = 2.0**-52
 

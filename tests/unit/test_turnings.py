@@ -4,6 +4,8 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import arb, ctx
+from stress import extreme
+from stress.regimes import REGIMES
 
 from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.motions.ball import BallMotion
@@ -13,8 +15,6 @@ from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.motions import elementary as exact_elementary
-from atlas.study import extreme
-from atlas.study.regimes import REGIMES
 
 ULP1 = 2.0**-52
 

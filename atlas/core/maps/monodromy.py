@@ -10,12 +10,14 @@ T the period of nutation and Delta psi, Delta chi the angles of precession and s
 everywhere; g3 continued along a loop comes back as another vector of the lattice. Not in the paper.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from flint import arb
 
+from atlas.core.bodies.symmetric_top import given
 from atlas.core.inputs import FloatArray, whole
 from atlas.core.maps.wells import Wells
 from atlas.errors import DomainError, NotCertifiedError
@@ -24,6 +26,9 @@ from atlas.formulas.numbers import workprec
 
 PRECISION = 128
 """Binary digits of the balls of period and angles."""
+
+LEAST = 1e-280
+"""Least square of a rate, beside which an energy keeps its digits."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +55,42 @@ class Monodromy:
 
 
 def monodromy(
+    inertia: tuple[float, float],
+    M3: float,
+    *,
+    coupling: tuple[float, float] = (0.0, 0.0),
+    linear: float = 0.0,
+    quadratic: float = 0.0,
+    p: float | None = None,
+    points: int = 48,
+) -> Monodromy:
+    """Carry the periods of a top once round an unstable spin, theorem-residue.
+
+    The top is that of `TopMotion`: `inertia` (I2, I3), `coupling` (k2, k3), `linear` and `quadratic`. The loop has
+    `points` points of momentum p along n and energy g, counter-clockwise, at one momentum `M3` along the axis; in its
+    middle is the spin with the momentum `p`, M3 if left out, in units of inertia/time. The `matrix` of what is returned
+    has as rows what became of g1 (one turn about n), g2 (one about the axis) and g3 (one nutation, less its turns):
+    `monodromy((1.0, 0.5), 0.5, linear=1.0).matrix`. Angles are balls; that the integers are these rests on no angle
+    changing by half a turn between neighbours, see `step`.
+
+    Raises AtlasError for what are no numbers; DomainError for no body, a spin that is stable or no isolated value,
+    rates out of the range of floats, and too few points; NotCertifiedError where the balls tell nothing.
+    """
+    given(inertia, coupling, (0.0, 1.0), linear, quadratic)
+    unit = float(inertia[0])
+    I, twist = inertia[1] / unit, (coupling[0] / unit, coupling[1] / unit)
+    along, weight, lean = M3 / unit, linear / unit, quadratic / unit
+    middle = along if p is None else p / unit
+    wells = Wells.at(along, I, twist, weight, lean)
+    size = 4 * (abs(wells.A) + abs(wells.a)) + along * along
+    if size and not LEAST < max(size, abs(middle)) < math.inf:
+        raise DomainError("The rates of this top are too large or too small for floats: choose another unit of time.")
+    whole(points, "The number of points", 3)
+    found = on_loop(I, twist, along, around(wells, middle, points), weight, lean)
+    return replace(found, p=found.p * unit, g=found.g * unit)
+
+
+def on_loop(
     I: float,
     coupling: tuple[float, float],
     M3: float,

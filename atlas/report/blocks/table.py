@@ -23,7 +23,7 @@ POWER = 5.75
 COMMANDS = {
     "trial": "atlas verify --record",
     "bench": "atlas bench",
-    "stress": "atlas stress",
+    "stress": "make stress",
 }
 """The commands that make the recorded results."""
 

@@ -87,7 +87,7 @@ def _nutation(one: Top) -> tuple[Any, Any, Any]:
 
 def loops(request: Request) -> Data:
     """Return what becomes of the basis of periods on loops round unstable spins, theorem-residue."""
-    from atlas.core.maps.monodromy import around, monodromy
+    from atlas.core.maps.monodromy import around, on_loop
     from atlas.core.maps.wells import Wells
 
     asked = request.take(MonodromyParameters)
@@ -95,7 +95,7 @@ def loops(request: Request) -> Data:
     for one in asked.loops:
         wells = Wells.at(one.M3, one.ratio, one.coupling, one.linear, one.quadratic)
         loop = around(wells, one.p, asked.points)
-        found = monodromy(one.ratio, one.coupling, one.M3, loop, one.linear, one.quadratic)
+        found = on_loop(one.ratio, one.coupling, one.M3, loop, one.linear, one.quadratic)
         matrix = r"\\".join("&".join(map(str, row)) for row in found.matrix)
         rows.append(
             (

@@ -8,13 +8,13 @@ import numpy as np
 from flint import arb
 
 from atlas.core.inputs import FloatArray
+from atlas.core.motions.certified import REACH
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.motions import elementary as exact
 from atlas.formulas.numbers import workprec
 from atlas.study.bench.elementary import constants, formula
-from atlas.study.extreme import PHASE_LIMIT
 
 BITS = 110
 """Relative accuracy of the true matrices, which are kept in two words."""
@@ -37,7 +37,7 @@ def plain_error(made: ElementaryMotion, p: Any) -> FloatArray:
 
 def _rows(made: ElementaryMotion, p: Any) -> tuple[list[FloatArray], Any]:
     """Return the parameters of rows whose phases are within the limit, and which rows these are."""
-    near = np.maximum(abs(made.k * p["t"]), abs(made.phi * p["t"])) <= PHASE_LIMIT
+    near = np.maximum(abs(made.k * p["t"]), abs(made.phi * p["t"])) <= REACH
     names = ("ratio", "B2", "B3", "omega2", "t", *(name for name in ("omega3",) if name in p))
     return [p[name][near] for name in names], near
 

@@ -1,6 +1,6 @@
 """Extreme inputs, seeded: every special value from both sides down to one ulp, all scales, long and tiny times.
 
-`atlas.study.regimes` names the ways to hurt the formulas. `motion(regime, random)` draws the exact input of one
+`stress.regimes` names the ways to hurt the formulas. `motion(regime, random)` draws the exact input of one
 elementary motion, `ball_motion` and `particle_motion` those of the ball and the particle. Nothing here computes a
 quantity of the atlas: frequencies are estimated only to choose times and resonances.
 """
@@ -15,7 +15,7 @@ from flint import fmpq
 
 from atlas.core.bodies.body import SymmetricBody
 from atlas.errors import AtlasError
-from atlas.study.regimes import REGIMES, near, ratio, sign, size
+from stress.regimes import REGIMES, near, ratio, sign, size
 
 PHASE_LIMIT = 2.0**50
 """Largest phase in radians that the kernels promise."""

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import NamedTuple
 
-from atlas.study.regimes import Vector, near, number, sign, size
+from stress.regimes import Vector, near, number, sign, size
 
 
 class Elliptic(NamedTuple):

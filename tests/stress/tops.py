@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import NamedTuple
 
-from atlas.study.regimes import near, number, sign, size
+from stress.regimes import near, number, sign, size
 
 Pair = tuple[float, float]
 

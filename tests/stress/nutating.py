@@ -1,4 +1,4 @@
-"""Checks of motions whose axis nutates: their family's promises, structure and a grid, see `atlas.study.promises`."""
+"""Checks of motions whose axis nutates: their family's promises, structure and a grid, see `stress.checks`."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -14,12 +14,13 @@ from atlas.exact.digits import numbers
 from atlas.exact.inputs import Real
 from atlas.families import FAMILIES
 from atlas.formulas.numbers import workprec
-from atlas.study.asymmetric import Asymmetric, size_of
-from atlas.study.elliptic import Elliptic, rates_of
-from atlas.study.promises import Inputs, Where, check, on_grid
-from atlas.study.regimes import General
-from atlas.study.tops import Top, rate_of
-from atlas.study.ulps import ONE, WorstErrors
+from atlas.study.ulps import ONE
+from stress.asymmetric import Asymmetric, size_of
+from stress.checks import Inputs, Where, check, on_grid
+from stress.elliptic import Elliptic, rates_of
+from stress.regimes import General
+from stress.tops import Top, rate_of
+from stress.worst import WorstErrors
 
 GRID = 8200
 """Matrices on a uniform grid, enough for polynomials; a few of them are checked."""

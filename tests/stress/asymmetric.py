@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from random import Random
 from typing import NamedTuple
 
-from atlas.study.regimes import Vector
+from stress.regimes import Vector
 
 
 class Asymmetric(NamedTuple):

@@ -1,6 +1,7 @@
 """Is the closed form of three different moments right? Bodies, ordinary and extreme, against the certified twin.
 
-`python tests/three_moments.py --ordinary 100 --extreme 40 --times 200 --seed 1` draws bodies, fields and starts, and
+In the folder tests, `python -m stress.three_moments --ordinary 100 --extreme 40 --times 200 --seed 1`
+draws bodies, fields and starts, and
 times up to 1e12 over the largest rate, and prints for each regime the worst differences of R, K and Omega, in ulps of 1
 and of the largest rate, and beside the bound that the motion states; how many motions are proved, and state a bound
 below 1e-14; the median and the longest of the processor's times for a set-up; and each body without a closed form, or
@@ -23,7 +24,7 @@ import numpy as np
 from atlas.core.motions.asymmetric import SingleAsymmetric
 from atlas.errors import AtlasError
 from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.study.asymmetric import ASYMMETRIC, Asymmetric
+from stress.asymmetric import ASYMMETRIC, Asymmetric
 
 EPS = 2.0**-52
 

@@ -15,6 +15,7 @@ import numpy as np
 from flint import arb, fmpq
 
 from atlas import processes
+from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.motions.general import GeneralMotion
 from atlas.exact.digits import enclosed
@@ -22,11 +23,11 @@ from atlas.exact.inputs import Real
 from atlas.exact.motions import elementary as exact_elementary
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.formulas.numbers import workprec
-from atlas.study.bench.case import FloatArray
-from atlas.study.nutating import narrow
-from atlas.study.regimes import GENERAL
-from atlas.study.stress import Progress, Result, finished
-from atlas.study.ulps import BITS, ONE, WorstErrors, absolute, error, own, rigidity, with_more
+from atlas.study.ulps import BITS, ONE, absolute, error, own, rigidity
+from stress.nutating import narrow
+from stress.regimes import GENERAL
+from stress.run import Progress, Result, finished
+from stress.worst import WorstErrors, with_more
 
 ROWS, GENERAL_ROWS = 20_000, 1000
 """Rows checked at once: of elementary motions; of general ones, beside those of the regimes."""

@@ -1,6 +1,7 @@
 """Are tops right? A thousand ordinary ones and three hundred that are hard, against an integrator that shares no code.
 
-`python tests/tops.py --ordinary 1000 --extreme 300 --seed 1` draws tops of the regimes of `atlas.study.tops`,
+In the folder tests, `python -m stress.integrated_tops --ordinary 1000 --extreme 300 --seed 1`
+draws tops of the regimes of `stress.tops`,
 integrates the equations of motion with heyoka's Taylor series in numbers of 64 binary digits there and back, and prints
 the worst errors of R and Omega in ulps of 1 and of the largest rate, with how far the integrator came back from its
 start. The exit status is 1 if a top errs by more than it promises. It needs heyoka (requirements-bench.lock), and a
@@ -20,7 +21,7 @@ import numpy as np
 
 import atlas
 from atlas.families import FAMILIES
-from atlas.study.tops import TOPS, Top, rate_of
+from stress.tops import TOPS, Top, rate_of
 
 Long = np.longdouble
 TIME, EPS = 6.0, 2.0**-52

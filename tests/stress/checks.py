@@ -13,9 +13,10 @@ import numpy as np
 
 from atlas.exact.digits import enclosed
 from atlas.families import FAMILIES
-from atlas.study import extreme
-from atlas.study.extreme import described
-from atlas.study.ulps import BITS, ONE, WorstErrors, absolute, approximate, error, of_length, own, rigidity, with_more
+from atlas.study.ulps import BITS, ONE, absolute, approximate, error, of_length, own, rigidity
+from stress import extreme
+from stress.extreme import described
+from stress.worst import WorstErrors, with_more
 
 Inputs = dict[str, Any]
 Truth = Callable[[Callable[[], Any]], Any]

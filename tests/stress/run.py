@@ -1,0 +1,136 @@
+"""Stress: every public quantity of the kernels against its ball, on extreme inputs; the worst errors in ulps.
+
+An error is |found - true| over a unit in the last place: of 1 for the entries of a rotation matrix, of the vector's
+length for a vector, of the value itself for the rest; the truth is a ball some 2^-27 ulp wide. Inputs are exact
+doubles and are kept as hexadecimal text, so that any error can be reproduced to the bit.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
+from functools import partial
+from random import Random
+from typing import Any
+
+from atlas import processes
+from atlas.families import FAMILIES
+from stress import extreme
+from stress.asymmetric import ASYMMETRIC
+from stress.checks import check_ball, check_free, check_hyperbola, check_motion, check_particle, check_quadric
+from stress.elliptic import ELLIPTIC
+from stress.nutating import check_asymmetric, check_elliptic, check_general, check_top
+from stress.regimes import GENERAL, REGIMES
+from stress.tops import TOPS
+from stress.worst import Refusal, Worst, WorstErrors
+
+SHORT = (12_000, 1)
+"""Samples and seed of the run among the tests, with every quantity and regime but of three moments in it."""
+
+Progress = Callable[[int, int], None]
+
+NUTATING: Mapping[str, tuple[Mapping[str, Any], Callable[..., None]]] = {
+    "general": (GENERAL, check_general),
+    "top": (TOPS, check_top),
+    "elliptic": (ELLIPTIC, check_elliptic),
+}
+"""Regimes of families whose axis nutates, and their checks: a new regime is a function and a line in its table."""
+
+SELDOM = 12
+"""A body with three moments, which takes seconds, is checked once in so many rounds."""
+
+PROMISES: Mapping[str, float] = {
+    **{name: ulps for one in FAMILIES.values() for name, ulps in one.promises.items()},
+    "general determinant": 12,
+    "general integrals": 64,
+    "general scalars": 0.51,
+    "general kind": 0,
+}
+"""What the register promises, in ulps, and what holds of arrays beside."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A stress run: what was found, from which seed."""
+
+    seed: int
+    samples: int
+    worst: tuple[Worst, ...]
+    refusals: tuple[Refusal, ...]
+
+    def by_quantity(self) -> list[Worst]:
+        """Return for each quantity its worst regime, with the samples of all regimes."""
+        found = []
+        for quantity in dict.fromkeys(w.quantity for w in self.worst):
+            rows = [w for w in self.worst if w.quantity == quantity]
+            worst = max(rows, key=lambda w: w.ulps)
+            found.append(Worst(quantity, worst.regime, worst.ulps, worst.input, sum(w.samples for w in rows)))
+        return found
+
+    def broken(self) -> list[Worst]:
+        """Return what exceeds the promise of its quantity."""
+        return [w for w in self.worst if w.ulps > PROMISES.get(w.quantity, math.inf)]
+
+    def record(self) -> dict[str, Any]:
+        """Return the run as plain data for JSON."""
+        worst = [asdict(w) | {"limit": PROMISES.get(w.quantity)} for w in self.by_quantity()]
+        return {"seed": self.seed, "samples": self.samples, "worst": worst, "refusals": [*map(asdict, self.refusals)]}
+
+
+def stress(samples: int, seed: int = 0, jobs: int = 1, progress: Progress | None = None) -> Result:
+    """Check at least ``samples`` values drawn from ``seed`` on ``jobs`` processes, which do not change the result.
+
+    ``progress(samples so far, samples asked for)`` is called after each round of all regimes.
+    """
+    return finished(seed, _rounds(seed, jobs), samples, progress)
+
+
+def finished(seed: int, parts: Iterable[WorstErrors], samples: int, progress: Progress | None) -> Result:
+    """Return the result of rounds, as many as are needed for so many values."""
+    found, count = WorstErrors(), 0
+    for part in parts:
+        found.merge(part)
+        count += sum(w.samples for w in part.worst.values())
+        if progress is not None:
+            progress(count, samples)
+        if count >= samples:
+            break
+    return Result(seed, count, tuple(found.worst[key] for key in sorted(found.worst)), tuple(found.refusals))
+
+
+def one_round(seed: int, index: int) -> WorstErrors:
+    """Check one motion of every regime with its quadric and hyperbola, special ones, and general ones."""
+    found = WorstErrors()
+    random = Random(f"{seed} {index}")  # noqa: S311  reproducible, not secret
+    for regime in REGIMES:
+        motion = extreme.motion(regime, random)
+        for check in (check_motion, check_hyperbola, check_quadric):
+            check(motion, regime, found)
+    check_motion(extreme.special_motion(random), "B2 = 0", found)
+    check_free(extreme.free_motion(random), found)
+    check_ball(extreme.ball_motion(random), found)
+    check_particle(extreme.particle_motion(random), found)
+    for name, (regimes, check_one) in NUTATING.items():
+        other = Random(f"{name} {seed} {index}")  # noqa: S311  the same
+        for regime, draw in regimes.items():
+            check_one(draw(other), regime, other, found)
+    if index % SELDOM == 0:
+        other = Random(f"asymmetric {seed} {index}")  # noqa: S311  the same
+        regime = list(ASYMMETRIC)[index // SELDOM % len(ASYMMETRIC)]
+        check_asymmetric(ASYMMETRIC[regime](other), regime, other, found)
+    return found
+
+
+def _rounds(seed: int, jobs: int) -> Iterator[WorstErrors]:
+    """Check one round after the other, endlessly, in the order of their index."""
+    batch = 2 * jobs
+    executor = processes.pool(jobs) if jobs > 1 else None
+    if executor is None:
+        index = 0
+        while True:
+            yield one_round(seed, index)
+            index += 1
+    with executor as pool:
+        first = 0
+        while True:
+            yield from pool.map(partial(one_round, seed), range(first, first + batch))
+            first += batch
