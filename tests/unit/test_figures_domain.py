@@ -49,6 +49,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("flight_poster", {"count": 61}, "count"),
     ("frequencies", {"order": 9}, "order"),
     ("frequencies", {"field": (0.0, 1.0)}, "B2 = 0"),
+    ("turnover", {"pushes": (0.0,)}, "from 0 to 1"),
     ("geometric_phase", {"shown": (-0.48, -0.4, -0.3, -0.2, -0.01)}, "one to four"),
     ("geometric_phase", {"z": (-0.01, -0.495)}, "from low to high"),
     ("geometric_phase", {"z": (-0.3, -0.3)}, "from low to high"),

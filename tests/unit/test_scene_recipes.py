@@ -271,6 +271,7 @@ ENDS = {
     "quadrics_of_tops": {"weight": (0.01, 2.0), "moment": (0.01, 2.0), "outside": (0.01, 3.0)},
     "tipping_disk": {"count": (2, 24)},
     "top_motion": {"periods": (1e-3, 1e3)},
+    "turnover": {"reach": (0.1, 100.0)},
     "wells": {"reach": (0.5, 50.0)},
 }
 SHARED = {
