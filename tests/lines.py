@@ -1,8 +1,8 @@
 """A scene in lines of text, one a layer or a run of equal ones: compact snapshots that notice a line that has moved.
 
 Numbers in [square] brackets are compared to a billionth of the largest in the bracket, less than any pixel; those in
-<angles>, which depend on where a curve is sampled, to a thousandth; those in «quotes» are places on paper, compared to
-a twentieth of a printer's point. All else is compared as text.
+<angles>, which depend on where a curve is sampled, to a thousandth; counts of its points, in ~tildes~, within a factor
+of one and a half. All else is compared as text.
 """
 
 import re
@@ -19,7 +19,7 @@ from syrupy.extensions.single_file import SingleFileSnapshotExtension, WriteMode
 from atlas.scene import Curve, Image, Layer, Panel, Region, Scene, Space, Surface
 
 FloatArray = NDArray[np.float64]
-NUMBERS = re.compile(r"(\[[-+.\de ]+\]|<[-+.\de ]+>|«[-+.\de ]+»)")
+NUMBERS = re.compile(r"(\[[-+.\de ]+\]|<[-+.\de ]+>|~[-+.\de ]+~)")
 MANY = 6
 """More equal layers than these in a row make one line."""
 
@@ -52,7 +52,7 @@ def _same(a: str, b: str) -> bool:
     if a == b or not (NUMBERS.fullmatch(a) and NUMBERS.fullmatch(b) and a[0] == b[0]):
         return a == b
     x, y = (np.array(text[1:-1].split(), dtype=float) for text in (a, b))
-    most = {"[": 1e-9 * np.abs(x).max(), "<": 1e-3 * np.abs(x).max(), "«": 0.05}[a[0]]
+    most = {"[": 1e-9 * np.abs(x).max(), "<": 1e-3 * np.abs(x).max(), "~": 0.5 * np.abs(x).max() + 2}[a[0]]
     return x.shape == y.shape and bool((np.abs(x - y) <= most).all())
 
 
@@ -127,7 +127,7 @@ def _text(brackets: str, values: FloatArray) -> str:
     """Return numbers in brackets; those that are zero beside the others but for rounding are zero."""
     flat = np.ravel(np.asarray(values, dtype=float))
     size = 1e-10 * np.abs(flat).max(initial=0.0)
-    form = {"[]": ".11g", "<>": ".4g", "«»": ".2f"}[brackets]
+    form = {"[]": ".11g", "<>": ".4g", "~~": ".4g"}[brackets]
     return brackets[0] + " ".join(format(0.0 if abs(x) < size else x, form) for x in flat) + brackets[1]
 
 
@@ -141,9 +141,8 @@ def measured(layer: Layer) -> Numbers:
         found["values"] = layer.values[np.ix_(*few)]
     elif isinstance(layer, Curve | Region):
         low, extent = layer.points.min(axis=0), np.ptp(layer.points, axis=0)
-        way = (_along(layer.points, np.array([0.2, 0.5, 0.7])) - low) / np.where(extent > 0.0, extent, 1.0)
-        box = {"box": ("<>", np.concatenate([low, low + extent])), "way": ("<>", way)}
-        return {"ends": ("[]", layer.points[[0, -1]])} | (box if len(layer.points) > 2 else {})
+        box = {"box": ("<>", np.concatenate([low, low + extent])), "count": ("~~", np.array([len(layer.points)]))}
+        return {"ends": ("<>", layer.points[[0, -1]])} | (box if len(layer.points) > 2 else {})
     else:
         found = {name: value for name, value in vars(layer).items() if not isinstance(value, str)}
         if len(points := np.atleast_2d(found.get("points", 0.0))) > MANY:
@@ -153,11 +152,11 @@ def measured(layer: Layer) -> Numbers:
 
 def _of_surface(layer: Surface) -> Numbers:
     corners = np.concatenate([np.reshape(grid, (-1, 3)) for grid in layer.grids])
-    few = corners[np.linspace(0, len(corners) - 1, 3).round().astype(int)]
     found: Numbers = {
         "quadric": ("[]", layer.quadric[np.triu_indices(4)]),
-        "grids": ("[]", np.array([corners.min(axis=0), corners.max(axis=0), corners.mean(axis=0), *few])),
-        "counts": ("[]", np.array([len(corners), len(layer.wires), len(layer.rims)])),
+        "box": ("<>", np.array([corners.min(axis=0), corners.max(axis=0)])),
+        "count": ("~~", np.array([len(corners)])),
+        "lines": ("[]", np.array([len(layer.wires), len(layer.rims)])),
     }
     for name, rows in {"clip": layer.clip, "within": [one[np.triu_indices(4)] for one in layer.within]}.items():
         if len(rows):

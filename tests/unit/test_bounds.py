@@ -1,22 +1,17 @@
-"""The bounds that arrays of motions state: no error is above them, and they are as large as they were."""
+"""The bounds that arrays of motions state: no error is above them."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from random import Random
 from typing import Any
 
-import lines
 import numpy as np
 import pytest
 from flint import arb, ctx
 from stress.regimes import GENERAL, REGIMES
 from stress.tops import TOPS, Top, rate_of
-from syrupy.assertion import SnapshotAssertion
 
 import atlas
 from atlas.core.motions.elementary import ElementaryMotion
-from atlas.core.nutation.blocks import Block
-from atlas.core.nutation.rows import PairAt
-from atlas.core.nutation.top_rows import TopBlock, TopPairAt, velocity
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
 
@@ -49,70 +44,8 @@ def _changed(one: Any, k: int) -> Any:
     return one._replace(coupling=(across, across * one.inertia[1])) if k % 3 == 2 else one
 
 
-def stated(block: Block) -> Iterator[tuple[str, Any]]:
-    """Yield the bounds of all that is made of a block in two words, by name, each (m,) or (n, m)."""
-    r, means, pair = block.roots, block.means, block.pair
-    numbers: dict[str, Any] = {
-        "low": r.low, "high": r.high, "width": r.width, "discriminant": r.discriminant, "poles": r.poles,
-        "ends": r.ends, "first root": r.others[0], "second root": r.others[1], "imaginary part": r.others[2],
-        "f0": r.f[0], "f1": r.f[1], "M": means.rate, "modulus": means.moduli[0], "k'": means.moduli[1],
-        "nome": means.nome, "cos": means.start[0], "sin": means.start[1], "far": pair.sphere.far,
-        "near": pair.sphere.near, "torques": pair.sphere.torques, "amplitudes": pair.sphere.amplitudes,
-        "depth": pair.zeros.growth, "angles": pair.angles, "rates": pair.rates,
-    }  # fmt: skip
-    yield from ((name, np.broadcast_to(x.rel, np.shape(x.hi))) for name, x in numbers.items())
-    yield "factors", pair.factors[1]
-    if not isinstance(block, TopBlock):
-        yield "change", pair.change.size.rel
-    elif block.swing:
-        yield "swing", block.swing.rate.rel
-        yield "known", block.swing.known
-
-
-def bits(x: Any, unit: float = 2.0**-106) -> str:
-    """Return how many numbers are known, how many are not, and the mean logarithm of the former, evenly and by place.
-
-    The means are printed so that a change of one bound in a hundred, by a hundredth of the mean of all, is seen.
-    """
-    size = np.log2(np.where(known := (np.isfinite(x) & (x > 0)), x, unit)).ravel() - np.log2(unit)
-    means = size.mean(), np.arange(size.size) @ size / size.size**2
-    return f"[{known.sum()} {np.isinf(x).sum()}] <{means[0]:.5g} {means[1]:.5g}>"
-
-
-def places(x: Any) -> str:
-    """Return how many places there are, and their sum."""
-    return f"[{len(x)} {np.sum(x)}]"
-
-
-@pytest.mark.parametrize("family", FAMILIES)
-def test_bounds_are_as_large_as_they_were(snapshot: SnapshotAssertion, family: str) -> None:
-    """Each number in two words, its bound; which scalars are sure; and what is made alone at a time, of R and Omega."""
-    motion, _, t = drawn(family)
-    (block,), rows, found = motion._blocks, motion._rows, []
-    with np.errstate(all="ignore"):
-        found += [f"{name} {bits(x)}" for name, x in stated(block)]
-        for name in ("kind", "turning_points", "period", "modulus", "nome", "spin_per_period", "precession_per_period"):
-            found.append(f"{name} is sure: {places(np.flatnonzero(motion._scalars[name].sure))}")
-        for name, shape in (("rotation", (3, 3)), ("angular_velocity", (3,))):
-            at = rows.at(slice(None), t)
-            getattr(at, name)(t, np.empty((len(t), *shape)))
-            found.append(f"{name} is made alone: {places(at.extreme)}")
-        constants = rows.field
-        found.append(f"terms {places(constants.terms)} weight {bits(constants.weight, 1.0)}")
-        found.append(f"lack {bits(constants.lack / abs(constants.rates))}")
-        if family == "top":
-            pair, swings = TopPairAt(constants, t, rows.swings), rows.swings
-            turn, error = swings.half(PairAt(constants, t).half, t)
-            found.append(
-                f"size of Omega {bits(np.minimum(velocity(pair, np.empty((len(t), 3))) / rows.largest, 64.0), 1.0)}"
-            )
-            found.append(f"swing {bits(error.astype(float))} {bits(np.abs(turn.astype(float)), 1.0)}")
-            found.append(f"slope {bits(swings.slope, 1.0)} lack {bits(swings.lack * abs(t))}")
-    assert found == snapshot.use_extension(lines.Lines)
-
-
-def test_frequencies_of_elementary_motions_keep_their_bounds(snapshot: SnapshotAssertion) -> None:
-    """In two words, at any scale, they are within their bounds of the exact ones; and these are as large as they were.
+def test_frequencies_of_elementary_motions_keep_their_bounds() -> None:
+    """In two words, at any scale, they are within their bounds of the exact ones, and most bounds are small.
 
     Nothing is known of those that two words do not hold.
     """
@@ -126,7 +59,7 @@ def test_frequencies_of_elementary_motions_keep_their_bounds(snapshot: SnapshotA
             for (high, low), most, true in zip(words, lack, frequencies.exact(i), strict=True):
                 assert not abs(arb(high) + arb(low) - arb(true) / arb.pi()).lower() > most
     size = np.where(moving := frequencies.words[0] != 0, abs(frequencies.words[0]), 1.0)
-    assert [f"lack {bits(np.where(moving, frequencies.lack / size, 0.0))}"] == snapshot.use_extension(lines.Lines)
+    assert np.mean((frequencies.lack <= 2.0**-98 * size)[moving]) > 0.9
 
 
 def true_of(one: Any) -> tuple[Any, Callable[[Any], Any]]:
@@ -161,4 +94,6 @@ def test_no_error_is_above_its_bound(family: str) -> None:
                 words = (arb(float(x.hi[i])) + arb(float(np.broadcast_to(x.low, held.shape)[i]))) * arb(2) ** int(unit)
                 checked += np.isfinite(rel[i])
                 assert not np.isfinite(rel[i]) or abs(words - wanted).lower() <= abs(words) * float(rel[i])
+    known = np.concatenate([x[held] for x in bounds])
     assert checked > 400
+    assert np.median(known[np.isfinite(known)]) < 2.0**-80

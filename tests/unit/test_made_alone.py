@@ -4,13 +4,11 @@ from collections.abc import Iterator
 from random import Random
 from typing import Any
 
-import lines
 import numpy as np
 import pytest
 from flint import arb, ctx
 from stress.regimes import GENERAL
 from stress.tops import TOPS
-from syrupy.assertion import SnapshotAssertion
 
 from atlas.core.motions.general import standing
 from atlas.core.motions.top import balls
@@ -41,20 +39,6 @@ def drawn(regime: str, count: int) -> Iterator[SingleMotion]:
                 yield standing(1.0, I, *B, *omega)
         except DomainError:
             continue
-
-
-def test_what_is_made_of_a_motion_is_what_it_was(snapshot: SnapshotAssertion) -> None:
-    """A line a regime: digits that the constants took, functions of time, terms of the further turn, exponentials."""
-    found = []
-    for regime in (*GENERAL, *TOPS):
-        words = []
-        for one in drawn(regime, 5):
-            parts, sums, swing = one.parts, one.exponentials, one.parts.swing
-            kind = f"{type(parts.functions).__name__.lower()} {parts.functions.count}, {parts.precision} digits"
-            faint, turn = " faint" * parts.faint, f", turn {swing.odd.size}{' large' * swing.is_large}" if swing else ""
-            words.append(kind + faint + turn + (f", {len(sums[0].turns)} + {len(sums[1].turns)}" if sums else ""))
-        found.append(f"{regime}: {'; '.join(words)}")
-    assert found == snapshot.use_extension(lines.Lines)
 
 
 def swinging() -> Iterator[SingleTop]:
