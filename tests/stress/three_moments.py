@@ -93,6 +93,12 @@ def main() -> int:
             f"{name:35} {tried[name]:6} {len(results):6} {proved:6} {small:6} {ulps:7.2f} {beside:12.2f} "
             f"{median(seconds):6.2f} {max(seconds):6.2f}"
         )
+    closed = [x for results in found.values() for x in results]
+    proved = sum(x.proved for x in closed)
+    click.echo(
+        f"of {tried.total()} bodies {proved} closed forms are proved, {len(closed) - proved} checked and not proved, "
+        f"{tried.total() - len(closed)} refused"
+    )
     return int(failed > 0)
 
 
