@@ -35,7 +35,7 @@ from atlas.cli.options import (
 )
 from atlas.cli.present import Line, Printout, show
 from atlas.cli.top import chosen_top, given_otherwise, needs_no_way, parameters_of_top, top_options, top_units
-from atlas.errors import DomainError
+from atlas.errors import DomainError, NotCertifiedError
 from atlas.families import FAMILIES, Family, Parameter, Quantity, Sampled
 from atlas.families import Command as Described
 from atlas.families.family import TIME
@@ -100,8 +100,12 @@ def _made(family: Family, described: Described) -> click.Command:
         def balls() -> dict[str, Any]:
             made = family.balls()(*values_of(family, options, exact=True))
             at = [exactly(t, options) for t in times]
-            return _found(family, made, times, [[s.at(made)(t) for t in at] for s in sampled], exact=True)
+            columns = [[sample(s, made, t, best) for t in at] for s in sampled]
+            if at and not best:
+                raise NotCertifiedError(best.reason)
+            return _found(family, made, times, columns, exact=True)
 
+        best = Best()
         parameters = body_parameters(options) if in_field(family) else {}
         parameters |= {p.name: options[p.name] for p in given if options[p.name] is not None}
         parameters = parameters_of_top(names, options) if ways and given_otherwise(options) else parameters
@@ -205,6 +209,28 @@ def _speed_of_light(units: str) -> float:
     from atlas.core.bodies.units import system
 
     return system(units).c
+
+
+class Best(dict[tuple[str, Any], Any]):
+    """What was certified at the highest precision that it can be had with, by name and time; and why no higher one."""
+
+    reason = ""
+
+
+def sample(s: Sampled, made: Any, t: Any, best: Best) -> Any:
+    """Return a matrix or a vector at a time; where the precision of the moment can't be had, at the last that could.
+
+    So one time, whose numbers may be too small or which may be too far, never loses the others.
+    """
+    try:
+        best[s.name, t] = s.at(made)(t)
+    except NotCertifiedError as reason:
+        best.reason = str(reason)
+        from atlas.exact.digits import NOT_CERTIFIED
+
+        none = [NOT_CERTIFIED] * 3
+        return best.get((s.name, t), [none] * 3 if s.matrix else none)
+    return best[s.name, t]
 
 
 def _found(family: Family, made: Any, times: Sequence[float], columns: Sequence[Any], *, exact: bool) -> dict[str, Any]:

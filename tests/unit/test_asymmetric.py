@@ -336,7 +336,7 @@ def test_what_is_no_motion_is_refused_in_one_line(case: tuple[Any, ...], words: 
 @pytest.mark.parametrize(
     ("more", "words"),
     [
-        (["--times", "1.5", "--digits", "500"], "not certified: so many digits would take more than 768 binary ones."),
+        (["--times", "1.5", "--digits", "500"], "not certified: so many digits would take more than 768 binary ones"),
         (["--inertia", "1", "1", "3"], "No body has the moments of inertia 1.0, 1.0, 3.0: "),
     ],
 )

@@ -7,9 +7,13 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from flint import arb, ctx
 from tests_support import ulps_apart
 
 from atlas.cli.app import atlas as command
+from atlas.cli.family import Best, sample
+from atlas.errors import NotCertifiedError
+from atlas.families import Sampled
 
 COMMANDS = [
     "classify --ratio 1.5 --field 1 2",
@@ -116,3 +120,24 @@ def test_a_charge_is_in_coulomb_unless_another_system_is_named(words: str, syste
     assert found["parameters"]["units"] == system
     c = 2.99792458e10 if system == "gaussian" else 1.0
     assert found["cyclotron_frequency"] == pytest.approx(6.0 / c, rel=1e-15)
+
+
+def test_one_time_that_cannot_be_had_does_not_lose_the_others() -> None:
+    """Where a higher precision can't be had a row keeps what it had at the last one; else it says so, with a reason."""
+    best, vector = Best(), Sampled("Omega_i", "angular_velocity", "")
+
+    class Motion:
+        """Has one time, and this at low precision only."""
+
+        def angular_velocity(self, t: int) -> list[arb]:
+            """Return Omega."""
+            if t or ctx.prec > 100:
+                raise NotCertifiedError("too far")
+            return [arb(1)] * 3
+
+    with ctx.workprec(64):
+        first = sample(vector, Motion(), 0, best)
+    with ctx.workprec(128):
+        assert sample(vector, Motion(), 0, best) is first
+        assert sample(vector, Motion(), 1, best) == ["not certified"] * 3
+    assert best.reason == "too far"

@@ -101,7 +101,10 @@ class Flow:
         Raises NotCertifiedError where that would take too many steps, or where the error cannot be bounded.
         """
         if bits > PRECISE:
-            raise NotCertifiedError(f"not certified: so many digits would take more than {PRECISE} binary ones.")
+            raise NotCertifiedError(
+                f"not certified: so many digits would take more than {PRECISE} binary ones; of three moments some 185 "
+                "decimal ones can be had, fewer of numbers near zero."
+            )
         way = _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, proven=proven)
         while way.left:
             way.step()
