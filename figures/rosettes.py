@@ -17,6 +17,8 @@ from atlas.scene.captions import listed, plain, plain_setting, tex, tex_setting,
 from atlas.scene.sample import curve
 
 SIZE = 44.0
+DENSE = 12.0
+"""Turns beyond which the trace is drawn in thin lines."""
 LEAN = np.radians(50.0)
 
 
@@ -25,8 +27,8 @@ def scene(
     ratio: Any = 1.5,
     field: tuple[float, float] = (1.0, 2.0),
     fractions: tuple[tuple[int, int], ...] = ((1, 2), (2, 3), (3, 5)),
-    omega2: float = 0.7,
-    turns: float = 40.0,
+    omega2: float = -1.325419,
+    turns: float = 34.0,
 ) -> Scene:
     """Show a motion with phi/k = p/q for each of the ``fractions``, and one from ``omega2`` over ``turns`` turns."""
     if not all(field):
@@ -47,7 +49,7 @@ def scene(
             r"The trace of a point of the body, 50 degrees off its axis, along $\mathbf{B}$, "
             rf"for {tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back in its first attitude "
             f"after {listed([str(q) for _, q in fractions])} turns of the precession. The last motion, from "
-            rf"$\omega_2={tex(omega2)}$, runs over {plain(turns)} turns."
+            rf"$\omega_2={tex(omega2)}$, runs over {plain(turns)} turns. The dark circle is the way of the axis."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "
@@ -72,7 +74,7 @@ def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine),
         Curve(curve(motion.third_axis, 0.0, period, fine), "trace"),
-        Curve(trace, "second_trace"),
+        Curve(trace, "second_trace" if turns <= DENSE else "fine_trace"),
         Points(trace[:1], "start"),
     ]
     elevation = float(np.degrees(np.arctan2(field[1], abs(field[0]))))

@@ -39,9 +39,10 @@ def arranged(scene: Scene, target: Target) -> Scene:
     width = target.width / target.zoom
     if width < scene.narrowest:
         wide = [name for name, one in TARGETS.items() if one.width / one.zoom >= scene.narrowest]
+        larger = f", which is {width:.4g} mm with all {target.zoom:g} times as large" if target.zoom != 1 else ""
         raise AtlasError(
-            f"{scene.title}: it can't be read at {target.width:g} mm, for it needs {scene.narrowest:g} mm of a page; "
-            f"targets that are wide enough: {', '.join(wide)}."
+            f"{scene.title}: it can't be read at {target.width:g} mm{larger}, for it needs {scene.narrowest:g} mm of a "
+            f"page; targets that are wide enough: {', '.join(wide)}."
         )
     height = min(target.height / target.zoom, _TALL * width)
     best = max(

@@ -84,6 +84,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "flight_path": Style(TEAL, 1.2, hidden=False, tube=2.4),
         "trace": Style("#2a57a5", 1.2, tube=2.6),
         "second_trace": Style("#4a74bd", 0.8, tube=1.4),
+        "fine_trace": Style("#4a74bd", 0.4, tube=0.7),
         "coil": Style("#8a5a1f", 0.5, hidden=False, tube=1.0),
         "loop": Style("#8a5a1f", 2.0, tube=5.0),
         "seam_line": Style("#6b4517", 2.0, tube=4.0),

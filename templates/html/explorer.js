@@ -88,16 +88,16 @@ const write = panel => {
 };
 for (const section of document.querySelectorAll(".explorer")) {
   const sliders = [...section.querySelectorAll("input[type=range]")], out = section.querySelector("output"), line = section.querySelector("code"), play = section.querySelector("button"), box = section.querySelector(".stage"), calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const all = section.dataset.tables && JSON.parse(section.dataset.tables), b = Number(section.dataset.field), value = name => Number(sliders.find(one => one.name === name).value), time = sliders.find(one => one.name === "t");
+  const all = section.dataset.tables && JSON.parse(section.dataset.tables), [first, second] = section.dataset.field.split(" ").map(Number), b = Math.hypot(first, second), value = name => Number(sliders.find(one => one.name === name).value), time = sliders.find(one => one.name === "t");
   const state = () => {
     if (all) {
       const off = ([I, , , omega1]) => Math.abs(I - value("I")) + Math.abs(omega1 - value("omega1")), of = ({command}) => command.match(/-?[\d.]+(e-?\d+)?(?= |$)/g).map(Number);
       const table = all.reduce((best, one) => off(of(one)) < off(of(best)) ? one : best), [I, B2, B3] = of(table);
       return {I, B2, B3, at: tabled(table, B2, B3), span: 6 * table.period, says: table.says, command: table.command};
     }
-    const I = value("I"), angle = value("angle") * Math.PI / 180, omega2 = value("omega2"), B2 = b * Math.cos(angle), B3 = b * Math.sin(angle), {omega3, k, phi, stability} = motion(I, B2, B3, omega2), spin = Number.isFinite(phi) ? phi : 0;
-    const digits = x => Number.isFinite(x) ? x.toFixed(4).replace("-", "−") : "none, at the pole", says = `${kind(I)}; ω₃ = ${digits(omega3)}, k = ${digits(k)}, φ = ${digits(phi)}; ${stability > 0 ? "stable" : "unstable"}`;
-    return {I, B2, B3, omega2, at: t => rotation(B2, B3, k, spin, t), span: 2 * Math.PI / Math.abs(k || 1), says, command: `atlas motion --ratio ${I} --field ${B2.toFixed(6)} ${B3.toFixed(6)} --omega2 ${omega2}`};
+    const I = value("I"), angle = value("angle") * Math.PI / 180, omega2 = value("omega2"), turned = sliders.find(one => one.name === "angle"), still = turned.value === turned.defaultValue, B2 = still ? first : b * Math.cos(angle), B3 = still ? second : b * Math.sin(angle), {omega3, k, phi, stability} = motion(I, B2, B3, omega2), spin = Number.isFinite(phi) ? phi : 0;
+    const digits = x => Number.isFinite(x) ? String(Number(x.toPrecision(6))).replace("-", "−") : "none, at the pole", says = `${kind(I)}; ω₃ = ${digits(omega3)}, k = ${digits(k)}, φ = ${digits(phi)}; ${stability > 0 ? "stable" : "unstable"}`;
+    return {I, B2, B3, omega2, at: t => rotation(B2, B3, k, spin, t), span: 2 * Math.PI / Math.abs(k || 1), says, command: `atlas motion --ratio ${I} --field ${Number(B2.toPrecision(12))} ${Number(B3.toPrecision(12))} --omega2 ${omega2}`};
   };
   let last = null, asked, playing = !calm.matches, seen = false, viewer;
   const read = () => {  // the state that the address names

@@ -43,12 +43,15 @@ class Slider:
 
 @dataclass(frozen=True)
 class ExplorerView:
-    """The number of its text, its sliders, and for the script the size of the field or the tables of motions."""
+    """The number of its text, its sliders, and for the script the tables of motions and the field (B2, B3).
+
+    The field is exact until a slider turns it.
+    """
 
     text: int
     motion: str
     sliders: tuple[Slider, ...]
-    field: float
+    field: tuple[float, float]
     tables: str = ""
 
 
@@ -61,7 +64,7 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
         says, step = "first component of the initial angular velocity", high / (_PUSHES - 1)
         body = Slider("I", "I", RATIO, _BODIES[0], _BODIES[-1], 1.5, _BODIES[1] - _BODIES[0])
         push = Slider("omega1", "ω₁", says, 0.0, high, 2.0 * step, step)
-        return ExplorerView(text, block.motion, (body, push, time), hypot(B2, B3), tables())
+        return ExplorerView(text, block.motion, (body, push, time), (B2, B3), tables())
     ratio, omega2 = _parameter("elementary", "ratio"), _parameter("elementary", "omega2")
     angle = round(degrees(atan2(B3, B2)), 2)
     chosen = (
@@ -69,7 +72,7 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
         Slider("angle", "∠(e₂, B)", "angle of the field with e2, in degrees", *_OBLIQUE, angle),
         Slider("omega2", "ω₂", "second component of the initial angular velocity", *omega2.range, *omega2.default),
     )
-    return ExplorerView(text, block.motion, (*chosen, time), hypot(B2, B3))
+    return ExplorerView(text, block.motion, (*chosen, time), (B2, B3))
 
 
 def tables() -> str:
