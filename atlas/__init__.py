@@ -8,7 +8,7 @@
 Bodies and fields: SymmetricBody, ChargeMoments, Field, LaboratoryFrame. Surfaces of initial data: Quadric, Hyperbola.
 Motions: ElementaryMotion (the paper's), GeneralMotion (from any start), BallMotion, FreeMotion, TopMotion (any
 symmetric top), EllipticMotion and AsymmetricMotion (three different moments), ParticleMotion, Flight. Pictures: figure,
-plotter, animate. Tables: sweep. Periods round a loop: monodromy. To compare with: simulate, clebsch. Errors:
+plotter, animate. Tables: sweep. Periods round a loop: monodromy. To compare with: simulate, check, clebsch. Errors:
 AtlasError, DomainError, NotCertifiedError.
 
 Names are loaded when they are first used, so that a number costs no drawing library.
@@ -40,6 +40,7 @@ _HOMES = {
     "Flight": "atlas.core.motions.flight",
     "clebsch": "atlas.core.motions.clebsch",
     "monodromy": "atlas.core.maps.monodromy",
+    "check": "atlas.study.check",
     "sweep": "atlas.study.sweep.run",
     "simulate": "atlas.study.simulate",
     "figure": "atlas.draw",

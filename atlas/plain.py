@@ -1,7 +1,9 @@
 r"""TeX and citations of the ledger as plain Unicode: ``$\omega_2\ne-B'_2$, @(71)`` becomes ``ω_2≠-B'_2, (71)``."""
 
 import re
+from collections.abc import Sequence
 from functools import cache
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -23,6 +25,30 @@ def words(markdown: str) -> str:
     powers = re.sub(r"\^([\u2212-]?\d+)\^", lambda power: "^" + power[1].replace("\u2212", "-"), markdown)
     text = plain(powers.replace("`", "").replace("**", ""))
     return " ".join(re.sub(r"\^\{(-?\d+)\}", r"^\1", text).split())
+
+
+def printable(text: str) -> str:
+    """Return a text without what a terminal would obey."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
+
+
+def table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, left: bool = False) -> str:
+    """Return a table as lines of text, its cells to the right or to the left of their columns."""
+    widths = [max(map(len, column)) for column in zip(heading, *rows, strict=True)]
+    lines = [
+        " "
+        + "   ".join(cell.ljust(width) if left else cell.rjust(width) for cell, width in zip(row, widths, strict=True))
+        for row in (heading, *rows)
+    ]
+    rule = " " + "\N{BOX DRAWINGS LIGHT HORIZONTAL}" * (max(map(len, lines)) - 1)
+    return "\n".join(line.rstrip() for line in (lines[0], rule, *lines[1:]))
+
+
+def html_table(title: str, heading: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return the same for a notebook."""
+    lines = [("th", heading), *(("td", row) for row in rows)]
+    cells = ("".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in row) for tag, row in lines)
+    return f"<table><caption>{escape(title)}</caption>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
 
 
 @cache

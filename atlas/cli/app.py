@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from atlas import __version__
-from atlas.cli.encoding import printable, write_plainly
+from atlas.cli.encoding import write_plainly
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
 
@@ -117,5 +117,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def complain(sentence: str, status: int) -> int:
     """Print one line on standard error, without what a terminal would obey, and return the exit status."""
     words = [word if len(word) <= LONG else f"{word[: LONG // 2]}…{word[-LONG // 4 :]}" for word in sentence.split()]
+    from atlas.plain import printable
+
     click.echo(f"atlas: {printable(' '.join(words))}", err=True)
     return status

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -15,18 +15,18 @@ from atlas.cli.body import (
     chosen_moments,
     field_options,
 )
-from atlas.cli.encoding import printable
 from atlas.cli.options import REAL, Command, Place, WithThreeMoments, examples, stack
-from atlas.cli.present import Printout, dump, show
-
-if TYPE_CHECKING:
-    from atlas.study.check import Check
+from atlas.cli.present import dump
 
 OF_TOPS = ("direction", "coupling", "linear", "quadratic")
 """Options that only a top has."""
 
 file_argument: Callable[[Any], Any] = click.argument(
-    "file", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="FILE.csv"
+    "files",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    metavar="FILE.csv...",
+    nargs=-1,
+    required=True,
 )
 start_option: Callable[[Any], Any] = click.option(
     "--omega", type=REAL, nargs=3, metavar="W1 W2 W3", help="Angular velocity at t = 0, of any motion."
@@ -37,6 +37,9 @@ graded_options: Callable[[Any], Any] = stack(
     ),
     click.option(
         "--figure", type=Place(dir_okay=False, path_type=Path), help="Draw the error against time: svg, pdf, png."
+    ),
+    click.option(
+        "--order", is_flag=True, help="Of several files, with other steps: the order of convergence, and its figure."
     ),
     click.option("--json", "as_json", is_flag=True, help="JSON on standard output, and nothing else there."),
 )
@@ -52,11 +55,11 @@ graded_options: Callable[[Any], Any] = stack(
 @any_body_options
 @start_option
 @graded_options
-def three_moments(file: Path, **options: Any) -> int:
+def three_moments(files: tuple[Path, ...], **options: Any) -> int:
     """Grade against the motion of a body with three moments of inertia."""
     field = any(options[name] is not None for name in ("field", "magnetic"))
     given = {"inertia": chosen_moments(options), "omega": options["omega"]}
-    return _graded(file, options, given | ({"field": chosen_field(options)} if field else {}))
+    return _graded(files, options, given | ({"field": chosen_field(options)} if field else {}))
 
 
 @click.command(
@@ -69,6 +72,7 @@ def three_moments(file: Path, **options: Any) -> int:
         "atlas check mine.csv --inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2",
         "atlas check mine.csv --inertia 1 0.5 --direction 0.6 0.8 --linear 3 --omega 0.1 0.2 5",
         "atlas check mine.csv --figure mine.pdf --json",
+        "atlas check coarse.csv fine.csv finest.csv --order --figure order.pdf",
     ),
 )
 @file_argument
@@ -84,7 +88,7 @@ def three_moments(file: Path, **options: Any) -> int:
 @click.option("--linear", type=REAL, help="Of a top, as in atlas top.")
 @click.option("--quadratic", type=REAL, help="Of a top, as in atlas top.")
 @graded_options
-def command(file: Path, **options: Any) -> int:
+def command(files: tuple[Path, ...], **options: Any) -> int:
     """Count the correct digits of a trajectory computed elsewhere, column by column.
 
     FILE.csv has a column t and any of R11 to R33, Omega1 to Omega3 in the body, or a quaternion w, x, y, z. The
@@ -96,6 +100,9 @@ def command(file: Path, **options: Any) -> int:
     (M,K), K^2 and T are watched, and no digits counted. Errors of Omega are in units of its length, of a top and of a
     body with three moments in units of the largest rate there is.
 
+    With --order several files are runs of one motion with several steps, '# step = 0.01' or the mean distance of the
+    times: their largest errors tell the order of convergence.
+
     The exit status is 1 if a column has fewer correct digits somewhere than the threshold, 2 if the file or an
     option is wrong.
     """
@@ -106,14 +113,18 @@ def command(file: Path, **options: Any) -> int:
         given["ratio"] = chosen_body(options)
     if field:
         given["field"] = chosen_field(options)
-    return _graded(file, options, given)
+    return _graded(files, options, given)
 
 
-def _graded(file: Path, options: dict[str, Any], given: dict[str, Any]) -> int:
-    """Grade a trajectory, show the grades, and return the status."""
-    from atlas.study.check import check
+def _graded(files: tuple[Path, ...], options: dict[str, Any], given: dict[str, Any]) -> int:
+    """Grade trajectories, show the grades, and return the status."""
+    from atlas.study.check import check_file
+    from atlas.study.order import convergence
 
-    found = check(file, threshold=options["threshold"], **given)
+    if len(files) > 1 and not options["order"]:
+        raise click.UsageError("several files are graded with --order; without it give one.")
+    checks = [check_file(file, threshold=options["threshold"], **given) for file in files]
+    found = convergence(checks) if options["order"] else checks[0]
     if options["figure"] is not None:
         from atlas.draw.files import save
 
@@ -121,24 +132,15 @@ def _graded(file: Path, options: dict[str, Any], given: dict[str, Any]) -> int:
     if options["as_json"]:
         dump(found.record())
     else:
-        tables(found)
+        click.echo(str(found))
         if options["figure"] is not None:
             click.echo(options["figure"])
-    failed = [f"{column.name} from t = {column.fails_at:g}" for column in found.columns if column.fails_at is not None]
+    if options["order"]:
+        return 0
+    failed = [
+        f"{column.name} from t = {column.fails_at:g}" for column in checks[0].columns if column.fails_at is not None
+    ]
     if failed:
-        hint = "; those of the inverse rotations would do: R takes the body to the laboratory" * found.inverse
-        click.echo(f"atlas: fewer than {found.threshold:g} correct digits in {', '.join(failed)}{hint}", err=True)
+        hint = "; those of the inverse rotations would do: R takes the body to the laboratory" * checks[0].inverse
+        click.echo(f"atlas: fewer than {checks[0].threshold:g} correct digits in {', '.join(failed)}{hint}", err=True)
     return 1 if failed else 0
-
-
-def tables(found: "Check") -> None:
-    """Show the grades of the columns, and what drifts."""
-    title = f"{printable(str(found.file))}: {found.rows} row{'s' * (found.rows != 1)}, case {found.case}"
-    heading, rows = found.column_table()
-    if rows:
-        show(Printout(title, heading=heading, rows=rows))
-    else:
-        click.echo(f"{title}: nothing to compare with, so no column is graded")
-    heading, rows = found.drift_table()
-    if rows:
-        show(Printout("what should not change", heading=heading, rows=rows, justify="left"))

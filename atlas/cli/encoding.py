@@ -31,11 +31,6 @@ def write_plainly() -> None:
             reconfigure(errors=NAME, line_buffering=True)
 
 
-def printable(text: str) -> str:
-    """Return a text without what a terminal would obey."""
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
-
-
 def _replaced(error: UnicodeError) -> tuple[str, int]:
     """Return what is written in the place of the letters that can't be."""
     if not isinstance(error, UnicodeEncodeError):

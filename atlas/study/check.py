@@ -2,30 +2,33 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from atlas.core.inputs import real
 from atlas.errors import AtlasError
+from atlas.plain import html_table, printable, table
 from atlas.scene import Curve, Plane, Scene
 from atlas.study.drift import Drift, Drifts
-from atlas.study.grades import MOST, Column, Envelope, Errors, Grade, inverse_fits
-from atlas.study.reference import reference
-from atlas.study.trajectory import opened
+from atlas.study.grades import LINES, MOST, Column, Envelope, Errors, Grade, inverse_fits
+from atlas.study.order import Convergence, convergence
+from atlas.study.reference import OF_TOPS, reference
+from atlas.study.trajectory import Trajectory, of_arrays, opened
 from atlas.study.truth import truth_of
-
-LINES = {"R": ("main", "$R$"), "Omega": ("second", r"$\boldsymbol{\Omega}$"), "quaternion": ("fourth", "quaternion")}
 
 
 @dataclass(frozen=True)
 class Check:
-    """The grades of a trajectory.
+    """The grades of a trajectory; `str` is what `atlas check` prints.
 
-    ``errors`` holds for R, Omega and quaternion the largest error of each ``rows_a_point`` rows that follow one
-    another, ``times`` the time of the first of them: so few that a curve can be drawn through them. ``inverse`` says
-    that the matrices or quaternions fail, and that those of the inverse rotations would not.
+    The columns have the names that they had in the input. ``step`` is the step of the integrator, if that is said,
+    else the mean distance of the times; ``end`` is the last of them. ``errors`` holds for R, Omega and quaternion the
+    largest error of each ``rows_a_point`` rows that follow one another, ``times`` the time of the first of them: so few
+    that a curve can be drawn through them. ``inverse`` says that the matrices or quaternions fail, and that those of
+    the inverse rotations would not.
     """
 
     file: str
@@ -40,6 +43,23 @@ class Check:
     times: tuple[float, ...]
     errors: Mapping[str, tuple[float, ...]]
     inverse: bool
+    step: float
+    end: float
+
+    @property
+    def _title(self) -> str:
+        return f"{printable(self.file)}: {self.rows} row{'s' * (self.rows != 1)}, case {self.case}"
+
+    def __str__(self) -> str:
+        """Return the grades as tables."""
+        none = f"{self._title}: nothing to compare with, so no column is graded"
+        lines = [f"{self._title}\n{table(*self.column_table())}" if self.columns else none]
+        if self.drifts:
+            lines += ["what should not change", table(*self.drift_table(), left=True)]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        return html_table(self._title, *self.column_table()) + html_table("what should not change", *self.drift_table())
 
     def record(self) -> dict[str, Any]:
         """Return the grades as plain data for JSON."""
@@ -100,7 +120,69 @@ class Check:
         )
 
 
-def check(path: Path, *, threshold: float = 6.0, **given: Any) -> Check:
+def check(
+    t: Any,
+    rotations: Any = None,
+    *,
+    motion: Any,
+    quaternions: Any = None,
+    angular_velocities: Any = None,
+    scalar_first: bool = False,
+    step: Any = None,
+    threshold: float = 6.0,
+) -> Check | Convergence:
+    """Grade a trajectory that was computed elsewhere against a motion: what `atlas check` prints, and its numbers.
+
+    `t` (N,) are times, `rotations` (N, 3, 3) matrices R that take the body to the laboratory, `quaternions` (N, 4)
+    such of either sign, as SciPy's `Rotation.as_quat` gives them or with `scalar_first`, `angular_velocities` (N, 3)
+    the vectors Omega in the body; at least one of these. `motion` is one motion of ElementaryMotion, FreeMotion,
+    GeneralMotion, TopMotion or AsymmetricMotion, with R(0) = 1. A column fails from the first row on at which it has
+    fewer than `threshold` correct digits.
+
+    Lists of arrays are runs of one integrator with several steps, which are `step` or the mean distances of their
+    times: they give the order of convergence, a `Convergence`.
+
+    Both results have `str`, tables in a notebook, `record()` for JSON and `scene()` for a figure. Raises AtlasError for
+    arrays of other shapes, for what is no number, and for a motion that is none of these.
+    """
+    columns = {"rotations": rotations, "quaternions": quaternions, "angular_velocities": angular_velocities}
+    if isinstance(t, list | tuple) and t and np.ndim(t[0]):
+        runs = columns | {"step": step}
+        for name, values in runs.items():
+            if values is not None and (not hasattr(values, "__len__") or len(values) != len(t)):
+                raise AtlasError(f"For {len(t)} runs {name} must be a list of {len(t)}, one for each.")
+        each: list[dict[str, Any]] = [
+            {name: None if x is None else x[i] for name, x in runs.items()} for i in range(len(t))
+        ]
+        more = {"motion": motion, "scalar_first": scalar_first, "threshold": threshold}
+        return convergence([check(times, **(run | more)) for times, run in zip(t, each, strict=True)])
+    trajectory = of_arrays(t, columns, scalar_first=scalar_first)
+    if step is not None:
+        trajectory = replace(trajectory, parameters={"step": (float(real(step, "step")),)})
+    return _graded(trajectory, threshold, _arguments(motion))
+
+
+def _arguments(motion: Any) -> dict[str, Any]:
+    """Return what a motion is made of, by the names of `check_file`."""
+    from atlas import AsymmetricMotion, ElementaryMotion, FreeMotion, GeneralMotion, TopMotion
+
+    known = (ElementaryMotion, FreeMotion, GeneralMotion, TopMotion, AsymmetricMotion)
+    if not isinstance(motion, known):
+        names = ", ".join(one.__name__ for one in known)
+        raise AtlasError(f"A trajectory is graded against one of {names}, not {type(motion).__name__}.")
+    if motion.shape:
+        raise AtlasError(f"A trajectory is graded against one motion, not against {motion.shape} of them.")
+    if isinstance(motion, TopMotion):
+        return {name: getattr(motion, name) for name in ("inertia", *OF_TOPS, "omega")}
+    if motion.made_by:
+        raise AtlasError(
+            f"A trajectory is graded against a motion that starts with R(0) = 1, not one by {motion.made_by}: turn the "
+            "rotations, the field and omega into the body's axes at t = 0."
+        )
+    return dict[str, Any](motion.arguments, **({"field": (0.0, 0.0)} if isinstance(motion, FreeMotion) else {}))
+
+
+def check_file(path: Path, *, threshold: float = 6.0, **given: Any) -> Check:
     """Grade the trajectory in a CSV file, see `atlas.study.trajectory`; `given` parameters override its # lines.
 
     Their names are those of the lines: ratio (or a SymmetricBody) or inertia, field, omega or omega2 and omega3, and
@@ -116,45 +198,54 @@ def check(path: Path, *, threshold: float = 6.0, **given: Any) -> Check:
     double can have. The times and the parameters of the file are taken as the doubles nearest to what is written.
     The file is gone through once, in blocks. Raises AtlasError for what is no such file, or no such motion.
     """
+    with opened(path) as trajectory:
+        return _graded(trajectory, threshold, given)
+
+
+def _graded(trajectory: Trajectory, threshold: float, given: Mapping[str, Any]) -> Check:
+    """Grade a trajectory in one go."""
     if not 0 <= threshold <= MOST:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MOST:g}; it cannot be {threshold:g}.")
-    with opened(path) as trajectory:
-        known = reference(trajectory.parameters, given, path.name)
-        errors = Errors(known.motion, truth_of(known.motion, known.unit), known.unit) if known.motion else None
-        if errors and 10.0**-threshold <= 2 * errors.floor:
-            raise AtlasError(
-                f"The threshold may be {-math.log10(2 * errors.floor) - 0.05:.1f} digits at most for this motion, "
-                f"whose closed form is evaluated within {errors.floor:.1e}; it cannot be {threshold:g}."
-            )
-        graded = [name for name in trajectory.names if name != "t"] if errors else []
-        grades = [Grade(name, threshold, errors) for name in graded if errors]
-        drifts, envelope, rows, inverse = Drifts(known.deviations), Envelope(), 0, False
-        for block in trajectory.blocks:
-            if errors:
-                found = errors.of(block)
-                for grade in grades:
-                    grade.add(block, found[grade.name])
-                envelope.add(block["t"], found)
-                inverse |= not rows and inverse_fits(errors, block, found, 10.0**-threshold)
-            drifts.add(block)
-            rows += len(block["t"])
+    known = reference(trajectory.parameters, given, trajectory.file)
+    errors = Errors(known.motion, truth_of(known.motion, known.unit), known.unit) if known.motion else None
+    if errors and 10.0**-threshold <= 2 * errors.floor:
+        raise AtlasError(
+            f"The threshold may be {-math.log10(2 * errors.floor) - 0.05:.1f} digits at most for this motion, "
+            f"whose closed form is evaluated within {errors.floor:.1e}; it cannot be {threshold:g}."
+        )
+    graded = [name for name in trajectory.names if name != "t"] if errors else []
+    grades = [Grade(name, threshold, errors) for name in graded if errors]
+    drifts, envelope, rows, inverse = Drifts(known.deviations), Envelope(), 0, False
+    first = last = 0.0
+    for block in trajectory.blocks:
+        if errors:
+            found = errors.of(block)
+            for grade in grades:
+                grade.add(block, found[grade.name])
+            envelope.add(block["t"], found)
+            inverse |= not rows and inverse_fits(errors, block, found, 10.0**-threshold)
+        drifts.add(block)
+        first, last = (first if rows else float(block["t"][0])), float(block["t"][-1])
+        rows += len(block["t"])
     if not errors and not any(drift.label == "theorem-clebsch" for drift in drifts.found()):
         raise AtlasError(
-            f"{path.name}: without a certified motion for this inertia tensor the integrals are all there is to test, "
-            "and they need R11 to R33 or a quaternion, and Omega1 to Omega3. Three moments of inertia have one, with a "
-            "line such as '# omega = 0.3 0.7 0.2', the angular velocity at t = 0."
+            f"{trajectory.file}: without a certified motion for this inertia tensor the integrals are all there is to "
+            "test, and they need R11 to R33 or a quaternion, and Omega1 to Omega3. Three moments of inertia have one, "
+            "with a line such as '# omega = 0.3 0.7 0.2', the angular velocity at t = 0."
         )
     return Check(
-        file=path.name,
+        file=trajectory.file,
         case=known.case,
         parameters=known.parameters,
         frequencies=known.frequencies(),
         rows=rows,
         threshold=float(threshold),
-        columns=tuple(grade.column() for grade in grades),
+        columns=tuple(replace(grade.column(), name=trajectory.names[grade.name]) for grade in grades),
         drifts=drifts.found(),
         rows_a_point=envelope.rows,
         times=tuple(envelope.times()),
         errors={group: tuple(values) for group, values in envelope.errors().items()},
         inverse=inverse,
+        step=trajectory.parameters.get("step", (abs(last - first) / max(rows - 1, 1),))[0],
+        end=last,
     )

@@ -26,6 +26,9 @@ LEAST, LARGEST = 10.0**-MOST, float(np.finfo(float).max)
 BITS = 80
 GROUPS: Mapping[str, tuple[str, ...]] = {"R": MATRIX, "Omega": OMEGA, "quaternion": QUATERNION}
 
+LINES = {"R": ("main", "$R$"), "Omega": ("second", r"$\boldsymbol{\Omega}$"), "quaternion": ("fourth", "quaternion")}
+"""How each group is drawn."""
+
 POINTS = 2048
 """Half of the largest number of points that an `Envelope` keeps."""
 

@@ -15,11 +15,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import numpy as np
 
-from atlas.core.inputs import FloatArray
+from atlas.core.inputs import FloatArray, real
 from atlas.errors import AtlasError
 
 BLOCK = 8192
@@ -36,6 +37,7 @@ PARAMETERS: Mapping[str, tuple[int, ...]] = {
     "coupling": (2,),
     "linear": (1,),
     "quadratic": (1,),
+    "step": (1,),
 }
 """Parameters with the counts of numbers they may have: moments I2, I3, or I1, I2, I3, or J11 J22 J33 J12 J13 J23."""
 
@@ -48,12 +50,13 @@ _NAMES = {name.lower(): name for name in ("t", *MATRIX, *OMEGA, *QUATERNION)} | 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """What a file holds: canonical names of its columns, its parameters, and the rows, block by block.
+    """A trajectory: where it is from, its columns as they were called, its parameters, and the rows, block by block.
 
-    Each block has a column (m,) for each name; together they can be gone through once.
+    The keys of `names` are canonical. Each block has a column (m,) for each; together they can be gone through once.
     """
 
-    names: Sequence[str]
+    file: str
+    names: Mapping[str, str]
     parameters: Mapping[str, tuple[float, ...]]
     blocks: Iterator[dict[str, FloatArray]]
 
@@ -76,9 +79,38 @@ def opened(path: Path) -> Iterator[Trajectory]:
             elif line:
                 separator = next((s for s in (",", ";", "\t") if s in line), None)
                 names = _header(line.split(separator), where)
-                yield Trajectory(names, parameters, _blocks(lines, number, names, separator, path.name))
+                written = dict(zip(names, (cell.strip(" \"'") for cell in line.split(separator)), strict=True))
+                blocks = _blocks(lines, number, names, separator, path.name)
+                yield Trajectory(path.name, written, parameters, blocks)
                 return
     raise AtlasError(f"{path.name} is empty; it needs a line of names such as t,R11,R12,R13 and rows of numbers.")
+
+
+def of_arrays(t: Any, given: Mapping[str, Any], *, scalar_first: bool) -> Trajectory:
+    """Return the trajectory of times (N,) and arrays, None where one is left out.
+
+    They are rotations (N, 3, 3), quaternions (N, 4) and angular_velocities (N, 3). Raises AtlasError for another shape,
+    and for what is no number.
+    """
+    times = real(t, "t")
+    if times.ndim != 1 or not times.size:
+        raise AtlasError(f"The times are one array (N,) of one number or more, not {times.shape}.")
+    shapes = {"rotations": (3, 3), "quaternions": (4,), "angular_velocities": (3,)}
+    order = QUATERNION if scalar_first else (*QUATERNION[1:], QUATERNION[0])
+    columns = {"t": times}
+    for (what, shape), names in zip(shapes.items(), (MATRIX, order, OMEGA), strict=True):
+        if given[what] is None:
+            continue
+        values, wanted = real(given[what], what), (*times.shape, *shape)
+        if values.shape != wanted:
+            raise AtlasError(f"The {what} of {times.size} times are an array {wanted}, not {values.shape}.")
+        columns |= dict(zip(names, values.reshape(times.size, -1).T, strict=True))
+    if len(columns) == 1:
+        raise AtlasError(f"There is nothing to grade: give {', '.join(shapes)}, at least one of them.")
+    starts = range(0, times.size, BLOCK)
+    blocks = ({name: x[start : start + BLOCK] for name, x in columns.items()} for start in starts)
+    written = dict(zip(QUATERNION, "wxyz", strict=True))
+    return Trajectory("the trajectory", {name: written.get(name, name) for name in columns}, {}, blocks)
 
 
 def _decoded(file: Iterator[str], name: str) -> Iterator[str]:

@@ -12,7 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from atlas.cli.app import atlas as command
 from atlas.errors import AtlasError
-from atlas.study.check import Check, check
+from atlas.study.check import Check
+from atlas.study.check import check_file as check
 from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 
 BODY = {"inertia": (0.8, 1.0, 1.3), "field": (0.2, 1.0, 0.6), "omega": (0.3, 0.7, 0.2)}

@@ -1,0 +1,152 @@
+"""`atlas.check`: arrays are graded as the command grades files, and runs with several steps have an order."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scipy.spatial.transform import Rotation
+
+import atlas
+from atlas.cli.app import atlas as command
+from atlas.errors import AtlasError
+from atlas.study.check import Check
+from atlas.study.order import Convergence
+from atlas.study.trajectory import MATRIX, OMEGA
+
+MOTIONS = {
+    "--ratio 1.5 --field 1 2 --omega2 0.7": atlas.ElementaryMotion(1.5, (1.0, 2.0), 0.7),
+    "--ratio 1.5 --field 0 0 --omega 0.3 0.7 0.2": atlas.FreeMotion(1.5, (0.3, 0.7, 0.2)),
+    "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2": atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)),
+    "--inertia 1 0.5 --coupling 0.3 0.4 --direction 0.6 0.8 --omega 0.1 0.2 5 --linear 3": atlas.TopMotion(
+        (1.0, 0.5), (0.3, 0.4), (0.6, 0.8), (0.1, 0.2, 5.0), linear=3.0
+    ),
+    "--inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2": atlas.AsymmetricMotion(
+        (0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)
+    ),
+}
+TIMES = np.linspace(0.0, 8.0, 9)
+
+
+def midpoint(motion: Any, count: int, place: float = 0.5) -> tuple[np.ndarray, np.ndarray]:
+    """Return times and R by steps about Omega in the middle of each, of order 2; elsewhere in it of order 1."""
+    t = np.linspace(0.0, 4.0, count + 1)
+    turns = Rotation.from_rotvec(np.diff(t)[:, None] * motion.angular_velocity(t[:-1] + place * np.diff(t)))
+    R = [Rotation.identity()]
+    for turn in turns:
+        R.append(R[-1] * turn)
+    return t, np.array([one.as_matrix() for one in R])
+
+
+def written(path: Path, t: np.ndarray, R: np.ndarray, *more: np.ndarray) -> Path:
+    """Write a trajectory with all digits."""
+    names = ["t", *MATRIX, *OMEGA][: 10 + 3 * len(more)]
+    rows = np.column_stack([t, R.reshape(-1, 9), *more]).tolist()
+    path.write_text("\n".join([",".join(names), *(",".join(map(repr, row)) for row in rows)]) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("options", MOTIONS)
+def test_arrays_are_graded_as_files_are(tmp_path: Path, options: str) -> None:
+    """The command prints the object, which has the same numbers, for every class of motions."""
+    motion = MOTIONS[options]
+    R, Omega = motion.rotation(TIMES), motion.angular_velocity(TIMES)
+    R[3, 1, 1] += 1e-4
+    found = atlas.check(TIMES, R, motion=motion, angular_velocities=Omega)
+    assert {column.name: column.fails_at for column in found.columns if column.fails_at is not None} == {"R22": 3.0}
+    words = ["check", str(written(tmp_path / "mine.csv", TIMES, R, Omega)), *options.split()]
+    shown = CliRunner().invoke(command, words)
+    assert shown.stdout == str(found).replace("the trajectory", "mine.csv") + "\n"
+    record = json.loads(CliRunner().invoke(command, [*words, "--json"]).stdout)
+    assert record | {"file": found.file} == json.loads(json.dumps(found.record()))
+    assert "<td>R22</td>" in found._repr_html_()
+
+
+def test_quaternions_are_graded_in_either_order_and_sign() -> None:
+    """As SciPy gives them, scalar last, or scalar first."""
+    motion = MOTIONS["--ratio 1.5 --field 1 2 --omega2 0.7"]
+    q = Rotation.from_matrix(motion.rotation(TIMES)).as_quat() * np.where(TIMES % 2, -1, 1)[:, None]
+    last = atlas.check(TIMES, quaternions=q, motion=motion)
+    first = atlas.check(TIMES, quaternions=np.roll(q, 1, axis=1), motion=motion, scalar_first=True)
+    assert sorted(last.columns, key=str) == sorted(first.columns, key=str)
+    assert [column.name for column in first.columns] == ["w", "x", "y", "z"]
+    assert min(column.worst for column in first.columns) > 15
+
+
+@pytest.mark.parametrize(("place", "order"), [(0.0, 1), (0.5, 2)])
+def test_several_steps_tell_the_order(tmp_path: Path, place: float, order: int) -> None:
+    """Steps about Omega at their beginning are of first order, about that in their middle of second."""
+    options = "--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2"
+    motion = MOTIONS[options]
+    runs = [midpoint(motion, count, place) for count in (400, 100, 200)]
+    t, R = zip(*runs, strict=True)
+    found = atlas.check(list(t), list(R), motion=motion)
+    assert isinstance(found, Convergence)
+    assert found.steps == pytest.approx((0.04, 0.02, 0.01))
+    assert found.order["R"] == pytest.approx(order, abs=0.05)
+    assert found.orders["R"] == pytest.approx((order, order), abs=0.05)
+    files = [str(written(tmp_path / f"{i}.csv", *run)) for i, run in enumerate(runs)]
+    figure = tmp_path / "order.svg"
+    shown = CliRunner().invoke(command, ["check", *files, "--order", *options.split(), "--figure", str(figure)])
+    assert shown.exit_code == 0
+    assert shown.stdout == f"{found}\n{figure}\n"
+    assert "largest error" in figure.read_text()
+    assert atlas.check(list(t), list(R), motion=motion, step=[4, 16, 8]).steps == (16, 8, 4)
+
+
+def test_a_step_may_stand_in_the_file(tmp_path: Path) -> None:
+    """Rows that are saved seldom say nothing of the step: '# step = 0.001' does."""
+    motion = MOTIONS["--ratio 1.5 --field 1 2 --omega2 0.7"]
+    path = written(tmp_path / "a.csv", TIMES, motion.rotation(TIMES))
+    words = ["check", str(path), "--ratio", "1.5", "--field", "1", "2", "--omega2", "0.7", "--json"]
+    assert json.loads(CliRunner().invoke(command, words).stdout)["step"] == 1.0
+    path.write_text("# step = 0.001\n" + path.read_text())
+    assert json.loads(CliRunner().invoke(command, words).stdout)["step"] == 0.001
+
+
+GENERAL = MOTIONS["--ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2"]
+R = GENERAL.rotation(TIMES)
+
+
+@pytest.mark.parametrize(
+    ("t", "given", "words"),
+    [
+        (TIMES, {}, "nothing to grade"),
+        (TIMES, {"rotations": R[:5]}, r"\(9, 3, 3\), not \(5, 3, 3\)"),
+        (TIMES, {"rotations": R * np.nan}, "finite"),
+        (TIMES, {"quaternions": R[:, 0]}, r"\(9, 4\)"),
+        (TIMES[:, None], {"rotations": R}, r"one array \(N,\)"),
+        ([], {"rotations": R[:0]}, r"one array \(N,\)"),
+        (TIMES, {"rotations": R, "motion": None}, "one of ElementaryMotion"),
+        (TIMES, {"rotations": R, "motion": atlas.GeneralMotion([1.5, 1.2], (1, 2), (0.3, 0.7, 0.2))}, "one motion"),
+        (TIMES, {"rotations": R, "step": "a"}, "step"),
+        ([TIMES, TIMES], {"rotations": [R]}, "a list of 2"),
+        ([TIMES, TIMES], {"rotations": [R, R]}, "each with another step"),
+        ([TIMES], {"rotations": [R]}, "two runs or more"),
+        ([TIMES, TIMES[:5]], {"rotations": [R, R[:5]], "step": [1, 0.5]}, "over the same time"),
+    ],
+)
+def test_what_cannot_be_graded_is_one_sentence(t: Any, given: dict[str, Any], words: str) -> None:
+    """Arrays of other shapes, no motion, runs without an order."""
+    with pytest.raises(AtlasError, match=words) as caught:
+        atlas.check(t, **({"motion": GENERAL} | given))
+    assert "\n" not in str(caught.value)
+
+
+def test_a_motion_that_starts_turned_is_refused() -> None:
+    """The certified motions begin with R(0) = 1: another attitude would be graded wrongly."""
+    turned = atlas.GeneralMotion.in_laboratory(
+        1.5, (0.3, 1.0, 2.0), Rotation.from_rotvec([0.1, 0.2, 0.3]).as_matrix(), (0.3, 0.7, 0.2)
+    )
+    with pytest.raises(AtlasError, match=r"R\(0\) = 1"):
+        atlas.check(TIMES, turned.rotation(TIMES), motion=turned)
+
+
+def test_runs_without_errors_have_no_order() -> None:
+    """Where nothing is wrong no order is told."""
+    found = atlas.check([TIMES[:1], TIMES[:1]], [R[:1], R[:1]], motion=GENERAL, step=[1, 2])
+    assert found.order == {"R": None}
+    assert "not told" in str(found)
+    assert isinstance(atlas.check(TIMES, R, motion=GENERAL), Check)
