@@ -16,6 +16,7 @@ from atlas.core.arithmetic.words import BITS, TURN, magnitude, middle, scaled, w
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.asymmetric import SingleAsymmetric
 from atlas.core.motions.certified import REACH
+from atlas.core.motions.clebsch_theta import ThetaKernel
 from atlas.core.nutation.single_general import SingleGeneral
 from atlas.core.nutation.single_top import SingleTop
 from atlas.exact.digits import enclosed
@@ -114,8 +115,8 @@ def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
 
 
 def _of_three_moments(single: SingleAsymmetric, unit: float) -> KernelTruth:
-    """Return the closed form of a motion; where there is none balls decide, in tenths of a second a row."""
-    if single.closed is None:
+    """Return the theta functions of a motion; where there are none balls decide each row."""
+    if not isinstance(single.closed, ThetaKernel):
         return KernelTruth(single, -1.0)
     found = KernelTruth(single, PHASE * REACH / unit)
     found.uncertainty = found.floor = single.closed.accuracy + (single.closed.proved or 0.0)

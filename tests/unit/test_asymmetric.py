@@ -416,3 +416,56 @@ def test_a_body_at_rest_has_the_unit_rate() -> None:
     """Where nothing turns no rate is the largest; else it is, of field and omega, in size."""
     assert kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0, 0, 0), (0, 0, 0))).size == 1.0
     assert kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0, -3, 1), (2, 0, 0))).size == 3.0
+
+
+FREE_BODIES = {
+    "debris": ((0.5, 1.0, 1.25), (0.3, 0.7, 0.2)),
+    "near a spin about the middle axis": ((1.25, 0.5, 1.0), (1e-9, 2e-9, 0.8)),
+    "separatrix": ((0.5, 1.0, 1.25), (0.5, 0.75, 0.5 * math.sqrt(1.6))),
+    "nearly symmetric": ((1.0, 1.0 + 2.0**-40, 0.5), (0.3, 0.7, 0.2)),
+    "rod": ((1.0, 1.0009765625, 0.0009765625), (0.3, 0.7, 0.2)),
+    "two equal moments": ((1.0, 0.75, 1.0), (0.3, 0.7, 0.2)),
+}
+
+
+@pytest.mark.parametrize("name", FREE_BODIES)
+def test_a_free_body_is_made_of_jacobis_functions(name: str) -> None:
+    """Its R and Omega are those of Taylor series, its K is zero, and from then on a matrix takes no balls."""
+    inertia, omega = FREE_BODIES[name]
+    motion, times = atlas.AsymmetricMotion(inertia, (0, 0, 0), omega), [3.0, 40.0]
+    assert motion.agreement.startswith("proved for this motion, at all times; rounding adds ")
+    assert motion.accuracy < 2e-13
+    for state, R, Omega in zip(
+        taylor(inertia, (0, 0, 0), omega, times, digits=24),
+        motion.rotation(times),
+        motion.angular_velocity(times),
+        strict=True,
+    ):
+        assert np.abs(R - np.array(state.R.tolist(), float)).max() < 3.6e-15
+        assert np.abs(Omega - np.array(list(state.Omega), float)).max() < motion.accuracy
+    assert not motion.field_in_body(times).any()
+    assert np.abs(motion.rotation_grid(3.0, 37.0, 2) - motion.rotation(times)).max() < 7.2e-15
+
+
+@pytest.mark.parametrize(
+    ("inertia", "field", "omega"), [((0.5, 1, 1.25), (0, 0, 2), (0, 0, 0.3)), (BODY, (0, 0, 0), OMEGA)]
+)
+def test_balls_and_jacobis_functions_meet_for_any_time(inertia: Any, field: Any, omega: Any) -> None:
+    """A spin along the field, and a free body at times up to a trillion: as the certified twin has them."""
+    single = kernels.SingleAsymmetric(Balls(inertia, field, omega))
+    times = np.array([0.0, -7.5, 1e6, -1e12])
+    for name in ("rotation", "angular_velocity", "field_in_body"):
+        found, true = getattr(single, name)(times), getattr(single.certified, name)(times)
+        assert np.abs(found - true).max() < 3.6e-15 * max(1.0, single.accuracy / 3.6e-15) * max(single.size, 1.0), name
+
+
+def test_an_elliptic_motion_by_its_state_is_made_of_jacobis_functions() -> None:
+    """It is `EllipticMotion` of its place on the curve, and says so."""
+    inertia, field, z = (1, 2, 3), (fmpq(1), fmpq(-2), fmpq(1, 2)), -4
+    omega = [-(1 + fmpq(2, z * I + 6)) * K for I, K in zip(inertia, field, strict=True)]
+    motion = kernels.SingleAsymmetric(Balls(inertia, field, omega))
+    assert motion.exact.kind == "elliptic motion"
+    assert motion.accuracy < 1e-13
+    true = atlas.EllipticMotion(inertia, (1.0, -2.0, 0.5), z, 1)
+    assert np.abs(motion.rotation(5e6) - true.rotation(5e6)).max() < 7.2e-15
+    assert np.abs(motion.angular_velocity(5e6) - true.angular_velocity(5e6)).max() < 2 * motion.accuracy * motion.size

@@ -336,7 +336,7 @@ def test_a_slip_is_noticed_and_the_certified_twin_answers(
     assert words in one.agreement
     assert one.agreement.startswith("certified at each time")
     assert (one.rotation(2.5) == one.certified.rotation(2.5)).all()
-    with pytest.raises(atlas.AtlasError, match="no closed form; it is certified"):
+    with pytest.raises(atlas.AtlasError, match="no theta functions of two variables; it is certified"):
         _ = one.theta
 
 

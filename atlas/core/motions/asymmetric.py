@@ -10,12 +10,15 @@ from flint import arb
 from atlas.core.arithmetic.rotation import target
 from atlas.core.inputs import FloatArray, components, finite, kept, plain, real
 from atlas.core.motions.certified import Certified
-from atlas.core.motions.clebsch_theta import ThetaKernel, closed_form
+from atlas.core.motions.clebsch_theta import LOST, ThetaKernel, closed_form
 from atlas.core.motions.motion import Motion
+from atlas.core.nutation.single_elliptic import WITHIN, SingleElliptic, SingleEulerTop
 from atlas.core.quantities import INERTIA, RATE
-from atlas.errors import AtlasError, NotCertifiedError
+from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.exact.digits import enclosed
 from atlas.exact.motions.asymmetric import AsymmetricMotion as Balls
+from atlas.exact.motions.elliptic import EllipticMotion
+from atlas.exact.motions.euler_top import EulerTop
 from atlas.formulas.numbers import workprec
 
 BITS = 60
@@ -40,8 +43,11 @@ class SingleAsymmetric:
         self.certified = Certified(exact, self.size)
 
     @cached_property
-    def _choice(self) -> tuple[ThetaKernel | None, str]:
+    def _choice(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
         """The closed form if there is one, and what is known of its truth, or why there is none."""
+        elliptic = self.exact.elliptic
+        if elliptic is not None:
+            return self._elliptic(elliptic)
         try:
             closed = closed_form(self.exact, self.size)
             times = CHECKED if closed.proved is None else CHECKED[-1:]
@@ -58,6 +64,20 @@ class SingleAsymmetric:
         )
         return closed, f"{known}; rounding adds {closed.accuracy:.1e} at most"
 
+    def _elliptic(self, exact: EllipticMotion) -> tuple[SingleElliptic | None, str]:
+        """Return the closed form by Jacobi's functions, and what is known of it, or why it is not taken."""
+        try:
+            if isinstance(exact, EulerTop):
+                found: SingleElliptic = SingleEulerTop(exact, _floats(self.exact.field))
+            else:
+                found = SingleElliptic(exact)
+        except DomainError:  # next to the line about which its axis turns
+            return None, "certified at each time: Jacobi's functions are too small for a float."
+        error = found.accuracy(self.size)
+        balls = "" if error <= LOST else ", and Omega, of so slender a body, is certified at each time"
+        adds = WITHIN if balls else error
+        return found, f"proved for this motion, at all times; rounding adds {adds:.1e} at most{balls}"
+
     def _difference(self, closed: ThetaKernel, t: float) -> float:
         """Return how far the closed form is from the certified twin at a time."""
         pairs = (
@@ -67,16 +87,28 @@ class SingleAsymmetric:
         return float(max(np.abs(x - y).max() for x, y in zip(*pairs, strict=True)))
 
     @property
-    def closed(self) -> ThetaKernel | None:
-        """The closed form by theta functions, where there is one that agrees with the certified twin."""
+    def closed(self) -> ThetaKernel | SingleElliptic | None:
+        """The closed form by theta or Jacobi's functions, where there is one that agrees with the certified twin."""
         return self._choice[0]
 
     @property
     def theta(self) -> ThetaKernel:
-        """The closed form; AtlasError where there is none."""
-        if self.closed is None:
-            raise AtlasError(f"The motion has no closed form; it is {self.agreement}")
+        """The closed form by theta functions; AtlasError where there is none."""
+        if not isinstance(self.closed, ThetaKernel):
+            raise AtlasError(f"The motion has no theta functions of two variables; it is {self.agreement}")
         return self.closed
+
+    @property
+    def accuracy(self) -> float:
+        """Bound on what rounding adds, that of a value which is rounded once where there is no closed form."""
+        if isinstance(self.closed, SingleElliptic):
+            return WITHIN if self._slender else self.closed.accuracy(self.size)
+        return self.closed.accuracy if self.closed else 2.0**-52
+
+    @property
+    def _slender(self) -> bool:
+        """Whether Jacobi's functions would lose digits of Omega, which has a large factor along an axis."""
+        return isinstance(self.closed, SingleElliptic) and not self.closed.accuracy(self.size) <= LOST
 
     @property
     def agreement(self) -> str:
@@ -105,7 +137,8 @@ class SingleAsymmetric:
         if known.all():
             found = target(out, known.shape + start.shape)
         else:
-            found = getattr(self.closed or self.certified, name)(*which, t, out)
+            balls = self.closed is None or (name == "angular_velocity" and self._slender)
+            found = getattr(self.certified if balls else self.closed, name)(*which, t, out)
         found[known] = start
         return found
 
@@ -138,7 +171,9 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     On a torus M, K and the attitude are quotients of theta functions of two variables: a second for the first time that
     is asked for, then two or three microseconds each, however long. That they are is proved for each motion, see
     `atlas.exact.motions.clebsch_proof`; where no proof is found they are held against the certified twin at a few
-    times. `agreement` says which, and `accuracy` bounds what rounding adds. Where there is no closed form, or it
+    times. A free body of three moments, a spin about a principal axis and an elliptic motion are made of Jacobi's
+    functions, some milliseconds for the first time and a tenth of a microsecond for each after it. `agreement` says
+    which, and `accuracy` bounds what rounding adds. Where there is no closed form, or it
     differs, and for other kinds, every value is proved and rounded once, in tenths of a second each. For proven digits
     see `atlas.exact`. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
     others; NotCertifiedError, an AtlasError, for what cannot be proved; AtlasError for what is no finite number.
@@ -202,7 +237,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         sines of the library are within an ulp; errors that were seen are some ten times smaller. Where `agreement` says
         that the formulas are not proved, it bounds rounding alone. Else it is that of a value that is rounded once.
         """
-        return self._of_each(lambda one: one.closed.accuracy if one.closed else 2.0**-52)
+        return self._of_each(lambda one: one.accuracy)
 
     @kept
     def frequencies(self) -> Any:

@@ -1,14 +1,19 @@
-"""One elliptic motion: what turns times into matrices and into Omega."""
+"""One motion in Jacobi's functions, elliptic or of a free body: what turns times into matrices and into Omega."""
 
 from typing import Any
 
 import numpy as np
 from flint import arb
 
+from atlas.core.arithmetic.rotation import target
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.single import BITS, SingleMotion
 from atlas.exact.digits import enclosed
 from atlas.exact.motions.elliptic import EllipticMotion
+from atlas.exact.motions.euler_top import EulerTop
+
+WITHIN = 3.6e-15
+"""Bound on errors of entries of R, and of the vector that turns like K, beside its length."""
 
 
 class SingleElliptic(SingleMotion):
@@ -21,11 +26,35 @@ class SingleElliptic(SingleMotion):
         super().__init__(exact, order.T)
         self.entries = np.ascontiguousarray((self.entries.reshape(10, 3, 3) @ order).reshape(10, 9))
         self.field = self.field @ order
-        rates = enclosed(lambda: [arb(E - 1) for E in exact.E], BITS)
+        rates = enclosed(lambda: [arb(E - exact.frame) for E in exact.E], BITS)
         self._rates = np.array([float(x.mid()) for x in rates])
 
+    def accuracy(self, size: float) -> float:
+        """Return the bound on errors of entries of R, and of K and Omega beside a rate."""
+        return WITHIN * max(1.0, float(abs(self._rates).max()) * float(arb(self.exact.b).upper()) / size)
+
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
-        """Return Omega(t) = (E - 1) K(t), shape (..., 3)."""
-        found = self.field_in_body(t, out)
+        """Return Omega(t) = (E - 1) K(t), that of a free body II^-1 m, shape (..., 3)."""
+        found = self._linear(self.field, t, (3,), out)
         found *= self._rates
+        return found
+
+    def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
+        """Fill `out` (count, 3, 3) with R at the exact numbers start + i step."""
+        from atlas.core.nutation.grid import fill_grid
+
+        fill_grid(self, start, step, out)
+
+
+class SingleEulerTop(SingleElliptic):
+    """One free body, or one that spins about a principal axis along a `field` in it, which stays."""
+
+    def __init__(self, exact: EulerTop, field: FloatArray) -> None:
+        super().__init__(exact)
+        self._constant = field
+
+    def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return K, which is constant, shape (..., 3)."""
+        found = target(out, (*np.shape(t), 3))
+        found[...] = self._constant
         return found

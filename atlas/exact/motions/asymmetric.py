@@ -195,6 +195,17 @@ class AsymmetricMotion:
         """What a motion "on a torus" is made of, in units in which its numbers are near one; None for other kinds."""
         return self._motion if isinstance(self._motion, OnTorus) and self._motion.is_regular else None
 
+    @property
+    def elliptic(self) -> EllipticMotion | None:
+        """The motion in Jacobi's functions that has its attitude, None where there is none.
+
+        That of a free body, and of a spin about a principal axis, is Euler's top: angular momentum in place of a field.
+        """
+        if isinstance(self._motion, EllipticMotion):
+            return self._motion
+        free = isinstance(self._motion, Spin) or not any(self.field)
+        return EulerTop(self.inertia, self.omega) if free else None
+
     def rotation(self, t: Any) -> list[list[Real]]:
         """Return R(t) as rows."""
         if rational(t, "the time") == 0:

@@ -39,7 +39,7 @@ class EllipticMotion(Nutating):
     on the exact inputs.
     """
 
-    _frame = 1
+    frame = 1
     """Rate of Larmor's frame about the field, in units of -b."""
 
     def __init__(self, inertia: Any, field: Any, z: Any, branch: Any = 1) -> None:
@@ -148,7 +148,7 @@ class EllipticMotion(Nutating):
 
     def rate_of(self, K: Any) -> list[Real]:
         """Return Omega where the field in the body is K."""
-        return [(E - self._frame) * x for E, x in zip(self.E, K, strict=True)]
+        return [(E - self.frame) * x for E, x in zip(self.E, K, strict=True)]
 
     @property
     def b(self) -> Real:
@@ -158,7 +158,7 @@ class EllipticMotion(Nutating):
     @property
     def precession(self) -> Real:
         """Rate E_a b - b of the frame about the field in which the pair has its own rates."""
-        return (self.E[self.places[2]] - self._frame) * self.b
+        return (self.E[self.places[2]] - self.frame) * self.b
 
     @property
     def sphere(self) -> Sphere:
@@ -200,7 +200,7 @@ class EllipticMotion(Nutating):
         first, _, last = self.places
         if self.kind != "elementary":  # K is constant, along an axis or where E is a number
             return self.precession, fmpq(0)
-        return (self.E[first] - self._frame) * self.b, (self.E[last] - self.E[first]) * self.field[last]
+        return (self.E[first] - self.frame) * self.b, (self.E[last] - self.E[first]) * self.field[last]
 
     @property
     def period(self) -> arb:

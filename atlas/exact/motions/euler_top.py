@@ -16,7 +16,7 @@ class EulerTop(EllipticMotion):
     The angular momentum m = II Omega in the body stands for the field, and E = II^-1: m' = [m, E m]. No frame turns.
     """
 
-    _frame = 0
+    frame = 0
 
     def __init__(self, inertia: Any, omega: Any) -> None:
         self.inertia = moments = rationals(inertia, "inertia (I1, I2, I3)", 3)
