@@ -75,14 +75,14 @@ class FigureBuild:
         return f"failed: {self.failure}" if self.failure else f"{'drawn' if self.new else 'taken'}: {self.why}"
 
     def missing(self) -> dict[str, str]:
-        """Return the keys of the files that are not there yet, by kind."""
-        return {kind: key for kind, key in self.keys.items() if kind not in self.contents}
+        """Return the keys of all files by kind if one of them is not there yet: they are drawn together."""
+        return {} if self.contents else dict(self.keys)
 
     def take(self, cache: Cache) -> None:
-        """Take from the cache what it has."""
-        for kind, key in self.missing().items():
-            entry = cache.get(key)
-            if entry is not None:
+        """Take the files from the cache if it has all of them."""
+        found = {kind: entry for kind, key in self.missing().items() if (entry := cache.get(key)) is not None}
+        if found.keys() == self.keys.keys():
+            for kind, entry in found.items():
                 self.facts, self.contents[kind] = worker.read(entry)
 
 

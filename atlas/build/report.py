@@ -259,8 +259,10 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
         picture.file = f"figures/{picture.stem}.{kind}"
         files = {kind: f"figures/{picture.stem}.{kind}" for kind in figure.kinds}
         picture.narrow = f"figures/{picture.stem}-narrow.{kind}" if files.pop("narrow", "") and facts["narrow"] else ""
-        picture.scene = f"figures/{picture.stem}.js" if files.pop("scene", "") and facts["scene"] else ""
-        picture.moves = f"figures/{picture.stem}-moves.js" if files.pop("moves", "") and facts["moves"] else ""
+        picture.scene = f"figures/{picture.stem}.js" if files.pop("scene", "") and figure.contents["scene"] else ""
+        picture.moves = (
+            f"figures/{picture.stem}-moves.js" if files.pop("moves", "") and figure.contents["moves"] else ""
+        )
         picture.files = files
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""
 

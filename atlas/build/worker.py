@@ -90,8 +90,6 @@ def _draw(task: Task) -> None:
         "alt": scene.alt,
         "size": arranged(scene, target).size if target else scene.size,
         "narrow": bool(small),
-        "scene": bool(contents.get("scene")),
-        "moves": bool(contents.get("moves")),
         "parameters": scene.parameters,
         "renderer": renderer,
         "note": note,

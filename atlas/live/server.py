@@ -70,11 +70,16 @@ class Handler(BaseHTTPRequestHandler):
     """One request: refused if it is not from this page on this machine, else answered."""
 
     protocol_version, disable_nagle_algorithm = "HTTP/1.1", True
+    timeout = 20  # seconds for which a connection may say nothing, half a request as well
     server: Explorer
 
     def do_GET(self) -> None:
         """Answer, or refuse."""
-        url = urlsplit(self.path)
+        try:
+            url = urlsplit(self.path)
+        except ValueError:  # as `http://[::1/`
+            self._send(HTTPStatus.BAD_REQUEST, b"this is no address", "text/plain")
+            return
         _, token, *rest = [*url.path.split("/"), ""]
         refused = self._refused(token)
         if refused:

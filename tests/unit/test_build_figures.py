@@ -227,15 +227,18 @@ def test_what_changed_is_told_by_name(tmp_path: Path, monkeypatch: pytest.Monkey
     assert new.reason == "drawn: changed: libraries"
 
 
-def test_only_the_kind_that_is_missing_is_drawn(tmp_path: Path) -> None:
-    """A figure that is there as SVG is drawn as PDF alone when that is wanted too."""
-    cache = Cache(tmp_path)
-    made([figure("magn")], cache)
-    both = figure("magn", "svg", "pdf")
-    find([both], cache, Sources(), None)
-    assert both.missing().keys() == {"pdf"}
-    made([both], cache)
-    assert both.contents["pdf"].startswith(b"%PDF")
+def test_whatever_the_cache_has_lost_the_files_are_the_same(tmp_path: Path) -> None:
+    """Any one entry of a drawing removed, or all but one, it is drawn as a whole, with what moves and what turns."""
+    kinds, cache = ("svg", "narrow", "scene", "moves"), Cache(tmp_path)
+    (first,) = made([figure("film_strip", *kinds)], cache)
+    assert all(first.contents[kind] for kind in ("scene", "moves"))
+    keys = list(first.keys.values())
+    for lost in (*([key] for key in keys), keys[1:]):
+        for key in lost:
+            (cache.folder / key[:2] / key).unlink()
+        (again,) = made([figure("film_strip", *kinds)], cache)
+        assert again.contents == first.contents
+        assert again.new
 
 
 @pytest.mark.parametrize("jobs", [1, 2])

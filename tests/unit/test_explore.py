@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import nullcontext
 from http.client import HTTPConnection, HTTPResponse
 from pathlib import Path
+from socket import create_connection
 from threading import Thread
 from typing import Any
 from urllib.parse import urlencode
@@ -22,7 +23,7 @@ from atlas.cli.app import atlas as command_line
 from atlas.core.motions import asymmetric
 from atlas.families import FAMILIES
 from atlas.live import answers, subjects
-from atlas.live.server import HEADERS, PAGES, Explorer
+from atlas.live.server import HEADERS, PAGES, Explorer, Handler
 from atlas.live.subjects import OfFamily, OfRecipe, everything, subject
 from atlas.places import folder
 from atlas.scene import recipes
@@ -95,6 +96,18 @@ def test_without_the_token_nothing_is_answered(server: Explorer) -> None:
     assert ask(server, f"/{server.token}/", "POST")[0].status == 501
     assert ask(server, f"/{server.token}/nothing")[0].status == 404
     assert ask(server, f"/{server.token}/../../etc/passwd")[0].status == 404
+
+
+def test_half_a_request_and_half_an_address_are_ended(
+    server: Explorer, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """An address that can't be read is refused; a request that stops is given up; of neither is there a traceback."""
+    monkeypatch.setattr(Handler, "timeout", 0.05)
+    for sent, answer in ((b"GET http://[::1/ HTTP/1.1\r\n\r\n", b"HTTP/1.1 400"), (b"GET / HTTP/1.1\r\nHo", b"")):
+        with create_connection(server.server_address[:2], timeout=60) as connection:
+            connection.sendall(sent)
+            assert connection.makefile("rb").read()[: len(b"HTTP/1.1 400")] == answer
+    assert capfd.readouterr().err == ""
 
 
 def test_the_policy_lets_only_its_own_files_run(server: Explorer) -> None:
