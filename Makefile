@@ -62,7 +62,7 @@ verify: setup
 	@$(ATLAS) verify --record
 
 bench: setup $(VENV)/.bench
-	@env -u OPENBLAS_CORETYPE $(ATLAS) bench --store   # so that OpenBLAS chooses the kernels of this processor
+	@cd tests && env -u OPENBLAS_CORETYPE ../$(BIN)/python -m benchmarks.run   # so that OpenBLAS chooses the kernels of this processor
 
 stress: setup $(VENV)/.bench
 	@cd tests && ../$(BIN)/python -m stress --record --anew

@@ -5,9 +5,8 @@ Drawn from the stored record of the benchmark, which `make bench` renews.
 
 from atlas.scene.captions import listed, title
 from atlas.scene.layers import Layer, Plane, Scene
-from atlas.study.bench.figures import decades, line, measured, pairs
-from atlas.study.bench.methods import title as name
-from atlas.study.bench.results import Results, read
+from atlas.study.benchmark import Results, decades, line, measured, pairs, read
+from atlas.study.benchmark import title as name
 
 RECORDS = ("bench.json",)
 SHOWN = ("plain_out", "lambdify", "rotation", "ours_out", "grid_out", "fill")

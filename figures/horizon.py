@@ -8,9 +8,19 @@ from collections.abc import Iterator
 
 from atlas.scene.captions import listed, tex, title
 from atlas.scene.layers import Curve, Layer, Plane, Scene
-from atlas.study.bench.figures import by_method, decades, line, measured, pairs, runs_of
-from atlas.study.bench.methods import OURS, case_title
-from atlas.study.bench.results import Results, Run, read
+from atlas.study.benchmark import (
+    OURS,
+    Results,
+    Run,
+    by_method,
+    case_title,
+    decades,
+    line,
+    measured,
+    pairs,
+    read,
+    runs_of,
+)
 
 RECORDS = ("bench.json",)
 LIMIT = 4 * 2.0**-52

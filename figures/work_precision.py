@@ -9,10 +9,21 @@ from collections.abc import Iterator
 from atlas.errors import AtlasError
 from atlas.scene.captions import listed, plain, title
 from atlas.scene.layers import Layer, Plane, Points, Scene
-from atlas.study.bench.figures import by_method, decades, line, measured, pairs, power, runs_of
-from atlas.study.bench.methods import LINES, case_title
-from atlas.study.bench.methods import title as name
-from atlas.study.bench.results import Results, Run, read
+from atlas.study.benchmark import (
+    LINES,
+    Results,
+    Run,
+    by_method,
+    case_title,
+    decades,
+    line,
+    measured,
+    pairs,
+    power,
+    read,
+    runs_of,
+)
+from atlas.study.benchmark import title as name
 
 RECORDS = ("bench.json",)
 

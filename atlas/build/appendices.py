@@ -117,10 +117,10 @@ def _trial() -> dict[str, Data]:
 
 def _bench() -> dict[str, Data]:
     """Return the tables of the stored benchmark by their titles."""
-    from atlas.study.bench import results, tables
+    from atlas.study import benchmark
 
-    stored = results.read()
-    line = f"Measured on {tables.machine_line(stored).replace(stored.command, f'`{stored.command}`')}."
+    stored = benchmark.read()
+    line = f"Measured on {benchmark.machine_line(stored).replace(stored.command, f'`{stored.command}`')}."
     return {
         table.title: Data(
             tuple(map(_head, table.heading)),
@@ -128,7 +128,7 @@ def _bench() -> dict[str, Data]:
             f"{table.title}.",
             (*table.notes, line),
         )
-        for table in tables.tables(stored)
+        for table in benchmark.tables(stored)
     }
 
 

@@ -79,7 +79,6 @@ for name, says in {
     "check": "Grade a trajectory of your own.",
     "tex": "Write a report as LaTeX.",
     "verify": "Put the paper's equations on trial.",
-    "bench": "Measure error against time.",
 }.items():
     atlas.add_command(LazyCommand(name, short_help=says))
 for family in FAMILIES.values():

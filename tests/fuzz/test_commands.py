@@ -43,7 +43,6 @@ BASES = EXAMPLES | {
     "figure": [""],
     "list": [""],
     "verify": ["999"],
-    "bench": ["--read nosuch.json"],
 }
 NEVER = {
     "--out",
@@ -208,7 +207,7 @@ def test_any_file_is_graded_or_told(folder: Path, content: bytes, *, given_too: 
 @given(
     st.lists(
         st.one_of(
-            st.sampled_from(sorted(set(BASES) - {"bench", "verify"})),
+            st.sampled_from(sorted(set(BASES) - {"verify"})),
             bad,
             st.sampled_from(["--help", "-h", "--version"]),
         )

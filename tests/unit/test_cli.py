@@ -137,8 +137,6 @@ def test_floats_in_json_read_back_the_same() -> None:
         ("particle --mass 2 --charge 1 --mu 1", "--mass has no place beside it"),
         ("particle --mass 0 --charge 1", "mass must be positive"),
         ("verify 999", "999"),
-        ("bench --read tests", "'tests' is a directory"),
-        ("bench --read reports/data/bench.json --quick", "nothing but --json"),
         ("figure", "--all"),
         ("figure hyperbola --set ratio", "KEY=VALUE"),
         ("figure hyperbola --set ratio=5/2", "2.5"),
@@ -186,7 +184,6 @@ def test_what_a_terminal_would_obey_is_not_printed() -> None:
     [
         "figure lssc --out {}",
         "report short_solenoid --out {}",
-        "bench --quick --out {}",
         "check mine.csv --figure {}.svg",
     ],
 )

@@ -114,7 +114,6 @@ CASES = [
     ),
     ("figure cone --set field=0,1 --out {place}/new", "cone"),
     ("verify 72 --record", "name none"),
-    ("bench --read {place}/ratios.csv --quick", "nothing but --json"),
     ("check {place}/none.csv", "none.csv"),
     ("check {place}/sub", "sub"),
     (f"{SWEEP} --list {{place}}/bytes.csv", "not UTF-8: byte 0xff"),

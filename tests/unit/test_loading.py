@@ -89,7 +89,6 @@ CASES = [
     Case(f"check true.csv {MOTION}", "flint msgspec rich numpy"),
     Case(f"check true.csv {MOTION} --json --figure error.svg", "flint msgspec matplotlib contourpy fontTools numpy"),
     Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
-    Case("bench --read bench.json", "msgspec numpy flint rich"),
     Case(
         "sweep ball --set inertia=1,2 --set larmor=1 --set m2=1 --set m3=1 --quantity k2 -j1 --out t.csv", "flint numpy"
     ),
@@ -179,10 +178,9 @@ class Room:
 
 @pytest.fixture(scope="module")
 def room(tmp_path_factory: pytest.TempPathFactory) -> Room:
-    """Prepare the files that the command lines read: a trajectory, a benchmark record and a report."""
+    """Prepare the files that the command lines read: a trajectory and a report."""
     room = Room(tmp_path_factory.mktemp("room"))
     (room.folder / "true.csv").write_text("t,R11\n0,1\n", encoding="utf-8")
-    (room.folder / "bench.json").symlink_to(CHECKOUT / "reports" / "data" / "bench.json")
     (room.folder / "prose.toml").write_text(PROSE, encoding="utf-8")
     return room
 

@@ -14,8 +14,8 @@ import atlas
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError, DomainError
 from atlas.scene import Image, recipes
-from atlas.study.bench.elementary import constants, formula
 from atlas.study.maps import over_omega2, over_ratio
+from atlas.study.sweep.rotation_errors import constants, formula
 
 CELLS = (8, 15)
 

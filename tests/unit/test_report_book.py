@@ -178,7 +178,7 @@ def test_no_sentence_stands_below_two_tables_of_a_page(tmp_path: Path) -> None:
     document = compose(load(tmp_path / "book.toml"), {}, Appendices({}, records))
     first, second = document.pages[1].blocks[1:]
     assert [document.texts[one.note].markdown for one in (first, second)] == ["Only A. Measured here.", "Only B."]
-    assert (first.command, second.command) == ("atlas bench", "")
+    assert (first.command, second.command) == ("make bench", "")
 
 
 def test_an_option_is_not_broken_at_its_hyphens(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ POWER = 5.75
 """Widths of a digit that a power of ten takes."""
 COMMANDS = {
     "trial": "atlas verify --record",
-    "bench": "atlas bench",
+    "bench": "make bench",
     "stress": "make stress",
 }
 """The commands that make the recorded results."""

@@ -1,5 +1,6 @@
 """Errors of R in a table: those of the atlas and of the plain formula (84), row by row against balls."""
 
+from collections.abc import Sequence
 from functools import lru_cache, partial
 from itertools import chain
 from typing import Any
@@ -14,10 +15,35 @@ from atlas.errors import DomainError
 from atlas.exact.digits import enclosed
 from atlas.exact.motions import elementary as exact
 from atlas.formulas.numbers import workprec
-from atlas.study.bench.elementary import constants, formula
 
 BITS = 110
 """Relative accuracy of the true matrices, which are kept in two words."""
+
+
+def constants(I: Any, B2: Any, B3: Any, omega2: Any) -> tuple[Any, Any, Any, Any]:
+    """Return B2hat, B3hat, k and phi, (79) and (72), of numbers or arrays, as anyone would compute them."""
+    b = np.hypot(B2, B3)
+    phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
+    return B2 / b, B3 / b, omega2 * b / B2, phi
+
+
+def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
+    """Evaluate (84) in NumPy as anyone would write it, from B2hat, B3hat, k and phi."""
+    h2, h3, k, phi = constants
+    c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)
+    R = np.empty((*t.shape, 3, 3)) if out is None else out
+    m = h2**2 + h3**2 * c
+    v = h2 * h3 * (1 - c)
+    R[..., 0, 0] = c * C - h3 * s * S
+    R[..., 0, 1] = -c * S - h3 * s * C
+    R[..., 0, 2] = h2 * s
+    R[..., 1, 0] = h3 * s * C + m * S
+    R[..., 1, 1] = -h3 * s * S + m * C
+    R[..., 1, 2] = v
+    R[..., 2, 0] = -h2 * s * C + v * S
+    R[..., 2, 1] = h2 * s * S + v * C
+    R[..., 2, 2] = h3**2 + h2**2 * c
+    return R
 
 
 def error(made: ElementaryMotion, p: Any) -> FloatArray:

@@ -8,12 +8,11 @@ A short solenoid, I = 1.5, in an oblique field B' = (1, 2), launched with omega2
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.exact.motions.elementary import ElementaryMotion as Exact
-from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
-from atlas.study.bench.peers import Turn, composed, lambdified
+from atlas.study.sweep.rotation_errors import constants, formula
+from benchmarks.case import Case, Method, Parameters, Solve, cross, rotation_case
+from benchmarks.peers import Turn, composed, lambdified
 
 PARAMETERS: Parameters = {"I": 1.5, "B": (1.0, 2.0), "omega2": 0.7}
 
@@ -32,36 +31,10 @@ def rates(state: Sequence[Any], p: Parameters) -> list[Any]:
     ]
 
 
-def constants(I: Any, B2: Any, B3: Any, omega2: Any) -> tuple[Any, Any, Any, Any]:
-    """Return B2hat, B3hat, k and phi, (79) and (72), of numbers or arrays, as anyone would compute them."""
-    b = np.hypot(B2, B3)
-    phi = B3 * omega2 * (1 - I) * (omega2 + 2 * B2) / (I * B2 * (omega2 + B2))
-    return B2 / b, B3 / b, omega2 * b / B2, phi
-
-
 def frequencies() -> tuple[float, float, float, float]:
     """Return them of the case."""
     I, (B2, B3), omega2 = PARAMETERS["I"], PARAMETERS["B"], PARAMETERS["omega2"]
     return constants(I, B2, B3, omega2)
-
-
-def formula(constants: Sequence[Any], t: FloatArray, out: FloatArray | None = None) -> FloatArray:
-    """Evaluate (84) in NumPy as anyone would write it, from B2hat, B3hat, k and phi."""
-    h2, h3, k, phi = constants
-    c, s, C, S = np.cos(k * t), np.sin(k * t), np.cos(phi * t), np.sin(phi * t)
-    R = np.empty((*t.shape, 3, 3)) if out is None else out
-    m = h2**2 + h3**2 * c
-    v = h2 * h3 * (1 - c)
-    R[..., 0, 0] = c * C - h3 * s * S
-    R[..., 0, 1] = -c * S - h3 * s * C
-    R[..., 0, 2] = h2 * s
-    R[..., 1, 0] = h3 * s * C + m * S
-    R[..., 1, 1] = -h3 * s * S + m * C
-    R[..., 1, 2] = v
-    R[..., 2, 0] = -h2 * s * C + v * S
-    R[..., 2, 1] = h2 * s * S + v * C
-    R[..., 2, 2] = h3**2 + h2**2 * c
-    return R
 
 
 def turns() -> tuple[Turn, Turn]:

@@ -1,11 +1,12 @@
 """Is it as fast as it should be? The limits of speed, as ratios within one run, against what a record holds."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from dataclasses import dataclass
 
-from atlas.study.bench.methods import ANY, EVEN, MATRIX, OURS, SCALARS, SURFACE
-from atlas.study.bench.results import Results
+from msgspec.structs import replace
+
+from atlas.study.benchmark import OURS, Cost, Limit, Machine, Verdict
+from benchmarks.results import ANY, EVEN, MATRIX, SCALARS, SURFACE, Rows, Setup
 
 LIMIT = 4 * 2.0**-52
 """Four ulp of 1: the accuracy that the limits of speed are for."""
@@ -19,20 +20,18 @@ LIMITS = (
 )
 """Nanoseconds that a row of many may take, by quantity and method."""
 
-Verdict: TypeAlias = Literal["met", "missed", "wrong values", "not measured"]
-
 
 @dataclass(frozen=True)
-class Target:
-    """A limit: what it says, the limit in words, what was found, and the verdict."""
+class Measured:
+    """What the limits are held against."""
 
-    says: str
-    wanted: str
-    found: float | None
-    verdict: Verdict
+    machine: Machine
+    setups: list[Setup]
+    costs: list[Cost]
+    rows: list[Rows]
 
 
-def targets(record: Results) -> list[Target]:
+def targets(record: Measured) -> list[Limit]:
     """Return every limit with its verdict; what the record does not hold is not measured.
 
     Speed is worth nothing where a value is wrong: then no limit is met.
@@ -43,7 +42,7 @@ def targets(record: Results) -> list[Target]:
     return [replace(item, verdict="wrong values") if wrong and item.found is not None else item for item in every]
 
 
-def _speed(record: Results) -> Iterator[Target]:
+def _speed(record: Measured) -> Iterator[Limit]:
     count = 1_000_000
     yield _below("uniform grid of 1e6, over filling the memory", _ratio(record, "grid_out", count, "to_fill"), 2.2)
     yield _below("uniform grid of 1e4, a matrix (ns)", _ratio(record, "grid_out", 10_000, "nanoseconds"), 20.0)
@@ -56,7 +55,7 @@ def _speed(record: Results) -> Iterator[Target]:
         yield _above(says, 1 / slower if slower else None, factor)
 
 
-def _never_slower(record: Results) -> Iterator[Target]:
+def _never_slower(record: Measured) -> Iterator[Limit]:
     """Ours over the plain formula: at most 1 from a thousand times up, at most 1.5 below; a grid over its times."""
     for least, most, limit in ((1_000, 10**9, 1.0), (1, 999, 1.5)):
         found = [
@@ -71,14 +70,14 @@ def _never_slower(record: Results) -> Iterator[Target]:
     yield _below("uniform grid over the same times one by one, at worst", max(grids, default=None), 1.0)
 
 
-def _latency(record: Results) -> Iterator[Target]:
+def _latency(record: Measured) -> Iterator[Limit]:
     single = _ratio(record, "ours", 1, "nanoseconds")
     yield _below("one single time (us)", None if single is None else single / 1e3, 50.0)
     made = [item.again for item in record.setups if item.case == "elementary" and item.method == "ours" and item.again]
     yield _below("a motion made (ms)", made[0] * 1e3 if made else None, 1.0)
 
 
-def _many(record: Results) -> Iterator[Target]:
+def _many(record: Measured) -> Iterator[Limit]:
     """Measure a row of many motions, and a matrix of the general motion: nanoseconds, and heyoka's time over ours."""
     found = {(row.quantity, row.method): row.nanoseconds for row in record.rows}
     for quantity, method, limit in LIMITS:
@@ -90,18 +89,18 @@ def _many(record: Results) -> Iterator[Target]:
             yield _above(f"{quantity}, heyoka's dense output over ours", theirs and theirs / ours, factor)
 
 
-def _ratio(record: Results, method: str, count: int, field: str) -> float | None:
+def _ratio(record: Measured, method: str, count: int, field: str) -> float | None:
     """Return a number of one row on one thread, if it was measured."""
     rows = (cost for cost in record.costs if (cost.method, cost.count, cost.threads) == (method, count, 1))
     return next((getattr(cost, field) for cost in rows), None)
 
 
-def _below(says: str, found: float | None, limit: float) -> Target:
-    return Target(says, f"at most {limit:g}", found, _verdict(found, met=found is not None and found <= limit))
+def _below(says: str, found: float | None, limit: float) -> Limit:
+    return Limit(says, f"at most {limit:g}", found, _verdict(found, met=found is not None and found <= limit))
 
 
-def _above(says: str, found: float | None, limit: float) -> Target:
-    return Target(says, f"at least {limit:g}", found, _verdict(found, met=found is not None and found >= limit))
+def _above(says: str, found: float | None, limit: float) -> Limit:
+    return Limit(says, f"at least {limit:g}", found, _verdict(found, met=found is not None and found >= limit))
 
 
 def _verdict(found: float | None, met: bool) -> Verdict:

@@ -1,21 +1,28 @@
 """The whole benchmark in one call: error against time, set-up, cost against the count and the memory limit."""
 
+import argparse
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from time import perf_counter
+from pathlib import Path
 from typing import TypeAlias, TypeVar
 
 from msgspec.structs import replace
 
+from atlas import files
+from atlas.cli.progress import bar
 from atlas.errors import AtlasError
-from atlas.study.bench import arrays, asymmetric, ball, dense, elementary, general, heavy, particle
-from atlas.study.bench.case import Case
-from atlas.study.bench.cost import costs
-from atlas.study.bench.integrators import Integrator, integrators
-from atlas.study.bench.methods import case_title
-from atlas.study.bench.oracle import check
-from atlas.study.bench.precision import Bench, Plan, closed, stepping
-from atlas.study.bench.results import FORMAT, Cost, ReferenceCheck, Results, Rows, Run, Setup, machine, today, versions
+from atlas.study.benchmark import FORMAT, Cost, Results, Run, case_title, machine_line, stored, tables, write
+from benchmarks import arrays, asymmetric, ball, dense, elementary, general, heavy, particle
+from benchmarks.case import Case
+from benchmarks.cost import costs
+from benchmarks.integrators import Integrator, integrators
+from benchmarks.limits import Measured, targets
+from benchmarks.oracle import check
+from benchmarks.precision import Bench, Plan, closed, stepping
+from benchmarks.results import ReferenceCheck, Rows, Setup, machine, today, versions
+
+PRECISE, FEW, LEAST = ("elementary", "ball", "particle"), 1e4, 1e2
+"""The cases drawn with all tolerances, up to which time they are kept, and up to which those of the others."""
 
 CASES = {
     "elementary": elementary.case,
@@ -77,7 +84,7 @@ def run(
     quick: bool = False,
     progress: Progress | None = None,
     *,
-    command: str = "atlas bench",
+    command: str = "make bench",
     scope: Scope | None = None,
     peers: Sequence[Integrator] | None = None,
 ) -> Results:
@@ -88,7 +95,6 @@ def run(
     and leaves out cases whose true values take long unless they are named. Raises
     AtlasError for an unknown name.
     """
-    began = perf_counter()
     chosen = [_case(item) for item in (CASES if cases is None else cases)]
     if cases is None and quick:
         chosen = [case for case in chosen if case.samples is None]
@@ -111,24 +117,51 @@ def run(
     def of(kind: type[Row]) -> list[Row]:
         return [_short(row) for row in found if isinstance(row, kind)]
 
+    costs_found, machine_here = of(Cost), machine()
+    for item in found:
+        if not isinstance(item, Run | Cost) or item.status != "done":
+            print(item)  # noqa: T201  the record holds what is shown, the terminal the rest, and what failed
     return Results(
         format=FORMAT,
         command=command,
         date=today(),
-        quick=quick,
-        elapsed=round(perf_counter() - began, 1),
-        machine=machine(),
+        machine=machine_here,
         versions=versions(),
-        parameters={
-            case.name: {name: list(x) if isinstance(x, tuple) else x for name, x in case.parameters.items()}
-            for case in chosen
-        },
-        checks=of(ReferenceCheck),
-        runs=of(Run),
-        setups=of(Setup),
-        costs=of(Cost),
-        rows=of(Rows),
+        runs=shown(of(Run)),
+        costs=[cost for cost in costs_found if cost.status == "done"],
+        limits=targets(Measured(machine_here, of(Setup), costs_found, of(Rows))),
     )
+
+
+def shown(runs: Sequence[Run]) -> list[Run]:
+    """Return the runs that figures and tables show: of an integrator at long times only its best."""
+    done = [run for run in runs if run.status == "done"]
+    best: dict[tuple[str, str, float], Run] = {}
+    for run in done:
+        key = run.case, run.method, run.horizon
+        if key not in best or (run.error or 0.0) < (best[key].error or 0.0):
+            best[key] = run
+    return [
+        run
+        for run in done
+        if run.horizon <= (FEW if run.case in PRECISE else LEAST) or best[run.case, run.method, run.horizon] is run
+    ]
+
+
+def main() -> None:
+    """Measure and keep the record."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.run", description=__doc__)
+    parser.add_argument("--case", action="append", choices=CASES, help="all when left out")
+    parser.add_argument("--quick", action="store_true", help="the short form, under half a minute")
+    parser.add_argument("--out", type=Path, default=stored(), help="keep the record here")
+    options = parser.parse_args()
+    files.check(options.out)
+    with bar("bench") as tell:
+        found = run(options.case, options.quick, tell, command="make bench")
+    for table in tables(found):
+        print(table.title, *("  ".join(row) for row in (table.heading, *table.rows)), "", sep="\n")  # noqa: T201
+    print(machine_line(found))  # noqa: T201  what was asked for
+    write(found, options.out)
 
 
 def _cases(
@@ -173,3 +206,7 @@ def _short(item: Row) -> Row:
     """Round what was measured to four digits: more would say nothing."""
     measured = ((name, getattr(item, name)) for name in item.__struct_fields__)
     return replace(item, **{name: float(f"{value:.4g}") for name, value in measured if isinstance(value, float)})
+
+
+if __name__ == "__main__":
+    main()

@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from atlas.study.bench.case import FloatArray, Grid, Solve
+from benchmarks.case import FloatArray, Grid, Solve
 
 Turn: TypeAlias = tuple[tuple[float, float, float], float]
 """A unit vector and the frequency of the turn about it."""

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from atlas.formulas.numbers import workprec
-from atlas.study.bench.case import Case, FloatArray, Grid, Solve
-from atlas.study.bench.oracle import BITS, nearest
+from benchmarks.case import Case, FloatArray, Grid, Solve
+from benchmarks.oracle import BITS, nearest
 
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
 """SciPy takes no smaller rtol: where less is asked for, this is used, and the record says so."""

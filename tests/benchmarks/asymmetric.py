@@ -13,8 +13,8 @@ from typing import Any
 from atlas.core.motions import asymmetric as kernels
 from atlas.core.motions.asymmetric import AsymmetricMotion
 from atlas.exact.motions.asymmetric import AsymmetricMotion as Exact
-from atlas.study.bench import elementary
-from atlas.study.bench.case import Case, Parameters, cross, rotation_case
+from benchmarks import elementary
+from benchmarks.case import Case, Parameters, cross, rotation_case
 
 PARAMETERS: Parameters = {"inertia": (0.8, 1.0, 1.3), "field": (0.2, 1.0, 0.6), "omega": (0.3, 0.7, 0.2)}
 SAMPLES = 16

@@ -14,8 +14,8 @@ from atlas.errors import AtlasError
 from atlas.scene import recipes
 from atlas.scene.captions import tex
 from atlas.scene.layers import Curve, Plane, Points, Scene
-from atlas.study.bench import results
-from atlas.study.bench.methods import LINES, OURS, title
+from atlas.study import benchmark as results
+from atlas.study.benchmark import LINES, OURS, title
 
 NAMES = ("work_precision", "horizon", "cost")
 
@@ -134,7 +134,7 @@ def test_drawing_measures_nothing() -> None:
         "import sys\n"
         "from atlas.scene import recipes\n"
         f"[recipes.load(name).scene() for name in {NAMES}]\n"
-        "heavy = {'scipy', 'sympy', 'heyoka', 'flint', 'matplotlib', 'atlas.study.bench.run'}\n"
+        "heavy = {'scipy', 'sympy', 'heyoka', 'flint', 'matplotlib', 'benchmarks'}\n"
         "print(sorted(heavy & set(sys.modules)))\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -8,8 +8,8 @@ plain formula to compare with; the plain formula of the elementary motion, timed
 
 from atlas.core.motions.general import GeneralMotion
 from atlas.exact.motions.general import GeneralMotion as Exact
-from atlas.study.bench import elementary
-from atlas.study.bench.case import Case, Parameters, rotation_case
+from benchmarks import elementary
+from benchmarks.case import Case, Parameters, rotation_case
 
 PARAMETERS: Parameters = {"I": 1.5, "B": (1.0, 2.0), "omega": (0.3, 0.7, 0.2)}
 

@@ -14,8 +14,8 @@ from typing import Any
 from atlas.core.bodies.body import SymmetricBody
 from atlas.core.motions.top import TopMotion
 from atlas.exact.motions.top import TopMotion as Exact
-from atlas.study.bench import elementary
-from atlas.study.bench.case import Case, Parameters, cross, rotation_case
+from benchmarks import elementary
+from benchmarks.case import Case, Parameters, cross, rotation_case
 
 BODY, MASS, LENGTH = SymmetricBody(0.234375, 0.46875), 15.0, 1.0
 GRAVITY, OMEGA = 9.81 / 64**2, (0.0, -4.61538 / 64, 150.0 / 64)

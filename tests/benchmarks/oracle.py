@@ -15,7 +15,7 @@ import numpy as np
 from flint import arb, arb_poly, arb_series, ctx
 
 from atlas.formulas.numbers import workprec
-from atlas.study.bench.case import Case, FloatArray, Grid
+from benchmarks.case import Case, FloatArray, Grid
 
 BITS = 256
 ORDER = 40

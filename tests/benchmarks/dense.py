@@ -17,14 +17,13 @@ import numpy as np
 from atlas.exact.digits import enclosed
 from atlas.exact.motions.general import GeneralMotion as Exact
 from atlas.formulas.numbers import workprec
-from atlas.study.bench import elementary, general
-from atlas.study.bench.case import Grid, Solve
-from atlas.study.bench.clock import interleave, one_core, ratio
-from atlas.study.bench.cost import Times
-from atlas.study.bench.integrators import integrators
-from atlas.study.bench.methods import ANY, EVEN
-from atlas.study.bench.results import Rows
 from atlas.study.ulps import absolute
+from benchmarks import elementary, general
+from benchmarks.case import Grid, Solve
+from benchmarks.clock import interleave, one_core, ratio
+from benchmarks.cost import Times
+from benchmarks.integrators import integrators
+from benchmarks.results import ANY, EVEN, Rows
 
 STEP, SEED, CHECKED, BITS = 2.0**-10, 5, 40, 80
 TOLERANCE = 1e-16

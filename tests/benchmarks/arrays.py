@@ -25,12 +25,11 @@ from atlas.exact.digits import enclosed
 from atlas.exact.motions import elementary, general
 from atlas.exact.surfaces import hyperbola, quadric
 from atlas.formulas.numbers import workprec
-from atlas.study.bench.case import FloatArray
-from atlas.study.bench.clock import interleave, one_core, ratio
-from atlas.study.bench.elementary import constants, formula
-from atlas.study.bench.methods import MATRIX, NUTATION, SCALARS, SURFACE, TURNED
-from atlas.study.bench.results import Rows
 from atlas.study.ulps import absolute, own
+from benchmarks.case import FloatArray
+from benchmarks.clock import interleave, one_core, ratio
+from benchmarks.elementary import constants, formula
+from benchmarks.results import MATRIX, NUTATION, SCALARS, SURFACE, TURNED, Rows
 
 SEED, CHECKED, BITS = 7, 40, 80
 GENERAL, ALONE = 10, 20

@@ -14,7 +14,7 @@ import numpy as np
 
 from atlas.core.motions.particle import ParticleMotion
 from atlas.exact.motions.particle import ParticleMotion as Exact
-from atlas.study.bench.case import Case, FloatArray, Grid, Method, Parameters, Solve, cross
+from benchmarks.case import Case, FloatArray, Grid, Method, Parameters, Solve, cross
 
 PARAMETERS: Parameters = {
     "mu": 1.0,

@@ -11,9 +11,9 @@ from typing import Any
 
 from atlas.core.motions.ball import BallMotion
 from atlas.exact.motions.ball import BallMotion as Exact
-from atlas.study.bench import elementary
-from atlas.study.bench.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
-from atlas.study.bench.peers import Turn, composed, lambdified
+from benchmarks import elementary
+from benchmarks.case import Case, FloatArray, Method, Parameters, Solve, cross, rotation_case
+from benchmarks.peers import Turn, composed, lambdified
 
 PARAMETERS: Parameters = {"inertia": 0.5, "larmor": 1.3, "momentum": (0.45, 0.65)}
 

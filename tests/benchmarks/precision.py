@@ -8,11 +8,12 @@ from statistics import median
 
 from msgspec.structs import replace
 
-from atlas.study.bench.case import Case, Grid, Solve, grid
-from atlas.study.bench.clock import interleave, once, ratio
-from atlas.study.bench.integrators import Integrator, TimedOutError
-from atlas.study.bench.oracle import Reference, reference
-from atlas.study.bench.results import Run, Setup, Status, said
+from atlas.study.benchmark import Run, Status
+from benchmarks.case import Case, Grid, Solve, grid
+from benchmarks.clock import interleave, once
+from benchmarks.integrators import Integrator, TimedOutError
+from benchmarks.oracle import Reference, reference
+from benchmarks.results import Setup, said
 
 SHORT = 0.1
 """A solution that takes longer than this many seconds is timed once, a shorter one several times."""
@@ -71,7 +72,7 @@ def closed(bench: Bench) -> Iterator[Setup | Run]:
         jobs = {name: partial(ready[name], g) for name in errors}
         times = interleave({"base": partial(bench.plain, g)} | jobs, bench.plan.rounds)
         for name, error in errors.items():
-            yield _measured(Run(case.name, name, horizon, g.count, "done"), error, times[name], times["base"])
+            yield _measured(Run(case.name, name, horizon, g.count, "done"), error, times[name])
 
 
 def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
@@ -120,14 +121,14 @@ def _timed(bench: Bench, run: Run, solve: Solve, note: str) -> Run:
     except Exception as raised:  # noqa: BLE001  the same
         return _unmeasured(run, "failed", said(raised))
     peer = times.get("peer", [seconds] * len(times["base"]))
-    return _measured(run, error, peer, times["base"], note)
+    return _measured(run, error, peer, note)
 
 
-def _measured(run: Run, error: float, times: Sequence[float], base: Sequence[float], note: str = "") -> Run:
+def _measured(run: Run, error: float, times: Sequence[float], note: str = "") -> Run:
     """Fill in error and time, always both; a method whose values are not numbers has failed."""
     if error == float("inf"):
         return _unmeasured(run, "failed", "a value is not finite")
-    return replace(run, error=error, seconds=median(times), to_plain=ratio(times, base), note=note)
+    return replace(run, error=error, seconds=median(times), note=note)
 
 
 def _unmeasured(run: Run, status: Status, note: str) -> Run:

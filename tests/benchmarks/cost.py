@@ -19,12 +19,13 @@ import numpy as np
 from msgspec.structs import replace
 
 from atlas.formulas.numbers import workprec
-from atlas.study.bench.case import FloatArray, Grid
-from atlas.study.bench.clock import Job, interleave, one_core, ratio
-from atlas.study.bench.elementary import exact_motion, formula, frequencies, motion, turns
-from atlas.study.bench.oracle import BITS, nearest
-from atlas.study.bench.peers import composed, lambdified
-from atlas.study.bench.results import Cost, said
+from atlas.study.benchmark import Cost
+from benchmarks.case import FloatArray, Grid
+from benchmarks.clock import Job, interleave, one_core, ratio
+from benchmarks.elementary import exact_motion, formula, frequencies, motion, turns
+from benchmarks.oracle import BITS, nearest
+from benchmarks.peers import composed, lambdified
+from benchmarks.results import said
 
 SEED = 89
 SAMPLES = 32

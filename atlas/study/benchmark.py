@@ -1,0 +1,276 @@
+"""The record of the benchmark, which `make bench` writes: what figures and pages show of it, in words and lines.
+
+Figures and pages are drawn from the stored file, never from a fresh run, so they rebuild the same.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+import msgspec
+import numpy as np
+
+from atlas import files
+from atlas.errors import AtlasError
+from atlas.places import folder
+from atlas.scene.layers import Curve, FloatArray, Layer, Points
+
+FORMAT = 2
+NONE = "–"
+Status: TypeAlias = Literal["done", "failed", "timed out", "skipped"]
+Verdict: TypeAlias = Literal["met", "missed", "wrong values", "not measured"]
+
+TITLES = {
+    "ours": "atlas",
+    "ours_grid": "atlas, grid",
+    "alone": "atlas, one by one",
+    "plain": "plain NumPy",
+    "lambdify": "sympy lambdify",
+    "rotation": "SciPy Rotation",
+    "ours_out": "atlas, out=",
+    "ours_out_far": "atlas, out=, far",
+    "grid": "atlas, grid",
+    "grid_out": "atlas, grid, out=",
+    "even_out": "atlas, times of the grid, out=",
+    "third_axis": "atlas, third axis alone",
+    "omega": "atlas, Omega alone",
+    "plain_out": "plain NumPy, out=",
+    "plain_out_far": "plain NumPy, out=, far",
+    "fill": "filling the memory",
+}
+
+CASES = {
+    "elementary": "elementary motion",
+    "general": "general motion",
+    "ball": "charged ball",
+    "particle": "charged particle",
+    "heavy": "heavy top",
+    "asymmetric": "three moments",
+}
+
+LINES = {
+    "ours": "main",
+    "ours_out": "main",
+    "ours_grid": "seventh",
+    "grid_out": "seventh",
+    "plain": "second",
+    "plain_out": "second",
+    "lambdify": "third",
+    "rotation": "sixth",
+    "RK45": "pole",
+    "DOP853": "fifth",
+    "LSODA": "eighth",
+    "Radau": "reference",
+    "heyoka": "fourth",
+    "fill": "limit",
+    "ours_out/2": "fourth",
+    "grid_out/2": "fifth",
+}
+
+OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "even_out", "third_axis")
+
+
+def title(method: str) -> str:
+    """Return the name of a method in words; one that is not known keeps its own."""
+    return TITLES.get(method, method)
+
+
+def case_title(case: str) -> str:
+    """Return the name of a case in words."""
+    return CASES.get(case, case)
+
+
+class Item(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A row of the record; a key that it does not have is an error."""
+
+
+class Machine(Item, frozen=True):
+    """What ran: the processor's name, the cores this process may use, whether NumPy finds AVX-512, the system."""
+
+    processor: str
+    cores: int
+    avx512: bool
+    system: str
+
+
+class Run(Item, frozen=True):
+    """One method on one case up to one horizon: its largest error and its time, always both, or why there is none.
+
+    ``error`` is the largest over all samples, ``seconds`` the time for all samples once the method is set up.
+    """
+
+    case: str
+    method: str
+    horizon: float
+    samples: int
+    status: Status
+    tolerance: float | None = None
+    error: float | None = None
+    seconds: float | None = None
+    note: str = ""
+
+
+class Cost(Item, frozen=True):
+    """Time for ``count`` rotation matrices: nanoseconds each, over filling the same memory, over the plain formula.
+
+    ``error`` is the largest found among a few of them. All ratios are to one thread. ``to_times``, of a grid, is to
+    `rotation` at the same times.
+    """
+
+    method: str
+    count: int
+    threads: int
+    status: Status
+    error: float | None = None
+    nanoseconds: float | None = None
+    to_fill: float | None = None
+    to_plain: float | None = None
+    to_times: float | None = None
+    note: str = ""
+
+
+class Limit(Item, frozen=True):
+    """A limit of speed: what it says, the limit in words, what was found, and the verdict."""
+
+    says: str
+    wanted: str
+    found: float | None
+    verdict: Verdict
+
+
+class Results(Item, frozen=True):
+    """One run of the benchmark, as far as figures, pages and the README show it."""
+
+    format: int
+    command: str
+    date: str
+    machine: Machine
+    versions: dict[str, str]
+    runs: list[Run]
+    costs: list[Cost]
+    limits: list[Limit] = []
+
+
+def stored() -> Path:
+    """Return where the record of the repository lies."""
+    return folder("reports") / "data" / "bench.json"
+
+
+def read(path: Path | None = None) -> Results:
+    """Read a record, the repository's own by default; one that does not have the form is an AtlasError."""
+    path = path or stored()
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=Results)
+    except FileNotFoundError as error:
+        raise AtlasError(f"There is no benchmark record {path.name}: run make bench first.") from error
+    except msgspec.MsgspecError as error:
+        raise AtlasError(f"{path.name} is not a benchmark record: {error}.") from error
+
+
+def write(record: Results, path: Path) -> None:
+    """Write a record, a row a line, whole or not at all."""
+    parts = []
+    for name, value in msgspec.to_builtins(record).items():
+        many = isinstance(value, list)
+        rows = ",\n".join(f"  {msgspec.json.encode(item).decode()}" for item in value) if many else ""
+        parts.append(f' "{name}": [\n{rows}\n ]' if many else f' "{name}": {msgspec.json.encode(value).decode()}')
+    files.write(path, "{\n" + ",\n".join(parts) + "\n}\n")
+
+
+def runs_of(record: Results, case: str) -> list[Run]:
+    """Return the runs of a case that have an error and a time."""
+    known = list(dict.fromkeys(run.case for run in record.runs))
+    if case not in known:
+        raise AtlasError(f"The benchmark record has no case {case!r}; it has {', '.join(known)}.")
+    return [run for run in record.runs if run.case == case and run.error is not None]
+
+
+def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
+    """Return the runs of each method, in the order of the record."""
+    groups: dict[str, list[Run]] = {}
+    for run in runs:
+        groups.setdefault(run.method, []).append(run)
+    return groups
+
+
+def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]) -> FloatArray:
+    """Return points (N, 2); a zero, which a logarithm cannot show, becomes the smallest error there is to see."""
+    points = np.array([(x(item), y(item)) for item in items], dtype=np.float64).reshape(-1, 2)
+    return np.asarray(np.maximum(points, 1e-18))
+
+
+def line(points: FloatArray, method: str, label: str | None = None) -> tuple[Layer, ...]:
+    """Return the line of a method with a dot where it was measured."""
+    role = LINES.get(method, "eighth")
+    return Curve(points, role, title(method) if label is None else label), Points(points, "sample")
+
+
+def decades(values: Iterable[float], left: float = 1.0, right: float = 1.0) -> tuple[float, float]:
+    """Return limits for a logarithmic axis with ``left`` and ``right`` decades of room for names."""
+    logs = np.log10(np.fromiter(values, dtype=float))
+    return float(10.0 ** (logs.min() - left)), float(10.0 ** (logs.max() + right))
+
+
+def measured(record: Results) -> str:
+    """Return the sentence that says where and when it was measured."""
+    here = record.machine
+    vector = "with" if here.avx512 else "without"
+    versions = ", ".join(f"{name} {record.versions[name]}" for name in ("numpy", "scipy") if name in record.versions)
+    return f"Measured on {here.processor}, {here.cores} cores, {vector} AVX-512, {versions}, on {record.date}."
+
+
+def power(value: float) -> str:
+    """Return a power of ten for a formula, or the number where it is none."""
+    exponent = np.log10(value)
+    return f"10^{{{exponent:.0f}}}" if exponent == round(exponent) else f"{value:g}"
+
+
+@dataclass(frozen=True)
+class TextTable:
+    """A table as text, ready to be shown by any presenter."""
+
+    title: str
+    heading: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    notes: tuple[str, ...] = ()
+
+
+def tables(record: Results) -> list[TextTable]:
+    """Return the tables of a record: the limits of speed, and the errors of each case against the horizon."""
+    rows = tuple((item.says, item.wanted, number(item.found), item.verdict) for item in record.limits)
+    return [TextTable("Limits of speed", ("what", "wanted", "found", "verdict"), rows), *_horizons(record)]
+
+
+def machine_line(record: Results) -> str:
+    """Say in one line where, when and with what it was measured."""
+    here = record.machine
+    vector = "with" if here.avx512 else "without"
+    found = ", ".join(f"{name} {number}" for name, number in record.versions.items())
+    machine = f"{here.processor}, {here.cores} cores, {vector} AVX-512, {here.system}"
+    return f"{machine}; {found}; {record.command}, {record.date}"
+
+
+def _horizons(record: Results) -> Iterable[TextTable]:
+    """Error by method and horizon; of an integrator the smallest over its tolerances."""
+    for case in dict.fromkeys(run.case for run in record.runs):
+        runs = [run for run in record.runs if run.case == case]
+        horizons = sorted({run.horizon for run in runs})
+        rows = []
+        for method in dict.fromkeys(run.method for run in runs):
+            best = [_best([run for run in runs if run.method == method and run.horizon == T]) for T in horizons]
+            rows.append((title(method), *(number(run.error) if run else NONE for run in best)))
+        heading = ("largest error to t =", *(f"{T:.0e}" for T in horizons))
+        note = "Of an integrator the best tolerance that came through in time."
+        yield TextTable(f"Error against horizon: {case}", heading, tuple(rows), (note,))
+
+
+def number(value: float | None) -> str:
+    """Return three digits of a number, or a dash for none."""
+    return NONE if value is None else f"{value:.3g}"
+
+
+def _best(runs: Sequence[Run]) -> Run | None:
+    """Return the run with the smallest error, if any has one."""
+    done = [run for run in runs if run.error is not None]
+    return min(done, key=lambda run: run.error or 0.0, default=None)

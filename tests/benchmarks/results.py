@@ -1,0 +1,89 @@
+"""What a run measures beside the record, and the machine it ran on."""
+
+import platform
+import re
+from datetime import UTC, datetime
+from pathlib import Path
+
+from atlas import __version__
+from atlas.core.arithmetic.threads import processors
+from atlas.libraries import release
+from atlas.study.benchmark import Item, Machine, Status
+
+PEERS = ("numpy", "scipy", "sympy", "python-flint", "heyoka")
+
+SCALARS, SURFACE, MATRIX = "omega3, k, phi of a curve", "quadric with its axes", "R at one time of each motion"
+NUTATION, TURNED = "period, angles, moduli of each general motion", "R at one time of each general motion"
+ANY, EVEN = "R of the general motion at any times", "R of the general motion on a grid"
+"""Quantities of many rows, and of many matrices of one motion."""
+
+
+class Setup(Item, frozen=True):
+    """What a method costs once, before its first value: building, compiling, simplifying. Imports are not counted.
+
+    ``seconds`` is the first time in the process, ``again`` the median of a few later ones, where they were measured.
+    """
+
+    case: str
+    method: str
+    status: Status
+    tolerance: float | None = None
+    seconds: float | None = None
+    again: float | None = None
+    note: str = ""
+
+
+class Rows(Item, frozen=True):
+    """Nanoseconds a row for a quantity of ``count`` motions, and the largest error in ulps among a few of them."""
+
+    quantity: str
+    method: str
+    count: int
+    error: float
+    nanoseconds: float
+    to_plain: float
+
+
+class ReferenceCheck(Item, frozen=True):
+    """The reference on trial: its largest distance from a Taylor integration in ball arithmetic up to ``until``."""
+
+    case: str
+    until: float
+    distance: float
+
+
+def machine() -> Machine:
+    """Describe this machine without its name."""
+    import numpy as np
+
+    found = np.show_config(mode="dicts")["SIMD Extensions"]
+    extensions = [*found.get("baseline", ()), *found.get("found", ())]
+    return Machine(
+        processor=_processor(),
+        cores=processors(),
+        avx512=any(name == "X86_V4" or name.startswith("AVX512") for name in extensions),
+        system=f"{platform.system()} {platform.machine()}",
+    )
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python, of the atlas and of every peer; one that is not installed is said to be absent."""
+    found = {"python": platform.python_version(), "atlas": __version__}
+    return found | {name: release(name) or "absent" for name in PEERS}
+
+
+def today() -> str:
+    """Return the date, in universal time."""
+    return datetime.now(UTC).date().isoformat()
+
+
+def said(error: Exception) -> str:
+    """Return what a peer raised, in one line."""
+    return " ".join(f"{type(error).__name__}: {error}".split())
+
+
+def _processor() -> str:
+    """Return the processor's name as Linux gives it, elsewhere as Python does."""
+    info = Path("/proc/cpuinfo")
+    match = re.search(r"^model name\s*:\s*(.+)$", info.read_text(), re.MULTILINE) if info.is_file() else None
+    return match[1].strip() if match else platform.processor() or platform.machine()
