@@ -10,11 +10,13 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from importlib.util import find_spec
 from time import perf_counter
 from typing import Any
 
 import numpy as np
+from flint import arb
 
 from atlas.formulas.numbers import workprec
 from benchmarks.case import Case, FloatArray, Grid, Solve
@@ -22,6 +24,11 @@ from benchmarks.oracle import BITS, nearest
 
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
 """SciPy takes no smaller rtol: where less is asked for, this is used, and the record says so."""
+
+
+OWN = (float(np.finfo(np.float64).eps),)
+LONG = (float(np.finfo(np.longdouble).eps),)
+"""The tolerances that heyoka takes by itself, in doubles and in long doubles."""
 
 
 class TimedOutError(Exception):
@@ -39,6 +46,8 @@ class Integrator:
     name: str
     prepare: Callable[[Case, float, float], Solve]
     module: str = "scipy.integrate"
+    tolerances: tuple[float, ...] = ()
+    """Its own tolerances in the place of the plan's."""
 
     @property
     def present(self) -> bool:
@@ -54,7 +63,12 @@ class Integrator:
 def integrators() -> tuple[Integrator, ...]:
     """Return all of them, installed or not."""
     scipy = (Integrator(name, _scipy(name)) for name in ("RK45", "DOP853", "LSODA", "Radau"))
-    return (*scipy, Integrator("heyoka", _heyoka, "heyoka"))
+    return (
+        *scipy,
+        Integrator("heyoka", partial(_heyoka, np.float64), "heyoka"),
+        Integrator("heyoka_own", partial(_heyoka, np.float64), "heyoka", OWN),
+        Integrator("heyoka_long", partial(_heyoka, np.longdouble), "heyoka", LONG),
+    )
 
 
 def start(case: Case) -> list[float]:
@@ -98,22 +112,29 @@ def _scipy(name: str) -> Callable[[Case, float, float], Solve]:
     return prepare
 
 
-def _heyoka(case: Case, tolerance: float, _limit: float) -> Solve:
+def _heyoka(kind: Any, case: Case, tolerance: float, _limit: float) -> Solve:
     import heyoka
 
-    initial = start(case)
+    with workprec(BITS):
+        initial = [
+            kind(nearest(x)) + kind(nearest(x - nearest(x)) if kind is np.longdouble else 0)
+            for x in map(arb, case.initial())
+        ]
     unknowns = heyoka.make_vars(*(f"x{i}" for i in range(len(initial))))
     rates = case.rates(unknowns, case.parameters)
+    python = float if kind is np.float64 else kind
     with _compiling(heyoka.llvm_state):
-        integrator = heyoka.taylor_adaptive(list(zip(unknowns, rates, strict=True)), initial, tol=tolerance)
+        integrator = heyoka.taylor_adaptive(
+            list(zip(unknowns, rates, strict=True)), initial, fp_type=python, tol=python(tolerance)
+        )
 
     def solve(grid: Grid) -> FloatArray:
-        integrator.time = float(grid.times[0])
+        integrator.time = python(grid.times[0])
         integrator.state[:] = initial
-        outcome, *_, states = integrator.propagate_grid(grid.times)
+        outcome, *_, states = integrator.propagate_grid(grid.times.astype(kind))
         if outcome != heyoka.taylor_outcome.time_limit:
             raise FailedError(f"heyoka stopped early: {outcome.name}")
-        return case.values(np.asarray(states))
+        return case.values(np.asarray(states, dtype=np.float64))
 
     return solve
 

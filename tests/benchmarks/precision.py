@@ -83,7 +83,7 @@ def stepping(bench: Bench, integrator: Integrator) -> Iterator[Setup | Run]:
         return
     import_module(integrator.module)
     beaten = 0.0  # the loosest tolerance that did not even reach the first horizon in time
-    for tolerance in plan.tolerances:
+    for tolerance in integrator.tolerances or plan.tolerances:
         try:
             setup, solve = once(partial(integrator.prepare, case, tolerance, plan.limit))
         except Exception as raised:  # noqa: BLE001  the same
