@@ -1,4 +1,4 @@
-"""A report composed with its figures drawn in some format, and whether a folder may be replaced."""
+"""A report composed with its figures drawn in some format."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -58,9 +58,3 @@ def composed(
     works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
     document = compose(report, wanted, gather(report), works, outlines(report))
     return document, {picture.stem: build for build, picture in builds.items()}
-
-
-def check_place(place: Path, own: str) -> None:
-    """Raise AtlasError for a folder that is not ours to replace: a link, or one with files but not that of ours."""
-    if place.is_symlink() or (place.exists() and not (place / own).is_file() and any(place.iterdir())):
-        raise AtlasError(f"{place} holds something else than was made here: move it, or choose another --out.")

@@ -4,7 +4,7 @@ import gzip
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from atlas.build.composed import Progress, check_place, composed
+from atlas.build.composed import Progress, composed
 from atlas.build.publish import replace
 from atlas.report.find import find
 
@@ -23,13 +23,13 @@ def build_data(
 ) -> Path:
     """Write the tables and the drawn data of a report into `out`/NAME, and return the place of their description.
 
-    The folder is replaced as a whole. Raises AtlasError for a mistake in the report, a figure that fails, a folder that
-    holds something else, and OSError when something can't be written.
+    The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
+    figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
+    written.
     """
     from atlas.report.data_package import DESCRIPTION, package
 
     place = out / find(str(name)).stem
-    check_place(place, DESCRIPTION)
     document, figures = composed(name, out, lambda _: ("csv.gz",), progress, jobs)
     views: list[FigureView] = document.listed("figure")
     stems = {view.id: view.pictures[0].stem for view in views}

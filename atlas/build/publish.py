@@ -1,6 +1,7 @@
 """The files of a report into their places: all are written before the first takes its own."""
 
 import fcntl
+import hashlib
 import os
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
@@ -8,38 +9,95 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import mkdtemp
 
+from atlas.errors import AtlasError
 from atlas.files import exchange, named
 
 UNFINISHED = ".atlas-"
 """How the folder begins that files stand in until all of them are written, on the disk that they are for."""
 
 
-def publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str) -> None:
+WRITTEN = ".written"
+"""The list of a folder's files as they were written, in it: lines of digest and name, as `sha256sum` has them."""
+
+
+def publish(made: Mapping[str, Mapping[str, bytes]], out: Path, name: str, known: Iterable[str] = ()) -> None:
     """Write the files of each format, all of them before the first takes its place.
 
-    The pages take theirs at once: they are a folder that is exchanged with the one before, if the system can do that
-    and it is no link. So a build that is killed leaves the pages of one build, and a PDF of this one or the one before;
-    what else it leaves is removed by the next one. Two builds at once take turns.
+    Those below `name`/ take theirs at once: they are a folder that is exchanged with the one before, if the system can
+    do that and it is no link. So a build that is killed leaves the pages of one build, and a PDF of this one or the one
+    before; what else it leaves is removed by the next one. Two builds at once take turns.
+
+    In the folder only files that are still as they were written are replaced or removed; `known` are lines of such a
+    list for a folder without one. Raises AtlasError, with all written, where a file was edited: the new one is beside.
     """
     files = {path: content for contents in made.values() for path, content in contents.items()}
-    with _written(files, out) as work:
-        if "html" in made and exchange(work / name, out / name):
-            _place(work, out, [path for path in files if not path.startswith(f"{name}/")])
-            return
-        _place(work, out, files)
-        if "html" in made:
-            _remove_others(out, out / name, files)
+    inside = {path.removeprefix(f"{name}/"): content for path, content in files.items() if path.startswith(f"{name}/")}
+    lone = {path: content for path, content in files.items() if not path.startswith(f"{name}/")}
+    edited: dict[str, str] = {}
+    with named(out / name), _written(lone, out) as work:
+        if inside:
+            place, before = out / name, _lines(out / name) or {*known}
+            inside, edited, foreign = _beside(inside, place, before)
+            lines = {_line(path, content) for path, content in inside.items()}
+            lines |= {line for line in before if line[66:] in edited}
+            lines |= {_line(path, inside[new]) for path, new in edited.items()}
+            inside[WRITTEN] = "".join(f"{line}\n" for line in sorted(lines)).encode()
+            for path, content in inside.items():
+                (work / name / path).parent.mkdir(parents=True, exist_ok=True)
+                (work / name / path).write_bytes(content)
+            whole = not place.is_symlink()
+            for path in foreign if whole else ():
+                (work / name / path).parent.mkdir(parents=True, exist_ok=True)
+                os.link(place / path, work / name / path, follow_symlinks=False)
+            if not (whole and exchange(work / name, place)):
+                place.mkdir(parents=True, exist_ok=True)
+                (place / WRITTEN).write_text("".join(f"{line}\n" for line in sorted(before | lines)), encoding="utf-8")
+                _place(work / name, place, inside)
+                _remove_others(place, {*inside, *foreign})
+        _place(work, out, lone)
+    if edited:
+        told = "; ".join(f"{out / name / old} was edited: the new text is {new}" for old, new in edited.items())
+        raise AtlasError(f"{told}.")
 
 
 def replace(place: Path, files: Mapping[str, bytes]) -> None:
-    """Put a folder with these files in the place of the one that is there, at once if the system can do that.
+    """Put these files into a folder, see `publish`."""
+    publish({"folder": {f"{place.name}/{path}": content for path, content in files.items()}}, place.parent, place.name)
 
-    Two processes at once take turns. An OSError names the folder where it would name nothing.
-    """
-    with named(place), _written({f"new/{path}": content for path, content in files.items()}, place.parent) as work:
-        if not exchange(work / "new", place):
-            place.rename(work / "old")
-            (work / "new").rename(place)
+
+def _line(path: str, content: bytes) -> str:
+    return f"{hashlib.sha256(content).hexdigest()}  {path}"
+
+
+def _lines(place: Path) -> set[str]:
+    """Return the list of a folder, nothing where there is none."""
+    try:
+        return {*(place / WRITTEN).read_text(encoding="utf-8").splitlines()}
+    except OSError:
+        return set()
+
+
+def _beside(
+    files: Mapping[str, bytes], place: Path, lines: set[str]
+) -> tuple[dict[str, bytes], dict[str, str], list[str]]:
+    """Return the files under names that are free, those that were edited with the new name, and what is not ours."""
+    there = {
+        path.relative_to(place).as_posix(): path for path in place.rglob("*") if path.is_symlink() or not path.is_dir()
+    }
+    theirs = {
+        name
+        for name, path in there.items()
+        if name != WRITTEN and (path.is_symlink() or not path.is_file() or _line(name, path.read_bytes()) not in lines)
+    }
+    found, edited = {}, {}
+    for path, content in files.items():
+        free = path
+        while free in theirs and (there[free].is_symlink() or there[free].read_bytes() != content):
+            free = str(Path(free).with_suffix(f".new{Path(free).suffix}"))
+        found[free] = content
+        if free != path:
+            edited[path] = free
+    return found, edited, sorted(theirs - found.keys())
 
 
 @contextmanager
@@ -66,12 +124,13 @@ def _place(work: Path, out: Path, files: Iterable[str]) -> None:
         (work / path).replace(out / path)
 
 
-def _remove_others(out: Path, folder: Path, files: Mapping[str, bytes]) -> None:
+def _remove_others(folder: Path, stay: set[str]) -> None:
     """Remove what a folder holds beside these files."""
     for old in sorted(folder.rglob("*"), reverse=True):
-        if old.is_dir() and not any(old.iterdir()):
-            old.rmdir()
-        elif not old.is_dir() and old.relative_to(out).as_posix() not in files:
+        if old.is_dir() and not old.is_symlink():
+            if not any(old.iterdir()):
+                old.rmdir()
+        elif old.relative_to(folder).as_posix() not in stay:
             old.unlink()
 
 

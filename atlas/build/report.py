@@ -21,7 +21,6 @@ from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import cache_folder, folder
 from atlas.report.find import find, related_to
-from atlas.report.manifest import MANIFEST
 from atlas.sources import DISTURBED, PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
@@ -148,7 +147,7 @@ def _build(
     times = {"start": time.perf_counter()}
     sources.closure([file])  # as it is read now
     report = load(file)
-    _check(report.name, file, out, cache)
+    _check(report.name, file)
     cache.prune()
     found = pictures(report)
     wanted = _figures(found, formats, style, gl.library())
@@ -172,11 +171,12 @@ def _build(
     times["texts"] = time.perf_counter()
     progress(steps - 1, steps, "pages")
     made = {one: MAKERS[one](document, wanted, cache, sources) for one in formats}
-    publish(made, out, report.name)
+    last: dict[str, Any] = cache.load(_noted(report.name, out))
+    noted = last.get("html", {"files": {}})["files"].items()
+    publish(made, out, report.name, [f"{there}  {path.removeprefix(f'{report.name}/')}" for path, there in noted])
     times["pages"] = time.perf_counter()
     progress(steps, steps, "done")
     failures = [figure for figure in wanted if figure.failure]
-    last: dict[str, Any] = cache.load(_noted(report.name, out))
     for one, files in made.items():
         digests = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
         last[one] = {"key": None if failures else key, "files": digests}
@@ -208,16 +208,12 @@ def _places(out: Path, name: str) -> tuple[Path, Path]:
     return out / name / "index.html", out / f"{name}.pdf"
 
 
-def _check(name: str, file: Path, out: Path, cache: Cache) -> None:
-    """Refuse a name that is not that of the file, and a folder of something else, from which files would be removed."""
+def _check(name: str, file: Path) -> None:
+    """Refuse a name that is not that of the file."""
     if name.startswith("."):
         raise AtlasError(f"{file}: the report's name {name!r} must not begin with a dot.")
     if name != file.stem:
         raise AtlasError(f"{file}: the report's name is {name!r}, but the file is called {file.stem!r}.")
-    pages = out / name
-    known = (pages / MANIFEST).exists() or cache.load(_noted(name, out))
-    if pages.is_dir() and any(pages.iterdir()) and not known:
-        raise AtlasError(f"{pages} holds files that are of no report; move them, or choose another --out.")
 
 
 def _figures(

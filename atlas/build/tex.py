@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from atlas.build.composed import Progress, check_place, composed
+from atlas.build.composed import Progress, composed
 from atlas.build.publish import replace
 from atlas.report.find import find
 
@@ -24,13 +24,13 @@ def build_tex(
 ) -> Path:
     """Write a report as LaTeX into `out`/NAME, and return the place of the paper.
 
-    The folder is replaced as a whole. Raises AtlasError for a mistake in the report, a figure that fails, a folder that
-    holds something else, and OSError when something can't be written.
+    The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
+    figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
+    written.
     """
     from atlas.report.latex import PAPER, sources
 
     place = out / find(str(name)).stem
-    check_place(place, PAPER)
     document, figures = composed(
         name, out, lambda picture: ("png" if picture.renderer == "shaded" else "pdf",), progress, jobs, TARGETS
     )

@@ -20,7 +20,8 @@ def command(name: str, out: Path, jobs: int | None) -> None:
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. The file
     datapackage.json, a Data Package, names for each the columns with units and digits, the equations, the command that
     draws the figure, and the digest. CSV has all digits that are printed, Parquet the nearest doubles. The folder is
-    written whole, with the same bytes each time.
+    written whole, with the same bytes each time; what you put there stays. Beside a file that you edited the new one
+    is written, as NAME.new.csv, and then the exit status is 2.
     """
     from atlas.build.data import build_data
 

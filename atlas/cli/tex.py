@@ -21,6 +21,9 @@ def command(name: str, out: Path, jobs: int | None) -> None:
     \input{atlas-numbers} and write \atlas{motion/k} for a number with its unit, \atlas[3]{motion/k} for it rounded
     to three figures; more figures than are proven are an error. \input{tables/ID} and \input{figures/ID} are tables
     of booktabs and siunitx, and figures with their captions. All is printed from paper.tex.
+
+    What you put into the folder stays. Beside a file that you edited the new one is written, as paper.new.tex, and
+    then the exit status is 2.
     """
     from atlas.build.tex import build_tex
 

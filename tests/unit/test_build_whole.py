@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from atlas.build import publish as publishing
-from atlas.build.publish import publish
+from atlas.build.publish import WRITTEN, publish, replace
 from atlas.build.report import build_report
 from atlas.errors import AtlasError
 from atlas.report import pdf
@@ -80,7 +80,7 @@ def test_a_killed_build_leaves_the_last_good_report(tmp_path: Path) -> None:
 
 
 def test_what_is_stale_goes_and_what_is_foreign_stays(tmp_path: Path) -> None:
-    """Pages that a report no longer has are removed from its folder; files beside the folder are not touched."""
+    """Pages that a report no longer has are removed from its folder; files of the user stay, in it and beside it."""
     out, file = tmp_path / "out", report(tmp_path, "T")
     second = '\n[[pages]]\nslug = "second"\ntitle = "U"\nblocks = []\n'
     file.write_text(file.read_text() + second)
@@ -91,19 +91,40 @@ def test_what_is_stale_goes_and_what_is_foreign_stays(tmp_path: Path) -> None:
     assert (out / "plain" / "second.html").is_file()
     build_report(report(tmp_path, "T"), out)
     names = state(out).keys()
-    assert {"mine.txt", "plain/index.html", "plain.pdf"} <= names
-    assert not {"plain/second.html", "plain/old/page.html"} & names
-    assert not (out / "plain" / "old").exists()
+    assert {"mine.txt", "plain/index.html", "plain.pdf", "plain/old/page.html"} <= names
+    assert "plain/second.html" not in names
 
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
-    """Where a folder of the report's name holds the user's own files, nothing is built over them."""
+    """Where a folder of the report's name holds the user's own files, they stay."""
     mine = tmp_path / "out" / "plain" / "notes" / "thesis.tex"
     mine.parent.mkdir(parents=True)
     mine.write_text("mine")
-    with pytest.raises(AtlasError, match="files that are of no report"):
-        build_report(report(tmp_path, "T"), tmp_path / "out")
-    assert [path for path in (tmp_path / "out" / "plain").rglob("*") if path.is_file()] == [mine]
+    build_report(report(tmp_path, "T"), tmp_path / "out")
+    assert mine.read_text() == "mine"
+
+
+@pytest.mark.parametrize("link", [False, True])
+def test_an_edited_file_stays_and_the_new_one_is_beside_it(tmp_path: Path, *, link: bool) -> None:
+    """It is told each time until it is as written; what is stale and edited stays, the new one of before goes."""
+    place = tmp_path / "d"
+    if link:
+        (tmp_path / "there").mkdir()
+        place.symlink_to(tmp_path / "there")
+    replace(place, {"a.tex": b"1", "b.tex": b"1", "s/c.tex": b"1"})
+    (place / "a.tex").write_text("mine")
+    (place / "s" / "c.tex").write_text("mine")
+    (place / "a.new.tex").write_text("mine too")
+    for version in (b"2", b"3"):
+        with pytest.raises(AtlasError, match=r"a\.tex was edited: the new text is a\.new\.new\.tex"):
+            replace(place, {"a.tex": version, "b.tex": version})
+        found = {name: content for name, content in state(place).items() if name != WRITTEN}
+        assert found == {
+            "a.tex": b"mine", "a.new.tex": b"mine too", "a.new.new.tex": version, "b.tex": version, "s/c.tex": b"mine",
+        }  # fmt: skip
+    (place / "a.new.new.tex").replace(place / "a.tex")
+    replace(place, {"a.tex": b"4"})
+    assert {name for name in state(place) if name != WRITTEN} == {"a.tex", "a.new.tex", "s/c.tex"}
 
 
 def test_a_report_that_lost_its_record_is_built_again(tmp_path: Path) -> None:
@@ -181,5 +202,11 @@ def test_pages_behind_a_link_are_written_there(tmp_path: Path) -> None:
     for version, extra in (("old", "c.html"), ("new", "d.html")):
         publish(made(version, extra), tmp_path / "out", "plain")
     assert (tmp_path / "out" / "plain").is_symlink()
-    assert {path.name for path in (tmp_path / "elsewhere").iterdir()} == {"a.html", "d.html", "figures", "z.html"}
+    assert {path.name for path in (tmp_path / "elsewhere").iterdir()} == {
+        "a.html",
+        "d.html",
+        "figures",
+        "z.html",
+        WRITTEN,
+    }
     assert (tmp_path / "elsewhere" / "a.html").read_bytes() == b"new"

@@ -14,6 +14,7 @@ from click.testing import CliRunner
 
 from atlas.build.composed import composed
 from atlas.build.data import build_data
+from atlas.build.publish import WRITTEN
 from atlas.cli.app import atlas as program
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
@@ -93,7 +94,7 @@ def read(path: Path) -> list[dict[str, str]]:
 def test_each_file_is_described_and_nothing_else_is_there(data: Path, described: dict[str, Any]) -> None:
     """Paths, sizes, digests and columns are those of the files, and no file is left out."""
     there = {str(path.relative_to(data)) for path in data.rglob("*") if path.is_file()}
-    assert there == {*described["resources"], "datapackage.json"}
+    assert there == {*described["resources"], "datapackage.json", WRITTEN}
     for path, one in described["resources"].items():
         content = (data / path).read_bytes()
         assert one["bytes"] == len(content)
@@ -158,16 +159,18 @@ def test_a_figure_gives_the_points_that_it_draws(data: Path, described: dict[str
 
 
 def test_the_same_report_gives_the_same_bytes(data: Path) -> None:
-    """Made again in its place, every file has the same bytes, and what is left of other files goes."""
+    """Made again in its place, every file has the same bytes, and what the user put there stays."""
     before = {path: path.read_bytes() for path in data.rglob("*") if path.is_file()}
-    (data / "tables" / "old.csv").write_text("old\n", encoding="utf-8")
+    (data / "tables" / "own.csv").write_text("own\n", encoding="utf-8")
     build_data(data.parents[1] / "small.toml", data.parent)
+    assert (data / "tables" / "own.csv").read_text() == "own\n"
+    (data / "tables" / "own.csv").unlink()
     assert {path: path.read_bytes() for path in data.rglob("*") if path.is_file()} == before
     assert [path.name for path in data.parent.iterdir()] == ["small"]
 
 
 @pytest.mark.parametrize("kind", ["folder", "link"])
-def test_a_folder_of_something_else_is_refused(data: Path, tmp_path: Path, kind: str) -> None:
+def test_files_of_the_user_stay(data: Path, tmp_path: Path, kind: str) -> None:
     """What is there stays; so does what a link leads to."""
     place, theirs = tmp_path / "small", tmp_path / "theirs"
     theirs.mkdir()
@@ -176,8 +179,7 @@ def test_a_folder_of_something_else_is_refused(data: Path, tmp_path: Path, kind:
         place.symlink_to(theirs)
     else:
         theirs.rename(place)
-    with pytest.raises(AtlasError, match="holds something else than was made here"):
-        build_data(data.parents[1] / "small.toml", tmp_path)
+    build_data(data.parents[1] / "small.toml", tmp_path)
     assert (place / "thesis.tex").read_text("utf-8") == "x"
 
 
@@ -197,14 +199,6 @@ def test_heads_become_names() -> None:
     assert [ascii_name(head) for head in ("ω_2", "Ω_3", "B'_2", "ϕ/k", "E′", "What it is", "𝕀", "ν_n^2")] == [
         "omega2", "Omega3", "B_prime2", "phi_k", "E_prime", "What_it_is", "I", "nu_n_2",
     ]  # fmt: skip
-
-
-def test_a_link_to_data_of_ours_is_refused(data: Path, tmp_path: Path) -> None:
-    """What a link leads to is not replaced, even if it was made here."""
-    (tmp_path / "small").symlink_to(data)
-    with pytest.raises(AtlasError, match="holds something else than was made here"):
-        build_data(data.parents[1] / "small.toml", tmp_path)
-    assert (tmp_path / "small").is_symlink()
 
 
 def test_what_is_not_proven_is_said_beside_its_column(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
