@@ -21,7 +21,6 @@ from atlas.draw.style import context
 from atlas.draw.text import typeset
 from atlas.draw.view import Held
 from atlas.errors import AtlasError
-from atlas.scene.arrange import arranged
 from atlas.scene.layers import Panel, Plane, Scene, Space
 from atlas.targets import Target
 
@@ -71,8 +70,12 @@ def to_figure(
     An empty ``figure`` is drawn into if one is given, and ``held`` tells the view of a panel in space in a window.
     Raises AtlasError where a panel cannot hold one of its layers, and for a scene that can't be read at the target.
     """
+    if target:
+        from atlas.scene.arrange import arranged
+
+        scene = arranged(scene, target)
     with context(style, target):
-        figure, panels = laid_out(arranged(scene, target) if target else scene, figure)
+        figure, panels = laid_out(scene, figure)
         if target and isinstance(figure, SceneFigure):
             figure.kept = {**figure.kept, "savefig.dpi": target.dpi}
         for number, (axes, panel) in enumerate(panels, 1):

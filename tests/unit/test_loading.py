@@ -86,7 +86,7 @@ CASES = [
     Case(f"particle {PARTICLE} --json", "flint numpy"),
     Case("list", "numpy rich"),
     Case("list --json", "numpy"),
-    Case(f"check true.csv {MOTION}", "flint msgspec rich numpy"),
+    Case(f"check true.csv {MOTION}", "flint msgspec numpy"),
     Case(f"check true.csv {MOTION} --json --figure error.svg", "flint msgspec matplotlib contourpy fontTools numpy"),
     Case("verify 71", "sympy mpmath flint rich pylatexenc multiprocessing"),  # SymPy itself loads the next two
     Case(
