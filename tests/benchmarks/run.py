@@ -21,6 +21,9 @@ from benchmarks.oracle import check
 from benchmarks.precision import Bench, Plan, closed, stepping
 from benchmarks.results import ReferenceCheck, Rows, Setup, machine, today, versions
 
+NEAR = 1e-35
+"""How near the reference must be to an integration of the equations of motion."""
+
 PRECISE, FEW, LEAST = ("elementary", "ball", "particle"), 1e4, 1e2
 """The cases drawn with all tolerances, up to which time they are kept, and up to which those of the others."""
 
@@ -170,7 +173,10 @@ def _cases(
     """Yield what is measured of each case: the reference, closed forms, integrators."""
     for case in cases:
         say(f"{case_title(case.name)}: the reference")
-        yield ReferenceCheck(case.name, scope.check_until, check(case, scope.check_until))
+        distance = check(case, scope.check_until)
+        if not distance < NEAR:
+            raise AtlasError(f"The reference of {case.name} is {distance:.0e} from its equations: it is no reference.")
+        yield ReferenceCheck(case.name, scope.check_until, distance)
         bench = Bench.of(case, scope.plan)
         say(f"{case_title(case.name)}: closed forms")
         yield from closed(bench)
