@@ -46,10 +46,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The trace of a point of the body, 50 degrees off its axis, along $\mathbf{B}$, "
-            rf"for {tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back in its first attitude "
+            r"The trace of a point of the body, 50 degrees off its axis (thick), along $\mathbf{B}$, "
+            rf"for {tex_setting(ratio, field)}. With $\phi/k$ equal to {named} it is back in its first attitude "
             f"after {listed([str(q) for _, q in fractions])} turns of the precession. The last motion, from "
-            rf"$\omega_2={tex(omega2)}$, runs over {plain(turns)} turns. The dark circle is the way of the axis."
+            rf"$\omega_2={tex(omega2)}$, runs over {plain(turns)} turns."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "

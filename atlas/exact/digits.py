@@ -21,7 +21,7 @@ LAYOUTS = ("plain", "scientific", "fixed", "tex")
 MARK = "?"
 NOT_CERTIFIED = "not certified"
 BITS_A_DIGIT = 3.3220
-NO_FLOAT = arb(2) ** -1100  # less than half of the least float
+NO_FLOAT = arb(2) ** -4000  # less than half of the least float
 SPARE = 1 << 16  # bits of precision beyond those asked for at which the search for a proof ends
 
 
@@ -54,7 +54,7 @@ def certified(function: Callable[[], Any], digits: int, layout: Layout = "plain"
 def enclosed(function: Callable[[], Any], bits: int) -> Any:
     """Return what ``function`` returns, each ball with a relative radius below 2**-bits or as near as can be had.
 
-    A ball about zero that lies within 2**-1100 suffices: zero is the float nearest to all that it holds.
+    A ball about zero that lies within 2**-4000 suffices: zero is the float nearest to all that it holds.
     """
 
     def enough(x: Real) -> bool:

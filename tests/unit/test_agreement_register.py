@@ -75,16 +75,16 @@ UNTIED = {
     **{
         f"EllipticMotion.{name}": "compared with Taylor series of (12), (16), and with its theorem, in test_elliptic"
         for name in (
-            "E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame invariants "
-            "is_plane is_steady kind modulus nome omega period precesses_evenly precession precession_per_period "
-            "quaternion rate_of rotation rotation_grid solution sphere spin_per_period splitting stability "
-            "steady_rates swings_evenly third_axis tilt trigonometric turning_rate v"
+            "frame E angular_momentum angular_velocity b column complementary_modulus field_in_body from_frame "
+            "invariants is_plane is_steady kind modulus nome omega period precesses_evenly precession "
+            "precession_per_period quaternion rate_of rotation rotation_grid solution sphere spin_per_period "
+            "splitting stability steady_rates swings_evenly third_axis tilt trigonometric turning_rate v"
         ).split()
     },
     **{
         f"AsymmetricMotion.{name}": "compared with Taylor series of (12), (16) and with laws, in test_asymmetric"
         for name in (
-            "F H MK angular_momentum angular_velocity column energy field_in_body invariants kind rotation "
+            "F H MK elliptic angular_momentum angular_velocity column energy field_in_body invariants kind rotation "
             "rotation_grid third_axis"
         ).split()
     },

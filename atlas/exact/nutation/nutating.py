@@ -134,9 +134,9 @@ class Nutating:
             for x, pole in ((found.alpha, -1), (found.beta, 1))
         )
         # a ball turns once about an axis: alpha and beta go half round zero each, with the signs of their torques
-        same = self.quartic.sign_beside(-1) == self.quartic.sign_beside(1)
-        ball = self._is_ball and not self.is_steady
-        opposite = self.precesses_evenly or (ball and not same)
+        signs = self.quartic.sign_beside(-1), self.quartic.sign_beside(1)
+        ball, same = self._is_ball and not self.is_steady, signs[0] == signs[1]
+        opposite = self.precesses_evenly or (ball and signs[0] * signs[1] < 0)
         precession = T * found.precession + (arb(0) if opposite else first + second)
         if self.swings_evenly or (ball and same):
             return precession, arb(0)
