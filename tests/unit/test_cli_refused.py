@@ -154,6 +154,7 @@ ELSEWHERE = (
     "cannot be read: {error.strerror}",
     "ClickException(message)",
     "was changed since it was made",
+    "NotCertifiedError(best.reason)",  # which takes seconds: in test_asymmetric
     "is not TOML",
     "its folder is read-only",
     "no JSON for",
