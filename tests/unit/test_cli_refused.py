@@ -154,7 +154,7 @@ ELSEWHERE = (
     "cannot be read: {error.strerror}",
     "ClickException(message)",
     "was changed since it was made",
-    "NotCertifiedError(best.reason)",  # which takes seconds: in test_asymmetric
+    "NotCertifiedError(best.reason)",  # which takes seconds: `Best` is tried in test_cli_certified
     "is not TOML",
     "its folder is read-only",
     "no JSON for",
