@@ -91,6 +91,20 @@ def _scales(random: Random) -> Top:
     )  # fmt: skip
 
 
+def _slow_nutation(random: Random) -> Top:
+    """Draw a fast spin whose torques nearly cancel: M3, the potential and the push are small, A is near zero."""
+    top = _ordinary(random)
+    (_, I3), (n2, n3) = top.inertia, top.direction
+    k2, k3 = random.choice((0.0, random.uniform(-3, 3))), random.uniform(-9, 9) * 10 ** random.uniform(-1, 2)
+    spin = -k3 * n3 / (n2 * n2 + n3 * n3) ** 0.5 / I3 * random.choice((1.0, 1 + 10 ** random.uniform(-16, -3)))
+    push = (random.choice((0.0, 10 ** random.uniform(-16, -1))) for _ in range(2))
+    small = 10 ** random.uniform(-17, -4)
+    return top._replace(
+        coupling=(k2, k3), omega=(*push, spin), linear=random.choice((0.0, small)),
+        quadratic=(k2 * k2 - k3 * k3 / I3) * random.choice((1.0, 1 + small, 1 - small)),
+    )  # fmt: skip
+
+
 TOPS: Mapping[str, Callable[[Random], Top]] = {
     "top, ordinary": _ordinary,
     "top, near the cubic": _near_the_cubic,
@@ -100,5 +114,6 @@ TOPS: Mapping[str, Callable[[Random], Top]] = {
     "top, needle": _needle,
     "top, pendulum": _zero_momenta,
     "top, scales 1e-120 to 1e120": _scales,
+    "top, slow nutation under a fast spin": _slow_nutation,
 }
 """Regimes of tops."""

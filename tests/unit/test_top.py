@@ -12,14 +12,14 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from oracles.top import integrated, taylor
 from scipy.integrate import solve_ivp
-from stress.tops import TOPS, Top, rate_of
+from stress.tops import TOPS, rate_of
 
 import atlas
 from atlas.exact.digits import certified
 from atlas.exact.motions.top import TopMotion as Balls
 
 EPS = 2.0**-52
-ORDINARY, SCALES = "top, ordinary", "top, scales 1e-120 to 1e120"
+ORDINARY, SCALES, SLOW = "top, ordinary", "top, scales 1e-120 to 1e120", "top, slow nutation under a fast spin"
 
 CASES = {
     "turns over": ((1.0, 1.0), (0.0, 0.0), (1.0, 0.0), (2.0, 0.0, 0.0), 0.0, 4.0),
@@ -83,24 +83,10 @@ def test_floats_are_within_16_ulp_of_balls_at_any_time(name: str) -> None:
         assert np.abs(velocity - middle(turned)[0]).max() <= 16 * EPS * rate
 
 
-def slow_nutation(random: Random) -> Top:
-    """Draw a fast spin whose torques nearly cancel: M3, the potential and the push are small, A is near zero."""
-    top = TOPS[ORDINARY](random)
-    (_, I3), (n2, n3) = top.inertia, top.direction
-    k2, k3 = random.choice((0.0, random.uniform(-3, 3))), random.uniform(-9, 9) * 10 ** random.uniform(-1, 2)
-    spin = -k3 * n3 / (n2 * n2 + n3 * n3) ** 0.5 / I3 * random.choice((1.0, 1 + 10 ** random.uniform(-16, -3)))
-    push = (random.choice((0.0, 10 ** random.uniform(-16, -1))) for _ in range(2))
-    small = 10 ** random.uniform(-17, -4)
-    return top._replace(
-        coupling=(k2, k3), omega=(*push, spin), linear=random.choice((0.0, small)),
-        quadratic=(k2 * k2 - k3 * k3 / I3) * random.choice((1.0, 1 + small, 1 - small)),
-    )  # fmt: skip
-
-
 def test_a_slow_nutation_under_a_fast_spin_keeps_its_digits() -> None:
     """Entries of R to 16 ulp where a period is 1e4 to 1e9 and holds as many turns: alone, in arrays and on grids."""
     random = Random(34)  # noqa: S311  reproducible, not secret
-    tops = [slow_nutation(random) for _ in range(40)]
+    tops = [TOPS[SLOW](random) for _ in range(40)]
     columns = np.array([(*t.inertia, *t.coupling, *t.direction, *t.omega, t.linear, t.quadratic) for t in tops]).T
     arrays = atlas.TopMotion(*(tuple(columns[i:j]) for i, j in ((0, 2), (2, 4), (4, 6), (6, 9))), *columns[9:])
     times = np.array([10 ** random.uniform(-2, 6) for _ in tops])
