@@ -219,7 +219,7 @@ def test_a_folder_that_cannot_be_is_one_line(tmp_path: Path) -> None:
 
 
 def test_nothing_changed_means_nothing_built(copy: Path) -> None:
-    """A second build takes the report as it is; one that lost a file or was touched is made good again."""
+    """A second build takes the report as it is; a lost file is made again, an edited one stays, the new beside it."""
     words = command(copy)
     assert run(words).returncode == 0
     before = {path: path.stat().st_mtime_ns for path in (copy / "out").rglob("*") if path.is_file()}
@@ -229,6 +229,10 @@ def test_nothing_changed_means_nothing_built(copy: Path) -> None:
     assert {path for path in before if before[path] != after.get(path)} == set()
     victim = copy / "out" / "small" / "index.html"
     good = victim.read_bytes()
-    victim.write_text("spoiled")
+    victim.unlink()
     assert run(words).returncode == 0
     assert victim.read_bytes() == good
+    victim.write_text("mine")
+    assert run(words).returncode == 2
+    assert victim.read_text() == "mine"
+    assert victim.with_name("index.new.html").read_bytes() == good
