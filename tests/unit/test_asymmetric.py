@@ -288,13 +288,13 @@ def test_floats_are_balls_rounded_and_arrays_are_motions_one_by_one() -> None:
     exact = Balls(inertia, field, omega)
     with ctx.workprec(120):
         true = np.array([[float(arb(x)) for x in row] for row in exact.rotation(1.5)])
-    assert (motion._turnings[0].certified.rotation(1.5) == true).all()
+    assert (motion._single().certified.rotation(1.5) == true).all()
     assert np.abs(R[1, 0] - true).max() <= 4 * EPS
     assert np.abs(np.vecmat(np.array(field), R) - K).max() <= 4 * EPS
     assert np.abs(motion.angular_momentum(0.0) - np.array(inertia) * omega)[0].max() <= 4 * EPS
     one = atlas.AsymmetricMotion(inertia, field, omega)
     assert np.abs(one.rotation_grid(0.5, 0.5, 3)[2] - R[1, 0]).max() <= 4 * EPS
-    assert (one._turnings[0].certified.rotation(1.5) == true).all()
+    assert (one._single().certified.rotation(1.5) == true).all()
     assert one.energy == pytest.approx(sum(I * w * w for I, w in zip(inertia, omega, strict=True)) / 2, rel=4 * EPS)
     assert np.abs(Omega[0] - omega).max() <= EPS
     both = atlas.AsymmetricMotion((1.0, np.array([[0.7], [0.7]]), 0.6), field, omega)

@@ -50,7 +50,7 @@ def motion() -> atlas.AsymmetricMotion:
 def kernel(inertia: Three, field: Three, omega: Three) -> ThetaKernel:
     """Return the closed form of a motion; but for the quick one it was compared with nothing."""
     if (inertia, field, omega) == QUICK:
-        return motion()._turnings[0].theta
+        return motion()._single().theta
     return closed_form(Balls(inertia, field, omega), max(map(abs, (*field, *omega))))
 
 
@@ -65,7 +65,7 @@ def turn(axis: Any, angle: float) -> Any:
 def test_the_closed_form_is_the_certified_twin(case: tuple[Three, Three, Three]) -> None:
     """R, K and Omega up to t = 8e11 are those of proven digits, within 8 ulp of 1 and the motion's own bound."""
     closed = kernel(*case)
-    twin = (motion()._turnings[0] if case is QUICK else SingleAsymmetric(Balls(*case))).certified
+    twin = (motion()._single() if case is QUICK else SingleAsymmetric(Balls(*case))).certified
     size = max(map(abs, (*case[1], *case[2])))
     worst = max(
         np.abs(closed.rotation(TIMES) - twin.rotation(TIMES)).max(),
@@ -271,7 +271,7 @@ def test_the_third_frequency_is_that_about_the_field() -> None:
     N = np.einsum("i,tij->tj", e + 1j * np.cross(n, e), one.rotation(times)) * np.exp(-1j * f3 * times)[:, None]
     table = np.exp(1j * np.outer(times, [m * f1 + n * f2 for m, n in product(range(-8, 9), repeat=2)]))
     assert np.abs(N - table @ np.linalg.lstsq(table, N, rcond=None)[0]).max() < 1e-8
-    balls = enclosed(lambda: one._turnings[0].exact.frequencies, 120)
+    balls = enclosed(lambda: one._single().exact.frequencies, 120)
     assert [float(x.mid()) for x in balls] == [f1, f2, f3]
     with pytest.raises(DomainError, match="no torus with three frequencies: the motion is symmetric body"):
         atlas.AsymmetricMotion((1.0, 1.0, 0.5), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)).frequencies  # noqa: B018
@@ -279,7 +279,7 @@ def test_the_third_frequency_is_that_about_the_field() -> None:
 
 def test_the_riemann_matrix_is_reduced_and_a_lattice_of_type_1_2_stands_behind_it() -> None:
     """Tau is symmetric, Im tau > 0, |tau11| >= 1, |tau22| >= 2; proven periods are sums of the approximate ones."""
-    balls = motion()._turnings[0].exact.on_torus
+    balls = motion()._single().exact.on_torus
     assert balls is not None
     tau = kernel(*QUICK).riemann_matrix
     assert (tau == tau.T).all()
@@ -296,7 +296,7 @@ def test_the_riemann_matrix_is_reduced_and_a_lattice_of_type_1_2_stands_behind_i
 
 def _slipped(monkeypatch: pytest.MonkeyPatch, slip: str) -> SingleAsymmetric:
     """Return the quick motion with a slip in a formula of its closed form."""
-    balls = motion()._turnings[0].exact
+    balls = motion()._single().exact
     assert balls.on_torus is not None
     known = balls.on_torus.torus.lattice
     if slip == "characteristic":
@@ -375,7 +375,7 @@ def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> N
 
     monkeypatch.setattr(core, "distances", refuse)
     monkeypatch.setattr(kernels, "CHECKED", (5.3, -6.1))
-    one = SingleAsymmetric(motion()._turnings[0].exact)
+    one = SingleAsymmetric(motion()._single().exact)
     assert re.match(r"not proved; agrees with .* within \S+ at 2 times up to \|t\| = 4.88; rounding", one.agreement)
 
 
@@ -393,7 +393,7 @@ def test_three_moments_are_taken_by_the_command_of_general_motions() -> None:
 def test_what_is_proved_is_the_largest_error_of_any_entry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of R that of N and of K/b, of Omega beside the largest rate those of K and of M over the least moment."""
     closed = copy(kernel(*QUICK))
-    torus = motion()._turnings[0].exact.on_torus.torus  # type: ignore[union-attr]
+    torus = motion()._single().exact.on_torus.torus  # type: ignore[union-attr]
     b, least, size = np.linalg.norm(QUICK[1]), 0.625, 1.25
     for apart in ((0.0, 1e-20, 3e-20), (1e-20, 3e-20, 0.0), (4e-20, 1e-20, 1e-21)):
         monkeypatch.setattr(core, "distances", lambda *_, apart=apart: apart)
@@ -409,7 +409,7 @@ def test_what_is_proved_is_the_largest_error_of_any_entry(monkeypatch: pytest.Mo
 @cache
 def constants() -> clebsch_theta.ThetaMotion:
     """Return the constants of the quick motion."""
-    torus = motion()._turnings[0].exact.on_torus.torus  # type: ignore[union-attr]
+    torus = motion()._single().exact.on_torus.torus  # type: ignore[union-attr]
     return clebsch_theta.ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
 
 
@@ -421,7 +421,7 @@ def test_a_closed_form_that_rounds_badly_is_refused(
     accuracy: float, words: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Beyond 2e-13 there is none; nor where numbers are infinite or a matrix singular: one line says so."""
-    exact = motion()._turnings[0].exact
+    exact = motion()._single().exact
     monkeypatch.setattr(core, "ThetaMotion", lambda *_: constants())
     monkeypatch.setattr(clebsch_rounding.Rounding, "accuracy", lambda _: accuracy)
     monkeypatch.setattr(core, "distances", lambda *_: (0.0, 0.0, 0.0))

@@ -137,7 +137,7 @@ def test_a_fine_grid_is_interpolated_to_the_last_digits(
 def test_windows_that_are_too_long_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where polynomials do not hold, the grid is that evaluated time by time; without that test it is lost."""
     motion, step = GeneralMotion(*ORDINARY[0]), 0.05
-    grid = general_grid.Grid(motion._turnings[0], 0.0, step)
+    grid = general_grid.Grid(motion._single(), 0.0, step)
     found, lost = np.empty((2, 4096, 3, 3))
     general_grid.fill_windows(grid, 512, found)
     assert general_grid.window(grid, 4096) == 0

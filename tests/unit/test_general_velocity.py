@@ -145,7 +145,7 @@ def test_omega_in_the_laboratory_keeps_its_digits() -> None:
     for ratio in (1.5, 1e-3):
         motion = GeneralMotion.in_laboratory(ratio, (0.3, -1.0, 2.0), attitude, (1e-14, 3e-14, -2e-14))
         for time in (0.7, 40.0, 3e3):
-            true = narrow(partial(motion._turning.exact.angular_velocity), time)
+            true = narrow(partial(motion._single().exact.angular_velocity), time)
             assert off(motion.angular_velocity(time), true) <= WANTED
 
 

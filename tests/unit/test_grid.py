@@ -85,7 +85,7 @@ def test_the_small_third_column_keeps_its_digits_also_through_zero(start: float,
 @pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="without long doubles the table is less exact")
 def test_the_fine_table_is_rounded_once() -> None:
     """Its first rows, twice the third column of R, are within half an ulp of the true ones, on both sides of zero."""
-    turning, step = ElementaryMotion(I, (B2, B3), OMEGA2)._turning, 0.371
+    turning, step = ElementaryMotion(I, (B2, B3), OMEGA2)._single(), 0.371
     assert turning is not None
     for back, table in grid.fine_tables(turning, step, [False, True]).items():
         rows = table[0].reshape(grid.FINE, 3, 3)

@@ -97,7 +97,7 @@ def test_tops_that_rows_do_not_hold_are_made_alone_but_once() -> None:
     alone = atlas.TopMotion(*near)
     np.testing.assert_array_equal(motion.rotation(2.5)[0], alone.rotation(2.5))
     np.testing.assert_array_equal(motion.angular_velocity(2.5)[0], alone.angular_velocity(2.5))
-    assert motion._alone(0) is motion._alone(0)
+    assert motion._single(0) is motion._single(0)
 
 
 def test_the_turn_about_the_axis_joins_where_the_quartic_becomes_a_cubic() -> None:

@@ -1,6 +1,5 @@
 """Any motion of a charged body with three different moments of inertia (not in the paper)."""
 
-from collections.abc import Callable
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -71,6 +70,7 @@ class SingleAsymmetric:
                 found: SingleElliptic = SingleEulerTop(exact, _floats(self.exact.field))
             else:
                 found = SingleElliptic(exact)
+            found.parts  # noqa: B018  what floats do not hold is refused here
         except DomainError:  # next to the line about which its axis turns
             return None, "certified at each time: Jacobi's functions are too small for a float."
         error = found.accuracy(self.size)
@@ -195,7 +195,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
             *components(omega, ("omega1", "omega2", "omega3"), "The initial angular velocity", RATE),
         ]
         super().__init__(_single, *parts)
-        self._turnings  # noqa: B018  what is no motion is refused here
+        self._of_each(lambda one: one.exact.kind)  # what is no motion is refused here
         self.inertia, self.field, self.omega = (tuple(plain(x) for x in parts[i : i + 3]) for i in (0, 3, 6))
         self.arguments = {"inertia": self.inertia, "field": self.field, "omega": self.omega}
 
@@ -260,26 +260,19 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return np.asarray(self._of_each(lambda one: one.theta.riemann_matrix))
 
-    def _of_each(self, value: Callable[[SingleAsymmetric], Any]) -> Any:
-        """Return one value for each motion: plain for one motion, else an array."""
-        if self._turning:
-            return value(self._turning)
-        found = np.array([value(one) for one in self._turnings])
-        return found.reshape(self.shape + found.shape[1:])
-
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity Omega(t) in the body; shape (..., 3).
 
         Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
         """
-        return self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.angular_velocity(t, out), t, (3,))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body; shape (..., 3).
 
         Raises AtlasError for a time that is not finite, NotCertifiedError where there is no proof.
         """
-        return self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.field_in_body(t, out), t, (3,))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m = R II Omega in the laboratory; shape (..., 3).
@@ -289,16 +282,9 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         m = self.angular_velocity(t) * np.stack(np.broadcast_arrays(*self.inertia), -1)
         return np.asarray(finite(np.matvec(self.rotation(t), m), "m"))
 
-    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
-        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), one by one."""
-        motions = np.broadcast_to(np.arange(len(self._turnings)).reshape(own), times.shape).ravel()
-        for i, one in enumerate(self._turnings):
-            places = np.flatnonzero(motions == i)
-            out[places] = evaluate(one, times.flat[places], None)
-
-    def _fill_grid(self, turning: SingleAsymmetric, start: float, step: float, out: FloatArray) -> None:
+    def _fill_grid(self, one: SingleAsymmetric, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid, at exact times."""
-        (turning.closed or turning.certified).fill_grid(start, step, out)
+        (one.closed or one.certified).fill_grid(start, step, out)
         if step and (start / step).is_integer() and 0 <= -start / step < len(out):
             out[round(-start / step)] = np.eye(3)
 

@@ -9,7 +9,7 @@ from atlas.core.arithmetic.rotation import DoubleRotation
 from atlas.core.arithmetic.turnings import Group
 from atlas.core.arithmetic.words import ONE, ZERO, exact
 from atlas.core.inputs import FloatArray, components, kept, plain, real
-from atlas.core.motions.motion import Motion
+from atlas.core.motions.motion import DoubleTurn
 from atlas.core.quantities import INERTIA, MOMENTUM, RATE
 from atlas.errors import DomainError
 from atlas.formulas.ball import rates, turning
@@ -28,7 +28,7 @@ class Ball(DoubleRotation):
         super().__init__(axis, gamma, alpha, inverse=True)
 
 
-class BallMotion(Motion[Ball]):
+class BallMotion(DoubleTurn[Ball]):
     """Motion of a ball with the field along e3 and m(0) = (0, m2, m3): R = R_z(-alpha t) R_k(-gamma t), (28).
 
     `inertia` I0 > 0; `larmor` alpha = mu |B|/(2c), (27), of either sign, in 1/time; `momentum` (m2, m3) in
@@ -41,7 +41,7 @@ class BallMotion(Motion[Ball]):
     """
 
     family = "ball"
-    _unit = slice(1, None)
+    _frequencies = slice(1, None)
     _inverse = True
 
     def __init__(self, inertia: Any, larmor: Any, momentum: Any) -> None:
@@ -57,12 +57,14 @@ class BallMotion(Motion[Ball]):
     @kept
     def gamma(self) -> Any:
         """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the turn about k_hat, (29)."""
-        return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._unit)
+        return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._frequencies)
 
     @kept
     def k_hat(self) -> tuple[Any, Any]:
         """Axis (k2, k3) of (29); (0, -1) where gamma = 0, and (29) is 0/0."""
-        k2, k3 = over(lambda *inputs: direction(turning(*inputs)[0]), *self._inputs, unit=self._unit, degree=(0, 0))
+        k2, k3 = over(
+            lambda *inputs: direction(turning(*inputs)[0]), *self._inputs, unit=self._frequencies, degree=(0, 0)
+        )
         return k2, plain(np.where(self.gamma == 0, -1.0, k3))
 
     def angular_momentum(self, t: Any) -> FloatArray:
@@ -70,14 +72,14 @@ class BallMotion(Motion[Ball]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spread(lambda one, t, out: one.swung(one.vector("m"), t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.swung(one.vector("m"), t, out), t, (3,))
 
     def angular_velocity(self, t: Any) -> FloatArray:
         """Angular velocity in the body, Omega = R^T m/I0 = R_k(gamma t) m(0)/I0, below (25); shape (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spread(lambda one, t, out: one.turned(one.vector("Omega"), t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.turned(one.vector("Omega"), t, out), t, (3,))
 
     def _groups(self) -> list[Group]:
         return [(turning, slice(None), self._inputs)]

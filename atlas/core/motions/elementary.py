@@ -15,7 +15,7 @@ from atlas.core.bodies.body import kept_ratio, moments
 from atlas.core.inputs import FloatArray, components, kept, plain, real, turn_time
 from atlas.core.motions.integrals import integrals, shape_factors
 from atlas.core.motions.invariants import invariants
-from atlas.core.motions.motion import Motion
+from atlas.core.motions.motion import DoubleTurn
 from atlas.core.quantities import RATE
 from atlas.errors import AtlasError, DomainError
 from atlas.formulas.elementary import CASES, FREE, constants, free, quotient, scalars, turning
@@ -63,7 +63,7 @@ class Elementary(DoubleRotation):
         super().__init__(axis, k, phi)
 
 
-class ElementaryMotion(Motion[Elementary]):
+class ElementaryMotion(DoubleTurn[Elementary]):
     """Motion R(t) = R_B(k t) R_z(phi t) of a charged symmetric body, (84), (85), from Omega(0) = (0, omega2, omega3).
 
     `ratio` I = I3/I2 or a SymmetricBody; `field` = (B2, B3), the components of B' = mu B/(2c); `omega2` and, where it
@@ -89,7 +89,7 @@ class ElementaryMotion(Motion[Elementary]):
     """
 
     family = "elementary"
-    _unit = slice(2, None)
+    _frequencies = slice(2, None)
 
     def __init__(self, ratio: Any, field: Any, omega2: Any, omega3: Any = None) -> None:
         if isinstance(omega2, tuple | list) and len(omega2) == 3 and not any(np.ndim(x) for x in omega2):
@@ -106,7 +106,9 @@ class ElementaryMotion(Motion[Elementary]):
         self.field = (plain(B2), plain(B3))
         free = None if omega3 is None else plain(given)
         self.arguments = {"ratio": self.ratio, "field": self.field, "omega2": plain(omega2), "omega3": free}
-        if self.shape:
+        if not self.shape:
+            self._single()
+        else:
             self._refuse((self._codes == len(CASES)) | ((self._codes < FREE) & (omega3 is None)))
             if omega3 is not None:
                 self._refuse((self._codes >= FREE) & (given != self.omega3))
@@ -114,12 +116,12 @@ class ElementaryMotion(Motion[Elementary]):
     def _refuse(self, rows: Any) -> None:
         """Raise the error of the first row for which there is no motion."""
         for i in np.flatnonzero(rows)[:1]:
-            self._alone(i)
+            self._single(i)
 
     @kept
     def case(self) -> Any:
         """Name of the case, a string, or an array of them."""
-        return self._turning.case if self._turning else np.array(CASES)[self._codes]
+        return np.array(CASES)[self._codes] if self.shape else self._single().case
 
     @kept
     def omega2(self) -> Any:
@@ -149,13 +151,13 @@ class ElementaryMotion(Motion[Elementary]):
     @cached_property
     def _scalars(self) -> Any:
         """Values of omega3, k, phi, and of I omega3, the third component of the momentum."""
-        if self._turning:
-            k, phi = self._turning.frequencies
-            return self._turning.omega3, nearest(k), nearest(phi), self._turning.vector("m")[2]
+        if not self.shape:
+            k, phi = self._single().frequencies
+            return self._single().omega3, nearest(k), nearest(phi), self._single().vector("m")[2]
         found = np.empty((4, prod(self.shape)))
         for case, index, inputs in self._cases():
             for row, value in zip(
-                found, over(partial(scalars, case), *inputs, unit=self._unit, degree=(1,) * 4), strict=True
+                found, over(partial(scalars, case), *inputs, unit=self._frequencies, degree=(1,) * 4), strict=True
             ):
                 row[index] = np.ravel(value)
         return found.reshape(4, *self.shape)
@@ -195,21 +197,21 @@ class ElementaryMotion(Motion[Elementary]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spread(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' = (B2 sin phi t, B2 cos phi t, B3) in the body, (32), (62), (60); (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spread(lambda one, t, out: one.swung(one.vector("K"), t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.swung(one.vector("K"), t, out), t, (3,))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Angular momentum m(t)/I2 = R_B(k t) (0, omega2, I omega3) in the laboratory, as in (88); shape (..., 3).
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spread(lambda one, t, out: one.turned(one.vector("m"), t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.turned(one.vector("m"), t, out), t, (3,))
 
     def invariants(self, t: Any = None) -> dict[str, Any]:
         """Constants E', K^2, c3, c5 of (36) to (41) and (m, B')/I2 of (88), by name.
@@ -253,7 +255,7 @@ class Free(DoubleRotation):
         super().__init__(axis, k, phi)
 
 
-class FreeMotion(Motion[Free]):
+class FreeMotion(DoubleTurn[Free]):
     """Motion of a free symmetric body, R(t) = R_m(k t) R_z(phi t), above (87): precession without nutation.
 
     `ratio` I = I3/I2 or a SymmetricBody; `omega` (omega1, omega2, omega3), the initial angular velocity, 1/time; arrays
@@ -262,7 +264,7 @@ class FreeMotion(Motion[Free]):
     """
 
     family = "free"
-    _unit = slice(2, None)
+    _frequencies = slice(2, None)
 
     def __init__(self, ratio: Any, omega: Any) -> None:
         omega = components(omega, ("omega1", "omega2", "omega3"), "The angular velocity", RATE)
@@ -274,12 +276,12 @@ class FreeMotion(Motion[Free]):
     @kept
     def k(self) -> Any:
         """Frequency of precession about m, k = |m|/I2."""
-        return over(lambda *inputs: free(*inputs)[1], *self._inputs, unit=self._unit)
+        return over(lambda *inputs: free(*inputs)[1], *self._inputs, unit=self._frequencies)
 
     @kept
     def phi(self) -> Any:
         """Frequency of proper rotation phi = (1 - I) omega3, (87)."""
-        return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._unit)
+        return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._frequencies)
 
     @property
     def period(self) -> Any:
@@ -291,7 +293,7 @@ class FreeMotion(Motion[Free]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return self._spread(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.swung(one.vector("Omega"), t, out), t, (3,))
 
     def _groups(self) -> list[Group]:
         return [(free, slice(None), self._inputs)]

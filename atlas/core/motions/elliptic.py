@@ -6,7 +6,7 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray, components, finite, kept, plain
 from atlas.core.motions.clebsch import conserved
-from atlas.core.motions.nutating import AloneMotion
+from atlas.core.motions.nutating import NutatingMotion
 from atlas.core.nutation.constants import FIRST
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_elliptic import SingleElliptic
@@ -25,7 +25,7 @@ def balls(*row: float) -> Balls:
         return Balls(row[:3], row[3:6], *row[6:])
 
 
-class EllipticMotion(AloneMotion[SingleElliptic]):
+class EllipticMotion(NutatingMotion[SingleElliptic]):
     """Motion R(t), R(0) = 1, of a charged body of any inertia tensor, one of a family for each field, theorem-elliptic.
 
     `inertia` (I1, I2, I3), the principal moments; `field` (B1, B2, B3), the components of B' in the principal axes at
@@ -62,8 +62,7 @@ class EllipticMotion(AloneMotion[SingleElliptic]):
             *components((z, branch), ("z", "branch"), "The point of the curve"),
         ]
         super().__init__(lambda *row: SingleElliptic(balls(*row)), *parts)
-        for i in range(int(np.prod(self.shape, dtype=int))):
-            balls(*self._row(i))  # what is no motion is refused here
+        self._of_each(lambda one: one.exact.kind)  # what is no motion is refused here
         self.inertia, self.field, (self.z, self.branch) = (
             tuple(plain(x) for x in parts[i:j]) for i, j in ((0, 3), (3, 6), (6, 8))
         )

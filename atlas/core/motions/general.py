@@ -63,8 +63,8 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
     are within 1.8e-15, twice what elementary motions promise, on fine grids within 3.6e-15. K is
     within 1.8e-15 of |B'|, Omega within 16 ulp of its own largest component, however slowly the body turns beside its
     Larmor frame, and m within 7e-15 of its length.
-    Raises DomainError if the body's axis comes to within some 1e-600 rad of the field, but not into it. AtlasError is
-    raised for what is no number.
+    Raises AtlasError for what is no number. Values at a time raise DomainError if the body's axis comes to within some
+    1e-600 rad of the field, but not into it.
 
         >>> motion = atlas.GeneralMotion(1.5, (1.0, 2.0), omega=(0.3, 0.7, 0.2))
         >>> motion.kind, round(motion.period, 9)
@@ -72,7 +72,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
     """
 
     family = "general"
-    _in_arrays, _exact, _kinds = (*IN_ARRAYS, "roots"), staticmethod(_balls), KINDS
+    _in_arrays, _kinds = (*IN_ARRAYS, "roots"), KINDS
 
     def __init__(self, ratio: Any, field: Any, omega: Any) -> None:
         I2, I3 = moments(ratio)
@@ -103,7 +103,7 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
         motion.made_by = "GeneralMotion.in_laboratory"
         body = ratio_of(SymmetricBody(I2, float(I3)))
         matrix = np.array([[int(x.p) / int(x.q) for x in row] for row in start])
-        motion._turning = SingleGeneral(Balls.at_state(body, w, B), matrix)  # noqa: SLF001  of this class
+        motion._made = {0: SingleGeneral(Balls.at_state(body, w, B), matrix)}  # noqa: SLF001  of this class
         motion.field, motion.omega = tuple(field.tolist()), tuple(int(x.p) / int(x.q) for x in w)
         motion.arguments = {
             "ratio": motion.ratio, "field": field, "attitude": attitude, "angular_velocity": angular_velocity,
@@ -164,8 +164,8 @@ class GeneralMotion(NutatingMotion[SingleGeneral]):
     @kept
     def _constants(self) -> Any:
         """Return E', K^2, c3, c5 and (M, B')/I2 of the inputs."""
-        if self._turning:
-            return [nearest(x) for x in self._turning.exact.invariants.values()]
+        if not self.shape:
+            return [nearest(x) for x in self._single().exact.invariants.values()]
         I2, I3 = moments(self.ratio)
         return over(constants, I2, I3, *self.omega, 0.0, *self.field, unit=slice(2, None), degree=(2, 2, 1, 2, 2))
 

@@ -1,4 +1,4 @@
-"""What all motions in elementary functions share: one turning, or an array of them that broadcasts with time."""
+"""What all motions share: one plan for one motion and for an array of them, which broadcasts with the times."""
 
 import reprlib
 from collections.abc import Callable, Mapping
@@ -12,7 +12,7 @@ from weakref import proxy
 import numpy as np
 
 from atlas.core.arithmetic.grid import fill_grid
-from atlas.core.arithmetic.rotation import target
+from atlas.core.arithmetic.rotation import DoubleRotation, target
 from atlas.core.arithmetic.turnings import Group, Turnings
 from atlas.core.inputs import FloatArray, common_shape, number, real, whole
 from atlas.core.quantities import TIME, bare
@@ -21,7 +21,7 @@ from atlas.errors import AtlasError
 
 
 class Evaluated(Protocol):
-    """One motion that gives its matrix and the columns of it."""
+    """One motion, which gives its matrix and the columns of it."""
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
@@ -30,65 +30,49 @@ class Evaluated(Protocol):
         """Return the column R_j(t), shape (..., 3)."""
 
 
-Turning = TypeVar("Turning", bound=Evaluated)
+Single = TypeVar("Single", bound=Evaluated)
+Turning = TypeVar("Turning", bound=DoubleRotation)
 
 MANY = 1000
-"""Times a motion from which on each of several motions is made alone: that takes as long as so many matrices do."""
+"""Times a motion from which on each of several motions is made by itself: that takes as long as so many matrices do."""
+
+KEPT = 1024
+"""Motions made by themselves that are kept."""
 
 BLOCK = 4096
 """Matrices of several motions made at once."""
 
 
-class Motion(Shown, Generic[Turning]):
-    """Motions R(t) = R_n(k t) R_z(phi t), (85), of the shape of the parameters, which broadcasts with the times."""
+class Motion(Shown, Generic[Single]):
+    """Motions R(t) of the shape of the parameters, which broadcasts with the times.
 
-    _unit: slice
-    """Which of the inputs are frequencies."""
+    One motion is evaluated by what `_single` makes of its inputs. So is each of an array of them at many times, and at
+    few where there are no `_rows`, or where these do not hold a motion.
+    """
 
-    def __init__(self, make: Callable[..., Turning], *inputs: Any) -> None:
+    _rows: Any = None
+    """All motions in arrays, for a few times each: `at(index, t)` gives what is evaluated as one motion is."""
+
+    def __init__(self, make: Callable[..., Single], *inputs: Any) -> None:
         self._make, self._inputs = make, inputs
+        self._made: dict[int, Single] = {}
         self.shape = common_shape(*(np.shape(x) for x in inputs))
-        self._turning = None if self.shape else self._alone(0)
 
-    def _alone(self, i: int) -> Turning:
-        """Make the i-th motion by itself."""
-        return self._make(*self._row(i))
+    def _single(self, i: int = 0) -> Single:
+        """Return the i-th motion, made by itself."""
+        if i not in self._made:
+            if len(self._made) >= KEPT:
+                self._made.clear()
+            row = (np.broadcast_to(x, self.shape).flat[i] for x in self._inputs)
+            self._made[i] = self._make(*(x if x is None else float(x) for x in row))
+        return self._made[i]
 
-    def _row(self, i: int) -> list[Any]:
-        """Return the inputs of the i-th motion."""
-        row = (np.broadcast_to(x, self.shape).flat[i] for x in self._inputs)
-        return [x if x is None else float(x) for x in row]
-
-    @cached_property
-    def _turnings(self) -> list[Turning]:
-        """Each motion made alone, for many times."""
-        return [self._turning] if self._turning else [self._alone(i) for i in range(prod(self.shape))]
-
-    @cached_property
-    def _rows(self) -> Any:
-        """All motions in arrays, for a few times each."""
-        # by a weak reference: in a circle of references, memory would wait for the collector of garbage
-        vectors = partial(getattr, proxy(self), "_flat_vectors")
-        return Turnings(self._groups(), prod(self.shape), self._unit, vectors, inverse=self._inverse)
-
-    @cached_property
-    def _flat_vectors(self) -> Mapping[str, Any]:
-        """Constant vectors of the motions in a row."""
-        return {
-            name: [np.broadcast_to(x, self.shape).reshape(-1) for x in vector]
-            for name, vector in self._vectors().items()
-        }
-
-    _inverse = False
-    """Whether the matrix is the transposed one, (28)."""
-
-    def _groups(self) -> list[Group]:
-        """Return the motions by the formulas that hold for them."""
-        raise NotImplementedError
-
-    def _vectors(self) -> Mapping[str, Any]:
-        """Return constant vectors of the motions by name, three components each."""
-        raise NotImplementedError
+    def _of_each(self, value: Callable[[Single], Any]) -> Any:
+        """Return a value of each motion made by itself: plain for one motion, else an array."""
+        if not self.shape:
+            return value(self._single())
+        found = np.array([value(self._single(i)) for i in range(prod(self.shape))])
+        return found.reshape(self.shape + found.shape[1:])
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Rotation matrix R(t), (84), (85), with the body's axes as columns; shape (..., 3, 3).
@@ -97,7 +81,7 @@ class Motion(Shown, Generic[Turning]):
         Each entry is within 8.9e-16 of the true one, of a `GeneralMotion` within 1.8e-15, of a `TopMotion` or an
         `EllipticMotion` within 3.6e-15, of an `AsymmetricMotion` within its own `accuracy`. Raises AtlasError beyond.
         """
-        return self._spread(lambda turning, t, out: turning.rotation(t, out), t, (3, 3), out)
+        return self._evaluate(lambda one, t, out: one.rotation(t, out), t, (3, 3), out)
 
     def column(self, j: int, t: Any) -> FloatArray:
         """Column j = 1, 2, 3 of R(t): the body's axis R_j in the laboratory, shape (..., 3).
@@ -106,7 +90,7 @@ class Motion(Shown, Generic[Turning]):
         """
         if not isinstance(j, Integral) or not 1 <= j <= 3:
             raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
-        return self._spread(lambda turning, t, out: turning.column(j, t, out), t, (3,))
+        return self._evaluate(lambda one, t, out: one.column(j, t, out), t, (3,))
 
     def third_axis(self, t: Any) -> FloatArray:
         """Third inertia axis R_3(t) in the laboratory, the third column of (84); shape (..., 3).
@@ -145,45 +129,80 @@ class Motion(Shown, Generic[Turning]):
         start, step = number(start, "The start of the grid", TIME), number(step, "The step of the grid", TIME)
         count = whole(count, "The count of the grid")
         out = target(out, (*self.shape, count, 3, 3))
-        if self._turning:
-            self._fill_grid(self._turning, start, step, out)
-            return out
-        for turning, part in zip(self._turnings, out.reshape(prod(self.shape), count, 3, 3), strict=True):
-            self._fill_grid(turning, start, step, part)
+        for i, part in enumerate(out.reshape(prod(self.shape), count, 3, 3)):
+            self._fill_grid(self._single(i), start, step, part)
         return out
 
-    def _fill_grid(self, turning: Turning, start: float, step: float, out: FloatArray) -> None:
+    def _fill_grid(self, one: Single, start: float, step: float, out: FloatArray) -> None:
         """Fill the matrices of one motion on a grid."""
-        fill_grid(turning, start, step, out)  # type: ignore[arg-type]  # of motions in elementary functions
+        raise NotImplementedError
 
-    def _spread(
-        self, evaluate: Callable[..., FloatArray], t: Any, shape: tuple[int, ...], out: FloatArray | None = None
+    def _evaluate(
+        self, function: Callable[..., Any], t: Any, shape: tuple[int, ...], out: FloatArray | None = None
     ) -> FloatArray:
-        """Evaluate every motion at the times that meet it."""
+        """Return a function of motions and times, function(motion, t, out), for each motion at the times it meets."""
         t = bare(t, "The time", TIME)
-        if self._turning:
-            return evaluate(self._turning, t, out)
+        if not self.shape:
+            return np.asarray(function(self._single(), t, out))
         times = real(t, "The time")
         full = common_shape(self.shape, times.shape)
         times, out = np.broadcast_to(times, full), target(out, full + shape)
         own = (1,) * (len(full) - len(self.shape)) + self.shape
-        if times.size < MANY * prod(self.shape):
-            self._few(evaluate, times, own, out.reshape(times.size, *shape))
+        if times.size < MANY * prod(self.shape) and self._rows is not None:
+            self._evaluate_rows(function, times, own, out.reshape(times.size, *shape))
             return out
-        for turning, index in zip(self._turnings, np.ndindex(own), strict=True):
+        for i, index in enumerate(np.ndindex(own)):
             where = tuple(slice(None) if n == 1 else i for i, n in zip(index, own, strict=True))
-            out[where] = evaluate(turning, times[where], None)
+            out[where] = function(self._single(i), times[where], None)
         return out
 
-    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
-        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), by blocks."""
+    def _evaluate_rows(
+        self, function: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray
+    ) -> None:
+        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), by blocks of rows."""
         indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape)
         for start in range(0, times.size, BLOCK):
             part = slice(start, start + BLOCK)
             t = np.asarray(times.flat[part])
             rows = self._rows.at(part if times.shape == own else indices.flat[part], t)
-            with np.errstate(over="ignore", invalid="ignore"):  # in extreme rows, which are made alone
-                evaluate(rows, t, out[part])
-            for motion in np.unique(rows.indices[rows.extreme]).tolist():
-                places = rows.extreme[rows.indices[rows.extreme] == motion]
-                out[start + places] = evaluate(self._alone(motion), t[places], None)
+            with np.errstate(over="ignore", invalid="ignore"):  # in extreme rows, which are made by themselves
+                function(rows, t, out[part])
+            for i in np.unique(rows.indices[rows.extreme]).tolist():
+                places = rows.extreme[rows.indices[rows.extreme] == i]
+                out[start + places] = function(self._single(i), t[places], None)
+
+
+class DoubleTurn(Motion[Turning]):
+    """Motions in elementary functions, R(t) = R_n(k t) R_z(phi t), (85)."""
+
+    _frequencies: slice
+    """Which of the inputs are frequencies."""
+    _inverse = False
+    """Whether the matrix is the transposed one, (28)."""
+
+    @cached_property
+    def _rows(self) -> Turnings:
+        """All motions in arrays, for a few times each."""
+        # by a weak reference: in a circle of references, memory would wait for the collector of garbage
+        vectors = partial(getattr, proxy(self), "_flat_vectors")
+        return Turnings(self._groups(), prod(self.shape), self._frequencies, vectors, inverse=self._inverse)
+
+    @cached_property
+    def _flat_vectors(self) -> Mapping[str, Any]:
+        """Constant vectors of the motions in a row."""
+        return {
+            name: [np.broadcast_to(x, self.shape).reshape(-1) for x in vector]
+            for name, vector in self._vectors().items()
+        }
+
+    def _groups(self) -> list[Group]:
+        """Return the motions by the formulas that hold for them."""
+        raise NotImplementedError
+
+    def _vectors(self) -> Mapping[str, Any]:
+        """Return constant vectors of the motions by name, three components each."""
+        raise NotImplementedError
+
+    def _fill_grid(self, one: Turning, start: float, step: float, out: FloatArray) -> None:
+        """Fill the matrices of one motion on a grid."""
+        fill_grid(one, start, step, out)

@@ -1,7 +1,6 @@
 """What motions share whose axis nutates: matrices from the pair (alpha, beta), and the numbers of a period."""
 
 from collections.abc import Callable, Container, Sequence
-from math import prod
 from typing import Any, TypeVar
 
 import numpy as np
@@ -26,8 +25,6 @@ class NutatingMotion(Motion[Nutation]):
     _in_arrays: Container[str] = ()
     """Values that `_scalars` has for all motions at once; the others are made of each by itself."""
     _scalars: Any
-    _exact: Callable[..., Any]
-    """Makes one motion of balls."""
     _kinds: Sequence[str] = ()
     """Names of the kinds of arrays, by their codes."""
 
@@ -82,14 +79,14 @@ class NutatingMotion(Motion[Nutation]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(self._spread(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
+        return np.asarray(finite(self._evaluate(lambda one, t, out: one.angular_velocity(t, out), t, (3,)), "Omega"))
 
     def field_in_body(self, t: Any) -> FloatArray:
         """Field K(t) = R^T B' in the body, (32); shape (..., 3); within the bound that the class states.
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
+        return np.asarray(finite(self._evaluate(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "K"))
 
     def _scalar(self, name: str) -> Any:
         """Return a number for each motion, in an array NaN for a motion that has none."""
@@ -98,7 +95,7 @@ class NutatingMotion(Motion[Nutation]):
             try:
                 return nearest(enclosed(lambda: getattr(exact, name), BITS))
             except DomainError:
-                if self._turning:
+                if not self.shape:
                     raise
                 return np.nan
 
@@ -106,15 +103,12 @@ class NutatingMotion(Motion[Nutation]):
 
     def _each(self, name: str, value: Callable[[Any], Any], shown: Callable[[Any], Any] = np.asarray) -> Any:
         """Return one value for each motion: plain for one motion, else an array; what is not sure there, of balls."""
-        if self._turning:
-            return value(self._turning.exact)
-        if name in self._in_arrays:
-            values, sure = self._scalars[name]
-            found = np.moveaxis(shown(values), -1, 0)
-            for i in np.flatnonzero(~sure).tolist():
-                found[i] = value(self._exact(*self._row(i)))
-        else:
-            found = np.array([value(one.exact) for one in self._turnings])
+        if not self.shape or name not in self._in_arrays:
+            return self._of_each(lambda one: value(one.exact))
+        values, sure = self._scalars[name]
+        found = np.moveaxis(shown(values), -1, 0)
+        for i in np.flatnonzero(~sure).tolist():
+            found[i] = value(self._single(i).exact)
         return found.reshape(self.shape + found.shape[1:])
 
     def _fill_grid(self, one: Nutation, start: float, step: float, out: FloatArray) -> None:
@@ -122,17 +116,6 @@ class NutatingMotion(Motion[Nutation]):
         from atlas.core.nutation.grid import fill_grid
 
         fill_grid(one, start, step, out)
-
-
-class AloneMotion(NutatingMotion[Nutation]):
-    """Motions of which each in an array is made by itself, some milliseconds each."""
-
-    def _few(self, evaluate: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray) -> None:
-        """Write what motions of shape `own` have at times that they broadcast with into (m, ...), one by one."""
-        motions = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape).ravel()
-        for i, one in enumerate(self._turnings):
-            places = np.flatnonzero(motions == i)
-            out[places] = evaluate(one, times.flat[places], None)
 
 
 def ends_of(exact: Any) -> list[float]:

@@ -84,7 +84,7 @@ class TopMotion(NutatingMotion[SingleTop]):
     """
 
     family = "top"
-    _in_arrays, _exact, _kinds = IN_ARRAYS, staticmethod(balls), KINDS
+    _in_arrays, _kinds = IN_ARRAYS, KINDS
 
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
@@ -168,17 +168,6 @@ class TopMotion(NutatingMotion[SingleTop]):
         quadratic = -(a3 - a2) * size * size
         return cls((I2, I3), coupling, (B2, B3), omega, linear=linear, quadratic=quadratic)
 
-    def _alone(self, i: int) -> SingleTop:
-        """Make the i-th top by itself, once."""
-        if i not in self._made:
-            self._made[i] = super()._alone(i)
-        return self._made[i]
-
-    @cached_property
-    def _made(self) -> dict[int, SingleTop]:
-        """Tops that were made alone."""
-        return {}
-
     @cached_property
     def _blocks(self) -> TopBlocks:
         """All tops by blocks."""
@@ -238,9 +227,9 @@ class TopMotion(NutatingMotion[SingleTop]):
     @property
     def _one(self) -> Balls:
         """One top in balls. Raises AtlasError for an array."""
-        if self._turning is None:
+        if self.shape:
             raise AtlasError("This is asked of one top: give its parameters as numbers, not as arrays.")
-        return self._turning.exact
+        return self._single().exact
 
     @property
     def quadric(self) -> TopQuadric:
@@ -252,7 +241,7 @@ class TopMotion(NutatingMotion[SingleTop]):
 
         Raises AtlasError for a time that is not finite or whose phases exceed 2^50.
         """
-        return np.asarray(finite(self._spread(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "b"))
+        return np.asarray(finite(self._evaluate(lambda one, t, out: one.field_in_body(t, out), t, (3,)), "b"))
 
     def angular_momentum(self, t: Any) -> FloatArray:
         """Canonical momentum R (I Omega + k b)/I2 in the laboratory, whose component along n is constant; (..., 3).

@@ -29,20 +29,45 @@ class SingleMotion:
     """
 
     def __init__(self, exact: Nutating, attitude: FloatArray) -> None:
-        self.exact = exact
-        self.parts = CayleyKlein(lambda: exact.solution)
-        if self.parts.lost:
+        self.exact, self.attitude = exact, attitude
+
+    @cached_property
+    def parts(self) -> CayleyKlein:
+        """Constants of the pair. Raises DomainError where floats do not hold it."""
+        parts = CayleyKlein(lambda: self.exact.solution)
+        if parts.lost:
             raise DomainError(
                 "The body's axis passes the line of the field at an angle too small for a float: give a larger "
                 "angular velocity across the axis, or none."
             )
-        c, s, C, S = enclosed(lambda: [arb(x) for x in exact.tilt()], 2 * BITS)
+        return parts
+
+    @cached_property
+    def _tilt(self) -> list[float]:
+        """Cosine and sine of theta(0), and of chi(0)."""
+        c, s, C, S = enclosed(lambda: [arb(x) for x in self.exact.tilt()], 2 * BITS)
         with workprec(2 * BITS):  # else it would be that of the caller
-            cos, sin, C, S, b = map(nearest, (c * c - s * s, 2 * c * s, C, S, arb(exact.b)))
-        self.right = np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
+            return [nearest(x) for x in (c * c - s * s, 2 * c * s, C, S)]
+
+    @cached_property
+    def right(self) -> FloatArray:
+        """The turn about the body's axis at t = 0."""
+        _, _, C, S = self._tilt
+        return np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
+
+    @cached_property
+    def entries(self) -> FloatArray:
+        """Weights of the products in the entries of R, (10, 9)."""
+        cos, sin, _, _ = self._tilt
         tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
-        self.entries = entries(attitude @ self.right.T @ tilt, self.right)
-        self.field = b * VECTOR @ self.right
+        return entries(self.attitude @ self.right.T @ tilt, self.right)
+
+    @cached_property
+    def field(self) -> FloatArray:
+        """Weights of the products in K, (10, 3)."""
+        with workprec(2 * BITS):
+            b = nearest(arb(self.exact.b))
+        return np.asarray(b * VECTOR @ self.right)
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""

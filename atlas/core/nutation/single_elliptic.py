@@ -1,5 +1,6 @@
 """One motion in Jacobi's functions, elliptic or of a free body: what turns times into matrices and into Omega."""
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -22,12 +23,24 @@ class SingleElliptic(SingleMotion):
     exact: EllipticMotion
 
     def __init__(self, exact: EllipticMotion) -> None:
-        order = np.eye(3)[list(exact.places)]
-        super().__init__(exact, order.T)
-        self.entries = np.ascontiguousarray((self.entries.reshape(10, 3, 3) @ order).reshape(10, 9))
-        self.field = self.field @ order
-        rates = enclosed(lambda: [arb(E - exact.frame) for E in exact.E], BITS)
-        self._rates = np.array([float(x.mid()) for x in rates])
+        self._order = np.eye(3)[list(exact.places)]
+        super().__init__(exact, self._order.T)
+
+    @cached_property
+    def entries(self) -> FloatArray:
+        """Weights of the products in the entries of R, (10, 9)."""
+        return np.ascontiguousarray((super().entries.reshape(10, 3, 3) @ self._order).reshape(10, 9))
+
+    @cached_property
+    def field(self) -> FloatArray:
+        """Weights of the products in K, (10, 3)."""
+        return np.asarray(super().field @ self._order)
+
+    @cached_property
+    def _rates(self) -> FloatArray:
+        """Factors from K to Omega."""
+        rates = enclosed(lambda: [arb(E - self.exact.frame) for E in self.exact.E], BITS)
+        return np.array([float(x.mid()) for x in rates])
 
     def accuracy(self, size: float) -> float:
         """Return the bound on errors of entries of R, and of K and Omega beside a rate."""
