@@ -17,7 +17,7 @@ from atlas.scene.sample import curve, quarter_pixel
 WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 13.0
 NEAR = 1e-4
 """Where a stretch begins that runs to infinity, as a part of it."""
-ROLES = {"stable": "start", "saddle": "special", "focus-focus": "special"}
+ROLES = {"stable": "start", "saddle": "unstable_point", "focus-focus": "unstable_point"}
 OFFSETS = ((1.0, 8.0), (-8.0, -5.0), (7.0, -5.0))
 """Where the names of the three spins stand, in the order of F, and of a stable one on the lower edge."""
 UPRIGHT = (4.0, 6.0)
@@ -49,17 +49,23 @@ def scene(
             rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$, $b={tex(b)}$ and momenta "
             r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the unbounded oval (dark) and of the "
             "bounded one (turquoise), unstable ones dashed; spins about an axis along the field that are stable "
-            "(dots) or not (diamonds). Motions exist in the shaded region."
+            "(dots) or not (crosses). Motions exist in the shaded region."
             + (" The open circle is the body at rest." if "rest" in there else "")
         ),
         alt=(
             f"Planes of F and H for p = {listed([plain(x) for x in momentum])}: a region that opens to the right "
             "between two convex curves from one corner, with a dashed curve inside that begins on the lower one, and "
-            "an isolated diamond or a small triangle at a dashed curve in the others."
+            "an isolated cross or a small triangle at a dashed curve in the others."
         ),
         panels=panels,
         columns=len(panels),
-        named={"dark": "main", "turquoise": "third", "dashed": "unstable_line", "dots": "start", "diamonds": "special"}
+        named={
+            "dark": "main",
+            "turquoise": "third",
+            "dashed": "unstable_line",
+            "dots": "start",
+            "crosses": "unstable_point",
+        }
         | {"shaded": "region"}
         | ({"open circle": "rest"} if "rest" in there else {}),
         size=(WIDTH * len(panels) / 3, HEIGHT),

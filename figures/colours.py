@@ -16,6 +16,7 @@ VECTORS = (
     ("field_inverse", r"$\mathrm{I\!I}^{-1}\mathbf{B}'$"),
     ("electric", r"$\mathbf{E}$"),
     ("momentum", r"$\mathbf{m}$"),
+    ("direction", r"$\mathbf{n}$ of a top"),
     ("velocity", r"$\boldsymbol{\omega}$, $\boldsymbol{\Omega}$, a rotation"),
     ("body_axis", r"the body's axis $\mathbf{R}_3$"),
 )
@@ -34,7 +35,12 @@ BODIES = (
     ("ball_body", "a ball"),
     ("long_body", "a long solenoid"),
 )
-MARKS = (("rest", "rest"), ("centre", r"$-\mathbf{B}'$"), ("special", r"$-2\mathbf{B}'$"))
+MARKS = (
+    ("rest", "rest"),
+    ("centre", r"$-\mathbf{B}'$"),
+    ("special", r"$-2\mathbf{B}'$"),
+    ("unstable_point", "an unstable motion"),
+)
 
 
 def scene() -> Scene:
@@ -61,11 +67,11 @@ def scene() -> Scene:
         "they stay apart in grey print. The colours of bodies are for figures in which they are compared. "
         "Elementary motions are initial angular velocities, and have their hue.",
         "Four columns of arrows, lines and marks in their colours, each with its meaning: B crimson, its image under "
-        "the inverse inertia tensor pink, E blue, m green, angular velocities plum, the elementary motions violet, the "
-        "body's axis and its path navy, the path of a point teal, the unstable motions vermilion, a loop magenta, a "
-        "short solenoid petrol, a ball olive, a long solenoid dark brown.",
+        "the inverse inertia tensor pink, E blue, m green, the direction n of a top gold, angular velocities plum, the "
+        "elementary motions violet, the body's axis and its path navy, the path of a point teal, the unstable motions "
+        "vermilion, a loop magenta, a short solenoid petrol, a ball olive, a long solenoid dark brown.",
         stacked(columns, 1, 0.0, 0.0),
-        size=(178.0, 46.0),
+        size=(178.0, 52.0),
         narrow=stacked(columns, 2, 0.0, 0.0),
     )
 

@@ -51,6 +51,7 @@ def scene(
         axis_trace.sphere(
             f"({letter}) {kind}, $\\omega_2={tex(push)}$", direction, top.third_axis, nutations * top.period,
             max(16, round(12 * nutations)), label=r"$\mathbf{n}$", elevation=elevation,
+            role="direction",
         )
         for letter, kind, push, top in zip("abc", kinds, omega2, tops, strict=False)
     ]  # fmt: skip

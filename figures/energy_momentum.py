@@ -39,7 +39,7 @@ def scene(
     same = f", $b={tex(b[0])}$" if alike else ""
     there = {getattr(layer, "role", "") for one in panels for layer in one.layers}
     rest = "stable (solid) or unstable (dashed)" if "unstable_line" in there else "all stable (solid)"
-    kinds = {"start": "stable (dots)", "special": "of focus-focus type (diamonds)"}
+    kinds = {"start": "stable (dots)", "unstable_point": "of focus-focus type (crosses)"}
     spins = " or ".join(words for role, words in kinds.items() if role in there)
     return Scene(
         title=title(__doc__),
@@ -63,7 +63,7 @@ def scene(
                 "solid": "main",
                 "dashed": "unstable_line",
                 "dots": "start",
-                "diamonds": "special",
+                "crosses": "unstable_point",
             }.items()
             if role in there
         },
@@ -110,7 +110,7 @@ def panel(name: str, I: float, b: float, linear: float, M3: float, reach: float,
     pad = 0.08 * (high - low)
     layers: list[Layer] = [Curve(line, role) for line, role in lines]
     layers += [label for one in branches for label in names(one, reach * scale, rest)]
-    layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "special") for p, H2, D in spins]
+    layers += [Points(np.array([[p, H2]]), "start" if D > 0 else "unstable_point") for p, H2, D in spins]
     what = r"spin along $\mathbf{B}$" if b else "upright spin"
     layers += [Label(np.array(spin[:2]), what, "note", (5, 6)) for spin in spins[:1]]
     return Plane(

@@ -45,7 +45,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
         title=title(__doc__),
         caption=(
             rf"Above: critical values (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round unstable "
-            rf"spins (diamonds); the first top has $a_0={tex(b * b)}$ and no charge, the disk $b={tex(b)}$. Below: the "
+            rf"spins (crosses); the first top has $a_0={tex(b * b)}$ and no charge, the disk $b={tex(b)}$. Below: the "
             r"periods that take one nutation, by their turns about $\mathbf{n}$ and about the axis. Round the "
             rf"loop $\mathbf{{g}}_3$ goes from one (dot) to another (arrow). Largest step {error:.2g} of a turn."
         ),
@@ -55,7 +55,7 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
         ),
         panels=(*maps, *lattices),
         columns=3,
-        named={"solid": "main", "diamonds": "special", "dot": "start", "arrow": "component"},
+        named={"solid": "main", "crosses": "unstable_point", "dot": "start", "arrow": "component"},
         size=(WIDTH, HEIGHT),
     )
 
@@ -89,7 +89,7 @@ def values(name: str, wells: Wells, found: Monodromy, first: bool, unit: str) ->
     layers: list[Layer] = [
         *(Curve(line, "main") for line in lines),
         Curve(np.stack([found.p, found.g], axis=1), "trajectory"),
-        Points(ends, "special"),
+        Points(ends, "unstable_point"),
         Points(np.array([[found.p[0], found.g[0]]]), "start"),
     ]
     return Plane(

@@ -43,7 +43,8 @@ def scene(
     time = turns * 2.0 * np.pi / (abs(motion.k) or rate)
     eye = frame(Space((), azimuth=azimuth, elevation=elevation))[2]
     layers: Layers = [solids.sphere(quadric_panel.O, 1.0, fine), *quadric_panel.basis((1.7, 1.55, 1.45))]
-    layers.append(Arrow(quadric_panel.O, 1.65 * axis, "field", r"$\mathbf{B}$" if any(field) else r"$\mathbf{m}$"))
+    named = ("field", r"$\mathbf{B}$") if any(field) else ("momentum", r"$\mathbf{m}$")
+    layers.append(Arrow(quadric_panel.O, 1.65 * axis, *named))
     if np.sin(angle) > 1e-9 and motion.k:
         layers.append(solids.cone(quadric_panel.O, axis, angle, 1.0, fine))
         period = 2.0 * np.pi / abs(motion.k)

@@ -48,7 +48,7 @@ def scene(
     layers += [Curve(line, "second_trace") for energy in energies for line in top.orbits(*energy, view)]
     layers += [Curve(line, "unstable") for nu in saddles for line in top.orbits(top.V(nu), 0.0, view)]
     layers += [Points(np.array([[top.omega3(nu), 0.0]]), "start") for nu in stable]
-    layers += [Points(np.array([[top.omega3(nu), 0.0]]), "special") for nu in saddles]
+    layers += [Points(np.array([[top.omega3(nu), 0.0]]), "unstable_point") for nu in saddles]
     layers += [
         Label(np.array([top.omega3(nu), 0.0]), name, "label", (0.0, 9.0))
         for nu, name in [*((nu, "stable") for nu in stable), *((nu, "unstable") for nu in saddles)]

@@ -39,6 +39,7 @@ def scene(
         axis_trace.sphere(
             f"({letter}) {name}", direction, motion.third_axis, nutations * motion.period,
             max(16, round(12 * nutations)), label=r"$\mathbf{n}$", elevation=elevation,
+            role="direction",
         )
         for letter, (name, *_), motion in zip("abcd", TOPS, motions, strict=True)
     )  # fmt: skip

@@ -91,7 +91,7 @@ class Upright:
     def of(cls, motion: Any) -> "Upright":
         """Return the direction of a top, else the field; without one the angular momentum; of a body at rest e3."""
         if hasattr(motion, "direction"):
-            return cls((0.0, *motion.direction), r"\mathbf{n}", "n")
+            return cls((0.0, *motion.direction), r"\mathbf{n}", "n", "direction")
         field = getattr(motion, "field", (abs(getattr(motion, "larmor", 0.0)),))
         if any(field):
             return cls((*[0.0] * (3 - len(field)), *field), r"\mathbf{B}", "B")
@@ -133,7 +133,7 @@ def picture(
     panels = (
         axis_trace.sphere(
             "(a) third axis", upright.vector, motion.third_axis, length, pieces(length * rate),
-            label=f"${upright.letter}$", elevation=elevation,
+            label=f"${upright.letter}$", elevation=elevation, role=upright.role or "basis",
         ),
         course(
             motion.angular_velocity, tuple(rf"$\Omega_{i}$" for i in (1, 2, 3)), short, f"$t$ ({unit})",

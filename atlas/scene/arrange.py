@@ -39,20 +39,21 @@ def arranged(scene: Scene, target: Target) -> Scene:
     width = target.width / target.zoom
     if width < scene.narrowest:
         wide = [name for name, one in TARGETS.items() if one.width / one.zoom >= scene.narrowest]
-        larger = f", which is {width:.4g} mm with all {target.zoom:g} times as large" if target.zoom != 1 else ""
+        needs = target.zoom * scene.narrowest
+        larger = f" with type of {target.type:g} points" if target.zoom != 1 else ""
         raise AtlasError(
-            f"{scene.title}: it can't be read at {target.width:g} mm{larger}, for it needs {scene.narrowest:g} mm of a "
-            f"page; targets that are wide enough: {', '.join(wide)}."
+            f"{scene.title}: it can't be read at a width of {target.width:g} mm{larger}, for it needs {needs:.0f} mm; "
+            f"targets that are wide enough: {', '.join(wide)}."
         )
     height = min(target.height / target.zoom, _TALL * width)
     best = max(
         _arrangements(scene, width, height), key=lambda one: log(min(one.scale, 1.0)) - _PAPER * sum(one.rows) / width
     )
     if best.scale < _SMALLEST:
-        raise AtlasError(
-            f"{scene.title}: it can't be read in {target.width:g} mm x {target.height:g} mm; its panels would have "
-            f"only {best.scale:.2f} of their size."
-        )
+        tall = max(one.scale for one in _arrangements(scene, width, len(scene.panels) * _TALL * width))
+        side = f"height of {target.height:g}" if tall >= _SMALLEST else f"width of {target.width:g}"
+        part = f"its panels would have only {best.scale:.2f} of their size"
+        raise AtlasError(f"{scene.title}: it can't be read at a {side} mm; {part}.")
     size = (target.width, target.zoom * sum(best.rows))
     return replace(scene, panels=best.panels, columns=best.columns, rows=best.rows, size=size)
 

@@ -19,6 +19,7 @@ def sphere(
     *,
     label: str,
     elevation: float,
+    role: str = "field",
 ) -> Space:
     """Return one sphere, turned so that the vector `upright` stands upright, under that label.
 
@@ -27,7 +28,7 @@ def sphere(
     """
     fine = quadric_panel.tolerance(1.4)
     trace = curve(lambda t: turned(third_axis(t), upright), 0.0, length, fine, pieces=pieces)
-    return drawn(name, trace, label=label, elevation=elevation)
+    return drawn(name, trace, label=label, elevation=elevation, role=role)
 
 
 def turned(points: FloatArray, upright: Sequence[float]) -> FloatArray:
@@ -35,13 +36,15 @@ def turned(points: FloatArray, upright: Sequence[float]) -> FloatArray:
     return np.asarray(points @ _turn(*(upright if len(upright) == 3 else (0.0, *upright))).T)
 
 
-def drawn(name: str, trace: FloatArray, *, label: str = r"$\mathbf{B}$", elevation: float) -> Space:
+def drawn(
+    name: str, trace: FloatArray, *, label: str = r"$\mathbf{B}$", elevation: float, role: str = "field"
+) -> Space:
     """Return the sphere with a trace (N, 3) that is turned already."""
     fine = quadric_panel.tolerance(1.4)
     height = trace[:, 2].min(), trace[:, 2].max()
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine),
-        Arrow(quadric_panel.O, 1.45 * quadric_panel.E3, "field", label),
+        Arrow(quadric_panel.O, 1.45 * quadric_panel.E3, role, label),
         *(
             Curve(
                 solids.circle(z * quadric_panel.E3, quadric_panel.E3, float(np.sqrt(max(0.0, 1 - z * z))), fine),

@@ -1,10 +1,10 @@
 """How each role looks: one palette, one set of widths, read by both renderers.
 
-A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, plum an angular velocity and
-all that is made of such (the hyperbola of the motions, the canonical axes), navy the body's axis R_3 and what it draws,
-pale blue R_1, teal the path of a particle or of a point, vermilion instability, brown the body, charcoal the first of
-several plotted lines; where bodies are compared, the loop is magenta, the short solenoid petrol, the ball olive, the
-long one umber.
+A colour means one thing: crimson is B and its multiples, pink II^-1 B', blue E, green m, gold the direction n of a
+top, plum an angular velocity and all that is made of such (the hyperbola of the motions, the canonical axes), navy
+the body's axis R_3 and what it draws, pale blue R_1, teal the path of a particle or of a point, vermilion instability,
+brown the body, charcoal the first of several plotted lines; where bodies are compared, the loop is magenta, the short
+solenoid petrol, the ball olive, the long one umber. A diamond is the motion -2 B', a cross an unstable one.
 Colours differ in lightness as well as in hue, so that they stay apart in grey print; where two may meet in one
 panel, their dashes or widths differ too. Widths, marker sizes and tubes are in printer's points.
 """
@@ -19,13 +19,14 @@ WHITE = "#ffffff"
 INK = "#1a1a1a"
 NAVY = "#16325c"
 TEAL = "#12808c"
-BLUE = "#3d85c6"
+BLUE = "#3d92d6"
 SKY = "#7fb3dc"
 PINK = "#c96a78"
-CRIMSON = "#b01c2e"
+CRIMSON = "#a8182a"
 VERMILION = "#d4552b"
 GREEN = "#1f8a62"
-PLUM = "#75459a"
+GOLD = "#947000"
+PLUM = "#9a58b0"
 VIOLET = "#4b1f78"
 SLATE = "#5c6670"
 GREY = "#8b929a"
@@ -73,6 +74,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "field_inverse": Style(PINK, 1.1, tube=2.6),
         "electric": Style(BLUE, 1.2, tube=2.6),
         "momentum": Style(GREEN, 1.2, tube=2.6),
+        "direction": Style(GOLD, 1.4, tube=3.6),
         "velocity": Style(PLUM, 1.2, tube=2.6),
         "component": Style(SLATE, 0.8, tube=1.8),
         "turn": Style(PLUM, 1.1, tube=2.4),
@@ -113,6 +115,7 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "origin": Style(INK, marker="o", size=3.4, tube=4.4),
         "centre": Style(CRIMSON, marker="o", size=3.4, tube=4.4),
         "special": Style(CRIMSON, marker="D", size=3.8, tube=4.6),
+        "unstable_point": Style(VERMILION, marker="X", size=5.0, tube=5.8),
         "rest": Style(WHITE, marker="o", size=4.2, tube=4.8),
         "start": Style(INK, marker="o", size=3.8, tube=4.6),
         "sample": Style(SLATE, marker=".", size=2.6, tube=2.6),

@@ -36,7 +36,7 @@ const tabled = ({period, a, b, columns}, B2, B3) => t => {
 root.atlasMotion = {motion, rotation, quadric, kind, tabled};
 if (!root.document || !root.atlasViewer) return;
 
-const SCALE = 0.11, REACH = 0.42, INK = "#1a1a1a", RED = "#b01c2e", NAVY = "#16325c", PLUM = "#75459a", TEXTS = [["e₁", 12], ["e₂", 12], ["e₃", 12], ["B′", 13], ["ω", 10], ["B", 9], ["R₃", 15]];
+const SCALE = 0.11, REACH = 0.42, INK = "#1a1a1a", RED = "#a8182a", NAVY = "#16325c", PLUM = "#9a58b0", TEXTS = [["e₁", 12], ["e₂", 12], ["e₃", 12], ["B′", 13], ["ω", 10], ["B", 9], ["R₃", 15]];
 const frame = (azimuth, elevation) => {
   const [a, e] = [azimuth, elevation].map(x => x * Math.PI / 180), [ca, sa, ce, se] = [Math.cos(a), Math.sin(a), Math.cos(e), Math.sin(e)];
   return [-sa, ca, 0, -se * ca, -se * sa, ce, ce * ca, ce * sa, se];

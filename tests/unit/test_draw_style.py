@@ -198,7 +198,7 @@ def test_a_plotter_that_may_be_turned_peels() -> None:
         plotter.close()
 
 
-VECTORS = ("field", "field_inverse", "electric", "momentum", "velocity", "body_axis")
+VECTORS = ("field", "field_inverse", "electric", "momentum", "direction", "velocity", "body_axis")
 # How red, green and blue (linear) are seen without the red, the green or the blue cones: Machado, Oliveira and
 # Fernandes, IEEE Trans. Vis. Comput. Graph. 15 (2009) 1291, severity 1.
 CONES = {
@@ -231,6 +231,15 @@ def test_vectors_of_the_physics_keep_apart_for_every_eye(cones: str) -> None:
         for role in VECTORS
     ]
     assert min(np.linalg.norm(a - b) for a, b in combinations(seen, 2)) > 9.0
+
+
+def test_the_field_keeps_apart_from_other_vectors_in_grey() -> None:
+    """B differs by 10 in lightness from every vector that stands beside it."""
+    light = {
+        role: lab(((np.array(mpl.colors.to_rgb(STYLES[role].colour)) + 0.055) / 1.055) ** 2.4)[0] for role in VECTORS
+    }
+    field = light.pop("field")
+    assert all(abs(field - one) > 10.0 for one in light.values()), light
 
 
 def test_lines_that_are_components_keep_apart_in_grey() -> None:

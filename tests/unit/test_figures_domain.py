@@ -84,8 +84,6 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("quadric_leak", {"omega1": ()}, "omega1"),
     ("quadric_leak", {"field": (0.0, 1.0)}, "B2 = 0"),
     ("quadric_leak", {"omega2": -1.0}, "pole"),
-    ("quadrics_of_bodies", {"field": (1.0, 0.0)}, "not"),
-    ("quadrics_of_bodies", {"ratios": ()}, "ratios"),
     ("quadrics_of_tops", {"direction": (0.0, 1.0)}, "n2 not 0"),
     ("quadrics_of_tops", {"direction": (1.0, 0.0)}, "n3 > 0"),
     ("quadrics_of_tops", {"ratio": 0.0}, "(0, 2]"),
@@ -138,7 +136,6 @@ GOOD: list[tuple[str, dict[str, Any]]] = [
     ("magn", {"E": (0.1, 0.0)}),
     ("motion_map", {"ratios": (1.5,), "cells": 2}),
     ("quadric_leak", {"omega1": (0.3,)}),
-    ("quadrics_of_bodies", {"ratios": (1.5,)}),
     ("quadrics_of_tops", {"ratio": 2.0}),
     ("quadrics_of_tops", {"ratio": 0.02}),  # 1 - 0.02 is no double
     ("flattening", {"stop": 104.0, "first": (0.7,)}),

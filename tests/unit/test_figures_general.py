@@ -160,17 +160,6 @@ def test_two_turns_make_the_rotation() -> None:
     assert np.abs(third - motion.third_axis(0.28 * 2 * np.pi / motion.k)).max() <= 16 * EPS
 
 
-def test_every_hyperbola_lies_on_its_moved_quadric() -> None:
-    """Each heavy line lies on one of the quadrics, F = 0 within 1e-9 of its terms, and in a plane across e1."""
-    (panel,) = panels("quadrics_of_bodies")
-    surfaces = layers(panel, Surface)
-    assert len(surfaces) == 8  # two for I = 2 and 1.5
-    for line in layers(panel, Curve, "hyperbola"):
-        x = np.concatenate([line.points, np.ones((len(line.points), 1))], axis=1)
-        values = [np.abs(np.sum((x @ s.quadric) * x, axis=1)).max() / (np.abs(s.quadric).max() * 40) for s in surfaces]
-        assert min(values) <= 1e-9
-
-
 def test_the_energy_is_constant_along_each_orbit_of_the_phase_portrait() -> None:
     """With nu = (c3 - Omega3)/b, nu'^2/(1 - nu^2) + V is one number on a drawn orbit, within 1e-9 of itself."""
     I, (B2, B3), omega2 = LONG
@@ -342,7 +331,6 @@ def layers_of_kind(panel: Any, kind: Any) -> list[Any]:
         ("rolling_cones", {"omega2": 0.0}),
         ("film_strip", {"count": 1}),
         ("two_turns", {"ratio": 1.0}),
-        ("quadrics_of_bodies", {"field": (0.0, 1.0)}),
         ("phase_portrait", {"field": (0.0, 1.0)}),
         ("nutation_traces", {"field": (1.0, 0.0)}),
         ("larmor_pair", {"field": (1.0, 0.0)}),

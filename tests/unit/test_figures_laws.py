@@ -46,7 +46,7 @@ LENGTH: Mapping[str, int] = dict.fromkeys(
 )
 """Powers of a unit of length; that of c E/B is that of a velocity, that of mu B/c none."""
 CHARGE: Mapping[str, int] = {"mu": 1, **dict.fromkeys(("E", "B", "electric", "magnetic"), -1)}
-NOISE = {"error_maps", "invariants"}
+NOISE = {"error_maps"}
 """Figures of rounding errors, which a power of two leaves alone, but not the times in a table of powers of ten."""
 OTHERS: list[tuple[str, dict[str, Any]]] = [
     ("cusps", {"omega2": (1.0, 2.0, 3.0)}),

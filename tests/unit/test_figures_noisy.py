@@ -1,11 +1,10 @@
 """Figures of rounding errors and of roots: laws of what their snapshots leave out, since processors differ in it."""
 
 import numpy as np
-import pytest
 from drawing import made
 
 from atlas import ElementaryMotion, GeneralMotion
-from atlas.scene import Curve, Image, Label, Points
+from atlas.scene import Curve, Image, Points
 
 FIELD, REACH, CELLS = (1.0, 0.3), 2.5, 60
 
@@ -57,18 +56,3 @@ def test_the_dotted_edge_of_the_motion_map_is_between_loops_and_waves() -> None:
             along = line[i + 2] - line[i - 2]
             across = np.array([-along[1], along[0]]) / np.hypot(*along)
             assert {loops(1.5, *(line[i] + side * step * across)) for side in (-0.6, 0.6)} == {True, False}
-
-
-@pytest.mark.parametrize(("ratio", "omega2"), [(1.3, 0.7), (2.0, 0.1)])
-def test_the_limit_of_the_invariants_is_an_ulp(ratio: float, omega2: float) -> None:
-    """The dotted line is 2^-52 in units of 1e-16 at all times, with its name at its start, and the view holds all."""
-    (panel,) = made("invariants", ratio=ratio, field=(1.1, 1.6), omega2=omega2).panels
-    (limit,) = (layer for layer in panel.layers if isinstance(layer, Curve) and layer.role == "limit")
-    first, last = panel.x_limits
-    assert np.allclose(limit.points, [[first, 2.0**-52 * 1e16], [last, 2.0**-52 * 1e16]], rtol=1e-14)
-    (name,) = (layer for layer in panel.layers if isinstance(layer, Label))
-    assert np.array_equal(np.squeeze(name.at), limit.points[0])
-    low, high = panel.y_limits
-    drawn = np.concatenate([layer.points for layer in panel.layers if isinstance(layer, Curve)])
-    assert low <= 0.0
-    assert drawn[:, 1].max() < high <= 1.5 * drawn[:, 1].max()

@@ -89,7 +89,7 @@ def test_the_arrow_of_a_lattice_is_a_whole_vector_and_the_line_ends_where_it_doe
         grid = layers(panel, Points, "sample")[0].points
         assert min(np.hypot(*(grid - arrow.tip).T)) <= 1e-12
     for panel in maps:
-        (loop,), (spin,) = layers(panel, Curve, "trajectory"), layers(panel, Points, "special")
+        (loop,), (spin,) = layers(panel, Curve, "trajectory"), layers(panel, Points, "unstable_point")
         assert inside(loop.points, *spin.points[0])
 
 
@@ -130,14 +130,6 @@ def test_a_spin_beyond_the_reach_is_neither_drawn_nor_named() -> None:
         (panel,) = scene.panels
         assert len(layers(panel, Points)) == count
         assert ("spins" in scene.caption) == any("spin" in one.text for one in layers(panel, Label)) == bool(count)
-
-
-def test_narrow_quadrics_stand_apart() -> None:
-    """In a field close to the axis the names of the six are half a height of the tallest from one another or more."""
-    row = made("quadrics_of_bodies", field=(0.0523, 0.9986)).panels[0]
-    at = np.array([one.at for one in layers(row, Label)])
-    heights = [np.ptp(np.concatenate([g.reshape(-1, 3) for g in one.grids])[:, 2]) for one in layers(row, Surface)]
-    assert np.linalg.norm(np.diff(at, axis=0), axis=1).min() >= 0.48 * max(heights)
 
 
 @pytest.mark.parametrize(

@@ -125,7 +125,5 @@ def swings(tables: list[Any]) -> list[Any]:
 
 
 def errors(tables: list[Any]) -> list[Any]:
-    """Return the errors of the plain formula and of the atlas, by turns."""
-    return [
-        np.maximum(np.array(table[name], dtype=float), 1e-17) for table in tables for name in ("plain_error", "error")
-    ]
+    """Return the errors of the plain formula."""
+    return [np.maximum(np.array(table["plain_error"], dtype=float), 1e-17) for table in tables]

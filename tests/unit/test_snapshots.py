@@ -17,7 +17,7 @@ from atlas import places
 from atlas.scene import Curve, Plane, recipes
 from atlas.study import benchmark as results
 
-NOISE = {"error_maps": range(4), "motion_map": range(4), "invariants": (0,)}
+NOISE = {"error_maps": range(2), "motion_map": range(4)}
 """Panels of rounding errors or of roots by iteration, which differ between processors: only their structure is kept."""
 
 MEASURED = ("cost", "horizon", "work_precision")

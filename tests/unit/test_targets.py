@@ -63,14 +63,16 @@ def test_capitals_are_two_millimetres_high() -> None:
 def test_what_needs_the_page_says_so(name: str) -> None:
     """A recipe that can't be read in a column is refused there with the targets that will do, and made for those."""
     recipe = recipes.load(name)
-    with pytest.raises(AtlasError, match=rf"can't be read at 86 mm, for it needs {recipe.narrowest:g} mm.*aps-double"):
+    with pytest.raises(
+        AtlasError, match=rf"can't be read at a width of 86 mm, for it needs {recipe.narrowest:g} mm.*aps-double"
+    ):
         arranged(recipe.scene(), find("aps"))
     assert arranged(recipe.scene(), find("aps-double")).size[0] == 178.0
 
 
 def test_what_is_too_high_for_a_slide_says_so() -> None:
     """Three panels of many curves would be too small in the height of a slide."""
-    with pytest.raises(AtlasError, match=r"can't be read in 140 mm x 68 mm; its panels would have only 0\.19"):
+    with pytest.raises(AtlasError, match=r"can't be read at a height of 68 mm; its panels would have only 0\.19"):
         arranged(recipes.load("horizon").scene(), find("beamer"))
 
 
