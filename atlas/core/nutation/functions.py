@@ -5,6 +5,7 @@ such as the cosh x by which all that is hyperbolic is divided, is left out: it d
 """
 
 from collections.abc import Iterable, Sequence
+from functools import cache
 from typing import TypeAlias
 
 import numpy as np
@@ -59,7 +60,7 @@ class Trigonometric:
         if sum_.doubled:
             return [acb(0)] * (2 * self.terms) + [sum_.even[0]]
         pairs = zip(sum_.odd[: self.terms], sum_.even[: self.terms], strict=True)
-        return _powers(pairs, ONE_ODD) + [acb(0)] * (2 * max(0, self.terms - len(sum_.odd)) + self.constant)
+        return _powers(pairs, doubled=False) + [acb(0)] * (2 * max(0, self.terms - len(sum_.odd)) + self.constant)
 
     def fill(self, rows: FloatArray, u: FloatArray) -> None:
         """Fill the rows, over cos v, from u = tan v; where one is constant, times 1 + u^2, from u = tan(v/2)."""
@@ -139,7 +140,7 @@ class Hyperbolic:
     def _polynomials(self, sum_: Sum) -> list[acb]:
         """Return the weights of tanh x W^j and of W^j by turns: both are polynomials in 2 cosh 2x = W/part."""
         pairs = zip(sum_.odd, sum_.even, strict=True)
-        found = _powers(pairs, ONE_EVEN if sum_.doubled else ONE_ODD)
+        found = _powers(pairs, doubled=sum_.doubled)
         return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(found)]
 
     def fill(self, rows: FloatArray, x: FloatArray, rest: FloatArray) -> None:
@@ -248,17 +249,24 @@ ONE_EVEN = (-1 - F * HALF, F * HALF), (F * 0, F * 0 + 1)
 """The same for k = -2 and 0; sinh 2nx is tanh x (1 + cosh 2x) times a polynomial."""
 
 
-def _powers(weights: Iterable[tuple[acb, acb]], start: Sequence[Sequence[fmpq_poly]]) -> list[acb]:
+def _powers(weights: Iterable[tuple[acb, acb]], *, doubled: bool) -> list[acb]:
     """Return the weights of both functions times powers of F by turns, from those for rising k."""
-    before, pair = start
     total = list[acb]()
-    for both in weights:
+    for n, both in enumerate(weights):
         total += [acb(0), acb(0)]
-        for place, (weight, polynomial) in enumerate(zip(both, pair, strict=True)):
-            for j, c in enumerate(polynomial.coeffs()):
-                total[2 * j + place] += weight * acb(c)
-        before, pair = pair, [F * x - y for x, y in zip(pair, before, strict=True)]
+        for place, weight in enumerate(both):
+            for j, c in _multiple(n, place, doubled=doubled):
+                total[2 * j + place] += weight * c
     return total
+
+
+@cache
+def _multiple(n: int, place: int, *, doubled: bool) -> list[tuple[int, acb]]:
+    """Return the powers of F in a polynomial of the n-th pair, with their coefficients."""
+    before, polynomial = (pair[place] for pair in (ONE_EVEN if doubled else ONE_ODD))
+    for _ in range(n):
+        before, polynomial = polynomial, F * polynomial - before
+    return [(j, acb(c)) for j, c in enumerate(polynomial.coeffs()) if c != 0]
 
 
 def _terms(sum_: Sum) -> int:

@@ -43,9 +43,8 @@ def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any
 
     `sign` and `ball` are what to make of these. At the precision of the moment, which may not suffice.
     """
-    a0, a1, a2, a3, a4 = a
-    g2 = a0 * a4 - 4 * a1 * a3 + 3 * a2 * a2
-    g3 = a0 * a2 * a4 + 2 * a1 * a2 * a3 - a2 * a2 * a2 - a0 * a3 * a3 - a1 * a1 * a4
+    a0, a1, a2, a3, _ = a
+    g2, g3 = _invariants(*a)
     H, G = a1 * a1 - a0 * a2, a0 * a0 * a3 - 3 * a0 * a1 * a2 + 2 * a1 * a1 * a1
     discriminant = g2 * g2 * g2 - 27 * g3 * g3
     lead, h, side = ball(a0), ball(H), -1 if sign(G) > 0 else 1
@@ -70,6 +69,12 @@ def four_roots(a: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any
     return [(x - ball(a1)) / lead for x in z]
 
 
+def _invariants(a0: Any, a1: Any, a2: Any, a3: Any, a4: Any) -> tuple[Any, Any]:
+    """Return g2 and g3."""
+    g2 = a0 * a4 - 4 * a1 * a3 + 3 * a2 * a2
+    return g2, a0 * a2 * a4 + 2 * a1 * a2 * a3 - a2 * a2 * a2 - a0 * a3 * a3 - a1 * a1 * a4
+
+
 def three_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:
     """Return the roots of b0 x^3 + 3 b1 x^2 + 3 b2 x + b3, as `four_roots` does."""
     b0, b1, b2, b3 = b
@@ -86,6 +91,25 @@ def three_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[An
         real, imaginary = -sign(G) * (outer + other), arb(3).sqrt() / 2 * (outer - other)
         z = [acb(real), acb(-real / 2, imaginary), acb(-real / 2, -imaginary)]
     return [(x - ball(b1)) / ball(b0) for x in z]
+
+
+def discriminant(c: Sequence[Any]) -> Any:
+    """Return a positive multiple of the discriminant of a polynomial of degree one to four, c0 + c1 x + ...
+
+    Zero where a root is a double one; of the quartic it has the sign of 256 a0^6 times the product of the squared
+    differences of the roots.
+
+        >>> discriminant([fmpq(2), fmpq(-3), fmpq(1)])
+        1
+    """
+    if len(c) == 5:
+        g2, g3 = _invariants(c[4], c[3] / 4, c[2] / 6, c[1] / 4, c[0])
+        return g2 * g2 * g2 - 27 * g3 * g3
+    if len(c) == 4:
+        b3, b2, b1, b0 = c[0], c[1] / 3, c[2] / 3, c[3]
+        H, G = b1 * b1 - b0 * b2, b0 * b0 * b3 - 3 * b0 * b1 * b2 + 2 * b1 * b1 * b1
+        return 4 * H * H * H - G * G
+    return c[1] * c[1] - 4 * c[0] * c[2] if len(c) == 3 else 1
 
 
 def two_roots(b: Sequence[Any], sign: Callable[[Any], int], ball: Callable[[Any], arb]) -> list[acb]:

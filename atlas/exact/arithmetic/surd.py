@@ -7,7 +7,7 @@ from typing import TypeAlias
 from flint import acb, arb, ctx, fmpq
 
 from atlas.errors import DomainError
-from atlas.exact.arithmetic.euler import four_roots, three_roots, two_roots
+from atlas.exact.arithmetic.euler import discriminant, four_roots, three_roots, two_roots
 from atlas.formulas.numbers import root, workprec
 
 MOST = 1 << 17
@@ -109,6 +109,8 @@ def trimmed(p: "list[Surd] | Polynomial") -> Polynomial:
 
 def squarefree(p: Polynomial) -> list[tuple[Polynomial, int]]:
     """Return the factors without multiple roots, each with the multiplicity of its roots (Yun)."""
+    if discriminant([_ball(c) for c in p]) != 0:
+        return [(p, 1)]
     found, n = list[tuple[Polynomial, int]](), 1
     slope = derivative(p)
     common = gcd(p, slope)
@@ -136,10 +138,12 @@ def roots(p: Polynomial) -> list[acb]:
     while precision < MOST:
         precision *= 2
         with workprec(precision):
-            found = _closed(p)
-            apart = not any(x.overlaps(y) for x, y in combinations(found, 2))
-            if apart and all(z.is_finite() and z.rel_accuracy_bits() >= digits for z in found):
-                return _sorted(found)
+            # first from balls, in which most signs are known; what is exact takes longer
+            for exact in (True,) if precision > 2 * digits else (False, True):
+                found = _closed(p, exact=exact)
+                apart = not any(x.overlaps(y) for x, y in combinations(found, 2))
+                if apart and all(z.is_finite() and z.rel_accuracy_bits() >= digits for z in found):
+                    return _sorted(found)
     raise DomainError(
         "The roots of Q are too many orders of magnitude apart to be found: make the components more alike."
     )
@@ -150,17 +154,26 @@ def _sorted(found: list[acb]) -> list[acb]:
     return real + [z for z in found if not z.imag.is_zero()]
 
 
-def _closed(p: Polynomial) -> list[acb]:
-    """Return the roots in closed form at the precision of the moment, which may not suffice."""
-    if len(p) == 5:
-        return four_roots((p[4], p[3] / 4, p[2] / 6, p[1] / 4, p[0]), _sign, _ball)
-    if len(p) == 4:
-        return three_roots((p[3], p[2] / 3, p[1] / 3, p[0]), _sign, _ball)
-    return two_roots((p[2], p[1] / 2, p[0]), _sign, _ball)
+def _closed(p: Polynomial, *, exact: bool) -> list[acb]:
+    """Return the roots in closed form at the precision of the moment, which may not suffice; none from unsure balls."""
+    formula = {5: four_roots, 4: three_roots, 3: two_roots}[len(p)]
+    weights = {5: (1, 4, 6, 4, 1), 4: (1, 3, 3, 1), 3: (1, 2, 1)}[len(p)]
+    numbers = p if exact else [_ball(c) for c in p]
+    try:
+        a = [c / weight for c, weight in zip(reversed(numbers), weights, strict=True)]
+        return formula(a, lambda x: x.sign, _ball) if exact else formula(a, _sure_sign, lambda x: x)
+    except UnsureError:
+        return [acb(arb("nan"))]
 
 
-def _sign(x: Surd) -> int:
-    return x.sign
+class UnsureError(Exception):
+    """The sign of a ball is not known."""
+
+
+def _sure_sign(x: arb) -> int:
+    if not x != 0:
+        raise UnsureError
+    return 1 if x > 0 else -1
 
 
 def _ball(x: Surd) -> arb:

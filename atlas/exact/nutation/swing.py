@@ -15,6 +15,10 @@ from flint import acb, arb, ctx
 from atlas.exact.nutation.constants import Nutation
 from atlas.exact.nutation.theta import Lattice, Sum, infinite, vanishing_at
 from atlas.exact.nutation.top_quartic import TopQuartic
+from atlas.formulas.numbers import workprec
+
+ROUGH = 80
+"""Binary digits with which a size is found where they suffice."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +51,14 @@ class Swing:
         """Half of its largest part that is no multiple of time, about."""
         half = self.lattice.half
         unit = 8 / self.lattice.rate if infinite(half) else half
-        sizes = [abs(self.kappa * self.bent(unit * k / 8)) / 2 for k in range(1, 9)]
-        return max(sizes, key=lambda x: float(x.mid()))
+
+        def found() -> arb:
+            sizes = [abs(self.kappa * self.bent(unit * k / 8)) / 2 for k in range(1, 9)]
+            return max(sizes, key=lambda x: float(x.mid()))
+
+        with workprec(ROUGH):
+            rough = found()
+        return rough if rough.rel_accuracy_bits() > ROUGH // 4 else found()
 
     def bent(self, s: arb) -> arb:
         """Return the part that is no multiple of time."""
