@@ -158,11 +158,6 @@ class _Composer(Composer):
                 self.use(name, anchor, words)
         return self.text(markdown, inline=True)
 
-    def short(self, words: str, body: str | None) -> int:
-        """Take in what a list of figures or tables shows of one: some words, and its body where they do not name it."""
-        title = self.parameters.bodies[body].title if body else ""
-        return self.text(f"{words}: {title}" if title not in words else words, inline=True)
-
     def once(self, sentence: str) -> str:
         """Return a sentence that has not been said on this page, else nothing."""
         new = sentence not in self.said

@@ -47,6 +47,22 @@ class PageView:
         """The name of its file."""
         return f"{self.slug}.html"
 
+    @property
+    def floated(self) -> list[tuple[str, Any]]:
+        """Template and view of each block, a figure before the prose that speaks of it: so it floats to that page."""
+        found: list[tuple[str, Any]] = []
+        for template, view in zip(self.templates, self.blocks, strict=True):
+            place = len(found)
+            if template == "figure":
+                while place and found[place - 1][0] == "figure":
+                    place -= 1
+                if place and found[place - 1][0] == "prose":
+                    place -= 1
+                else:
+                    place = len(found)
+            found.insert(place if place == len(found) or found[place][0] == "prose" else len(found), (template, view))
+        return found
+
 
 @dataclass
 class Document:

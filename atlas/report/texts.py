@@ -140,12 +140,6 @@ def citations(markdown: str) -> list[str]:
     return [name for name in _CITED.findall(markdown) if name]
 
 
-def beginning(markdown: str) -> str:
-    """Return a caption up to its first mark of punctuation outside formulas: what a list of tables shows of it."""
-    found = re.match(r"(?:\$[^$]*\$|[^$])+?(?=[,;:.]\s|\.?$)", " ".join(markdown.split()))
-    return found[0] if found else markdown
-
-
 def _braced(markdown: str) -> str:
     """Write ``@(72)`` as pandoc reads it, with braces about a name that is no word."""
     return _CITED.sub(lambda found: f"@{{{found[1]}}}" if (found[1] or "").startswith("(") else found[0], markdown)

@@ -232,7 +232,7 @@ def test_the_pdf_holds_every_entry(built: Built) -> None:
     assert [page[-200:] for page in pages if re.search(r"Corrected:\s*\d*\s*$", page)] == []
     text = re.sub(r"\s+", "", "".join(pages)).replace("\xad", "")
     assert [name for name in EQUATIONS if name not in text] == []
-    assert text.count("Counterexample") >= 2 * sum(v.verdict == "refuted" for v in recorded.load().values())
+    assert text.count("Counterexample") >= sum(v.verdict == "refuted" for v in recorded.load().values())
 
 
 def test_the_order_of_grades_is_that_of_the_trial() -> None:

@@ -37,9 +37,6 @@ class Composer(Protocol):
     def caption(self, markdown: str, anchor: str, words: str) -> int:
         """Take in a caption; what it cites is used by its figure or table."""
 
-    def short(self, words: str, body: str | None) -> int:
-        """Take in what a list of figures or tables shows of one."""
-
     def once(self, sentence: str) -> str:
         """Return a sentence that has not been said on this page, else nothing."""
 

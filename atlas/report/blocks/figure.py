@@ -29,16 +29,12 @@ class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
 
 @dataclass(frozen=True)
 class FigureView:
-    """A figure with its pictures; `width` and `height` in millimetres are those of each, `given` its parameters.
-
-    `short` stands in the list of figures.
-    """
+    """A figure with its pictures; `width` and `height` in millimetres are those of each, `given` its parameters."""
 
     number: int
     id: str
     pictures: tuple[Picture, ...]
     caption: int
-    short: int
     alt: str
     width: float
     height: float
@@ -70,7 +66,6 @@ def view(block: Figure, composer: Composer) -> FigureView:
         anchor,
         pictures,
         composer.caption(caption, anchor, f"Figure {composer.figures}"),
-        composer.short(first.title, block.body),
         first.alt or first.failure,
         shown,
         height * shown / width,

@@ -12,7 +12,6 @@ from atlas.report.digits import Number, room
 from atlas.report.schema import Id, StrictStruct
 from atlas.report.tables import compute
 from atlas.report.tables.table import Column, Data, Request
-from atlas.report.texts import beginning
 
 MOST = 1000
 """As many digits of a number as a table may ask for."""
@@ -94,7 +93,6 @@ class TableView:
     columns: tuple[ColumnView, ...]
     rows: tuple[tuple[Cell, ...], ...]
     caption: int
-    short: int
     note: int | None
     name: str = ""
     command: str = ""
@@ -175,7 +173,6 @@ def _view(
         tuple(columns),
         rows,
         composer.caption(caption, anchor, words),
-        composer.short(beginning(caption), block.body if isinstance(block, Table) else None),
         composer.caption(note, anchor, words) if note else None,
         name,
         composer.once(command),
