@@ -6,6 +6,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 ATLAS  := $(BIN)/atlas
 JOBS   ?= 2
+MB     ?= 1700
 KINDS  ?= Prescott Nehalem Sandybridge Haswell SkylakeX
 FUZZ_EXAMPLES ?= 10000
 
@@ -61,10 +62,10 @@ build/figures/%: FORCE | setup
 verify: setup
 	@$(ATLAS) verify --record
 
-bench: setup $(VENV)/.bench
+bench: $(VENV)/.bench
 	@cd tests && env -u OPENBLAS_CORETYPE ../$(BIN)/python -m benchmarks.run   # so that OpenBLAS chooses the kernels of this processor
 
-stress: setup $(VENV)/.bench
+stress: $(VENV)/.test $(VENV)/.bench
 	@cd tests && ../$(BIN)/python -m stress --record --anew
 	@cd tests && for kind in $(KINDS); do OPENBLAS_CORETYPE=$$kind ../$(BIN)/python -m stress --record || test $$? -gt 127; done   # beyond 127: no such instructions here
 	@cd tests && ../$(BIN)/python -m stress --arrays
@@ -82,18 +83,19 @@ accessibility: report
 	@$(LOOK) tests/search.mjs build/report/atlas build/report/trial build/accessibility
 	@$(LOOK) tests/scenes.mjs build/report/atlas build/accessibility
 
-lint: setup
+lint: $(VENV)/.test
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
+	@echo 'types, by mypy: half a minute the first time'
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports --no-cache
 
 test: lint
-	@echo 'the tests: about 5 minutes on two cores'
-	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(JOBS) --dist worksteal   # without bytecode, each of their programs is compiled
+	@echo 'the tests: about 4 minutes on two cores'
+	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(JOBS) --dist worksteal -rs   # with reasons for what is skipped; without bytecode, each of their programs is compiled
 
 # The sdist and the wheel of a tag, from what the tag holds and nothing else.
-release: setup
+release: $(VENV)/.test
 	@test -n '$(TAG)' || { echo 'atlas: which release? make release TAG=v0.2.0' >&2; exit 2; }
 	@git rev-parse -q --verify 'refs/tags/$(TAG)' >/dev/null || { echo "atlas: there is no tag $(TAG): git tag $(TAG)" >&2; exit 2; }
 	@rm -rf build/release && mkdir -p build/release/source && git archive '$(TAG)' | tar -x -C build/release/source
@@ -113,6 +115,44 @@ unexport PYTHONPATH PYTHONHOME PIP_TARGET PIP_PREFIX PIP_USER
 # Runs a command in silence; where it fails, says in a line what could not be done, and below it what the command said.
 quietly = said=$$({ $(1); } 2>&1) || { echo "atlas: $(strip $(2)):"; printf '%s\n' "$$said" | tail -n 5; exit 2; } >&2
 
+# Makes a target alone: under the lock of this folder, which goes with the process. One that is not there yet needs so many MB.
+alone = $(PYTHON) -I -S -c "$$ALONE" $@ $(1) $(MAKE) -s HELD=yes $@
+define ALONE
+import fcntl, os, shutil, sys, tempfile
+target, needed, *command = sys.argv[1:]
+here = os.open(".", os.O_RDONLY)
+os.set_inheritable(here, True)
+try:
+    fcntl.flock(here, fcntl.LOCK_EX | fcntl.LOCK_NB)
+except OSError:
+    print("another make sets up .venv: this one waits for it", flush=True)
+    fcntl.flock(here, fcntl.LOCK_EX)
+disks = {os.stat(place).st_dev: place for place in (tempfile.gettempdir(), ".")}
+for place in disks.values() if not os.path.exists(target) else ():
+    wanted = int(needed) if place == "." else int(needed) // 3  # what is downloaded
+    free = shutil.disk_usage(place).free // 10**6
+    if free < wanted:
+        sys.exit(f"atlas: setting up needs {wanted} MB on the disk of {os.path.abspath(place)}, where {free} MB are free")
+os.execvp(command[0], command)
+endef
+$(VENV)/.%: export ALONE := $(ALONE)
+
+# Installs what locks hold by uv or by pip, and says each 8 s how far it is.
+bring = echo '  the libraries of $(lastword $(1))'; log=$(VENV)/.log; : >$$log; set -- --require-hashes $(addprefix -r ,$(1)); \
+  all=$$(grep -h '^[a-z].*==' $(1) | grep -vc 'sys_platform ==\|python_full_version\|implementation'); \
+  ( n=0; while sleep 1 && kill -0 $$$$ 2>/dev/null; do n=$$((n + 1)); test $$((n % 8)) != 0 || \
+    echo "    of about $$all, $$(grep -c '^Collecting\|^Processing' $$log) found, $$(ls -d $(VENV)/lib/python3*/site-packages/*.dist-info | wc -l) installed"; done ) & tells=$$!; \
+  { command -v uv && uv pip install --python $(BIN)/python "$$@"; } >$$log 2>&1 || \
+    $(BIN)/python -I -m pip install --no-compile --disable-pip-version-check --progress-bar off "$$@" >$$log 2>&1; \
+  status=$$?; kill $$tells; test $$status = 0 || { echo 'atlas: pip could not install the libraries:'; tail -n 5 $$log; exit 2; } >&2
+
+# Gives a pip to an environment of a Python that brings none, as Debian's without python3-venv: by uv, by the pip of that
+# Python, or the wheel in Debian's package python3-pip-whl, which any user can fetch where apt-get knows it.
+pip = uv pip install --python $(BIN)/python pip || $(PYTHON) -I -m pip --python $(BIN)/python install pip || { mkdir -p $(VENV)/pip && cd $(VENV)/pip && \
+  { ls /usr/share/python-wheels/pip-*.whl || { apt-get download -qq python3-pip-whl && dpkg-deb -x python3-pip-whl_*.deb .; }; } && \
+  for one in /usr/share/python-wheels/pip-*.whl "$$PWD"/usr/share/python-wheels/pip-*.whl; do test ! -e "$$one" || break; done && \
+  ../bin/python -I "$$one/pip" install --no-index "$$one"; }
+
 # The environment belongs to the folder that stands in .ready: one that was copied, moved or left half-made is made again,
 # and one into which a copy of the checkout was installed (pip install .) is put right.
 ifneq ($(shell cat $(VENV)/.ready 2>/dev/null)$(wildcard $(VENV)/lib/python3*/site-packages/atlas_charged_body-*),$(CURDIR))
@@ -122,19 +162,23 @@ endif
 # The environment finds the checkout by checkout.pth, which names a folder with nothing but a link to atlas/: a relative
 # path, so that it holds in any encoding and in a copy; and pip, which installs into site-packages, writes nothing there.
 $(VENV)/.ready: pyproject.toml requirements.lock
+ifndef HELD
 	@said=$$($(PYTHON) -I -S -c 'import sys; print(sys.version.split()[0]); sys.exit(sys.hexversion < 0x30b0000)' 2>&1) || \
 	  { echo "atlas needs Python 3.11 or newer; $(PYTHON) says: $$said. Another one: make PYTHON=/path/to/python3.11" >&2; exit 2; }
+	@$(call alone,$(MB))
+else
 	@said=$$($(PYTHON) -I -c 'import ensurepip, venv' 2>&1) || case "$$said" in \
 	  *"No module named 'ensurepip'"*|*"No module named 'venv'"*) \
 	    if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then echo 'installing python3-venv'; \
-	      $(call quietly,apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq python3-venv,apt-get could not install python3-venv); \
-	    else echo 'atlas: this Python has no venv; install it: sudo apt-get install python3-venv' >&2; exit 2; fi;; \
+	      $(call quietly,apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq python3-venv,apt-get could not install python3-venv); fi;; \
 	  *) echo "atlas: $(PYTHON) does not start:" >&2; printf '%s\n' "$$said" | tail -n 5 >&2; exit 2;; esac
 	@test "$$(cat $@ 2>/dev/null)" = "$$(pwd -P)" || rm -rf $(VENV)
 	@rm -f $@ $(VENV)/lib/python3*/site-packages/atlas 2>/dev/null || true   # a link, of older checkouts
-	@test -d $(VENV) || { echo 'setting up .venv, once: 1.7 GB on disk'; echo '  a virtual environment'; $(call quietly,$(PYTHON) -I -m venv $(VENV),the virtual environment could not be made); }
-	@if command -v uv >/dev/null; then echo '  the libraries of requirements.lock, by uv' && uv pip install -q --python $(BIN)/python --require-hashes -r requirements.lock; else false; fi || \
-	  { echo '  the libraries of requirements.lock, by pip: half a minute or more'; $(call quietly,$(BIN)/python -I -m pip install -q --no-compile --disable-pip-version-check --require-hashes -r requirements.lock,pip could not install the libraries); }
+	@test -d $(VENV) || { echo 'setting up .venv, once: 1.2 GB on disk'; echo '  a virtual environment'; \
+	  if $(PYTHON) -I -c 'import ensurepip, venv' 2>/dev/null; then $(call quietly,$(PYTHON) -I -m venv $(VENV),the virtual environment could not be made); \
+	  else { { $(PYTHON) -I -m venv --without-pip $(VENV) || uv venv --python $(PYTHON) $(VENV); } && ( $(pip) ); } >/dev/null 2>&1 || \
+	    { rm -rf $(VENV); echo 'atlas: this Python has no venv; install it: sudo apt-get install python3-venv' >&2; exit 2; }; fi; }
+	@$(call bring,requirements.lock)
 	@if [ -n "$$(echo $(VENV)/lib/python3*/site-packages/atlas_charged_body-*/RECORD | grep -v '\*')" ]; then $(call quietly,$(BIN)/python -I -m pip uninstall -q -y atlas-charged-body,pip could not remove its copy of the checkout); fi
 	@mkdir -p $(VENV)/checkout && ln -sfn ../../atlas $(VENV)/checkout/atlas
 	@$(BIN)/python -I -c 'import pathlib, sysconfig; (pathlib.Path(sysconfig.get_path("purelib")) / "checkout.pth").write_text("../../../checkout\n")'
@@ -142,17 +186,31 @@ $(VENV)/.ready: pyproject.toml requirements.lock
 	@echo '  GL libraries for shaded figures' && $(BIN)/python -P -m atlas.draw.gl --install
 	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -P -c 'from atlas.places import settle_matplotlib; settle_matplotlib(); import fontTools.subset, fontTools.ttLib.tables.otTables, matplotlib.figure, matplotlib._constrained_layout, matplotlib.backends.backend_pdf, matplotlib.backends.backend_svg, pyvista'   # writes their bytecode, without which each worker compiles them for 1.5 s
 	@pwd -P >$@
+endif
 
-$(VENV)/.bench: requirements-bench.lock | setup
-	@$(BIN)/python -I -m pip install -q --disable-pip-version-check --require-hashes -r requirements-bench.lock || echo 'heyoka could not be installed: the benchmark goes on without that peer'
+# What sweeps (Parquet, Dask), the tests and the benchmark need beside: each brought when it is first asked for.
+$(VENV)/.test: $(VENV)/.sweep
+$(VENV)/.%: requirements-%.lock $(VENV)/.ready
+ifndef HELD
+	@$(call alone,500)
+else
+	@( $(call bring,requirements.lock $<) )$(if $(filter bench,$*), || echo 'heyoka could not be installed: the benchmark goes on without that peer')
 	@touch $@
+endif
 
-# Rewrites the locks from pyproject.toml, for every Python from 3.11 up.
-UV = uv pip compile -q --universal --python-version 3.11 --generate-hashes --no-header --no-annotate
+# Rewrites the locks from pyproject.toml with the newest versions, for every Python from 3.11 up; `make lock RENEW=` keeps
+# those that they have. A lock beside requirements.lock holds what is not in that one.
+RENEW = --upgrade
+COMPILE = $(BIN)/uv pip compile -q --universal --python-version 3.11 --no-header --no-annotate pyproject.toml
 lock: | setup
 	@$(BIN)/python -I -m pip install -qq --disable-pip-version-check 'uv>=0.13'
-	@$(BIN)/$(UV) --extra test --extra sweep pyproject.toml -o requirements.lock
-	@$(BIN)/$(UV) --extra bench -c requirements.lock pyproject.toml -o requirements-bench.lock
+	@mkdir -p build/lock && grep -h '==' requirements*.lock | sed 's/ *\\$$//' | sort -u >build/lock/all
+	@$(COMPILE) $(RENEW) --all-extras -o build/lock/all
+	@$(COMPILE) --generate-hashes -c build/lock/all -o requirements.lock
+	@for extra in sweep test bench; do \
+	  $(COMPILE) --generate-hashes -c build/lock/all --extra $$extra -o build/lock/$$extra && \
+	  awk 'function pin() { if (more && !(all in there)) printf "%s", all; there[all]; all = ""; more = FNR < NR } \
+	    /^[a-z]/ { pin() } { all = all $$0 "\n" } END { pin() }' requirements.lock build/lock/$$extra >requirements-$$extra.lock || exit 2; done
 
 # The unit tests with the newest and with the lowest versions that the ranges of pyproject.toml allow.
 RANGE_newest = highest

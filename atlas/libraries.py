@@ -3,8 +3,14 @@
 The one list of them: versions are part of what a figure or a report depends on, and reports and records print them.
 """
 
+import sys
 from functools import cache
+from importlib import import_module, invalidate_caches
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from types import ModuleType
+
+from atlas.errors import AtlasError
 
 LIBRARIES = (
     "numpy",
@@ -25,6 +31,7 @@ LIBRARIES = (
     "rich",
     "msgspec",
     "pylatexenc",
+    "lmfit",
 )
 """The dependencies in pyproject.toml; a test compares the two."""
 
@@ -41,3 +48,30 @@ def release(library: str) -> str | None:
 def versions() -> dict[str, str]:
     """Return the versions of those libraries that are installed."""
     return {name: found for name in LIBRARIES if (found := release(name)) is not None}
+
+
+def of_sweeps(module: str, what: str) -> ModuleType:
+    """Return a module of the libraries that sweeps need beside; the environment of a checkout gets them first.
+
+    Raises AtlasError, which says that `what` needs it, where it is not there and can't be had.
+    """
+    try:
+        return import_module(module)
+    except ImportError as error:
+        library = module.partition(".")[0]
+        if release(library) is None and _brought():
+            return import_module(module)
+        raise AtlasError(f"{what} needs {library}: pip install 'atlas-charged-body[sweep]'.") from error
+
+
+def _brought() -> bool:
+    """Let `make` bring the libraries of sweeps into the environment that it made, if this is the one."""
+    import subprocess
+
+    checkout = Path(__file__).resolve().parent.parent
+    if Path(sys.prefix).resolve() != checkout / ".venv" or not (checkout / ".venv" / ".ready").exists():
+        return False
+    done = subprocess.run(["make", "-s", "-C", checkout, ".venv/.sweep"], stdout=sys.stderr, check=False)  # noqa: S603, S607
+    invalidate_caches()
+    release.cache_clear()
+    return done.returncode == 0

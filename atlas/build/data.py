@@ -20,8 +20,11 @@ def build_data(
     progress: Progress = lambda _done, _total, _what: None,
     *,
     jobs: int | None = None,
+    parquet: bool = True,
 ) -> Path:
     """Write the tables and the drawn data of a report into `out`/NAME, and return the place of their description.
+
+    They are CSV, and Parquet if that is wanted.
 
     The folder is replaced at once, with what the user has put there. Raises AtlasError for a mistake in the report, a
     figure that fails, a file that was edited, beside which the new one is then, and OSError when something can't be
@@ -38,5 +41,5 @@ def build_data(
         for name, stem in stems.items()
         if stem in figures
     }
-    replace(place, package(document, drawn))
+    replace(place, package(document, drawn, parquet=parquet))
     return place / DESCRIPTION

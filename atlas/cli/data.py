@@ -6,6 +6,8 @@ import click
 
 from atlas.cli.options import Command, examples, jobs_option, out_option
 from atlas.cli.progress import bar
+from atlas.errors import AtlasError
+from atlas.libraries import of_sweeps
 
 
 @click.command(
@@ -15,7 +17,7 @@ from atlas.cli.progress import bar
 @out_option("build/data")
 @jobs_option
 def command(name: str, out: Path, jobs: int | None) -> None:
-    """Write the tables of a report, and the points that its figures draw, as CSV and Parquet.
+    """Write the tables of a report, and the points that its figures draw, as CSV and, with pyarrow, as Parquet.
 
     NAME is one of those that `atlas list` names, or a TOML file; without it, the atlas itself. The file
     datapackage.json, a Data Package, names for each the columns with units and digits, the equations, the command that
@@ -25,6 +27,11 @@ def command(name: str, out: Path, jobs: int | None) -> None:
     """
     from atlas.build.data import build_data
 
-    with bar("data") as tell:
-        place = build_data(name, out, tell, jobs=jobs)
+    try:
+        parquet = bool(of_sweeps("pyarrow", "Parquet"))
+    except AtlasError as error:
+        parquet = False
+        click.echo(f"atlas: CSV alone: {error}", err=True)
+    with bar(f"data of {Path(name).stem}", every=10) as tell:
+        place = build_data(name, out, tell, jobs=jobs, parquet=parquet)
     click.echo(place)

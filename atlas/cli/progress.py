@@ -1,4 +1,4 @@
-"""A bar on standard error while something long runs; without a terminal nothing, or a line a minute."""
+"""A bar on standard error while something long runs; without a terminal nothing, or a line now and then."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -9,19 +9,16 @@ import click
 
 Progress = Callable[[int, int, str], None]
 
-MINUTE = 60.0
-"""Seconds between two lines in the log of a batch job."""
-
 
 @contextmanager
-def bar(title: str, *, lines: bool = False) -> Iterator[Progress]:
+def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
     """Give a function to call with what is done, of how many, and what comes next.
 
     The bar appears at the first call; until then no thread is started, so that a build can still fork. Without a
-    terminal nothing is shown, or with `lines` a line a minute, for the log of a batch job.
+    terminal nothing is shown, or a line `every` so many seconds, for the log of a batch job.
     """
     if not sys.stderr.isatty():
-        yield _lines(title) if lines else lambda _done, _total, _what: None
+        yield _lines(title, every) if every else lambda _done, _total, _what: None
         return
     with ExitStack() as stack:
         shown: list[Progress] = []
@@ -34,17 +31,18 @@ def bar(title: str, *, lines: bool = False) -> Iterator[Progress]:
         yield tell
 
 
-def _lines(title: str) -> Progress:
-    """Return what writes a line a minute, none in the first one."""
+def _lines(title: str, every: float) -> Progress:
+    """Return what writes a line `every` so many seconds, none at first."""
     start = last = monotonic()
 
     def tell(done: int, total: int, _: str) -> None:
         nonlocal last
         now = monotonic()
-        if now - last >= MINUTE:
+        if now - last >= every:
             last = now
             done_of = f"{done} of {total} ({100 * done // max(total, 1)} %)"
-            click.echo(f"{title}: {done_of} after {(now - start) / 60:.0f} min", err=True)
+            since = f"{(now - start) / 60:.0f} min" if every >= 60 else f"{now - start:.0f} s"
+            click.echo(f"{title}: {done_of} after {since}", err=True)
 
     return tell
 

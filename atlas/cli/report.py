@@ -49,7 +49,7 @@ def command(name: str, out: Path, formats: tuple[str, ...], style: str | None, j
     """
     from atlas.build.report import FORMATS, build_report
 
-    with bar("report") as tell:
+    with bar(Path(name).stem, every=10) as tell:
         built = build_report(name, out, tell, formats=formats or FORMATS, style=style, jobs=jobs)
     for one, file in (("html", built.index), ("pdf", built.pdf), ("single", built.single)):
         if one in (formats or FORMATS):

@@ -108,7 +108,7 @@ def command(
         if toml is None
         else _of_file(toml, out)
     )
-    with bar("sweep", lines=True) as tell:
+    with bar("sweep", every=60) as tell:
         path = sweep(**wanted, jobs=jobs, progress=lambda done, total: tell(done, total, ""))
     click.echo(str(path))
 

@@ -27,6 +27,6 @@ def command(name: str, out: Path, jobs: int | None) -> None:
     """
     from atlas.build.tex import build_tex
 
-    with bar("tex") as tell:
+    with bar(f"{Path(name).stem} as LaTeX", every=10) as tell:
         place = build_tex(name, out, tell, jobs=jobs)
     click.echo(place)

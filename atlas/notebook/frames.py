@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ from atlas.core.inputs import real
 from atlas.core.quantities import TIME
 from atlas.core.shown import Shown
 from atlas.errors import AtlasError, DomainError, unknown
+from atlas.libraries import of_sweeps
 from atlas.study.sweep.families import FAMILIES, Swept
 
 
@@ -21,16 +21,9 @@ def frame(shown: Shown, times: Any, quantities: Sequence[str] | None) -> Any:
         raise AtlasError(f"The register has no table of a {type(shown).__name__}.")
     quantities = [quantities] if isinstance(quantities, str) else quantities
     columns = dict(_quantities(shown, swept, quantities) if times is None else _times(shown, swept, times, quantities))
-    found = _pandas().DataFrame(columns)
+    found = of_sweeps("pandas", "A data frame").DataFrame(columns)
     found.attrs["units"] = {name: swept.units.get(name, "") for name in columns}
     return found
-
-
-def _pandas() -> Any:
-    try:
-        return import_module("pandas")
-    except ImportError as error:
-        raise AtlasError("pandas is not installed: pip install 'atlas-charged-body[sweep]' brings it.") from error
 
 
 def _quantities(shown: Shown, swept: Swept, names: Sequence[str] | None) -> Iterator[tuple[str, Any]]:

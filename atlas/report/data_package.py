@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from atlas.errors import AtlasError
+from atlas.libraries import of_sweeps
 from atlas.paper import EQUATIONS
 from atlas.plain import words
 from atlas.report.blocks.table import Cell, ColumnView, TableView
@@ -49,14 +49,15 @@ class Resource:
     rows: Sequence[Sequence[str]]
 
 
-def package(document: Document, drawn: Mapping[str, str]) -> dict[str, bytes]:
+def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = True) -> dict[str, bytes]:
     """Return the files of a report's data by their places; `drawn` holds each figure's data as CSV, by its anchor.
 
-    Raises AtlasError where pyarrow, which writes Parquet, is missing.
+    Raises AtlasError where pyarrow, which writes Parquet, is wanted and missing.
     """
     made, resources = dict[str, bytes](), []
     for one in (*_tables(document), *_figures(document, drawn)):
-        for kind, content in (("csv", _csv(one)), ("parquet", _parquet(one))):
+        for kind, write in {"csv": _csv, **({"parquet": _parquet} if parquet else {})}.items():
+            content = write(one)
             path = f"{one.name}.{kind}"
             made[path] = content
             resources.append(
@@ -168,12 +169,7 @@ def _csv(one: Resource) -> bytes:
 
 def _parquet(one: Resource) -> bytes:
     """Write a table as Parquet, numbers as the doubles nearest to what is printed."""
-    try:
-        import pyarrow as pa
-        from pyarrow import parquet
-    except ModuleNotFoundError as error:
-        raise AtlasError("Parquet needs the library pyarrow: pip install pyarrow.") from error
-
+    pa, parquet = of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
     convert: dict[str, Callable[[str], Any]] = {
         "number": float,
         "integer": int,

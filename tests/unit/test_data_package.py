@@ -3,6 +3,7 @@
 import csv
 import hashlib
 import json
+import sys
 from dataclasses import replace
 from decimal import Decimal
 from io import StringIO
@@ -131,6 +132,20 @@ def test_parquet_holds_the_nearest_doubles(data: Path, described: dict[str, Any]
             assert cells == [convert(x) if x or convert is str else None for x in texts]
         units = {f.name: (f.metadata or {}).get(b"unit", b"").decode() for f in found.schema}
         assert units == {f["name"]: f.get("unit", "") for f in described["resources"][path]["schema"]["fields"]}
+
+
+def test_without_pyarrow_there_is_csv_and_a_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The line has the words of `atlas sweep`, and the description names what is there."""
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    (tmp_path / "small.toml").write_text(REPORT, encoding="utf-8")
+    ended = CliRunner().invoke(program, ["data", str(tmp_path / "small.toml"), "--out", str(tmp_path)])
+    assert ended.exit_code == 0
+    assert ended.stderr == "atlas: CSV alone: Parquet needs pyarrow: pip install 'atlas-charged-body[sweep]'.\n"
+    place = tmp_path / "small"
+    described = json.loads((place / "datapackage.json").read_text("utf-8"))["resources"]
+    assert {one["path"] for one in described} == {str(x.relative_to(place)) for x in place.glob("*/*")}
+    with pytest.raises(AtlasError, match="Parquet needs pyarrow"):
+        build_data(tmp_path / "small.toml", tmp_path)
 
 
 def test_samples_are_those_of_the_motion(data: Path) -> None:

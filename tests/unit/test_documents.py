@@ -9,6 +9,7 @@ from typing import Any, get_args
 
 import click
 import pytest
+from packaging.version import Version
 
 import atlas
 from atlas.cli.app import atlas as command_line
@@ -94,11 +95,18 @@ def test_the_table_of_blocks_is_what_a_page_may_hold() -> None:
 
 
 def test_every_document_names_the_same_version_and_licence() -> None:
-    """CITATION.cff, codemeta.json and the changelog agree with the package, whose version hatchling takes."""
+    """CITATION.cff and codemeta.json agree with the package, whose version hatchling takes; a release has its heading.
+
+    What comes after one has a later version, of development.
+    """
     project = tomllib.loads((CHECKOUT / "pyproject.toml").read_text("utf-8"))["project"]
     cited = dict(re.findall(r"^(\w+): (.+)$", (CHECKOUT / "CITATION.cff").read_text("utf-8"), re.MULTILINE))
     meta = json.loads((CHECKOUT / "codemeta.json").read_text("utf-8"))
     assert project["dynamic"] == ["version"]
     assert cited["version"] == meta["version"] == atlas.__version__
     assert cited["license"] == meta["license"].rpartition("/")[2] == project["license"]
-    assert f"## {atlas.__version__}" in (CHECKOUT / "CHANGELOG.md").read_text("utf-8")
+    newest, *_ = re.findall(
+        r"^## (?=.*\d)(.+?)(?: \(.*)?$", (CHECKOUT / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE
+    )
+    current = Version(atlas.__version__)
+    assert current > Version(newest) if current.is_devrelease else current == Version(newest)

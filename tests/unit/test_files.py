@@ -98,12 +98,14 @@ def test_the_libraries_are_those_of_the_project() -> None:
     assert release("no-such-library") is None
 
 
-def test_the_lock_has_every_dependency_in_its_range() -> None:
-    """Also those of the tests and of sweeps; no range is a single version, which nothing could share."""
+def test_the_locks_have_every_dependency_in_its_range() -> None:
+    """What sweeps, tests and the benchmark need stands apart; no range is a single version, which few could share."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
-    lines = (ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()
-    locked = dict(line.split(" ")[0].split("==") for line in lines if "==" in line.split(" ")[0])
-    for one in map(Requirement, [*project["dependencies"], *extras["test"], *extras["sweep"]]):
-        assert one.specifier.contains(locked[one.name.replace("_", "-")]), one
-        assert all(part.operator == ">=" for part in one.specifier), one
+    for name in ("", "-sweep", "-test", "-bench"):
+        lines = (ROOT / f"requirements{name}.lock").read_text(encoding="utf-8").splitlines()
+        locked = dict(line.split(" ")[0].split("==") for line in lines if "==" in line.split(" ")[0])
+        for one in map(Requirement, extras[name[1:]] if name else project["dependencies"]):
+            assert one.specifier.contains(locked[one.name.replace("_", "-")]), one
+            assert all(part.operator == ">=" for part in one.specifier), one
+        assert name == "-test" or "mypy" not in locked

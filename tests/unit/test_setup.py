@@ -1,5 +1,6 @@
 """The set-up of the Makefile on machines that lack something: one line says what, and the reason stands below it."""
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -10,16 +11,22 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 OLD = "#!/bin/sh\necho 3.9.2\nexit 1\n"
-BROKEN = '#!/bin/sh\ncase "$*" in *hexversion*) echo 3.12.1;; *) echo "a sitecustomize ended it" >&2; exit 1;; esac\n'
-BARE = (
-    '#!/bin/sh\ncase "$*" in *hexversion*) echo 3.12.1;; *) echo "No module named \'ensurepip\'" >&2; exit 1;; esac\n'
-)
+SAYS = f'#!/bin/sh\ncase "$*" in *hexversion*) echo 3.12.1;; *flock*) exec {sys.executable} "$@";; '
+BROKEN = f'{SAYS} *) echo "a sitecustomize ended it" >&2; exit 1;; esac\n'
+BARE = f"{SAYS} *) echo \"No module named 'ensurepip'\" >&2; exit 1;; esac\n"
 NO_NETWORK = "#!/bin/sh\necho 'E: no network today' >&2\nexit 100\n"
 LOCK = "nosuch-library==1.0 --hash=sha256:" + 64 * "0" + "\n"
 
 
 def set_up(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables: str) -> tuple[int, str]:
-    """Run `make setup` in a folder with an apostrophe, with these programs before those of the system."""
+    """Run `make setup` as `begin` has it; return its status and what it says."""
+    with begin(tmp_path, programs, lock, **variables) as done:
+        said, _ = done.communicate()
+        return done.returncode, said
+
+
+def begin(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables: str) -> subprocess.Popen[str]:
+    """Start `make setup` in a folder with an apostrophe, with these programs before those of the system."""
     checkout, first = tmp_path / "it's é", tmp_path / "first"
     checkout.mkdir(exist_ok=True)
     first.mkdir(exist_ok=True)
@@ -31,15 +38,14 @@ def set_up(tmp_path: Path, programs: dict[str, str], lock: str = "", **variables
     (checkout / "requirements.lock").write_text(lock, encoding="utf-8")
     (checkout / "random.py").write_text("raise SystemExit('a module of the user ran')\n", encoding="utf-8")
     environment = os.environ | {"PATH": f"{first}{os.pathsep}{os.environ['PATH']}", **variables}
-    done = subprocess.run(
+    return subprocess.Popen(
         ["make", "setup"],  # noqa: S607  whichever make there is
         cwd=checkout,
         env=environment,
-        capture_output=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
         text=True,
-        check=False,
     )
-    return done.returncode, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize(
@@ -75,6 +81,25 @@ def test_pip_tells_why_it_failed(tmp_path: Path) -> None:
     assert "atlas: pip could not install the libraries:\n" in told
     assert "No matching distribution found for nosuch-library==1.0" in told
     assert not (tmp_path / "it's é" / ".venv" / ".ready").exists()
+
+
+def test_two_set_ups_take_turns_and_a_full_disk_is_told_first(tmp_path: Path) -> None:
+    """One that finds the folder locked says so and waits; before anything is made, the disk is asked."""
+    folder = tmp_path / "it's é"
+    folder.mkdir()
+    lock = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        with begin(tmp_path, {}, PYTHON=sys.executable, MB="999999999") as second:
+            assert second.stdout is not None
+            assert second.stdout.readline() == "another make sets up .venv: this one waits for it\n"
+            fcntl.flock(lock, fcntl.LOCK_UN)
+            said, _ = second.communicate()
+    finally:
+        os.close(lock)
+    assert second.returncode == 2
+    assert f"atlas: setting up needs 999999999 MB on the disk of {folder}, where" in said
+    assert not (folder / ".venv").exists()
 
 
 @pytest.mark.skipif(not (ROOT / ".venv" / ".ready").exists(), reason="this checkout was not set up by make")

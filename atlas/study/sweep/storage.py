@@ -9,6 +9,7 @@ from typing import IO, Any
 
 from atlas import files
 from atlas.errors import AtlasError
+from atlas.libraries import of_sweeps
 
 
 @dataclass(frozen=True)
@@ -72,9 +73,8 @@ class Remote:
     address: str
 
     def __post_init__(self) -> None:
+        fsspec = of_sweeps("fsspec", "An address")
         try:
-            import fsspec
-
             fsspec.core.url_to_fs(self.address)
         except (ImportError, ValueError) as error:
             raise AtlasError(f"{self.address} cannot be reached: {error}.") from error

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.errors import AtlasError
+from atlas.libraries import of_sweeps
 from atlas.study.sweep.families import empty
 
 Columns = Mapping[str, NDArray[Any]]
@@ -114,12 +115,7 @@ def parquet_part(columns: Columns) -> bytes:
 
 
 def _pyarrow() -> tuple[Any, Any]:
-    try:
-        import pyarrow as pa
-        from pyarrow import parquet
-    except ImportError as error:
-        raise AtlasError("Parquet needs pyarrow: pip install 'atlas-charged-body[sweep]'.") from error
-    return pa, parquet
+    return of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
 
 
 class Format(NamedTuple):
