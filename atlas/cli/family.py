@@ -100,7 +100,7 @@ def _made(family: Family, described: Described) -> click.Command:
         def balls() -> dict[str, Any]:
             made = family.balls()(*values_of(family, options, exact=True))
             at = [exactly(t, options) for t in times]
-            columns = [[sample(s, made, t, best) for t in at] for s in sampled]
+            columns = [[sample(s, made, t, best) for t in at] for s in sampled if not s.uncertified]
             if at and not best:
                 raise NotCertifiedError(best.reason)
             return _found(family, made, times, columns, exact=True)
@@ -251,7 +251,7 @@ def _found(family: Family, made: Any, times: Sequence[float], columns: Sequence[
         else:
             if q.unit == TIME and not found[q.name] < float("inf"):
                 found[q.name] = "infinite"
-    names = [s.name for s in family.sampled if s.printed]
+    names = [s.name for s in family.sampled if s.printed and not (exact and s.uncertified)]
     return (
         found
         | ({"missing": missing} if missing else {})
@@ -269,7 +269,7 @@ def _printout(family: Family, described: Described, texts: dict[str, Any], optio
     shown = [q for q in family.quantities if q.name in texts and q.name != described.named]
     lines = [line for q in shown for line in _lines(q, texts[q.name], case, units)]
     rows = in_threes(texts.get("samples", []))
-    heading = [name for s in family.sampled if s.printed for name in _heading(s, units)]
+    heading = [name for s in family.sampled if s.printed and not s.uncertified for name in _heading(s, units)]
     notes = [*dict.fromkeys(texts.get("missing", {}).values()), certificate(options)]
     if described.undecided and any(NOT_CERTIFIED in row for row in rows):
         notes.append(f"{NOT_CERTIFIED}: {UNKNOWN}")

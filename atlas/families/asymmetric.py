@@ -48,7 +48,7 @@ FAMILY = Family(
         Quantity("energy", "kinetic energy", "inertia/time^2", "theorem-kinetic-energy", certified=True),
     ),
     (
-        rotation("", "asymmetric R"),
+        *rotation("", "asymmetric R"),
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="asymmetric Omega"),
         Sampled("K", "field_in_body", "field B' in the body", RATE, checked="asymmetric K", printed=False),
         Sampled("m", "angular_momentum", "angular momentum", "inertia/time", symbol="m_i", printed=False),

@@ -41,7 +41,7 @@ FAMILY = Family(
         ),
     ),
     (
-        rotation("(28)", "ball R"),
+        *rotation("(28)", "ball R"),
         Sampled("m", "angular_momentum", "angular momentum", MOMENT, "(26)", checked="ball m"),
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="ball Omega", printed=False),
     ),

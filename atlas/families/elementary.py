@@ -95,7 +95,7 @@ FAMILY = Family(
         *integrals("m"),
     ),
     (
-        rotation("(84)", "R"),
+        *rotation("(84)", "R"),
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, "(73)", checked="Omega"),
         Sampled("K", "field_in_body", "field B' in the body", RATE, "(32)", checked="K", printed=False),
         Sampled("m", "angular_momentum", "angular momentum over I2", RATE, "(88)", "m_i/I2", checked="m"),

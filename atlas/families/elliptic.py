@@ -52,7 +52,7 @@ FAMILY = Family(
         Quantity("nome", "of the elliptic functions", certified=True),
     ),
     (
-        rotation("", "elliptic R"),
+        *rotation("", "elliptic R"),
         Sampled(
             "Omega", "angular_velocity", "angular velocity in the body", RATE, "theorem-elliptic",
             checked="elliptic Omega",

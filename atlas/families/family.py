@@ -86,7 +86,10 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Sampled:
-    """A vector or, if `matrix`, a matrix as a function of time: a method of both classes, `name` in tables."""
+    """A vector or, if `matrix`, a matrix as a function of time: a method of both classes, `name` in tables.
+
+    `components` are what its columns end with, 1, 2, 3 if there are none; `uncertified`, whether balls do not have it.
+    """
 
     name: str
     method: str
@@ -97,6 +100,8 @@ class Sampled:
     matrix: bool = False
     checked: str = ""
     printed: bool = True
+    components: tuple[str, ...] = ()
+    uncertified: bool = False
 
     def at(self, made: Any) -> Callable[[Any], Any]:
         """Return the function of time."""
@@ -116,7 +121,7 @@ class Sampled:
         """Return its components in a table, each as a function of an object and the time."""
         if self.matrix:
             return {f"{self.name}{i}{j}": partial(_entry, i, j) for i in (1, 2, 3) for j in (1, 2, 3)}
-        return {f"{self.name}{i}": partial(_component, self.method, i) for i in (1, 2, 3)}
+        return {f"{self.name}{x}": partial(_component, self.method, i) for i, x in enumerate(self.components or "123")}
 
 
 def _entry(i: int, j: int, made: Any, t: Any) -> Any:
@@ -124,7 +129,7 @@ def _entry(i: int, j: int, made: Any, t: Any) -> Any:
 
 
 def _component(method: str, i: int, made: Any, t: Any) -> Any:
-    return getattr(made, method)(t)[..., i - 1]
+    return getattr(made, method)(t)[..., i]
 
 
 @dataclass(frozen=True)

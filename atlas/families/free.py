@@ -30,7 +30,7 @@ FAMILY = Family(
         Quantity("period", "period of precession, 2 pi/k", TIME, certified=True),
     ),
     (
-        rotation("(87)", "free R"),
+        *rotation("(87)", "free R"),
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="free Omega"),
     ),
     {"free R": 4, "free k": 4, "free phi": 4, "free Omega": 8},

@@ -51,7 +51,7 @@ FAMILY = Family(
         *integrals("M"),
     ),
     (
-        rotation("", "general R"),
+        *rotation("", "general R"),
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="general Omega"),
         Sampled("K", "field_in_body", "field B' in the body", RATE, checked="general K", printed=False),
         Sampled("m", "angular_momentum", "angular momentum over I2", RATE, symbol="m_i/I2"),

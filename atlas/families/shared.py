@@ -38,9 +38,16 @@ PRINCIPAL_FIELD = Parameter(
 )
 
 
-def rotation(equation: str, checked: str) -> Sampled:
-    """Return the rotation matrix of a family."""
-    return Sampled("R", "rotation", "rotation matrix", equation=equation, matrix=True, checked=checked)
+def rotation(equation: str, checked: str) -> tuple[Sampled, ...]:
+    """Return the rotation matrix of a family, its quaternion, and how the body turns as the laboratory sees it."""
+    return (
+        Sampled("R", "rotation", "rotation matrix", equation=equation, matrix=True, checked=checked),
+        Sampled("q", "quaternion", "unit quaternion of R, continuous", components=tuple("xyzw"), uncertified=True),
+        Sampled(
+            "w", "angular_velocity_in_laboratory", "angular velocity in the laboratory", RATE, printed=False,
+            uncertified=True,
+        ),
+    )  # fmt: skip
 
 
 def in_brackets(parts: Any) -> str:

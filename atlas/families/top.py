@@ -81,7 +81,7 @@ FAMILY = Family(
         Quantity("nome", "of the elliptic functions", missing="triple root", certified=True),
     ),
     (
-        rotation("", "top R"),
+        *rotation("", "top R"),
         Sampled("Omega", "angular_velocity", "angular velocity in the body", RATE, checked="top Omega"),
         Sampled("b", "field_in_body", "direction n in the body", checked="top b", printed=False),
     ),

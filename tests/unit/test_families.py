@@ -104,7 +104,7 @@ def test_kernels_and_balls_agree_on_every_quantity(one: Family) -> None:
 def test_kernels_and_balls_agree_on_what_there_is_at_a_time(one: Family) -> None:
     """Matrices within their promise in ulps of 1, vectors in ulps of their length; or within sixteen."""
     found, exact = one.kernels()(*values(one)), one.balls()(*values(one))
-    for s in one.sampled:
+    for s in (s for s in one.sampled if not s.uncertified):
         for t, value in zip(TIMES.tolist(), s.at(found)(TIMES), strict=True):
             with ctx.workprec(192):
                 true = s.at(exact)(t)

@@ -192,14 +192,21 @@ class Phases:
         coarse += y
         return product, coarse, whole, rest
 
-    def halves_of(self, t: FloatArray, work: FloatArray, low: FloatArray | None = None) -> FloatArray:
+    def halves_of(
+        self, t: FloatArray, work: FloatArray, low: FloatArray | None = None, turns: FloatArray | None = None
+    ) -> FloatArray:
         """Return x/2, rounded once, as `reduced` does; it lies in `work`, whose last axis may be longer than t's.
+
+        `turns` (n, m), if given, gets the number of half turns that are left out, plus `rounder`.
 
         For half phases up to LESS NEAR the head of the frequency times that of t is exact, and so is what is left of it
         without whole half turns; the products of the rest are below 1/4. A matrix product sums them, the largest last.
         """
         if self.exponents is not None or not farthest(t) <= LESS * self.near:
-            return self.reduced(t, work[..., : t.size], low)[0]
+            half, _, whole, _ = self.reduced(t, work[..., : t.size], low)
+            if turns is not None:
+                turns[:] = whole
+            return half
         n, k = self.table.shape
         stack, whole, x, _ = np.split(work.reshape(-1, work.shape[-1])[:, : t.size], (k, k + n, k + 2 * n))
         *first, upper, lower = stack[: k - n]
@@ -215,6 +222,8 @@ class Phases:
             first[0][:] = 1.0
             p += self.origins[0]
         np.add(p, self.rounder, out=whole)
+        if turns is not None:
+            turns[:] = whole
         whole -= self.rounder
         p -= whole
         return np.matmul(self.table, stack, out=x)

@@ -15,7 +15,7 @@ from atlas.core.arithmetic.threads import shared
 from atlas.core.arithmetic.words import TURN
 from atlas.core.inputs import FloatArray, real
 from atlas.errors import AtlasError
-from atlas.formulas.numbers import Number, workprec
+from atlas.formulas.numbers import Number, nearest, workprec
 
 BLOCK, PART = 6000, 3000
 """Times evaluated at once, so that what they need stays in the second-level cache, and matrices made from them at once,
@@ -81,6 +81,20 @@ class DoubleRotation:
         if j == 3 and not self.inverse:
             return evaluate(self.precession, self.rodrigues[:, :, 2], t, (3,), out)
         return evaluate(self.phases, np.ascontiguousarray(self.weights[:, :, j - 1]), t, (3,), out)
+
+    @cached_property
+    def _products(self) -> FloatArray:
+        """Weights of the functions of `basis` of half the phases in q_n q_z: the four products of cosines and sines."""
+        x, y, z = map(nearest, self.axis)
+        weights = np.zeros((9, 4))
+        weights[5:] = 4 * np.array([[0, 0, 0, 1], [x, y, z, 0], [0, 0, 1, 0], [y, -x, 0, -z]])
+        if self.inverse:
+            weights[:, :3] *= -1
+        return weights
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        return evaluate(self.phases, self._products, real(t, "The time") / 2, (4,), out)
 
     def vector(self, name: str) -> tuple[float, ...]:
         """Return the components of a vector."""

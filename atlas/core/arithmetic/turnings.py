@@ -93,6 +93,16 @@ class Turnings:
         for i, entry in enumerate(self._columns(t)[j - 1]):
             out[:, i] = entry
 
+    def quaternion(self, t: FloatArray, out: FloatArray) -> None:
+        """Write the quaternions q_n(k t) q_z(phi t), (x, y, z, w), or their inverses, into (m, 4)."""
+        (c, s), (cos, sin) = (self._circle(i, t / 2)[:2] for i in range(2))
+        x, y, z = self.axis * s
+        q = np.array([x * cos + y * sin, y * cos - x * sin, z * cos + c * sin, c * cos - z * sin])
+        q *= 1.5 - 0.5 * (q * q).sum(axis=0)
+        if self.inverse:
+            q[:3] *= -1
+        out[:] = q.T
+
     def turned(self, vector: FloatArray, t: FloatArray, out: FloatArray) -> None:
         """Write R_n(k t) v for constant v (3, m) into (m, 3)."""
         with np.errstate(over="ignore", invalid="ignore"):

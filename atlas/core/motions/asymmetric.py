@@ -123,6 +123,10 @@ class SingleAsymmetric:
         """Return the column R_j(t), shape (..., 3)."""
         return self._started("column", np.eye(3)[j - 1], t, out, j)
 
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        return self._started("quaternion", np.eye(4)[3], t, out)
+
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
         return self._started("angular_velocity", _floats(self.exact.omega), t, out)

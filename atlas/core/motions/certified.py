@@ -6,13 +6,15 @@ from typing import Any
 import numpy as np
 from flint import arb
 
+from atlas.core.arithmetic.quaternions import of_matrix, product
 from atlas.core.arithmetic.rotation import target
 from atlas.core.inputs import FloatArray, real
+from atlas.core.motions.euler_poisson import angular_acceleration, field_rate
 from atlas.errors import AtlasError, NotCertifiedError
 from atlas.exact.digits import numbers
 from atlas.exact.inputs import rational
 from atlas.exact.motions.asymmetric import AsymmetricMotion
-from atlas.formulas.numbers import workprec
+from atlas.formulas.numbers import nearest, workprec
 
 FIRST = 80
 """Binary digits with which a matrix is computed first, and of which all but a few are proven as a rule."""
@@ -22,6 +24,9 @@ REACH = 2.0**50
 
 NARROW = 2.0**-58
 """Radius of a ball that is rounded, beside 1 or beside the largest rate."""
+
+FOLLOWED, STEP = 1000.0, 0.05
+"""Largest phase up to which a motion is followed by steps, and the phase of one."""
 
 
 class Certified:
@@ -37,6 +42,37 @@ class Certified:
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the column R_j(t), shape (..., 3)."""
         return self._filled(lambda t: self.exact.column(j, t), t, (3,), 1.0, out)
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t: its sign is that of an integration, (..., 4).
+
+        Raises NotCertifiedError for times beyond its reach.
+        """
+        times = real(t, "The time")
+        if times.size and not np.abs(times).max() * self.size <= FOLLOWED:
+            raise NotCertifiedError(
+                f"not certified: without a closed form the sign of a quaternion is known up to |t| = "
+                f"{FOLLOWED / self.size:.6g}."
+            )
+        found, out = of_matrix(self.rotation(times)), target(out, (*times.shape, 4))
+        near = self._followed(times.ravel()).reshape(found.shape)
+        out[...] = found * np.sign((found * near).sum(-1, keepdims=True))
+        return out
+
+    def _followed(self, times: FloatArray) -> FloatArray:
+        """Return quaternions (m, 4) at times (m,) by Runge and Kutta's steps from t = 0, good to some digits."""
+        inertia, K, Omega = (
+            np.array([nearest(arb(x)) for x in v]) for v in (self.exact.inertia, self.exact.field, self.exact.omega)
+        )
+        found = np.empty((times.size, 4))
+        for side in (times >= 0, times < 0):
+            y, now = np.concatenate([K, Omega, [0.0, 0.0, 0.0, 1.0]]), 0.0
+            for i in np.flatnonzero(side)[np.argsort(abs(times[side]))].tolist():
+                count = int(np.ceil(abs(times[i] - now) * self.size / STEP))
+                for _ in range(count):
+                    y = _stepped(np.diag(inertia), y, (times[i] - now) / count)
+                found[i], now = y[6:], times[i]
+        return found
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t), shape (..., 3)."""
@@ -67,6 +103,20 @@ class Certified:
         for row, at in zip(rows, times.flat, strict=True):
             row[...] = rounded(lambda at=at: function(float(at)), size).reshape(shape)  # type: ignore[misc]
         return out
+
+
+def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
+    """Return K, Omega and the quaternion, (10,), a step later."""
+
+    def rate(y: FloatArray) -> FloatArray:
+        K, Omega, q = y[:3], y[3:6], y[6:]
+        turn = product(q, np.append(Omega / 2, 0.0))
+        return np.concatenate([field_rate(K, Omega), angular_acceleration(inertia, K, Omega), turn])
+
+    a = rate(y)
+    b = rate(y + h / 2 * a)
+    c = rate(y + h / 2 * b)
+    return np.asarray(y + h / 6 * (a + 2 * b + 2 * c + rate(y + h * c)))
 
 
 def rounded(function: Callable[[], Any], size: float) -> FloatArray:

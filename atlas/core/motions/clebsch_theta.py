@@ -8,14 +8,17 @@ phases in turns, n the whole ones that are left out of f t, and theta_k the angl
 """
 
 from collections.abc import Callable
+from functools import cached_property
 from itertools import chain
 from typing import Any
 
 import numpy as np
 from flint import acb, arb
 
+from atlas.core.arithmetic.circle import signs
 from atlas.core.arithmetic.grid import check_grid
 from atlas.core.arithmetic.phase import EVEN, Phases, room
+from atlas.core.arithmetic.quaternions import of_matrix, product
 from atlas.core.arithmetic.words import TURN, middle
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.clebsch_rounding import Rounding
@@ -53,6 +56,10 @@ NOTHING = 1e-35
 
 LOST = 2e-13
 """Largest bound on rounding errors: those that are seen are some twenty times smaller."""
+
+
+SIZES, NEIGHBOURS = (32, 64, 128, 256, 512), 0.5
+"""Cells along a side of a table of quaternions, and the largest squared distance of two that are neighbours."""
 
 
 class ThetaKernel:
@@ -93,6 +100,7 @@ class ThetaKernel:
             ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
             n = [float((x / arb(motion.square)).mid()) for x in theta.field]
         self.rate, self.size = rate, size / rate
+        self.axis = np.array(n)
         self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
         self.rounding = Rounding(self.sums, rounded[:2], rounded[2], float(self.b.mid()), self.size)
         self.accuracy = self.rounding.accuracy()
@@ -142,23 +150,72 @@ class ThetaKernel:
 
         def fill(t: FloatArray, rows: FloatArray, low: FloatArray | None = None) -> None:
             for i in range(0, t.size, PART):
-                half, rest = self._phases(t[i : i + PART], None if low is None else low[i : i + PART])
-                (*x, angle), (*less, lacking) = self._places(half, rest)
-                found = self.sums.at(np.array(x), np.array(less), slice(0, 7))
-                inverse = _inverse(found[3])
-                turned = np.exp(1j * angle)
-                turned += turned * (1j * lacking)
-                N = found[:3] * (turned * inverse)
-                combined(np.concatenate([N.real, N.imag, _real(found[4:], inverse)]), weights, rows[i : i + PART])
+                half, rest, _ = self._phases(t[i : i + PART], None if low is None else low[i : i + PART])
+                self._fill(half, rest, weights, rows[i : i + PART])
 
         return fill
+
+    def _fill(self, half: FloatArray, rest: FloatArray, weights: FloatArray, rows: FloatArray) -> None:
+        """Fill rows with combinations of Re N, Im N and K at half phases: two words, (3, m)."""
+        (*x, angle), (*less, lacking) = self._places(half, rest)
+        found = self.sums.at(np.array(x), np.array(less), slice(0, 7))
+        inverse = _inverse(found[3])
+        turned = np.exp(1j * angle)
+        turned += turned * (1j * lacking)
+        N = found[:3] * (turned * inverse)
+        combined(np.concatenate([N.real, N.imag, _real(found[4:], inverse)]), weights, rows)
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+        return evaluate(t, (4,), out, lambda _: self._fill_quaternions)
+
+    def _fill_quaternions(self, t: FloatArray, rows: FloatArray) -> None:
+        """Fill rows with quaternions: that of R, of the sign which continues it over the torus."""
+        table, steps = self._lift
+        for i in range(0, t.size, PART):
+            half, rest, whole = self._phases(t[i : i + PART])
+            found = self._quaternions(half, rest)
+            index = np.rint((half[:2] / np.pi + 0.5) * (len(table) - 1)).astype(int).clip(0, len(table) - 1)
+            near = product(self._turn(half[2]), table[index[0], index[1]])
+            rows[i : i + PART] = found * np.sign((found * near).sum(-1, keepdims=True))
+            rows[i : i + PART] *= (signs(whole) ** steps).prod(axis=0)[:, None]
+
+    def _quaternions(self, half: FloatArray, rest: FloatArray) -> FloatArray:
+        """Return one quaternion of each R at half phases, (m, 4)."""
+        R = np.empty((half.shape[1], 9))
+        self._fill(half, rest, self.entries, R)
+        return of_matrix(R.reshape(-1, 3, 3))
+
+    def _turn(self, half: FloatArray) -> FloatArray:
+        """Return the quaternions (m, 4) of the turn about the field by twice the angles (m,)."""
+        return np.append(np.outer(np.sin(half), self.axis), np.cos(half)[:, None], axis=-1)
+
+    @cached_property
+    def _lift(self) -> tuple[FloatArray, FloatArray]:
+        """Quaternions over half the phases of the torus, without a jump, and which of the three turns change the sign."""
+        for size in SIZES:
+            line = np.linspace(-np.pi / 2, np.pi / 2, size + 1)
+            half = np.array([*np.meshgrid(line, line, indexing="ij"), np.zeros((size + 1, size + 1))]).reshape(3, -1)
+            q = np.empty((half.shape[1], 4))
+            for i in range(0, len(q), PART):
+                q[i : i + PART] = self._quaternions(half[:, i : i + PART], 0 * half[:, i : i + PART])
+            table = q.reshape(size + 1, size + 1, 4)
+            table[0] = _joined(table[0])
+            table = _joined(table)
+            if max((np.diff(table, axis=k) ** 2).sum(-1).max() for k in (0, 1)) < NEIGHBOURS:
+                break
+        else:
+            raise NotCertifiedError("not certified: the sign of a quaternion changes too fast over the torus.")
+        table *= np.sign(table[size // 2, size // 2, 3])
+        steps = [bool(table[0, 0] @ end < 0) for end in (table[-1, 0], table[0, -1])]
+        return table, np.array([*steps, True], dtype=int)[:, None]
 
     def _vectors(self, part: slice, weights: FloatArray) -> Callable[..., None]:
         """Return what fills rows with combinations of K, or of K and W."""
 
         def fill(t: FloatArray, rows: FloatArray) -> None:
             for i in range(0, t.size, PART):
-                half, rest = self._phases(t[i : i + PART])
+                half, rest, _ = self._phases(t[i : i + PART])
                 x, less = self._places(half, rest)
                 D, *found = self.sums.at(x[:2], less[:2], part)
                 combined(_real(np.array(found), _inverse(D)) * self.rate, weights, rows[i : i + PART])
@@ -177,10 +234,15 @@ class ThetaKernel:
         low[2] += more
         return _sum(x, low)
 
-    def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
-        """Return half the phases less whole turns, in radians, and what rounding left out of them."""
-        half, rest, *_ = self.phases.reduced(t, room(3, t.size), low)
-        return half, rest
+    def _phases(self, t: FloatArray, low: FloatArray | None = None) -> tuple[FloatArray, ...]:
+        """Return half the phases less whole turns, in radians, what rounding left out of them, and the turns."""
+        return self.phases.reduced(t, room(3, t.size), low)[:3]
+
+
+def _joined(q: FloatArray) -> FloatArray:
+    """Return quaternions (n, ..., 4) with those signs that make each row next to the one before it."""
+    signs = np.sign((q[1:] * q[:-1]).sum(-1, keepdims=True))
+    return np.concatenate([q[:1], q[1:] * np.cumprod(signs, axis=0)])
 
 
 def _sum(x: Array, y: Array) -> tuple[Array, Array]:

@@ -14,7 +14,7 @@ import numpy as np
 from atlas.core.arithmetic.grid import fill_grid
 from atlas.core.arithmetic.rotation import DoubleRotation, target
 from atlas.core.arithmetic.turnings import Group, Turnings
-from atlas.core.inputs import FloatArray, common_shape, number, real, whole
+from atlas.core.inputs import FloatArray, common_shape, finite, number, real, whole
 from atlas.core.quantities import TIME, bare
 from atlas.core.shown import Shown, notebook
 from atlas.errors import AtlasError
@@ -28,6 +28,9 @@ class Evaluated(Protocol):
 
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the column R_j(t), shape (..., 3)."""
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
 
 
 Single = TypeVar("Single", bound=Evaluated)
@@ -91,6 +94,24 @@ class Motion(Shown, Generic[Single]):
         if not isinstance(j, Integral) or not 1 <= j <= 3:
             raise AtlasError(f"The columns of R are 1, 2 and 3, not {reprlib.repr(j)}.")
         return self._evaluate(lambda one, t, out: one.column(j, t, out), t, (3,))
+
+    def quaternion(self, t: Any, *, scalar_first: bool = False) -> FloatArray:
+        """Quaternion (x, y, z, w) of R(t), of length 1, its Cayley-Klein parameters; shape (..., 4).
+
+        It is continuous in t: after a whole turn it has changed its sign, and comes back after two. At t = 0 w >= 0.
+        `scalar_first` gives (w, x, y, z). SciPy reads it by ``Rotation.from_quat(q)``. Times and bounds are those of
+        `rotation`.
+        """
+        found = self._spread(lambda turning, t, out: turning.quaternion(t, out), t, (4,))
+        return np.roll(found, 1, axis=-1) if scalar_first else found
+
+    def angular_velocity(self, t: Any) -> FloatArray:
+        """Angular velocity Omega(t) in the body; shape (..., 3)."""
+        raise NotImplementedError
+
+    def angular_velocity_in_laboratory(self, t: Any) -> FloatArray:
+        """Angular velocity R Omega in the laboratory; shape (..., 3). Raises AtlasError as `angular_velocity` does."""
+        return np.asarray(finite(np.matvec(self.rotation(t), self.angular_velocity(t)), "R Omega"))
 
     def third_axis(self, t: Any) -> FloatArray:
         """Third inertia axis R_3(t) in the laboratory, the third column of (84); shape (..., 3).

@@ -26,15 +26,20 @@ broadcasts; and matrices made from them at once, so few that the library does no
 PAIRS = tuple((i, j) for i in range(4) for j in range(i, 4))
 """The ten products of Re alpha, Re beta, Im alpha, Im beta."""
 
+PER_TURN = np.array(1 / np.pi)
+
 QUATERNION = (0, 1, 3, 2)
 """Places of w, x, y, z among them."""
 
 
 class Evaluation:
-    """alpha and beta at up to `size` times at once, with the memory that this takes."""
+    """alpha and beta at up to `size` times at once, with the memory that this takes.
 
-    def __init__(self, parameters: CayleyKlein, size: int) -> None:
-        self.of = parameters
+    If `signed`, their common factor is positive; else it may be of either sign, which drops out of the matrix.
+    """
+
+    def __init__(self, parameters: CayleyKlein, size: int, *, signed: bool = False) -> None:
+        self.of, self.signed = parameters, signed
         count = parameters.phases.words.shape[1]
         self.table = parameters.values
         self.work = room(count, size)
@@ -51,6 +56,8 @@ class Evaluation:
             return self.of.in_balls(t, low)
         m = t.size
         u = self._phases(t, low)
+        if self.signed:
+            self.odd += np.rint(u * PER_TURN).astype(np.int64).sum(axis=0)
         np.tan(u, out=u)
         # phases of alpha and beta, half the sum and half the difference of the two; all have a common factor
         cos, sin = self.circles[..., :m]
@@ -68,14 +75,16 @@ class Evaluation:
         turned[:, 1] += pairs[:, 0]
         if self.of.faint:
             result /= np.abs(result[:4]).max(axis=0)
+        if self.signed:
+            result *= 1.0 - 2.0 * (self.odd & 1)
         return np.asarray(result)
 
     def _phases(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
         """Fill the rows; return half the sum and half the difference of the phases of alpha and beta, (2, m)."""
         m, functions = t.size, self.of.functions
-        rows, phases = self.rows[:, :m], self.of.phases
+        rows = self.rows[:, :m]
         if isinstance(functions, Hyperbolic) and functions.periodic:
-            u, e, *_ = phases.reduced(t, self.work[..., :m], low)
+            u, e = self._reduced(t, low)
             x, rest = functions.line.at(u[2], e[2])
             functions.fill(rows, x, rest)
             u, v = u[:2], u[2]
@@ -85,7 +94,7 @@ class Evaluation:
             return np.asarray(u)
         if isinstance(functions, Trigonometric):
             return self._on_circle(functions, t, low)
-        u = phases.halves_of(t, self.work, low)
+        u = self._halves(t, low)
         if isinstance(functions, Steady):
             functions.fill(rows, t)
             return np.asarray(u)
@@ -98,18 +107,38 @@ class Evaluation:
 
     def _on_circle(self, functions: Trigonometric, t: FloatArray, low: FloatArray | None) -> FloatArray:
         """Do the same where the functions are trigonometric."""
-        phases, swing = self.of.phases, self.of.swing
+        swing = self.of.swing
         if swing and swing.is_large:
-            u, e, *_ = phases.reduced(t, self.work[..., : t.size], low)
+            u, e = self._reduced(t, low)
             u[1] += swing.half_at(functions.multiple, u[2], e[2])
         else:
-            u = phases.halves_of(t, self.work, low)
+            u = self._halves(t, low)
         u, w = u[:2], u[2]
+        if self.signed and self.of.alternates:
+            self.odd += np.rint(w * PER_TURN).astype(np.int64)
         np.tan(w, out=w)
         functions.fill(self.rows[:, : t.size], w)
         if swing and not swing.is_large:
             u[1] += swing.of_circle(*functions.doubled(w))
         return np.asarray(u)
+
+    def _reduced(self, t: FloatArray, low: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+        """Return half the phases, reduced, and what rounding left out; keep how many whole turns that is."""
+        half, rest, whole, _ = self.of.phases.reduced(t, self.work[..., : t.size], low)
+        self._keep(whole)
+        return half, rest
+
+    def _halves(self, t: FloatArray, low: FloatArray | None) -> FloatArray:
+        """Return the same, rounded."""
+        turns = np.empty((len(self.of.frequencies), t.size)) if self.signed else None
+        half = self.of.phases.halves_of(t, self.work, low, turns)
+        self._keep(turns)
+        return half
+
+    def _keep(self, whole: FloatArray | None) -> None:
+        """Keep the number of whole turns, of which each is a last digit."""
+        if self.signed and whole is not None:
+            self.odd = whole.view(np.int64)[: 3 if self.of.alternates else 2].sum(axis=0)
 
     def at(self, t: FloatArray, low: FloatArray | None = None) -> FloatArray:
         """Return the ten products at times t + low, (10, m)."""

@@ -71,8 +71,9 @@ class CayleyKlein:
         """Return the real parts, the imaginary parts and, if `sloping`, those of the derivatives at a time."""
         while True:
             with workprec(self.precision):
-                a, b, da, db = self._solution().parameters(t, turning=False)
-                unit = (abs(a) ** 2 + abs(b) ** 2).sqrt()
+                solution = self._solution()
+                a, b, da, db = solution.parameters(t, turning=False)
+                unit = (abs(a) ** 2 + abs(b) ** 2).sqrt() * (-1 if solution.is_flipped(t) else 1)
                 parts = [[x / unit for x in (a.real, b.real, a.imag, b.imag)]]
                 parts += [[x / unit for x in (da.real, db.real, da.imag, db.imag)]] * self.sloping
                 sizes = [max((abs(x).mid() for x in four), default=arb(0)) for four in parts]
@@ -104,6 +105,7 @@ class CayleyKlein:
             self.phases = self._phases()
             self.values = np.concatenate([_real_parts(table, largest) for table in tables])
             self.lost = self._lost(tables[0])
+            self.alternates = self.periodic and found.alternates
             least = np.abs(self.values[:4]).min(where=self.values[:4] != 0, initial=1.0)
             self.faint = bool(least < FAINT or lattice.reach > -np.log(FAINT))
         return True

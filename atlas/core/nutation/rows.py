@@ -170,6 +170,10 @@ class At:
         """Write the columns R_j, j = 1, 2, 3, into (m, 3)."""
         self._pair(self._rows.field).column(j, out)
 
+    def quaternion(self, _: FloatArray, out: FloatArray) -> None:
+        """Write quaternions (x, y, z, w) into (m, 4)."""
+        self._pair(self._rows.field).quaternion(out)
+
     def field_in_body(self, _: FloatArray, out: FloatArray) -> None:
         """Write K into (m, 3)."""
         self._pair(self._rows.field).vector(out)
@@ -220,6 +224,15 @@ class PairAt:
         (cos, sin), side = self.of.tilt, self.of.azimuth[0]
         first, third = (side, 1.0) if j == 3 else (1.0, side)
         out[:, 0], out[:, 1], out[:, 2] = x * first, (cos * y + sin * z) * first, (cos * z - sin * y) * third
+
+    def quaternion(self, out: FloatArray) -> None:
+        """Write the quaternions into (m, 4): that of the pair after the tilt at the start, turned back."""
+        (cos, sin), side = self.of.tilt, self.of.azimuth[0]
+        longer = np.sqrt((1 + abs(cos)) / 2)
+        shorter = sin / (2 * longer)
+        C, S = np.where(cos < 0, (abs(shorter), np.copysign(longer, sin)), (longer, shorter)) / np.sqrt(self.square)
+        (w, x), (z, y) = self.pair.real, self.pair.imag
+        out[:] = np.stack([(C * x - S * w) * side, (C * y + S * z) * side, C * z - S * y, C * w + S * x], -1)
 
     def vector(self, out: FloatArray, first: int = 0) -> None:
         """Write the vector into (m, 3), its first two components from the `first` on."""

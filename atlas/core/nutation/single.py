@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
+from atlas.core.arithmetic.quaternions import between
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.cayley_klein import Evaluation, combined, entries, evaluate
 from atlas.core.nutation.constants import CayleyKlein
@@ -56,11 +57,16 @@ class SingleMotion:
         return np.array([[C, -S, 0], [S, C, 0], [0, 0, 1]])
 
     @cached_property
-    def entries(self) -> FloatArray:
-        """Weights of the products in the entries of R, (10, 9)."""
+    def left(self) -> FloatArray:
+        """What stands before the matrix of (alpha, beta)."""
         cos, sin, _, _ = self._tilt
         tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
-        return entries(self.attitude @ self.right.T @ tilt, self.right)
+        return self.attitude @ self.right.T @ tilt
+
+    @cached_property
+    def entries(self) -> FloatArray:
+        """Weights of the products in the entries of R, (10, 9)."""
+        return entries(self.left, self.right)
 
     @cached_property
     def field(self) -> FloatArray:
@@ -76,6 +82,29 @@ class SingleMotion:
     def column(self, j: int, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return the column R_j(t), shape (..., 3)."""
         return self._linear(np.ascontiguousarray(self.entries[:, j - 1 :: 3]), t, (3,), out)
+
+    def quaternion(self, t: Any, out: FloatArray | None = None) -> FloatArray:
+        """Return the quaternion (x, y, z, w) of R(t), continuous in t, shape (..., 4)."""
+
+        def prepare(size: int) -> Any:
+            """Return what fills a block."""
+            evaluation = Evaluation(self.parts, size, signed=True)
+
+            def fill(times: FloatArray, rows: FloatArray) -> None:
+                q = evaluation.parts(times)
+                q /= np.sqrt((q * q).sum(axis=0))
+                np.matmul(q.T, self._sides, out=rows)
+
+            return fill
+
+        return evaluate(t, (4,), out, prepare)
+
+    @cached_property
+    def _sides(self) -> FloatArray:
+        """What takes the parts of alpha and beta to the quaternion, with w >= 0 at t = 0."""
+        sides = between(self.left, self.right)[[3, 0, 2, 1]]
+        start = Evaluation(self.parts, 1, signed=True).parts(np.zeros(1))[:, 0] @ sides
+        return np.asarray(-sides if start[3] < 0 else sides)
 
     def field_in_body(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return K(t), shape (..., 3)."""

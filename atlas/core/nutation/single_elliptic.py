@@ -23,18 +23,12 @@ class SingleElliptic(SingleMotion):
     exact: EllipticMotion
 
     def __init__(self, exact: EllipticMotion) -> None:
-        self._order = np.eye(3)[list(exact.places)]
-        super().__init__(exact, self._order.T)
+        super().__init__(exact, np.eye(3))
 
     @cached_property
-    def entries(self) -> FloatArray:
-        """Weights of the products in the entries of R, (10, 9)."""
-        return np.ascontiguousarray((super().entries.reshape(10, 3, 3) @ self._order).reshape(10, 9))
-
-    @cached_property
-    def field(self) -> FloatArray:
-        """Weights of the products in K, (10, 3)."""
-        return np.asarray(super().field @ self._order)
+    def right(self) -> FloatArray:
+        """The turn about the body's axis at t = 0, after its axes have changed their places."""
+        return np.asarray(super().right @ np.eye(3)[list(self.exact.places)])
 
     @cached_property
     def _rates(self) -> FloatArray:

@@ -103,8 +103,10 @@ class Swing:
         return np.asarray(np.asarray(x, dtype=self.type) + np.asarray(rest, dtype=self.type))
 
     def _rounded(self, angle: Numbers) -> FloatArray:
-        """Return an angle as doubles; a large one less whole half turns."""
-        return np.asarray(np.remainder(angle, HALF_TURN) if self.is_large else angle, dtype=np.float64)
+        """Return an angle as doubles; a large one less whole turns."""
+        if self.is_large:
+            angle = np.remainder(angle + HALF_TURN, 2 * HALF_TURN) - HALF_TURN
+        return np.asarray(angle, dtype=np.float64)
 
     def of_circle(self, cos: Numbers, sin: Numbers) -> Numbers:
         """Return it from cos 2v and sin 2v, v = rate s: trigonometric sums of multiples of 2v (Clenshaw)."""

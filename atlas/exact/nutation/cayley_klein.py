@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, arb
+from flint import acb, arb, fmpz
 
 from atlas.exact.inputs import Real, rational
 from atlas.exact.nutation.theta import Lattice, Sum, constant, infinite
@@ -65,7 +65,10 @@ class Solution:
         If not `turning`, these lack the rate at which `swing` turns the body about its own axis.
         """
         t = rational(t, "the time")
-        s = self.in_cell(arb(t) + self.origin)
+        return self._parameters(t, self.in_cell(arb(t) + self.origin), turning=turning)
+
+    def _parameters(self, t: Any, s: arb, *, turning: bool) -> tuple[acb, acb, acb, acb]:
+        """Return them at a time, which is s in its own period."""
         a, da = self.alpha.at(t, s)
         b, db = self.beta.at(t, s)
         if self.swing is None:
@@ -76,12 +79,29 @@ class Solution:
         rate = acb(0, self.swing.kappa * (up - down) / (up + down) / 2) if turning else acb(0)
         return a * turn, b / turn, (da + rate * a) * turn, (db - rate * b) / turn
 
+    @property
+    def alternates(self) -> bool:
+        """Whether alpha and beta change their sign with each whole turn that is left out of the phase in a period."""
+        if self.lattice.form != "hyperbolic":
+            return not (self.alpha.sum.doubled or self.beta.sum.doubled)
+        (a, b, *_), (c, d, *_) = (self._parameters(arb(0), s * self.lattice.half, turning=False) for s in (1, -1))
+        return bool((a * c.conjugate() + b * d.conjugate()).real < 0)
+
     def in_cell(self, s: arb) -> arb:
         """Return the time since the turning point, less whole periods where the sums are for one period only."""
-        if self.lattice.form != "hyperbolic" or infinite(self.lattice.half):
-            return s
-        whole = ((s / self.period).mid() + 0.5).floor().unique_fmpz()
+        whole = self._whole(s)
         return arb("nan") if whole is None else s - self.period * whole
+
+    def _whole(self, s: arb) -> fmpz | None:
+        """Return how many whole periods are left out, None where that is not known."""
+        if self.lattice.form != "hyperbolic" or infinite(self.lattice.half):
+            return fmpz(0)
+        return ((s / self.period).mid() + 0.5).floor().unique_fmpz()
+
+    def is_flipped(self, t: Any) -> bool:
+        """Whether alpha and beta lack a sign at time t, for the whole periods that are left out."""
+        whole = self._whole(arb(t) + self.origin)
+        return whole is not None and int(whole) % 2 == 1 and self.alternates
 
 
 def steady(tilt: Sequence[Real], k: Real, phi: Real, half: arb) -> Solution:

@@ -1,0 +1,36 @@
+"""Unit quaternions (x, y, z, w), the scalar last, of rotation matrices and of products of rotations."""
+
+from typing import Any
+
+import numpy as np
+
+from atlas.core.inputs import FloatArray
+
+
+def of_matrix(R: Any) -> FloatArray:
+    """Return unit quaternions of rotation matrices (..., 3, 3), one of the two of each; shape (..., 4)."""
+    R = np.asarray(R)
+    trace = R[..., 0, 0] + R[..., 1, 1] + R[..., 2, 2]
+    x, y, z = (2 * R[..., i, i] - trace for i in range(3))
+    xy, yz, xz = (R[..., i, j] + R[..., j, i] for i, j in ((0, 1), (1, 2), (0, 2)))
+    xw, yw, zw = (R[..., i, j] - R[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0)))
+    # 4 q_i q_j: the row of the largest q_i loses nothing
+    rows = (1 + x, xy, xz, xw), (xy, 1 + y, yz, yw), (xz, yz, 1 + z, zw), (xw, yw, zw, 1 + trace)
+    table = np.array([np.stack(row, -1) for row in rows])
+    largest = np.argmax([table[i, ..., i] for i in range(4)], axis=0)
+    found = np.take_along_axis(table, largest[None, ..., None], axis=0)[0]
+    return np.asarray(found / np.sqrt((found * found).sum(-1))[..., None])
+
+
+def product(p: FloatArray, q: FloatArray) -> FloatArray:
+    """Return the quaternions p q of a rotation q and p after it; shapes (..., 4) broadcast."""
+    (a, b, c, d), (x, y, z, w) = np.moveaxis(p, -1, 0), np.moveaxis(q, -1, 0)
+    return np.stack([
+        d * x + a * w + b * z - c * y, d * y - a * z + b * w + c * x,
+        d * z + a * y - b * x + c * w, d * w - a * x - b * y - c * z,
+    ], -1)  # fmt: skip
+
+
+def between(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the matrix (4, 4) that takes a row q to p q r, p and r the quaternions of two rotation matrices."""
+    return product(product(of_matrix(left), np.eye(4)), of_matrix(right))

@@ -1,0 +1,136 @@
+"""Quaternions of all motions: that of R(t), continuous in t, in any order of times and for arrays of motions."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+import atlas
+from atlas.core.arithmetic.quaternions import between, of_matrix, product
+
+FALLS = 2 * 3**0.5
+"""Spin below which the top of `MOTIONS` falls over."""
+
+MOTIONS: dict[str, Callable[[], Any]] = {
+    "elementary": lambda: atlas.ElementaryMotion(0.3, (-1.0, 2.0), -3.7),
+    "free": lambda: atlas.FreeMotion(0.6, (0.3, 0.7, 1.1)),
+    "ball": lambda: atlas.BallMotion(1.0, 0.5, (0.3, -0.7)),
+    "general": lambda: atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)),
+    "general, two real roots": lambda: atlas.GeneralMotion(0.4, (1.0, -2.0), (0.3, 3.7, -5.2)),
+    "next to a separatrix": lambda: atlas.GeneralMotion(0.5, (1.0, 0.1), (1e-9, -0.9, 0.43)),
+    "as far from it as a double can be": lambda: atlas.GeneralMotion(0.5, (1.0, 0.1), (1e-12, -0.9, 0.3)),
+    "heavy top": lambda: atlas.TopMotion((1.0, 0.5), (0.0, 0.0), (0.6, 0.8), (0.1, 0.2, 5.0), linear=3.0),
+    "charged top": lambda: atlas.TopMotion((1.0, 0.7), (1.3, 0.2), (0.6, -0.8), (1.0, 0.2, 3.0), 1.0, -2.0),
+    "falling top": lambda: atlas.TopMotion((1.0, 1.0), (0.0, 0.0), (0.0, 1.0), (1e-9, 0.0, FALLS * 0.9), linear=3.0),
+    "slow nutation": lambda: atlas.TopMotion((1.0, 0.5), (3.0, 0.2), (0.6, 0.8), (0.1, 0.2, 40.0), linear=3e-4),
+    "elliptic": lambda: atlas.EllipticMotion((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), 1.7),
+    "elliptic, other oval": lambda: atlas.EllipticMotion((1.3, 0.8, 1.0), (0.2, -1.0, 0.6), -1.29, -1),
+    "three moments": lambda: atlas.AsymmetricMotion((1.0, 1.1, 0.3), (0.2, 0.1, -0.06), (3.3, -1.7, 0.2)),
+    "Euler's top": lambda: atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0.0, 0.0, 0.0), (0.3, 0.7, 0.2)),
+    "without a closed form": lambda: atlas.AsymmetricMotion((0.8, 1.0, 1.0), (0.2, 1.0, 0.6), (0.3, 0.7, 0.2)),
+}
+EVERY = pytest.mark.parametrize("name", MOTIONS)
+
+
+def of(q: Any) -> Any:
+    """Return the matrices of quaternions, by SciPy."""
+    return Rotation.from_quat(q.reshape(-1, 4)).as_matrix().reshape(*q.shape[:-1], 3, 3)
+
+
+@EVERY
+def test_quaternion_is_that_of_the_matrix_and_follows_the_equation_of_motion(name: str) -> None:
+    """Within 20 eps of R; and q' = q Omega/2, integrated from t = 0, gives it with its sign after several turns."""
+    m = MOTIONS[name]()
+    t = np.linspace(-9.0, 14.0, 7 if name == "without a closed form" else 47)
+    q = m.quaternion(t)
+    assert np.abs(of(q) - m.rotation(t)).max() <= 20 * 2.0**-52
+    assert np.abs((q * q).sum(-1) - 1).max() <= 8 * 2.0**-52
+    if name == "without a closed form":
+        t, q = t[:0], q[:0]
+    for side in (t[t >= 0], t[t < 0][::-1]):
+        if side.size:
+            found = solve_ivp(
+                lambda t, q: product(q, np.append(m.angular_velocity(t) / 2, 0.0)), (0.0, side[-1]),
+                [0.0, 0.0, 0.0, 1.0], t_eval=side, rtol=1e-9, atol=1e-9,
+            )  # fmt: skip
+            assert np.abs(found.y.T - m.quaternion(side)).max() <= 1e-6
+
+
+@EVERY
+@pytest.mark.parametrize("start", [-70.0, 1e6, -3e11])
+def test_quaternion_does_not_jump(name: str, start: float) -> None:
+    """Neighbours on a fine grid far away lie beside each other, and the order of the times does not matter."""
+    if name == "without a closed form":
+        return
+    m = MOTIONS[name]()
+    t = start + np.arange(4000) / 50  # exact steps at 3e11 are 2^-14
+    q = m.quaternion(t)
+    assert np.linalg.norm(np.diff(q, axis=0), axis=-1).max() <= 1.5 * 45 / 2 / 50
+    assert (q.min(axis=0) < -0.1).any() or name == "slow nutation"
+    some = np.random.default_rng(1).permutation(t.size)
+    assert np.abs(m.quaternion(t[some]) - q[some]).max() <= 4 * 2.0**-52
+
+
+def test_sign_without_a_closed_form_has_a_limit_that_is_said() -> None:
+    """Each value is certified, and its sign followed from t = 0; far away that is refused."""
+    m = MOTIONS["without a closed form"]()
+    q = m.quaternion(np.linspace(0.0, 12.0, 25))
+    assert np.linalg.norm(np.diff(q, axis=0), axis=-1).max() <= 0.5
+    with pytest.raises(atlas.NotCertifiedError, match="the sign of a quaternion is known up to"):
+        m.quaternion(1e6)
+
+
+@pytest.mark.parametrize("name", ["elementary", "free", "ball", "general", "charged top", "elliptic"])
+def test_arrays_of_motions_have_the_quaternions_of_each(name: str) -> None:
+    """Times broadcast with the motions; few times and many give the same."""
+    one = MOTIONS[name]()
+    rng = np.random.default_rng(5)
+    spread = 1 + 0.01 * rng.uniform(-1, 1, 12)
+    last = list(one.arguments)[-1] if name != "charged top" else "omega"
+    last = "z" if name == "elliptic" else "omega2" if name == "elementary" else last
+    value = one.arguments[last]
+    vary = tuple(x * spread for x in value) if isinstance(value, tuple) else value * spread
+    made = type(one)(**(one.arguments | {last: vary}))
+    t = rng.uniform(-40, 40, 12)
+    q = made.quaternion(t)
+    assert q.shape == (12, 4)
+    assert made.quaternion(t[:3, None]).shape == (3, 12, 4)
+    assert np.abs(of(q) - made.rotation(t)).max() <= 40 * 2.0**-52
+    for i in range(12):
+        chosen = tuple(x[i] for x in vary) if isinstance(vary, tuple) else vary[i]
+        alone = type(one)(**(one.arguments | {last: chosen}))
+        assert np.abs(alone.quaternion(t[i]) - q[i]).max() <= 40 * 2.0**-52
+
+
+def test_scalar_first_is_the_order_of_spice() -> None:
+    """The same numbers with w before them; scalars give (4,)."""
+    m = MOTIONS["elementary"]()
+    assert m.quaternion(0.3).shape == (4,)
+    assert np.array_equal(m.quaternion(0.3, scalar_first=True), m.quaternion(0.3)[[3, 0, 1, 2]])
+    assert np.array_equal(MOTIONS["free"]().quaternion(0.0), [0, 0, 0, 1])
+
+
+def test_angular_velocity_in_the_laboratory_is_the_turned_one() -> None:
+    """R Omega; of a free body it precesses about the angular momentum, which stays."""
+    m = atlas.FreeMotion(0.6, (0.3, 0.7, 1.1))
+    t = np.linspace(-5, 5, 11)
+    w = m.angular_velocity_in_laboratory(t)
+    assert np.abs(w - np.matvec(m.rotation(t), m.angular_velocity(t))).max() == 0
+    along = w @ np.array([0.3, 0.7, 0.66])
+    assert np.ptp(along) <= 16 * 2.0**-52 * abs(along).max()
+
+
+@given(st.lists(st.floats(-1, 1), min_size=8, max_size=8))
+def test_products_and_matrices_of_quaternions(numbers: list[float]) -> None:
+    """The matrix of a product is the product of the matrices, and `between` puts one on each side."""
+    p, q = np.add(np.reshape(numbers, (2, 4)), [[0.2, 0, 0, 1.5], [0, 1.5, 0, 0]])
+    p, q = p / np.linalg.norm(p), q / np.linalg.norm(q)
+    assert np.abs(of(product(p, q)) - of(p) @ of(q)).max() <= 16 * 2.0**-52
+    assert abs(abs(of_matrix(of(p)) @ p) - 1) <= 8 * 2.0**-52
+    v = q @ between(of(p), of(q))
+    assert np.abs(of(v) - of(p) @ of(q) @ of(q)).max() <= 32 * 2.0**-52
