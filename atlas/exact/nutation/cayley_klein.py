@@ -90,6 +90,8 @@ class Solution:
     def in_cell(self, s: arb) -> arb:
         """Return the time since the turning point, less whole periods where the sums are for one period only."""
         whole = self._whole(s)
+        if whole == 0:
+            return s
         return arb("nan") if whole is None else s - self.period * whole
 
     def _whole(self, s: arb) -> fmpz | None:
