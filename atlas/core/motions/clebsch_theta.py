@@ -192,7 +192,7 @@ class ThetaKernel:
 
     @cached_property
     def _lift(self) -> tuple[FloatArray, FloatArray]:
-        """Quaternions over half the phases of the torus, without a jump, and which of the three turns change the sign."""
+        """Quaternions over half the phases of the torus, without a jump, and which of three turns change the sign."""
         for size in SIZES:
             line = np.linspace(-np.pi / 2, np.pi / 2, size + 1)
             half = np.array([*np.meshgrid(line, line, indexing="ij"), np.zeros((size + 1, size + 1))]).reshape(3, -1)

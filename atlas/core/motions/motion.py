@@ -102,7 +102,7 @@ class Motion(Shown, Generic[Single]):
         `scalar_first` gives (w, x, y, z). SciPy reads it by ``Rotation.from_quat(q)``. Times and bounds are those of
         `rotation`.
         """
-        found = self._spread(lambda turning, t, out: turning.quaternion(t, out), t, (4,))
+        found = self._evaluate(lambda one, t, out: one.quaternion(t, out), t, (4,))
         return np.roll(found, 1, axis=-1) if scalar_first else found
 
     def angular_velocity(self, t: Any) -> FloatArray:
