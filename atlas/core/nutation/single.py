@@ -61,7 +61,7 @@ class SingleMotion:
         """What stands before the matrix of (alpha, beta)."""
         cos, sin, _, _ = self._tilt
         tilt = np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]])
-        return self.attitude @ self.right.T @ tilt
+        return np.asarray(self.attitude @ self.right.T @ tilt)
 
     @cached_property
     def entries(self) -> FloatArray:
