@@ -48,14 +48,18 @@ def scene(
         m2 = larmor * float(np.sqrt(ratio * ratio - least * least))
         ball = BallMotion(1.0, larmor, momentum=(m2, m3))
         stop = count * 2 * np.pi / larmor
-        panels += [torus(ball, larmor, stop), trace(ball, larmor, stop, named=not panels)]
+        letters = "abcdefgh"[len(panels) :]
+        panels += [
+            torus(rf"({letters[0]}) $\gamma/\alpha={tex(ratio)}$", ball, larmor, stop),
+            trace(rf"({letters[1]}) way of $\mathbf{{R}}_1$", ball, larmor, stop, named=not panels),
+        ]
     shown = listed([rf"${tex(r)}$ over {plain(n)} turns of the second" for r, n in zip(ratios, turns, strict=True)])
     return Scene(
         title=title(__doc__),
         caption=(
             r"Left, a ball's attitude on the torus of its two angles, $\alpha t$ the long way round and $\gamma t$ the "
-            r"short way; right, the way of its point $\mathbf{R}_1$. From above, $\gamma/\alpha$ is "
-            rf"{shown}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
+            r"short way, dashed behind it where there are few turns; right, the way of its point $\mathbf{R}_1$. From "
+            rf"above, $\gamma/\alpha$ is {shown}, with $\alpha={tex(larmor)}$ and $m_3={tex(m3)}\,I_0$."
         ),
         alt=(
             f"{len(ratios)} rows of two pictures: a line that winds round a torus, closed in the first row and dense "
@@ -64,28 +68,30 @@ def scene(
         ),
         panels=tuple(panels),
         columns=2,
+        named={"dashed": "hidden_trace"} if min(turns) * 2 * np.pi < FEW else {},
         size=(WIDTH, HEIGHT * len(ratios) / 2),
     )
 
 
-def torus(ball: BallMotion, larmor: float, stop: float) -> Space:
+def torus(name: str, ball: BallMotion, larmor: float, stop: float) -> Space:
     """Return the panel of the torus with its net and the line of the motion."""
     fine = quadric_panel.tolerance(1.5)
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     line = curve(lambda t: on_torus(larmor * t, ball.gamma * t), 0.0, stop, fine, pieces=pieces)
-    return Space((*net(), *seen(line, "trajectory"), Points(line[:1], "start")), *VIEW)
+    behind = "hidden_trace" if larmor * stop < FEW else ""
+    return Space((*net(), *seen(line, "second_trace", behind), Points(line[:1], "start")), *VIEW, title=name)
 
 
-def trace(ball: BallMotion, larmor: float, stop: float, *, named: bool) -> Space:
-    """Return the panel of the ball with the way of R_1, the field and the axis k at t = 0, named or not."""
+def trace(name: str, ball: BallMotion, larmor: float, stop: float, *, named: bool) -> Space:
+    """Return the panel of the ball with the way of R_1, the field and k at t = 0; the start has a name or not."""
     fine = quadric_panel.tolerance(1.5)
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))
     way = curve(lambda t: ball.rotation(t)[..., 0], 0.0, stop, fine, pieces=pieces)
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine, role="ball"),
-        Curve(way, "trajectory" if larmor * stop < FEW else "second_trace"),
+        Curve(way, "second_trace" if larmor * stop < FEW else "fine_trace"),
         Points(way[:1], "start", r"$\mathbf{R}_1(0)$" if named else ""),
         Arrow(quadric_panel.E3, 1.5 * quadric_panel.E3, "field", r"$\mathbf{B}$"),
     ]
     k = quadric_panel.in_plane(*ball.k_hat)
-    return Space((*layers, Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$" if named else "")), 25.0, 20.0)
+    return Space((*layers, Arrow(k, 1.5 * k, "turn", r"$\hat{\mathbf{k}}$")), 25.0, 20.0, title=name)

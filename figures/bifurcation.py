@@ -14,7 +14,7 @@ from atlas.scene import Curve, Label, Layer, Plane, Points, Region, Scene
 from atlas.scene.captions import listed, plain, tex, tex_vector, title
 from atlas.scene.sample import curve, quarter_pixel
 
-WIDTH, HEIGHT, MARGIN = 178.0, 70.0, 13.0
+WIDTH, HEIGHT, MARGIN = 150.0, 62.0, 13.0
 NEAR = 1e-4
 """Where a stretch begins that runs to infinity, as a part of it."""
 ROLES = {"stable": "start", "saddle": "unstable_point", "focus-focus": "unstable_point"}
@@ -27,29 +27,29 @@ def scene(
     *,
     inertia: tuple[float, float, float] = (0.5, 1.0, 1.4),
     b: float = 1.0,
-    momentum: tuple[float, ...] = (1.6, 0.8, 0.2),
+    momentum: tuple[float, ...] = (1.6, 0.8, 0.2, 0.0),
     reach: float = 2.2,
 ) -> Scene:
     """Draw the critical values of the body for each ``momentum`` along the field, (M, K)/b.
 
     ``reach`` is the width of a panel in that of the three spins.
     """
-    if not 0 < len(momentum) <= 3:
-        raise DomainError(f"figure bifurcation takes one to three values of the momentum, not {momentum}.")
+    if not 0 < len(momentum) <= 4:
+        raise DomainError(f"figure bifurcation takes one to four values of the momentum, not {momentum}.")
     maps = [Bifurcation(inertia, b, one * b) for one in momentum]
-    across = WIDTH / 3 - MARGIN
     panels = tuple(
-        panel(rf"({letter}) $p={tex(one.c / one.b)}$", one, reach, across)
-        for letter, one in zip("abc", maps, strict=False)
+        panel(rf"({letter}) $p={tex(one.c / one.b)}$", one, reach, words=letter == "a")
+        for letter, one in zip("abcd", maps, strict=False)
     )
     there = {getattr(layer, "role", "") for one in panels for layer in one.layers}
     return Scene(
         title=title(__doc__),
         caption=(
             rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$, $b={tex(b)}$ and momenta "
-            r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the unbounded oval (dark) and of the "
-            "bounded one (turquoise), unstable ones dashed; spins about an axis along the field that are stable "
-            "(dots) or not (crosses). Motions exist in the shaded region."
+            r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the unbounded and of the bounded "
+            "oval, unstable ones dashed; spins about an axis along the field that are stable (dots) or not (crosses). "
+            "Motions exist in the shaded region."
+            + (" For $p=0$ its lower edge is straight, and plane pendulums reach it." if 0.0 in momentum else "")
             + (" The open circle is the body at rest." if "rest" in there else "")
         ),
         alt=(
@@ -58,36 +58,55 @@ def scene(
             "an isolated cross or a small triangle at a dashed curve in the others."
         ),
         panels=panels,
-        columns=len(panels),
+        columns=min(len(panels), 2),
         named={
-            "dark": "main",
-            "turquoise": "third",
             "dashed": "unstable_line",
             "dots": "start",
             "crosses": "unstable_point",
         }
         | {"shaded": "region"}
         | ({"open circle": "rest"} if "rest" in there else {}),
-        size=(WIDTH * len(panels) / 3, HEIGHT),
+        size=(WIDTH * min(len(panels), 2) / 2, HEIGHT * -(-len(panels) // 2)),
     )
 
 
-def panel(name: str, one: Bifurcation, reach: float, across: float) -> Plane:
-    """Return the plane of one c; upwards stands H less F over twice the middle moment."""
+def panel(name: str, one: Bifurcation, reach: float, *, words: bool) -> Plane:
+    """Return the plane of one c, with names at its curves or not; upwards stands H less F over twice the middle moment.
+
+    Motions with values H and F exist if the sum of squares of theorem-splitting is nowhere negative on the unbounded
+    oval and somewhere not positive on the bounded one, so that the stretches with s > 0 are the border, for p = 0 the
+    parabola and the stable rays.
+    """
     middle = int(np.argsort(one.inertia)[1])
     slope = 1 / (2 * float(one.inertia[middle]))
     spins = np.array([(spin.F, spin.H - slope * spin.F) for spin in one.spins])
     start, spread = float(spins[:, 0].min()), float(np.ptp(spins[:, 0]))
     x_limits = start - 0.12 * spread, start + reach * spread
-    sizes = across / (x_limits[1] - x_limits[0]), (HEIGHT - MARGIN) / float(np.ptp(spins[:, 1]))
-    lines = [(stretch, line(one, stretch, slope, x_limits, sizes)) for stretch in one.stretches()]
-    edge = outline([(stretch, points) for stretch, points in lines if stretch.branch * one.c < 0], x_limits[1])
+    sizes = (WIDTH / 2 - MARGIN) / (x_limits[1] - x_limits[0]), (HEIGHT - MARGIN) / float(np.ptp(spins[:, 1]))
+    lines = [
+        (
+            stretch.oval,
+            stretch.stable,
+            stretch.branch * one.c < 0 or not one.c,
+            line(one, stretch, slope, x_limits, sizes),
+        )
+        for stretch in one.stretches()
+    ]
+    for axis, low, high, stable in one.rays() if not one.c else ():
+        if low < high:
+            F = np.array([low, min(high, 2 * x_limits[1] - x_limits[0])])
+            H = (F / one.inertia[axis] + (one.inertia.sum() - one.inertia[axis]) * one.b**2) / 2
+            oval = "unbounded" if axis == np.argmax(one.inertia) else "bounded"
+            lines.append((oval, stable, stable, np.stack([F, H - slope * F], axis=1)))
+    edge = outline([(oval, points) for oval, _, outer, points in lines if outer], x_limits[1])
     low, high = float(edge[:, 1].min()), float(edge[:, 1].max())
     y_limits = low - 0.05 * (high - low), high + 0.05 * (high - low)
     layers: list[Layer] = [Region(edge, "region")]
-    for stretch, points in lines:
-        role = "main" if stretch.oval == "unbounded" else "third"
-        layers.append(Curve(points, role if stretch.stable else "unstable_line"))
+    for oval, stable, _, points in lines:
+        role = {"unbounded": "main", "bounded": "third"}[oval] if stable else "unstable_line"
+        text = oval if stable else "unstable"
+        new = words and all(getattr(layer, "label", "") != text for layer in layers)
+        layers.append(Curve(points, role, text if new else ""))
     for rank, which in enumerate(np.argsort(spins[:, 0])):
         layers.append(Points(spins[which : which + 1], ROLES[one.spins[which].kind]))
         offset = UPRIGHT if rank and one.spins[which].kind == "stable" else OFFSETS[rank]
@@ -114,15 +133,11 @@ def line(
     return curve(points, first, 1 - last, quarter_pixel(1.0, 1.0), pieces=32, box=box, scale=np.array(sizes))
 
 
-def outline(lines: list[tuple[Stretch, FloatArray]], stop: float) -> FloatArray:
-    """Return the border (N, 2) of what exists, from the upper right to the corner and to the lower right.
-
-    Motions with values H and F exist if the sum of squares of theorem-splitting is nowhere negative on the unbounded
-    oval and somewhere not positive on the bounded one, so that these are the stretches with s > 0.
-    """
+def outline(lines: list[tuple[str, FloatArray]], stop: float) -> FloatArray:
+    """Return the border (N, 2) of what exists, of its lines, from the upper right to the corner and the lower right."""
     sides = []
     for oval in ("bounded", "unbounded"):
-        points = np.concatenate([points for stretch, points in lines if stretch.oval == oval])
+        points = np.concatenate([points for one, points in lines if one == oval])
         points = points[np.argsort(points[:, 0], kind="stable")]
         last = [stop, float(np.interp(stop, *points.T))]
         sides.append(np.array([*points[points[:, 0] < stop], last]))

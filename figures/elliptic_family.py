@@ -20,6 +20,7 @@ from atlas.scene.hyperbola_plane import Window, branches, components, seen, wind
 from atlas.scene.sample import curve, quarter_pixel
 
 WIDTH, HEIGHT, MARGIN = 178.0, 76.0, 12.0
+NAMES = {"main": "unbounded", "third": "bounded", "unstable_line": "unstable"}
 NEAR = 1e-3
 """Where a branch begins, as a part of an oval: by then it has left the window."""
 
@@ -45,9 +46,8 @@ def scene(
         caption=(
             r"Initial angular velocities of the elliptic motions in the field "
             rf"$\mathbf{{B}}'={tex_vector((0.0, *field))}$ for bodies with $I_2=1$, $I_3={tex(ratio)}$: the "
-            r"unbounded oval (dark), the bounded one (turquoise), unstable motions (dashed). Dotted: the hyperbola "
-            r"(67) of $I_1=1$. There the ovals meet, in it and in the line $\omega_3=-B'_3$, and part again the "
-            "other way."
+            r"unbounded oval and the bounded one, unstable motions dashed. Dotted: the hyperbola (67) of $I_1=1$. "
+            r"There the ovals meet, in it and in the line $\omega_3=-B'_3$, and part again the other way."
         ),
         alt=(
             f"Panels for I1 = {listed([plain(I1) for I1 in first])} in the plane of omega 2 and omega 3, in the field "
@@ -56,7 +56,7 @@ def scene(
         ),
         panels=panels,
         columns=len(panels),
-        named={"dark": "main", "turquoise": "third", "dashed": "unstable_line", "Dotted": "limit"},
+        named={"dashed": "unstable_line", "Dotted": "limit"},
         size=(WIDTH, HEIGHT),
     )
 
@@ -68,7 +68,10 @@ def panel(
     millimetres = (across, HEIGHT - MARGIN)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]
     layers += [Curve(piece, "limit") for piece in branches(inertia[2], field, view, millimetres)]
-    layers += [Curve(part, role) for part, role in curves(inertia, field, view, millimetres)]
+    found = curves(inertia, field, view, millimetres)
+    named = {max((len(part), i) for i, (part, one) in enumerate(found) if one == role)[1] for _, role in found}
+    words = [NAMES[role] if name.startswith("(a)") and i in named else "" for i, (_, role) in enumerate(found)]
+    layers += [Curve(part, role, text) for (part, role), text in zip(found, words, strict=True)]
     B2, B3 = components(field)
     for factor, text, role in (
         (0.0, "rest", "rest"),

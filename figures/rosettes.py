@@ -10,6 +10,7 @@ import numpy as np
 
 from atlas.core.inputs import FloatArray
 from atlas.core.motions.elementary import ElementaryMotion
+from atlas.core.motions.integrals import shape_factors
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import DomainError
 from atlas.scene import Curve, Layer, Points, Scene, Space, quadric_panel, solids
@@ -19,7 +20,7 @@ from atlas.scene.sample import curve
 SIZE = 44.0
 DENSE = 12.0
 """Turns beyond which the trace is drawn in thin lines."""
-LEAN = np.radians(50.0)
+LEAN = np.radians(40.0)
 
 
 def scene(
@@ -27,16 +28,15 @@ def scene(
     ratio: Any = 1.5,
     field: tuple[float, float] = (1.0, 2.0),
     fractions: tuple[tuple[int, int], ...] = ((1, 2), (2, 3), (3, 5)),
-    omega2: float = -1.325419,
-    turns: float = 34.0,
+    turns: float = 13.0,
 ) -> Scene:
-    """Show a motion with phi/k = p/q for each of the ``fractions``, and one from ``omega2`` over ``turns`` turns."""
+    """Show a motion with phi/k = p/q for each of the ``fractions``, and the golden one over ``turns`` turns."""
     if not all(field):
         raise DomainError(f"figure rosettes needs both components of the field, not field = {field}.")
     hyperbola = Hyperbola(ratio, field)
     closed = [(rf"$\phi/k={p}/{q}$", hyperbola.closed(p, q), float(q)) for p, q in fractions]
-    never = ElementaryMotion(ratio, field, omega2)
-    motions = [*closed, (rf"$\phi/k={tex(never.phi / never.k)}\ldots$", never, turns)]
+    never = ElementaryMotion(ratio, field, golden(ratio, field))
+    motions = [*closed, (r"$\phi/k=(\sqrt{5}-1)/2$", never, turns)]
     panels = tuple(
         panel(f"({letter}) {name}", field, motion, count)
         for letter, (name, motion, count) in zip("abcdefgh", motions, strict=False)
@@ -46,10 +46,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"The trace of a point of the body, 50 degrees off its axis (thick), along $\mathbf{B}$, "
-            rf"for {tex_setting(ratio, field)}. With $\phi/k$ equal to {named} it is back in its first attitude "
-            f"after {listed([str(q) for _, q in fractions])} turns of the precession. The last motion, from "
-            rf"$\omega_2={tex(omega2)}$, runs over {plain(turns)} turns."
+            r"Seen along $\mathbf{B}$: the circle of the body's axis (navy) and the trace of a point 40 degrees off it "
+            rf"(teal), for {tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back after "
+            rf"{listed([str(q) for _, q in fractions])} turns of the precession. With the golden mean, drawn over "
+            rf"{plain(turns)} turns from $\omega_2={tex(never.omega2)}$, it never is."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "
@@ -57,8 +57,16 @@ def scene(
         ),
         panels=panels,
         columns=len(panels),
+        named={"navy": "trace", "teal": "trajectory"},
         size=(SIZE * len(panels), SIZE + 4.0),
     )
+
+
+def golden(ratio: Any, field: tuple[float, float]) -> float:
+    """Return omega2 of the motion with phi/k = (sqrt 5 - 1)/2, from phi/k = r (1 + B2/(omega2 + B2)), (86) and (87)."""
+    I, one_less, _ = shape_factors(ratio)
+    free = float(one_less / I * field[1] / np.hypot(*field))
+    return float(field[0] * (1 / ((np.sqrt(5) - 1) / 2 / free - 1) - 1))
 
 
 def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns: float) -> Space:
@@ -74,7 +82,7 @@ def panel(name: str, field: tuple[float, float], motion: ElementaryMotion, turns
     layers: list[Layer] = [
         solids.sphere(quadric_panel.O, 1.0, fine),
         Curve(curve(motion.third_axis, 0.0, period, fine), "trace"),
-        Curve(trace, "second_trace" if turns <= DENSE else "fine_trace"),
+        Curve(trace, "trajectory" if turns <= DENSE else "fine_trajectory"),
         Points(trace[:1], "start"),
     ]
     elevation = float(np.degrees(np.arctan2(field[1], abs(field[0]))))

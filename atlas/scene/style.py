@@ -87,6 +87,8 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "trace": Style("#2a57a5", 1.2, tube=2.6),
         "second_trace": Style("#4a74bd", 0.8, tube=1.4),
         "fine_trace": Style("#4a74bd", 0.4, tube=0.7),
+        "hidden_trace": Style("#4a74bd", 0.5, (3.0, 2.0), tube=0.8),
+        "fine_trajectory": Style(TEAL, 0.4, tube=0.7),
         "coil": Style("#8a5a1f", 0.5, hidden=False, tube=1.0),
         "loop": Style("#8a5a1f", 2.0, tube=5.0),
         "seam_line": Style("#6b4517", 2.0, tube=4.0),

@@ -31,11 +31,12 @@ def hidden(points: FloatArray) -> FloatArray:
     return np.asarray(np.minimum(c0, c0 + least * (c1 + least * (4 * b + least))) < -GRAZE)
 
 
-def seen(points: FloatArray, role: str) -> list[Layer]:
-    """Return the visible parts of a line on the torus."""
+def seen(points: FloatArray, role: str, behind: str = "") -> list[Layer]:
+    """Return the visible parts of a line on the torus, and in the role `behind`, if any, those that it hides."""
     gone = hidden(points)
     pieces = np.split(np.arange(len(points)), np.flatnonzero(np.diff(gone)) + 1)
-    return [Curve(points[piece[0] : piece[-1] + 2], role) for piece in pieces if not gone[piece[0]]]
+    roles = [behind if gone[piece[0]] else role for piece in pieces]
+    return [Curve(points[piece[0] : piece[-1] + 2], one) for piece, one in zip(pieces, roles, strict=True) if one]
 
 
 def net() -> list[Layer]:

@@ -108,7 +108,7 @@ def test_no_motion_of_the_unbounded_oval_is_unstable_but_on_a_separatrix() -> No
 
 def test_random_motions_lie_in_the_shaded_region_and_fill_it() -> None:
     """Of 40 000 motions at each c none is outside as drawn, each cell inside holds one; rest is on the edge."""
-    for panel, c in zip(recipes.load("bifurcation").scene().panels, MOMENTA, strict=False):
+    for panel, c in zip(recipes.load("bifurcation").scene().panels, (*MOMENTA[:3], 0.0), strict=True):
         (region,) = (layer for layer in panel.layers if isinstance(layer, Region))
         M, K = states(1.0, c, 40_000, 0.6)
         H = (np.vecdot(M, M / BODY) + np.vecdot(K, BODY * K)) / 2
@@ -126,6 +126,26 @@ def test_random_motions_lie_in_the_shaded_region_and_fill_it() -> None:
         assert (count[whole] > 0).all()
         for rest in (layer for layer in panel.layers if isinstance(layer, Points) and layer.role == "rest"):
             assert abs(rest.points[0, 1] + rest.points[0, 0] / 2 - c) <= 1e-12  # at rest H = (M, K)
+
+
+def departed(M: np.ndarray, K: np.ndarray) -> float:
+    """Return how many times farther a push takes a motion of BODY from its axis in the time 100."""
+    push, times = np.array([0.3, 0.7, -0.5]), np.linspace(0.0, 100.0, 201)
+    one, other = (flow(BODY, (M + step * push) / BODY, K, 1.0, 0.0, times)[0] for step in (0.0, 1e-6))
+    return float(np.abs((other - one)[:, M == 0]).max()) / 1e-6
+
+
+def test_plane_pendulums_have_the_values_of_the_rays_and_their_stability() -> None:
+    """K across an axis, M along it: the values lie on the ray, 1e-12, and a push grows on the unstable part alone."""
+    for axis, low, high, stable in Bifurcation(BODY, 1.0, 0.0).rays():
+        if low < high:
+            F = min(low + 0.6, low + 0.7 * (high - low))
+            one, other = np.delete(np.arange(3), axis)
+            flat = max(one, other, key=lambda i: BODY.prod() / BODY[i])
+            K, M = np.eye(3)[flat], np.sqrt(F + BODY.prod() / BODY[flat]) * np.eye(3)[axis]
+            H = (np.vecdot(M, M / BODY) + np.vecdot(K, BODY * K)) / 2
+            assert abs(2 * H - F / BODY[axis] - BODY.sum() + BODY[axis]) <= 1e-12
+            assert (departed(M, K) > 1e4) != stable
 
 
 def test_the_edge_is_reached() -> None:
@@ -148,10 +168,10 @@ def test_the_edge_is_reached() -> None:
 
 @pytest.mark.parametrize(
     ("inertia", "b", "c", "words"),
-    [((1.0, 1.0, 1.5), 1.0, 1.0, "equal"), (BODY, 1.0, 0.0, "must not be 0"), (BODY, 0.0, 1.0, "b must")],
+    [((1.0, 1.0, 1.5), 1.0, 1.0, "equal"), (BODY, 0.0, 1.0, "b must")],
 )
 def test_what_has_no_such_curve_is_refused(inertia: tuple[float, ...], b: float, c: float, words: str) -> None:
-    """Two equal moments, no momentum along the field, no field."""
+    """Two equal moments, no field."""
     with pytest.raises(DomainError, match=words):
         Bifurcation(inertia, b, c)
 
@@ -225,7 +245,7 @@ def test_the_axis_of_a_flattened_body_is_that_of_the_certified_motion() -> None:
 @pytest.mark.parametrize(
     ("name", "parameters"),
     [
-        ("bifurcation", {"momentum": (1.0, 2.0, 3.0, 4.0)}),
+        ("bifurcation", {"momentum": (1.0, 2.0, 3.0, 4.0, 5.0)}),
         ("torus_of_flows", {"stop": 1e5}),
         ("torus_of_flows", {"omega": (0.0, 0.0, 0.0)}),
         ("flattening", {"field": (0.0, 0.0)}),

@@ -18,7 +18,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
     ("ball_torus", {"ratios": (2.5,) * 5, "turns": (1.0,) * 5}, "5 ratios"),
     ("ball_torus", {"ratios": (1.62,), "turns": (1.0,)}, "the least of a ball"),
     ("ball_torus", {"ratios": (160.01,), "turns": (2.5,)}, "at most 400 turns"),
-    ("bifurcation", {"momentum": (1.6, 0.8, 0.2, 0.1)}, "one to three"),
+    ("bifurcation", {"momentum": (1.6, 0.8, 0.2, 0.1, 0.0)}, "one to four"),
     ("body_ruler", {"field": (0.0, 1.0)}, "not zero"),
     ("body_ruler", {"field": (1.0, 0.0)}, "not zero"),
     ("cone", {"field": (0.0, 1.0)}, "cone"),

@@ -37,9 +37,9 @@ def test_a_rosette_closes_and_the_last_one_does_not() -> None:
     """With phi/k = p/q the trace ends where it began to 8 eps times the turns; the last one is 0.01 away or more."""
     *closed, open_ = panels("rosettes")
     for panel, q in zip(closed, (2, 3, 5), strict=True):
-        (trace,) = layers(panel, Curve, "second_trace")
+        (trace,) = layers(panel, Curve, "trajectory")
         assert np.abs(trace.points[0] - trace.points[-1]).max() <= 8 * EPS * q
-    (trace,) = layers(open_, Curve, "fine_trace")
+    (trace,) = layers(open_, Curve, "fine_trajectory")
     assert np.abs(trace.points[0] - trace.points[-1]).max() > 0.01
 
 

@@ -137,13 +137,13 @@ def test_the_line_on_the_surface_is_thin_where_a_nutation_is_slow() -> None:
 def test_the_line_on_the_torus_is_straight_and_closes_with_the_trace() -> None:
     """On the torus the tube's angle grows gamma/alpha times as fast as the other; R_1 comes back after two turns."""
     left, right, _, open_ = panels("ball_torus")
-    for layer in layers(left, Curve, "trajectory"):
+    for layer in layers(left, Curve, "second_trace"):
         x, y, z = layer.points.T
         first = np.unwrap(np.arctan2(y, x))
         second = np.unwrap(np.arctan2(z, np.hypot(x, y) - 1.0))
         off = (second - 2.5 * first) - (second - 2.5 * first)[0]
         assert np.abs(off).max() <= 256 * EPS * 10
-    (closed,), (dense,) = layers(right, Curve, "trajectory"), layers(open_, Curve, "second_trace")
+    (closed,), (dense,) = layers(right, Curve, "second_trace"), layers(open_, Curve, "fine_trace")
     assert np.abs(closed.points[0] - closed.points[-1]).max() <= 64 * EPS
     assert np.abs(dense.points[0] - dense.points[-1]).max() > 0.01
     assert np.abs(np.linalg.norm(dense.points, axis=1) - 1).max() <= 8 * EPS
@@ -168,7 +168,7 @@ def test_of_a_line_on_the_torus_is_drawn_what_no_part_of_it_hides() -> None:
     panel = panels("ball_torus")[0]
     first = np.linspace(0.0, 4.0 * np.pi, 3000)
     whole = on_torus(first, 2.5 * first)
-    drawn = [layer.points for layer in layers(panel, Curve, "trajectory")]
+    drawn = [layer.points for layer in layers(panel, Curve, "second_trace")]
     assert all(depth(line[1:-1], 25.0, 52.0).max() <= 2e-3 for line in drawn)
     length = sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in drawn)
     steps = np.linalg.norm(np.diff(whole, axis=0), axis=1)

@@ -57,10 +57,10 @@ class Spin:
 
 
 class Bifurcation:
-    """The critical values of a body `inertia` (I1, I2, I3), all different, at b > 0 and c not 0.
+    """The critical values of a body `inertia` (I1, I2, I3), all different, at b > 0 and c.
 
-    Raises DomainError for moments that no body has or of which two are equal, and for c = 0, where the curve is three
-    straight lines and a parabola.
+    For c = 0, Neumann's and Weber's case, the curve is a piece of a parabola, of the bounded oval, and the `rays` of
+    the plane pendulums. Raises DomainError for moments that no body has or of which two are equal.
     """
 
     def __init__(self, inertia: Any, b: float, c: float) -> None:
@@ -69,8 +69,6 @@ class Bifurcation:
         self.b, self.c = positive(b, "b"), number(c, "c")
         if len(set(self.inertia)) < 3:
             raise DomainError(f"Two of the moments {self.inertia.tolist()} are equal: give three different ones.")
-        if self.c == 0:
-            raise DomainError("c = (M, K) must not be 0.")
         self.D = float(self.inertia.prod())
         self.a = self.D / self.inertia
         self.e2 = float(self.a.sum())
@@ -114,6 +112,9 @@ class Bifurcation:
     def stretches(self) -> Iterator[Stretch]:
         """Yield the parts of both ovals on which K is real."""
         low, middle, high = np.sort(-self.a)
+        if not self.c:
+            yield Stretch("bounded", 1, float(low), float(middle), stable=True)
+            return
         roots = np.concatenate([self._roots(axis) for axis in range(3)])
         places = np.sort(roots[np.isreal(roots)].real)
         sides: tuple[tuple[Oval, int, list[float]], ...] = (
@@ -130,6 +131,20 @@ class Bifurcation:
                     for one, other in pairwise(borders):
                         stable = bool(self.splitting(np.array((one + other) / 2), branch) > 0)
                         yield Stretch(oval, branch, one, other, stable)
+
+    def rays(self) -> Iterator[tuple[int, float, float, bool]]:
+        """Yield axis, first and last F, and stability of the plane pendulums about the three axes, for c = 0.
+
+        With K across the axis i and M along it 2 H = F/I_i + (I_j + I_k) b^2, theorem-edge, from the least F on, at
+        which the body rests in Larmor's frame. By theorem-splitting the axes of the least and the middle moment change
+        stability where z = -D/I_i is a place of the parabola, to which the line is a tangent.
+        """
+        square, order = self.b * self.b, np.argsort(self.inertia)
+        for axis, before, after in zip(order, (False, True, True), (True, False, True), strict=True):
+            others = np.delete(self.a, axis)
+            start, border = -square * float(others.max()), square * float(self.a[axis] - others.sum())
+            yield int(axis), start, border, before
+            yield int(axis), max(start, border), float("inf"), after
 
     def _borders(self, start: float, stop: float, branch: int) -> list[float]:
         """Return the places between two others where stability changes: the cusps of the curve."""
