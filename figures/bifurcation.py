@@ -46,11 +46,10 @@ def scene(
         title=title(__doc__),
         caption=(
             rf"Critical values of $H$ and $F$ for $I_i={tex_vector(inertia)}$, $b={tex(b)}$ and momenta "
-            r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the unbounded and of the bounded "
-            "oval, unstable ones dashed; spins about an axis along the field that are stable (dots) or not (crosses). "
-            "Motions exist in the shaded region."
-            + (" For $p=0$ its lower edge is straight, and plane pendulums reach it." if 0.0 in momentum else "")
-            + (" The open circle is the body at rest." if "rest" in there else "")
+            r"$p=(\mathbf{M},\mathbf{K})/b$ along the field: elliptic motions of the two ovals, unstable ones dashed, "
+            "and stable (dots) and other spins (crosses) about an axis. Motions exist in the shaded region."
+            + (" For $p=0$ its lower edge is straight, of plane pendulums." if 0.0 in momentum else "")
+            + (" Open circle: rest." if "rest" in there else "")
         ),
         alt=(
             f"Planes of F and H for p = {listed([plain(x) for x in momentum])}: a region that opens to the right "
@@ -65,7 +64,7 @@ def scene(
             "crosses": "unstable_point",
         }
         | {"shaded": "region"}
-        | ({"open circle": "rest"} if "rest" in there else {}),
+        | ({"Open circle": "rest"} if "rest" in there else {}),
         size=(WIDTH * min(len(panels), 2) / 2, HEIGHT * -(-len(panels) // 2)),
     )
 

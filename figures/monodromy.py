@@ -9,14 +9,17 @@ from typing import Any
 
 import numpy as np
 
+from atlas.core.inputs import FloatArray
 from atlas.core.maps.monodromy import Monodromy, around, on_loop
 from atlas.core.maps.wells import Wells
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Plane, Points, Scene
+from atlas.scene import Arrow, Curve, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import plain, tex, title
 
 WIDTH, HEIGHT = 178.0, 122.0
 RANGES = {"points": (24, 200)}
+FINE = 480
+"""Points of a line through those of a loop, by their Fourier series."""
 
 
 def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 40, unit: str = "time") -> Scene:
@@ -44,10 +47,10 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"Above: critical values (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round unstable "
-            rf"spins (crosses); the first top has $a_0={tex(b * b)}$ and no charge, the disk $b={tex(b)}$. Below: the "
-            r"periods that take one nutation, by their turns about $\mathbf{n}$ and about the axis. Round the "
-            rf"loop $\mathbf{{g}}_3$ goes from one (dot) to another (arrow). Largest step {error:.2g} of a turn."
+            rf"Above: least energies (solid) for $I={tex(ratio)}$, $M_3={tex(M3)}$ and 0, and loops round unstable "
+            rf"spins (crosses); $a_0={tex(b * b)}$ in (a), $b={tex(b)}$ in (b, c). Below: the periods of one nutation, "
+            "by their turns. Round the loop each moves (lines) to the place of another: the lattice comes back, and "
+            rf"$\mathbf{{g}}_3$ (heavy line) does not. Largest step {error:.2g} of a turn."
         ),
         alt=(
             "Three diagrams with a loop round one or two isolated critical values, and three lattices of points, in "
@@ -55,7 +58,12 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
         ),
         panels=(*maps, *lattices),
         columns=3,
-        named={"solid": "main", "crosses": "unstable_point", "dot": "start", "arrow": "component"},
+        named={
+            "solid": "main",
+            "crosses": "unstable_point",
+            "lines": "fine_trajectory",
+            "heavy": "trajectory",
+        },
         size=(WIDTH, HEIGHT),
     )
 
@@ -88,8 +96,9 @@ def values(name: str, wells: Wells, found: Monodromy, first: bool, unit: str) ->
     pad = 0.1 * (high - low)
     layers: list[Layer] = [
         *(Curve(line, "main") for line in lines),
-        Curve(np.stack([found.p, found.g], axis=1), "trajectory"),
-        Points(ends, "unstable_point"),
+        Curve(smooth(np.stack([found.p, found.g], axis=1)), "trajectory"),
+        Points(ends, "unstable_point", "spin" if first else ""),
+        Label(np.array([0.0, low - 0.05 * pad]), "no motion" if first else "", "note", (0.0, 0.0)),
         Points(np.array([[found.p[0], found.g[0]]]), "start"),
     ]
     return Plane(
@@ -98,18 +107,30 @@ def values(name: str, wells: Wells, found: Monodromy, first: bool, unit: str) ->
     )  # fmt: skip
 
 
+def smooth(points: FloatArray) -> FloatArray:
+    """Return a line (N, 2) that passes, but for a step along it, through points that come back after it."""
+    count = len(points) - 1
+    drift = np.outer(np.arange(count) / count, points[-1] - points[0])
+    waves = np.fft.rfft(points[:-1] - drift, axis=0)
+    fine = np.fft.irfft(waves, FINE, axis=0) * (FINE / count)
+    fine += np.outer(np.arange(FINE) / FINE, points[-1] - points[0])
+    return np.concatenate([fine, fine[:1] + points[-1] - points[0]])
+
+
 def lattice(name: str, found: Monodromy, first: bool) -> Plane:
     """Return the periods with one nutation, in turns, and the course of g3."""
-    track = -found.turns
+    track = smooth(-found.turns)
     start, end = track[0], track[-1]
-    middle, half = (track.min(axis=0) + track.max(axis=0)) / 2, 0.5 * float(np.ptp(track, axis=0).max()) + 0.45
+    middle, half = (track.min(axis=0) + track.max(axis=0)) / 2, 0.5 * float(np.ptp(track, axis=0).max()) + 0.7
     steps = np.arange(-4, 5)
-    grid = start + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
-    grid = grid[(np.abs(grid - middle) <= half).all(axis=1)]
+    corners = start + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    grid = corners[(np.abs(corners - middle) <= half).all(axis=1)]
+    ways = [Curve(track + corner - start, "fine_trajectory") for corner in corners]
     layers: list[Layer] = [
+        *ways,
         Points(grid, "sample"),
-        Arrow(start, end, "component"),
         Curve(track, "trajectory"),
+        Arrow(start, end, "component"),
         Points(track[:1], "start"),
     ]
     return Plane(

@@ -1,11 +1,11 @@
 """The hyperbola on its quadric.
 
 On the whole surface (51) a constant Omega_3 solves (47), but from a point of it Omega_3 departs at the rate
-|omega_1 B2|, theorem-points: the surface is coloured by that rate. Only the hyperbola omega_1 = 0 stays; it is coloured
-by the frequency of a small nutation, theorem-stability.
+|omega_1 B2|, theorem-points: the surface is coloured by that rate. Only the hyperbola omega_1 = 0 stays.
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -13,13 +13,16 @@ from atlas.core.inputs import FloatArray
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.core.surfaces.quadric import Quadric
 from atlas.errors import DomainError
-from atlas.scene import Arrow, Curve, Layer, Points, Scene, Space, Surface, quadric_panel, quadrics
+from atlas.scene import Arrow, Curve, Label, Layer, Points, Scene, Space, Surface, quadric_panel, quadrics, solids
 from atlas.scene.bodies import drawn_body
-from atlas.scene.captions import plain_setting, tex, tex_setting, title
+from atlas.scene.captions import plain_setting, tex_setting, title
 from atlas.scene.hyperbola_plane import places
+from atlas.scene.layers import frame
 
 WIDTH, HEIGHT = 120.0, 118.0
-BANDS, CLASSES = 5, 4
+BANDS = 5
+CORNER, STEP = (-2.05, 0.0), 0.24
+"""Where the key of the tints begins in the plane of view, and the size of each, in units of |B'|."""
 REACH = 2.0
 """How far the sheets go along their axis, in units of |B'|."""
 BODY, OFF, SPIN = 0.17, 0.42, 0.42
@@ -38,38 +41,32 @@ def scene(
     widest = float(np.sqrt(radius_squared(quadric, np.array(REACH * b))))
     edges = np.linspace(0.0, widest, BANDS + 1)
     hyperbola = Hyperbola(ratio, field)
-    levels = thresholds(hyperbola)
-    layers: list[Layer] = [*bands(ratio, quadric, field, REACH * b, edges)]
+    layers: list[Layer] = [*bands(ratio, quadric, field, REACH * b, edges), *quadric_panel.basis((0.9 * b, b, 1.3 * b))]
     for omega2, omega3 in hyperbola.branches(1201, reach=3.0 * REACH):
         points = np.stack([np.zeros_like(omega2), omega2, omega3], axis=1)
         axis = np.asarray(quadric.axes)[quadrics.sheet_axis(quadric)]
         inside = np.abs((points - quadric.centre) @ axis) <= REACH * b
-        squared = np.asarray(hyperbola.stability(omega2))
-        nutation = np.where(squared > 0.0, np.sqrt(np.maximum(squared, 0.0)), np.nan)
-        layers += classed(points[inside], nutation[inside], levels)
+        layers += line(points[inside], np.asarray(hyperbola.stability(omega2))[inside] > 0)
     for sheet in quadrics.pieces(ratio, field, REACH * b, quadric_panel.tolerance(REACH * b)):
         layers += [Curve(rim, "rim") for rim in sheet.rims]
     layers += bodies(ratio, field, b)
-    first, *_, last = levels / b
+    view = frame(Space((), azimuth, elevation))
+    layers += key(edges, abs(field[0]), CORNER[0] * b * view[0] + CORNER[1] * b * view[1], view, STEP * b)
     unstable = any(isinstance(layer, Curve) and layer.role == "unstable" for layer in layers)
     band = " Vermilion: the unstable motions." if unstable else ""
     return Scene(
         title=title(__doc__),
         caption=(
-            rf"The surface (51) for {tex_setting(ratio, field)}, the more strongly tinted the larger the rate "
-            rf"$\lvert\omega_1B'_2\rvert$ at which $\Omega_3$ departs there, in {BANDS} steps up to "
-            rf"${tex(round(widest * field[0], 2))}$. "
-            r"From the heavy line it does not depart; its width shows four "
-            rf"classes of $\nu_n/b$ from below ${tex(round(first, 2))}$ to above ${tex(round(last, 2))}$.{band} "
+            rf"The surface (51) for {tex_setting(ratio, field)}, tinted by the rate $\lvert\omega_1B'_2\rvert$ at "
+            rf"which $\Omega_3$ departs there. From the heavy line, the hyperbola, it does not depart.{band} "
             r"Arrows at the bodies: $\boldsymbol{\omega}$."
         ),
         alt=(
             f"The quadric of {plain_setting(ratio, field)} in five tints, the faintest in a band along the hyperbola, "
-            "with small bodies beside three points of that line, which is thin near the bends of its branches and "
-            "wide away from them."
+            "with small bodies beside three points of that line."
         ),
         panels=(Space(tuple(layers), azimuth, elevation),),
-        named={"heavy": "nutation_3"},
+        named={"heavy": "hyperbola"},
         size=(WIDTH, HEIGHT),
     )
 
@@ -129,20 +126,24 @@ def bands(
                 yield Surface(Q, np.array(clip), tuple(grids), role=f"rate_{k}")
 
 
-def thresholds(hyperbola: Hyperbola) -> FloatArray:
-    """Return the frequencies of nutation that divide the classes, in 1/time: quarters of what is drawn and stable."""
-    omega2 = np.concatenate([branch[0] for branch in hyperbola.branches(801, reach=REACH)])
-    values = np.asarray(hyperbola.stability(omega2))
-    return np.quantile(np.sqrt(values[values > 0.0]), np.arange(1, CLASSES) / CLASSES)
+def line(points: FloatArray, stable: FloatArray) -> list[Layer]:
+    """Return a line (N, 3) in pieces, each with the role of stable or of unstable motions."""
+    cuts = [0, *(np.flatnonzero(np.diff(stable)) + 1).tolist(), len(points) - 1]
+    roles = {True: "hyperbola", False: "unstable"}
+    return [Curve(points[i : j + 1], roles[bool(stable[i])]) for i, j in pairwise(cuts) if j > i]
 
 
-def classed(points: FloatArray, values: FloatArray, levels: FloatArray) -> list[Layer]:
-    """Return a line in pieces, each with the role of the class of its values; where there is none it is unstable."""
-    found = np.where(np.isnan(values), -1, np.digitize(values, levels))
-    starts = np.append(0, np.flatnonzero(np.diff(found)) + 1)
-    ends = np.append(starts[1:], len(points) - 1)
-    roles = {-1: "unstable"} | {k: f"nutation_{k}" for k in range(CLASSES)}
-    return [Curve(points[i : j + 1], roles[int(found[i])]) for i, j in zip(starts, ends, strict=True) if j > i]
+def key(edges: FloatArray, B2: float, corner: FloatArray, frame: FloatArray, step: float) -> list[Layer]:
+    """Return the tints in a column with the rates between them, upwards from a corner (3,) of the plane of view."""
+    right, up, _ = frame
+    layers: list[Layer] = []
+    for k, edge in enumerate(edges):
+        at = corner + k * step * up
+        if k < BANDS:
+            layers.append(solids.rectangle(at + step / 2 * up, 0.45 * step * right, step / 2 * up, role=f"rate_{k}"))
+        layers.append(Label(at + 0.6 * step * right, f"{edge * B2:.2g}", "note", (7.0, 0.0)))
+    top = corner + (len(edges) - 0.2) * step * up
+    return [*layers, Label(top, r"$|\omega_1B'_2|$", "label", (0.0, 3.0))]
 
 
 def bodies(ratio: float, field: tuple[float, float], b: float) -> list[Layer]:

@@ -46,10 +46,10 @@ def scene(
     return Scene(
         title=title(__doc__),
         caption=(
-            r"Seen along $\mathbf{B}$: the circle of the body's axis (navy) and the trace of a point 40 degrees off it "
-            rf"(teal), for {tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back after "
-            rf"{listed([str(q) for _, q in fractions])} turns of the precession. With the golden mean, drawn over "
-            rf"{plain(turns)} turns from $\omega_2={tex(never.omega2)}$, it never is."
+            r"Seen along $\mathbf{B}$: the body's axis (navy) and a point 40 degrees off it (teal), for "
+            rf"{tex_setting(ratio, field)}. With $\phi/k$ equal to {named} the body is back after "
+            rf"{listed([str(q) for _, q in fractions])} turns of the precession, with the golden mean never; drawn: "
+            rf"{plain(turns)} turns from $\omega_2={tex(never.omega2)}$."
         ),
         alt=(
             f"Spheres seen along the field for {plain_setting(ratio, field)}. A point of the body draws closed "

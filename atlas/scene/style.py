@@ -123,16 +123,10 @@ STYLES: Mapping[str, Style] = MappingProxyType(
         "sample": Style(SLATE, marker=".", size=2.6, tube=2.6),
         # areas and surfaces
         "surface": Style("#4f8fd0", fill=0.30, back="#f0b25c", glass=0.40),
-        # scales, from little to much: of a rate on a surface, of a frequency along a curve
+        # a scale, from little to much, of a rate on a surface
         **{
             f"rate_{k}": Style(colour, fill=0.88, back=colour, glass=0.80)
             for k, colour in enumerate(("#f7efdc", "#eed3a4", "#dfa870", "#c4764d", "#9a4334"))
-        },
-        **{
-            f"nutation_{k}": Style(colour, width, tube=tube)
-            for k, (colour, width, tube) in enumerate(
-                (("#5fa8d3", 1.2, 2.6), ("#2b6cb0", 1.7, 3.6), ("#16325c", 2.2, 4.6), ("#0b1526", 2.8, 5.8))
-            )
         },
         "sphere": Style("#9fb6cf", fill=0.22, back="#c9d3de"),
         "ball": Style("#e3b778", fill=0.45, back="#e3b778"),

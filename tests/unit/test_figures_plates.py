@@ -1,7 +1,6 @@
 """The figures of the bodies' scale, of the quadrics' sizes and of closed motions: what is drawn is what it says."""
 
 from fractions import Fraction
-from itertools import pairwise
 from typing import Any
 from unittest.mock import patch
 
@@ -104,7 +103,7 @@ def test_a_marked_motion_repeats_itself(ratio: float) -> None:
 def test_the_colours_of_the_surface_are_rates_of_the_equations_of_motion() -> None:
     """In each band an integration departs at a rate of that band, 1e-6 of B2^2; its points are on (51), 1e-12."""
     (panel,) = panels("ribbon")
-    bands = layers(panel, Surface)
+    bands = [one for one in layers(panel, Surface) if not one.rims]  # those of the key have some
     widest = max(np.abs(s.grids[0][..., 0]).max() for s in bands if s.role == "rate_4")
     t = np.array([0.0, 1e-4, 2e-4])
     assert len([s for s in bands if s.role.startswith("rate")]) == 5 * 4
@@ -118,20 +117,6 @@ def test_the_colours_of_the_surface_are_rates_of_the_equations_of_motion() -> No
         Omega3 = simulate(1.5, (1.0, 1.0), tuple(omega), t, rtol=1e-13, atol=1e-15).Omega[:, 2]
         rate = abs(-3 * Omega3[0] + 4 * Omega3[1] - Omega3[2]) / 2e-4
         assert k * widest / 5 - 1e-6 <= rate <= (k + 1) * widest / 5 + 1e-6
-
-
-def test_the_line_on_the_surface_is_thin_where_a_nutation_is_slow() -> None:
-    """By nu_n^2 = kappa^2 + (1-I) b^2 (3 B3hat^2 - 1) + ..., kappa = k + b, the classes are in order along the line."""
-    (panel,) = panels("ribbon")
-    found: dict[str, list[float]] = {}
-    for k in range(4):
-        for line in layers(panel, Curve, f"nutation_{k}"):
-            kappa2 = ((line.points[1:-1, 1] + 1.0) * np.sqrt(2.0)) ** 2  # omega2/B2hat + b
-            square = kappa2 - 0.5 * 2.0 * 0.5 + 0.25 * 4.0 * 0.5 / kappa2
-            found.setdefault(f"{k}", []).extend(np.sqrt(square))
-    assert list(found) == ["0", "1", "2", "3"]
-    for slow, fast in pairwise(found.values()):
-        assert max(slow) <= min(fast) * (1 + 1e-9)
 
 
 def test_the_line_on_the_torus_is_straight_and_closes_with_the_trace() -> None:
@@ -233,7 +218,7 @@ def test_the_unstable_motions_are_drawn_on_the_ribbon() -> None:
     unstable = [line for line in lines if line.role == "unstable"]
     assert unstable
     for line in lines:
-        if line.role.startswith("nutation") or line.role == "unstable":
+        if line.role in {"hyperbola", "unstable"}:
             middle = line.points[len(line.points) // 2]
             assert (hyperbola.stability(middle[1]) < 0) == (line.role == "unstable")
     assert "Vermilion" in recipes.load("ribbon").scene(ratio=0.5, field=(1.0, 0.1)).caption
