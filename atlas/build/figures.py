@@ -13,7 +13,7 @@ from typing import Any
 from atlas import files, processes
 from atlas.build import worker
 from atlas.build.cache import Cache
-from atlas.core.arithmetic.threads import processors
+from atlas.core.arithmetic.machine import processors
 from atlas.errors import AtlasError
 from atlas.libraries import versions
 from atlas.places import cache_folder, folder, settle_matplotlib

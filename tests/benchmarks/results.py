@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from atlas import __version__
-from atlas.core.arithmetic.threads import processors
+from atlas.core.arithmetic.machine import processors
 from atlas.libraries import release
 from atlas.study.benchmark import Item, Machine, Status
 

@@ -16,7 +16,7 @@ import click
 
 from atlas import files
 from atlas.cli.progress import bar
-from atlas.core.arithmetic.threads import processors
+from atlas.core.arithmetic.machine import processors
 from stress.arrays import stress_arrays
 from stress.run import PROMISES, Result, stress
 

@@ -118,7 +118,7 @@ def test_grids_of_every_length_end_where_they_should(monkeypatch: pytest.MonkeyP
 def test_a_grid_of_any_length_is_cut_well(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
     """Where the work is cut for two threads, also next to the smallest length that is worth it, no value is lost."""
     motion = ElementaryMotion(I, (B2, B3), OMEGA2)
-    monkeypatch.setattr("atlas.core.arithmetic.threads.processors", lambda: 2)
+    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 2)
     grid = motion.rotation_grid(0.0, 1e-3, count)
     some = np.linspace(0, count - 1, 50).astype(int)
     exact = motion.rotation(some * 1e-3)
@@ -128,9 +128,9 @@ def test_a_grid_of_any_length_is_cut_well(monkeypatch: pytest.MonkeyPatch, count
 def test_two_threads_give_the_same_grid(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether a second thread helps changes no bit."""
     motion = ElementaryMotion(I, (B2, B3), OMEGA2)
-    monkeypatch.setattr("atlas.core.arithmetic.threads.processors", lambda: 2)
+    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 2)
     two = motion.rotation_grid(-10.0, 1e-3, 250_000)
-    monkeypatch.setattr("atlas.core.arithmetic.threads.processors", lambda: 1)
+    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 1)
     assert np.array_equal(two, motion.rotation_grid(-10.0, 1e-3, 250_000))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.core.arithmetic.memory import keep
+from atlas.core.arithmetic.machine import keep
 
 FAULTS = """
 import resource

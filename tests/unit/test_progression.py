@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from mpmath import mp
 
+from atlas.core.arithmetic.grid import Progression
 from atlas.core.arithmetic.phase import Phases
-from atlas.core.arithmetic.progression import Progression
 from atlas.formulas.numbers import rational
 
 W = 2.0**-53

@@ -165,9 +165,9 @@ def test_a_time_without_an_answer_is_an_error(t: Any) -> None:
 def test_two_threads_give_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether a second thread helps changes no bit."""
     motion, t = ElementaryMotion(*MOTION), np.linspace(0, 1e4, 123_457)
-    monkeypatch.setattr("atlas.core.arithmetic.threads.processors", lambda: 2)
+    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 2)
     two = motion.rotation(t)
-    monkeypatch.setattr("atlas.core.arithmetic.threads.processors", lambda: 1)
+    monkeypatch.setattr("atlas.core.arithmetic.machine.processors", lambda: 1)
     assert np.array_equal(two, motion.rotation(t))
 
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.core.arithmetic.memory import keep
+from atlas.core.arithmetic.machine import keep
 from atlas.core.inputs import FloatArray, common_shape
 from atlas.formulas import numbers
 

@@ -11,7 +11,7 @@ from typing import Self
 import numpy as np
 
 from atlas.core.arithmetic.circle import circle_of, signs
-from atlas.core.arithmetic.memory import keep
+from atlas.core.arithmetic.machine import keep
 from atlas.core.arithmetic.words import TURN, magnitude, middle, scaled, turn_of, words
 from atlas.core.inputs import FloatArray
 from atlas.errors import AtlasError

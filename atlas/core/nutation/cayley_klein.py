@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from atlas.core.arithmetic.circle import WHOLE
+from atlas.core.arithmetic.machine import shared
 from atlas.core.arithmetic.phase import room
 from atlas.core.arithmetic.rotation import target
-from atlas.core.arithmetic.threads import shared
 from atlas.core.inputs import FloatArray, real
 from atlas.core.nutation.constants import CayleyKlein
 from atlas.core.nutation.functions import Hyperbolic, Steady, Trigonometric

@@ -14,9 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble
-from atlas.core.arithmetic.frequencies import LOST, PER_RADIAN
 from atlas.core.arithmetic.phase import LIMIT, Phases, room
-from atlas.core.arithmetic.turnings import REACH
+from atlas.core.arithmetic.turnings import LOST, PER_RADIAN, REACH
 from atlas.core.inputs import FloatArray, largest
 from atlas.core.nutation.blocks import Block, Blocks
 from atlas.core.nutation.pair import TERMS, Pair, multiples

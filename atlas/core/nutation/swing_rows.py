@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
-from atlas.core.arithmetic.frequencies import PER_RADIAN
+from atlas.core.arithmetic.turnings import PER_RADIAN
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import ENOUGH, ONE, Circle, Means
 from atlas.core.nutation.pair import TERMS

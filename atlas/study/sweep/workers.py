@@ -7,7 +7,7 @@ from concurrent.futures import Executor, Future, wait
 from contextlib import contextmanager
 from typing import Any
 
-from atlas.core.arithmetic.threads import processors
+from atlas.core.arithmetic.machine import processors
 from atlas.study.sweep.parts import MANIFEST
 from atlas.study.sweep.plan import Plan, Span
 from atlas.study.sweep.storage import Folder, Local

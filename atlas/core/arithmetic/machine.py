@@ -1,0 +1,56 @@
+"""What the machine gives: two threads where they help, and memory that a process keeps for its arrays.
+
+NumPy lets go of the interpreter while it computes; the system is not asked for the same pages again and again.
+"""
+
+import ctypes
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from functools import cache
+
+ENOUGH = 100_000
+"""Matrices from which on a second thread is worth its start."""
+
+
+def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int = 1) -> None:
+    """Do work(0, count), in two halves at once if it is long and this process may use two processors.
+
+    `grain` is how many units are done at once: the cut is a multiple, so that it changes no bit. `weight` is the number
+    of matrices in one unit.
+    """
+    half = (count // 2 + grain - 1) // grain * grain
+    if half >= count or count * weight < ENOUGH or processors() < 2:
+        work(0, count)
+        return
+    with ThreadPoolExecutor(1) as other:
+        upper = other.submit(work, half, count)
+        work(0, half)
+        upper.result()
+
+
+def processors() -> int:
+    """Return how many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3
+"""M_TRIM_THRESHOLD and M_MMAP_THRESHOLD of the C library of GNU."""
+LONGEST = 2**25
+"""Bytes of the longest array whose memory is kept: the most that the C library takes."""
+
+
+@cache
+def keep() -> None:
+    """Keep memory for the arrays of this process; what it has kept is enough for good, at most 64 MB a thread.
+
+    Every kernel calls this before its first array. In a new process the C library returns what an array of some 100 kB
+    had to the system at once, and the next one pays for each page anew: up to five times the arithmetic of thousands of
+    matrices. So it does for good where MALLOC_TRIM_THRESHOLD_ is small, as in the workers of Dask. Else it comes to
+    these values by itself, array by array, so that no more is kept than in any long process.
+    """
+    with suppress(AttributeError, OSError, TypeError):  # another C library
+        mallopt = ctypes.CDLL(None).mallopt
+        mallopt(MMAP_THRESHOLD, LONGEST)
+        mallopt(TRIM_THRESHOLD, 2 * LONGEST)
