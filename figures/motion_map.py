@@ -16,7 +16,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Layer, Plane, Points, Scene
 from atlas.scene.captions import body_name, listed, tex, tex_vector, title
 from atlas.scene.hyperbola_plane import Window, branches, places
-from atlas.study.sweep.ranges import Range, Tabulation
+from atlas.study.sweep.plan import Range, Tabulation
 
 WIDTH, HEIGHT, PANEL = 178.0, 144.0, 60.0
 NARROWEST = 139.0

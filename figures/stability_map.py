@@ -15,7 +15,7 @@ from atlas.errors import DomainError
 from atlas.scene import Curve, Image, Label, Layer, Plane, Points, Scene
 from atlas.scene.captions import body_role, title
 from atlas.scene.sample import flat
-from atlas.study.sweep.ranges import Range, Tabulation
+from atlas.study.sweep.plan import Range, Tabulation
 
 WIDTH, HEIGHT, MARGIN = 130.0, 84.0, 12.0
 EDGE = 1.0 / (2.0 * np.sqrt(2.0))

@@ -4,7 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import click
 
@@ -100,62 +100,47 @@ def command(
     """Compute quantities of a family over parameters, and write the table."""
     from atlas.study.sweep.run import sweep
 
-    said = bool(family or settings or listing or quantities or digits or rows or body_parameters(options))
-    if toml is not None and said:
+    if toml is None:
+        if family is None:
+            raise click.UsageError(f"name the family to sweep: {NAMES}.")
+        body, pairs = _body(options), [_setting(text) for text in settings]
+        _once([*body, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(body))
+        wanted = Wanted(family, quantities, body | dict(pairs), listing, out, digits, rows)
+    elif family or settings or listing or quantities or digits or rows or body_parameters(options):
         raise click.UsageError("with --file only --out and --jobs can be given.")
-    wanted = (
-        _of_options(family, settings, listing, quantities, out, digits, rows, options)
-        if toml is None
-        else _of_file(toml, out)
-    )
+    else:
+        wanted = read(toml)
+        wanted = wanted._replace(out=out or wanted.out)
+    columns = columns_of(wanted.listing) if wanted.listing else {}
+    _once([*columns, *wanted.parameters], f"{wanted.listing} and elsewhere")
+    if wanted.out is None:
+        raise click.UsageError("--out is missing: name the file that the table goes to.")
     with bar("sweep", every=60) as tell:
-        path = sweep(**wanted, jobs=jobs, progress=lambda done, total: tell(done, total, ""))
+        path = sweep(
+            wanted.family,
+            columns | wanted.parameters,
+            wanted.quantities,
+            wanted.out,
+            listed=wanted.listing is not None,
+            digits=wanted.digits,
+            rows=wanted.rows,
+            jobs=jobs,
+            progress=lambda done, total: tell(done, total, ""),
+            time=units_of(options).get("time", "time"),
+        )
     click.echo(str(path))
 
 
-def _of_options(
-    family: str | None,
-    settings: Sequence[str],
-    listing: Path | None,
-    quantities: Sequence[str],
-    out: str | None,
-    digits: int | None,
-    rows: int | None,
-    options: dict[str, Any],
-) -> dict[str, Any]:
-    """Return the arguments of a sweep that the command line says."""
-    if family is None:
-        raise click.UsageError(f"name the family to sweep: {NAMES}.")
-    pairs, body = [_setting(text) for text in settings], _body(options)
-    _once([*body, *(name for name, _ in pairs)], "--set" + " and the options of body and field" * bool(body))
-    table = _table(listing, body | dict(pairs))
-    return _arguments(family, table, quantities, out, digits, rows) | {"time": units_of(options).get("time", "time")}
+class Wanted(NamedTuple):
+    """A sweep as the command line or a file says it, its parameters as numbers."""
 
-
-def _of_file(toml: Path, out: str | None) -> dict[str, Any]:
-    """Return the arguments of a sweep that a TOML file says; out, if given, stands before the file's."""
-    recipe = read(toml)
-    listing = None if recipe.listing is None else Path(_beside(toml, recipe.listing))
-    table = _table(listing, {name: _values(name, value) for name, value in recipe.parameters.items()})
-    if out is None and recipe.out is not None:
-        out = OUT.convert(_beside(toml, recipe.out), None, None)
-    return _arguments(recipe.family, table, recipe.quantities, out, recipe.digits, recipe.rows)
-
-
-def _table(listing: Path | None, settings: dict[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a list and those beside it, each once, and whether there is a list."""
-    columns = columns_of(listing) if listing else {}
-    _once([*columns, *settings], f"{listing} and elsewhere")
-    return {"parameters": columns | settings, "listed": listing is not None}
-
-
-def _arguments(
-    family: str, table: dict[str, Any], quantities: Sequence[str], out: str | None, digits: int | None, rows: int | None
-) -> dict[str, Any]:
-    """Return the arguments of a sweep."""
-    if out is None:
-        raise click.UsageError("--out is missing: name the file that the table goes to.")
-    return table | {"family": family, "quantities": tuple(quantities), "out": out, "digits": digits, "rows": rows}
+    family: str
+    quantities: Sequence[str]
+    parameters: dict[str, Any]
+    listing: Path | None
+    out: str | None
+    digits: int | None
+    rows: int | None
 
 
 def _body(options: dict[str, Any]) -> dict[str, float]:
@@ -166,7 +151,7 @@ def _body(options: dict[str, Any]) -> dict[str, float]:
     return ({} if ratio is None else {"ratio": float(ratio)}) | B
 
 
-def read(path: Path) -> Any:
+def read(path: Path) -> Wanted:
     """Return the sweep in a TOML file; click.UsageError says what is wrong with it."""
     import msgspec
 
@@ -183,7 +168,7 @@ def read(path: Path) -> Any:
         rows: Annotated[int, msgspec.Meta(ge=1)] | None = None
 
     try:
-        return msgspec.toml.decode(path.read_bytes(), type=Recipe)
+        found = msgspec.toml.decode(path.read_bytes(), type=Recipe)
     except OSError as error:
         raise click.UsageError(f"{path} cannot be read: {error.strerror}.") from error
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
@@ -191,12 +176,20 @@ def read(path: Path) -> Any:
     except RecursionError as error:
         raise click.UsageError(f"{path} is nested too deeply.") from error
 
+    def beside(name: str) -> str:
+        if "\0" in name or not name:
+            raise click.UsageError(f"{path}: {name!r} is no name of a file.")
+        return name if "://" in name else str(path.parent / name) + "/" * name.endswith("/")
 
-def _beside(toml: Path, name: str) -> str:
-    """Return a file or a folder that a TOML file names, beside it; an address as it is."""
-    if "\0" in name or not name:
-        raise click.UsageError(f"{toml}: {name!r} is no name of a file.")
-    return name if "://" in name else str(toml.parent / name) + "/" * name.endswith("/")
+    return Wanted(
+        found.family,
+        found.quantities,
+        {name: _values(name, value) for name, value in found.parameters.items()},
+        None if found.listing is None else Path(beside(found.listing)),
+        None if found.out is None else OUT.convert(beside(found.out), None, None),
+        found.digits,
+        found.rows,
+    )
 
 
 def _once(names: Sequence[str], where: str) -> None:
@@ -216,7 +209,7 @@ def _setting(text: str) -> tuple[str, Any]:
 
 def _values(name: str, given: Any) -> Any:
     """Read one number, several with commas, or START:STOP:COUNT[:log]; a number or a list is taken as it is."""
-    from atlas.study.sweep.ranges import Range
+    from atlas.study.sweep.plan import Range
 
     if not isinstance(given, str):
         return given

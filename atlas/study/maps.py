@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.errors import DomainError
 from atlas.scene.layers import FloatArray
-from atlas.study.sweep.ranges import Range, Tabulation
+from atlas.study.sweep.plan import Range, Tabulation
 
 Field: TypeAlias = tuple[float, float]
 CLOCK = (1e-3, 1e12)

@@ -44,9 +44,9 @@ from atlas.study.sweep.plan import Plan
 
 swept = {"ratio": np.linspace(0.5, 1.5, 100).tolist(), "omega2": np.linspace(0.1, 2.0, 1000).tolist()}
 plan = Plan.of("elementary", {"B2": 1.0, "B3": 0.3, "t": 7.0} | swept, ("k", "R13"))
-plan.columns()
+plan.rows()
 before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-plan.columns()
+plan.rows()
 print(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
 """
 

@@ -1,6 +1,5 @@
 """The parts of a sweep: kept, taken up, made again where they are damaged, and never anybody else's."""
 
-import json
 import os
 import signal
 import subprocess
@@ -16,16 +15,14 @@ from click.testing import CliRunner
 import atlas
 from atlas.cli.app import atlas as program
 from atlas.errors import AtlasError
-from atlas.study.sweep import keys, run, storage, workers
-from atlas.study.sweep import plan as plan_module
-from atlas.study.sweep.lock import held
-from atlas.study.sweep.parts import MANIFEST
-from atlas.study.sweep.plan import LARGEST, Plan, Span
+from atlas.study.sweep import run, store
+from atlas.study.sweep.plan import LARGEST, Plan
+from atlas.study.sweep.store import Table
 
 GRID = {"ratio": np.linspace(0.1, 2, 7), "B2": 1.0, "B3": [0.5, 1.5], "omega2": np.linspace(-0.9, 3, 11)}
 NAMES = ("omega3", "k", "phi", "case", "R12")
+ROWS = Plan.rows
 STARTS = list(range(0, 154, 20))
-KEEP = workers.make
 
 
 class Stopped(BaseException):
@@ -41,13 +38,13 @@ def made(monkeypatch: pytest.MonkeyPatch, stop: int | None = None) -> list[int]:
     """Return a list that gets the first rows of the parts that are made from now on; `stop` of them are."""
     starts: list[int] = []
 
-    def make(plan: Plan, span: Span, *more: Any) -> Any:
+    def counted(plan: Plan, start: int = 0, end: int | None = None) -> Any:
         if len(starts) == stop:
             raise Stopped
-        starts.append(span.first)
-        return KEEP(plan, span, *more)
+        starts.append(plan.first + start)
+        return ROWS(plan, start, end)
 
-    monkeypatch.setattr(workers, "make", make)
+    monkeypatch.setattr(Plan, "rows", counted)
     return starts
 
 
@@ -82,21 +79,14 @@ def test_a_sweep_that_was_stopped_goes_on_from_there(
 
 
 def test_any_rows_are_those_of_the_table() -> None:
-    """A part carries the parameters that it needs and no more, and gives the rows of the whole."""
+    """A part that is sent gives the rows of the whole."""
     for listed in (False, True):
         given = GRID if not listed else {name: np.resize(x, 154) for name, x in GRID.items()}
         plan = Plan.of("elementary", given, ["k"], listed=listed)
-        table = plan.columns()
+        table = plan.rows()
         for start, stop in [(0, 154), (0, 1), (153, 154), (21, 23), (22, 44), (5, 90), (11, 12), (100, 120)]:
-            part, span = plan.part(start, stop)
-            assert span.first == start
-            for name, column in part.rows(span).items():
+            for name, column in plan.part(start, stop).rows(0, stop - start).items():
                 assert np.array_equal(column, table[name][start:stop])
-    part, _ = Plan.of("elementary", GRID, ["k"]).part(23, 30)
-    assert {name: x.size for name, x in part.parameters.items()} == {"ratio": 1, "B2": 1, "B3": 1, "omega2": 7}
-    given = GRID | {"ratio": 1.5, "B3": 2.0}
-    part, _ = Plan.of("elementary", given, ["k"], listed=True).part(4, 9)
-    assert {name: x.size for name, x in part.parameters.items()} == {"ratio": 1, "B2": 1, "B3": 1, "omega2": 5}
 
 
 @pytest.mark.parametrize("kind", ["csv", "npz", "parquet"])
@@ -113,11 +103,12 @@ def test_any_rows_are_those_of_the_table() -> None:
 def test_a_damaged_part_is_made_again(
     tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch, damage: Any, kind: str
 ) -> None:
-    """A part that is not what its digest says is no part: the table is that of a sweep that nobody disturbed."""
+    """A part that does not hold what its name says is no part: the table is that of a sweep that nobody disturbed."""
     if kind == "parquet":
         pytest.importorskip("pyarrow")
     out = tmp_path / f"t.{kind}"
-    damage(stopped(out, monkeypatch) / f"part-00000001.{kind}")
+    parts = stopped(out, monkeypatch)
+    damage(sorted(parts.iterdir())[1])
     starts = made(monkeypatch)
     sweep(f"{out}/" if kind == "parquet" else out)
     assert starts == [STARTS[1], *STARTS[3:]]
@@ -125,22 +116,17 @@ def test_a_damaged_part_is_made_again(
         assert out.read_bytes() == whole
 
 
-def test_a_line_of_the_manifest_that_was_cut_off_says_nothing(
-    tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The part that it was to enter is made again, and what is entered after it is read."""
-    manifest = stopped(tmp_path / "t.csv", monkeypatch) / MANIFEST
-    lines = manifest.read_bytes().splitlines(keepends=True)
-    for kept in range(1, len(lines)):
-        manifest.write_bytes(b"".join(lines[:kept]) + lines[kept][:-9])
-        made(monkeypatch, 1)
-        with pytest.raises((Stopped, AtlasError)):
-            sweep(tmp_path / "t.csv")
-        if b"part-00000002" in manifest.read_bytes():
-            break
-    made(monkeypatch)
-    sweep(tmp_path / "t.csv")
-    assert (tmp_path / "t.csv").read_bytes() == whole
+def test_parts_under_wrong_names_are_not_taken(tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A part named as if it held other rows or were of another sweep, rows twice, or between others: one of each."""
+    for wrong in ("000000000020-000000000040", "000000000030-000000000050", "000000000000-000000000154"):
+        parts = stopped(tmp_path / "t.csv", monkeypatch)
+        first, second, *_ = sorted(parts.iterdir())
+        (parts / f"part-{wrong}-{first.name[31:]}").write_bytes(second.read_bytes())
+        made(monkeypatch)
+        sweep(tmp_path / "t.csv")
+        assert (tmp_path / "t.csv").read_bytes() == whole
+        assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
+        (tmp_path / "t.csv").unlink()
 
 
 def test_parts_of_another_sweep_or_another_program_are_not_taken(
@@ -155,8 +141,8 @@ def test_parts_of_another_sweep_or_another_program_are_not_taken(
     assert (tmp_path / "t.csv").read_bytes() == (tmp_path / "o.csv").read_bytes() != whole
     (tmp_path / "t.csv").unlink()
     stopped(tmp_path / "t.csv", monkeypatch)
-    monkeypatch.setattr(keys, "code", lambda: "another")
     starts = made(monkeypatch)
+    monkeypatch.setattr(run, "code", lambda: "another")
     sweep(tmp_path / "t.csv")
     assert starts == STARTS
     assert (tmp_path / "t.csv").read_bytes() == whole
@@ -164,22 +150,18 @@ def test_parts_of_another_sweep_or_another_program_are_not_taken(
 
 def test_the_key_is_that_of_the_code_that_computes(monkeypatch: pytest.MonkeyPatch) -> None:
     """A changed kernel changes it, the drawing of a figure does not."""
-    from atlas import sources
-
-    reached = {path.relative_to(sources.PACKAGE).as_posix() for path in sources.Sources().reached(
-        [sources.PACKAGE / "study" / "sweep" / "plan.py"]
-    )}  # fmt: skip
-    assert {"core/motions/elementary.py", "core/arithmetic/double_double.py", "exact/motions/general.py"} <= reached
-    assert not any(path.startswith(("draw/", "report/", "cli/")) for path in reached)
-    before = keys.code.__wrapped__()
-    facts = sources.Sources._facts
-
-    def changed(self: Any, path: Path) -> Any:
-        found = facts(self, path)
-        return found | {"digest": "another"} if path.name == "double_double.py" else found
-
-    monkeypatch.setattr(sources.Sources, "_facts", changed)
-    assert keys.code.__wrapped__() != before
+    read, keys = Path.read_bytes, {run.code.__wrapped__()}
+    changed = [
+        "core/arithmetic/double_double",
+        "exact/motions/general",
+        "formulas/numbers",
+        "sweep/tables",
+        "draw/plane",
+    ]
+    for name in changed:
+        monkeypatch.setattr(Path, "read_bytes", lambda path, name=name: read(path) + b"#" * (f"{name}.py" in str(path)))
+        keys.add(run.code.__wrapped__())
+    assert len(keys) == len(changed)
 
 
 def foreign_key(parts: Path) -> None:
@@ -215,17 +197,17 @@ def test_what_is_not_of_a_sweep_is_refused_and_stays(tmp_path: Path, foreign: An
 def test_a_file_of_the_users_own_among_the_parts_stays(
     tmp_path: Path, whole: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Only what the manifest lists is deleted; a name outside the folder that was written into it is no part."""
+    """It is named before the sweep goes on; one that is put there meanwhile is left where it is."""
     parts = stopped(tmp_path / "t.csv", monkeypatch)
     (parts / "notes.txt").write_text("mine")
-    (tmp_path / "precious.csv").write_text("mine")
-    with (parts / MANIFEST).open("a") as file:
-        file.write(json.dumps({"file": "../precious.csv", "sha256": "0"}) + "\n")
     made(monkeypatch)
+    with pytest.raises(AtlasError, match=r"holds notes\.txt, which is of no sweep"):
+        sweep(tmp_path / "t.csv")
+    assert len(list(parts.iterdir())) == 4
+    (parts / "notes.txt").rename(parts / ".notes")
     sweep(tmp_path / "t.csv")
     assert (tmp_path / "t.csv").read_bytes() == whole
-    assert [path.read_text() for path in (parts / "notes.txt", tmp_path / "precious.csv")] == ["mine", "mine"]
-    assert list(parts.iterdir()) == [parts / "notes.txt"]
+    assert [(path.name, path.read_text()) for path in parts.iterdir()] == [(".notes", "mine")]
 
 
 @pytest.mark.parametrize("name", ["t.csv", "t.parquet/"])
@@ -234,9 +216,8 @@ def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monk
     if name.endswith("/"):
         pytest.importorskip("pyarrow")
     done = []
-    steps = ("delete", "move", "remove", "append")
-    for step in steps:
-        real = getattr(storage.Local, step)
+    for step in ("delete", "move", "clear", "write"):
+        real = getattr(store.Folder, step)
 
         def counted(self: Any, *more: Any, real: Any = real) -> None:
             if len(done) == limit:
@@ -244,7 +225,7 @@ def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monk
             done.append(real)
             real(self, *more)
 
-        monkeypatch.setattr(storage.Local, step, counted)
+        monkeypatch.setattr(store.Folder, step, counted)
     limit, other = 0, GRID | {"B2": 2.0}
     while True:
         done.clear()
@@ -257,14 +238,14 @@ def test_a_sweep_stopped_in_its_last_steps_heals(tmp_path: Path, name: str, monk
             atlas.sweep("elementary", given, NAMES, f"{tmp_path}/{name}", rows=rows, jobs=1)
             assert {path.name for path in tmp_path.iterdir()} == {name.rstrip("/")}
             limit = before + 1
-    assert limit > 10
+    assert limit > 3
 
 
 def test_the_second_sweep_says_who_holds_the_table(tmp_path: Path) -> None:
     """While one sweep writes a table another one ends with status 2, names its process, and leaves all as it is."""
     out = tmp_path / "t.csv"
     words = f"sweep ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1 --quantity gamma --out {out}"
-    with held(tmp_path / ".t.csv.lock", str(out)):
+    with Table(out, "").held():
         run_two = subprocess.run(
             [sys.executable, "-m", "atlas", *words.split()], capture_output=True, text=True, check=False
         )
@@ -281,8 +262,8 @@ def test_the_second_sweep_says_who_holds_the_table(tmp_path: Path) -> None:
 def test_the_lock_of_a_killed_sweep_is_no_hindrance_and_no_other_file_is_taken_for_one(tmp_path: Path) -> None:
     """What a killed process left behind counts for nothing; a file of the user's own is not written over."""
     lock = tmp_path / ".t.csv.lock"
-    kill = "import os, signal; from pathlib import Path; from atlas.study.sweep.lock import held\n"
-    kill += f"with held(Path({str(lock)!r}), 't'): os.kill(os.getpid(), signal.SIGKILL)"
+    kill = "import os, signal; from atlas.study.sweep.store import Table\n"
+    kill += f"with Table({str(tmp_path / 't.csv')!r}, '').held(): os.kill(os.getpid(), signal.SIGKILL)"
     assert subprocess.run([sys.executable, "-c", kill], check=False).returncode == -signal.SIGKILL
     assert lock.exists()
     sweep(tmp_path / "t.csv")
@@ -315,50 +296,55 @@ def test_a_sweep_that_is_killed_goes_on_from_there(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("digits", [None, 20])
 @pytest.mark.parametrize("pace", [1e-9, 1e-4, 0.05, 1.0, 1e3])
-def test_a_table_has_hundreds_of_parts_whatever_a_sample_says(pace: float, digits: int | None) -> None:
+def test_a_table_has_hundreds_of_parts_whatever_a_row_seems_to_take(pace: float, digits: int | None) -> None:
     """A row that seems to take up to a thousand seconds: every row is in one part, few are lost with it."""
     for count in (1, 4097, 10**6, 10**8):
         plan = Plan.of("elementary", {"ratio": 1.5, "B2": 1, "B3": 2, "omega2": np.zeros(count)}, ["k"], digits=digits)
-        rows, most = run.sizes(plan, pace, 2)
-        assert 1 <= rows <= most <= 2**18
-        assert digits is None or rows <= max(1, 2.0 / pace)
-        spans = run.spans_of(count, rows, most)
-        assert [start for start, _ in spans] == [0, *(stop for _, stop in spans[:-1])]
-        assert spans[-1][1] == count
-        assert all(0 < stop - start <= most for start, stop in spans)
-        assert len(spans) <= 1500
+        spans, found = run.Spans(plan, [(7, 9)] * (count > 9), None, 2), []
+        for start, stop in spans:
+            assert 0 < stop - start <= 2**18
+            assert digits is None or len(found) >= 64 or stop - start <= max(1, 2.0 / pace)
+            found.append((start, stop))
+            spans.learn((start, stop), pace * (stop - start))
+        rows = sorted(found + [(7, 9)] * (count > 9))
+        assert [start for start, _ in rows] == [0, *(stop for _, stop in rows[:-1])]
+        assert rows[-1][1] == count
+        assert len(rows) <= 1600
 
 
-def test_a_sweep_goes_on_with_the_parts_that_it_has(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Another measure of the time of a row, on a busier machine, does not begin it anew."""
-    found = []
-    for pace in (0.5, 1e-3):
-        monkeypatch.setattr(run, "_pace", lambda *_, pace=pace: pace)
-        starts = made(monkeypatch, 2)
+def test_a_part_after_a_slow_one_has_fewer_rows() -> None:
+    """One part on a busy machine or of slow rows costs some small parts, not a table of small parts."""
+    plan = Plan.of("elementary", {"ratio": 1.5, "B2": 1, "B3": 2, "omega2": np.zeros(10**7)}, ["k"])
+    spans = run.Spans(plan, [], None, 2)
+    sizes = []
+    for seconds in (1e-6, 1e-6, 1.0, 1e-6, 1e-6):
+        start, stop = next(spans)
+        sizes.append(stop - start)
+        spans.learn((start, stop), seconds * (stop - start))
+    assert sizes == [4096, 2**18, 2**18, 4096, 2**18]
+
+
+def test_the_time_of_a_part_is_that_of_the_processor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Other processes that take most of the machine do not make a row dear."""
+    clock = iter(float(x) for x in range(0, 10**6, 1000))
+    monkeypatch.setattr(run, "perf_counter", lambda: next(clock))
+    plan = Plan.of("elementary", GRID, ["k"])
+    with Table(tmp_path / "t.csv", "0" * 16).held():
+        *_, seconds = run.make(plan, 0, 154, Table(tmp_path / "t.csv", "0" * 16))
+    assert 0 < seconds < 10
+
+
+def test_a_sweep_goes_on_in_other_steps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another measure of the time of a row, on a busier machine, does not begin it anew: what is missing is made."""
+    kept = set[str]()
+    for seconds in (1e-3, 5e-3, 1e-9):
+        monkeypatch.setattr(run, "SECONDS", seconds)
+        made(monkeypatch, 2)
         with pytest.raises(Stopped):
             atlas.sweep("elementary", GRID, ["k"], tmp_path / "t.csv", jobs=1, digits=20)
-        found += starts
-    assert found == [0, 4, 8, 12]
-
-
-def test_the_time_of_a_row_is_that_of_the_processor_and_without_what_is_the_same_for_any_number(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Other processes that take most of the machine, loading, and what each call takes do not make a row dear."""
-    clock, calls, chance = [0.0, 0.0], [], np.random.default_rng(0)
-
-    def computed(plan: Plan) -> None:
-        took = 0.5 * (not calls) + 0.1 + 1e-3 * plan.count
-        clock[0] += took * chance.uniform(30, 80)
-        clock[1] += took
-        calls.append(plan.count)
-
-    monkeypatch.setattr(Plan, "columns", computed)
-    monkeypatch.setattr(plan_module, "perf_counter", lambda: clock[0])
-    monkeypatch.setattr(plan_module, "process_time", lambda: clock[1])
-    many = Plan.of("elementary", GRID | {"omega2": np.linspace(0.1, 3, 2000)}, ["k"])
-    assert many.seconds() == pytest.approx(1e-3)
-    assert Plan.of("elementary", GRID, ["k"]).seconds() == pytest.approx(1e-3)
+        there = {path.name for path in (tmp_path / "t.csv.parts").iterdir()}
+        assert kept < there
+        kept = there
 
 
 def test_a_table_beyond_all_disks_is_refused() -> None:

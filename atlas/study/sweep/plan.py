@@ -1,15 +1,15 @@
 """A sweep as data: the family, its parameters by name, the quantities; and any rows of its table."""
 
+import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
-from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from atlas.core.inputs import real
+from atlas.core.inputs import FloatArray, real
 from atlas.errors import AtlasError
 from atlas.families.family import TIME
 from atlas.study.sweep.families import FAMILIES, MISSING
@@ -18,8 +18,6 @@ Columns = dict[str, NDArray[Any]]
 
 LARGEST = 10**11
 """Rows of a table: some 10 TB of them."""
-SAMPLE, SHORTEST = 0.1, 1e-9
-"""Seconds that a sample of rows should take, to tell how long a row takes; the least that this is believed to be."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +26,7 @@ class Plan:
 
     `parameters` are arrays by name: all their combinations, the last name varying fastest, or, if `listed`, row by row,
     one value for all rows. With `digits` the quantities are text with so many certified digits. `time` is the unit of
-    time in headings.
+    time in headings. `first` is the number in the whole table of the first row.
     """
 
     family: str
@@ -37,6 +35,7 @@ class Plan:
     listed: bool = False
     digits: int | None = None
     time: str = TIME
+    first: int = 0
 
     @classmethod
     def of(
@@ -89,65 +88,22 @@ class Plan:
         units = {name: unit.replace(TIME, self.time) for name, unit in FAMILIES[self.family].units.items()}
         return [f"{name} [{units[name]}]" if units.get(name) else name for name in self.names]
 
-    def part(self, start: int, stop: int) -> "tuple[Plan, Span]":
-        """Return a plan with no more of the parameters than some rows need, and where it has them: to be sent."""
-        first, arrays, rest = start, {}, self.count
-        for name, array in self.parameters.items():
-            if self.listed:
-                arrays[name] = array if array.size == 1 else array[first : first + stop - start]
-                continue
-            # of the outer parameters only those values that occur, as long as there is one
-            rest //= array.size
-            low, high = start // rest, (stop - 1) // rest
-            arrays[name] = array[low : high + 1]
-            start, stop = start - low * rest, stop - low * rest
-            if high > low:
-                arrays |= {other: self.parameters[other] for other in self.parameters if other not in arrays}
-                break
-        if self.listed:
-            start, stop = 0, stop - start
-        return Plan(self.family, arrays, self.quantities, self.listed, self.digits), Span(start, stop, first)
+    def part(self, start: int, stop: int) -> "Plan":
+        """Return some rows of the table as a list, to be sent."""
+        given = self._given(np.arange(start, stop))
+        arrays = {name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in given.items()}
+        return Plan(self.family, arrays, self.quantities, True, self.digits, self.time, self.first + start)
 
-    def sample(self, size: int) -> "Plan":
-        """Return a list of so many rows at most, spread over the table."""
-        rows = np.linspace(0, self.count - 1, min(size, self.count)).astype(np.int64)
-        return Plan(self.family, self._given(rows), self.quantities, True, self.digits)
-
-    def seconds(self) -> float:
-        """Return how long a row takes here beside others: as many rows are computed as tell it."""
-        self.sample(1).columns()  # what is loaded for the first row is not of the rows
-        size, took = 1, self._took(1)
-        while True:
-            size, less, before = 4 * size, size, took
-            took = self._took(size)
-            # what a call costs however few its rows are is not of the rows either
-            if size >= self.count or (took > SAMPLE and took > 2 * before):
-                more = min(size, self.count) - less
-                return (max(took - before, 0.0) / more if more else took) or SHORTEST
-
-    def _took(self, size: int) -> float:
-        """Return the seconds that a sample takes, the smaller of two, without what others took of the machine."""
-        rows, took = self.sample(size), []
-        for _ in range(2):
-            begin = perf_counter(), process_time()
-            rows.columns()
-            took += [perf_counter() - begin[0], process_time() - begin[1]]
-        return min(took)
-
-    def columns(self) -> Columns:
-        """Return the table."""
-        return self.at(np.arange(self.count))
-
-    def rows(self, span: "Span") -> Columns:
-        """Return some rows of the table. An AtlasError names the first of them that it is in, and its parameters."""
+    def rows(self, start: int = 0, stop: int | None = None) -> Columns:
+        """Return the table or some rows of it. An AtlasError names the first that it is in, and its parameters."""
+        stop = self.count if stop is None else stop
         try:
-            return self.at(np.arange(span.start, span.stop))
+            return self._columns(start, stop)
         except AtlasError as error:
-            row = self._failing(span.start, span.stop)
+            row = self._failing(start, stop)
             given = ", ".join(f"{name} = {value.item()}" for name, value in self._given(np.array([row])).items())
-            number = span.first + row - span.start + 1
             reason = self._refusal(row, row + 1) or error
-            raise type(error)(f"In row {number} of the table, {given}: {reason}") from error
+            raise type(error)(f"In row {self.first + row + 1} of the table, {given}: {reason}") from error
 
     def _failing(self, low: int, high: int) -> int:
         """Return the first of some rows for which there is no answer, as there is none for all of them together."""
@@ -159,17 +115,16 @@ class Plan:
     def _refusal(self, low: int, high: int) -> AtlasError | None:
         """Return why there is no answer for some rows, if there is none."""
         try:
-            self.at(np.arange(low, high))
+            self._columns(low, high)
         except AtlasError as error:
             return error
         return None
 
-    def at(self, rows: NDArray[np.int64]) -> Columns:
-        """Return some rows of the table, by number."""
-        given = self._given(rows)
-        family = FAMILIES[self.family]
+    def _columns(self, start: int, stop: int) -> Columns:
+        """Return some rows of the table."""
+        given, family = self._given(np.arange(start, stop)), FAMILIES[self.family]
         defaults = {name: value for name, value in family.optional.items() if value is not None}
-        full: Columns = {name: np.full(rows.size, value) for name, value in defaults.items()} | given
+        full: Columns = {name: np.full(stop - start, value) for name, value in defaults.items()} | given
         found = (
             family.columns(full, self.quantities)
             if self.digits is None
@@ -186,9 +141,56 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class Span:
-    """Rows of a plan, `start` to `stop`; the first has the number `first` in the whole table."""
+class Range:
+    """So many numbers from `start` to `stop`, both among them, at even steps or, with `log`, at those of the logarithm.
 
-    start: int
-    stop: int
-    first: int
+    `str` writes START:STOP:COUNT or START:STOP:COUNT:log, as `atlas sweep` takes it.
+    """
+
+    start: float
+    stop: float
+    count: int
+    log: bool = False
+
+    @classmethod
+    def middles(cls, edges: FloatArray, *, log: bool = False) -> "Range":
+        """Return the middles of the cells between edges at even steps; the first and the last to seven digits."""
+        even = np.log(edges) if log else edges
+        start, stop = (float(f"{np.exp(x) if log else x:.7g}") for x in (even[1:] + even[:-1])[[0, -1]] / 2)
+        return cls(start, stop, len(edges) - 1, log)
+
+    @property
+    def values(self) -> FloatArray:
+        """The numbers, (count,)."""
+        return (np.geomspace if self.log else np.linspace)(self.start, self.stop, self.count)
+
+    def __str__(self) -> str:
+        return f"{_text(self.start)}:{_text(self.stop)}:{self.count}" + ":log" * self.log
+
+
+@dataclass(frozen=True)
+class Tabulation:
+    """Quantities of a family over all combinations of settings, the last one varying fastest."""
+
+    family: str
+    settings: Mapping[str, float | tuple[float, ...] | Range]
+    quantities: tuple[str, ...]
+
+    def columns(self) -> Columns:
+        """Return the columns of the table, each with an axis for every setting that has several values."""
+        given = {name: x.values if isinstance(x, Range) else x for name, x in self.settings.items()}
+        plan = Plan.of(self.family, given, self.quantities)
+        sizes = [x.size for x in plan.parameters.values() if x.size > 1]
+        return {name: column.reshape(sizes) for name, column in plan.rows().items()}
+
+    def command(self, out: str) -> str:
+        """Return the command that writes the table into a file."""
+        words = ["atlas", "sweep", self.family]
+        for name, x in self.settings.items():
+            words += ["--set", f"{name}={','.join(map(_text, x)) if isinstance(x, tuple) else _text(x)}"]
+        return shlex.join([*words, *(word for name in self.quantities for word in ("--quantity", name)), "--out", out])
+
+
+def _text(x: float | Range) -> str:
+    """Return a number with the shortest digits that read back the same, or a range."""
+    return str(x) if isinstance(x, Range) else repr(float(x)).removesuffix(".0")

@@ -1,30 +1,46 @@
 """The sweep itself: parts of the table computed anywhere, kept as files until the table is whole."""
 
+import hashlib
+import json
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor, Future, wait
+from contextlib import closing, nullcontext
+from dataclasses import replace
+from functools import cache
+from math import inf
 from pathlib import Path
-from typing import Any
-from uuid import uuid4
+from time import perf_counter, process_time
+from typing import Any, TypeAlias, cast
 
+import numpy as np
+
+from atlas.core.arithmetic.threads import processors
 from atlas.errors import AtlasError
 from atlas.families.family import TIME
-from atlas.study.sweep.destinations import DataSet, TableFile, target
+from atlas.libraries import release
 from atlas.study.sweep.families import FAMILIES
-from atlas.study.sweep.lock import held
-from atlas.study.sweep.parts import Parts
-from atlas.study.sweep.plan import Columns, Plan, Span
-from atlas.study.sweep.workers import ahead, width, workers
+from atlas.study.sweep.plan import Columns, Plan
+from atlas.study.sweep.store import Span, Table, span_of
+from atlas.study.sweep.tables import PARTS, write
 
 SECONDS, MOST = 2.0, 2**18
 """How long a part should take, and the most rows that it has, which a worker keeps in memory."""
 SHARES, SHORT = 16, 0.25
-"""Parts that each worker should get at least, since some rows take longer; how long a part takes in any case."""
-FEW = 4096
-"""Rows that are one part in any case, unless they have certified digits."""
-EQUAL = 64
-"""After so many parts of one size the next ones have twice as many rows: a table has some hundreds, not thousands."""
+"""Parts that each worker should still get, since some rows take longer; how long a part takes in any case."""
+FEW, EQUAL = 4096, 64
+"""Rows that are one part in any case, unless they have certified digits; twice as many after so many parts each, so
+that a table has hundreds of parts, whatever the time of a row is believed to be."""
+AHEAD = 4
+"""Parts asked for at a time, for each worker: what is computed but not yet kept stays small."""
+CODE = ("core", "exact", "formulas", "families", "study/sweep")
+"""Folders of the code that computes rows and writes them."""
+LONG = 1.0
+"""Seconds of work from which on processes are worth their start."""
 
 Progress = Callable[[int, int], None]
+Made: TypeAlias = tuple[str, bytes | None, float]
 
 
 def sweep(
@@ -65,103 +81,158 @@ def sweep(
         raise AtlasError(f"A part has at least one row, not {rows}.")
     plan = Plan.of(family, parameters, quantities, listed=listed, digits=digits, time=time)
     if out is None:
-        return plan.rows(Span(0, plan.count, 0))
-    table = target(out)
-    with held(table.lock, str(table)):
-        table.check()
-        parts = Parts(table.parts)
-        _begin(plan, parts, rows, executor, jobs)
+        return plan.rows()
+    table = Table(out, key(plan, rows))
+    with table.held():
         try:
-            _compute(plan, table, parts, executor, jobs, progress)
-        except AtlasError:
-            if not any(parts.files.values()):
-                parts.clear()
-            raise
-        table.finish(plan, parts, _names(plan, table, parts))
+            names = _compute(plan, table, rows, executor, width(executor, jobs), progress)
+            if table.whole is None:
+                write(Path(table.place), plan, [table.path(name) for name in names])
+            else:
+                table.move(names)
+            table.parts.clear(table.parts.names())
+        finally:
+            table.parts.clear([])
     return table.place
 
 
-def _begin(plan: Plan, parts: Parts, rows: int | None, executor: Any, jobs: int | None) -> None:
-    """Say how many rows a part has: as many as asked for, as the parts have that are there, or by the time of a row."""
-    from atlas.study.sweep.keys import key  # which reads the code
-
-    rows, most = rows or 0, rows or 0
-    if not rows and parts.header and parts.header["key"] == key(plan):
-        rows, most = parts.header["rows"], parts.header["most"]
-    if not rows and plan.count <= FEW and plan.digits is None:
-        rows = most = plan.count
-    if not rows:
-        rows, most = sizes(plan, _pace(plan, executor), width(executor, jobs))
-    # a table of one part is made again: its key need not be known, which takes half a second
-    parts.begin(key(plan) if parts.header or rows < plan.count else uuid4().hex, rows, most)
-
-
-def sizes(plan: Plan, pace: float, count: int) -> tuple[int, int]:
-    """Return the rows of the first parts, by the seconds of a row, and the most that a part has, for so many workers.
-
-    They are no fewer than the family computes at once, whatever a sample of them took.
-    """
-    share = plan.count / (SHARES * count)
-    least = 1 if plan.digits else min(FEW, FAMILIES[plan.family].family.at_once)
-    rows = min(MOST, max(least, int(min(SECONDS / pace, max(SHORT / pace, share)))))
-    return rows, min(MOST, max(rows, int(share)))
-
-
-def _pace(plan: Plan, executor: Any) -> float:
-    """Return the seconds of a row where the rows will be computed; of a plan that has rows out of its domain, any."""
-    from atlas.study.sweep.keys import code  # which reads it
-
-    try:
-        with workers(executor, 1, 1) as (engine, _):
-            asked = engine.submit(plan.sample(32_768).seconds)
-            if executor is not None:
-                code()  # what takes longest in the key, meanwhile
-            return asked.result()
-    except AtlasError:
-        return SECONDS / FEW  # the part that has them will say so
-
-
-def _names(plan: Plan, table: TableFile | DataSet, parts: Parts) -> list[str]:
-    """Return the names of the files of all parts."""
-    return [f"part-{i:08d}.{table.ending}" for i in range(len(spans_of(plan.count, **parts.sizes)))]
-
-
-def spans_of(count: int, rows: int, most: int) -> list[tuple[int, int]]:
-    """Return the rows of each part of a table: EQUAL parts of `rows`, then as many of twice as many, up to `most`."""
-    found, start = list[tuple[int, int]](), 0
-    while start < count:
-        size = min(rows << min(len(found) // EQUAL, 40), most)
-        found.append((start, min(start + size, count)))
-        start += size
-    return found
-
-
 def _compute(
-    plan: Plan, table: TableFile | DataSet, parts: Parts, executor: Any, jobs: int | None, progress: Progress | None
-) -> None:
-    """Compute the parts that are not there yet, and keep each as soon as it is done."""
-    spans, names = spans_of(plan.count, **parts.sizes), _names(plan, table, parts)
-    missing = [i for i, name in enumerate(names) if parts.files.get(name) is None]
-    done = plan.count - sum(spans[i][1] - spans[i][0] for i in missing)
-
-    def calls() -> Iterator[tuple[str, tuple[Any, ...]]]:
-        # on Dask the plan itself goes there once: it keeps its last 1000 messages
-        once = hasattr(executor, "get_executor") and not plan.listed
-        there = executor.submit(_same, plan, pure=False) if once else None
-        for i in missing:
-            start, stop = spans[i]
-            parts.announce(names[i])
-            part = (there, Span(start, stop, start)) if once else plan.part(start, stop)
-            yield names[i], (*part, table.ending, parts.folder, names[i], parts.mark)
-
-    rows = {names[i]: spans[i][1] - spans[i][0] for i in missing}
-    with workers(executor, jobs, len(missing)) as (engine, count):
-        for name, made in ahead(engine, count, calls()):
-            parts.keep(name, made)
-            done += rows[name]
+    plan: Plan, table: Table, rows: int | None, executor: Any, workers: int, progress: Progress | None
+) -> list[str]:
+    """Compute the parts that are not there yet, and keep each as soon as it is done; return all names in order."""
+    found = table.kept()
+    spans = Spans(plan, found, rows, workers)
+    done = plan.count - spans.left
+    with closing(_made(plan, spans, table, executor, workers)) as made:
+        for name, data, seconds in made:
+            if data is not None:
+                table.parts.write(name, data)
+            span = span_of(name)
+            found[span] = name
+            spans.learn(span, seconds)
+            done += span[1] - span[0]
             if progress is not None:
                 progress(done, plan.count)
+    return [found[span] for span in sorted(found)]
 
 
-def _same(plan: Plan) -> Plan:
-    return plan
+class Spans(Iterator[Span]):
+    """Rows of the parts that are missing, one part after the other, as many as the last one tells."""
+
+    def __init__(self, plan: Plan, kept: Iterable[Span], rows: int | None, workers: int) -> None:
+        ends = [0, *(row for span in kept for row in span), plan.count]
+        self.gaps = deque((start, stop) for start, stop in zip(ends[::2], ends[1::2], strict=True) if start < stop)
+        self.left = sum(stop - start for start, stop in self.gaps)
+        self.rows, self.workers = rows, workers
+        self.least = 1 if plan.digits else min(FEW, FAMILIES[plan.family].family.at_once)
+        self.given, self.pace = 0, inf
+
+    def __next__(self) -> Span:
+        if not self.gaps:
+            raise StopIteration
+        start, stop = self.gaps.popleft()
+        end = min(stop, start + (self.rows or self._size()))
+        if end < stop:
+            self.gaps.appendleft((end, stop))
+        self.left -= end - start
+        self.given += 1
+        return start, end
+
+    def _size(self) -> int:
+        """Return how many rows the next part has: SECONDS of them, fewer at the end, where all workers need some."""
+        least = self.least << min(self.given // EQUAL, 40)
+        share = self.left / (SHARES * self.workers)
+        return min(MOST, max(least, int(min(SECONDS / self.pace, max(SHORT / self.pace, share)))))
+
+    def learn(self, span: Span, seconds: float) -> None:
+        """Take a part's time for that of the next ones."""
+        self.pace = max(seconds, 1e-9) / (span[1] - span[0])
+
+    @property
+    def long(self) -> bool:
+        """Whether what is left is worth processes of its own."""
+        return self.left * self.pace > LONG
+
+
+def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
+    """Write a part of a table into its folder; return its name and the processor's seconds that it took.
+
+    Where the table's folder is out of reach, return the part itself, too.
+    """
+    begin = perf_counter(), process_time()
+    data = PARTS[table.ending](plan.rows(start, stop))
+    # without what others took of the machine, or other threads of this process
+    seconds = min(perf_counter() - begin[0], process_time() - begin[1])
+    name = table.name((plan.first + start, plan.first + stop), data)
+    if not table.seen():
+        return name, data, seconds
+    table.parts.write(name, data)
+    return name, None, seconds
+
+
+def width(executor: Any, jobs: int | None) -> int:
+    """Return how many parts are computed at a time."""
+    if executor is None:
+        return jobs or processors()
+    if hasattr(executor, "ncores"):
+        return max(1, int(sum(executor.ncores().values())))
+    return int(getattr(executor, "_max_workers", processors()))
+
+
+def _made(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
+    """Call `make` for each part, here or, a few ahead of what is taken, elsewhere; yield the results in order.
+
+    `executor` is one, a client of Dask, or None: then the parts are made here, and from where it is worth it by so many
+    processes, if the system lets us have any. At the end nothing is under way any more, however it came.
+    """
+    own = None
+    if executor is None:
+        for span in spans:
+            yield make(plan, *span, table)
+            if workers > 1 and spans.long and (own := _pool(workers)):
+                break
+        else:
+            return
+    there, engine, waiting = None, cast("Any", executor or own), deque[Future[Made]]()
+    if hasattr(executor, "get_executor"):
+        engine = executor.get_executor(pure=False)
+        # the plan itself goes there once: a client keeps its last 1000 messages
+        there = None if plan.listed else executor.submit(replace, plan, pure=False)
+    with own or nullcontext():
+        try:
+            for start, stop in spans:
+                part = (there, start, stop) if there else (plan.part(start, stop), 0, stop - start)
+                waiting.append(engine.submit(make, *part, table))
+                if len(waiting) > AHEAD * workers:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+        finally:
+            wait([future for future in waiting if not future.cancel()])
+
+
+def _pool(count: int) -> Executor | None:
+    """Return so many processes that end with this one, if the system lets us have any."""
+    from atlas.processes import end_with_parent, pool  # which loads multiprocessing
+
+    return pool(count, end_with_parent)
+
+
+def key(plan: Plan, rows: int | None) -> str:
+    """Return the digest of everything that the rows of a plan depend on, and of how many a part has."""
+    found = hashlib.sha256(
+        json.dumps([code(), replace(plan, parameters={}).__dict__, rows, [*plan.parameters]]).encode()
+    )
+    for array in plan.parameters.values():
+        found.update(np.ascontiguousarray(array).tobytes() + b"|")
+    return found.hexdigest()[:16]
+
+
+@cache
+def code() -> str:
+    """Return the digest of the code that computes rows and of its libraries."""
+    package = Path(__file__).parents[2]
+    found = hashlib.sha256(json.dumps([release(name) for name in ("numpy", "scipy", "python-flint")]).encode())
+    for file in sorted(file for folder in CODE for file in (package / folder).rglob("*.py")):
+        found.update(f"{file.relative_to(package)}\n".encode() + file.read_bytes())
+    return found.hexdigest()

@@ -2,17 +2,19 @@
 
 import io
 import zipfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import isnan
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from atlas.errors import AtlasError
+from atlas.files import replacing
 from atlas.libraries import of_sweeps
 from atlas.study.sweep.families import empty
+from atlas.study.sweep.plan import Plan
 
 Columns = Mapping[str, NDArray[Any]]
 Parts = Sequence[Path]
@@ -50,18 +52,37 @@ def array_part(columns: Columns) -> bytes:
     return buffer.getvalue()
 
 
-def write_csv(out: Path, names: list[str], _: int, parts: Parts) -> None:
+def parquet_part(columns: Columns) -> bytes:
+    """Return rows as a Parquet file, null where they have no value."""
+    arrow, parquet = _pyarrow()
+    table = arrow.table({name: arrow.array(column, mask=empty(column)) for name, column in columns.items()})
+    buffer = io.BytesIO()
+    parquet.write_table(table, buffer)
+    return buffer.getvalue()
+
+
+PARTS: Mapping[str, Callable[[Columns], bytes]] = {"csv": csv_part, "npz": array_part, "parquet": parquet_part}
+"""How the rows of a part are kept, by the ending of its file and of the table."""
+
+
+def write(out: Path, plan: Plan, parts: Parts) -> None:
+    """Write a table from its parts into its place."""
+    with replacing(out) as file:
+        WRITERS[out.suffix[1:]](file, plan, parts)
+
+
+def write_csv(out: Path, plan: Plan, parts: Parts) -> None:
     """Write the heading and the rows."""
     with out.open("wb") as file:
-        file.write((",".join(names) + "\n").encode())
+        file.write((",".join(plan.headings) + "\n").encode())
         for part in parts:
             file.write(part.read_bytes())
 
 
-def write_npz(out: Path, names: list[str], count: int, parts: Parts) -> None:
-    """Write one array of `count` rows a column, each from one part after the other."""
+def write_npz(out: Path, plan: Plan, parts: Parts) -> None:
+    """Write one array a column, each from one part after the other."""
     with zipfile.ZipFile(out, "w") as archive:
-        for name in names:
+        for name in plan.names:
             with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
                 for part in parts:
                     # of a part no more is read than the column
@@ -69,74 +90,40 @@ def write_npz(out: Path, names: list[str], count: int, parts: Parts) -> None:
                         column = columns[name]
                     if part is parts[0]:
                         descr = np.lib.format.dtype_to_descr(column.dtype)
-                        header = {"descr": descr, "fortran_order": False, "shape": (count,)}
+                        header = {"descr": descr, "fortran_order": False, "shape": (plan.count,)}
                         np.lib.format.write_array_header_1_0(file, header)
                     file.write(column.data)
 
 
-def write_parquet(out: Path, _: list[str], _count: int, parts: Parts) -> None:
-    """Write row groups of GROUP rows."""
-    _, parquet = _pyarrow()
-    writer = None
-    try:
-        for table in _grouped(parts):
-            writer = writer or parquet.ParquetWriter(out, table.schema)
-            writer.write_table(table)
-    finally:
-        if writer:
-            writer.close()
-
-
-def _grouped(parts: Parts) -> Iterator[Any]:
-    """Yield the rows of all parts in tables of GROUP rows, the last of fewer."""
-    arrow, _ = _pyarrow()
-    rows: Any = None
-    for part in parts:
-        with np.load(part) as columns:
-            more = arrow_table(columns)
-        rows = more if rows is None else arrow.concat_tables([rows, more])
-        while rows.num_rows > GROUP:
-            yield rows.slice(0, GROUP).combine_chunks()
-            rows = rows.slice(GROUP)
-    yield rows.combine_chunks()
-
-
-def arrow_table(columns: Columns) -> Any:
-    """Return columns as a table of pyarrow, null where they have no value."""
-    arrow, _ = _pyarrow()
-    return arrow.table({name: arrow.array(columns[name], mask=empty(columns[name])) for name in columns})
-
-
-def parquet_part(columns: Columns) -> bytes:
-    """Return rows as a Parquet file."""
-    buffer = io.BytesIO()
-    _pyarrow()[1].write_table(arrow_table(columns), buffer)
-    return buffer.getvalue()
+def write_parquet(out: Path, _: Plan, parts: Parts) -> None:
+    """Write row groups of GROUP rows, the last of fewer."""
+    arrow, parquet = _pyarrow()
+    rows = parquet.read_schema(parts[0]).empty_table()
+    with parquet.ParquetWriter(out, rows.schema) as writer:
+        for part in parts:
+            rows = arrow.concat_tables([rows, parquet.read_table(part)])
+            full = rows.num_rows // GROUP * GROUP
+            if full:
+                writer.write_table(rows.slice(0, full).combine_chunks(), row_group_size=GROUP)
+                rows = rows.slice(full)
+        if rows.num_rows:
+            writer.write_table(rows.combine_chunks())
 
 
 def _pyarrow() -> tuple[Any, Any]:
     return of_sweeps("pyarrow", "Parquet"), of_sweeps("pyarrow.parquet", "Parquet")
 
 
-class Format(NamedTuple):
-    """Under which ending the parts of a table are kept, and how it is written from them."""
-
-    ending: str
-    write: Callable[[Path, list[str], int, Parts], None]
-
-
-FORMATS: Mapping[str, Format] = {
-    ".csv": Format("csv", write_csv),
-    ".npz": Format("npz", write_npz),
-    ".parquet": Format("npz", write_parquet),
+WRITERS: Mapping[str, Callable[[Path, Plan, Parts], None]] = {
+    "csv": write_csv,
+    "npz": write_npz,
+    "parquet": write_parquet,
 }
-PARTS: Mapping[str, Callable[[Columns], bytes]] = {"csv": csv_part, "npz": array_part, "parquet": parquet_part}
-"""How the rows of a part are kept, by the ending of its file."""
 
 
 def check_format(out: Path) -> None:
     """Raise AtlasError for a file name that says no format, or one that cannot be written here."""
-    if out.suffix not in FORMATS:
-        raise AtlasError(f"A table ends in {', '.join(FORMATS)}, not in {out.suffix!r}: {out}.")
+    if out.suffix[1:] not in WRITERS:
+        raise AtlasError(f"A table ends in {', '.join(f'.{name}' for name in WRITERS)}, not in {out.suffix!r}: {out}.")
     if out.suffix == ".parquet":
         _pyarrow()
