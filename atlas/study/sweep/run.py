@@ -16,7 +16,7 @@ from typing import Any, TypeAlias, cast
 
 import numpy as np
 
-from atlas.core.arithmetic.threads import processors
+from atlas.core.arithmetic.machine import processors
 from atlas.errors import AtlasError
 from atlas.families.family import TIME
 from atlas.libraries import release
