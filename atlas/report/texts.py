@@ -27,6 +27,9 @@ _OUTSIDE = re.compile(r"(?:https?|mailto|doi):[!-~]+")
 _INSIDE = re.compile(r"\w[\w.+-]*\.html(?:#[\w.-]+)?|#[\w.-]+")
 _CHAIN = re.compile(r" / [^\s()]*(\((?:[^()]|\([^()]*\))*\))?[^\s()]* / ")
 """How pandoc writes a fraction below a fraction in Typst, which then reads it from left to right."""
+_COUNTED = {"Section", "Sections", "Part", "Volume", "Figure", "Table"}
+_COUNT = re.compile(r"\d|[IVX]+\b")
+"""Words, and the beginnings of what they count."""
 _ATTRIBUTES = {"Code": 0, "CodeBlock": 0, "Header": 1, "Table": 0}
 """Where in a node of a tree its attributes are."""
 
@@ -162,7 +165,7 @@ class _Checked:
                 found += self.node(node["t"], node.get("c"))
             else:
                 found.append(node)
-        return found
+        return _tied(found) if all(isinstance(node, dict) for node in found) else found
 
     def node(self, kind: str, content: Any) -> Tree:
         """Return what stands in the place of a node."""
@@ -239,8 +242,19 @@ class _Checked:
         return url
 
 
+def _tied(nodes: Tree) -> Tree:
+    """Return inlines with a tie between a word such as Section and its number, by which no line is broken."""
+    return [
+        {"t": "Str", "c": "\u00a0"}
+        if node == {"t": "Space"} and str(before.get("c")) in _COUNTED and _COUNT.match(str(after.get("c")))
+        else node
+        for before, node, after in zip([{}, *nodes], nodes, [*nodes[1:], {}], strict=False)
+    ]
+
+
 def _words(text: str) -> Tree:
-    """Return plain words as nodes; what stands between two carets is raised."""
+    """Return plain words as nodes, a number tied to its word; what stands between two carets is raised."""
+    text = re.sub(r"^(Figure|Table) (?=\d)", "\\1\u00a0", text)
     low, *raised = re.split(r"\^([^^]+)\^", text)
     found: Tree = [{"t": "Str", "c": low}]
     for up, after in zip(raised[::2], raised[1::2], strict=True):
