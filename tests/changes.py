@@ -1,164 +1,53 @@
-"""Changes a line by one sign, coefficient, index or exponent at a time: a trial that means something must notice."""
+r"""Changes the TeX of a formula by one sign, number, letter or index at a time: a trial that reads it must notice."""
 
-import ast
-import copy
 import random
 import re
-from collections.abc import Iterator
 
-from atlas.proof.notation import parse, write
+_TOKEN = re.compile(r"\\(?:begin|end)\{\w+\}|\\(?:text|mathrm|operatorname)\{[^}]*\}|\\[A-Za-z]+|\\.|.", re.DOTALL)
+_GREEK = [rf"\{name}" for name in "alpha beta gamma kappa lambda mu nu phi psi chi omega Omega".split()]
+_SWAPS = {"+": "-", "-": "+", r"\pm": r"\mp", r"\mp": r"\pm", r"\sin": r"\cos", r"\cos": r"\sin"}
+_BOLD = re.compile(r"\\(?:mathbf|boldsymbol)$")
 
 
-def changes(line: str, letters: frozenset[str], *, most: int | None = None, seed: str = "") -> list[tuple[str, str]]:
-    """Return lines that differ from this one in one place, each with what was changed.
+def changes(tex: str, *, most: int | None = None, seed: str = "") -> list[tuple[str, str]]:
+    """Return formulas that differ from this one in one place, each with what was changed.
 
-    most     how many at most, chosen by `seed`; None for all
-
-    letters  the names that the model knows: an index is changed to one that means something
+    most  how many at most, chosen by `seed`; None for all
     """
+    tokens = _TOKEN.findall(tex)
     found: dict[str, str] = {}
-    for what, tree in _changes(parse(line), letters):
-        text = write(tree)
-        if text != write(parse(line)):
-            found.setdefault(text, what)
-    every = sorted(found.items())
+    for place, token in enumerate(tokens):
+        before = next((earlier for earlier in reversed(tokens[:place]) if not earlier.isspace()), "")
+        for what, other in _others(token, before, tokens, place):
+            space = " " if other[-1:].isalpha() and other.startswith("\\") else ""
+            found.setdefault("".join([*tokens[:place], other + space, *tokens[place + 1 :]]), f"{token} {what} {other}")
+    found.pop(tex, None)
+    every = list(found.items())
     if most is None or len(every) <= most:
         return every
-    return sorted(random.Random(seed).sample(every, most))  # noqa: S311  a choice that is the same in every run
+    return random.Random(seed).sample(every, most)  # noqa: S311  a choice that is the same in every run
 
 
-def _changes(trees: list[ast.Compare], letters: frozenset[str]) -> Iterator[tuple[str, list[ast.Compare]]]:
-    """Yield every change of one node, on a copy of the whole line."""
-    for number, tree in enumerate(trees):
-        for path in _paths(tree):
-            for what, replacement in _options(_ancestors(tree, path), letters):
-                changed = copy.deepcopy(trees)
-                _set(changed[number], path, replacement)
-                yield what, changed
+def _others(token: str, before: str, tokens: list[str], place: int) -> list[tuple[str, str]]:
+    """Return what one token may be changed to."""
+    if token in _SWAPS:
+        return [("function" if len(token) == 4 else "sign", _SWAPS[token])]
+    if token in {"=", r"\equiv", "("} and _begins_a_term(tokens, place):
+        return [("sign", f"{token}-")]
+    if token.isdigit():
+        return [("index" if before == "_" else "number", str((int(token) + 1) % 10))]
+    if token in _GREEK:
+        return [("letter", next(other for other in _GREEK if other != token and other not in tokens))]
+    if len(token) == 1 and token.isalpha() and not _BOLD.match(before):
+        fresh = "XYZUVW" if token.isupper() else "xyzuvw"
+        return [("letter", next(other for other in fresh if other not in tokens))]
+    return []
 
 
-Path = tuple[tuple[str, int | None], ...]
-
-
-def _paths(root: ast.AST) -> Iterator[Path]:
-    """Yield the way to every formula below a node: fields, and places in lists."""
-    for field, value in ast.iter_fields(root):
-        for index, node in list(enumerate(value)) if isinstance(value, list) else [(None, value)]:
-            if isinstance(node, ast.expr):
-                yield ((field, index),)
-                yield from (((field, index), *rest) for rest in _paths(node))
-
-
-def _ancestors(root: ast.AST, path: Path) -> list[ast.AST]:
-    chain = [root]
-    for field, index in path:
-        value = getattr(chain[-1], field)
-        chain.append(value if index is None else value[index])
-    return chain
-
-
-def _set(root: ast.AST, path: Path, replacement: ast.expr) -> None:
-    parent = _ancestors(root, path[:-1])[-1]
-    field, index = path[-1]
-    if index is None:
-        setattr(parent, field, replacement)
-    else:
-        getattr(parent, field)[index] = replacement
-
-
-def _options(chain: list[ast.AST], letters: frozenset[str]) -> Iterator[tuple[str, ast.expr]]:
-    """Yield what a node may be changed to, but for changes of sign or size that leave the relation what it is."""
-    idle = _idle(chain)
-    yield from ((what, node) for what, node in _every(chain[-1], chain[-2], letters) if what not in idle)
-
-
-def _idle(chain: list[ast.AST]) -> set[str]:
-    """Return what makes no difference here: the sign below an even power or a cosine, any factor of what equals 0."""
-    below = chain[-1]
-    for above in reversed(chain[:-1]):
-        if isinstance(above, ast.BinOp) and isinstance(above.op, ast.Pow):
-            even = isinstance(above.right, ast.Constant) and above.right.value in {2, 4}
-            return {"sign"} if above.left is below and even else set()
-        if isinstance(above, ast.Call) and isinstance(above.func, ast.Name):
-            if above.func.id in {"cos", "abs", "norm"}:
-                return {"sign"}
-            if above.func.id not in {"d", "d2", "dot", "cross"}:
-                return set()
-        elif isinstance(above, ast.Compare):
-            sides = [above.left, *above.comparators]
-            zero = any(isinstance(side, ast.Constant) and side.value == 0 for side in sides)
-            return {"sign", "coefficient"} if len(sides) == 2 and zero and chain[-1] is not above else set()
-        elif not isinstance(above, ast.UnaryOp) and not _is_product(above):
-            return set()
-        below = above
-    return set()
-
-
-def _is_product(node: ast.AST) -> bool:
-    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult | ast.Div)
-
-
-def _every(node: ast.AST, parent: ast.AST, letters: frozenset[str]) -> Iterator[tuple[str, ast.expr]]:
-    """Yield all that one node may be changed to."""
-    match node:
-        case ast.BinOp():
-            yield from _operated(node, parent)
-        case ast.UnaryOp():
-            yield "sign", node.operand
-        case ast.Constant(value=int(value)):
-            exponent = isinstance(parent, ast.BinOp) and isinstance(parent.op, ast.Pow) and parent.right is node
-            in_brackets = isinstance(parent, ast.Subscript) and parent.slice is node
-            yield ("exponent" if exponent else "index" if in_brackets else "number"), ast.Constant(value + 1)
-        case ast.Name() if not _is_function(node, parent):
-            yield from _renamed(node, parent, letters)
-        case ast.Subscript(slice=ast.Tuple(elts=[first, second, *rest])):
-            yield "index", ast.Subscript(node.value, ast.Tuple([second, first, *rest], ast.Load()), ast.Load())
-        case ast.Call():
-            yield from _called(node)
-
-
-def _operated(node: ast.BinOp, parent: ast.AST) -> Iterator[tuple[str, ast.expr]]:
-    match node.op:
-        case ast.Add():
-            yield "term", ast.BinOp(node.left, ast.Sub(), node.right)
-        case ast.Sub():
-            yield "term", ast.BinOp(node.left, ast.Add(), node.right)
-        case ast.Pow():
-            yield "exponent", node.left
-        case _:
-            if not _is_product(parent):
-                yield "coefficient", ast.BinOp(ast.Constant(2), ast.Mult(), node)
-                yield "sign", ast.UnaryOp(ast.USub(), node)
-            if isinstance(node.op, ast.Div):
-                yield "exponent", ast.BinOp(node.left, ast.Mult(), node.right)
-
-
-def _is_function(node: ast.AST, parent: ast.AST) -> bool:
-    return isinstance(parent, ast.Call) and parent.func is node
-
-
-def _renamed(node: ast.Name, parent: ast.AST, letters: frozenset[str]) -> Iterator[tuple[str, ast.expr]]:
-    stem = re.match(r"(.*?)(\d)([a-z]?)$", node.id)
-    if stem:
-        for digit in "123":
-            other = f"{stem[1]}{digit}{stem[3]}"
-            if other != node.id and other in letters:
-                yield "index", ast.Name(other)
-    if isinstance(parent, ast.BinOp | ast.Compare | ast.UnaryOp | ast.Call) and node.id not in {"pi", "one"}:
-        yield "coefficient", ast.BinOp(ast.Constant(2), ast.Mult(), node)
-        yield "sign", ast.UnaryOp(ast.USub(), node)
-
-
-def _called(node: ast.Call) -> Iterator[tuple[str, ast.expr]]:
-    name = node.func.id if isinstance(node.func, ast.Name) else ""
-    if name == "cross":
-        yield "sign", ast.Call(node.func, [node.args[1], node.args[0]], [])
-    if name in {"sin", "cos"}:
-        yield "function", ast.Call(ast.Name("cos" if name == "sin" else "sin"), node.args, [])
-    if name == "sqrt":
-        yield "exponent", node.args[0]
-    if name == "T":
-        yield "index", node.args[0]
-    if name in {"d", "d2"}:
-        yield "sign", ast.UnaryOp(ast.USub(), node)
-        yield "coefficient", ast.BinOp(ast.Constant(2), ast.Mult(), node)
+def _begins_a_term(tokens: list[str], place: int) -> bool:
+    """Whether a sign put behind an opening or a sign of equality changes something: not in a square, nor before = 0."""
+    after = next((later for later in tokens[place + 1 :] if not later.isspace() and later != "&"), "")
+    rest = re.sub(r"[\s&]", "", "".join(tokens[place:]))
+    if re.match(r"\([^()]*\)\}?(\^2|=0|=\\text\{const)", rest.replace("(t)", "").replace("(0)", "")):
+        return False
+    return after not in {"+", "-", "0", r"\pm", r"\mp", r"\text", "", r"\begin{aligned}", "]", ")"}

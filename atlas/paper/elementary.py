@@ -82,7 +82,7 @@ EQUATIONS = (
         section="V",
         kind="claim",
         says="The constants $c$ of the three rows",
-        tex=r"c=0,\qquad c=\omega_2,\qquad c=\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
+        tex=r"c_1=0,\qquad c_2=\omega_2,\qquad c_3=\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
         assumptions=(r"$\mathbf{B}' = (0, B'_2, B'_3)$ with $B'_2 > 0$, $B'_3 > 0$",),
     ),
     Equation(

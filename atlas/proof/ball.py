@@ -227,7 +227,7 @@ def orthogonal_model(sign: int = 1) -> Model:
 TRIALS = (
     Trial(
         name="text-momentum",
-        printed="m = g1*cross(R1,dR1) + g2*cross(R2,dR2) + g3*cross(R3,dR3) = R*I*T(R)*omega = R*I*Omega",
+        tried="m = g1*cross(R1,dR1) + g2*cross(R2,dR2) + g3*cross(R3,dR3) = R*I*T(R)*omega = R*I*Omega",
         model=kinematic_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the principal axes",
         false=Falsehood(
@@ -238,18 +238,18 @@ TRIALS = (
     ),
     Trial(
         name="(19)",
-        printed="I1 = I2 = I3 = I0",
+        tried="I1 = I2 = I3 = I0",
         model=uniform_ball_model,
         follows=r"the moments of a uniform ball, integrated, $I_0 = 2 M r^2/5$",
     ),
     Trial(
         name="text-ball-centre",
-        printed="y = ypar + yperp",
+        tried="y = ypar + yperp",
         model=lambda: trajectory_model(signed=False),
         follows="@(4) by substitution, for either sign of the charge",
         defines=("y",),
         solves=TRAJECTORY,
-        corrected="y = ypar + yperp",
+        corrected_tried="y = ypar + yperp",
         corrected_model=trajectory_model,
         corrected_tex=r"\mathbf{y}_0(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t),\qquad\omega=\boxed{\frac{\mu\lvert"
         r"\mathbf{B}\rvert}{c}}",
@@ -261,7 +261,7 @@ TRIALS = (
     ),
     Trial(
         name="text-ball-axis",
-        printed="m = I0*omega = I0*R*Omega; cross(omega,m) = 0",
+        tried="m = I0*omega = I0*R*Omega; cross(omega,m) = 0",
         model=round_model,
         follows=r"$\mathbf{m} = \sum m_N [\mathbf{x}_N, \dot{\mathbf{x}}_N]$ for three masses on the "
         "principal axes with equal moments",
@@ -274,35 +274,35 @@ TRIALS = (
     ),
     Trial(
         name="(20)",
-        printed="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
+        tried="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
         model=general.poisson_model,
         follows="@(12)",
     ),
     Trial(
         name="(21)",
-        printed="dOmega = -mu/(2*c)*cross(T(R)*Bf,Omega)",
+        tried="dOmega = -mu/(2*c)*cross(T(R)*Bf,Omega)",
         model=ball_model,
         follows="@(16) with $g = I_0/2$",
     ),
     Trial(
         name="(22)",
-        printed="dm = -mu/(2*c)*cross(Bf,m)",
+        tried="dm = -mu/(2*c)*cross(Bf,m)",
         model=ball_model,
         follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)",
     ),
     Trial(
         name="(23)",
-        printed="d(m[1]^2 + m[2]^2 + m[3]^2) = 0; d(m[1]*Bf[1] + m[2]*Bf[2] + m[3]*Bf[3]) = 0",
+        tried="d(m[1]^2 + m[2]^2 + m[3]^2) = 0; d(m[1]*Bf[1] + m[2]*Bf[2] + m[3]*Bf[3]) = 0",
         model=momentum_flow_model,
         follows="@(22)",
     ),
     Trial(
         name="text-ball-body-precession",
-        printed="d2(Omega) = cross(K,cross(K,Omega))",
+        tried="d2(Omega) = cross(K,cross(K,Omega))",
         model=body_flow_model,
         follows=r"@(21) and @(35): a precession about $\mathbf{K}$ with the frequency $|\mathbf{K}| = \alpha$ has this "
         "second rate",
-        corrected="d(Omega) = -cross(Omega + K,Omega); d(Omega + K) = 0",
+        corrected_tried="d(Omega) = -cross(Omega + K,Omega); d(Omega + K) = 0",
         corrected_tex=(
             r"\dot{\boldsymbol{\Omega}}=-[\boxed{\boldsymbol{\Omega}+\mathbf{K}},\boldsymbol{\Omega}],\qquad"
             r"\boxed{\boldsymbol{\Omega}+\mathbf{K}=\text{const}}"
@@ -314,7 +314,7 @@ TRIALS = (
     ),
     Trial(
         name="text-ball-equivalent",
-        printed="dOmega + mu/(2*c)*cross(T(R)*Bf,Omega) = 1/I0*T(R)*(dm + mu/(2*c)*cross(Bf,m))",
+        tried="dOmega + mu/(2*c)*cross(T(R)*Bf,Omega) = 1/I0*T(R)*(dm + mu/(2*c)*cross(Bf,m))",
         model=any_momentum_model,
         follows=r"$\boldsymbol{\Omega} = R^T \mathbf{m}/I_0$ differentiated by @(20), for any rate of $\mathbf{m}$",
         note="The left side vanishes if and only if the right one does.",
@@ -326,12 +326,12 @@ TRIALS = (
     ),
     Trial(
         name="text-linear-poisson",
-        printed="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
+        tried="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
         model=orthogonal_model,
         follows=r"$\det R = 1$",
         grade="missing case",
         slip="text-affirmation",
-        corrected="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
+        corrected_tried="-1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
         corrected_also=(
             Part(
                 line="1/I0*eps[j,a,b]*(T(R)*m)[a]*R[i,b] = 1/I0*eps[i,a,b]*m[a]*R[b,j]",
@@ -350,19 +350,19 @@ TRIALS = (
     ),
     Trial(
         name="(24)",
-        printed="dR[i,j] = 1/I0*eps[i,a,b]*m[a]*R[b,j]; dRj[j] = 1/I0*cross(m,Rj[j])",
+        tried="dR[i,j] = 1/I0*eps[i,a,b]*m[a]*R[b,j]; dRj[j] = 1/I0*cross(m,Rj[j])",
         model=ball_model,
         follows=r"@(20) and $\mathbf{m} = I_0 R \boldsymbol{\Omega}$",
     ),
     Trial(
         name="(25)",
-        printed="dm = -mu/(2*c)*cross(Bf,m)",
+        tried="dm = -mu/(2*c)*cross(Bf,m)",
         model=ball_model,
         follows=r"$\mathbf{m} = I_0 R \boldsymbol{\Omega}$, @(20) and @(21)",
     ),
     Trial(
         name="text-ball-frame",
-        printed="R*(I0*one)*T(R) = I0*one",
+        tried="R*(I0*one)*T(R) = I0*one",
         model=frame_model,
         follows="$R R^T = 1$",
         false=Falsehood(
@@ -373,7 +373,7 @@ TRIALS = (
     ),
     Trial(
         name="(26)",
-        printed=f"m = {_LEFT}*[0, m2, m3] = [m2*sin(alpha*t), m2*cos(alpha*t), m3]",
+        tried=f"m = {_LEFT}*[0, m2, m3] = [m2*sin(alpha*t), m2*cos(alpha*t), m3]",
         model=larmor_model,
         follows=r"@(25) by substitution, $\alpha$ of @(27)",
         defines=("m",),
@@ -381,18 +381,18 @@ TRIALS = (
     ),
     Trial(
         name="(27)",
-        printed="alpha = mu*b/(2*c)",
+        tried="alpha = mu*b/(2*c)",
         model=larmor_frequency_model,
         follows=r"the rate of the angle of $\mathbf{m}$ about $\mathbf{B}$ in @(22)",
     ),
     Trial(
         name="text-ball-ansatz",
-        printed="k2 = -m2/(gamma*I0); k3 = -(alpha*I0 + m3)/(gamma*I0); I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
+        tried="k2 = -m2/(gamma*I0); k3 = -(alpha*I0 + m3)/(gamma*I0); I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
         model=start_model,
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$",
         grade="missing case",
         slip="(29)",
-        corrected="gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0; I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
+        corrected_tried="gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0; I0^2*gamma^2 = m2^2 + (alpha*I0 + m3)^2",
         corrected_tex=(
             r"\boxed{\gamma\hat{k}_2=-\frac{m_2}{I_0},\qquad\gamma\hat{k}_3=-\frac{\alpha I_0+m_3}{I_0}},\qquad I_0^2"
             r"\gamma^2=m_2^2+(\alpha I_0+m_3)^2"
@@ -406,7 +406,7 @@ TRIALS = (
     ),
     Trial(
         name="(28)",
-        printed=f"R = {_EXPANDED} = {_LEFT}*{_RIGHT}",
+        tried=f"R = {_EXPANDED} = {_LEFT}*{_RIGHT}",
         model=motion_model,
         follows=r"@(24) by substitution, with $\mathbf{m}$ of @(26) and $\hat{\mathbf{k}}$, $\gamma$ of @(29)",
         defines=("R",),
@@ -414,14 +414,16 @@ TRIALS = (
     ),
     Trial(
         name="(29)",
-        printed="k2 = -m2/sqrt(m2^2 + (alpha*I0 + m3)^2); k3 = -(m3 + alpha*I0)/sqrt(m2^2 + (alpha*I0 + m3)^2);"
+        tried="k2 = -m2/sqrt(m2^2 + (alpha*I0 + m3)^2); k3 = -(m3 + alpha*I0)/sqrt(m2^2 + (alpha*I0 + m3)^2);"
         " gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2)",
         model=lambda: constants_model()[0],
         follows=r"the rate of the ansatz at $t = 0$ is $\mathbf{m}/I_0$, for all initial data but one point",
         defines=("k2", "k3", "gamma"),
         solves="k2^2 + k3^2 = 1; gamma*k2 = -m2/I0; gamma*k3 = -(alpha*I0 + m3)/I0",
-        corrected="gamma*k2 = -m2/I0; gamma*k3 = -(m3 + alpha*I0)/I0; gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2);"
-        " k2^2 + k3^2 = 1",
+        corrected_tried=(
+            "gamma*k2 = -m2/I0; gamma*k3 = -(m3 + alpha*I0)/I0; gamma = 1/I0*sqrt(m2^2 + (alpha*I0 + m3)^2);"
+            " k2^2 + k3^2 = 1"
+        ),
         corrected_model=true_constants_model,
         corrected_defines=(),
         corrected_solves="",
@@ -435,7 +437,7 @@ TRIALS = (
     ),
     Trial(
         name="text-ball-two-rotations",
-        printed=f"{_LEFT}*{_RIGHT} = rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, k2,"
+        tried=f"{_LEFT}*{_RIGHT} = rod([0, 0, 1],cos(alpha*t),-sin(alpha*t))*rod([0, k2,"
         f" k3],cos(gamma*t),-sin(gamma*t))",
         model=motion_model,
         follows="Rodrigues' formula for a rotation about a unit vector",
@@ -447,11 +449,11 @@ TRIALS = (
     ),
     Trial(
         name="text-ball-parallel",
-        printed="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
+        tried="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
         model=parallel_model,
         follows=r"@(29) with $m_2 = 0$, $m_3 > -\alpha I_0$",
         grade="missing case",
-        corrected="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
+        corrected_tried="k2 = 0; k3 = -1; gamma = alpha + m3/I0",
         corrected_also=(Part(line="k2 = 0; k3 = 1; gamma = -(alpha + m3/I0)", model=lambda: parallel_model(-1)),),
         corrected_tex=(
             r"\hat{\mathbf{k}}=(0,0,\boxed{\mp1})^T,\qquad\gamma=\boxed{\pm}\Bigl(\alpha+\frac{m_3}{I_0}\Bigr)\quad"
@@ -468,7 +470,7 @@ TRIALS = (
     ),
     Trial(
         name="(30)",
-        printed=f"R = {_STEADY}",
+        tried=f"R = {_STEADY}",
         model=parallel_motion_model,
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, m_3)$, and @text-ball-two-rotations with the "
         "constants of @text-ball-parallel",

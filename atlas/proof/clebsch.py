@@ -113,7 +113,7 @@ _L = "1/2*dot(Omega,J*Omega) + dot(K,J*Omega)"
 TRIALS = (
     Trial(
         name="theorem-larmor-frame",
-        printed="S = P*R; d(S[i,j]) = -eps[j,a,b]*(Omega[a] + K[a])*S[i,b]; T(S)*Bp = K;"
+        tried="S = P*R; d(S[i,j]) = -eps[j,a,b]*(Omega[a] + K[a])*S[i,b]; T(S)*Bp = K;"
         " S2 = P2*R; d(S2[i,j]) = -eps[j,a,b]*(Omega[a] + 2*K[a])*S2[i,b]; T(S2)*Bp = K",
         model=frame_model,
         follows="@(12), with $P = R_B(bt)$ and $P_2 = R_B(2bt)$",
@@ -127,7 +127,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-larmor",
-        printed="J*d(W) = cross(J*W,W) + cross(K,J*K); d(K) = cross(K,W); W = Omega + K",
+        tried="J*d(W) = cross(J*W,W) + cross(K,J*K); d(K) = cross(K,W); W = Omega + K",
         model=tensor_model,
         follows="@(16) and @(35)",
         note=r"Larmor's theorem, exact in the field and for every inertia tensor. The torque $[\mathbf{K}, J "
@@ -140,7 +140,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-momentum-canonical",
-        printed=f"L = {_L}; M = gradOmega(L); dot(M,Omega) - L = 1/2*dot(Omega,J*Omega);"
+        tried=f"L = {_L}; M = gradOmega(L); dot(M,Omega) - L = 1/2*dot(Omega,J*Omega);"
         " d(M) = cross(M,Omega) + cross(J*Omega,K)",
         model=tensor_model,
         follows="@(16), with the Lagrangian @(104) summed over the body",
@@ -154,7 +154,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-lie-poisson",
-        printed="H = 1/2*dot(M,inv(J)*M) + 1/2*dot(K,J*K); d(M) = cross(M,gradM(H)) + cross(K,gradK(H));"
+        tried="H = 1/2*dot(M,inv(J)*M) + 1/2*dot(K,J*K); d(M) = cross(M,gradM(H)) + cross(K,gradK(H));"
         " d(K) = cross(K,gradM(H)); d(H) = 0; d(dot(K,K)) = 0; d(dot(M,K)) = 0",
         model=poisson_model,
         follows=r"@(16) and @(35) with $\boldsymbol{\Omega} = J^{-1} \mathbf{M} - \mathbf{K}$",
@@ -167,7 +167,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-bracket",
-        printed="br(M[i],M[j]) = -eps[i,j,k]*M[k]; br(M[i],K[j]) = -eps[i,j,k]*K[k]; br(K[i],K[j]) = 0;"
+        tried="br(M[i],M[j]) = -eps[i,j,k]*M[k]; br(M[i],K[j]) = -eps[i,j,k]*K[k]; br(K[i],K[j]) = 0;"
         " eps[i,j,k]*br(br(M[i],M[j]),M[k]) = 0;"
         " eps[l,i,j]*br(br(M[i],M[j]),K[k]) + 2*eps[l,i,j]*br(br(M[j],K[k]),M[i]) = 0;"
         " br(M[i],dot(K,K)) = 0; br(M[i],dot(M,K)) = 0; br(K[i],dot(M,K)) = 0",
@@ -183,7 +183,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-kinetic-energy",
-        printed="energy = 1/2*dot(W,J*W) + 1/2*dot(K,J*K) - dot(M,K); d(energy) = 0",
+        tried="energy = 1/2*dot(W,J*W) + 1/2*dot(K,J*K) - dot(M,K); d(energy) = 0",
         model=tensor_model,
         follows=r"$\mathbf{M} = J \mathbf{W}$, $\mathbf{W} = \boldsymbol{\Omega} + \mathbf{K}$, @(16) and @(35)",
         note="$F$ is not needed. The two Hamiltonians differ by a Casimir, which generates the turn of Larmor's frame.",
@@ -195,7 +195,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-clebsch",
-        printed="F = dot(M,M) - dot(K,adj(J)*K); adj(J)*J = det(J)*one; d(F) = 0;"
+        tried="F = dot(M,M) - dot(K,adj(J)*K); adj(J)*J = det(J)*one; d(F) = 0;"
         " cross(J*Omega,J*K) = adj(J)*cross(Omega,K)",
         model=tensor_model,
         follows=r"@(16) and @(35); $\det J J^{-1}$ is the matrix of cofactors",
@@ -210,7 +210,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-involution",
-        printed="F = dot(M,M) - det(J)*dot(K,inv(J)*K); br(F,H) = 0; d(F) = 0; rank(H,F,dot(M,K),dot(K,K)) = 4",
+        tried="F = dot(M,M) - det(J)*dot(K,inv(J)*K); br(F,H) = 0; d(F) = 0; rank(H,F,dot(M,K),dot(K,K)) = 4",
         model=poisson_model,
         follows="the bracket of @theorem-bracket; the gradients at one point, moments 2, 3, 4",
         defines=("F",),
@@ -223,7 +223,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-clebsch-symmetric",
-        printed="F = 2*I2*H + (1 - I2/I3)*M3^2 - I2*(I2 + I3)*dot(K,K); M3 = I3*c3;"
+        tried="F = 2*I2*H + (1 - I2/I3)*M3^2 - I2*(I2 + I3)*dot(K,K); M3 = I3*c3;"
         " c5 = dot(M,K)/I2 - dot(K,K) + (1 - I)*c3^2; E = 2/I2*(H - dot(M,K))",
         model=symmetric_model,
         follows="@(36), @(40) and @(41) at any state",
@@ -235,7 +235,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-pair",
-        printed="other = -2*K - Omega; Jrate = -J*d(other); Krate = -d(K)",
+        tried="other = -2*K - Omega; Jrate = -J*d(other); Krate = -d(K)",
         model=reversed_model,
         follows=r"@(16) and @(35) at the state $(-2\mathbf{K} - \boldsymbol{\Omega}, \mathbf{K})$, against their rates "
         "along the motion, time reversed",

@@ -25,7 +25,7 @@ def closed_model() -> Model:
 TRIALS = (
     Trial(
         name="theorem-closed",
-        printed="I*(b + k)*(phi/k - r) = ((1 - I)*hB3 - I*r)*k + (2*(1 - I)*hB3 - I*r)*b;"
+        tried="I*(b + k)*(phi/k - r) = ((1 - I)*hB3 - I*r)*k + (2*(1 - I)*hB3 - I*r)*b;"
         " kr = -b*(2*(1 - I)*hB3 - I*r)/((1 - I)*hB3 - I*r); at(phi,kr)/kr = r; I*(b + kr)*((1 - I)*hB3 - I*r)"
         " = -I*b*(1 - I)*hB3",
         model=closed_model,
@@ -41,7 +41,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-closed-free",
-        printed="phi/free = (2*b + k)/(b + k)",
+        tried="phi/free = (2*b + k)/(b + k)",
         model=closed_model,
         follows="@(72), @(79) and @(87)",
         false=Falsehood(

@@ -4,6 +4,7 @@ Every model is made of rational functions of free parameters, so that `left = ri
 `identity` decides. One exact rational point where the sides differ refutes it.
 """
 
+import ast
 import random
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -79,7 +80,7 @@ def decide(  # noqa: PLR0911  one return for each way in which a line fails
         )
         if found:
             return Outcome("refuted", "exact counterexample", found)
-        idle = _idle(relations, here, tuple(defines), f"{line}; {solves}" if solves else line)
+        idle = _unknown(trees, here) or _idle(relations, here, tuple(defines), f"{line}; {solves}" if solves else line)
         if idle:
             return Outcome("undecided", idle)
         methods += [] if sample_only else [_prove(relation, here) for relation in relations]
@@ -109,6 +110,10 @@ def _understand(
     kept, defined = [], set()
     for tree in parse(line):
         name = getattr(tree.left, "id", None)
+        if name not in defines and getattr(tree.comparators[-1], "id", None) in defines:
+            sides = [tree.left, *tree.comparators]
+            tree.left, *tree.comparators = reversed(sides)
+            name = getattr(tree.left, "id", None)
         if name in defines:
             if name in defined:
                 raise NoMeaningError(f"{name} is defined twice")
@@ -129,6 +134,17 @@ def _understand(
     reader = Reader(letters, model.ranges)
     relations = reader.relations(write(kept)) if kept else []
     return relations + (reader.relations(solves) if solves else []), letters, where
+
+
+def _unknown(trees: list[ast.Compare], model: Model) -> str:
+    """Say which letters of a line have no meaning in the model, and what the line says twice; empty if all is well."""
+    known = set(model.letters) | set(model.ranges) | {str(symbol) for symbol, _ in model.where}
+    known |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
+    strange = {name for tree in trees for name in letters_of(tree)} - known
+    if strange:
+        return f"unreadable: {', '.join(sorted(strange))} means nothing here"
+    every = [ast.dump(tree) for tree in trees]
+    return "it says the same twice" if len(set(every)) < len(every) else ""
 
 
 def _idle(relations: list[Relation], model: Model, defines: tuple[str, ...], line: str) -> str:

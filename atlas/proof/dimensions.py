@@ -94,7 +94,10 @@ def _dimension(node: ast.expr, known: Mapping[str, Dimension]) -> Dimension | No
 def _operation(node: ast.BinOp, known: Mapping[str, Dimension]) -> Dimension | None:
     left = _dimension(node.left, known)
     if isinstance(node.op, ast.Pow):
-        power = Fraction(int(ast.literal_eval(node.right)))
+        try:
+            power = Fraction(int(ast.literal_eval(node.right)))
+        except ValueError:
+            raise KeyError(ast.unparse(node.right)) from None
         return None if left is None else tuple(power * x for x in left)
     right = _dimension(node.right, known)
     if isinstance(node.op, ast.Add | ast.Sub):

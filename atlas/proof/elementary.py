@@ -7,14 +7,26 @@ import sympy
 from atlas.proof import units
 from atlas.proof.ball import rodrigues
 from atlas.proof.model import Model, Value, cross, hat, turn, vector
+from atlas.proof.notation import sides
+from atlas.proof.quadric import SIGNS as QUADRIC_SIGNS
 from atlas.proof.quadric import I, constant_omega3, omega1, omega2, omega3
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.tex import UnreadableError
+from atlas.proof.trial import Falsehood, Part, Trial, read
 
 b, I2 = sympy.symbols("b I2", positive=True)
 B2, B3 = sympy.symbols("B2 B3", positive=True)
 hB2, hB3, k, phi, t, k0, c, amplitude, u, p, q, h = sympy.symbols("hB2 hB3 k phi t k0 c amplitude u p q h", real=True)
 ck, sk, cf, sf, c0, s0 = sympy.symbols("ck sk cf sf c0 s0", real=True)
 gamma = g1, g2, g3 = vector("g")
+
+SIGNS = QUADRIC_SIGNS | {
+    r"\hat{\mathbf{B}}": "hat_B",
+    r"\phi_B": "phiB",
+    "k_B": "kB",
+    r"R_{\hat{\mathbf{B}}}(t,k)": "P",
+    r"R_{OZ}(t,\phi)": "Q",
+    r"\lvert\mathbf{B}'\rvert": "b",
+}
 
 PHASES = {k * t: (ck, sk), phi * t: (cf, sf), k0: (c0, s0)}
 FLOW = {ck: -k * sk, sk: k * ck, cf: -phi * sf, sf: phi * cf}
@@ -90,7 +102,7 @@ def ratio_model() -> Model:
 def rows_model() -> Model:
     """Model the constant c of (76) for the three rows of R(0) = 1."""
     value = SPIN.subs(START)
-    letters = {f"c_{n + 1}": [value[0], value[1], hB3 * omega2 / hB2][n] for n in range(3)}
+    letters = {f"c{n + 1}": [value[0], value[1], hB3 * omega2 / hB2][n] for n in range(3)}
     return _model(letters, [*FIELD])
 
 
@@ -113,9 +125,7 @@ def _row(constant: Value, size: Value, phase: tuple[Value, Value]) -> Value:
 def solution_model() -> Model:
     """Model the row of (78) and (80), for any constants."""
     row = _row(c, amplitude, (c0, s0))
-    rates = cross(row, SPIN)
-    letters = {f"gamma{n + 1}": row[n] for n in range(3)} | {"rate3": rates[2], "Omega1": SPIN[0], "Omega2": SPIN[1]}
-    letters |= {f"start{n + 1}": row.subs(START)[n] for n in range(3)}
+    letters = {f"gamma{n + 1}": row[n] for n in range(3)} | {"Omega1": SPIN[0], "Omega2": SPIN[1]}
 
     def begin(constant: Value, size: Value, angle: Value) -> Value:
         phase = sympy.cos(angle), sympy.sin(angle)
@@ -163,7 +173,7 @@ def resting_row_model() -> Model:
 @cache
 def ball_limit_model() -> Model:
     """I2 = I3."""
-    return _model({}, [*ON_HYPERBOLA, (I, sympy.Integer(1)), *FIELD])
+    return _model({}, [*ON_HYPERBOLA, PHI, (I, sympy.Integer(1)), *FIELD])
 
 
 @cache
@@ -190,7 +200,7 @@ def free_model() -> Model:
 @cache
 def free_frequency_model() -> tuple[Model, Model]:
     """Model launched with omega2 of either sign; m = (I2 omega2/B2) B'."""
-    speed = sympy.Symbol("speed", positive=True)
+    speed, hB2 = sympy.symbols("speed hB2", positive=True)
     cases = []
     for sign in (1, -1):
         length = I2 * speed / B2 * b
@@ -205,22 +215,8 @@ def free_frequency_model() -> tuple[Model, Model]:
     return cases[0], cases[1]
 
 
-_EQUATION_84 = (
-    "[[cos(k*t)*cos(phi*t) - hB3*sin(k*t)*sin(phi*t), -cos(k*t)*sin(phi*t) - hB3*sin(k*t)*cos(phi*t), hB2*sin(k*t)],"
-    " [hB3*sin(k*t)*cos(phi*t) + (hB2^2 + hB3^2*cos(k*t))*sin(phi*t),"
-    " -hB3*sin(k*t)*sin(phi*t) + (hB2^2 + hB3^2*cos(k*t))*cos(phi*t), hB2*hB3*(1 - cos(k*t))],"
-    " [-hB2*sin(k*t)*cos(phi*t) + hB2*hB3*(1 - cos(k*t))*sin(phi*t),"
-    " hB2*sin(k*t)*sin(phi*t) + hB2*hB3*(1 - cos(k*t))*cos(phi*t), hB3^2 + hB2^2*cos(k*t)]]"
-)
-_LEFT = (
-    "[[cos(k*t), -hB3*sin(k*t), hB2*sin(k*t)], [hB3*sin(k*t), hB2^2 + hB3^2*cos(k*t), hB2*hB3*(1 - cos(k*t))],"
-    " [-hB2*sin(k*t), hB2*hB3*(1 - cos(k*t)), hB3^2 + hB2^2*cos(k*t)]]"
-)
-_RIGHT = "[[cos(phi*t), -sin(phi*t), 0], [sin(phi*t), cos(phi*t), 0], [0, 0, 1]]"
 _POISSON = "d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]; at0(R) = one"
 _EULER = "J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Omega)"
-_NUMERATOR = "(c - amp*hB3*omega2/hB2*cos(k*t + k0) - c*hB3^2)"
-_BRACKET = f"1/omega2*{_NUMERATOR}"
 _AT_REST = r"At $\omega_2 = 0$ it reads $0/0$: the body is at rest, and @(84) says so."
 
 
@@ -262,64 +258,67 @@ def free_proper_model() -> Model:
     return _model(letters, [K_OF_OMEGA2, *FIELD])
 
 
+def _rows(line: str) -> str:
+    """Return what the constants c, b, k0 of three rows say of them: row(c, b, k0) is the row at t = 0."""
+    letters, values = zip(*((sides(part)[0], sides(part)[1:]) for part in line.split("; ")), strict=True)
+    if letters != ("c", "amp", "k0") * 3:
+        raise UnreadableError("three rows of the constants c, b, k0 are not what stands here")
+    first = [value[0] for value in values]
+    rows = [f"row({', '.join(first[3 * n : 3 * n + 3])}) = {[int(n == m) for m in range(3)]}" for n in range(3)]
+    return "; ".join(rows + [" = ".join(value) for value in values if len(value) > 1])
+
+
 TRIALS = (
     Trial(
         name="(73)",
-        printed="Omega = [omega2*sin(phi*t), omega2*cos(phi*t), omega3]",
         model=velocity_model,
         follows=r"@(34), @(35) by substitution, with $\mathbf{K}$ of @(62), $\omega_3$ of @(71), $\phi$ of @(72)",
         defines=("Omega",),
-        solves="J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*K,Omega); d(K) = -cross(Omega,K); at0(Omega) = [0,"
-        " omega2, omega3]",
+        solves="J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*K,Omega); d(K) = -cross(Omega,K)",
     ),
     Trial(
         name="text-body-precession",
-        printed="d(Omega) = -phi*cross(e3,Omega)",
         model=matrix_model,
         follows="@(73)",
         note=r"Clockwise for $\phi > 0$.",
         false=Falsehood(
             r"It precesses counter-clockwise for $\phi > 0$",
-            "-phi*cross(e3,Omega)",
-            "phi*cross(e3,Omega)",
+            "-phi*cross",
+            "phi*cross",
         ),
     ),
-    Trial(name="(74)", printed="dgamma = cross(gamma,Omega)", model=row_model, follows="@(12) for one row"),
+    Trial(name="(74)", model=row_model, signs={r"\dot{\boldsymbol{\gamma}}": "dgamma"}, follows="@(12) for one row"),
     Trial(
         name="(75)",
-        printed="dgamma1 = gamma2*omega3 - gamma3*Omega2; dgamma2 = gamma3*Omega1 - gamma1*omega3;"
-        " dgamma3 = gamma1*Omega2 - gamma2*Omega1",
         model=row_model,
+        signs={rf"\dot\gamma_{n}": f"dgamma{n}" for n in (1, 2, 3)},
         follows="@(74) in components",
     ),
     Trial(
         name="(76)",
-        printed="d(Omega1*gamma1 + Omega2*gamma2 + hB3*omega2/hB2*gamma3) = 0",
         model=integral_model,
+        defines=("c",),
+        solves="d(c) = 0",
         follows=r"@(75) with $\boldsymbol{\Omega}$ of @(73)",
     ),
-    Trial(name="(77)", printed="B3/B2 = Bl3/Bl2 = hB3/hB2", model=ratio_model, follows="@(32)"),
+    Trial(name="(77)", model=ratio_model, signs={"B_2": "Bl2", "B_3": "Bl3"}, follows="@(32)"),
     Trial(
         name="text-row-constants",
-        printed="c_1 = 0; c_2 = omega2; c_3 = hB3*omega2/hB2",
         model=rows_model,
         follows="@(76) at $t = 0$ for the rows of $R(0) = 1$",
         false=Falsehood(
             r"The constant of the second row is the spin $\omega_3$",
-            "c_2 = omega2",
-            "c_2 = omega3",
+            "c2 = omega2",
+            "c2 = omega3",
         ),
     ),
     Trial(
         name="(78)",
-        printed="gamma1 = 1/omega2^2*(Omega1*(c - hB3*omega2/hB2*gamma3) + Omega2*d(gamma3));"
-        " gamma2 = 1/omega2^2*(Omega2*(c - hB3*omega2/hB2*gamma3) - Omega1*d(gamma3))",
         model=integral_model,
         follows="@(75) and @(76)",
         grade="missing case",
-        corrected="omega2^2*gamma1 = Omega1*(c - hB3*omega2/hB2*gamma3) + Omega2*d(gamma3);"
-        " omega2^2*gamma2 = Omega2*(c - hB3*omega2/hB2*gamma3) - Omega1*d(gamma3)",
         corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
+        corrected_signs={r"\text{and}\quad\boldsymbol{\gamma}=\text{const}\quad\text{if}\quad\omega_2=0": ""},
         corrected_tex=(
             r"\begin{aligned} \boxed{\omega_2^2}\gamma_1&=\Omega_1(c-\frac{\hat{B}_3\omega_2}{\hat{B}_2}\gamma_3)+"
             r"\Omega_2"
@@ -332,20 +331,17 @@ TRIALS = (
     ),
     Trial(
         name="(79)",
-        printed="d2(gamma3) + k^2*gamma3 = c*hB3*omega2/hB2; k = omega2/hB2",
         model=integral_model,
         follows="@(75), @(76) and @(78)",
     ),
     Trial(
         name="(80)",
-        printed="gamma3 = amp*cos(k*t + k0) + c*hB3*omega2/(hB2*k^2)",
         model=solution_model,
+        signs={"b": "amp"},
         follows="@(79) by substitution, with two constants",
-        defines=("gamma3",),
-        solves="d2(gamma3) + k^2*gamma3 = c*hB3*omega2/hB2",
+        solves=read("(79)", SIGNS),
         grade="missing case",
         slip="(78)",
-        corrected="k^2*gamma3 = amp*k^2*cos(k*t + k0) + c*hB3*omega2/hB2",
         corrected_defines=(),
         corrected_solves="",
         corrected_tex=r"\boxed{k^2}\gamma_3(t)=bk^2\cos(kt+k_0)+c\frac{\hat{B}_3\omega_2}{\hat{B}_2}",
@@ -353,17 +349,13 @@ TRIALS = (
     ),
     Trial(
         name="(81)",
-        printed=f"gamma1 = {_BRACKET}*sin(phi*t) - amp/hB2*sin(k*t + k0)*cos(phi*t);"
-        f" gamma2 = {_BRACKET}*cos(phi*t) + amp/hB2*sin(k*t + k0)*sin(phi*t)",
         model=solution_model,
+        signs={"b": "amp"},
         follows=r"@(75) by substitution, with $\gamma_3$ of @(80)",
         defines=("gamma1", "gamma2"),
-        solves="d(gamma1) = gamma2*omega3 - gamma3*Omega2; d(gamma2) = gamma3*Omega1 - gamma1*omega3;"
-        " d(gamma3) = gamma1*Omega2 - gamma2*Omega1",
+        solves=read("(75)", SIGNS),
         grade="missing case",
         slip="(78)",
-        corrected=f"omega2*gamma1 = {_NUMERATOR}*sin(phi*t) - omega2*amp/hB2*sin(k*t + k0)*cos(phi*t);"
-        f" omega2*gamma2 = {_NUMERATOR}*cos(phi*t) + omega2*amp/hB2*sin(k*t + k0)*sin(phi*t)",
         corrected_defines=(),
         corrected_solves="",
         corrected_tex=(
@@ -378,14 +370,11 @@ TRIALS = (
     ),
     Trial(
         name="(82)",
-        printed="start1 = -amp/hB2*sin(k0); start2 = 1/omega2*(c - amp*hB3*omega2/hB2*cos(k0) - c*hB3^2);"
-        " start3 = amp*cos(k0) + c*hB2*hB3/omega2",
         model=solution_model,
+        signs={"b": "amp"},
         follows="@(80) and @(81) at $t = 0$",
         grade="missing case",
         slip="(78)",
-        corrected="start1 = -amp/hB2*sin(k0); omega2*start2 = c - amp*hB3*omega2/hB2*cos(k0) - c*hB3^2;"
-        " omega2*start3 = omega2*amp*cos(k0) + c*hB2*hB3",
         corrected_tex=(
             r"\gamma_1(0)=-\frac{b}{\hat{B}_2}\sin k_0,\quad\boxed{\omega_2}\gamma_2(0)=c-b\frac{\hat{B}_3\omega_2}{"
             r"\hat{B}_2}"
@@ -395,16 +384,15 @@ TRIALS = (
     ),
     Trial(
         name="(83)",
-        printed="row(0,-hB2,pi/2) = [1, 0, 0]; row(omega2,-hB2*hB3,0) = [0, 1, 0];"
-        " row(hB3*omega2/hB2,1 - hB3^2,0) = [0, 0, 1]; 1 - hB3^2 = hB2^2",
         model=solution_model,
+        signs={"b": "amp"},
         follows=r"@(82): the three rows of $R(0) = 1$; $\text{row}(c, b, k_0)$ is the row at $t = 0$ "
         "with these constants",
         grade="missing case",
         slip="(78)",
-        corrected="row(0,-hB2,pi/2) = [1, 0, 0]; row(omega2,-hB2*hB3,0) = [0, 1, 0];"
-        " row(hB3*omega2/hB2,1 - hB3^2,0) = [0, 0, 1]; 1 - hB3^2 = hB2^2",
         corrected_also=(Part(line="dgamma1 = 0; dgamma2 = 0; dgamma3 = 0", model=resting_row_model),),
+        corrected_signs={r"\text{if}\quad\omega_2\ne0": ""},
+        form=_rows,
         corrected_tex=(
             r"\begin{aligned} c&=0,&b&=-\hat{B}_2,&k_0&=\tfrac{\pi}{2};\\ "
             r"c&=\omega_2,&b&=-\hat{B}_2\hat{B}_3,&k_0&=0;\\ "
@@ -417,16 +405,16 @@ TRIALS = (
     ),
     Trial(
         name="(84)",
-        printed=f"R = {_EQUATION_84}",
         model=matrix_model,
+        signs={"": "R"},
         follows=r"@(12) and @(16) by substitution, with $\boldsymbol{\Omega}$ of @(73)",
         defines=("R",),
         solves=f"{_POISSON}; {_EULER}",
     ),
     Trial(
         name="text-hidden",
-        printed="k = omega2*Bl/Bl2",
         model=hidden_model,
+        signs={r"\lvert\mathbf{B}\rvert": "Bl", "B_2": "Bl2"},
         follows=r"$\mathbf{B}' = \mu \mathbf{B}/(2c)$ and $k = \omega_2/\hat{B}_2$",
         false=Falsehood(
             r"$k$ is $\omega_2$ times $\hat{B}_2$",
@@ -436,7 +424,6 @@ TRIALS = (
     ),
     Trial(
         name="(85)",
-        printed=f"R = {_LEFT}*{_RIGHT} = P*Q",
         model=matrix_model,
         follows="@(84)",
         defines=("R",),
@@ -444,9 +431,9 @@ TRIALS = (
     ),
     Trial(
         name="text-precession",
-        printed="P = cos(k*t)*one + (1 - cos(k*t))*hat_B*T(hat_B) + sin(k*t)*hat(hat_B); Q ="
-        " rod(e3,cos(phi*t),sin(phi*t))",
         model=matrix_model,
+        also=(Part(line="Q = rod(e3,cos(phi*t),sin(phi*t))", model=matrix_model),),
+        signs={r"[\hat{\mathbf{B}},\cdot\,]": "hat(hat_B)"},
         follows="Rodrigues' formula",
         false=Falsehood(
             r"The second factor turns by $-\phi t$",
@@ -456,19 +443,19 @@ TRIALS = (
     ),
     Trial(
         name="text-axis-precesses",
-        printed="d(R*e3) = k*cross(hat_B,R*e3)",
         model=matrix_model,
+        signs={r"\mathbf{R}_3": "(R*e3)"},
         follows="@(84)",
         false=Falsehood(
             r"The third inertia axis precesses about $\mathbf{e}_3$",
-            "k*cross(hat_B,R*e3)",
-            "k*cross(e3,R*e3)",
+            "k*cross(hat_B",
+            "k*cross(e3",
         ),
     ),
     Trial(
         name="text-ball-limit",
-        printed="omega3 - B3/B2*omega2 = 0",
         model=ball_limit_model,
+        signs={r"I_2=I_3\implies": ""},
         follows="@(71), @(72) with $I = 1$",
         false=Falsehood(
             "There is no proper rotation, whatever the moments",
@@ -477,25 +464,23 @@ TRIALS = (
     ),
     Trial(
         name="(86)",
-        printed="phiB = (I2 - I3)*hB3*(2*b + kB)/(I3*(b + kB))*kB",
         model=frequencies_model,
         follows=r"@(71), @(72) and $\omega_2 = k_B \hat{B}_2$",
     ),
     Trial(
         name="text-free-general",
-        printed="d(a) = 1/I2*cross(m,a); d(dot(m,a)) = 0",
         model=free_body_model,
+        signs={r"\mathbf{R}_3": "a"},
         follows=r"$\dot{\mathbf{a}} = [\boldsymbol{\omega}, \mathbf{a}]$ for the third axis $\mathbf{a}$,"
         r" $\mathbf{m}$ constant, $\boldsymbol{\omega}= \mathbf{m}/I_2+(1/I_3-1/I_2)(\mathbf{a},\mathbf{m})\mathbf{a}$",
         false=Falsehood(
             r"The axis turns with the frequency $|\mathbf{m}|/I_3$",
-            "1/I2*cross(m,a)",
-            "1/I3*cross(m,a)",
+            "1/I2*cross",
+            "1/I3*cross",
         ),
     ),
     Trial(
         name="(87)",
-        printed="phi = (I2 - I3)/I3*hB3*kB",
         model=free_model,
         follows="the free Euler and Poisson equations by substitution",
         defines=("phi",),
@@ -503,8 +488,8 @@ TRIALS = (
     ),
     Trial(
         name="text-affirmation-free",
-        printed="Omega0 = [0, omega2, I2*omega2*B3/(I3*B2)]; J*Omega0 = I2*omega2/B2*Bp",
         model=free_model,
+        signs={r"\mathbf{m}": "J*at0(Omega)", r"\mathbf{B}": "Bp"},
         follows="the launch of the free body",
         false=Falsehood(
             r"The free body is launched with an angular velocity along $\mathbf{B}$",
@@ -514,12 +499,11 @@ TRIALS = (
     ),
     Trial(
         name="text-free-frequency",
-        printed="size/I2 = omega2/hB2 = k",
         model=lambda: free_frequency_model()[0],
+        signs={r"\lvert\mathbf{m}\rvert": "size", "k_B": "k"},
         follows=r"$\mathbf{m} = (I_2 \omega_2/B_2) \mathbf{B}'$, its length for positive $\omega_2$",
         corrected_model=free_frequency_model,
-        false=Falsehood(r"It holds for negative $\omega_2$ as it stands", "abs(omega2)", "omega2"),
-        corrected="size/I2 = abs(omega2)/hB2; k = omega2/hB2",
+        false=Falsehood(r"It holds for negative $\omega_2$ as it stands", "abs(k)", "k"),
         corrected_tex=(
             r"\boxed{\lvert k\rvert}=\frac{\lvert\mathbf{m}\rvert}{I_2},\qquad k=\frac{\omega_2}{\hat{B}_2}=k_B"
         ),
@@ -528,23 +512,22 @@ TRIALS = (
     ),
     Trial(
         name="text-free-proper",
-        printed="phi = (I2 - I3)/(I2*I3)*m3 = (I2 - I3)/I3*hB3*omega2/hB2 = (I2 - I3)/I3*hB3*kB",
         model=free_proper_model,
         follows=r"@text-free-general: what is left of $\Omega_3$ when the precession is taken away",
         false=Falsehood(
             "A body longer than a ball turns back about its axis",
-            "(I2 - I3)/(I2*I3)*m3",
-            "(I3 - I2)/(I2*I3)*m3",
+            "= (I2 - I3)/(I2*I3)*m3",
+            "= (I3 - I2)/(I2*I3)*m3",
         ),
     ),
     Trial(
         name="text-momentum-moves",
-        printed="dot(dm,dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2",
         model=matrix_model,
+        signs={r"\dot{\mathbf{m}}\ne0": "dot(dm, dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2"},
         follows=r"@(17): the length of $d\mathbf{m}/dt$",
         grade="missing case",
-        corrected="dot(dm,dm) = (I2*k*hB3*omega2*(1 - I)*B2/(omega2 + B2))^2",
         corrected_also=(Part(line="dm = 0", model=steady_momentum_model),),
+        corrected_signs={r"\text{if}\quad I\ne1,\ \omega_2\ne0": ""},
         corrected_tex=r"\dot{\mathbf{m}}\ne0\quad\boxed{\text{if}\quad I\ne1,\ \omega_2\ne0}",
         note="For a ball, whose elementary motion is a steady turn about the field, and at rest it is conserved.",
         false=Falsehood(
@@ -555,26 +538,24 @@ TRIALS = (
     ),
     Trial(
         name="text-constant-omega3",
-        printed="Omega[3] = omega2; d(Omega[3]) = 0",
         model=matrix_model,
+        signs={r"\Omega_3": "Omega[3]"},
         follows="@(73)",
-        corrected="Omega[3] = omega3; d(Omega[3]) = 0",
         corrected_tex=r"\Omega_3(t)=\boxed{\omega_3}=\text{const}",
         grade="misprint",
         note="A wrong index.",
     ),
     Trial(
         name="(88)",
-        printed="d(m[1]*Bp[1] + m[2]*Bp[2] + m[3]*Bp[3]) = 0",
         model=matrix_model,
+        signs={r"\mathbf{B}": "Bp"},
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$ by substitution",
     ),
     Trial(
         name="text-momentum-plane",
-        printed="dot(m,Bp) = 0",
         model=matrix_model,
+        signs={r"\mathbf{B}": "Bp"},
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$",
-        corrected="dot(m - at0(m),Bp) = 0",
         corrected_tex=r"(\mathbf{m}(t)\boxed{-\mathbf{m}(0)},\mathbf{B})=0",
         grade="wording",
         note=r"The projection is constant, not zero: only the tip of $\mathbf{m}$ stays in a plane orthogonal to "

@@ -71,7 +71,7 @@ def linear_model() -> Model:
 TRIALS = (
     Trial(
         name="theorem-elliptic",
-        printed="E = -v*inv(z*J + D*one); d(K) = cross(K,Omega) = cross(K,E*K);"
+        tried="E = -v*inv(z*J + D*one); d(K) = cross(K,Omega) = cross(K,E*K);"
         " J*d(Omega) - cross(J*Omega,Omega) + 2*cross(g*K,Omega) = (1 - v^2/P)*cross(J*K,K)",
         model=elliptic_model,
         follows=r"@(16) and @(35), for any $v$",
@@ -86,7 +86,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-splitting",
-        printed="x1*(M[1] + v*K[1]/x1)^2 + x2*(M[2] + v*K[2]/x2)^2 + x3*(M[3] + v*K[3]/x3)^2"
+        tried="x1*(M[1] + v*K[1]/x1)^2 + x2*(M[2] + v*K[2]/x2)^2 + x3*(M[3] + v*K[3]/x3)^2"
         " = 2*D*H(M) + z*F(M) + 2*v*dot(M,K) + dot(K,K)*z*(z + e2) + (v^2 - P)*s",
         model=integrals_model,
         follows=r"$H$ and $F$; for $v^2=P$ the last term vanishes",
@@ -126,7 +126,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-bifurcation",
-        printed="F = -c*P1/v - 2*b^2*z - e2*b^2; G = -2*c*v - b^2*z^2 - z*(F + e2*b^2);"
+        tried="F = -c*P1/v - 2*b^2*z - e2*b^2; G = -2*c*v - b^2*z^2 - z*(F + e2*b^2);"
         " C = 4*b^2*v^2 - c/v*(P1^2 - 2*v^2*P2); d(F) = -C/(2*v^2); d(G) = -z*d(F); d(-z/(2*D))/d(F) = v^2/(D*C)",
         model=critical_model,
         follows=r"$v^2=P$, of which $dv/dz=P'/2v$ is used; $G=2DH$",
@@ -150,7 +150,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-edge",
-        printed="2*(H(M) - F(M)/(2*I3)) - (I1 + I2)*dot(K,K) = (1/I1 - 1/I3)*M[1]^2 + (1/I2 - 1/I3)*M[2]^2"
+        tried="2*(H(M) - F(M)/(2*I3)) - (I1 + I2)*dot(K,K) = (1/I1 - 1/I3)*M[1]^2 + (1/I2 - 1/I3)*M[2]^2"
         " + (I3 - I1)*(I3 - I2)/I3*K[3]^2",
         model=integrals_model,
         follows=r"$H$ and $F$",

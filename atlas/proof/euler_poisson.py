@@ -212,7 +212,7 @@ def flight_model() -> Model:
 TRIALS = (
     Trial(
         name="(10)",
-        printed="ddRg[i,j] = -R[i,k]*Lam[k,j] - A[i,k]*g[k,j]",
+        tried="ddRg[i,j] = -R[i,k]*Lam[k,j] - A[i,k]*g[k,j]",
         model=multiplier_model,
         follows="@(6) about the centre of mass, solved for the multipliers",
         definition=True,
@@ -220,7 +220,7 @@ TRIALS = (
     ),
     Trial(
         name="text-affirmation",
-        printed=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})",
+        tried=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})",
         model=multiplier_model,
         follows=r"@(10) with $R^T \ddot R = \hat{\boldsymbol{\Omega}}^2 + d\hat{\boldsymbol{\Omega}}/dt$",
         note="The multipliers are symmetric if and only if @(11) holds: one identity proves both directions, for "
@@ -229,7 +229,7 @@ TRIALS = (
         "matrix at the "
         "start, one of the determinant $-1$ among them, for which the identity holds too.",
         grade="missing case",
-        corrected=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})",
+        corrected_tried=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})",
         corrected_also=(Part(line=f"eps[k,i,j]*Lam[i,j] = I[k,a]*w[a] - ({_EQUATION_11})", model=mirrored_model),),
         corrected_tex=r"\text{(10)},\ \boxed{R_{ij}(0)=\delta_{ij}}\iff\text{(11), (12)}",
         false=Falsehood(
@@ -240,7 +240,7 @@ TRIALS = (
     ),
     Trial(
         name="text-multipliers-algebraic",
-        printed="lam = -(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega) + T(R)*A)*g = T(lam)",
+        tried="lam = -(hat(Omega)*hat(Omega) + hat(inv(I)*IdOmega) + T(R)*A)*g = T(lam)",
         model=algebraic_model,
         follows=r"@(10) with the rate of $\boldsymbol{\Omega}$ of @(11), for any matrix $A$",
         defines=("lam",),
@@ -253,10 +253,10 @@ TRIALS = (
     ),
     Trial(
         name="text-nondegenerate",
-        printed="g1*g2*g3 != 0",
+        tried="g1*g2*g3 != 0",
         model=lambda: moments_model()[0],
         follows="the moments of mass of a body that is not plane",
-        corrected="I1*I2*I3 > 0",
+        corrected_tried="I1*I2*I3 > 0",
         corrected_model=moments_model,
         corrected_tex=r"\boxed{\det I=I_1I_2I_3}\ne0",
         grade="missing case",
@@ -267,19 +267,19 @@ TRIALS = (
     ),
     Trial(
         name="(11)",
-        printed=f"IdOmega[k] = {_EQUATION_11}",
+        tried=f"IdOmega[k] = {_EQUATION_11}",
         model=multiplier_model,
         follows="the symmetry of the multipliers in @(10)",
     ),
     Trial(
         name="(12)",
-        printed="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
+        tried="d(R[i,j]) = -eps[j,a,b]*Omega[a]*R[i,b]",
         model=poisson_model,
         follows="any moving rotation, by its Cayley parameters",
     ),
     Trial(
         name="text-inertia-tensor",
-        printed="I[i,j] = g[a,a]*delta[i,j] - g[i,j]",
+        tried="I[i,j] = g[a,a]*delta[i,j] - g[i,j]",
         model=inertia_model,
         follows=r"the kinetic energy of four particles that turn with $\boldsymbol{\Omega}$",
         false=Falsehood(
@@ -290,7 +290,7 @@ TRIALS = (
     ),
     Trial(
         name="text-mass-moments",
-        printed="2*g1 = I2 + I3 - I1; 2*g2 = I3 + I1 - I2; 2*g3 = I1 + I2 - I3",
+        tried="2*g1 = I2 + I3 - I1; 2*g2 = I3 + I1 - I2; 2*g3 = I1 + I2 - I3",
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$",
         false=Falsehood(
@@ -301,7 +301,7 @@ TRIALS = (
     ),
     Trial(
         name="text-inertia-axes",
-        printed="turned = R*I*T(R); turned*R1 = I1*R1; turned*R2 = I2*R2; turned*R3 = I3*R3;"
+        tried="turned = R*I*T(R); turned*R1 = I1*R1; turned*R2 = I2*R2; turned*R3 = I3*R3;"
         " at0(R1) = e1; at0(R2) = e2; at0(R3) = e3",
         model=axes_model,
         follows="the inertia tensor of three masses on the principal axes that are turned by $R$, and $R(0) = 1$",
@@ -313,7 +313,7 @@ TRIALS = (
     ),
     Trial(
         name="text-orthogonal",
-        printed="d(R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]) = 0",
+        tried="d(R[i,1]*R[j,1] + R[i,2]*R[j,2] + R[i,3]*R[j,3]) = 0",
         model=matrix_flow_model,
         follows="@(12) for any matrix $R$",
         false=Falsehood(
@@ -324,7 +324,7 @@ TRIALS = (
     ),
     Trial(
         name="text-covariance",
-        printed="rate(seen(I),seen(g),S*K,S*Omega) = S*rate(I,g,K,Omega); hat(S*Omega) = seen(hat(Omega))",
+        tried="rate(seen(I),seen(g),S*K,S*Omega) = S*rate(I,g,K,Omega); hat(S*Omega) = seen(hat(Omega))",
         model=covariance_model,
         follows="the right side of @(16) and that of @(12), for any rotation $S$",
         note="The rates go over into one another, and $R = 1$ at the start stays what it is.",
@@ -335,11 +335,11 @@ TRIALS = (
     ),
     Trial(
         name="text-force-matrix",
-        printed=_FORCE_MATRIX.format(sign="").replace("= ", "= ", 1)
+        tried=_FORCE_MATRIX.format(sign="").replace("= ", "= ", 1)
         + " = R[i,a]*dot(Bf,R*Omega) - (R*Omega)[i]*(T(R)*Bf)[a]",
         model=magnetic_model,
         follows="@(12) and $R R^T = 1$",
-        corrected=_FORCE_MATRIX.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
+        corrected_tried=_FORCE_MATRIX.format(sign="-") + " = (R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega)",
         corrected_tex=(
             r"\begin{aligned} \epsilon_{ijk}B_j\dot R_{ka}&=\boxed{-}\epsilon_{ijk}\epsilon_{abc}B_j\Omega_bR_{kc}="
             r"\ldots\\ "
@@ -351,21 +351,21 @@ TRIALS = (
     ),
     Trial(
         name="(13)",
-        printed="A[i,a] = -mu/c*eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
+        tried="A[i,a] = -mu/c*eps[i,j,k]*eps[a,b,l]*Bf[j]*Omega[b]*R[k,l]"
         " = mu/c*((R*Omega)[i]*(T(R)*Bf)[a] - R[i,a]*dot(Bf,R*Omega))",
         model=magnetic_model,
         follows="@(7) and @(12)",
     ),
     Trial(
         name="(14)",
-        printed="IdOmega = cross(I*Omega,Omega) - mu/(2*c)*(I*cross(T(R)*Bf,Omega) - cross(I*T(R)*Bf,Omega)"
+        tried="IdOmega = cross(I*Omega,Omega) - mu/(2*c)*(I*cross(T(R)*Bf,Omega) - cross(I*T(R)*Bf,Omega)"
         " + cross(T(R)*Bf,I*Omega))",
         model=magnetic_model,
         follows="@(11) with the matrix $A$ of @(7)",
     ),
     Trial(
         name="(15)",
-        printed="(I*cross(K,Omega))[1] - cross(I*K,Omega)[1] + cross(K,I*Omega)[1]"
+        tried="(I*cross(K,Omega))[1] - cross(I*K,Omega)[1] + cross(K,I*Omega)[1]"
         " = (I1 - I2 + I3)*K2*Omega3 - (I1 - I3 + I2)*K3*Omega2 = 2*g2*K2*Omega3 - 2*g3*K3*Omega2 ="
         " 2*cross(g*K,Omega)[1]",
         model=diagonal_model,
@@ -373,7 +373,7 @@ TRIALS = (
     ),
     Trial(
         name="text-other-components",
-        printed="I*cross(K,Omega) - cross(I*K,Omega) + cross(K,I*Omega) = 2*cross(g*K,Omega)",
+        tried="I*cross(K,Omega) - cross(I*K,Omega) + cross(K,I*Omega) = 2*cross(g*K,Omega)",
         model=diagonal_model,
         follows=r"$I = \operatorname{tr}(g) - g$, $\mathbf{K} = R^T \mathbf{B}$, all three components",
         false=Falsehood(
@@ -384,25 +384,25 @@ TRIALS = (
     ),
     Trial(
         name="(16)",
-        printed="IdOmega = cross(I*Omega,Omega) - mu/c*cross(g*T(R)*Bf,Omega)",
+        tried="IdOmega = cross(I*Omega,Omega) - mu/c*cross(g*T(R)*Bf,Omega)",
         model=magnetic_model,
         follows="@(11) with the matrix $A$ of @(7)",
     ),
     Trial(
         name="(17)",
-        printed="dm = -mu/c*cross(R*g*T(R)*Bf,R*inv(I)*T(R)*m)",
+        tried="dm = -mu/c*cross(R*g*T(R)*Bf,R*inv(I)*T(R)*m)",
         model=momentum_model,
         follows=r"$\mathbf{m} = R I \boldsymbol{\Omega}$, @(12) and @(16)",
     ),
     Trial(
         name="(18)",
-        printed="dM = cross(M,inv(I)*M) - mu/c*cross(g*T(R)*Bf,inv(I)*M)",
+        tried="dM = cross(M,inv(I)*M) - mu/c*cross(g*T(R)*Bf,inv(I)*M)",
         model=momentum_model,
         follows=r"$\mathbf{M} = I \boldsymbol{\Omega}$ and @(16)",
     ),
     Trial(
         name="text-grioli",
-        printed="IdOmega = cross(I*Omega,Omega) - mu*b/c*cross(g*G3,Omega)",
+        tried="IdOmega = cross(I*Omega,Omega) - mu*b/c*cross(g*G3,Omega)",
         model=grioli_model,
         follows=r"@(16) with $\mathbf{B} = (0, 0, b)$",
         note="What is tried is the form. That Grioli deduced these equations is history, and not tried.",
@@ -414,7 +414,7 @@ TRIALS = (
     ),
     Trial(
         name="text-flight",
-        printed="R*(I*w - IdOmega) = m[N]*cross(R*x[N], R*(hat(Omega)*hat(Omega) + hat(w))*x[N]"
+        tried="R*(I*w - IdOmega) = m[N]*cross(R*x[N], R*(hat(Omega)*hat(Omega) + hat(w))*x[N]"
         " - mu/c*cross(R*hat(Omega)*x[N],Bf))",
         model=flight_model,
         follows=r"d'Alembert's principle for $\mathbf{y}_N = \mathbf{y}_0 + R \mathbf{x}_N(0)$, four particles: the "

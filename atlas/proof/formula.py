@@ -30,7 +30,7 @@ def value(name: str, side: str, /, **letters: Any) -> Any:
     known = {**COMMON, **{name: _exact(given) for name, given in letters.items()}}
     wanted = ast.dump(parse(f"{side} = 0")[0].left)
     lacking: list[str] = []
-    for tree in [tree for line in (case.corrected, case.printed) if line for tree in parse(line)]:
+    for tree in [tree for part in (*case.corrected_parts, *case.parts) for tree in parse(part.line)]:
         sides = [tree.left, *tree.comparators]
         if not all(isinstance(sign, ast.Eq) for sign in tree.ops) or wanted not in map(ast.dump, sides):
             continue

@@ -83,7 +83,7 @@ _SIGMA = (
 TRIALS = (
     Trial(
         name="theorem-top",
-        printed=f"d(nu)^2 = {_q}; P/b/(1 - nu^2) + b = (p - M3*nu)/(1 - nu^2);"
+        tried=f"d(nu)^2 = {_q}; P/b/(1 - nu^2) + b = (p - M3*nu)/(1 - nu^2);"
         " u - nu*P/b/(1 - nu^2) = c3 - nu*(p - M3*nu)/(1 - nu^2); d(M3) = 0; d(p) = 0; d(h) = 0; M3 = I*c3",
         model=top_model,
         follows="@(34) and @(35) at any state, and the rates of @theorem-angles",
@@ -95,7 +95,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-top-quartic",
-        printed=f"{_Q} = b^2*({_q})",
+        tried=f"{_Q} = b^2*({_q})",
         model=letters_model,
         follows=r"$E'$ and $c_5$ by @theorem-clebsch-symmetric, for all $u$, $\nu = (c_3 - u)/b$",
         false=Falsehood(
@@ -106,7 +106,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-weierstrass",
-        printed="Q = a0*u^4 + 4*a1*u^3 + 6*a2*u^2 + 4*a3*u + a4; x = e + slope(Q)/4/(P - bend(Q)/24);"
+        tried="Q = a0*u^4 + 4*a1*u^3 + 6*a2*u^2 + 4*a3*u + a4; x = e + slope(Q)/4/(P - bend(Q)/24);"
         " g2 = a0*a4 - 4*a1*a3 + 3*a2^2; g3 = a0*a2*a4 + 2*a1*a2*a3 - a2^3 - a0*a3^2 - a1^2*a4",
         model=weierstrass_model,
         follows="$P' = P_1$ with $P_1^2 = 4 P^3 - g_2 P - g_3$, the equation of Weierstrass",
@@ -121,7 +121,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-lame",
-        printed="C = 1/4*(g + M3^2); x = 1/2*w/(1 + nu);"
+        tried="C = 1/4*(g + M3^2); x = 1/2*w/(1 + nu);"
         " y = 1/2*(p + M3)/(1 + nu) = 1/2*((p - M3*nu)/(1 + nu) + M3);"
         " d(x) + x^2 - y^2 = 3/4*A*nu^2 - 1/2*A*nu - C; d(y) + 2*x*y = 0;"
         " x2 = -1/2*w/(1 - nu); y2 = 1/2*(p - M3)/(1 - nu) = 1/2*((p - M3*nu)/(1 - nu) - M3);"
@@ -139,7 +139,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-residues",
-        printed="q = (1 - nu^2)*(g - A*nu^2) - (p - M3*nu)^2 = w^2; at(q,-1) = -(p + M3)^2; at(q,1) = -(p - M3)^2;"
+        tried="q = (1 - nu^2)*(g - A*nu^2) - (p - M3*nu)^2 = w^2; at(q,-1) = -(p + M3)^2; at(q,1) = -(p - M3)^2;"
         " 1/2*(s*(p + M3) + p + M3)/(s*(p + M3)) = 1/2*(1 + s); 1/2*(-s*(p - M3) + p - M3)/(-s*(p - M3)) = 1/2*(1 - s)",
         model=lambda: tuple(curve_model(s) for s in (1, -1)),
         follows="@theorem-top, with $A = (I - 1) b^2$ and $g = 2 H - M_3^2/I - b^2$",
@@ -154,7 +154,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-sigma",
-        printed=_SIGMA,
+        tried=_SIGMA,
         model=sigma_model,
         follows="@theorem-cayley-klein, @theorem-top and @theorem-weierstrass, with the addition theorem of zeta",
         defines=("x", "Z", "Y", "lam"),

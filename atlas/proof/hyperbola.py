@@ -6,6 +6,7 @@ import sympy
 
 from atlas.proof import units
 from atlas.proof.model import Model, Value, certain, cross, turn
+from atlas.proof.notation import conserved, sides
 from atlas.proof.pseudo_oscillator import I2, I3, mass, ratio, tensor
 from atlas.proof.quadric import (
     AXES,
@@ -14,7 +15,6 @@ from atlas.proof.quadric import (
     LETTERS,
     I,
     at_start,
-    axes_line,
     canonical_model,
     cd,
     condition_model,
@@ -25,10 +25,16 @@ from atlas.proof.quadric import (
     omega3,
     sd,
 )
+from atlas.proof.quadric import (
+    SIGNS as QUADRIC_SIGNS,
+)
 from atlas.proof.quadric import p as tangent
-from atlas.proof.trial import Part, Trial
+from atlas.proof.trial import Part, Trial, read
 
 Omega1, Omega2, K1, K2 = sympy.symbols("Omega1 Omega2 K1 K2", real=True)
+SIGNS = (
+    QUADRIC_SIGNS | {rf"\dot\Omega_{n}": f"dOmega{n}" for n in (1, 2, 3)} | {rf"\dot K_{n}": f"dK{n}" for n in (1, 2)}
+)
 kappa, p, s = sympy.symbols("kappa p s", real=True)
 _STATE = {"Omega1": Omega1, "Omega2": Omega2, "K1": K1, "K2": K2, "I": ratio, "B2": B2, "B3": B3}
 _STATE |= {"omega1": omega1, "omega2": omega2, "omega3": omega3}
@@ -45,7 +51,7 @@ def constant_model() -> Model:
     """Omega3 = omega3, so that K3 = B3 by (40)."""
     dOmega, dK = _rates()
     letters = {f"dOmega{n + 1}": dOmega[n] for n in range(3)} | {f"dK{n + 1}": dK[n] for n in range(2)}
-    letters["K3"] = (omega3 + B3) - omega3
+    letters |= {"K3": (omega3 + B3) - omega3, "Omega": sympy.Matrix([Omega1, Omega2, omega3])}
     start = {Omega1: omega1, Omega2: omega2}
     return Model({**_STATE, **letters}, flow={omega3: sympy.Integer(0)}, start=start, units=units.OSCILLATOR)
 
@@ -81,13 +87,14 @@ def precession_model() -> Model:
     swap = {K1: factor * Omega1, K2: factor * Omega2}
     euler, field = (rates.xreplace(swap) for rates in _rates())
     letters = {"dOmega1": euler[0], "dOmega2": euler[1], "nu1": field[0] / factor, "nu2": field[1] / factor}
+    letters |= {"phip": sympy.cancel(euler[0] / Omega2), "phi": sympy.cancel(field[0] / factor / Omega2)}
     return Model({**_STATE, **letters}, units=units.OSCILLATOR)
 
 
 def _frequencies() -> tuple[Value, Value]:
     """Phi' and phi, read off the rates of precession_model."""
     letters = precession_model().letters
-    return sympy.cancel(letters["dOmega1"] / Omega2), sympy.cancel(letters["nu1"] / Omega2)
+    return letters["phip"], letters["phi"]
 
 
 @cache
@@ -157,58 +164,42 @@ def frequency_model() -> Model:
     return Model({**LETTERS, "phi": phi}, where, units=units.QUADRIC)
 
 
-_EQUATION_66 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
-_EQUATION_71 = "B3*omega2*(omega2 + (2 - I)*B2)/(I*B2*(omega2 + B2))"
-_EQUATION_67 = "B3*omega2^2 - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
-_EQUATION_70 = "w2/a2 = sign*w3/a3; a2 = sqrt(2*sin(beta)/(1 - sin(beta))); a3 = sqrt(2*sin(beta)/(1 + sin(beta)))"
-
-
-_PHIP = "(((1 - I)*omega3 + (2 - I)*B3)*(omega1^2 + omega2^2) - I*B2*omega2*omega3)"
-_PHI = "(B2*omega2*omega3 - B3*(omega1^2 + omega2^2))"
+_EQUATION_67, _EQUATION_71 = read("(67)", SIGNS), read("(71)", SIGNS)
 _REST = r"At $\omega_1 = \omega_2 = 0$ it reads $0/0$. Of these launches only rest has a constant $\Omega_3$."
-
-
-def _plane_axes(factor: str) -> str:
-    return axes_line(factor).split("; ", 1)[1]
 
 
 TRIALS = (
     Trial(
         name="(58)",
-        printed="d(omega3) = 0; at0(Omega1) = omega1; at0(Omega2) = omega2",
         model=constant_model,
+        also=(Part(line="d(omega3) = 0", model=constant_model),),
+        signs={r"\omega_3=\text{const}": "omega3", r"\Omega_3": "Omega3"},
         follows=r"the ansatz: $\Omega_3$ is the constant $\omega_3$",
         definition=True,
     ),
     Trial(
         name="(59)",
-        printed="dOmega1 = ((1 - I)*omega3 + (2 - I)*B3)*Omega2 - I*omega3*K2;"
-        " dOmega2 = -((1 - I)*omega3 + (2 - I)*B3)*Omega1 + I*omega3*K1; dOmega3 = Omega1*K2 - Omega2*K1",
         model=constant_model,
+        signs={r"\Omega_1K_2-\Omega_2K_1=0": "dOmega3 = Omega1*K2 - Omega2*K1"},
         follows=r"@(34) with $\Omega_3 = \omega_3$",
     ),
     Trial(
         name="(60)",
-        printed="dK1 = omega3*K2 - B3*Omega2; dK2 = -omega3*K1 + B3*Omega1; K3 = B3",
         model=constant_model,
         follows=r"@(35) and @(40) with $\Omega_3 = \omega_3$",
     ),
     Trial(
         name="(61)",
-        printed="d(Omega1^2 + Omega2^2) = 0; d(K1^2 + K2^2) = 0; d(Omega1*K1 + Omega2*K2) = 0;"
-        " at0(Omega1^2 + Omega2^2) = omega1^2 + omega2^2; at0(K1^2 + K2^2) = B2^2;"
-        " at0(Omega1*K1 + Omega2*K2) = omega2*B2",
         model=proportional_model,
+        form=conserved,
         follows="@(59) and @(60)",
     ),
     Trial(
         name="(62)",
-        printed="K1 = omega2*B2/(omega1^2 + omega2^2)*Omega1; K2 = omega2*B2/(omega1^2 + omega2^2)*Omega2",
         model=circle_model,
         follows="@(61) and the last equation of @(59)",
         grade="missing case",
         slip="(78)",
-        corrected="(omega1^2 + omega2^2)*K1 = omega2*B2*Omega1; (omega1^2 + omega2^2)*K2 = omega2*B2*Omega2",
         corrected_tex=(
             r"\boxed{(\omega_1^2+\omega_2^2)}K_1=\omega_2B'_2\Omega_1,\qquad\boxed{(\omega_1^2+\omega_2^2)}K_2="
             r"\omega_2B'_2"
@@ -218,54 +209,49 @@ TRIALS = (
     ),
     Trial(
         name="(63)",
-        printed="dOmega1 = phip*Omega2; dOmega2 = -phip*Omega1;"
-        " phip = (1 - I)*omega3 + (2 - I)*B3 - I*B2*omega2*omega3/(omega1^2 + omega2^2)",
         model=precession_model,
         follows="@(59) and @(62)",
         defines=("phip",),
         grade="missing case",
         slip="(78)",
-        corrected=f"(omega1^2 + omega2^2)*dOmega1 = {_PHIP}*Omega2; (omega1^2 + omega2^2)*dOmega2 = -{_PHIP}*Omega1",
         corrected_defines=(),
         corrected_tex=(
-            r"\boxed{(\omega_1^2+\omega_2^2)}\phi'=[(1-I)\omega_3+(2-I)B'_3](\omega_1^2+\omega_2^2)-IB'_2\omega_2"
+            r"\dot\Omega_1=\phi'\Omega_2,\quad\dot\Omega_2=-\phi'\Omega_1,\quad\boxed{(\omega_1^2+\omega_2^2)}"
+            r"\phi'=[(1-I)\omega_3+(2-I)B'_3](\omega_1^2+\omega_2^2)-IB'_2\omega_2"
             r"\omega_3"
         ),
         note=_REST,
     ),
     Trial(
         name="(64)",
-        printed="nu1 = phi*Omega2; nu2 = -phi*Omega1; phi = omega3 - B3*(omega1^2 + omega2^2)/(B2*omega2)",
         model=precession_model,
+        signs={r"\dot\Omega_1": "nu1", r"\dot\Omega_2": "nu2"},
         follows=r"@(60) and @(62); $\nu$ is the rate of $\boldsymbol{\Omega}$ that they give",
         defines=("phi",),
         grade="missing case",
         slip="(78)",
-        corrected=f"B2*omega2*nu1 = {_PHI}*Omega2; B2*omega2*nu2 = -{_PHI}*Omega1",
         corrected_defines=(),
-        corrected_tex=r"\boxed{B'_2\omega_2}\phi=B'_2\omega_2\omega_3-B'_3(\omega_1^2+\omega_2^2)",
+        corrected_tex=(
+            r"\dot\Omega_1=\phi\Omega_2,\quad\dot\Omega_2=-\phi\Omega_1,\quad\boxed{B'_2\omega_2}\phi=B'_2\omega_2"
+            r"\omega_3-B'_3(\omega_1^2+\omega_2^2)"
+        ),
         note=r"At $\omega_2 = 0$ it has no value. Of these launches only rest has a constant $\Omega_3$.",
     ),
     Trial(
         name="(65)",
-        printed="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2"
-        " - I*B2^2*omega2^2*omega3/(omega1^2 + omega2^2) = 0",
         model=agreement_model,
         follows=r"$\phi' = \phi$ in @(63), @(64), solved for $\omega_3$",
         grade="missing case",
         slip="(78)",
-        corrected="(B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2)*(omega1^2 + omega2^2)"
-        " - I*B2^2*omega2^2*omega3 = 0",
         corrected_tex=(
             r"[B'_3(\omega_1^2+\omega_2^2)-IB'_2\omega_2\omega_3+(2-I)B'_2B'_3\omega_2]\boxed{(\omega_1^2+\omega_2^2)}"
             r"-I{B'_2}^2\omega_2^2\omega_3=0"
         ),
         note=_REST,
     ),
-    Trial(name="(66)", printed=_EQUATION_66, model=condition_model, follows="@(50)"),
+    Trial(name="(66)", model=condition_model, follows="@(50)"),
     Trial(
         name="(67)",
-        printed=_EQUATION_67,
         model=motion_model,
         follows="@(66) and the last equation of @(59) at $t = 0$",
         note=r"That $\omega_1 = 0$ follows from the last equation of @(59); @(65) and @(66) do not suffice, see "
@@ -273,10 +259,14 @@ TRIALS = (
     ),
     Trial(
         name="text-combining",
-        printed="omega1 = 0",
         model=both_conditions_model,
+        signs={r"\text{(65), (66)}\implies": ""},
         follows=r"every $\boldsymbol{\omega}$ that obeys @(65) and @(66)",
-        corrected="omega1*omega3 = 0; omega1*(omega1^2 + omega2^2 + (2 - I)*B2*omega2) = 0",
+        corrected_signs={
+            r"\omega_1=0\quad\text{or}\quad\omega_3=0,\ \omega_1^2+\omega_2^2+(2-I)B'_2\omega_2=0": (
+                "omega1*omega3 = 0; omega1*(omega1^2 + omega2^2 + (2 - I)*B2*omega2) = 0"
+            )
+        },
         corrected_tex=(
             r"\text{(65), (66)}\implies\omega_1=0\quad\boxed{\text{or}\quad\omega_3=0,\ "
             r"\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2=0}"
@@ -287,21 +277,18 @@ TRIALS = (
     ),
     Trial(
         name="(68)",
-        printed=f"w2^2/C2s - w3^2/C3s = 1; {_plane_axes('(I - 1)')}",
         model=lambda: canonical_model("above", plane=True),
         follows=r"@(55) with $\omega_1 = 0$",
         defines=AXES,
     ),
     Trial(
         name="(69)",
-        printed=f"-w2^2/C2s + w3^2/C3s = 1; {_plane_axes('(1 - I)')}",
         model=lambda: canonical_model("below", plane=True),
         follows=r"@(57) with $\omega_1 = 0$",
         defines=AXES,
     ),
     Trial(
         name="(70)",
-        printed=_EQUATION_70,
         model=degenerate_model,
         follows=r"@(56) with $\omega_1 = 0$, $a_2$ and $a_3$ as defined in this line",
         defines=("a2", "a3"),
@@ -309,18 +296,17 @@ TRIALS = (
     ),
     Trial(
         name="(71)",
-        printed=f"omega3 = {_EQUATION_71}",
         model=lambda: motion_model()[0],
         follows=r"@(67) for $\omega_2$ different from $-B'_2$",
-        corrected=f"omega3 = {_EQUATION_71}",
         corrected_also=(
             Part(line=f"omega2 = -B2; I = 1; {_EQUATION_67}", model=lambda: motion_model()[1]),
             Part(
-                line=f"{_EQUATION_67.removesuffix(' = 0')} = I*B2*(omega2 + B2)*({_EQUATION_71} - omega3)",
+                line=f"{sides(_EQUATION_67)[0]} = I*B2*(omega2 + B2)*({sides(_EQUATION_71)[-1]} - omega3)",
                 model=free_model,
             ),
             Part(line="(1 - I)*B2^2*B3 = -condition", model=pole_on_curve_model),
         ),
+        corrected_signs={r"\text{or}\quad\omega_2=-B'_2,\quad\omega_3\in\mathbb{R}\quad\text{if}\quad I=1": ""},
         corrected_tex=(
             r"\begin{aligned} \omega_3&=\frac{B'_3\omega_2[\omega_2+(2-I)B'_2]}{IB'_2(\omega_2+B'_2)}"
             r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_3\in"
@@ -335,7 +321,6 @@ TRIALS = (
     ),
     Trial(
         name="(72)",
-        printed="phi = omega3 - B3/B2*omega2 = B3*omega2*(1 - I)*(omega2 + 2*B2)/(I*B2*(omega2 + B2))",
         model=frequency_model,
         follows="@(63) on the hyperbola @(71)",
     ),

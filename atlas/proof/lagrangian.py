@@ -204,7 +204,7 @@ def spatial_model() -> Model:
 TRIALS = (
     Trial(
         name="(1)",
-        printed="L = 1/2*m[N]*dot(dy[N],dy[N]) + 1/2*lam[A,C]*(dot(y[A] - y[1], y[C] - y[1]) - a[A,C])"
+        tried="L = 1/2*m[N]*dot(dy[N],dy[N]) + 1/2*lam[A,C]*(dot(y[A] - y[1], y[C] - y[1]) - a[A,C])"
         " + 1/2*lam[A,be]*(dot(y[A] - y[1], y[be] - y[1]) - a[A,be])",
         model=action_model,
         follows="kinetic energy of six particles, and each constraint with its multiplier",
@@ -212,7 +212,7 @@ TRIALS = (
     ),
     Trial(
         name="text-constraints",
-        printed="2*dL[A,be] = dot(y[A] - y[1], y[be] - y[1]) - a[A,be];"
+        tried="2*dL[A,be] = dot(y[A] - y[1], y[be] - y[1]) - a[A,be];"
         " (1 + delta[A,C])*dL[A,C] = dot(y[A] - y[1], y[C] - y[1]) - a[A,C]",
         model=action_model,
         follows="the action @(1) for six particles, differentiated",
@@ -224,14 +224,14 @@ TRIALS = (
     ),
     Trial(
         name="(2)",
-        printed="minusU = e[N]*A0[N] + e[N]/c*dot(A[N],dy[N])",
+        tried="minusU = e[N]*A0[N] + e[N]/c*dot(A[N],dy[N])",
         model=potential_model,
         follows="the sum of @(103) over the particles, with the potentials @(102)",
         definition=True,
     ),
     Trial(
         name="(3)",
-        printed="m[1]*ddy[1] = -lam[A,C]*(y[C] - y[1]) - 1/2*lam[A,al]*(y[A] + y[al] - 2*y[1]) + mu*m[1]*E +"
+        tried="m[1]*ddy[1] = -lam[A,C]*(y[C] - y[1]) - 1/2*lam[A,al]*(y[A] + y[al] - 2*y[1]) + mu*m[1]*E +"
         " mu/c*m[1]*cross(dy[1],Bf);"
         " m[A]*ddy[A] = lam[A,C]*(y[C] - y[1]) + 1/2*lam[A,al]*(y[al] - y[1]) + mu*m[A]*E + mu/c*m[A]*cross(dy[A],Bf);"
         " m[al]*ddy[al] = 1/2*lam[A,al]*(y[A] - y[1]) + mu*m[al]*E + mu/c*m[al]*cross(dy[al],Bf)",
@@ -240,13 +240,13 @@ TRIALS = (
     ),
     Trial(
         name="(4)",
-        printed="ddy0 = mu*E + mu/c*cross(dy0,Bf)",
+        tried="ddy0 = mu*E + mu/c*cross(dy0,Bf)",
         model=particles_model,
         follows="the sum of @(3) over six particles",
     ),
     Trial(
         name="text-translation",
-        printed="stirred(ddy0) = ddy0",
+        tried="stirred(ddy0) = ddy0",
         model=particles_model,
         follows="@(3) summed over six particles, at two states with the same centre of mass",
         false=Falsehood(
@@ -256,11 +256,11 @@ TRIALS = (
     ),
     Trial(
         name="text-rigid",
-        printed="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
+        tried="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
         model=rigid_model,
         follows="the constraints keep the products $X^T X$ of the frame, so that $R = X X_0^{-1}$ is orthogonal",
         grade="missing case",
-        corrected="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
+        corrected_tried="T(R)*R = T(inverse)*(T(X)*X)*inverse; T(inverse)*(T(X0)*X0)*inverse = one",
         corrected_also=(
             Part(line="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0)", model=spatial_model),
             Part(line="T(X)*x = T(X)*x0; dot(x,x) = dot(x0,x0) + height^2", model=plane_model),
@@ -280,14 +280,14 @@ TRIALS = (
     ),
     Trial(
         name="(5)",
-        printed=_line(
+        tried=_line(
             _RELATIVE.format(
                 lost=" + m[1]*lami + mu*m[1]*E", lostA=" + m[A]*lami + mu*m[A]*E", lostal=" + m[al]*lami + mu*m[al]*E"
             )
         ),
         model=relative_model,
         follows="@(3) less $m_N$ times @(4), for six particles",
-        corrected=_line(
+        corrected_tried=_line(
             _RELATIVE.format(
                 lost=" + m[1]*lami + mu*m[1]*E", lostA=" + m[A]*lami + mu*m[A]*E", lostal=" + m[al]*lami + mu*m[al]*E"
             )
@@ -303,35 +303,35 @@ TRIALS = (
     ),
     Trial(
         name="(6)",
-        printed="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total - A[i,a]*g[a,j]",
+        tried="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total - A[i,a]*g[a,j]",
         model=rotation_model,
         follows=r"the equations of six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$, times $\mathbf{x}_N^j(0)$, "
         "summed; the electric force kept",
-        corrected="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total[j] - A[i,a]*g[a,j]",
+        corrected_tried="ddRg[i,j] = -R[i,k]*lamM[k,j] + mu*E[i]*total[j] - A[i,a]*g[a,j]",
         corrected_tex=r"\ddot R_{ik}g_{kj}=-R_{ik}\lambda_{kj}+\mu E_i\Bigl(\sum m_N\boxed{x_N^j}\Bigr)-A_{ia}g_{aj}",
         grade="misprint",
         note="The second term lacks its index $j$. It vanishes about the centre of mass, so nothing later suffers.",
     ),
     Trial(
         name="(7)",
-        printed="A[i,a] = mu/c*eps[i,n,p]*Bf[n]*dR[p,a]",
+        tried="A[i,a] = mu/c*eps[i,n,p]*Bf[n]*dR[p,a]",
         model=rotation_model,
         follows=r"the magnetic force on six particles at $\mathbf{x}_N = R \mathbf{x}_N(0)$",
         definition=True,
     ),
     Trial(
         name="(8)",
-        printed="g[i,j] = m[N]*x[N,i]*x[N,j]",
+        tried="g[i,j] = m[N]*x[N,i]*x[N,j]",
         model=rotation_model,
         follows="the matrix that multiplies the second derivative of $R$ in @(6)",
         definition=True,
     ),
     Trial(
         name="(9)",
-        printed=_line(_MULTIPLIERS.format(sign="-")),
+        tried=_line(_MULTIPLIERS.format(sign="-")),
         model=rotation_model,
         follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
-        corrected=_line(_MULTIPLIERS.format(sign="+")),
+        corrected_tried=_line(_MULTIPLIERS.format(sign="+")),
         corrected_tex=(
             r"\begin{aligned}"
             r" \lambda_{jk}=&-\sum_{AB}\lambda_{AB}\left[x_1^jx_1^k+x_A^jx_B^k-x_B^{(j}x_1^{k)}\right]\\ "
@@ -344,7 +344,7 @@ TRIALS = (
     ),
     Trial(
         name="text-multipliers-symmetric",
-        printed="lamM[j,k] = lamM[k,j]",
+        tried="lamM[j,k] = lamM[k,j]",
         model=rotation_model,
         follows=r"the forces of the constraints on six particles, times $\mathbf{x}_N^j(0)$, summed",
         false=Falsehood(
@@ -355,7 +355,7 @@ TRIALS = (
     ),
     Trial(
         name="text-electric-field",
-        printed="other_field(ddx[N]) = ddx[N]",
+        tried="other_field(ddx[N]) = ddx[N]",
         model=relative_model,
         follows="@(3) less @(4) for six particles, in two electric fields",
         false=Falsehood(
@@ -365,7 +365,7 @@ TRIALS = (
     ),
     Trial(
         name="text-rotation-apart",
-        printed="carried(ddx[N]) = ddx[N]",
+        tried="carried(ddx[N]) = ddx[N]",
         model=relative_model,
         follows="@(3) less @(4) for six particles, at two states that differ by a shift and a velocity",
         false=Falsehood(

@@ -47,6 +47,7 @@ COMMON: dict[str, Value] = {
     "dot": dot,
     "T": lambda matrix: matrix.T,
     "inv": lambda matrix: matrix.inv(),
+    "diag": sympy.diag,
     "tr": lambda matrix: matrix.trace(),
     "abs": entrywise(sympy.Abs),
     "norm": lambda vector: sympy.sqrt(sympy.factor(vector.dot(vector))),

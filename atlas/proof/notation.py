@@ -57,7 +57,24 @@ def parse(line: str) -> list[ast.Compare]:
 
 def write(trees: list[ast.Compare]) -> str:
     """Return the line of these syntax trees, the inverse of parse."""
-    return "; ".join(ast.unparse(tree).replace("==", "=").replace("**", "^") for tree in trees)
+    found = "; ".join(ast.unparse(tree) for tree in trees)
+    return re.sub(r" ([*/^]) ", r"\1", found.replace("==", "=").replace("**", "^"))
+
+
+def sides(line: str) -> list[str]:
+    """Return the sides of the first relation of a line."""
+    tree = parse(line)[0]
+    return [write([ast.Compare(side, [ast.Eq()], [ast.Constant(0)])])[:-4] for side in (tree.left, *tree.comparators)]
+
+
+def conserved(line: str) -> str:
+    """Return what a = c = b says of a conserved quantity: a = c, its rate is zero, and at t = 0 it is b."""
+    found: list[str] = []
+    for tree in parse(line):
+        sides = [ast.unparse(side) for side in (tree.left, *tree.comparators)]
+        found += [f"{sides[0]} == {side}" for side in sides[1:-1]]
+        found += [f"d({sides[0]}) == 0", f"at0({sides[-2]}) == {sides[-1]}"]
+    return write([compare for part in found for compare in parse(part)])
 
 
 def names(node: ast.AST) -> set[str]:
@@ -201,7 +218,8 @@ class Reader:
                 return self._entry(node, bound)
             case ast.BinOp(op=ast.Pow()):
                 base, power = self.value(node.left, bound), self.value(node.right, bound)
-                return base.dot(base) ** (power / 2) if isinstance(base, sympy.MatrixBase) else base**power
+                column = isinstance(base, sympy.MatrixBase) and base.shape[1] == 1
+                return base.dot(base) ** (power / 2) if column else base**power
             case ast.Call(func=ast.Name(id=name)):
                 return self.letters[name](*(self.value(argument, bound) for argument in node.args))
             case ast.List():

@@ -278,13 +278,13 @@ TRAJECTORY = "d2(y) = mu*E + mu/c*cross(d(y),Bf)"
 TRIALS = (
     Trial(
         name="(89)",
-        printed="m*ddy = e*E + e/c*cross(v,Bf); ddy = mu*E + mu/c*cross(v,Bf)",
+        tried="m*ddy = e*E + e/c*cross(v,Bf); ddy = mu*E + mu/c*cross(v,Bf)",
         model=lagrangian_model,
         follows="the variation of the Lagrangian @(104)",
     ),
     Trial(
         name="(90)",
-        printed="dy = mu*E*t + mu/c*cross(y,Bf) + C",
+        tried="dy = mu*E*t + mu/c*cross(y,Bf) + C",
         model=velocity_model,
         follows="its rate is @(89)",
         defines=("dy",),
@@ -292,7 +292,7 @@ TRIALS = (
     ),
     Trial(
         name="text-no-magnetic-field",
-        printed="y = y0 + C*t + 1/2*mu*E*t^2",
+        tried="y = y0 + C*t + 1/2*mu*E*t^2",
         model=fall_model,
         follows=r"@(89) with $\mathbf{B} = 0$ by substitution",
         defines=("y",),
@@ -305,10 +305,10 @@ TRIALS = (
     ),
     Trial(
         name="text-along-field",
-        printed="d2(y) = mu*E; dot(d2(y),E) > 0",
+        tried="d2(y) = mu*E; dot(d2(y),E) > 0",
         model=along_field_model,
         follows="@text-no-magnetic-field, for either sign of the charge",
-        corrected="d2(y) = mu*E",
+        corrected_tried="d2(y) = mu*E",
         corrected_tex=r"\ddot{\mathbf{y}}=\boxed{\mu\mathbf{E}}",
         grade="sign of the charge",
         slip="(97)",
@@ -316,7 +316,7 @@ TRIALS = (
     ),
     Trial(
         name="text-helix",
-        printed="d(y2[1]^2 + y2[2]^2) = 0; d2(y2) = -(mu*b/c)^2*y2; d2(ypar) = 0",
+        tried="d(y2[1]^2 + y2[2]^2) = 0; d2(y2) = -(mu*b/c)^2*y2; d2(ypar) = 0",
         model=helix_model,
         follows=r"@(90) with $\mathbf{E} = 0$, $\mathbf{y}_2$ counted from the axis",
         false=Falsehood(
@@ -325,18 +325,16 @@ TRIALS = (
             "-(mu*b/(2*c))^2*y2",
         ),
     ),
-    Trial(
-        name="(91)", printed="dypar = Cpar + mu*Epar*t", model=split_model, follows=r"@(90) projected on $\mathbf{B}$"
-    ),
+    Trial(name="(91)", tried="dypar = Cpar + mu*Epar*t", model=split_model, follows=r"@(90) projected on $\mathbf{B}$"),
     Trial(
         name="(92)",
-        printed="dyperp = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t",
+        tried="dyperp = mu/c*cross(yperp,Bf) + Cperp + mu*Eperp*t",
         model=split_model,
         follows=r"@(90) projected across $\mathbf{B}$",
     ),
     Trial(
         name="(93)",
-        printed="ypar = ypar0 + Cpar*t + 1/2*mu*Epar*t^2",
+        tried="ypar = ypar0 + Cpar*t + 1/2*mu*Epar*t^2",
         model=parallel_model,
         follows="@(91) by substitution",
         defines=("ypar",),
@@ -344,17 +342,17 @@ TRIALS = (
     ),
     Trial(
         name="text-parallel-acceleration",
-        printed="d2(ypar) = mu*Epar; dot(d2(ypar),d2(ypar)) = mu^2*dot(Eperp,Eperp)",
+        tried="d2(ypar) = mu*Epar; dot(d2(ypar),d2(ypar)) = mu^2*dot(Eperp,Eperp)",
         model=fall_along_model,
         follows="@(93)",
-        corrected="dot(d2(ypar),d2(ypar)) = mu^2*dot(Epar,Epar)",
+        corrected_tried="dot(d2(ypar),d2(ypar)) = mu^2*dot(Epar,Epar)",
         corrected_tex=r"\lvert\ddot{\mathbf{y}}_{\Vert}\rvert=\lvert\mu\mathbf{E}_{\boxed{\Vert}}\rvert",
         grade="misprint",
         note=r"The wrong part of $\mathbf{E}$.",
     ),
     Trial(
         name="text-double-product",
-        printed="Eperp = -cross(cross(Eperp,Bf),Bf)/dot(Bf,Bf)",
+        tried="Eperp = -cross(cross(Eperp,Bf),Bf)/dot(Bf,Bf)",
         model=orthogonal_model,
         follows=r"$(\mathbf{E}_\bot, \mathbf{B}) = 0$",
         false=Falsehood(
@@ -364,31 +362,31 @@ TRIALS = (
     ),
     Trial(
         name="(94)",
-        printed="dyperp = mu/c*cross(yperp - c*t*cross(Eperp,Bf)/b^2,Bf) + Cperp",
+        tried="dyperp = mu/c*cross(yperp - c*t*cross(Eperp,Bf)/b^2,Bf) + Cperp",
         model=split_model,
         follows="@(92)",
     ),
     Trial(
         name="(95)",
-        printed="dy1 = mu/c*cross(y1,Bf) + Cperp - c*cross(Eperp,Bf)/b^2;"
+        tried="dy1 = mu/c*cross(y1,Bf) + Cperp - c*cross(Eperp,Bf)/b^2;"
         " dy1 = mu/c*cross(y1 - (c*cross(Cperp,Bf) + c^2*Eperp)/(mu*b^2),Bf)",
         model=shifted_model,
         follows=r"@(92) for $\mathbf{y}_1 = \mathbf{y}_\bot - c t [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
     ),
     Trial(
         name="(96)",
-        printed="dy2 = -mu/c*cross(Bf,y2)",
+        tried="dy2 = -mu/c*cross(Bf,y2)",
         model=shifted_model,
         follows="@(92) for the twice shifted variable",
     ),
     Trial(
         name="(97)",
-        printed="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = abs(mu*b)/c",
+        tried="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = abs(mu*b)/c",
         model=charges_model,
         follows="@(96) by substitution, for either sign of the charge",
         defines=("y2", "omega"),
         solves="d(y2) = -mu/c*cross(Bf,y2)",
-        corrected="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = mu*b/c",
+        corrected_tried="y2 = a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)); omega = mu*b/c",
         corrected_tex=(
             r"\mathbf{y}_2(t)=a\left\{\mathbf{e}_1\sin(\omega t+\omega_0)+\mathbf{e}_2\cos(\omega t+\omega_0)\right\}"
             + _SIGNED
@@ -398,7 +396,7 @@ TRIALS = (
     ),
     Trial(
         name="text-drift-direction",
-        printed="cross(Eperp,Bf) = E2*b*e1",
+        tried="cross(Eperp,Bf) = E2*b*e1",
         model=charges_model,
         follows=r"$\mathbf{B}$ along $\mathbf{e}_3$, $\mathbf{E}_\bot$ along $\mathbf{e}_2$",
         false=Falsehood(
@@ -409,12 +407,12 @@ TRIALS = (
     ),
     Trial(
         name="(98)",
-        printed=_EQUATION_98,
+        tried=_EQUATION_98,
         model=charges_model,
         follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=_SOLVES,
-        corrected=_EQUATION_98 + "; omega = mu*b/c",
+        corrected_tried=_EQUATION_98 + "; omega = mu*b/c",
         corrected_model=signed_model,
         corrected_tex=(
             r"\mathbf{y}_{\bot}(t)=\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}"
@@ -428,7 +426,7 @@ TRIALS = (
     ),
     Trial(
         name="text-time-shift",
-        printed="first + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)) = then",
+        tried="first + a*(e1*sin(omega*t + omega0) + e2*cos(omega*t + omega0)) = then",
         model=later_model,
         follows=r"@(98) as corrected at $t + \omega_0/\omega$ with $\omega_0 = 0$ and $\mathbf{C}_\bot$ less $\mu "
         r"\mathbf{E}_\bot \omega_0/\omega$",
@@ -440,10 +438,10 @@ TRIALS = (
     ),
     Trial(
         name="text-first-two-terms",
-        printed="(cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1 = 0",
+        tried="(cross(Cperp,Bf) + c*Eperp)/(omega*b) + mu*E2/omega*t*e1 = 0",
         model=lambda: signed_model("origin"),
         follows=r"$\mathbf{C}_\bot = c [\mathbf{E}_\bot, \mathbf{B}]/\mathbf{B}^2$",
-        corrected="(cross(Cperp,Bf) + c*Eperp)/(omega*b) = 0",
+        corrected_tried="(cross(Cperp,Bf) + c*Eperp)/(omega*b) = 0",
         corrected_tex=(
             r"\mathbf{C}_{\bot}=\frac{c[\mathbf{E}_{\bot},\mathbf{B}]}{\mathbf{B}^2}\implies"
             r"\boxed{\frac{[\mathbf{C}_{\bot},\mathbf{B}]+c\mathbf{E}_{\bot}}{\omega\lvert\mathbf{B}\rvert}=0}"
@@ -453,7 +451,7 @@ TRIALS = (
     ),
     Trial(
         name="text-initial-position",
-        printed="at0(yperp) = a*e2",
+        tried="at0(yperp) = a*e2",
         model=start_model,
         follows=r"@(98) as corrected with that $\mathbf{C}_\bot$ and $\omega_0 = 0$",
         false=Falsehood(
@@ -464,12 +462,12 @@ TRIALS = (
     ),
     Trial(
         name="(99)",
-        printed=_EQUATION_99,
+        tried=_EQUATION_99,
         model=lambda: charges_model("origin"),
         follows=r"@(92) by substitution, for either sign of the charge, $\omega$ of @(97)",
         defines=("yperp",),
         solves=f"{_SOLVES}; at0(yperp) = a*e2",
-        corrected=_EQUATION_99 + "; omega = mu*b/c",
+        corrected_tried=_EQUATION_99 + "; omega = mu*b/c",
         corrected_model=lambda: signed_model("origin"),
         corrected_tex=(
             r"\mathbf{y}_{\bot}(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t\mathbf{e}_1"
@@ -481,10 +479,10 @@ TRIALS = (
     ),
     Trial(
         name="text-drift",
-        printed="drift = mu*E2/omega*e1",
+        tried="drift = mu*E2/omega*e1",
         model=drift_model,
         follows=r"@(89) solved for the velocity that does not change, for either sign of the charge, $\omega$ of @(97)",
-        corrected="drift = c*cross(Eperp,Bf)/b^2",
+        corrected_tried="drift = c*cross(Eperp,Bf)/b^2",
         corrected_tex=r"\dot{\mathbf{O}}=\boxed{\frac{c[\mathbf{E},\mathbf{B}]}{\mathbf{B}^2}}",
         grade="sign of the charge",
         slip="(97)",
@@ -493,10 +491,10 @@ TRIALS = (
     ),
     Trial(
         name="text-trochoid-constant",
-        printed="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2*e1",
+        tried="Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2*e1",
         model=lambda: signed_model("trochoid"),
         follows=r"the shift of the trochoid by a length along $\mathbf{e}_2$",
-        corrected="Cperp = 0; Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2/omega*e1",
+        corrected_tried="Cperp = 0; Cperp = c*cross(Eperp,Bf)/b^2 - mu*E2/omega*e1",
         corrected_tex=r"\mathbf{C}_{\bot}=\boxed{0}",
         grade="misprint",
         slip="(100)",
@@ -505,12 +503,12 @@ TRIALS = (
     ),
     Trial(
         name="(100)",
-        printed=_TROCHOID.format(omega="omega").replace("yy", "y"),
+        tried=_TROCHOID.format(omega="omega").replace("yy", "y"),
         model=lambda: charges_model("trochoid"),
         follows="@(98) with the constant chosen there; dimensions",
         defines=("x", "y"),
         solves="d(x) = mu/c*b*y + dot(Cperp,e1); d(y) = -mu/c*b*x + mu*E2*t",
-        corrected=_TROCHOID.format(omega="omega^2").replace("yy", "y") + "; omega = mu*b/c",
+        corrected_tried=_TROCHOID.format(omega="omega^2").replace("yy", "y") + "; omega = mu*b/c",
         corrected_model=lambda: signed_model("trochoid"),
         corrected_tex=(
             r"x(t)=\frac{\mu\lvert\mathbf{E}_{\bot}\rvert}{\omega}t+a\sin\omega t,\qquad "
@@ -522,7 +520,7 @@ TRIALS = (
     ),
     Trial(
         name="text-trochoid",
-        printed="x = r*omega*t + a*sin(omega*t); y = r + a*cos(omega*t)",
+        tried="x = r*omega*t + a*sin(omega*t); y = r + a*cos(omega*t)",
         model=rolling_model,
         follows=(
             "@(100) as corrected: the middle of the circle is at the height $r$ and moves by $r$ while it "
@@ -536,12 +534,12 @@ TRIALS = (
     ),
     Trial(
         name="(101)",
-        printed="y = ypar + yperp",
+        tried="y = ypar + yperp",
         model=lambda: trajectory_model(signed=False),
         follows="@(89) by substitution, the parts of @(93) and @(99), for either sign of the charge",
         defines=("y",),
         solves=TRAJECTORY,
-        corrected="y = ypar + yperp",
+        corrected_tried="y = ypar + yperp",
         corrected_model=trajectory_model,
         corrected_tex=r"\mathbf{y}(t)=\mathbf{y}_{\Vert}(t)+\mathbf{y}_{\bot}(t),\qquad\omega=\boxed{\frac{\mu\lvert"
         r"\mathbf{B}\rvert}{c}}",
@@ -551,10 +549,10 @@ TRIALS = (
     ),
     Trial(
         name="(102)",
-        printed="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - b1*y3, B1*y2 - B2*y1]",
+        tried="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - b1*y3, B1*y2 - B2*y1]",
         model=lagrangian_model,
         follows="the vector product in components",
-        corrected="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - B1*y3, B1*y2 - B2*y1]",
+        corrected_tried="A0 = dot(y,E); A = 1/2*cross(Bf,y) = 1/2*[B2*y3 - B3*y2, B3*y1 - B1*y3, B1*y2 - B2*y1]",
         corrected_tex=(
             r"A_0(\mathbf{y})=(\mathbf{y},\mathbf{E}),\qquad\mathbf{A}(\mathbf{y})=\frac12[\mathbf{B},\mathbf{y}]="
             r"\frac12\begin{pmatrix}B_2y_3-B_3y_2\\B_3y_1-\boxed{B_1}y_3\\B_1y_2-B_2y_1\end{pmatrix}"
@@ -564,7 +562,7 @@ TRIALS = (
     ),
     Trial(
         name="text-potentials",
-        printed="E = grad(A0) - 1/c*partial_t(A); Bf = curl(A)",
+        tried="E = grad(A0) - 1/c*partial_t(A); Bf = curl(A)",
         model=lagrangian_model,
         follows="the potentials @(102)",
         note=r"With $\mathbf{E} = +\nabla A_0$ the paper has the opposite of the sign that is customary; $A_0$ is "
@@ -578,7 +576,7 @@ TRIALS = (
     ),
     Trial(
         name="(103)",
-        printed="U = -(e*A0 + e/c*dot(A,v))",
+        tried="U = -(e*A0 + e/c*dot(A,v))",
         model=lagrangian_model,
         follows="its generalised force $-dU/dy + d/dt dU/dv$ is the Lorentz force",
         defines=("U",),
@@ -586,7 +584,7 @@ TRIALS = (
     ),
     Trial(
         name="(104)",
-        printed="L = m/2*dot(v,v) + e*A0 + e/c*dot(A,v) = m/2*dot(v,v) + e*dot(y,E) + e/(2*c)*dot(cross(y,v),Bf)",
+        tried="L = m/2*dot(v,v) + e*A0 + e/c*dot(A,v) = m/2*dot(v,v) + e*dot(y,E) + e/(2*c)*dot(cross(y,v),Bf)",
         model=lagrangian_model,
         follows="the potentials @(102), and @(89) by variation",
         defines=("L",),

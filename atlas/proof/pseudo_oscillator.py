@@ -7,7 +7,8 @@ import sympy
 from atlas.proof import euler_poisson as general
 from atlas.proof import units
 from atlas.proof.model import Model, Value, cross, dot, hat, rotation_symbols, turn, vector
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.notation import conserved
+from atlas.proof.trial import Falsehood, Part, Trial, read
 
 Omega, K = vector("Omega"), vector("K")
 I2, I3 = sympy.symbols("I2 I3", positive=True)
@@ -15,6 +16,8 @@ B2, B3 = sympy.symbols("B2 B3", positive=True)
 omega1, omega2, omega3 = omega = vector("omega")
 tensor, mass = sympy.diag(I2, I2, I3), sympy.diag(I3, I3, 2 * I2 - I3) / 2
 ratio = I3 / I2
+
+SIGNS = {r"B'_2": "B2", r"B'_3": "B3", "E'": "E", r"{\mathbf{B}'}^2": "Bsquare", r"\mathbb{I}": "I"}
 
 FLOW = dict(
     zip(
@@ -90,9 +93,9 @@ def field_model() -> Model:
     seen = mu / (2 * c) * R.T * B
     rate = cross(tensor * Omega, Omega) - mu / c * cross(mass * R.T * B, Omega)
     letters = {"I": tensor, "g": mass, "Omega": Omega, "IdOmega": rate, "K": seen, "R": R, "Bf": B, "mu": mu, "c": c}
-    letters |= {"dK": mu / (2 * c) * (R * hat(Omega)).T * B, "Bprime": mu / (2 * c) * B}
+    letters |= {"dK": mu / (2 * c) * (R * hat(Omega)).T * B, "Bp": mu / (2 * c) * B}
     for n in range(3):
-        letters[f"K{n + 1}"] = sum((letters["Bprime"][i] * R[i, n] for i in range(3)), sympy.Integer(0))
+        letters[f"K{n + 1}"] = sum((letters["Bp"][i] * R[i, n] for i in range(3)), sympy.Integer(0))
     return Model(letters, where)
 
 
@@ -107,16 +110,15 @@ def frame_model() -> Model:
     )
     letters = {
         "Bf": field,
-        "Bprime": sympy.Matrix([0, B2, B3]),
+        "Bp": sympy.Matrix([0, B2, B3]),
         "K": seen,
         "R": R,
         "mu": mu,
         "c": c,
         "B2": B2,
         "B3": B3,
-        "w": w,
     }
-    letters["BR"] = lambda vector_, matrix_: matrix_.T * vector_
+    letters |= {f"omega{n + 1}": w[n] for n in range(3)}
     return Model({**letters, "Omega": R.T * w}, where, start=dict(zip(R, sympy.eye(3), strict=True)))
 
 
@@ -124,7 +126,7 @@ def frame_model() -> Model:
 def symmetric_body_model() -> Model:
     """I1 = I2 and I = tr(g) - g."""
     g1, g3 = sympy.symbols("g1 g3", positive=True)
-    return Model({"g1": g1, "g2": g1, "g3": g3, "I2": g1 + g3, "I3": 2 * g1})
+    return Model({"g": sympy.diag(g1, g1, g3), "I2": g1 + g3, "I3": 2 * g1})
 
 
 @cache
@@ -163,26 +165,13 @@ def initial_model() -> Model:
     return Model(letters, units=units.OSCILLATOR)
 
 
-_P = "(Omega3^2 - (2 - I)*c3*Omega3 + c5)"
-_EQUATION_43 = "d(Omega1) = phi*Omega2 + d(f)*Omega1; d(Omega2) = -phi*Omega1 + d(f)*Omega2"
-_EQUATION_46 = (
-    "d2(Omega3) = (-2*Omega3 + (2 - I)*c3)*(Omega1*K1 + Omega2*{K}) - I*Omega3*(K1^2 + K2^2)"
-    " + (c3 - Omega3)*(Omega1^2 + Omega2^2)"
-)
-_EQUATION_47 = "d2(Omega3) = a0 + a1*Omega3 + a2*Omega3^2 + a3*Omega3^3"
-_EQUATION_48 = (
-    "a0 = ((2 - I)*c5 + E)*c3; a1 = -2*c5 + (I - (2 - {x})^2)*c3^2 - E - I*Bsquare; a2 = 6*(1 - I)*c3; a3 = -2*(1 - I)"
-)
-_C5 = "Omega1*K1 + Omega2*K2 - Omega3^2 + (2 - I)*c3*Omega3"
-
-
 @cache
 def laboratory_model(across: Value = B2, along: Value = B3) -> Model:
     """Model a field, its part across e3 of that length at an angle to e2; S turns about e3 by that angle."""
     cosine, sine = turn(sympy.Symbol("p", real=True))
     S = sympy.Matrix([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
     field = sympy.Matrix([across * sine, across * cosine, along])
-    return Model({"S": S, "B": field, "J": tensor, "B2": across, "B3": along})
+    return Model({"S": S, "B": field, "I": tensor, "B2": across, "B3": along})
 
 
 @cache
@@ -202,27 +191,26 @@ def degree_model() -> tuple[Model, Model, Model]:
 TRIALS = (
     Trial(
         name="text-mass-matrix",
-        printed="g1 = 1/2*I3; g2 = 1/2*I3; g3 = 1/2*(2*I2 - I3)",
         model=symmetric_body_model,
+        signs={r"\mathrm{diag}": "diag()"},
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
         false=Falsehood(
             "The third moment of mass of a ball is zero",
-            "1/2*(2*I2 - I3)",
-            "1/2*(I2 - I3)",
+            "2*I2 - I3",
+            "I2 - I3",
         ),
     ),
     Trial(
         name="text-laboratory",
-        printed="S*J*T(S) = J; S*B = [0, B2, B3]",
         model=laboratory_model,
         follows=r"a rotation about $\mathbf{e}_3$ by the angle between $\mathbf{e}_2$ and the part of $\mathbf{B}$ "
         r"across $\mathbf{e}_3$",
         grade="missing case",
-        corrected="S*J*T(S) = J; S*B = [0, B2, B3]",
         corrected_also=(
             Part(line="S*B = [0, 0, B3]", model=lambda: laboratory_model(across=sympy.Integer(0))),
             Part(line="S*B = [0, B2, 0]", model=lambda: laboratory_model(along=sympy.Integer(0))),
         ),
+        corrected_signs={r"B_2\ge0,\quad B_3\ge0": ""},
         corrected_tex=r"S\mathbf{B}=(0,B_2,B_3)^T,\qquad\boxed{B_2\ge0,\quad B_3\ge0}",
         note=r"$B_3 \ge 0$ is a choice of the sense of $\mathbf{e}_3$. But a field along the axis of the body has "
         "$B_2 = 0$ and one across it $B_3 = 0$; the choice with $B_2 > 0$, $B_3 > 0$ does not reach them, and the "
@@ -235,94 +223,94 @@ TRIALS = (
     ),
     Trial(
         name="(31)",
-        printed="at0(Omega) = at0(R*Omega) = w",
         model=frame_model,
+        signs={r"\boldsymbol{\omega}": "(R*Omega)"},
         follows=r"$\boldsymbol{\Omega} = R^T \boldsymbol{\omega}$ and $R(0) = 1$",
     ),
     Trial(
         name="(32)",
-        printed="Bprime = mu/(2*c)*Bf = [0, B2, B3]; K = mu/(2*c)*BR(Bf,R) = BR(Bprime,R); at0(K) = Bprime",
         model=frame_model,
+        signs={
+            r"\mathbf{B}": "Bf",
+            r"B'_2>0": "B2",
+            r"B'_3>0": "B3",
+            r"\mathbf{B}R(t)": "T(R)*Bf",
+            r"\mathbf{B}'R": "T(R)*Bp",
+        },
         follows="$K_j = B'_i R_{ij}$ and $R(0) = 1$",
     ),
     Trial(
         name="(33)",
-        printed="I = I3/I2; E = 2*energy/I2",
         model=state_model,
+        signs={"E": "energy"},
         follows=r"the energy is $(I_2 \Omega_1^2 + I_2 \Omega_2^2 + I_3 \Omega_3^2)/2$ and makes @(36)",
         defines=("I", "E"),
         solves="Omega1^2 + Omega2^2 + I*Omega3^2 = E",
     ),
     Trial(
         name="(34)",
-        printed="IdOmega = cross(I*Omega,Omega) - 2*cross(g*K,Omega)",
         model=field_model,
+        signs={r"\mathbb{I}\dot{\boldsymbol{\Omega}}": "IdOmega", r"\mathbf{K}g": "g*K"},
         follows="@(16) and @(32)",
     ),
-    Trial(name="(35)", printed="dK = -cross(Omega,K)", model=field_model, follows="@(12) and @(32)"),
+    Trial(name="(35)", model=field_model, signs={r"\dot{\mathbf{K}}": "dK"}, follows="@(12) and @(32)"),
     Trial(
         name="(36)",
-        printed="Omega1^2 + Omega2^2 + I*Omega3^2 = E; d(Omega1^2 + Omega2^2 + I*Omega3^2) = 0;"
-        " at0(E) = omega1^2 + omega2^2 + I*omega3^2",
         model=state_model,
+        form=conserved,
         follows="@(34), @(35)",
     ),
     Trial(
         name="(37)",
-        printed="d(K1^2 + K2^2 + K3^2) = 0; at0(K1^2 + K2^2 + K3^2) = B2^2 + B3^2",
         model=state_model,
+        form=conserved,
         follows="@(35)",
     ),
     Trial(
         name="(38)",
-        printed="d(Omega1) = (1 - I)*Omega3*Omega2 - I*Omega3*K2 + (2 - I)*Omega2*K3;"
-        " d(Omega2) = -(1 - I)*Omega3*Omega1 + I*Omega3*K1 - (2 - I)*Omega1*K3; d(Omega3) = Omega1*K2 - Omega2*K1",
         model=state_model,
         follows="@(34) in components",
     ),
     Trial(
         name="(39)",
-        printed="d(K1) = Omega3*K2 - Omega2*K3; d(K2) = -Omega3*K1 + Omega1*K3; d(K3) = -(Omega1*K2 - Omega2*K1)",
         model=state_model,
         follows="@(35) in components",
     ),
     Trial(
         name="(40)",
-        printed="K3 + Omega3 = c3; d(K3 + Omega3) = 0; at0(c3) = omega3 + B3",
         model=state_model,
+        form=conserved,
         follows="@(38) and @(39)",
     ),
     Trial(
         name="(41)",
-        printed=f"{_C5} = c5; d({_C5}) = 0; at0(c5) = omega2*B2 - omega3^2 + (2 - I)*(omega3 + B3)*omega3",
         model=state_model,
+        form=conserved,
         follows="@(38) and @(39)",
     ),
     Trial(
         name="text-four-integrals",
-        printed=f"F = [Omega1^2 + Omega2^2 + I*Omega3^2, K1^2 + K2^2 + K3^2, K3 + Omega3, {_C5}]",
         model=state_model,
-        defines=("F",),
-        solves="rank(F) = 4; d(F) = 0",
+        also=(Part(line="d([E, dot(K, K), c3, c5]) = 0", model=state_model),),
+        signs={
+            r"\mathrm{rank}\,\frac{\partial(E',\mathbf{K}^2,c_3,c_5)}{\partial(\boldsymbol{\Omega},"
+            r"\mathbf{K})}": "rank([E, dot(K, K), c3, c5])"
+        },
         follows=r"their rates, and their gradients at one point, $\boldsymbol{\Omega} = (1, 2, 3)$, "
         r"$\mathbf{K} = (4, 5, "
         "6)$",
         note="Independent at one point, so at all but those of a set of measure zero.",
         false=Falsehood(
             "The component of the angular velocity along the field is conserved",
-            "Omega1^2 + Omega2^2 + I*Omega3^2,",
-            "Omega1*K1 + Omega2*K2 + Omega3*K3,",
+            "d([E,",
+            "d([dot(Omega, K),",
         ),
     ),
     Trial(
         name="(42)",
-        printed=f"K1 = (Omega1*{_P} - Omega2*d(Omega3))/(E - I*Omega3^2);"
-        f" K2 = (Omega2*{_P} + Omega1*d(Omega3))/(E - I*Omega3^2); K3 = -Omega3 + c3",
         model=state_model,
         follows="@(38), @(40) and @(41)",
         grade="missing case",
-        corrected=f"(E - I*Omega3^2)*K1 = Omega1*{_P} - Omega2*d(Omega3);"
-        f" (E - I*Omega3^2)*K2 = Omega2*{_P} + Omega1*d(Omega3); K3 = -Omega3 + c3",
         corrected_tex=(
             r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}K_1&=\Omega_1(\Omega_3^2-(2-I)c_3\Omega_3+c_5)-\Omega_2\dot"
             r"\Omega_3,\\ "
@@ -336,13 +324,10 @@ TRIALS = (
     ),
     Trial(
         name="(43)",
-        printed=_EQUATION_43,
         model=state_model,
         follows=r"@(38) with $\mathbf{K}$ of @(42), $\phi$ and $f$ of @(44)",
         grade="missing case",
         slip="(42)",
-        corrected="(E - I*Omega3^2)*d(Omega1) = ((2 - I)*c3*E - (E + I*c5)*Omega3)*Omega2 - I*Omega3*d(Omega3)*Omega1;"
-        " (E - I*Omega3^2)*d(Omega2) = -((2 - I)*c3*E - (E + I*c5)*Omega3)*Omega1 - I*Omega3*d(Omega3)*Omega2",
         corrected_tex=(
             r"\begin{aligned} \boxed{(E'-I\Omega_3^2)}\dot\Omega_1&=[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_2-I\Omega_3"
             r"\dot\Omega_3\Omega_1,\\ \boxed{(E'-I\Omega_3^2)}\dot\Omega_2&=-[(2-I)c_3E'-(E'+Ic_5)\Omega_3]\Omega_1"
@@ -352,15 +337,12 @@ TRIALS = (
     ),
     Trial(
         name="(44)",
-        printed="phi = ((2 - I)*c3*E - (E + I*c5)*Omega3)/(E - I*Omega3^2); f = ln(sqrt(E - I*Omega3^2))",
         model=state_model,
         follows="@(43) by substitution",
         defines=("phi", "f"),
-        solves=_EQUATION_43,
+        solves=read("(43)", SIGNS),
         grade="missing case",
         slip="(42)",
-        corrected="(E - I*Omega3^2)*phi = (2 - I)*c3*E - (E + I*c5)*Omega3; (E - I*Omega3^2)*d(f) = "
-        "-I*Omega3*d(Omega3)",
         corrected_defines=(),
         corrected_solves="",
         corrected_tex=(
@@ -372,14 +354,13 @@ TRIALS = (
     ),
     Trial(
         name="(45)",
-        printed="Omega1 = f0*sqrt(E - I*u^2)*sin(Phi + phi0); Omega2 = f0*sqrt(E - I*u^2)*cos(Phi + phi0)",
         model=quadrature_model,
+        signs={r"\Omega_3": "u"},
         follows="@(43) by substitution, with two constants",
         defines=("Omega1", "Omega2"),
-        solves=_EQUATION_43,
+        solves=read("(43)", SIGNS),
         grade="missing case",
         slip="(42)",
-        corrected="Omega1 = f0*rho*sin(Phi + phi0); Omega2 = f0*rho*cos(Phi + phi0); rho^2 = E - I*u^2",
         corrected_model=passing_model,
         corrected_tex=(
             r"\Omega_1=f_0\,\boxed{\rho}\sin(\Phi+\phi_0),\qquad\Omega_2=f_0\,\boxed{\rho}\cos(\Phi+\phi_0),\qquad"
@@ -393,10 +374,8 @@ TRIALS = (
     ),
     Trial(
         name="(46)",
-        printed=_EQUATION_46.format(K="k2"),
         model=state_model,
         follows="the rate of the last equation of @(38), with @(38), @(39) and @(40)",
-        corrected=_EQUATION_46.format(K="K2"),
         corrected_tex=(
             r"\ddot\Omega_3=[-2\Omega_3+(2-I)c_3](\Omega_1K_1+\Omega_2\boxed{K_2})-I\Omega_3(K_1^2+K_2^2)"
             r"+[c_3-\Omega_3](\Omega_1^2+\Omega_2^2)"
@@ -406,19 +385,17 @@ TRIALS = (
     ),
     Trial(
         name="(47)",
-        printed=_EQUATION_47,
         model=state_model,
         follows="@(46) and the four integrals, with @(48) as corrected",
     ),
     Trial(
         name="(48)",
-        printed=_EQUATION_48.format(x="1"),
         model=launch_model,
+        signs={rf"a_{n}(\boldsymbol{{\omega}}, \mathbf{{B}}')": f"a{n}" for n in (0, 1, 2)},
         follows="@(46) and the four integrals",
         corrected_model=bare_model,
         defines=("a0", "a1", "a2", "a3"),
-        solves=_EQUATION_47,
-        corrected=_EQUATION_48.format(x="I"),
+        solves=read("(47)", SIGNS),
         corrected_tex=(
             r"\begin{aligned} a_0&=[(2-I)c_5+E']c_3,&a_1&=-2c_5+[I-(2-\boxed{I})^2]c_3^2-E'-I{\mathbf{B}'}^2,\\ "
             r"a_2&=6(1-I)c_3,&a_3&=-2(1-I) \end{aligned}"
@@ -428,28 +405,23 @@ TRIALS = (
     ),
     Trial(
         name="text-cubic-degree",
-        printed="leading = -2*(1 - I); leading^2 > 0",
         model=lambda: degree_model()[:2],
+        signs={"a_3": "leading"},
         follows="@(47) with @(48) as corrected",
         grade="missing case",
-        corrected="leading = -2*(1 - I); leading^2 > 0",
         corrected_also=(Part(line="leading = 0; square = 0", model=lambda: degree_model()[2]),),
+        corrected_signs={r"\text{if}\quad I\ne1": ""},
         corrected_tex=r"a_3=-2(1-I)\ne0\quad\boxed{\text{if}\quad I\ne1}",
         note="For the ball, $I = 1$, both $a_2$ and $a_3$ vanish, and @(47) is a harmonic oscillator.",
         false=Falsehood(
             "The degree is three for the ball too",
-            "leading^2 > 0",
-            "leading^2 > 0",
             model=lambda: degree_model()[2],
         ),
     ),
     Trial(
         name="(49)",
-        printed="ddOmega3 = ((2 - I)*B3 - I*omega3 + 2*(omega3 - Omega3))"
-        "*(omega2*B2 - (omega3^2 - Omega3^2) + (2 - I)*(B3 + omega3)*(omega3 - Omega3))"
-        " - I*Omega3*(Bsquare - (B3 + (omega3 - Omega3))^2)"
-        " + (B3 + (omega3 - Omega3))*(omega1^2 + omega2^2 + I*(omega3^2 - Omega3^2))",
         model=initial_model,
+        signs={r"\ddot\Omega_3": "ddOmega3"},
         follows="@(47), @(48) as corrected, and the integrals at $t = 0$",
     ),
 )

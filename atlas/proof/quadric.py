@@ -6,12 +6,12 @@ from typing import Any
 
 import sympy
 
-from atlas.proof import units
+from atlas.proof import pseudo_oscillator, units
 from atlas.proof.decide import Outcome
 from atlas.proof.model import Model, Value, certain, turn, vector
-from atlas.proof.notation import Reader
+from atlas.proof.notation import Reader, sides
 from atlas.proof.pseudo_oscillator import cubic, integrals, state_model
-from atlas.proof.trial import Falsehood, Part, Trial
+from atlas.proof.trial import Falsehood, Part, Trial, read
 
 omega1, omega2, omega3 = vector("omega")
 I, B2, B3 = sympy.symbols("I B2 B3", positive=True)
@@ -19,6 +19,11 @@ x, p, s = sympy.symbols("x p s", real=True)
 delta = sympy.Symbol("delta", real=True)
 cd, sd = sympy.symbols("cd sd", real=True)
 excess = sympy.Symbol("e", positive=True)
+
+SIGNS = pseudo_oscillator.SIGNS | {rf"\omega'_{n}": f"w{n}" for n in (1, 2, 3)}
+SIGNS |= {f"C_{n}^2": f"C{n}s" for n in (1, 2, 3)} | {r"\omega_3(\omega_2)": "omega3"}
+SIGNS |= {r"\omega_2\in\mathbb{R}\setminus\{-B'_2\}": "", r"\omega_1\in\mathbb{R}": ""}
+SIGNS |= {r"\omega_3(\omega_1,\omega_2)": "omega3", r"\Omega_3": "omega3", r"\text{if}\quad\omega_2\ne-B'_2": ""}
 
 LETTERS = {"omega1": omega1, "omega2": omega2, "omega3": omega3, "I": I, "B2": B2, "B3": B3}
 
@@ -118,6 +123,7 @@ def coordinates_model() -> Model:
     sine = -(cd**2 - sd**2)
     letters = {**LETTERS, **BETA, "form": form, "length": length}
     letters |= {"a2": 2 * sine / (1 - sine), "a3": 2 * sine / (1 + sine)}
+    letters["sense"] = lambda w: w.jacobian([omega1, omega2, omega3]).det()
     return Model(letters, _angles(), phases=PHASES, domains={"p": "oblique"}, units=units.QUADRIC)
 
 
@@ -152,11 +158,11 @@ def canonical_model(ratio: str = "any", plane: bool = False) -> Model:
 
 
 @cache
-def axes_model(above: bool) -> Model:
-    """Sin(beta) anywhere between 0 and 1."""
+def axes_model(above: bool, sheets: int) -> Model:
+    """Sin(beta) anywhere between 0 and 1, and the squared semi-axes of (55) for two sheets, of (57) for one."""
     sine = 1 / (1 + sympy.Symbol("r", positive=True))
     I = 1 + excess if above else 1 / (1 + excess)
-    a2, a3, first = 2 * sine / (1 - sine), 2 * sine / (1 + sine), (I - 1 if above else 1 - I) * B2**2
+    a2, a3, first = 2 * sine / (1 - sine), 2 * sine / (1 + sine), (I - 1 if sheets == 2 else 1 - I) * B2**2
     return Model({"I": I, "B2": B2, "a2": a2, "a3": a3, "C1s": first, "C2s": first * a2, "C3s": first * a3})
 
 
@@ -186,6 +192,10 @@ def decide_linear(
         ends = [sign * difference.subs(beta, end) for end in (0, sympy.pi / 2)]
         if sympy.diff(difference, beta, 2) != 0:
             return Outcome("undecided", r"not linear in $\beta$")
+        if difference.free_symbols - {beta}:
+            return Outcome("undecided", f"unreadable: {difference.free_symbols - {beta}} means nothing here")
+        if min(ends) > 0:
+            return Outcome("undecided", "a sharper bound holds")
         if min(ends) < 0 or (min(ends) == 0 and max(ends) == 0):
             near = sympy.Rational(1, 1000) if ends[0] == min(ends) else sympy.Rational(1570, 1000)
             values: dict[str, Any] = {"beta": near, "left": relation.left[0], "right": relation.right[0]}
@@ -218,7 +228,11 @@ def leaving_points_model() -> Model:
     away = sympy.Symbol("omega1", positive=True)
     rate = state_model().letters["at0"](state_model().letters["d"](state_model().letters["Omega3"]))
     certain(sympy.expand(rate - omega1 * B2) == 0)
-    return Model({**LETTERS, "omega1": away}, [(omega3, constant_omega3().subs(omega1, away))], units=units.QUADRIC)
+    return Model(
+        {**LETTERS, "omega1": away, "rate": rate.subs(omega1, away)},
+        [(omega3, constant_omega3().subs(omega1, away))],
+        units=units.QUADRIC,
+    )
 
 
 @cache
@@ -229,18 +243,7 @@ def loop_model() -> Model:
     )
 
 
-_EQUATION_50 = "B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0"
-_EQUATION_51 = "omega1^2 + (omega2 + B2)^2 - I*B2/B3*(omega2 + B2)*(omega3 + B3) = (1 - I)*B2^2"
-_A2, _A3 = "2*sin(beta)/(1 - sin(beta))", "2*sin(beta)/(1 + sin(beta))"
-
-
-def axes_line(factor: str) -> str:
-    """Return the definitions of the squared semi-axes."""
-    first, double = f"{factor}*B2^2", f"2*{factor}*B2^2*sin(beta)"
-    return f"C1s = {first}; C2s = {double}/(1 - sin(beta)); C3s = {double}/(1 + sin(beta))"
-
-
-_EQUATION_52 = "B3*(omega1^2 + omega2^2 + (2 - I)*B2*omega2)/(I*B2*(omega2 + B2))"
+_EQUATION_50, _EQUATION_51, _EQUATION_52 = (read(name, SIGNS) for name in ("(50)", "(51)", "(52)"))
 AXES = ("C1s", "C2s", "C3s")
 
 
@@ -249,34 +252,35 @@ def turned_model() -> Model:
     """Model axes turned counter-clockwise in the plane (e2, e3), and the components of omega + B' along them."""
     rolled = sympy.Matrix([[1, 0, 0], [0, cd, -sd], [0, sd, cd]])
     shifted = sympy.Matrix([omega1, omega2 + B2, omega3 + B3])
-    letters = {**LETTERS, **BETA} | {f"w{n + 1}": rolled.col(n).dot(shifted) for n in range(3)}
+    letters = {**LETTERS, **BETA, "Bp": sympy.Matrix([0, B2, B3]), "omega": sympy.Matrix([omega1, omega2, omega3])}
+    letters["axis"] = {n: rolled.col(n - 1) for n in (1, 2, 3)}
+    letters["w"] = {n: axis.dot(shifted) for n, axis in letters["axis"].items()}
+    letters |= {f"w{n}": w for n, w in letters["w"].items()} | {f"e{n + 1}": sympy.eye(3).col(n) for n in range(3)}
     return Model(letters, _angles(), phases=PHASES, domains={"p": "oblique"}, units=units.QUADRIC)
 
 
 TRIALS = (
     Trial(
         name="(50)",
-        printed=_EQUATION_50,
         model=condition_model,
         follows=r"@(49) with $\Omega_3 = \omega_3$: every $\boldsymbol{\omega}$ for which the cubic vanishes",
     ),
     Trial(
         name="(51)",
-        printed=_EQUATION_51,
         model=condition_model,
         follows="@(50), and the other way round: the two differ by the factor $B'_3$ for every "
         r"$\boldsymbol{\omega}$",
         also=(
             Part(
-                line=f"{_EQUATION_50.removesuffix(' = 0')} = B3*({_EQUATION_51.partition(' = ')[0]} - (1 - I)*B2^2)",
+                line=f"{sides(_EQUATION_50)[0]} = B3*({sides(_EQUATION_51)[0]} - (1 - I)*B2^2)",
                 model=free_model,
             ),
         ),
     ),
     Trial(
         name="text-quadric-origin",
-        printed=_EQUATION_51,
         model=origin_model,
+        signs={r"\omega_1=\omega_2=\omega_3=0\quad\text{obeys (51)}": _EQUATION_51},
         follows=r"@(51) at $\boldsymbol{\omega} = 0$",
         false=Falsehood(
             r"The surface passes through its centre $-\mathbf{B}'$",
@@ -285,19 +289,21 @@ TRIALS = (
     ),
     Trial(
         name="(52)",
-        printed=f"omega3 = {_EQUATION_52}",
         model=lambda: condition_model()[0],
         follows=r"@(50) for $\omega_2$ different from $-B'_2$",
-        corrected=f"omega3 = {_EQUATION_52}",
         corrected_also=(
             Part(line="omega2 = -B2; omega1 = sign*sqrt(1 - I)*B2; " + _EQUATION_50, model=lost_lines_model),
             Part(
-                line=f"{_EQUATION_50.removesuffix(' = 0')} = I*B2*(omega2 + B2)*({_EQUATION_52} - omega3)",
+                line=f"{sides(_EQUATION_50)[0]} = I*B2*(omega2 + B2)*({sides(_EQUATION_52)[-1]} - omega3)",
                 model=free_model,
             ),
             Part(line="condition = B3*(omega1^2 - (1 - I)*B2^2)", model=pole_model),
             Part(line="omega1^2 - (1 - I)*B2^2 > 0", model=no_lines_model),
         ),
+        corrected_signs={
+            r"\text{or}\quad\omega_2=-B'_2,\quad\omega_1=\pm\sqrt{1-I}\,B'_2,\quad\omega_3\in\mathbb{R}\quad"
+            r"\text{if}\quad I\le1": ""
+        },
         corrected_tex=(
             r"\begin{aligned} \omega_3&=\frac{B'_3[\omega_1^2+\omega_2^2+(2-I)B'_2\omega_2]}{IB'_2(\omega_2+B'_2)}"
             r"\quad\text{if}\quad\omega_2\ne-B'_2,\\ \boxed{\text{or}\quad\omega_2}&\boxed{=-B'_2,\quad\omega_1=\pm"
@@ -311,28 +317,25 @@ TRIALS = (
     ),
     Trial(
         name="(53)",
-        printed="w1 = omega1; w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3 + B3)*sin(beta/2 + pi/4);"
-        " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
         model=coordinates_model,
         follows=r"lengths from the centre $-\mathbf{B}'$ are kept, and the form @(51) becomes that of @(54)",
         defines=("w1", "w2", "w3"),
-        solves="w1^2 + w2^2 + w3^2 = length; w1^2 - w2^2/a2 + w3^2/a3 = form",
+        solves="w1^2 + w2^2 + w3^2 = length; w1^2 - w2^2/a2 + w3^2/a3 = form; sense([w1, w2, w3]) = 1",
     ),
     Trial(
         name="text-turned",
-        printed="w1 = omega1; w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3 + B3)*sin(beta/2 + pi/4);"
-        " w3 = -(omega2 + B2)*sin(beta/2 + pi/4) + (omega3 + B3)*cos(beta/2 + pi/4)",
         model=turned_model,
+        also=(Part(line=read("(53)", SIGNS), model=turned_model),),
+        signs={r"\omega'_i": "w[i]", r"\mathbf{e}'_i": "axis[i]", r"\mathbf{e}'_2": "axis[2]"},
         follows="components along the turned axes, against @(53)",
         false=Falsehood(
             "The axes are turned clockwise",
-            "w2 = (omega2 + B2)*cos(beta/2 + pi/4) + (omega3",
-            "w2 = (omega2 + B2)*cos(beta/2 + pi/4) - (omega3",
+            "*e2 + sin",
+            "*e2 - sin",
         ),
     ),
     Trial(
         name="text-beta",
-        printed="tan(beta) = B3/(I*B2)",
         model=angle_model,
         follows=r"$I^{-1} \mathbf{B}' = r (0, \cos \beta, \sin \beta)$",
         false=Falsehood(
@@ -343,7 +346,6 @@ TRIALS = (
     ),
     Trial(
         name="text-beta-range",
-        printed="pi/4 < beta/2 + pi/4 < pi/2",
         model=range_model,
         follows=r"$\tan\beta > 0$",
         check=decide_linear,
@@ -355,32 +357,29 @@ TRIALS = (
     ),
     Trial(
         name="(54)",
-        printed=f"w1^2 - w2^2/a2 + w3^2/a3 = (1 - I)*B2^2; a2 = {_A2}; a3 = {_A3}",
         model=canonical_model,
         follows="@(51) in the coordinates along its own eigenvectors",
         defines=("a2", "a3"),
     ),
     Trial(
         name="(55)",
-        printed=f"w1^2/C1s - w2^2/C2s + w3^2/C3s = -1; {axes_line('(I - 1)')}",
         model=lambda: canonical_model("above"),
         follows="@(54)",
         defines=AXES,
     ),
     Trial(
         name="text-two-sheets",
-        printed="C1s = (I - 1)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
-        model=lambda: axes_model(above=True),
+        model=lambda: axes_model(above=True, sheets=2),
         follows=r"@(55), $0 < \sin\beta < 1$ and $I > 1$",
         false=Falsehood(
             "The surface has two sheets for $I < 1$ too",
-            model=lambda: axes_model(above=False),
+            model=lambda: axes_model(above=False, sheets=2),
         ),
     ),
     Trial(
         name="text-short-cylinder",
-        printed="I = 12*r^2/(6*r^2 + h^2); I - 1 = (6*r^2 - h^2)/(6*r^2 + h^2)",
         model=shell_model,
+        signs={r">1\iff h<\sqrt6\,r": "I - 1 = (6*r^2 - h^2)/(6*r^2 + h^2)"},
         follows="the moments of the surface, integrated",
         false=Falsehood(
             "A cylindrical surface is short if it is wider than high",
@@ -390,8 +389,8 @@ TRIALS = (
     ),
     Trial(
         name="text-plane-body",
-        printed="2 - I = 2*g3/I2",
         model=plane_body_model,
+        signs={r"I=2\iff g_3=0": "2 - I = 2*g3/I2"},
         follows=r"$I = \operatorname{tr}(g) - g$ with $I_1 = I_2$",
         false=Falsehood(
             "A plane body has $I = 1$",
@@ -401,9 +400,13 @@ TRIALS = (
     ),
     Trial(
         name="text-tangent-planes",
-        printed="(omega3 + B3)^2 - B3^2"
-        " = B3^2*(omega1^2 + omega2^2)*(omega1^2 + (omega2 + 2*B2)^2)/(4*B2^2*(omega2 + B2)^2)",
         model=loop_model,
+        signs={
+            r"I=2:\quad\omega_3\ge0\ \text{or}\ \omega_3\le-2B'_3": (
+                "(omega3 + B3)^2 - B3^2 = B3^2*(omega1^2 + omega2^2)*(omega1^2 + (omega2 + "
+                "2*B2)^2)/(4*B2^2*(omega2 + B2)^2)"
+            )
+        },
         follows="@(50) with $I = 2$",
         note=r"Never negative, and zero only at $\boldsymbol{\omega} = 0$ and at $\boldsymbol{\omega} = -2 "
         r"\mathbf{B}'$: there the sheets touch the planes $\omega_3 = 0$ and $\omega_3 = -2 B'_3$.",
@@ -415,16 +418,13 @@ TRIALS = (
     ),
     Trial(
         name="(56)",
-        printed="w1^2 + w3^2/a3 = w2^2/a2",
         model=lambda: canonical_model("one"),
         follows="@(54) with $I = 1$, $a_2$ and $a_3$ as there",
     ),
     Trial(
         name="text-cone-semi-axes",
-        printed="w1^2 + w3^2/a3^2 = w2^2/a2^2",
         model=lambda: canonical_model("one"),
         follows="@(54) with $I = 1$",
-        corrected="w1^2 + w3^2/a3 = w2^2/a2",
         corrected_tex=r"{\omega'_1}^2+\frac{{\omega'_3}^2}{\boxed{(\sqrt{a_3})^2}}=\frac{{\omega'_2}^2}{\boxed{("
         r"\sqrt{a_2})^2}}",
         grade="wording",
@@ -432,25 +432,24 @@ TRIALS = (
     ),
     Trial(
         name="(57)",
-        printed=f"w1^2/C1s - w2^2/C2s + w3^2/C3s = 1; {axes_line('(1 - I)')}",
         model=lambda: canonical_model("below"),
         follows="@(54)",
         defines=AXES,
     ),
     Trial(
         name="text-one-sheet",
-        printed="C1s = (1 - I)*B2^2 > 0; C2s = a2*C1s > 0; C3s = a3*C1s > 0",
-        model=lambda: axes_model(above=False),
+        model=lambda: axes_model(above=False, sheets=1),
         follows=r"@(57), $0 < \sin\beta < 1$ and $I < 1$",
         false=Falsehood(
             "The surface has one sheet for $I > 1$ too",
-            model=lambda: axes_model(above=True),
+            model=lambda: axes_model(above=True, sheets=1),
         ),
     ),
     Trial(
         name="text-not-all",
-        printed=f"{_EQUATION_50}; omega1*B2 > 0",
         model=leaving_points_model,
+        also=(Part(line=_EQUATION_50, model=leaving_points_model),),
+        signs={r"\omega_1B'_2\ne0\implies": "", r"\dot\Omega_3(0)": "rate"},
         follows=(
             r"points of the quadric with $\omega_1 > 0$, at which $\Omega_3$ starts with the rate $\omega_1 "
             "B'_2$, @theorem-points"
@@ -459,8 +458,8 @@ TRIALS = (
         "quadric is its mirror image.",
         false=Falsehood(
             r"At every point of the quadric $\Omega_3$ starts with the rate zero",
-            "omega1*B2 > 0",
-            "omega1*B2 = 0",
+            "rate != 0",
+            "rate = 0",
         ),
     ),
 )

@@ -1,8 +1,8 @@
 """The recorded verdicts, kept beside the proofs: a page is drawn from them and never waits for a proof.
 
 `source(name)` is a fingerprint of everything that a proof depends on: the files of the machinery, the file of the
-topic and the topics that it builds on, comments and blank lines aside. A recorded verdict is current if its
-fingerprint is.
+topic and the topics that it builds on, comments and blank lines aside, and the TeX that is shown. A recorded verdict is
+current if its fingerprint is.
 """
 
 import hashlib
@@ -15,12 +15,12 @@ from typing import Any
 
 from atlas import files
 from atlas.errors import AtlasError
-from atlas.paper import EQUATIONS, topic
+from atlas.paper import EQUATIONS, equation, topic
 from atlas.proof.verdict import Verdict
 
 FOLDER = Path(__file__).resolve().parent
 VERDICTS = FOLDER / "verdicts.json"
-MACHINERY = ("notation", "dimensions", "model", "identity", "decide", "trial")
+MACHINERY = ("notation", "tex", "dimensions", "model", "identity", "decide", "trial")
 
 
 @cache
@@ -47,7 +47,8 @@ def _fingerprint(stem: str, machinery: tuple[str, ...]) -> str:
 
 def source(name: str) -> str:
     """Return the fingerprint of the proof of an entry of the ledger."""
-    return _fingerprint(topic(name), MACHINERY)
+    parts = (_fingerprint(topic(name), MACHINERY), equation(name).tex)
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
 def load(path: Path = VERDICTS) -> dict[str, Verdict]:

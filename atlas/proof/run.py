@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -54,8 +55,10 @@ def limit(seconds: float) -> Iterator[None]:
 
 @cache
 def trials(stem: str) -> dict[str, Trial]:
-    """Return the trials of one topic by name."""
-    return {trial.name: trial for trial in import_module(f"atlas.proof.{stem}").TRIALS}
+    """Return the trials of one topic by name; what its `SIGNS` say holds for all of them."""
+    module = import_module(f"atlas.proof.{stem}")
+    signs: dict[str, str] = getattr(module, "SIGNS", {})
+    return {trial.name: replace(trial, signs={**signs, **trial.signs}) for trial in module.TRIALS}
 
 
 def trial(name: str) -> Trial:

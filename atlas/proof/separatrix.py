@@ -137,7 +137,7 @@ _TURNED = (
 TRIALS = (
     Trial(
         name="theorem-steady",
-        printed=f"q = {_q}; at(q,r) = 0; slope(q,r) = 2*(1 - r^2)*(M3*w - r*(w^2 + A)); G - A*r^2 = w^2*(1 - r^2)",
+        tried=f"q = {_q}; at(q,r) = 0; slope(q,r) = 2*(1 - r^2)*(M3*w - r*(w^2 + A)); G - A*r^2 = w^2*(1 - r^2)",
         model=steady_model,
         follows=r"@theorem-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, and "
         "$q'$ then has the factor",
@@ -152,7 +152,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-nutation",
-        printed=f"q = {_q}; at(q,r) = 0; slope(q,r) = 0; -1/2*bend(q,r) = w^2 - A*(3*r^2 - 1) + A^2*r^2/w^2;"
+        tried=f"q = {_q}; at(q,r) = 0; slope(q,r) = 0; -1/2*bend(q,r) = w^2 - A*(3*r^2 - 1) + A^2*r^2/w^2;"
         " w^2 - A*(3*r^2 - 1) + A^2*r^2/w^2 = (w - A*r/w)^2 + A*(1 - r)*(1 + 3*r)"
         " = (w + A*r/w)^2 + A*(1 + r)*(1 - 3*r); momentum*(k + b) = hB3*((k + b)^2 + (I - 1)*b^2)",
         model=precession_model,
@@ -170,7 +170,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-companion-range",
-        printed=f"{_q} = A*(nu - r)^2*((nu + r)^2 - (1 - z)*(z - r^2)/z); z = -w^2/A",
+        tried=f"{_q} = A*(nu - r)^2*((nu + r)^2 - (1 - z)*(z - r^2)/z); z = -w^2/A",
         model=range_model,
         follows="@theorem-steady with $A = -w^2/z$, $z = w^2/((1-I) b^2)$",
         false=Falsehood(
@@ -181,7 +181,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-companion-roots",
-        printed="(1 + g^2)*r = -x; M3 = w*g^2/(1 + g^2)*x; -A = w^2*(1 + g^2); c = A*(r - e)*(3*r + e);"
+        tried="(1 + g^2)*r = -x; M3 = w*g^2/(1 + g^2)*x; -A = w^2*(1 + g^2); c = A*(r - e)*(3*r + e);"
         f" {_q} = A*(nu - r)^2*(nu - e)*(nu + 2*r + e)",
         model=family_model,
         follows=r"@theorem-companion-range with $z = 1/(1 + g^2)$, $g = \tan\kappa$, $x = \cos (2 \delta - "
@@ -196,7 +196,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-companion",
-        printed=_SPINOR,
+        tried=_SPINOR,
         model=family_model,
         follows="@theorem-top and @theorem-cayley-klein by substitution, $T = S/C$",
         defines=("L", "ar", "ai", "br", "bi", "N1", "N2", "x"),
@@ -211,7 +211,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-companion-nutation",
-        printed="S2 = T^2/(1 - c*T^2);"
+        tried="S2 = T^2/(1 - c*T^2);"
         " x = r + (e - r)*(1 - c*T^2)/(1 - A*(e - r)^2*T^2) = r + (e - r)/(1 + (c - A*(e - r)^2)*S2)",
         model=double_model,
         follows="$T' = (1 - c T^2)/2$, $T = S/C$, $S_2 = S^2$",
@@ -225,7 +225,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-companion-triple",
-        printed="x = r - 4*r/(1 + 4*a*r^2*t^2)",
+        tried="x = r - 4*r/(1 + 4*a*r^2*t^2)",
         model=triple_model,
         follows=r"@theorem-companion-nutation with $c = 0$, $e = -3\nu_0$",
         defines=("x",),
@@ -238,7 +238,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-axis-stable",
-        printed="D = M3^2 - 4*A; M1^2 + M2^2 - A*(1 - nu^2) - M3*(p - M3)"
+        tried="D = M3^2 - 4*A; M1^2 + M2^2 - A*(1 - nu^2) - M3*(p - M3)"
         " = (M1 - 1/2*M3*n1)^2 + (M2 - 1/2*M3*n2)^2 + 1/4*D*(1 - nu^2) + 1/2*M3^2*(1 - nu)^2;"
         " d(M1^2 + M2^2 - A*(1 - nu^2)) = 0; d(p) = 0; start(D) = I^2*(Omega3 + b)^2 + 4*(1 - I)*b^2",
         model=axis_model,
@@ -253,7 +253,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-axis-escape",
-        printed="e = abs3/a - 1; c = -D; ai = M3*(1 - e)/(1 + e)*T; N1 = 1 + ai^2;"
+        tried="e = abs3/a - 1; c = -D; ai = M3*(1 - e)/(1 + e)*T; N1 = 1 + ai^2;"
         " N2 = s^2*(1 - c*T^2); x = (N1 - N2)/(N1 + N2)",
         model=escape_model,
         follows="@theorem-top and @theorem-cayley-klein by substitution, $p = M_3$, $T = S/C$",
@@ -270,7 +270,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-axis-pushed",
-        printed="d(nu)^2 = 4*dx^2/(1 + x)^4;"
+        tried="d(nu)^2 = 4*dx^2/(1 + x)^4;"
         " (1 - nu^2)*(G - A*nu^2) - (p - M3*nu)^2 = 4*x*(s1^2*(1 + x)^2 + x*(4*A - M3^2*(1 + x)^2))/(1 + x)^4",
         model=pushed_model,
         follows="@theorem-top with $p = M_3$ and $2 H - M_3^2/I - b^2 = s_1^2 + A$ at $t = 0$",
@@ -282,7 +282,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-axis-pendulum",
-        printed="x = -T",
+        tried="x = -T",
         model=pendulum_model,
         follows=r"@theorem-top by substitution, $T = \tanh(\sqrt{A} t)$",
         defines=("x",),

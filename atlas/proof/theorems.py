@@ -252,7 +252,7 @@ _MOTION = f"{_POISSON}; J*d(Omega) = cross(J*Omega,Omega) - 2*cross(g*T(R)*Bp,Om
 TRIALS = (
     Trial(
         name="theorem-quartic",
-        printed=f"Q = {_Q}",
+        tried=f"Q = {_Q}",
         model=quartic_model,
         follows="@(38) to @(41), for any state",
         defines=("Q",),
@@ -265,7 +265,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-points",
-        printed=f"at0(d(Omega3)) = omega1*B2; at0(d2(Omega3)) = {_CONDITION}",
+        tried=f"at0(d(Omega3)) = omega1*B2; at0(d2(Omega3)) = {_CONDITION}",
         model=state_model,
         follows=r"@(38) and @(39) at $t = 0$, and the cubic at $\omega_3$",
         also=(
@@ -284,7 +284,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-stability",
-        printed="minus_slope = B2^2*((1 + tau^2)*x^4 + (1 - I)*(2*tau^2 - 1)*x^2 + tau^2*(1 - I)^2)/x^2"
+        tried="minus_slope = B2^2*((1 + tau^2)*x^4 + (1 - I)*(2*tau^2 - 1)*x^2 + tau^2*(1 - I)^2)/x^2"
         " = kappa2 + (1 - I)*b2*(3*hB3s - 1) + (1 - I)^2*b2^2*hB3s/kappa2",
         model=stability_model,
         follows="@(48) as corrected, on the hyperbola @(71)",
@@ -298,7 +298,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-root",
-        printed="(E - I*(omega3 + v)^2)*(Bsquare - (c3 - omega3 - v)^2)"
+        tried="(E - I*(omega3 + v)^2)*(Bsquare - (c3 - omega3 - v)^2)"
         " - ((omega3 + v)^2 - (2 - I)*c3*(omega3 + v) + c5)^2 = v^2*(slope + (1 - I)*v*(4*B3 - v))",
         model=root_model,
         follows=r"@theorem-quartic at $\omega_3 + v$, for every elementary motion",
@@ -312,7 +312,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-stable-short",
-        printed="minus_slope - (I - 1)*B2^2 = X^2 + S^2; S = tau*(X^2 - (I - 1)*B2^2)/X",
+        tried="minus_slope - (I - 1)*B2^2 = X^2 + S^2; S = tau*(X^2 - (I - 1)*B2^2)/X",
         model=stability_model,
         follows=r"@theorem-stability, $X = \omega_2 + B'_2$",
         defines=("S",),
@@ -325,7 +325,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-band",
-        printed=f"minus_slope = B2^2*(1 + t2)*(z - ym)*(z - yp)/z; ym = {_YM}; yp = {_YP}; 8*t2 = 1 - root^2",
+        tried=f"minus_slope = B2^2*(1 + t2)*(z - ym)*(z - yp)/z; ym = {_YM}; yp = {_YP}; 8*t2 = 1 - root^2",
         model=band_model,
         follows=r"@theorem-stability with $z = x^2$, $t_2 = \tau^2 = (1 - \text{root}^2)/8$ and $0\le\text{root}<1$",
         defines=("ym", "yp"),
@@ -352,7 +352,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-band-ends",
-        printed="v = 4*B3/(1 + 4*(1 - I)*B3^2*t^2)",
+        tried="v = 4*B3/(1 + 4*(1 - I)*B3^2*t^2)",
         model=leaving_model,
         follows=r"@theorem-root with $\nu_n = 0$: $\omega_3$ is a triple root of $Q$",
         defines=("v",),
@@ -369,7 +369,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-equatorial-stability",
-        printed="minus_slope = I^2*omega3^2 - (1 - I)*B2^2",
+        tried="minus_slope = I^2*omega3^2 - (1 - I)*B2^2",
         model=lambda: equatorial_model("upright"),
         follows=r"@(48) as corrected, with $B'_3 = 0$ and $\omega_2 = -B'_2$, any $\omega_3$",
         also=(Part(line="minus_slope = X^2 - (1 - I)*B2^2", model=lambda: equatorial_model("level")),),
@@ -383,7 +383,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-ball-nutation",
-        printed="minus_slope = omega1^2 + (omega2 + B2)^2 + (omega3 + B3)^2",
+        tried="minus_slope = omega1^2 + (omega2 + B2)^2 + (omega3 + B3)^2",
         model=ball_nutation_model,
         follows="@(48) as corrected, with $I = 1$",
         note=r"So every motion of the ball is stable but the one with $\boldsymbol{\omega} = -\mathbf{B}'$. There the "
@@ -397,7 +397,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-ball-line",
-        printed="k = -b; phi = omega3 + B3; R = P*Q",
+        tried="k = -b; phi = omega3 + B3; R = P*Q",
         model=lambda: turning_model("ball"),
         follows=r"@(12) and @(16) by substitution, $\omega_2 = -B_2$, $I = 1$, any $\omega_3$",
         defines=("R",),
@@ -410,7 +410,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-equatorial-field",
-        printed="k = -B2/hB2; phi = omega3; R = P*Q",
+        tried="k = -B2/hB2; phi = omega3; R = P*Q",
         model=lambda: turning_model("equator"),
         follows=r"@(12) and @(16) by substitution, $B_3 = 0$, $\omega_2 = -B_2$, any $I$ and $\omega_3$",
         defines=("R",),
@@ -423,7 +423,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-quadric-lines",
-        printed="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0;"
+        tried="B3*(omega1^2 + omega2^2) - I*B2*omega2*omega3 + (2 - I)*B2*B3*omega2 - I*B2^2*omega3 = 0;"
         " omega1^2 = (1 - I)*B2^2; omega2 = -B2",
         model=lines_model,
         follows=r"@(50) by substitution, any $\omega_3$",
@@ -435,7 +435,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-momentum",
-        printed="dm = k*cross(hat_B,m)",
+        tried="dm = k*cross(hat_B,m)",
         model=elementary.matrix_model,
         follows=r"@(17) with $R$ of @(84) and $\boldsymbol{\Omega}$ of @(73)",
         false=Falsehood(
@@ -446,7 +446,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-moment",
-        printed="dm = mu/(2*c)*(cross(m,Bf) - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf)",
+        tried="dm = mu/(2*c)*(cross(m,Bf) - R*(hat(Omega)*I - I*hat(Omega))*T(R)*Bf)",
         model=torque_model,
         follows="@(17) and @(12), any inertia tensor; the bracket is $R$ times the rate of $R I R^T$ times $R^T$",
         false=Falsehood(
@@ -457,7 +457,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-drift",
-        printed="drift = c*cross(Eperp,Bf)/b^2",
+        tried="drift = c*cross(Eperp,Bf)/b^2",
         model=drift_model,
         follows="@(89) solved for the velocity that does not change, for either sign of the charge",
         note=r"The rest of the velocity turns about $\mathbf{B}$ by @(96) and is zero in the mean.",
@@ -469,7 +469,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-ball-rest",
-        printed="R = [[cos(alpha*t), sin(alpha*t), 0], [-sin(alpha*t), cos(alpha*t), 0], [0, 0, 1]]",
+        tried="R = [[cos(alpha*t), sin(alpha*t), 0], [-sin(alpha*t), cos(alpha*t), 0], [0, 0, 1]]",
         model=rest_model,
         follows=r"@(24) by substitution with $\mathbf{m} = (0, 0, -\alpha I_0)$",
         defines=("R",),
@@ -482,7 +482,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-angles",
-        printed="psi1 = P/b/(1 - nu^2); chi1 = u - nu*psi1",
+        tried="psi1 = P/b/(1 - nu^2); chi1 = u - nu*psi1",
         model=angles_model,
         follows=r"$R = R_z(\psi) R_x(\theta) R_z(\chi)$ with any rates",
         false=Falsehood(
@@ -493,7 +493,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-cayley-klein",
-        printed="d(ca)/ca = 1/2*d(nu)/(1 + nu); 1/2*(psi1 + chi1) = 1/2*(P/b/(1 + nu) + u);"
+        tried="d(ca)/ca = 1/2*d(nu)/(1 + nu); 1/2*(psi1 + chi1) = 1/2*(P/b/(1 + nu) + u);"
         " d(sb)/sb = -1/2*d(nu)/(1 - nu); 1/2*(psi1 - chi1) = 1/2*(P/b/(1 - nu) - u)",
         model=angles_model,
         follows=r"$\xi = \cos (\theta/2) \exp (i (\psi + \chi)/2)$, $\eta = \sin (\theta/2) \exp (i (\psi - "

@@ -139,7 +139,7 @@ _CURVE = "v = n3*(w^2 + n2^2*D)/(I*n2*w)"
 TRIALS = (
     Trial(
         name="theorem-every-top",
-        printed=f"d(nu)^2 = {_q}; P/(1 - nu^2) + k2 = (p - M3*nu)/(1 - nu^2);"
+        tried=f"d(nu)^2 = {_q}; P/(1 - nu^2) + k2 = (p - M3*nu)/(1 - nu^2);"
         " Omega3 - nu*P/(1 - nu^2) = M3/I - nu*(p - M3*nu)/(1 - nu^2) + kappa*nu; d(M3) = 0; d(p) = 0; d(h) = 0",
         model=state_model,
         follows=r"the equations at any state, $g = 2h - M_3^2/I + 2 k_2 p - k_2^2$ with the kinetic energy and $U$ in "
@@ -152,7 +152,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-top-precession",
-        printed=f"q = {_q}; at(q,r) = 0; slope(q,r) = -2*(1 - r^2)*(r*w^2 - M3*w + a + A*r);"
+        tried=f"q = {_q}; at(q,r) = 0; slope(q,r) = -2*(1 - r^2)*(r*w^2 - M3*w + a + A*r);"
         " g - 2*a*r - A*r^2 = w^2*(1 - r^2)",
         model=quartic_model,
         follows=r"@theorem-every-top: $q(\nu_0) = 0$ is the last equation with $w = (p - M_3 \nu_0)/(1 - \nu_0^2)$, "
@@ -166,8 +166,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-top-nutation",
-        printed=f"q = {_q}; at(q,r) = 0; slope(q,r) = 0;"
-        " -1/2*bend(q,r) = w^2 + A*(1 - 3*r^2) - 2*a*r + (a + A*r)^2/w^2",
+        tried=f"q = {_q}; at(q,r) = 0; slope(q,r) = 0; -1/2*bend(q,r) = w^2 + A*(1 - 3*r^2) - 2*a*r + (a + A*r)^2/w^2",
         model=precession_model,
         follows=r"@theorem-top-precession: $M_3 w = \nu_0 w^2 + a + A \nu_0$",
         defines=("q",),
@@ -183,7 +182,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-sleeping-top",
-        printed=f"{_q} = (1 - sigma*nu)^2*((1 + sigma*nu)*(2*sigma*a + A*(1 + sigma*nu)) - M3^2)",
+        tried=f"{_q} = (1 - sigma*nu)^2*((1 + sigma*nu)*(2*sigma*a + A*(1 + sigma*nu)) - M3^2)",
         model=sleeping_model,
         follows=r"@theorem-every-top with $p = \sigma M_3$ and the energy of the spin",
         also=(Part(line=f"{_q} = -(1 - sigma*nu)^3*(2*sigma*a + A*(3 + sigma*nu))", model=border_model),),
@@ -195,7 +194,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-top-quadric",
-        printed=f"{_W}; {_V}; D = A + kappa^2 + a0/n3 = k3/I*(k3*(1 + 1/I) - 2*k2) + A0 + a0/n3",
+        tried=f"{_W}; {_V}; D = A + kappa^2 + a0/n3 = k3/I*(k3*(1 + 1/I) - 2*k2) + A0 + a0/n3",
         model=start_model,
         follows=r"@theorem-every-top: the rates of $\nu$ by the equations, at $t = 0$; the quadratic form is that of "
         r"@(51) with $\mathbf{n}$ in the place of $\mathbf{B}'$",
@@ -215,7 +214,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-top-hyperbola",
-        printed=f"{_W}; v = omega3 + n3/I*(k3 - 2*kappa); {_CURVE}; psi = omega2/n2;"
+        tried=f"{_W}; v = omega3 + n3/I*(k3 - 2*kappa); {_CURVE}; psi = omega2/n2;"
         " chi = omega3 - n3/n2*omega2; Omega = psi*b + chi*e3; d(b) = cross(b,Omega);"
         " J*d(Omega) + k*d(b) = cross(J*Omega + k*b,Omega) + cross(k*Omega - U*e3,b)",
         model=turns_model,

@@ -49,7 +49,7 @@ _q = "(1 - nu^2)*(g - 2*a*nu - A*nu^2) - (p - M3*nu)^2"
 TRIALS = (
     Trial(
         name="theorem-cusp",
-        printed=f"q = {_q}; at(q,r) = (1 - r^2)*(g - 2*a*r - A*r^2 - k2^2*(1 - r^2));"
+        tried=f"q = {_q}; at(q,r) = (1 - r^2)*(g - 2*a*r - A*r^2 - k2^2*(1 - r^2));"
         " p - M3*nu - k2*(1 - nu^2) = (nu - r)*(k2*(nu + r) - M3)",
         model=cusp_model,
         follows=r"@theorem-every-top: the axis stops where $\dot\nu$ and $\dot\psi$ vanish together",
@@ -65,7 +65,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-focus",
-        printed="D = M3^2 - 4*(s*a + A); u1 = M1 - 1/2*s*M3*b1; u2 = M2 - 1/2*s*M3*b2;"
+        tried="D = M3^2 - 4*(s*a + A); u1 = M1 - 1/2*s*M3*b1; u2 = M2 - 1/2*s*M3*b2;"
         " g - 2*s*a - A - s*M3*(p - s*M3) = u1^2 + u2^2 + 1/4*D*(b1^2 + b2^2) + (1/2*M3^2 - s*a)*(1 - s*nu)^2;"
         " p - s*M3 = u1*b1 + u2*b2 - 1/2*s*M3*(1 - s*nu)^2",
         model=spin_model,
@@ -83,7 +83,7 @@ TRIALS = (
     ),
     Trial(
         name="theorem-residue",
-        printed="limit((nu - s)*P,s) = -1/2*s*(p - s*M3); at(q,s) = -(p - s*M3)^2;"
+        tried="limit((nu - s)*P,s) = -1/2*s*(p - s*M3); at(q,s) = -(p - s*M3)^2;"
         " limit((nu - s)*C,s) = -s*limit((nu - s)*P,s)",
         model=residue_model,
         follows=r"@theorem-every-top, $q(\sigma) = -(p - \sigma M_3)^2$; $P$, $C$ are the rates "

@@ -1,8 +1,10 @@
 """A trial: what the paper prints, what stands before it, and what the verdict rests on."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
+from atlas.paper import EQUATIONS
+from atlas.proof import tex
 from atlas.proof.decide import Outcome, decide
 from atlas.proof.model import Model
 from atlas.proof.verdict import Grade
@@ -53,35 +55,42 @@ class Falsehood:
 class Trial:
     r"""The trial of one entry of the ledger.
 
-    printed    the form as printed, in the letters of `notation`
     model      what stands before it, made when it is needed; several cases where the claim covers them all
     follows    from what the printed form is derived, in a few words
+    signs      what letters and phrases of its TeX mean, where its topic does not say so; see `tex`
+    tried      the line that is tried where its TeX can't be read: a sentence
+    form       what the line becomes that is made from the TeX, such as `notation.conserved`
+    tex        the TeX, if it is not that of the ledger
     defines    letters that the printed form defines
     solves     what must hold with these
     also       further lines that the claim needs
     definition whether the entry says nothing but what its letters mean: then it is a definition and not proved
     grade      what kind of slip it is, if it needs an erratum: it is refuted, or true but not the whole truth
     slip       the entry under which the slip is counted, if it is the same one
-    corrected  the true form where there is a slip, with its TeX, in which `\boxed` marks what has changed;
-               `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from those of the printed
-               form, and `corrected_also`
+    corrected_tex  the true form where there is a slip, in which `\boxed` marks what has changed; `corrected_signs`,
+               `corrected_tried`, `corrected_model`, `corrected_defines`, `corrected_solves` where they differ from
+               those of the printed form, and `corrected_also`
     note       what the verdict means, where it needs a word
     false      a false sentence near it; a claim in words must have one, unless it is refuted itself
     check      how the lines are decided, if not by `decide`
     """
 
     name: str
-    printed: str
     model: Callable[[], Cases]
     follows: str
+    signs: Mapping[str, str] = field(default_factory=dict)
+    tried: str = ""
+    form: Callable[[str], str] = str
+    tex: str = ""
     defines: tuple[str, ...] = ()
     solves: str = ""
     also: tuple[Part, ...] = ()
     definition: bool = False
     grade: Grade = ""
     slip: str = ""
-    corrected: str = ""
     corrected_tex: str = ""
+    corrected_signs: Mapping[str, str] = field(default_factory=dict)
+    corrected_tried: str = ""
     corrected_model: Callable[[], Cases] | None = None
     corrected_defines: tuple[str, ...] | None = None
     corrected_solves: str | None = None
@@ -89,6 +98,18 @@ class Trial:
     note: str = ""
     false: Falsehood | None = None
     check: Check = decide
+
+    @property
+    def printed(self) -> str:
+        """The printed form in plain letters. Raises UnreadableError if its TeX can't be read."""
+        return self.tried or self.form(tex.line(self.tex or EQUATIONS[self.name].tex, self.signs))
+
+    @property
+    def corrected(self) -> str:
+        """The true form in plain letters, empty if there is no slip. Raises UnreadableError if it can't be read."""
+        if not self.corrected_tex:
+            return ""
+        return self.corrected_tried or self.form(tex.line(self.corrected_tex, {**self.signs, **self.corrected_signs}))
 
     @property
     def parts(self) -> tuple[Part, ...]:
@@ -128,7 +149,11 @@ class Trial:
 
     def of_printed(self, *, shrink: bool = False) -> Outcome:
         """Try the printed form; a definition that holds is called one."""
-        found = _joined([part.outcome(shrink=shrink) for part in self.parts])
+        try:
+            parts = self.parts
+        except tex.UnreadableError as reason:
+            return Outcome("undecided", f"unreadable: {reason}")
+        found = _joined([part.outcome(shrink=shrink) for part in parts])
         if self.definition and found.decision == "proved":
             return Outcome("definition", "it says what its letters mean")
         return found
@@ -136,6 +161,11 @@ class Trial:
     def of_corrected(self) -> Outcome:
         """Try the corrected form."""
         return _joined([part.outcome() for part in self.corrected_parts])
+
+
+def read(name: str, signs: Mapping[str, str]) -> str:
+    """Return an entry of the ledger as a line in plain letters."""
+    return tex.line(EQUATIONS[name].tex, signs)
 
 
 def _joined(outcomes: Sequence[Outcome]) -> Outcome:

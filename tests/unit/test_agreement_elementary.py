@@ -62,7 +62,7 @@ def field(say: Ledger, p: Any) -> Any:
 
 def field_seen(say: Ledger, p: Any) -> Any:
     """Return K(t) = B' R, (32)."""
-    return say("(32)", "K", Bprime=[0, *p.field], R=rotation(say, p, p.t), BR=lambda B, R: R.T * B)
+    return say("(32)", "K", Bp=[0, *p.field], R=rotation(say, p, p.t))
 
 
 def momentum(say: Ledger, p: Any, t: Any) -> Any:
@@ -73,7 +73,7 @@ def momentum(say: Ledger, p: Any, t: Any) -> Any:
 def invariants(say: Ledger, p: Any) -> list[Any]:
     """Return E', K^2, c3, c5 and (m, B')/I2 at t = 0."""
     given = {"omega1": 0, "omega3": elementary(say, p)["omega3"], **letters(p, "omega2 I B2 B3")}
-    four = [("(36)", "at0(E)"), ("(37)", "at0(K1^2 + K2^2 + K3^2)"), ("(40)", "at0(c3)"), ("(41)", "at0(c5)")]
+    four = [("(36)", "at0(E)"), ("(37)", "at0(K^2)"), ("(40)", "at0(c3)"), ("(41)", "at0(c5)")]
     m = sympy.Matrix(momentum(say, p, 0))
     along = say("(88)", "0", d=lambda x: x, m=m, Bp=[0, *p.field])
     return [*(say(name, side, **given) for name, side in four), along]
@@ -265,7 +265,7 @@ PRECESSION = (
         "ElementaryMotion.beside",
         "text-affirmation-free",
         lambda f, p: motion(f, p).beside.angular_velocity(0.0),
-        lambda say, p: say("text-affirmation-free", "Omega0", **letters(p, "omega2 I2 I3 B2 B3")),
+        lambda say, p: say("text-affirmation-free", "at0(Omega)", **letters(p, "omega2 I2 I3 B2 B3")),
         POINTS,
         size=length,
         floors=("core",),

@@ -86,7 +86,7 @@ def conserved_along(say: Ledger, p: Any) -> Any:
     """Return (K, I (Omega + K)) by c5 of (41), (40) and (37): I2 [c5 + K^2 - (1 - I) c3^2]."""
     c3 = say("(40)", "c3", **symmetric(p, STATE))
     c5 = say("(41)", "c5", c3=c3, I=p.I, **symmetric(p, STATE))
-    return p.I2 * (c5 + say("(37)", "0", d=lambda x: x, **symmetric(p, STATE)) - (1 - p.I) * c3**2)
+    return p.I2 * (c5 + say("(37)", "0", d=lambda x: x, K=p.K) - (1 - p.I) * c3**2)
 
 
 def energy(say: Ledger, p: Any) -> Any:
@@ -146,7 +146,7 @@ EQUATIONS = (
         "euler_poisson.field_in_body",
         "(32)",
         lambda f, p: f.euler_poisson.field_in_body(p.R, p.B),
-        lambda say, p: say("(32)", "K", Bprime=p.B, R=p.R, BR=lambda B, R: R.T * B),
+        lambda say, p: say("(32)", "K", Bp=p.B, R=p.R),
         POINTS,
         size=lambda _true, p: norm(p.R) * norm(p.B),
         floors=("core",),
@@ -293,7 +293,7 @@ MATTER = (
         "SymmetricBody.mass_matrix",
         "text-mass-matrix",
         lambda f, p: f.SymmetricBody(float(p.I2), float(p.I3)).mass_matrix,
-        lambda say, p: [say("text-mass-matrix", f"g{n}", **letters(p, "I2 I3")) for n in (1, 2, 3)],
+        lambda say, p: say("text-mass-matrix", "g", diag=sympy.diag, **letters(p, "I2 I3")).diagonal(),
         SYMMETRIC,
         size=lambda _true, p: float(p.I2),
         floors=("core",),
@@ -318,7 +318,7 @@ MATTER = (
         "Field.prime",
         "(32)",
         lambda f, p: f.Field(p.B, mu=p.mu, c=p.c).prime,
-        lambda say, p: say("(32)", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B),
         POINTS,
         floors=("core",),
     ),
@@ -326,7 +326,7 @@ MATTER = (
         "units.prime",
         "(32)",
         lambda f, p: f.units.prime(p.mu, p.B, p.c),
-        lambda say, p: say("(32)", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B),
         POINTS,
         floors=("core",),
     ),
@@ -335,7 +335,7 @@ MATTER = (
         "(27) (32)",
         lambda f, p: [f.units.larmor_field(p.mu, p.B), f.units.larmor_field(p.mu, p.c, "Gaussian")],
         lambda say, p: [
-            *say("(32)", "Bprime", mu=p.mu, c=1, Bf=p.B),
+            *say("(32)", "Bp", mu=p.mu, c=1, Bf=p.B),
             say("(27)", "alpha", mu=p.mu, b=p.c, c=29_979_245_800),
         ],
         POINTS,

@@ -29,14 +29,14 @@ def state(p: Any) -> dict[str, Any]:
 def at_start(say: Ledger, p: Any) -> dict[str, Any]:
     """Return E', K^2, c3, c5 by what they are at t = 0."""
     given = letters(p, "I B2 B3 omega1 omega2 omega3")
-    sides = {"E": ("(36)", "at0(E)"), "Bsquare": ("(37)", "at0(K1^2 + K2^2 + K3^2)")}
+    sides = {"E": ("(36)", "at0(E)"), "Bsquare": ("(37)", "at0(K^2)")}
     sides |= {"c3": ("(40)", "at0(c3)"), "c5": ("(41)", "at0(c5)")}
     return {name: say(entry, side, **given) for name, (entry, side) in sides.items()}
 
 
 def in_motion(say: Ledger, p: Any) -> dict[str, Any]:
     """Return the same of any state."""
-    found = {"E": say("(36)", "E", I=p.I, **state(p)), "Bsquare": say("(37)", "0", d=lambda x: x, **state(p))}
+    found = {"E": say("(36)", "E", I=p.I, **state(p)), "Bsquare": say("(37)", "0", d=lambda x: x, K=p.K)}
     found["c3"] = say("(40)", "c3", **state(p))
     return found | {"c5": say("(41)", "c5", I=p.I, c3=found["c3"], **state(p))}
 
@@ -165,7 +165,7 @@ TIES = (
             "(49)",
             "ddOmega3",
             Omega3=p.u,
-            Bsquare=say("(37)", "at0(K1^2 + K2^2 + K3^2)", **letters(p, "B2 B3")),
+            Bsquare=say("(37)", "at0(K^2)", **letters(p, "B2 B3")),
             **letters(p, "I B2 B3 omega1 omega2 omega3"),
         ),
         POINTS,

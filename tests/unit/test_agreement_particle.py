@@ -208,7 +208,7 @@ TIES = (
         "ParticleMotion.prime",
         "(32)",
         lambda f, p: motion(f, p).prime,
-        lambda say, p: say("(32)", "Bprime", mu=p.mu, c=p.c, Bf=p.B),
+        lambda say, p: say("(32)", "Bp", mu=p.mu, c=p.c, Bf=p.B),
         POINTS,
         floors=("core",),
     ),

@@ -144,7 +144,7 @@ def test_a_trial_that_cannot_fail_is_found_out() -> None:
     """That the masses balance says nothing of the electric field: with unequal charges the trial must say no."""
     electric = trial("text-electric-field")
     assert electric.false_part.outcome(sample_only=True).decision == "refuted"
-    vacuous = replace(electric, printed="0 = m[N]*(x[N] - x[N])")
+    vacuous = replace(electric, tried="0 = m[N]*(x[N] - x[N])")
     assert vacuous.of_printed().decision == "proved"
     assert vacuous.false_part.outcome(sample_only=True).decision == "supported"
 
@@ -299,14 +299,14 @@ def _wrong(name: str, **changes: str) -> run.Verdict:
 def test_a_broken_entry_turns_the_run_red(name: str, right: str, wrong: str) -> None:
     """A formula of the ledger that is changed is refuted, and that differs from what is recorded."""
     assert right in trial(name).printed
-    found = _wrong(name, printed=trial(name).printed.replace(right, wrong, 1))
+    found = _wrong(name, tried=trial(name).printed.replace(right, wrong, 1))
     assert found.verdict == "refuted"
     assert [changed[0] for changed in recorded.differs([found], RECORDED)] == [name]
 
 
 def test_a_correction_that_is_wrong_too_turns_the_run_red() -> None:
     """A refuted entry whose corrected form isn't proved doesn't count as settled."""
-    broken = replace(trial("(48)"), corrected=trial("(48)").corrected.replace("6*(1 - I)", "5*(1 - I)"))
+    broken = replace(trial("(48)"), corrected_tex=trial("(48)").corrected_tex.replace("6(1-I)", "5(1-I)"))
     assert broken.of_corrected().decision == "refuted"
 
 

@@ -54,9 +54,9 @@ def test_free_indices_make_vectors_and_matrices() -> None:
 
 def test_functions_are_letters_too() -> None:
     """What d does is for the caller to say, and a function that is not given is missed."""
-    assert value("(37)", "0", d=lambda square: square, K1=1, K2=2, K3=3) == 14
+    assert value("(37)", "0", d=lambda square: square, K=[1, 2, 3]) == 14
     with pytest.raises(AtlasError, match="needs the value of d too"):
-        value("(37)", "0", K1=1, K2=2, K3=3)
+        value("(37)", "0", K=[1, 2, 3])
 
 
 def test_a_missing_letter_is_named() -> None:

@@ -52,8 +52,8 @@ def test_index_formulas_mean_what_they_say(line: str) -> None:
 def test_a_chain_is_several_relations() -> None:
     """A = b = c says a = b and b = c."""
     assert [found.text for found in Reader(LETTERS).relations("x = 2*x = 3*x; x < 4")] == [
-        "x = 2 * x",
-        "2 * x = 3 * x",
+        "x = 2*x",
+        "2*x = 3*x",
         "x < 4",
     ]
 
