@@ -356,7 +356,7 @@ class Fake:
     """A closed form of which nothing is known but what it says."""
 
     def __init__(self, proved: float | None, accuracy: float) -> None:
-        self.proved, self.accuracy = proved, accuracy
+        self.proved, self.accuracy, self.fits = proved, accuracy, True
 
 
 @pytest.mark.parametrize(
@@ -387,9 +387,22 @@ def test_a_closed_form_is_held_against_the_twin(
     monkeypatch.setattr(kernels, "closed_form", lambda *_: fake)
     monkeypatch.setattr(kernels.SingleAsymmetric, "_difference", lambda *given: (asked.append(given[-1]), apart)[1])
     one = kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, -2.0, 0.2)))
+    assert one.closed is fake  # whose theta functions fit
+    assert not asked
     assert re.match(words, one.agreement)
     assert asked == pytest.approx(times, rel=1e-12)
     assert (one.closed is fake) == (not words.startswith("^cert"))
+
+
+def test_theta_functions_that_fit_badly_are_held_against_the_twin_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before anything is asked of them: where they are wrong, they are never taken."""
+    fake = Fake(1e-40, 5e-15)
+    fake.fits = False
+    monkeypatch.setattr(kernels, "closed_form", lambda *_: fake)
+    for apart, taken in ((6e-15, False), (4e-15, True)):
+        monkeypatch.setattr(kernels.SingleAsymmetric, "_difference", lambda *_, apart=apart: apart)
+        one = kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0.2, 1.0, 0.6), (0.3, -2.0, 0.2)))
+        assert (one.closed is fake) == taken
 
 
 def test_a_grid_has_the_exact_start_where_it_meets_it() -> None:

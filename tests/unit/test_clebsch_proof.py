@@ -298,7 +298,7 @@ def test_a_rough_start_is_found_to_nine_digits() -> None:
     rough, target = Rough(theta), np.array([complex_of(x) for x in theta.at_start.all[:6]])
     X = np.array([[complex_of(theta.X[i, j]) for j in range(2)] for i in range(2)])
     times = X @ np.array([complex_of(x) for x in theta.start])
-    found = rough.near(times + np.array([0.1, -0.1]), target)
+    found = rough.near(times[None] + np.array([0.1, -0.1]), target)
     assert found is not None
     assert np.linalg.norm(rough.states(found[None])[0] - target) < 1e-9 * np.linalg.norm(target)
 

@@ -42,14 +42,24 @@ class SingleAsymmetric:
         self.certified = Certified(exact, self.size)
 
     @cached_property
-    def _choice(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
-        """The closed form if there is one, and what is known of its truth, or why there is none."""
+    def _first(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
+        """The closed form if there is one, held against nothing yet; and what is known of it, or why there is none."""
         elliptic = self.exact.elliptic
         if elliptic is not None:
             return self._elliptic(elliptic)
         try:
-            closed = closed_form(self.exact, self.size)
-            times = CHECKED if closed.proved is None else CHECKED[-1:]
+            return closed_form(self.exact, self.size), ""
+        except NotCertifiedError as reason:
+            return None, f"certified at each time: {str(reason).removeprefix('not certified: ')}"
+
+    @cached_property
+    def _choice(self) -> tuple[ThetaKernel | SingleElliptic | None, str]:
+        """The closed form if there is one that is proved or agrees with the certified twin; and what is known of it."""
+        closed, known = self._first
+        if closed is None or isinstance(closed, SingleElliptic):
+            return closed, known
+        times = CHECKED if closed.proved is None else CHECKED[-1:]
+        try:
             worst = max(self._difference(closed, t / self.size) for t in times)
         except NotCertifiedError as reason:
             return None, f"certified at each time: {str(reason).removeprefix('not certified: ')}"
@@ -88,7 +98,10 @@ class SingleAsymmetric:
 
     @property
     def closed(self) -> ThetaKernel | SingleElliptic | None:
-        """The closed form by theta or Jacobi's functions, where there is one that agrees with the certified twin."""
+        """The closed form by theta or Jacobi's functions, where there is one that fits, or agrees with the twin."""
+        closed, _ = self._first
+        if closed is None or isinstance(closed, SingleElliptic) or (closed.fits and "_choice" not in vars(self)):
+            return closed
         return self._choice[0]
 
     @property
@@ -172,15 +185,16 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     - "on the discriminant": other states without two periods, for which there is an answer up to a time that the error
       states.
 
-    On a torus M, K and the attitude are quotients of theta functions of two variables: a second for the first time that
-    is asked for, then two or three microseconds each, however long. That they are is proved for each motion, see
-    `atlas.exact.motions.clebsch_proof`; where no proof is found they are held against the certified twin at a few
-    times. A free body of three moments, a spin about a principal axis and an elliptic motion are made of Jacobi's
-    functions, some milliseconds for the first time and a tenth of a microsecond for each after it. `agreement` says
-    which, and `accuracy` bounds what rounding adds. Where there is no closed form, or it
-    differs, and for other kinds, every value is proved and rounded once, in tenths of a second each. For proven digits
-    see `atlas.exact`. Raises DomainError for moments that no body has, positive and the largest at most the sum of the
-    others; NotCertifiedError, an AtlasError, for what cannot be proved; AtlasError for what is no finite number.
+    On a torus M, K and the attitude are quotients of theta functions of two variables: a third of a second for the
+    first time that is asked for, then two microseconds each, however long. That they are is proved for each motion when
+    `agreement` is asked for, see `atlas.exact.motions.clebsch_proof`; where no proof is found they are held against the
+    certified twin at a few times, and at once where the theta functions fit the motion to less than 36 digits. A free
+    body of three moments, a spin about a principal axis and an elliptic motion are made of Jacobi's functions, some
+    milliseconds for the first time and a tenth of a microsecond for each after it. `accuracy` bounds what rounding
+    adds. Where there is no closed form, or it differs, and for other kinds, every value is proved and rounded once, in
+    tenths of a second each. For proven digits see `atlas.exact`. Raises DomainError for moments that no body has,
+    positive and the largest at most the sum of the others; NotCertifiedError, an AtlasError, for what cannot be proved;
+    AtlasError for what is no finite number.
 
     Left out is the moment that the field induces in the body: with three different moments of inertia it takes the body
     out of this integrable class, and for a micrometre of glass in some teslas it is 1e5 times as strong as the square

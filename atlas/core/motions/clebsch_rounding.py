@@ -19,9 +19,7 @@ from typing import Any
 import numpy as np
 
 from atlas.core.inputs import FloatArray
-from atlas.exact.arithmetic.powers import PRODUCT
-from atlas.exact.motions.clebsch_proof import HALF
-from atlas.exact.motions.theta_sums import UNTHREADED, Array, Sums
+from atlas.exact.motions.theta_sums import HALF, PRODUCT, UNTHREADED, Array, Sums
 
 CELL, CUTS, WIDER = 24, 6, 1.02
 """Cells along each phase, how often they are cut, and how much larger than in their middles the bound may be."""
@@ -29,6 +27,9 @@ CELL, CUTS, WIDER = 24, 6, 1.02
 EXPONENTIAL = 6.0
 """Units of 2^-53 by which an exponential with what its argument lacks is wrong, if the library's and its sines are
 within an ulp: two of both, a product and a sum."""
+
+EXPONENTIALS = EXPONENTIAL, EXPONENTIAL + PRODUCT / 2
+"""That of w_1; and of the root of w_2^2 as it is rounded, by a product."""
 
 PHASE = 0.6
 """Those by which half a phase is wrong, see `atlas.core.arithmetic.phase`."""
@@ -74,17 +75,21 @@ class Rounding:
     b: float
     size: float
 
-    def accuracy(self) -> float:
-        """Return a bound on errors of R, and of K and Omega beside the largest rate, at all phases, to first order."""
+    def accuracy(self, enough: float = 0.0) -> float:
+        """Return a bound on errors of R, and of K and Omega beside the largest rate, at all phases, to first order.
+
+        It is no tighter than one that is said to be enough.
+        """
         half = np.pi * HALF / CELL
         line = np.linspace(half - np.pi * HALF, np.pi * HALF - half, CELL)
         cells = np.stack(np.meshgrid(line, line), 0).reshape(2, -1)
         if not self.sums.reach * abs(self.into.imag).sum(axis=1).max() * np.pi * HALF < FARTHEST:
             return float("inf")
-        enough = found = 0.0
+        enough, found = enough * 2.0**53, 0.0
         for last in range(CUTS + 1):
-            enough = max(enough, WIDER * float(self.wrong(cells, 0.0).max()))
             wrong = self.wrong(cells, half)
+            if not wrong.max() <= enough:
+                enough = max(enough, WIDER * float(self.wrong(cells, 0.0).max()))
             done = (wrong <= enough) | (last == CUTS)
             found = max(found, float(wrong[done].max(initial=0.0)))
             half /= 2
@@ -110,8 +115,7 @@ class Rounding:
 
     def _places(self, p: FloatArray) -> list[FloatArray]:
         """Return P and Q of the terms, less p."""
-        sums = self.sums
-        return [np.arange(a, b + 1) - c - n for a, b, c, n in zip(sums.low, sums.high, sums.centre, p, strict=True)]
+        return [self.sums.P - p[0], self.sums.Q - p[1]]
 
     def _wrong(self, p: FloatArray, cells: FloatArray, half: float) -> FloatArray:
         """Return the bounds in cells where terms near p are largest."""
@@ -136,9 +140,9 @@ class Rounding:
         size = abs(y)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             moved = np.zeros(size.shape)
-            for g, slope, mix, x in zip(G, slopes, mixed, self.into, strict=True):
+            for g, slope, mix, x, off in zip(G, slopes, mixed, self.into, EXPONENTIALS, strict=True):
                 change = abs(g) + half * (mix + size * mix[D]) + varying * (abs(slope[D]) + half * mix[D])
-                moved += (EXPONENTIAL + PHASE * abs(x).sum()) * change / least
+                moved += (off + PHASE * abs(x).sum()) * change / least
             moved[:3] *= turned.reshape(-1, 4).max(axis=-1)
             found = self._of_quotients(wrong / least, moved, size + varying)
         return np.where(least > 0, found, np.inf)

@@ -8,12 +8,13 @@ phases in turns, n the whole ones that are left out of f t, and theta_k the angl
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from itertools import chain
 from typing import Any
 
 import numpy as np
-from flint import acb, arb
+from flint import acb, arb, fmpq
 
 from atlas.core.arithmetic.circle import signs
 from atlas.core.arithmetic.grid import check_grid
@@ -27,10 +28,9 @@ from atlas.core.nutation.grid import moments
 from atlas.errors import NotCertifiedError
 from atlas.exact.motions.asymmetric import AsymmetricMotion
 from atlas.exact.motions.clebsch_periods import complex_of
-from atlas.exact.motions.clebsch_proof import HALF, distances
 from atlas.exact.motions.clebsch_theta import ThetaMotion, frame
-from atlas.exact.motions.theta_sums import Array, Sums
-from atlas.exact.motions.torus import Period, Torus
+from atlas.exact.motions.theta_sums import HALF, Array, Sums
+from atlas.exact.motions.torus import Period, Torus, frequencies
 from atlas.formulas.numbers import workprec
 
 PART = 768
@@ -45,8 +45,11 @@ CUT = np.array(1.5 * 2.0 ** (52 - UPPER))
 BITS = 200
 """Precision of the constants."""
 
-PERIODS = 128
-"""Bits to which the real periods are proved: those that the certified twin needs, too."""
+PERIODS = 160
+"""Bits to which the real periods are proved."""
+
+FITS = 1e-36
+"""Largest misfit of theta functions that are taken before they are proved or held against the certified twin."""
 
 PROVED = 2.0**-54
 """Largest bound on errors of the formulas that is a proof of them."""
@@ -63,26 +66,30 @@ SIZES, NEIGHBOURS = (32, 64, 128, 256, 512), 0.5
 
 
 class ThetaKernel:
-    """R, K and W = II^-1 M of one motion at many times; `periods` are those of its torus, `rate` the unit 1/time.
+    """R, K and W = II^-1 M of one motion at many times; `rate` is the unit 1/time, `size` the largest rate in it.
 
-    `proved` bounds what its formulas, without rounding, are wrong by at any time; None where there is no proof.
+    `accuracy` bounds rounding errors, `proved` what the formulas, without rounding, are wrong by at any time: None
+    where there is no proof. Both are found when they are asked for.
     """
 
-    def __init__(self, theta: ThetaMotion, periods: tuple[Period, Period], rate: float, size: float) -> None:
+    def __init__(self, theta: ThetaMotion, torus: Torus, rate: fmpq, size: float) -> None:
+        self._made_of = theta, torus
         with workprec(BITS):
             motion, X = theta.motion, theta.X.inv()
-            area = periods[0].H * periods[1].F - periods[0].F * periods[1].H
-            f = [periods[1].F / area, -periods[0].F / area]
+            self.b = arb(motion.square).sqrt()
+            periods = [Period(H.real, F.real, -self.b * along.real) for H, F, along in theta.lattice.real]
+            if not self.fits:
+                periods = [Period(p.H.mid(), p.F.mid(), p.angle.mid()) for p in torus.periods(PERIODS)]
             into = [[X[i, 0] * p.H + X[i, 1] * p.F for p in periods] for i in range(2)]
             lines = [theta.l[0] * into[0][k] + theta.l[1] * into[1][k] for k in range(2)]
-            # the angles of the periods are known but for whole turns: those nearest to what N turns by
+            # the angles of the periods are known but for whole turns
             angles = [
                 p.angle + TURN * round(float(((x.real - p.angle) / TURN).mid()))
                 for p, x in zip(periods, lines, strict=True)
-            ]
-            self.b = arb(motion.square).sqrt()
-            about = angles[0] * f[0] + angles[1] * f[1] - self.b
-            self.frequencies = [x * arb(rate) for x in (TURN * f[0], TURN * f[1], about)]
+            ]  # those nearest to what N turns by
+            periods = [replace(p, angle=angle) for p, angle in zip(periods, angles, strict=True)]
+            self.periods = periods
+            self.frequencies = [x * rate for x in frequencies(periods, self.b)]
             self.phases = Phases([middle(x / TURN) for x in self.frequencies], rounder=EVEN)
             turning = [(x - a) / arb.pi() for x, a in zip(lines, angles, strict=True)]
             ways = [[2 * x for x in into[0]], into[1], turning]
@@ -99,25 +106,38 @@ class ThetaKernel:
             self.sums = Sums(theta.hat, [*forms, *W], start, rounded[:2] @ region)
             ex, ey = ([float(x.mid()) for x in e] for e in frame(theta.field))
             n = [float((x / arb(motion.square)).mid()) for x in theta.field]
-        self.rate, self.size = rate, size / rate
-        self.axis = np.array(n)
+        self.rate, self.axis = int(rate.p) / int(rate.q), np.array(n)
+        self.size = size / self.rate
         self.entries = np.array([np.outer(e, np.eye(3)[j]).ravel() for e in (ex, ey, n) for j in range(3)])
         self.rounding = Rounding(self.sums, rounded[:2], rounded[2], float(self.b.mid()), self.size)
-        self.accuracy = self.rounding.accuracy()
-        self.proved: float | None = None
         tau = np.array([[complex_of(theta.tau[i, j]) for j in range(2)] for i in range(2)])
         self.riemann_matrix = np.where(abs(tau.real) < NOTHING, 0, tau.real) + 1j * np.where(
             abs(tau.imag) < NOTHING, 0, tau.imag
         )
 
-    def prove(self, theta: ThetaMotion, torus: Torus, periods: tuple[Period, Period]) -> None:
-        """Prove the closed form for this motion, if that can be done: see `atlas.exact.motions.clebsch_proof`."""
+    @property
+    def fits(self) -> bool:
+        """Whether the integrals that it is made of are as precise as they should be."""
+        return self._made_of[0].misfit < FITS
+
+    @cached_property
+    def accuracy(self) -> float:
+        """Bound on errors by rounding: of R, and of K and Omega beside the largest rate, at all phases."""
+        return self.rounding.accuracy()
+
+    @cached_property
+    def proved(self) -> float | None:
+        """Bound on what the formulas are wrong by at any time up to phases of 2^50; None where it is not proved."""
+        from atlas.exact.motions.clebsch_proof import distances, drifts
+
+        theta, torus = self._made_of
         try:
-            M, K, N = distances(theta, torus, periods)
+            periods = torus.periods(PERIODS)
+            M, K, N = distances(theta, torus, periods) + drifts(theta, periods, self.periods)
         except NotCertifiedError:
-            return
+            return None
         error = max(N + K / float(self.b.mid()), (K + M / float(arb(min(torus.moments)).mid())) / self.size)
-        self.proved = error if error <= PROVED else None
+        return error if error <= PROVED else None
 
     def rotation(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R(t), shape (..., 3, 3)."""
@@ -269,13 +289,12 @@ def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
         raise NotCertifiedError(f"not certified: the kind of motion is {exact.kind!r}, not 'on a torus'.")
     torus = motion.torus
     try:
-        theta, periods = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice), torus.periods(PERIODS)
-        found = ThetaKernel(theta, periods, int(motion.rate.p) / int(motion.rate.q), size)
+        theta = ThetaMotion(torus.integrals, torus.W, torus.K, torus.lattice)
+        found = ThetaKernel(theta, torus, motion.rate, size)
     except NotCertifiedError:
         raise
     except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:  # infinite, or not a number, or singular
         raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
-    if not found.accuracy <= LOST:
+    if not found.rounding.accuracy(LOST) <= LOST:
         raise NotCertifiedError(f"not certified: rounding would be wrong by up to {found.accuracy:.1e} in its sums.")
-    found.prove(theta, torus, periods)
     return found

@@ -9,6 +9,7 @@ left goes by Taylor series, `atlas.exact.motions.clebsch_flow`:
 Nothing is taken from the theory of theta functions but where to look for the periods, which are then proved.
 """
 
+from dataclasses import replace
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -22,7 +23,7 @@ from atlas.exact.motions.elliptic import EllipticMotion
 from atlas.exact.motions.elliptic_curve import check_moments
 from atlas.exact.motions.euler_top import EulerTop
 from atlas.exact.motions.simpler import Spin, Symmetric
-from atlas.exact.motions.torus import Torus, turned
+from atlas.exact.motions.torus import Torus, frequencies, turned
 from atlas.exact.nutation.cayley_klein import matrix
 from atlas.formulas.numbers import dot, workprec
 from atlas.formulas.numbers import nearest as nearest_float
@@ -66,13 +67,11 @@ class OnTorus:
     @property
     def frequencies(self) -> list[arb]:
         """f1, f2 of M and K and f3 about the field, in 1/time. Raises NotCertifiedError where no periods are proved."""
-        first, second = self.torus.periods(ctx.prec + GUARD)
+        periods = self.torus.periods(ctx.prec + GUARD)
         with workprec(ctx.prec + GUARD):
-            area, turn = first.H * second.F - first.F * second.H, 2 * arb.pi()
-            along = second.F / area, -first.F / area
-            angles = [period.angle - turn * nearest(period.angle / turn) for period in (first, second)]
-            about = angles[0] * along[0] + angles[1] * along[1] - self.b
-            return [x * self.rate for x in (turn * along[0], turn * along[1], about)]
+            turn = 2 * arb.pi()
+            least = [replace(p, angle=p.angle - turn * nearest(p.angle / turn)) for p in periods]
+            return [x * self.rate for x in frequencies(least, self.b)]
 
     def elliptic(self) -> EllipticMotion | None:
         """Return the elliptic motion that it is, if it is one whose z is rational."""

@@ -13,10 +13,10 @@ from flint import acb, acb_poly, arb, fmpq, fmpq_poly
 from atlas.exact.motions.clebsch_periods import Integrals, centre, complex_of, value
 from atlas.exact.motions.theta_sums import Array
 
-POINTS, TERMS = 7, 140
+POINTS, TERMS = 7, 64
 """Points of a fit, and terms of Taylor's series there."""
 
-NEAR = 3
+NEAR = 9
 """They lie on a circle that is so many times smaller than that of convergence."""
 
 Vector = list[acb]
@@ -102,9 +102,9 @@ def around(moments: Sequence[fmpq], start: State) -> list[tuple[acb, State]]:
 
 
 def fields(moments: Sequence[fmpq], state: Array) -> Array:
-    """Return the rates of M and K along the flows of H and of F/2, (6, 2)."""
+    """Return the rates of M and K (..., 6) along the flows of H and of F/2, (..., 6, 2)."""
     I = np.array([int(x.p) / int(x.q) for x in moments])
-    M, K = state[:3], state[3:]
+    M, K = state[..., :3], state[..., 3:]
     J = -I.prod() / I
-    first = np.concatenate([np.cross(M, M / I) + np.cross(K, I * K), np.cross(K, M / I)])
-    return np.column_stack([first, np.concatenate([np.cross(K, J * K), np.cross(K, M)])])
+    first = np.concatenate([np.cross(M, M / I) + np.cross(K, I * K), np.cross(K, M / I)], -1)
+    return np.stack([first, np.concatenate([np.cross(K, J * K), np.cross(K, M)], -1)], -1)

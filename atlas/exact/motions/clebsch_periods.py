@@ -17,7 +17,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from flint import acb, acb_series, arb, fmpq, fmpq_poly, fmpz_mat
+from flint import acb, arb, fmpq, fmpq_poly, fmpz_mat
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
@@ -25,6 +25,9 @@ from atlas.formulas.numbers import workprec
 
 BITS = 200
 """Precision of the integrals."""
+
+LOST = 8
+"""Fewest bits of an integrand that are known; there are fewer where zeros are next to the pole of z."""
 
 APART = 200
 """Largest difference, in bits, between coefficients of the polynomial of the zeros: that of a spin 2^50 times the
@@ -112,6 +115,9 @@ class Curve:
         self.real = 2 * acb(m).elliptic_k().real / size
         self.imaginary = acb(0, 2 * acb(1 - m).elliptic_k().real / size)
         self.tau = centre(self.imaginary / self.real)
+        _, second, third, fourth = acb(0).modular_theta(self.tau)
+        self.scale, self.foot = arb.pi() / self.real * third * fourth, motion.D / max(motion.moments)
+        self.slope = -arb.pi() / self.real * second * second * self.scale * self.scale
         self.zeros = [self._place(z, v) for z, v in self._zeros()]
         around = self._periods(FAR)
         self.others: Array = np.array([complex_of(zero + x + y) for zero in (*self.zeros, acb(0)) for x, y in around])
@@ -133,10 +139,13 @@ class Curve:
         return [(m * self.real, n * self.imaginary) for m, n in product(line, repeat=2)]
 
     def at(self, u: acb) -> tuple[acb, acb]:
-        """Return z and v at u."""
-        both = acb_series([u / self.real, 1 / self.real], prec=2).elliptic_p(self.tau)
-        square = self.real * self.real
-        return both[0] / square - self.third, both[1] / square / 2
+        """Return z and v at u: z + D/I = (pi theta3 theta4 theta2(u)/theta1(u))^2 for the largest moment I.
+
+        There theta3 and theta4 stand for their values at zero; v is half the derivative of z.
+        """
+        below, *above = (u / self.real).modular_theta(self.tau)
+        x, y, w = (a / below for a in above)
+        return (self.scale * x) ** 2 - self.foot, self.slope * x * y * w
 
     def _place(self, z: acb, v: acb) -> acb:
         """Return the u of a point of the curve, in the cell about zero."""
@@ -183,15 +192,18 @@ class Curve:
             for x, weight in _rule():
                 s = arb.pi() * low + half * (1 + x)
                 z, v = self.at(start + way * (1 - s.cos()) / 2)
-                root = centre((value(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2).sqrt()
+                square = (value(self.g, z) + 2 * self.motion.c * v) / s.sin() ** 2
+                if square.rel_accuracy_bits() < LOST:
+                    raise NotCertifiedError(
+                        "not certified: integrals between zeros of the motion's torus lose all digits."
+                    )
+                root = centre(square).sqrt()
                 if before is not None and _far(root - before) > _far(root + before):
                     root = -root
                 before, part = root, half * weight / root
                 first += part
                 second += z * part
                 third += v * part
-        if not all(x.is_finite() for x in (first, second, third)):
-            raise NotCertifiedError("not certified: integrals between zeros of the motion's torus are not finite.")
         factor = acb(0, -1) * way
         return centre(first * factor * self.motion.D), centre(second * factor), centre(third * factor)
 

@@ -32,9 +32,9 @@ from flint import acb, acb_mat, arb
 from numpy.typing import NDArray
 
 from atlas.errors import NotCertifiedError
-from atlas.exact.motions.clebsch_periods import BITS, centre, complex_of
+from atlas.exact.motions.clebsch_periods import BITS, centre, complex_of, nearest
 from atlas.exact.motions.clebsch_theta import ThetaMotion
-from atlas.exact.motions.theta_sums import CHARACTERISTICS, Array, near
+from atlas.exact.motions.theta_sums import CHARACTERISTICS, HALF, Array, near
 from atlas.exact.motions.torus import Period, Torus
 from atlas.exact.nutation.cayley_klein import matrix
 from atlas.formulas.numbers import dot, rational, workprec
@@ -62,12 +62,12 @@ SMALL, ENOUGH = 1e-6, 1e-17
 PARTS = (1, 2, 3, 5)
 """Into so many parts each period is divided, the first number that does."""
 
-HALF = 0.55
-"""Phases of a reduced time, in turns: half a turn, and what rounding may add to it near the longest times."""
-
 CELLS, HALVINGS, MOST = 24, 8, 1 << 15
 """Parts of each period in which |D| is bounded from below, how often one is halved if need be, and how many squares of
 them are looked at together at most: where D is no larger than its rounding errors, halving helps none."""
+
+TURNS = 2.0**48
+"""More turns than there are in a phase of 2^50."""
 
 D, K, M, N = 0, (1, 2, 3), (4, 5, 6), (7, 8, 9)
 """Places of the forms in a row."""
@@ -101,6 +101,23 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
                 if np.max(found) < SMALL:
                     return np.asarray(found)
     raise NotCertifiedError("not certified: what theta functions miss might grow too much over the motion's torus.")
+
+
+def drifts(theta: ThetaMotion, periods: Sequence[Period], taken: Sequence[Period]) -> Floats:
+    """Return proven bounds on how far M, K and N go astray in all turns where other periods are taken than the proved.
+
+    Raises NotCertifiedError where they go too far for a bound.
+    """
+    with workprec(BITS + SPARE):
+        far, turn = np.zeros(3), 2 * arb.pi()
+        for p, q in zip(periods, taken, strict=True):
+            turns = (p.angle - q.angle) / turn
+            far += [float(abs(x).upper()) for x in (p.H - q.H, p.F - q.F, (turns - nearest(turns)) * turn)]
+    sizes = _sizes(theta)
+    growth = TURNS * _growth(theta, sizes, far[0], far[1])
+    if not growth.sum() < SMALL:
+        raise NotCertifiedError("not certified: the periods are not known well enough for long times.")
+    return np.asarray(WIDER * (growth @ sizes + [0, 0, TURNS * far[2] * sizes[2]]))
 
 
 class Cell:

@@ -13,7 +13,7 @@ of that form rests on a count of dimensions; that they are the motion at hand is
 """
 
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 from flint import acb, acb_mat, arb, fmpq
@@ -25,8 +25,8 @@ from atlas.exact.motions.clebsch_periods import BITS, Integrals, centre, complex
 from atlas.exact.motions.theta_sums import CHARACTERISTICS, Array, Form, Sums
 from atlas.formulas.numbers import cross, dot, workprec
 
-GRID, CANDIDATES = 48, 24
-"""Points along each real period among which the start is looked for, and those of them that are tried."""
+GRIDS, CANDIDATES = (16, 48), 24
+"""Points along each real period among which the start is looked for, a few first; and those of them that are tried."""
 
 NEWTON = 12
 """Steps of Newton's method."""
@@ -42,6 +42,7 @@ class ThetaMotion:
 
     def __init__(self, motion: Integrals, W: Sequence[fmpq], K: Sequence[fmpq], lattice: Lattice) -> None:
         self.motion, self.field, self.lattice = motion, K, lattice
+        self.misfit = 0.0  # the largest residual of a fit, beside its values
         with workprec(BITS):
             self.X, self.tau = lattice.X, lattice.tau
             t = self.tau
@@ -115,6 +116,7 @@ class ThetaMotion:
         error, form = min(tried, key=lambda x: x[0])
         if not error < FITTED:
             raise NotCertifiedError(f"not certified: theta functions do not fit the motion, by {error:.1g}.")
+        self.misfit = max(self.misfit, error)
         return form
 
     def _place(self) -> Vector:
@@ -123,20 +125,19 @@ class ThetaMotion:
         Conjugation takes origins to origins, which are half a period apart: so the imaginary part of the times between
         them and the start is a fourth of that of a period.
         """
-        motion, target = self.motion, np.array([complex_of(x) for x in self.at_start.all[:6]])
+        target = np.array([complex_of(x) for x in self.at_start.all[:6]])
         real, others = (
             np.array([[complex_of(x) for x in T[:2]] for T in pair])
             for pair in (self.lattice.real, self.lattice.others)
         )
-        steps = np.stack(np.meshgrid(*[np.arange(GRID) / GRID] * 2, indexing="ij"), -1).reshape(-1, 2)
-        quarters = np.stack(np.meshgrid(*[np.arange(4) / 4] * 2, indexing="ij"), -1).reshape(-1, 1, 2)
-        times = ((steps @ real) + (quarters @ others)).reshape(-1, 2)
-        rough = Rough(self)
-        far = np.linalg.norm(rough.states(times) - target, axis=1)
-        for T in times[np.argsort(far)[:CANDIDATES]]:
-            found = rough.near(T, target)
+        rough, quarters = Rough(self), np.array(list(product(range(4), repeat=2)))[:, None] / 4
+        for count in GRIDS:
+            steps = np.array(list(product(range(count), repeat=2))) / count
+            times = (steps @ real + quarters @ others).reshape(-1, 2)
+            far = np.linalg.norm(rough.states(times) - target, axis=1)
+            found = rough.near(times[np.argsort(far)[:CANDIDATES]], target)
             if found is not None:
-                return self._improved(found, fields(motion.moments, target))
+                return self._improved(found, fields(self.motion.moments, target))
         raise NotCertifiedError("not certified: the place of the start on the motion's torus was not found.")
 
     def _improved(self, T: Array, fields: Array) -> Vector:
@@ -145,15 +146,22 @@ class ThetaMotion:
         start = self.at_start.all
         a, b, c, d = (acb(complex(fields[p, q])) for p, q in ((i, 0), (i, 1), (j, 0), (j, 1)))
         times = [acb(complex(x)) for x in T]
+        before = np.inf
         for _ in range(NEWTON):
             found = self.state(self.zeta(times)).all
             f, g = start[i] - found[i], start[j] - found[j]
+            far = abs(complex_of(f)) + abs(complex_of(g))
+            if not far < before:
+                break
+            before = far
             times = [
                 centre(times[0] + (f * d - g * b) / (a * d - b * c)),
                 centre(times[1] + (g * a - f * c) / (a * d - b * c)),
             ]
         zeta = self._near_real(self.zeta(times))
-        if not max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).all, start, strict=False)) < FITTED:
+        error = max(abs(complex_of(x - y)) for x, y in zip(self.state(zeta).all, start, strict=False))
+        self.misfit = max(self.misfit, error)
+        if not error < FITTED:
             raise NotCertifiedError("not certified: Newton's method does not find the start on the motion's torus.")
         return zeta
 
@@ -211,21 +219,24 @@ class Rough:
         # less an even period of hat, which changes all forms by one factor, v has a small imaginary part
         v = v - (2 * np.round(v.imag @ self.inverse / 2)) @ self.hat
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # such places are no start
-            D, *values = self.sums.at(np.pi * v.T)
+            first, second = (
+                np.exp(1j * np.pi * np.outer(n, x)) for n, x in zip((self.sums.P, self.sums.Q), v.T, strict=True)
+            )
+            D, *values = ((self.sums.table @ second) * first).sum(axis=1)
             return np.asarray((np.array(values) / D).T)
 
-    def near(self, T: Array, target: Array) -> Array | None:
-        """Return times at which the state is the target, by Newton's method; None where it leads astray."""
+    def near(self, times: Array, target: Array) -> Array | None:
+        """Return times at which the state is the target, by Newton's method from several; None where all go astray."""
         size, before = float(np.linalg.norm(target)), np.inf
         for _ in range(NEWTON):
-            state = self.states(T[None])[0]
-            far = float(np.linalg.norm(state - target))
-            if far < 1e-9 * size:
-                return T
-            if not far < 4 * before:
-                return None
-            before = far
-            T = T + np.linalg.lstsq(fields(self.moments, state), target - state, rcond=None)[0]
+            states = self.states(times)
+            far = np.linalg.norm(states - target, axis=1)
+            if far.min(initial=np.inf) < 1e-9 * size:
+                return np.asarray(times[far.argmin()])
+            kept = far < 4 * before
+            times, states, before = times[kept], states[kept], far[kept]
+            ways = np.linalg.pinv(fields(self.moments, states)) @ (target - states)[..., None]
+            times = times + ways[..., 0]
         return None
 
 

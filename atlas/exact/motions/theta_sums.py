@@ -17,7 +17,6 @@ import numpy as np
 from flint import acb, acb_mat, arb
 from numpy.typing import NDArray
 
-from atlas.exact.arithmetic.powers import PRODUCT, powers, wrong
 from atlas.exact.motions.clebsch_periods import complex_of
 
 CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
@@ -26,6 +25,12 @@ CHARACTERISTICS = ((0, 0), (0, 1), (1, 0), (1, 1))
 LEFT_OUT = 46.0
 """Logarithm of what terms that are left out are smaller by than the largest one, wherever they are summed."""
 
+HALF = 0.55
+"""Phases of a reduced time, in turns: half a turn, and what rounding may add to it near the longest times."""
+
+PRODUCT, ROUNDED = 2.24, 1.01
+"""Units of 2^-53 by which a complex product, and a number that is rounded once, are wrong beside themselves."""
+
 WEIGHT = 1.1
 """Units of 2^-53 by which a sum over Q, which is rounded once, is wrong: 0.1 are for what lower words and sums of them
 lack, and for terms that are left out."""
@@ -33,12 +38,15 @@ lack, and for terms that are left out."""
 SPLIT = 22
 """Binary digits of the upper words of weights and of powers: in sums of 2^7 of their products no digit is lost."""
 
+SPLITTER = 2.0**27 + 1
+"""Factor by which Veltkamp cuts numbers into halves."""
+
 UNTHREADED = 250_000
 """Products of numbers in a matrix product up to which the library does not thread it."""
 
-ALL = slice(None)
-
 Array: TypeAlias = NDArray[np.complex128]
+FloatArray: TypeAlias = NDArray[np.float64]
+Words: TypeAlias = tuple[NDArray[np.intp], FloatArray, FloatArray]
 
 
 @dataclass(frozen=True)
@@ -76,84 +84,140 @@ class Form:
 class Sums:
     """Forms at v = origin + x/pi, as functions of x (2, m) in doubles, over a common exponential.
 
-    `table` (forms, P, Q) are their weights; `region`, places x, tells which of them matter.
+    `table` (forms, P, Q) are their weights; `region`, places x, tells which of them matter. The Q of a form are all
+    even or all odd, counted from the middle of the table: so forms of each parity are summed over half of them.
     """
 
     def __init__(self, hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array) -> None:
         places = needed(hat, forms, origin, region, LEFT_OUT)
-        self.low, self.high = places.min(axis=0), places.max(axis=0)
-        self.centre = np.round((self.low + self.high) / 2).astype(int)
-        self.table: Array = np.zeros((len(forms), *(self.high - self.low + 1)), complex)
-        rest = np.zeros_like(self.table)
-        rows, columns = (range(int(a), int(b) + 1) for a, b in zip(self.low, self.high, strict=True))
+        low, high = places.min(axis=0), places.max(axis=0)
+        centre = np.round((low + high) / 2).astype(int)
+        self.table: Array = np.zeros((len(forms), *(high - low + 1)), complex)
+        self.rest = np.zeros_like(self.table)
+        rows, columns = (range(int(a), int(b) + 1) for a, b in zip(low, high, strict=True))
         box = list(product(rows, columns))
         for f, form in enumerate(forms):
             for P, Q, weight in form.terms(hat, origin, box):
-                place = f, P - self.low[0], Q - self.low[1]
+                place = f, P - low[0], Q - low[1]
                 self.table[place] = complex_of(weight)
-                rest[place] = complex_of(weight - acb(self.table[place]))
-        self._split(region, rest)
+                self.rest[place] = complex_of(weight - acb(self.table[place]))
+        self.P, self.Q = (np.arange(a, b + 1) for a, b in zip(low - centre, high - centre, strict=True))
+        self.reach = int(max(abs(self.P).max(), abs(self.Q).max()))
+        self.odd = np.array([(CHARACTERISTICS[form.place][0] + centre[1]) % 2 for form in forms])
+        k = np.arange(abs(self.Q).max() // 2 + 1)
+        self.columns = [np.column_stack([2 * k + parity, -2 * k - parity]).ravel() for parity in (0, 1)]
+        largest = [np.exp(-np.outer(columns, region[1].imag)).max(axis=1) for columns in self.columns]
+        self.sizes = np.tile(np.exp2(np.ceil(np.log2(largest)) + 1), 2)  # a little beyond the region
+        self._words = dict[tuple[int, int], list[Words]]()
 
-    def at(self, x: Array, rest: Array | None = None, part: slice = ALL) -> Array:
-        """Return the forms at places x + rest (2, m), the rest being tiny: shape (forms, m).
+    def at(self, x: Array, rest: Array, part: slice) -> Array:
+        """Return some of the forms at places x + rest (2, m), the rest being tiny: shape (forms, m).
 
-        The sum over Q is that of the upper words of weights and powers, exact, and of what these lack; that over P adds
-        the powers farthest from the middle first.
+        The sum over Q is that of the upper words of weights and powers, exact, and of what these lack; that over P goes
+        by Horner's rule from both ends.
         """
         w = np.exp(1j * x)
-        if rest is not None:
-            w += w * (1j * rest)
-        upper, lower = self.upper[part], self.lower[part]
-        P = upper.shape[1] // 2
-        found = np.empty((len(upper), w.shape[1]), np.complex128)
-        step = max(UNTHREADED // (upper.shape[1] * upper.shape[2]), 1)
-        for i in range(0, w.shape[1], step):
-            all_powers = powers(np.array([w.real, w.imag])[:, :, i : i + step], self.reach)
-            # real numbers, in blocks: the library threads small products of complex ones, which wait for each other
-            second = all_powers[:, self.columns, 1].reshape(self.cut.size, -1)
-            high = second + self.cut
-            high -= self.cut
-            both = lower @ second
-            second -= high
-            both += upper @ second
-            both += upper @ high
-            x, y = both[:, :P], both[:, P:]
-            cos, sin = all_powers[:, self.rows, 0]
-            # along an axis that is not the last, numbers are added one after the other
-            found.real[:, i : i + step] = np.add.reduce(x * cos - y * sin, axis=1)
-            found.imag[:, i : i + step] = np.add.reduce(x * sin + y * cos, axis=1)
+        w += w * (1j * rest)
+        ways = np.array([w[0], w[1], w[1] * w[1]])
+        back = inverse(ways)
+        m, middle = x.shape[1], int(-self.P[0])
+        found = np.empty((len(self.table[part]), m), np.complex128)
+        for parity, (forms, upper, lower) in enumerate(self.words(part)):
+            high, others = self.powers(parity, ways, back)
+            rows = np.empty((len(upper), 2 * m))
+            step = max(UNTHREADED // max(lower.size, 1), 1)
+            for i in range(0, 2 * m, step):
+                block = slice(i, i + step)
+                np.matmul(lower, others[:, block], out=rows[:, block])
+                rows[:, block] += upper @ high[:, block]
+            sums = rows.view(np.complex128).reshape(len(self.P), len(forms), m)
+            found[forms] = sums[middle] + _horner(sums[:middle:-1], w[0]) + _horner(sums[:middle], back[0])
         return found
 
-    def _split(self, region: Array, rest: Array) -> None:
-        """Cut the weights and what they lack, and find where powers are cut in a region, into two words each."""
-        P = np.arange(self.low[0], self.high[0] + 1) - self.centre[0]
-        self.order = np.argsort(-abs(P), kind="stable")
-        Q = np.arange(self.low[1], self.high[1] + 1) - self.centre[1]
-        self.reach = int(max(abs(P).max(), abs(Q).max()))
-        self.rows, self.columns = P[self.order] + self.reach, slice(Q[0] + self.reach, Q[-1] + self.reach + 1)
-        sizes = np.exp2(np.ceil(np.log2(np.exp(-np.outer(Q, region[1].imag)).max(axis=1))) + 1)  # a little beyond it
-        sizes = np.tile(sizes, 2)
-        self.cut = (1.5 * 2.0 ** (52 - SPLIT) * sizes)[:, None]
-        words, rest = (
-            np.block([[table.real, -table.imag], [table.imag, table.real]])
-            for table in (self.table[:, self.order], rest[:, self.order])
-        )
-        largest = (abs(words) * sizes).max(axis=-1, keepdims=True) + np.finfo(float).tiny
+    def powers(self, parity: int, ways: Array, back: Array) -> tuple[FloatArray, FloatArray]:
+        """Return even or odd powers of w_2, and i times these, (rows, 2 m): upper words; and all above the others.
+
+        Given are w_1, w_2, w_2^2 and their inverses, (3, m). Real and imaginary parts stand side by side.
+        """
+        count, m = self.sizes.shape[1], ways.shape[1]
+        words = np.empty((3, count, 2 * m))
+        powers = words[0].view(np.complex128).reshape(2, -1, 2, m)
+        step = np.array([ways[2], back[2]])
+        powers[0, 0] = [ways[1], back[1]] if parity else 1.0
+        for before, after in zip(powers[0, :-1], powers[0, 1:], strict=True):
+            np.multiply(before, step, out=after)
+        np.multiply(powers[0], 1j, out=powers[1])
+        cut = (1.5 * 2.0 ** (52 - SPLIT) * self.sizes[parity])[:, None]
+        np.add(words[0], cut, out=words[2])
+        words[2] -= cut
+        np.subtract(words[0], words[2], out=words[1])
+        return words[2], words[:2].reshape(2 * count, 2 * m)
+
+    def words(self, part: slice) -> list[Words]:
+        """Return, for even and for odd powers, which of some forms have them, and their weights in words.
+
+        Weights are (P and forms, rows): those that meet upper words, and those that meet all powers and lower words.
+        """
+        key = part.start or 0, part.stop or len(self.table)
+        if key not in self._words:
+            self._words[key] = [self._split(part, parity) for parity in (0, 1)]
+        return self._words[key]
+
+    def _split(self, part: slice, parity: int) -> Words:
+        """Cut weights, and what they lack, into two words each."""
+        forms = np.flatnonzero(self.odd[part] == parity)
+        columns, sizes = self.columns[parity], self.sizes[parity]
+        there = (self.Q[0] <= columns) & (columns <= self.Q[-1])
+        there[1] &= bool(parity)  # of the power 0 there is one
+        chosen = columns[there] - self.Q[0]
+        words, rest = np.zeros((2, len(self.P), len(forms), len(columns)), complex)
+        for found, table in ((words, self.table), (rest, self.rest)):
+            found[..., there] = table[part][forms][:, :, chosen].swapaxes(0, 1)
+        real, less = (np.concatenate([x.real, x.imag], -1).reshape(-1, len(sizes)) for x in (words, rest))
+        largest = (abs(real) * sizes).max(axis=-1, keepdims=True) + np.finfo(float).tiny
         unit = np.exp2(np.ceil(np.log2(largest)) - SPLIT) / sizes
-        self.upper = np.round(words / unit) * unit
-        self.lower = words - self.upper + rest
+        upper = np.round(real / unit) * unit
+        return forms, upper, np.concatenate([real - upper + less, upper], axis=-1)
 
     @property
-    def steps(self) -> NDArray[np.float64]:
+    def steps(self) -> FloatArray:
         """Units of 2^-53 by which each term is wrong beside itself, with what sums add to it, (P, Q).
 
-        That is, if exponentials were exact: by weights with the sum over Q, by powers, by one product of both, and by
-        the sum over P.
+        That is, if w_1 were exact, and w_2 the root of its square in doubles, by which the odd powers differ from
+        those of w_2 by half a product: by weights with the sum over Q, by powers, and by products and sums over P.
         """
-        P, Q = (np.arange(a, b + 1) - c for a, b, c in zip(self.low, self.high, self.centre, strict=True))
-        rank = np.empty(len(P))
-        rank[self.order] = np.arange(len(P), 0, -1)
-        return np.asarray((WEIGHT + PRODUCT + rank + wrong(P))[:, None] + wrong(Q))
+        n, k, odd = abs(self.P), abs(self.Q) // 2, abs(self.Q) % 2
+        along = n * (PRODUCT + 1) + n * ROUNDED * (self.P < 0) + 2
+        powers = np.where(odd, (k + 0.5) * PRODUCT, np.maximum(k - 1, 0) * PRODUCT) + (k + odd) * ROUNDED * (self.Q < 0)
+        return np.asarray((WEIGHT + along)[:, None] + powers)
+
+
+def _horner(rows: Array, w: Array) -> Any:
+    """Return the sum of rows times w^n, ..., w^2, w."""
+    total = np.zeros(rows.shape[1:], np.complex128)
+    for row in rows:
+        total += row
+        total *= w
+    return total
+
+
+def inverse(w: Array) -> Array:
+    """Return 1/w, rounded once: one step of Newton's method with what is left of 1, by halves of 26 digits."""
+    near = w.conj() / (w.real * w.real + w.imag * w.imag)
+    (a, a_low), (b, b_low) = _halves(w), _halves(near)
+    first, second = a.real * b.real, -a.imag * b.imag
+    left = np.empty_like(w)
+    left.real = (1 - np.maximum(first, second)) - np.minimum(first, second)  # exact, as is the imaginary part
+    left.imag = -(a.real * b.imag + a.imag * b.real)
+    left -= a * b_low + a_low * near
+    return np.asarray(near + near * left)
+
+
+def _halves(w: Array) -> tuple[Array, Array]:
+    """Return halves of 26 digits each, by Veltkamp: products of parts of upper ones are exact."""
+    t = w * SPLITTER
+    upper = t - (t - w)
+    return upper, w - upper
 
 
 def needed(

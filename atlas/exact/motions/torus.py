@@ -11,6 +11,7 @@ over the box lies in the box: the derivative of the flow by its times is the fie
 components are then those of the start, since H, F and both Casimirs are, and they tell such states apart.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
@@ -70,7 +71,7 @@ class Torus:
 
     def periods(self, bits: int) -> tuple[Period, Period]:
         """Return two periods with so many bits; NotCertifiedError where none are found."""
-        bits = -(-bits // 32) * 32
+        bits = min((known for known in self._known if known >= bits), default=-(-bits // 32) * 32)
         if bits not in self._known:
             starts = self._approximate()
             try:
@@ -160,6 +161,14 @@ class Torus:
         ]
         others = [n for n in range(6) if n not in chosen]
         return not arb_mat([[row[n] for n in others] for row in gradients]).det().contains(0)
+
+
+def frequencies(periods: Sequence[Period], b: arb) -> list[arb]:
+    """Return f1, f2 of M and K, and f3 about a field of length b, of which the angles of the periods are part."""
+    (first, second), turn = periods, 2 * arb.pi()
+    area = first.H * second.F - first.F * second.H
+    along = second.F / area, -first.F / area
+    return [turn * along[0], turn * along[1], first.angle * along[0] + second.angle * along[1] - b]
 
 
 def turned(q: list[arb], V: list[arb]) -> list[arb]:
