@@ -79,15 +79,16 @@ def test_no_error_is_above_its_bound(family: str) -> None:
     (block,) = motion._blocks
     with np.errstate(all="ignore"):
         r, means, held = block.roots, block.means, block.fine & block.roots.exact & block.roots.moving
-        numbers = r.low, r.high, means.rate, *means.moduli, means.nome
+        ends = (r.low / r.b, r.high / r.b) if family == "top" else (r.low, r.high)
+        numbers = *ends, means.rate, *means.moduli, means.nome
         bounds = [np.broadcast_to(x.rel, held.shape) for x in numbers]
     exponents, checked = np.broadcast_to(block.exponents, held.shape), 0
     for i in np.flatnonzero(held).tolist():
         with ctx.workprec(1200):
             one, distance = true_of(made[i])
-            ends = sorted((distance(x) for x in one.turning_points), key=lambda x: float(x.mid()))
+            apart = sorted((distance(x) for x in one.turning_points), key=lambda x: float(x.mid()))
             nome = one.nome if means.four[i] else one.nome.sqrt()
-            true = *ends, arb.pi() / one.period, one.modulus, one.complementary_modulus, nome
+            true = *apart, arb.pi() / one.period, one.modulus, one.complementary_modulus, nome
             ends_unit = 0 if family == "top" else exponents[i]
             units = ends_unit, ends_unit, exponents[i], 0, 0, 0
             for x, rel, wanted, unit in zip(numbers, bounds, true, units, strict=True):

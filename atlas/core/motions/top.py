@@ -14,12 +14,12 @@ from atlas.core.bodies.symmetric_top import along, given, moments_of_one
 from atlas.core.bodies.units import system
 from atlas.core.inputs import FloatArray, components, finite, kept, number, plain, positive
 from atlas.core.motions.nutating import NutatingMotion, ends_of, padded
+from atlas.core.nutation.blocks import TopBlocks
 from atlas.core.nutation.constants import FIRST
-from atlas.core.nutation.scalars import IN_ARRAYS
+from atlas.core.nutation.rows import TopRows
+from atlas.core.nutation.scalars import IN_ARRAYS, TOP_KINDS, Scalars
 from atlas.core.nutation.single import BITS
 from atlas.core.nutation.single_top import SingleTop
-from atlas.core.nutation.top_rows import TopBlocks, TopRows
-from atlas.core.nutation.top_scalars import KINDS, TopScalars
 from atlas.core.quantities import LENGTH, MASS, RATE, SI_FIELDS
 from atlas.core.surfaces.quadric import TopQuadric
 from atlas.errors import AtlasError, DomainError
@@ -84,7 +84,7 @@ class TopMotion(NutatingMotion[SingleTop]):
     """
 
     family = "top"
-    _in_arrays, _kinds = IN_ARRAYS, KINDS
+    _in_arrays, _kinds = IN_ARRAYS, TOP_KINDS
 
     def __init__(
         self, inertia: Any, coupling: Any, direction: Any, omega: Any, linear: Any = 0.0, quadratic: Any = 0.0
@@ -179,9 +179,9 @@ class TopMotion(NutatingMotion[SingleTop]):
         return TopRows(self._blocks)
 
     @cached_property
-    def _scalars(self) -> TopScalars:
+    def _scalars(self) -> Scalars:
         """Scalars of all tops in arrays."""
-        return TopScalars(self._blocks)
+        return Scalars(self._blocks)
 
     @kept
     def roots(self) -> Any:

@@ -1,21 +1,56 @@
-"""Many general motions by blocks: what their constants are made from, and whether their inputs are of one size."""
+"""Many motions by blocks: what their constants are made from, and whether their inputs are of one size.
+
+With y = M t + y0 the pair (alpha, beta) of the axis, and that of the angular velocity, is exp(i l t) F times the sum
+over odd k of even_k cos k y + i odd_k sin k y, the trigonometric sums of `atlas.exact.nutation.theta`. Where kappa is
+not zero, the integral of nu adds to the turn about the axis that the pair has: see `atlas.core.nutation.swing_rows`.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import BLOCK, blocks
+from atlas.core.arithmetic.double_double import BLOCK, ORDINARY, DoubleDouble, blocks, chosen
+from atlas.core.arithmetic.turnings import PER_RADIAN
+from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import Means
-from atlas.core.nutation.pair import Pair
-from atlas.core.nutation.roots import roots_of
+from atlas.core.nutation.pair import TERMS, Pair
+from atlas.core.nutation.roots import Roots, constant, joined, roots_of, roots_of_tops, stacked
 from atlas.core.nutation.spheres import sphere_of_field
+from atlas.core.nutation.swing_rows import Swings, SwingSums, swing_sums
 
 SPREAD = 2.0**-60
 """Least part of the largest frequency that another one is, if it is not zero."""
+
+KNOWN = 2.0**-57
+"""Radius to which weights are known before they are rounded."""
+
+
+class Constants(NamedTuple):
+    """Constants of the pairs of motions in a row, the last axis of each.
+
+    `words` (2, 3, m) and `lack` (3, m) are the frequencies l of alpha and beta and M in half turns, in two words, and
+    what they may be off; `rates` (3, m) the same in radians. `even` and `odd` (TERMS, 2, m), of which `terms` matter,
+    `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m) are cos
+    and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`.
+    """
+
+    words: FloatArray
+    lack: FloatArray
+    rates: FloatArray
+    even: FloatArray
+    odd: FloatArray
+    terms: Any
+    factor: Any
+    start: FloatArray
+    weight: FloatArray
+    tilt: FloatArray
+    azimuth: FloatArray
+    sizes: FloatArray
+    sure: Any
 
 
 @dataclass(frozen=True)
@@ -23,7 +58,7 @@ class Block:
     """Motions `rows` of all; the exponents of the power of two that their frequencies are over; where that is fine."""
 
     rows: slice
-    roots: Any
+    roots: Roots
     exponents: Any
     fine: Any
 
@@ -36,6 +71,67 @@ class Block:
     def pair(self) -> Pair:
         """Pair of the axis and of the field."""
         return Pair(self.means, sphere_of_field(self.roots))
+
+    @cached_property
+    def swing(self) -> SwingSums | None:
+        """What the integral of nu adds to the turn about the axis; None where kappa is zero in all rows."""
+        r = self.roots
+        return swing_sums(self.means, r.n3, r.A) if r.top and r.top.twisted.any() else None
+
+    @cached_property
+    def swing_rate(self) -> DoubleDouble | None:
+        """The rate that it adds to the turn about the axis, of tops."""
+        top = self.roots.top
+        return chosen(top.twisted, top.kappa * self.swing.rate, top.kappa) if top and self.swing else top and top.kappa
+
+    @property
+    def swings(self) -> Swings:
+        """What turns times into that turn of tops."""
+        return Swings.of(self.swing, self.means, self.roots, self.exponents)
+
+    @property
+    def constants(self) -> Constants:
+        """Constants of the pair; its words are those of the whole turn, its rates are not."""
+        found = self.constants_of(self.pair)
+        if not (self.roots.top and self.swing and self.swing_rate):
+            return found
+        half = self.swing_rate.scaled(-1)
+        rates = self.pair.rates + joined(stacked(half, -half), constant(0.0, half))
+        words, lack = in_half_turns(rates, self.exponents)
+        twisted = self.roots.top.twisted
+        return found._replace(words=np.where(twisted, words, found.words), lack=np.where(twisted, lack, found.lack))
+
+    def constants_of(self, pair: Pair) -> Constants:
+        """Return the constants of a pair."""
+        r, means, sphere = self.roots, pair.means, pair.sphere
+        (words, lack), (cos, sin) = in_half_turns(pair.rates, self.exponents), means.start
+        even, odd, terms, *_ = pair.sums
+        factor, lost = pair.factors
+        known = ((lost < KNOWN) & (pair.zeros.growth.rel < KNOWN)).all(axis=0) & (means.nome.rel < KNOWN)
+        known &= (
+            np.isfinite(lack).all(axis=0) & (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel < KNOWN) & (terms <= TERMS)
+        )
+        return Constants(
+            words,
+            lack,
+            np.ldexp(pair.rates.hi, self.exponents),
+            even,
+            odd,
+            terms,
+            factor,
+            np.array([cos.hi, sin.hi]),
+            ((abs(even) + abs(odd)).sum(axis=0) * abs(factor)).sum(axis=0),
+            r.tilt,
+            np.array(sphere.azimuth),
+            np.ldexp(np.array(sphere.sizes), self.exponents if r.top is None else 0),
+            known & r.exact & self.fine & ~r.free,
+        )
+
+
+def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
+    """Return frequencies over a power of two as words in half turns, and what they may be off."""
+    turns = rates * PER_RADIAN
+    return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
 
 
 class Blocks:
@@ -56,16 +152,66 @@ class Blocks:
 
     def each(self) -> Iterator[Block]:
         """Make the blocks."""
-        return _each_block(self.inputs, self.shape)
+        columns = [np.broadcast_to(np.asarray(x, dtype=float), self.shape) for x in self.inputs]
+
+        def formula(I2: Any, I3: Any, B2: Any, B3: Any, *omega: Any) -> tuple[Roots]:
+            return (roots_of(I2, I3, (B2, B3), omega),)
+
+        for rows, _, exponents, (roots,) in blocks(formula, columns, self.shape, slice(2, None), bound=1.0):
+            fine = _alike([abs(x.reshape(-1)[rows]) for x in columns[2:]])
+            if exponents is not None:
+                yield Block(rows, roots, exponents[0], fine & exponents[1])
+            else:
+                yield Block(rows, roots, 0, fine)
 
 
-def _each_block(inputs: Sequence[Any], shape: tuple[int, ...]) -> Iterator[Block]:
-    columns = [np.broadcast_to(np.asarray(x, dtype=float), shape) for x in inputs]
-    for rows, _, exponents, (roots,) in blocks(lambda *x: (roots_of(*x),), columns, shape, slice(2, None), bound=1.0):
-        frequencies = np.array([abs(x.reshape(-1)[rows]) for x in columns[2:]])
-        least = np.where(frequencies == 0, np.inf, frequencies).min(axis=0)
-        fine = least >= SPREAD * frequencies.max(axis=0)
-        if exponents is not None:
-            yield Block(rows, roots, exponents[0], fine & exponents[1])
-        else:
-            yield Block(rows, roots, 0, fine)
+class TopBlocks(Blocks):
+    """Tops I2, I3, k2, k3, n2, n3, omega1, omega2, omega3, linear, quadratic, which broadcast to a shape, by blocks."""
+
+    def each(self) -> Iterator[Block]:
+        """Make the blocks."""
+        columns = [np.broadcast_to(np.asarray(x, dtype=float), self.shape).reshape(-1) for x in self.inputs]
+        for start in range(0, self.count, BLOCK):
+            part = [x[start : start + BLOCK] for x in columns]
+            scaled, exponents = _scaled(part)
+            shape = scaled[0].shape
+            for rows, _, extreme, (roots,) in blocks(lambda *x: (roots_of_tops(*x),), scaled, shape, slice(0)):
+                I2, _, k2, k3, n2, n3, *omega, linear, quadratic = map(abs, scaled)
+                potential = np.sqrt(linear / I2), np.sqrt(quadratic / I2)
+                fine = _alike([*omega, k2 / I2, k3 / I2, *potential]) & _alike([n2, n3])
+                fine = fine if extreme is None else fine & extreme[1]
+                # a number that the scaling made zero is none
+                fine &= np.logical_and.reduce([(x == 0) == (y == 0) for x, y in zip(part, scaled, strict=True)])
+                yield Block(slice(start, start + rows.stop), roots, exponents, fine)
+
+
+def _scaled(columns: list[FloatArray]) -> tuple[list[FloatArray], Any]:
+    """Return tops whose moments, rates and n are of the order of one, and the exponents of the unit of their rates.
+
+    Those whose numbers are ordinary as they are stay so.
+    """
+    with np.errstate(all="ignore"):
+        I2, I3, k2, k3, n2, n3, *omega, linear, quadratic = columns
+        plain = np.logical_and.reduce([(x == 0) | ((abs(x) > 1 / ORDINARY) & (abs(x) < ORDINARY)) for x in columns])
+        if plain.all():
+            return columns, 0
+        body, length = _exponent(I2, plain), _exponent(np.maximum(abs(n2), abs(n3)), plain)
+        couplings, potential = ([np.ldexp(x, -body) for x in pair] for pair in ((k2, k3), (linear, quadratic)))
+        largest = np.max([*map(abs, (*omega, *couplings)), *(np.sqrt(abs(x)) for x in potential)], axis=0)
+        rate = _exponent(largest, plain)
+        return [
+            *(np.ldexp(x, -body) for x in (I2, I3)), *(np.ldexp(x, -rate) for x in couplings),
+            *(np.ldexp(x, -length) for x in (n2, n3)), *(np.ldexp(x, -rate) for x in omega),
+            *(np.ldexp(x, -2 * rate) for x in potential),
+        ], rate  # fmt: skip
+
+
+def _exponent(x: FloatArray, plain: Any) -> Any:
+    """Return the power of two to divide by."""
+    return np.where(plain, 0, np.frexp(x)[1])
+
+
+def _alike(sizes: Sequence[Any]) -> Any:
+    """Return where the least number that is not zero is not too small beside the largest."""
+    x = np.array(sizes)
+    return np.where(x == 0, np.inf, x).min(axis=0) >= SPREAD * x.max(axis=0)

@@ -1,18 +1,22 @@
-"""The turning points of many general motions in two words, and what else the quartic Q has of roots.
+"""The turning points of many motions in two words, and what else the quartic Q has of roots.
 
-In v = Omega3 - omega3 the quartic of `atlas.exact.nutation.quartic` starts with the square of dOmega3/dt at t = 0, so
-that v = 0 lies between the turning points, however close these are: its coefficients are written anew, since a shift of
-those of `atlas.formulas.integrals` would cancel. With the turning points Q = (v - low)(v - high)(f2 v^2 + f1 v + f0),
-and all else follows from that, whether the other two roots are real or not.
+In v = n3 - b nu, which for a body in a field is Omega3 - omega3, the quartic of `atlas.exact.nutation.quartic` starts
+with the square of dv/dt at t = 0, so that v = 0 lies between the turning points, however close these are: its
+coefficients are written anew, since a shift of those of `atlas.formulas.integrals` would cancel. With the turning
+points Q = (v - low)(v - high)(f2 v^2 + f1 v + f0), and all else follows from that, whether the other two roots are real
+or not.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from flint import fmpq
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
+from atlas.core.arithmetic.words import words
 from atlas.core.inputs import FloatArray
 
 STEPS = 60
@@ -83,15 +87,24 @@ class Turning:
 
 @dataclass(frozen=True)
 class Roots(Turning):
-    """The turning points of general motions; `moving`, `steady` are where Omega3 is certain to vary, or not to."""
+    """The turning points of motions, with what else their spheres take; `a` and `top` of tops alone.
+
+    `moving`, `steady` are where theta is certain to vary, or not to; `b` is the length of (n2, n3), I c3 the momentum
+    M3 along the axis, M2 that along e2; `frame` is the rate k2/I2 of the frame about n.
+    """
 
     I: DoubleDouble
     less: DoubleDouble
-    B2: DoubleDouble
-    B3: DoubleDouble
-    omega: tuple[DoubleDouble, DoubleDouble, DoubleDouble]
+    n2: DoubleDouble
+    n3: DoubleDouble
+    omega: Sequence[DoubleDouble]
+    M2: DoubleDouble
     c3: DoubleDouble
     b: DoubleDouble
+    frame: DoubleDouble
+    A: DoubleDouble
+    a: DoubleDouble | None
+    top: "Top | None"
     steady: Any
     moving: Any
 
@@ -102,13 +115,13 @@ class Roots(Turning):
 
     @cached_property
     def ball(self) -> Any:
-        """Where I = 1."""
-        return self.less.hi == 0
+        """Where I = 1, and the axis has no potential."""
+        return (self.less.hi == 0) & (self.top is None)
 
     @cached_property
     def along(self) -> Any:
         """Where the axis starts along the field."""
-        return self.B2.hi == 0
+        return self.n2.hi == 0
 
     @cached_property
     def still(self) -> Any:
@@ -118,36 +131,103 @@ class Roots(Turning):
     @property
     def tilt(self) -> FloatArray:
         """Cosine and sine of theta at the start, (2, m)."""
-        return np.array([(self.B3 / self.b).hi, abs(self.B2 / self.b).hi])
+        return np.array([(self.n3 / self.b).hi, abs(self.n2 / self.b).hi])
+
+
+class Top(NamedTuple):
+    """What else acts on the axis of a top, in units of I2 and of b, the length of n.
+
+    kappa, the difference of k2/(I2 b) and k3/(I3 b), is zero unless `twisted`; `linear` and `quadratic` are those of
+    the potential, A the leading coefficient of Q; `rates` (m,) is the largest of the rates that the top has.
+    """
+
+    kappa: DoubleDouble
+    twisted: Any
+    linear: DoubleDouble
+    quadratic: DoubleDouble
+    A: DoubleDouble
+    rates: FloatArray
+
+
+ONE = DoubleDouble(np.float64(1.0))
 
 
 def roots_of(
     I2: DoubleDouble,
     I3: DoubleDouble,
-    B2: DoubleDouble,
-    B3: DoubleDouble,
-    w1: DoubleDouble,
-    w2: DoubleDouble,
-    w3: DoubleDouble,
+    n: tuple[DoubleDouble, DoubleDouble],
+    omega: Sequence[DoubleDouble],
+    couplings: tuple[DoubleDouble, DoubleDouble] = (ONE, ONE),
+    top: Top | None = None,
 ) -> Roots:
-    """Return the turning points and the rest."""
+    """Return the turning points and the rest of bodies in a field n = (B2, B3), or of tops in the direction n.
+
+    In v = n3 - b nu, Omega3 - omega3 for a body in a field,
+
+        Q(v) = (n2^2 + 2 n3 v - v^2)(g + 2 c v - A v^2) - (n2 M2 + M3 v)^2,    g = omega1^2 + M2^2,  c = a + A n3,
+
+    where what stands in the field at rest does not cancel. A = 0 leaves a cubic, whose fourth root is not asked for
+    anywhere. The `couplings` are k2/(I2 b) and k3/(I3 b), one where M = II (Omega + K).
+    """
     I, less = I3 / I2, (I2 - I3) / I2
-    c3, X, across = w3 + B3, w2 + B2, B2 * B2
-    rate = w1 * B2
-    tilted = less * across
-    inertial = I * c3
-    q1 = B3 * (w1 * w1 + w2 * (X + B2)) - I * B2 * (w3 * X + w2 * B3)
-    q2 = w1 * w1 + X * X - tilted + inertial * inertial + (less * B3 * B3).scaled(2)
-    q = rate * rate, q1.scaled(1), -q2, (less * B3).scaled(2), -less
-    b = (across + B3 * B3).sqrt()
-    longer = b + abs(B3)
-    shorter = -across / longer
-    poles = stacked(chosen(B3.hi > 0, longer, -shorter), chosen(B3.hi > 0, shorter, -longer))
+    (n2, n3), (w1, w2, w3), (across, along) = n, omega, couplings
+    square, rest = n2 * n2, across * n2
+    c3, M2, rate = w3 + along * n3, w2 + rest, w1 * n2
+    M3 = I * c3
+    A, a = (top.A, top.linear + M3 * top.kappa) if top else (-less, None)
+    bend = A * n3
+    q1 = n3 * (w1 * w1 + w2 * (M2 + rest)) - I * n2 * (w3 * (w2 + along * n2) + along * w2 * n3)
+    if top:
+        q1 = q1 + square * (top.linear + top.quadratic * n3)
+    q2 = w1 * w1 + M2 * M2 + A * square + M3 * M3 - (plus(a, bend) * n3).scaled(2)
+    q = rate * rate, q1.scaled(1), -q2, -plus(a, bend.scaled(1)).scaled(1), A
+    b = (square + n3 * n3).sqrt()
+    longer = b + abs(n3)
+    shorter = -square / longer
+    poles = stacked(chosen(n3.hi > 0, longer, -shorter), chosen(n3.hi > 0, shorter, -longer))
     still = q[0].hi == 0
     known = np.broadcast_to(q1.rel, q1.hi.shape) < 0.5
     low, high, f = turning(q, poles)
     steady, moving = still & (q1.hi == 0) & known, ~still | ((q1.hi != 0) & known)
-    return Roots(rate, low, high, f, poles, I, less, B2, B3, (w1, w2, w3), c3, b, steady, moving)
+    frame = across * b
+    return Roots(rate, low, high, f, poles, I, less, n2, n3, omega, M2, c3, b, frame, A, a, top, steady, moving)
+
+
+def plus(x: DoubleDouble | None, y: DoubleDouble) -> DoubleDouble:
+    """Return a sum whose first term may not be there."""
+    return y if x is None else x + y
+
+
+def roots_of_tops(*given: DoubleDouble) -> Roots:
+    """Return the same from I2, I3, k2, k3, n2, n3, the three of omega, linear and quadratic."""
+    I2, I3, k2, k3, n2, n3, w1, w2, w3, linear, quadratic = given
+    twisted = (k3 * I2 - k2 * I3).hi != 0
+    I, less, k, turn = I3 / I2, (I2 - I3) / I2, k2 / I2, k3 / I3
+    b = (n2 * n2 + n3 * n3).sqrt()
+    across, along, none = k / b, turn / b, constant(0.0, b)
+    potential = quadratic / (I2 * b * b)
+    A = chosen(twisted, I * along * along - across * across, -(less * across * across)) + potential
+    rates = [abs(x.hi) for x in (w1, w2, w3, k, turn)] + [np.sqrt(abs(x.hi / I2.hi)) for x in (linear, quadratic)]
+    top = Top(
+        kappa=chosen(twisted, across - along, none),
+        twisted=twisted,
+        linear=linear / (I2 * b),
+        quadratic=potential,
+        A=_sure(A, given),
+        rates=np.max(rates, axis=0),
+    )
+    return roots_of(I2, I3, (n2, n3), (w1, w2, w3), (across, chosen(twisted, along, across)), top)
+
+
+def _sure(A: DoubleDouble, given: Sequence[DoubleDouble]) -> DoubleDouble:
+    """Return A, from exact numbers where it cancels: its sign says how many roots there are."""
+    hi, low, rel = (np.array(np.broadcast_to(x, A.hi.shape)) for x in (A.hi, A.low, A.rel))
+    for i in np.flatnonzero(~(rel < 0.5)).tolist():
+        numbers = (float(np.broadcast_to(x.hi, A.hi.shape)[i]) for x in given)
+        I2, I3, k2, k3, n2, n3, *_, quadratic = (fmpq(*x.as_integer_ratio()) for x in numbers)
+        exact = (k3 * k3 / I3 - k2 * k2 / I2 + quadratic) / (I2 * (n2 * n2 + n3 * n3))
+        (hi[i], low[i]), rel[i] = words(exact, 2), 2.0**-105
+    return DoubleDouble(hi, low, rel)
 
 
 def turning(

@@ -1,10 +1,8 @@
-"""Many general motions in arrays at a few times each: matrices, fields and angular velocities; none is made alone.
+"""Many motions in arrays at a few times each: matrices, fields and angular velocities; none is made by itself.
 
-With y = M t + y0 the pair (alpha, beta) of the axis, and that of the angular velocity, is exp(i l t) F times the sum
-over odd k of even_k cos k y + i odd_k sin k y, the trigonometric sums of `atlas.exact.nutation.theta`. What two words
-do not hold for certain is not `sure`, and is left to the motion made alone: next to a separatrix or a triple root,
-where the sums are long or cancel; where Omega3 is constant, for the matrix; where the inputs are of very different
-sizes.
+What two words do not hold for certain is not `sure`, and is left to the motion made by itself: next to a separatrix or
+a triple root, where the sums are long or cancel; where theta is constant, for the matrix; where the inputs are of very
+different sizes.
 """
 
 from collections.abc import Callable
@@ -13,16 +11,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.arithmetic.phase import LIMIT, Phases, room
-from atlas.core.arithmetic.turnings import LOST, PER_RADIAN, REACH
+from atlas.core.arithmetic.turnings import LOST, REACH
 from atlas.core.inputs import FloatArray, largest
-from atlas.core.nutation.blocks import Block, Blocks
-from atlas.core.nutation.pair import TERMS, Pair, multiples
+from atlas.core.nutation.blocks import KNOWN, Block, Blocks, Constants
+from atlas.core.nutation.pair import Pair, multiples
 from atlas.core.nutation.spheres import sphere_of_velocity
-
-KNOWN = 2.0**-57
-"""Radius to which weights are known before they are rounded."""
+from atlas.core.nutation.swing_rows import TURN_ERROR, Swings
 
 CANCELLING = 6.0
 """By how much the weights may exceed alpha and beta: each entry of R is within 1e-14 then, as bounded in `At`."""
@@ -30,29 +25,8 @@ CANCELLING = 6.0
 SMALL = 3.0
 """By how much Omega3 may change, in parts of the largest component of Omega: that is within 16 ulp then."""
 
-
-class Constants(NamedTuple):
-    """Constants of the pairs of motions in a row, the last axis of each.
-
-    `words` (2, 3, m) and `lack` (3, m) are the frequencies l of alpha and beta and M in half turns, in two words, and
-    what they may be off; `rates` (3, m) the same in radians. `even` and `odd` (TERMS, 2, m), of which `terms` matter,
-    `factor` (2, m) is F, `start` (2, m) are cos and sin of y0. `weight` bounds |alpha| + |beta|. `tilt` (2, m) are cos
-    and sin of theta(0); `azimuth` and `sizes` are those of the vector, see `Sphere`.
-    """
-
-    words: FloatArray
-    lack: FloatArray
-    rates: FloatArray
-    even: FloatArray
-    odd: FloatArray
-    terms: Any
-    factor: Any
-    start: FloatArray
-    weight: FloatArray
-    tilt: FloatArray
-    azimuth: FloatArray
-    sizes: FloatArray
-    sure: Any
+FAST = 16.0
+"""By how much the sizes of what the rates are sums of may exceed the largest rate: up to 12 they were within 3 ulp."""
 
 
 class Third(NamedTuple):
@@ -73,7 +47,7 @@ def _velocity(block: Block) -> tuple[Any, ...]:
     with np.errstate(all="ignore"):
         r = block.roots
         pair = Pair(block.means, sphere_of_velocity(r))
-        found, change, (cos, sin) = constants_of(pair, block), pair.change, pair.means.start
+        found, change, (cos, sin) = block.constants_of(pair), pair.change, pair.means.start
         return *found._replace(sure=found.sure & (change.size.rel < KNOWN)), *Third(
             np.ldexp(r.omega[2].hi, block.exponents),
             np.ldexp(np.maximum(-r.low.hi, r.high.hi), block.exponents),
@@ -86,44 +60,7 @@ def _velocity(block: Block) -> tuple[Any, ...]:
 def _field(block: Block) -> Constants:
     """Return the constants of the axis and the field of a block."""
     with np.errstate(all="ignore"):
-        return constants_of(block.pair, block)
-
-
-def constants_of(pair: Pair, block: Block) -> Constants:
-    """Return the constants of a block."""
-    with np.errstate(all="ignore"):
-        r, means, sphere = block.roots, pair.means, pair.sphere
-        (words, lack), (cos, sin), (even, odd, terms, *_) = (
-            in_half_turns(pair.rates, block.exponents),
-            means.start,
-            pair.sums,
-        )
-        factor, lost = pair.factors
-        known = ((lost < KNOWN) & (pair.zeros.growth.rel < KNOWN)).all(axis=0) & (means.nome.rel < KNOWN)
-        known &= (
-            np.isfinite(lack).all(axis=0) & (abs(cos.hi) * cos.rel + abs(sin.hi) * sin.rel < KNOWN) & (terms <= TERMS)
-        )
-        return Constants(
-            words,
-            lack,
-            np.ldexp(pair.rates.hi, block.exponents),
-            even,
-            odd,
-            terms,
-            factor,
-            np.array([cos.hi, sin.hi]),
-            ((abs(even) + abs(odd)).sum(axis=0) * abs(factor)).sum(axis=0),
-            r.tilt,
-            np.array(sphere.azimuth),
-            np.ldexp(np.array(sphere.sizes), block.exponents),
-            known & r.exact & block.fine & ~r.free,
-        )
-
-
-def in_half_turns(rates: DoubleDouble, exponents: Any) -> tuple[FloatArray, FloatArray]:
-    """Return frequencies over a power of two as words in half turns, and what they may be off."""
-    turns = rates * PER_RADIAN
-    return np.ldexp(np.array([turns.hi, turns.low]), exponents), np.ldexp(abs(turns.hi) * turns.rel, exponents)
+        return block.constants
 
 
 class GeneralRows:
@@ -269,3 +206,102 @@ def _circles(words: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray, 
     half, rest, sign, _ = Phases.of_words(words).angles(t, room(*words.shape[1:]))
     cos, sin = np.cos(2 * half), np.sin(2 * half)
     return (cos - 2 * rest * sin) * sign, (sin + 2 * rest * cos) * sign, (half[-1], rest[-1])
+
+
+class TopRows(GeneralRows):
+    """Tops in arrays, ready to be evaluated."""
+
+    @cached_property
+    def _constants(self) -> tuple[Constants, Swings, FloatArray]:
+        """Constants of the pair, of what the integral of nu adds, and the largest rates: all of one pass."""
+        with np.errstate(all="ignore"):
+            found = [
+                (block.constants, block.swings, np.ldexp(block.roots.top.rates, block.exponents))
+                for block in self.blocks
+                if block.roots.top
+            ]
+        pairs, swings, largest = zip(*found, strict=True)
+        return (
+            Constants(*(np.concatenate(x, axis=-1) for x in zip(*pairs, strict=True))),
+            Swings(*(np.concatenate(x, axis=-1) for x in zip(*swings, strict=True))),
+            np.concatenate(largest),
+        )
+
+    @property
+    def field(self) -> Constants:
+        """Constants of the axis and of n in the body."""
+        return self._constants[0]
+
+    @cached_property
+    def swings(self) -> Swings | None:
+        """What the integral of nu adds; None where kappa is zero everywhere."""
+        found = self._constants[1]
+        return found if found.twisted.any() else None
+
+    @property
+    def largest(self) -> FloatArray:
+        """Largest rate of each."""
+        return self._constants[2]
+
+    def at(self, index: Any, t: FloatArray) -> "TopAt":
+        """Return tops by their index at the times t that go with them."""
+        return TopAt(self, index, t)
+
+
+class TopAt(At):
+    """Tops in a row, each at one time."""
+
+    _rows: TopRows
+
+    def angular_velocity(self, _: FloatArray, out: FloatArray) -> None:
+        """Write Omega into (m, 3): twice the vector part of the quaternion's logarithmic derivative."""
+        pair = self._pair(self._rows.field)
+        bound = velocity(pair, out)
+        out *= np.stack([pair.of.azimuth[0], pair.of.azimuth[0], np.ones(len(out))], -1)
+        slow = bound > FAST * self._rows.largest[self._index]
+        self.extreme = np.union1d(self.extreme, np.flatnonzero(slow))
+
+    def _pair(self, constants: Constants) -> "TopPairAt":
+        """Return the pair with the whole turn about the axis, and keep which tops it does not hold."""
+        swings = self._rows.swings
+        own = swings and Swings(*(x[..., self._index] for x in swings))
+        pair = TopPairAt(Constants(*(x[..., self._index] for x in constants)), self._times, own)
+        self.extreme = pair.extreme
+        return pair
+
+
+class TopPairAt(PairAt):
+    """Pairs of tops in a row, with the turn that the integral of nu adds; `kappa` as it is in Omega3."""
+
+    def __init__(self, constants: Constants, t: FloatArray, swings: Swings | None) -> None:
+        super().__init__(constants, t)
+        self.kappa: Any = 0.0
+        if swings is None:
+            return
+        self.kappa = swings.kappa
+        with np.errstate(all="ignore"):
+            half, error = swings.half(self.half, t)
+            turn = np.cos(half).astype(float) + 1j * np.sin(half).astype(float)
+            long = abs(constants.words[0, :2] * t).max(axis=0) > LIMIT / np.pi
+        for x in (self.pair, self.turned):
+            x[:] = np.where(swings.twisted, x * [turn, turn.conj()], x)
+        self.extreme = np.union1d(self.extreme, np.flatnonzero(swings.twisted & (long | ~(error < TURN_ERROR))))
+
+
+def velocity(pair: TopPairAt, out: FloatArray) -> FloatArray:
+    """Write the angular velocity of a pair in the body, e1 across n, into (m, 3); return the size of its terms."""
+    c, rates = pair.of, pair.of.rates
+    with np.errstate(all="ignore"):
+        circles = multiples(*pair.circle, c.terms.max(initial=1))
+        terms = zip(range(1, 2 * len(circles), 2), c.even, c.odd, circles, strict=False)
+        rising = sum(1j * (k * b * x) - k * a * y for k, a, b, (x, y) in terms)
+        slope = 1j * rates[:2] * pair.pair + rates[2] * rising * pair.turned
+        sizes = (abs(c.even) + abs(c.odd)) * (2 * np.arange(len(c.even)) + 1)[:, None, None]
+        bound = abs(rates[:2]) * c.weight + abs(rates[2]) * (sizes.sum(axis=0) * abs(c.factor)).sum(axis=0)
+        (w, x), (dw, dx) = pair.pair.real, slope.real
+        (z, y), (dz, dy) = pair.pair.imag, slope.imag
+        out[:, 0] = 2 * (w * dx - x * dw - y * dz + z * dy) / pair.square
+        out[:, 1] = 2 * (w * dy - y * dw - z * dx + x * dz) / pair.square
+        out[:, 2] = 2 * (w * dz - z * dw - x * dy + y * dx) / pair.square
+        out[:, 2] += pair.kappa * ((w * w + z * z) - (x * x + y * y)) / pair.square
+        return np.asarray(2 * bound.max(axis=0) / np.sqrt(pair.square))

@@ -1,7 +1,7 @@
-"""The scalars of many general motions in arrays: kind, turning points, roots, period, moduli, nome, angles a period.
+"""The scalars of many motions in arrays: kind, turning points, roots, period, moduli, nome and the angles of a period.
 
-What two words do not hold for certain is not `sure`, and is left to the motion made alone: next to a separatrix or a
-triple root, where Omega3 is all but constant, where the inputs are of very different sizes.
+What two words do not hold for certain is not `sure`, and is left to the motion made by itself: next to a separatrix or
+a triple root, where theta is all but constant, where the inputs are of very different sizes; and a top's roots.
 """
 
 from collections.abc import Callable
@@ -11,7 +11,7 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.nutation.blocks import Block, Blocks
-from atlas.core.nutation.roots import part
+from atlas.core.nutation.roots import part, plus
 
 IN_ARRAYS = (
     "kind",
@@ -36,6 +36,9 @@ KINDS = (
 )
 """Kinds that are decided in arrays; what is nearer to a border than the error is none of them."""
 
+TOP_KINDS = "nutation, two real roots", "nutation, four real roots", "nutation, three real roots", "regular nutation"
+"""Those of tops."""
+
 HALF_TURN = DoubleDouble(np.float64(np.pi), np.float64(1.2246467991473532e-16), 2.0**-106)
 
 
@@ -56,12 +59,8 @@ class Scalars:
     def __getitem__(self, name: str) -> Found:
         """Return a scalar by its name."""
         if name not in self._known:
-            self._fill(self.values(name))
+            self._fill(_angles if name.endswith("per_period") else _scalars)
         return self._known[name]
-
-    def values(self, name: str) -> Callable[[Block], dict[str, Found]]:
-        """Return what evaluates a scalar, with others, in a block."""
-        return _angles if name.endswith("per_period") else _scalars
 
     def _fill(self, values: Callable[[Block], dict[str, Found]]) -> None:
         """Evaluate some scalars."""
@@ -86,9 +85,22 @@ def _scalars(block: Block) -> dict[str, Found]:
     """Return kind, turning points, roots, period, moduli and nome of a block."""
     with np.errstate(all="ignore"):
         r = block.roots
-        known, one_by_one = r.exact & ~r.free, of_period(block)
-        found = {name: Found(x.values, x.sure & known) for name, x in one_by_one.items()}
-        return found | _kinds(block) | _all_roots(block)
+        is_field = r.top is None
+        known = r.exact & (~r.free if is_field else r.moving)
+        found = of_period(block) | ({} if is_field else _of_tops(block))
+        found = {name: Found(x.values, x.sure & known) for name, x in found.items()}
+        return found | _kinds(block) | _all_roots(block) if is_field else found
+
+
+def _of_tops(block: Block) -> dict[str, Found]:
+    """Return the turning points of tops, (2, m), and the kind as its place in TOP_KINDS."""
+    r = block.roots
+    low, high = (rounded((r.n3 - x) / r.b, block) for x in (r.high, r.low))
+    cubic, even = r.A.hi == 0, (r.a.hi == 0) & (r.A.hi == 0) if r.a else np.False_
+    codes = np.select([even, cubic, r.discriminant.hi > 0], [3, 2, 1], 0)
+    certain = (cubic | (r.discriminant.rel < 0.5)) & r.moving
+    ends = Found(np.array([low.values, high.values]), low.sure & high.sure)
+    return {"turning_points": ends, "kind": Found(codes, block.fine & certain)}
 
 
 def of_period(block: Block) -> dict[str, Found]:
@@ -131,16 +143,16 @@ def _angles(block: Block) -> dict[str, Found]:
     """Return the angles of precession and of spin in one period."""
     with np.errstate(all="ignore"):
         r = block.roots
-        means, sphere, angles = block.means, block.pair.sphere, block.pair.angles
+        sphere, angles = block.pair.sphere, block.pair.angles
         first, second = part(angles, 0), part(angles, 1)
-        half = (HALF_TURN / means.rate).scaled(-1)
-        spin = half * (first - second + (r.less * r.c3).scaled(1))
+        half = (HALF_TURN / block.means.rate).scaled(-1)
+        spin = half * (first - second + plus(block.swing_rate, r.less * r.c3).scaled(1))
         # the two angles of a ball are half a turn each, or none, and must not cancel
         whole = HALF_TURN * DoubleDouble(np.sign(sphere.torques.hi[0]) - np.sign(sphere.torques.hi[1]))
         both = {
-            "precession_per_period": half * (first + second - r.b.scaled(1)),
+            "precession_per_period": half * (first + second - r.frame.scaled(1)),
             "spin_per_period": chosen(r.ball & (sphere.torques.rel < 0.5).all(axis=0), whole, spin),
         }
-        known = r.exact & ~r.free & ~(r.steady & r.along)
+        known = r.exact & (~r.free & ~(r.steady & r.along) if r.top is None else r.moving)
         found = {name: rounded(x, block) for name, x in both.items()}
         return {name: Found(x.values, x.sure & known) for name, x in found.items()}

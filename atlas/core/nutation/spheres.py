@@ -12,9 +12,7 @@ import numpy as np
 
 from atlas.core.arithmetic.double_double import DoubleDouble, chosen
 from atlas.core.inputs import FloatArray
-from atlas.core.nutation.roots import Roots, Turning, better, constant, part, stacked
-
-ONE = DoubleDouble(np.float64(1.0))
+from atlas.core.nutation.roots import ONE, Roots, Turning, better, constant, part, stacked
 
 
 @dataclass(frozen=True)
@@ -56,15 +54,16 @@ class Sphere:
 
 
 def sphere_of_field(r: Roots) -> Sphere:
-    """Return the sphere of K, and of the axis: the poles are where nu = K3/b is -1 and 1, the torques (M, K) - b nu M3.
+    """Return the sphere of K, or of n in the body, and of the axis: the poles are where nu is -1 and 1.
 
-    The frame is Larmor's, with the turn (1-I) c3 about the axis.
+    The torques are b [(M, n) - nu M3] there. The frame is Larmor's, with the turn (1-I) c3 about the axis.
     """
-    torques = r.B2 * (r.omega[1] + r.B2) + r.I * r.c3 * r.poles
-    longer = ((abs(r.B3) / r.b + ONE).scaled(-1)).sqrt()
-    shorter = abs(r.B2) / (longer * r.b).scaled(1)
-    up, spin = r.B3.hi >= 0, r.less * r.c3
+    torques = r.n2 * r.M2 + r.I * r.c3 * r.poles
+    longer = ((abs(r.n3) / r.b + ONE).scaled(-1)).sqrt()
+    shorter = abs(r.n2) / (longer * r.b).scaled(1)
+    up, spin = r.n3.hi >= 0, r.less * r.c3
     (w1, w2, _), there = (w.hi for w in r.omega), r.along & (torques.hi == 0) & (torques.rel < 0.5)
+    length = r.b.hi if r.top is None else np.ones_like(r.b.hi)
     return Sphere(
         roots=r,
         poles=r.poles,
@@ -72,9 +71,9 @@ def sphere_of_field(r: Roots) -> Sphere:
         amplitudes=stacked(chosen(up, longer, shorter), chosen(up, shorter, longer)),
         meets=there & np.array([~up, up]),
         slopes=np.array([1j * w2 - w1, 1j * w2 + w1]),
-        frames=stacked(spin - r.b, -(spin + r.b)).scaled(-1),
-        azimuth=(np.where(r.B2.hi < 0, -1.0, 1.0), np.zeros_like(w1)),
-        sizes=(r.b.hi, r.b.hi),
+        frames=stacked(spin - r.frame, -(spin + r.frame)).scaled(-1),
+        azimuth=(np.where(r.n2.hi < 0, -1.0, 1.0), np.zeros_like(length)),
+        sizes=(length, length),
     )
 
 
@@ -90,11 +89,11 @@ def sphere_of_velocity(r: Roots) -> Sphere:
     longer = end + abs(w3)
     shorter = square / (r.I * longer)
     poles = stacked(chosen(up, longer, shorter), -chosen(up, shorter, longer))
-    torques = w2 * r.B2 + poles * (r.I * w3 - (r.less + ONE) * r.B3 + poles)
+    torques = w2 * r.n2 + poles * (r.I * w3 - (r.less + ONE) * r.n3 + poles)
     twice, across = end.scaled(1), square.sqrt()
     larger, smaller = (longer / twice).sqrt(), (shorter / twice).sqrt()
     there = (square.hi == 0) & (torques.hi == 0) & (torques.rel < 0.5)
-    turn = short.hi * r.B2.hi
+    turn = short.hi * r.n2.hi
     return Sphere(
         roots=r,
         poles=poles,

@@ -19,7 +19,7 @@ from atlas.core.arithmetic.turnings import PER_RADIAN
 from atlas.core.inputs import FloatArray
 from atlas.core.nutation.means import ENOUGH, ONE, Circle, Means
 from atlas.core.nutation.pair import TERMS
-from atlas.core.nutation.roots import constant, part, signed
+from atlas.core.nutation.roots import Roots, constant, part, signed
 
 STEPS = 60
 """Most steps of the means."""
@@ -30,7 +30,7 @@ KNOWN = 2.0**-64
 FAINT = 2.0**-72
 """Part of the first term below which a term is left out."""
 
-SMALL = 2.0**-53
+TURN_ERROR = 2.0**-53
 """Largest error, in radians, of half the turn."""
 
 Extended = Any
@@ -72,9 +72,10 @@ class Swings(NamedTuple):
     known: FloatArray
 
     @classmethod
-    def of(cls, sums: SwingSums | None, means: Means, A_kappa: Circle, twisted: Any, exponents: Any) -> Self:
+    def of(cls, sums: SwingSums | None, means: Means, r: Roots, exponents: Any) -> Self:
         """Return it for the tops of a block."""
-        (A, kappa), r, (cos, sin) = A_kappa, means.roots, means.start
+        A, (cos, sin) = r.A, means.start
+        kappa, twisted = (r.top.kappa, r.top.twisted) if r.top else (constant(0.0, A), np.zeros(A.hi.shape, dtype=bool))
         nothing = np.zeros((TERMS, *A.hi.shape), dtype=np.longdouble)
         sums = sums or SwingSums(constant(0.0, A), nothing, nothing, nothing[0].astype(float))
         size = np.sqrt(abs(extended(A)))
@@ -82,7 +83,7 @@ class Swings(NamedTuple):
         turns = means.rate * PER_RADIAN
         found = cls(
             twisted=twisted,
-            kappa=np.ldexp(kappa.hi, exponents),
+            kappa=np.ldexp((kappa * r.b).hi, exponents),
             factor=extended(kappa) / np.where(size == 0, 1, size),
             size=size,
             sign=np.sign(A.hi),
@@ -121,7 +122,7 @@ class Swings(NamedTuple):
 
 
 def swing_sums(means: Means, nu: DoubleDouble, A: DoubleDouble) -> SwingSums:
-    """Return them for tops whose nu at t = 0 and A are these."""
+    """Return them for tops whose b nu at t = 0, and A over b^2, are these."""
     r, square = means.roots, means.nome * means.nome
     beside = r.ends.hi[0] < r.ends.hi[1]
     size = abs(A).sqrt()
