@@ -21,7 +21,6 @@ from atlas.report.tables.table import Column, Data
 from atlas.sources import PACKAGE
 
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
-_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 _POWER = re.compile(r"1e\+?(-?)0*(\d+)")
 BEST, HUGE, SMALL = 0.5, 1e3, 1e-2
 """Half an ulp is as good as a rounded number can be; beyond the other two a power of ten is written."""
@@ -116,20 +115,29 @@ def _trial() -> dict[str, Data]:
 
 
 def _bench() -> dict[str, Data]:
-    """Return the tables of the stored benchmark by their titles."""
+    """Return the tables of the stored benchmark by their titles: the limits of speed, and errors by time."""
     from atlas.study import benchmark
 
     stored = benchmark.read()
-    line = f"Measured on {benchmark.machine_line(stored).replace(stored.command, f'`{stored.command}`')}."
-    return {
-        table.title: Data(
-            tuple(map(_head, table.heading)),
-            tuple(tuple(map(_cell, row)) for row in table.rows),
-            f"{table.title}.",
-            (*table.notes, line),
+    line = f"{benchmark.measured(stored, stored.versions)} `{stored.command}`."
+    rows: tuple[tuple[str | Number, ...], ...]
+    rows = tuple((_words(x.says), _words(x.wanted), _three(x.found), x.verdict) for x in stored.limits)
+    limits = Data(tuple(map(Column, ("What", "Wanted", "Found", "Verdict"))), rows, "Limits of speed.", (line,))
+    found = {"Limits of speed": limits}
+    for case in dict.fromkeys(run.case for run in stored.runs):
+        best: defaultdict[str, dict[float, float]] = defaultdict(dict)
+        for run in benchmark.runs_of(stored, case):
+            best[run.method][run.horizon] = min(best[run.method].get(run.horizon, math.inf), run.error or 0.0)
+        times = sorted({time for errors in best.values() for time in errors})
+        columns = ("Largest error to t =", *(_words(f"{time:.0e}") for time in times))
+        rows = tuple(
+            (_words(benchmark.title(method)), *(_three(errors.get(time)) for time in times))
+            for method, errors in best.items()
         )
-        for table in benchmark.tables(stored)
-    }
+        title = f"Error against horizon: {case}"
+        note = "Of an integrator the best tolerance that came through in time."
+        found[title] = Data(tuple(map(Column, columns)), rows, f"{title}.", (note, line))
+    return found
 
 
 def _stress() -> dict[str, Data]:
@@ -184,16 +192,11 @@ def _ulps(worst: float) -> Number:
     return Number(f"{worst:.3f}" if worst < HUGE else f"{worst:.1e}")
 
 
-def _cell(text: str) -> str | Number:
-    """Return a number as it stands, a small one in two digits with its power of ten; words as words."""
-    if not _NUMBER.fullmatch(text):
-        return _words(text)
-    return Number(f"{float(text):.1e}" if 0 < abs(float(text)) < SMALL else text)
-
-
-def _head(text: str) -> Column:
-    """Return the head of a column."""
-    return Column(_words(text[:1].upper() + text[1:]))
+def _three(value: float | None) -> str | Number:
+    """Return three digits of a number, of a small one two with its power of ten; a dash for none."""
+    if value is None:
+        return "–"
+    return Number(f"{value:.1e}" if 0 < abs(value) < SMALL else f"{value:.3g}")
 
 
 def _words(text: str) -> str:

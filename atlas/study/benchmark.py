@@ -3,21 +3,18 @@
 Figures and pages are drawn from the stored file, never from a fresh run, so they rebuild the same.
 """
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 import msgspec
 import numpy as np
 
-from atlas import files
 from atlas.errors import AtlasError
 from atlas.places import folder
 from atlas.scene.layers import Curve, FloatArray, Layer, Points
 
 FORMAT = 2
-NONE = "–"
 Status: TypeAlias = Literal["done", "failed", "timed out", "skipped"]
 Verdict: TypeAlias = Literal["met", "missed", "wrong values", "not measured"]
 
@@ -172,16 +169,6 @@ def read(path: Path | None = None) -> Results:
         raise AtlasError(f"{path.name} is not a benchmark record: {error}.") from error
 
 
-def write(record: Results, path: Path) -> None:
-    """Write a record, a row a line, whole or not at all."""
-    parts = []
-    for name, value in msgspec.to_builtins(record).items():
-        many = isinstance(value, list)
-        rows = ",\n".join(f"  {msgspec.json.encode(item).decode()}" for item in value) if many else ""
-        parts.append(f' "{name}": [\n{rows}\n ]' if many else f' "{name}": {msgspec.json.encode(value).decode()}')
-    files.write(path, "{\n" + ",\n".join(parts) + "\n}\n")
-
-
 def runs_of(record: Results, case: str) -> list[Run]:
     """Return the runs of a case that have an error and a time."""
     known = list(dict.fromkeys(run.case for run in record.runs))
@@ -216,65 +203,15 @@ def decades(values: Iterable[float], left: float = 1.0, right: float = 1.0) -> t
     return float(10.0 ** (logs.min() - left)), float(10.0 ** (logs.max() + right))
 
 
-def measured(record: Results) -> str:
-    """Return the sentence that says where and when it was measured."""
+def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> str:
+    """Return the sentence that says where, when and with what it was measured."""
     here = record.machine
     vector = "with" if here.avx512 else "without"
-    versions = ", ".join(f"{name} {record.versions[name]}" for name in ("numpy", "scipy") if name in record.versions)
-    return f"Measured on {here.processor}, {here.cores} cores, {vector} AVX-512, {versions}, on {record.date}."
+    versions = ", ".join(f"{name} {record.versions[name]}" for name in libraries if name in record.versions)
+    return f"Measured on {here.processor}, {here.cores} cores, {vector} AVX-512, {here.system}, {versions}, on {record.date}."
 
 
 def power(value: float) -> str:
     """Return a power of ten for a formula, or the number where it is none."""
     exponent = np.log10(value)
     return f"10^{{{exponent:.0f}}}" if exponent == round(exponent) else f"{value:g}"
-
-
-@dataclass(frozen=True)
-class TextTable:
-    """A table as text, ready to be shown by any presenter."""
-
-    title: str
-    heading: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    notes: tuple[str, ...] = ()
-
-
-def tables(record: Results) -> list[TextTable]:
-    """Return the tables of a record: the limits of speed, and the errors of each case against the horizon."""
-    rows = tuple((item.says, item.wanted, number(item.found), item.verdict) for item in record.limits)
-    return [TextTable("Limits of speed", ("what", "wanted", "found", "verdict"), rows), *_horizons(record)]
-
-
-def machine_line(record: Results) -> str:
-    """Say in one line where, when and with what it was measured."""
-    here = record.machine
-    vector = "with" if here.avx512 else "without"
-    found = ", ".join(f"{name} {number}" for name, number in record.versions.items())
-    machine = f"{here.processor}, {here.cores} cores, {vector} AVX-512, {here.system}"
-    return f"{machine}; {found}; {record.command}, {record.date}"
-
-
-def _horizons(record: Results) -> Iterable[TextTable]:
-    """Error by method and horizon; of an integrator the smallest over its tolerances."""
-    for case in dict.fromkeys(run.case for run in record.runs):
-        runs = [run for run in record.runs if run.case == case]
-        horizons = sorted({run.horizon for run in runs})
-        rows = []
-        for method in dict.fromkeys(run.method for run in runs):
-            best = [_best([run for run in runs if run.method == method and run.horizon == T]) for T in horizons]
-            rows.append((title(method), *(number(run.error) if run else NONE for run in best)))
-        heading = ("largest error to t =", *(f"{T:.0e}" for T in horizons))
-        note = "Of an integrator the best tolerance that came through in time."
-        yield TextTable(f"Error against horizon: {case}", heading, tuple(rows), (note,))
-
-
-def number(value: float | None) -> str:
-    """Return three digits of a number, or a dash for none."""
-    return NONE if value is None else f"{value:.3g}"
-
-
-def _best(runs: Sequence[Run]) -> Run | None:
-    """Return the run with the smallest error, if any has one."""
-    done = [run for run in runs if run.error is not None]
-    return min(done, key=lambda run: run.error or 0.0, default=None)

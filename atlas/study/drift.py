@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -11,7 +12,7 @@ from atlas.core.inputs import FloatArray
 from atlas.exact.motions.elementary import ElementaryMotion
 from atlas.exact.motions.general import GeneralMotion
 from atlas.exact.motions.top import TopMotion
-from atlas.study.conserved import Value, conserved
+from atlas.formulas import integrals as formulas
 from atlas.study.trajectory import MATRIX, OMEGA, QUATERNION
 from atlas.study.truth import long
 
@@ -27,6 +28,9 @@ class Drift:
     worst_time: float
     last: float
 
+
+Value: TypeAlias = tuple[str, str, str, Any, Any]
+"""Name, meaning, equation, values and size, the sum of the sizes of its terms, of what is conserved."""
 
 Deviation: TypeAlias = tuple[str, str, str, Any]
 """Name of what should not change, what it is, its equation, and how far it is off in each row."""
@@ -69,7 +73,18 @@ def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, Floa
         tensor = np.diag([np.longdouble(1), np.longdouble(1), I])
         spin = np.array([long(w) for w in motion.omega])
         start = conserved(tensor, spin, np.array([np.longdouble(0), B2, B3]))
-        yield from _clebsch(conserved(tensor, Omega, K), start)
+        yield from islice(_against(conserved(tensor, Omega, K), start), 3)
+
+
+def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
+    """Yield the integrals of any inertia tensor J (3, 3), theorem-clebsch, and more; Omega, K (..., 3)."""
+    M = (Omega + K) @ J
+    H2, F, along, square, energy2 = formulas.clebsch(*J.flat, *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
+    yield "H", "Hamiltonian in Larmor's frame", "theorem-lie-poisson", H2 / 2, H2 / 2
+    yield "F", "Clebsch's integral", "theorem-clebsch", F, 2 * (M * M).sum(-1) - F
+    yield "(M,K)", "canonical momentum along the field", "theorem-lie-poisson", along, np.abs(M * K).sum(-1)
+    yield "K^2", "length of the field in the body, squared", "(37)", square, square
+    yield "T", "kinetic energy", "theorem-kinetic-energy", energy2, energy2
 
 
 class AnyBody:
@@ -92,11 +107,7 @@ class AnyBody:
         if self._start is None:
             self._start = Omega[0], K[0]
         first, field = self._start
-        yield from _clebsch(conserved(J, Omega, K), conserved(J, first, field))
-        square, double = (K * K).sum(-1), np.einsum("...i,ij,...j->...", Omega, J, Omega)
-        true = (field @ field, first @ J @ first)
-        yield "K^2", "length of the field in the body, squared", "(37)", square / (true[0] or 1) - 1
-        yield "T", "kinetic energy", "theorem-kinetic-energy", double / (true[1] or 1) - 1
+        yield from _against(conserved(J, Omega, K), conserved(J, first, field))
 
 
 def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:
@@ -108,13 +119,11 @@ def of_top(motion: TopMotion, block: Mapping[str, FloatArray]) -> Iterable[Devia
     I, k2, k3, a0, A0 = map(long, (motion.I, *motion.coupling, *motion.potential))
     n = np.array([long(x) for x in motion.field]) / long(motion.b)
     start = np.array([long(w) for w in motion.omega])
-    found, true = (_of_top(I, k2, k3, a0, A0, *state) for state in ((Omega, n @ R), (start, n)))
-    for (name, says, label, values, _), (*_, value, size) in zip(found, true, strict=True):
-        yield name, says, label, (values - value) / (size or 1)
+    yield from _against(*(_of_top(I, k2, k3, a0, A0, *state) for state in ((Omega, n @ R), (start, n))))
 
 
 def _of_top(I: Any, k2: Any, k3: Any, a0: Any, A0: Any, Omega: Any, b: Any) -> Iterable[Value]:
-    """Yield name, meaning, equation, values and size of the constants of a top, Omega and b (..., 3)."""
+    """Yield the constants of a top, Omega and b (..., 3)."""
     w, nu = np.moveaxis(Omega, -1, 0), b[..., 2]
     M = np.stack([w[0] + k2 * b[..., 0], w[1] + k2 * b[..., 1], I * w[2] + k3 * nu], axis=-1)
     kinetic = (w[0] ** 2 + w[1] ** 2 + I * w[2] ** 2) / 2
@@ -141,24 +150,24 @@ def _rigid(columns: Mapping[str, Any], R: Any) -> Iterable[Deviation]:
         yield "R^T R", "orthogonality of R", "(12)", defect
 
 
-def _clebsch(found: Iterable[Any], start: Iterable[Any]) -> Iterable[Deviation]:
-    """Yield the integrals of theorem-clebsch against their values at the start."""
-    for (name, says, label, value, _), (_, _, _, true, scale) in zip(found, start, strict=True):
-        yield name, says, label, (value - true) / (scale or 1)
+def _against(found: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviation]:
+    """Yield how far what is conserved is from its values at the start."""
+    for (name, says, label, value, _), (_, _, _, true, size) in zip(found, start, strict=True):
+        yield name, says, label, (value - true) / (size or 1)
 
 
 def _integrals(I: Any, Omega: Any, K: Any) -> Iterable[tuple[str, str, str, Any]]:
     """Yield the integrals of motion that Omega and K determine."""
+    w, k = ([0, 0, 0] if x is None else list(np.moveaxis(x, -1, 0)) for x in (Omega, K))
+    E, K2, c3, c5 = formulas.integrals(I, w, k)
     if Omega is not None:
-        yield "E'", "energy 2 E/I2", "(36)", Omega[:, 0] ** 2 + Omega[:, 1] ** 2 + I * Omega[:, 2] ** 2
+        yield "E'", "energy 2 E/I2", "(36)", E
     if K is not None:
-        yield "K^2", "length of the field in the body, squared", "(37)", (K**2).sum(-1)
+        yield "K^2", "length of the field in the body, squared", "(37)", K2
     if Omega is not None and K is not None:
-        u, c3 = Omega[:, 2], K[:, 2] + Omega[:, 2]
-        across = Omega[:, 0] * K[:, 0] + Omega[:, 1] * K[:, 1]
         yield "c3", "K3 + Omega3", "(40)", c3
-        yield "c5", "the fourth integral", "(41)", across - u**2 + (2 - I) * c3 * u
-        yield "(m,B')", "momentum along the field, over I2", "(88)", across + I * u * K[:, 2]
+        yield "c5", "the fourth integral", "(41)", c5
+        yield "(m,B')", "momentum along the field, over I2", "(88)", formulas.along_field(I, w, k)
 
 
 def _scales(motion: ElementaryMotion | GeneralMotion) -> dict[str, fmpq]:

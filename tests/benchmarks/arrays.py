@@ -16,6 +16,7 @@ from statistics import median
 from typing import Any
 
 import numpy as np
+from ulps import absolute, own
 
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.core.motions.general import GeneralMotion
@@ -25,7 +26,6 @@ from atlas.exact.digits import enclosed
 from atlas.exact.motions import elementary, general
 from atlas.exact.surfaces import hyperbola, quadric
 from atlas.formulas.numbers import workprec
-from atlas.study.ulps import absolute, own
 from benchmarks.case import FloatArray
 from benchmarks.clock import interleave, one_core, ratio
 from benchmarks.elementary import constants, formula

@@ -13,11 +13,11 @@ from itertools import chain
 from statistics import median
 
 import numpy as np
+from ulps import absolute
 
 from atlas.exact.digits import enclosed
 from atlas.exact.motions.general import GeneralMotion as Exact
 from atlas.formulas.numbers import workprec
-from atlas.study.ulps import absolute
 from benchmarks import elementary, general
 from benchmarks.case import Grid, Solve
 from benchmarks.clock import interleave, one_core, ratio

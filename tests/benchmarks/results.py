@@ -5,10 +5,12 @@ import re
 from datetime import UTC, datetime
 from pathlib import Path
 
-from atlas import __version__
+import msgspec
+
+from atlas import __version__, files
 from atlas.core.arithmetic.machine import processors
 from atlas.libraries import release
-from atlas.study.benchmark import Item, Machine, Status
+from atlas.study.benchmark import Item, Machine, Results, Status
 
 PEERS = ("numpy", "scipy", "sympy", "python-flint", "heyoka")
 
@@ -75,6 +77,16 @@ def versions() -> dict[str, str]:
 def today() -> str:
     """Return the date, in universal time."""
     return datetime.now(UTC).date().isoformat()
+
+
+def write(record: Results, path: Path) -> None:
+    """Write a record, a row a line, whole or not at all."""
+    parts = []
+    for name, value in msgspec.to_builtins(record).items():
+        many = isinstance(value, list)
+        rows = ",\n".join(f"  {msgspec.json.encode(item).decode()}" for item in value) if many else ""
+        parts.append(f' "{name}": [\n{rows}\n ]' if many else f' "{name}": {msgspec.json.encode(value).decode()}')
+    files.write(path, "{\n" + ",\n".join(parts) + "\n}\n")
 
 
 def said(error: Exception) -> str:

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from atlas import files
 from atlas.cli.progress import bar
 from atlas.errors import AtlasError
-from atlas.study.benchmark import FORMAT, Cost, Results, Run, case_title, machine_line, stored, tables, write
+from atlas.study.benchmark import FORMAT, Cost, Results, Run, case_title, measured, stored
 from benchmarks import arrays, asymmetric, ball, dense, elementary, general, heavy, particle
 from benchmarks.case import Case
 from benchmarks.cost import costs
@@ -19,7 +19,7 @@ from benchmarks.integrators import Integrator, integrators
 from benchmarks.limits import Measured, targets
 from benchmarks.oracle import check
 from benchmarks.precision import Bench, Plan, closed, stepping
-from benchmarks.results import ReferenceCheck, Rows, Setup, machine, today, versions
+from benchmarks.results import ReferenceCheck, Rows, Setup, machine, today, versions, write
 
 NEAR = 1e-35
 """How near the reference must be to an integration of the equations of motion."""
@@ -161,9 +161,11 @@ def main() -> None:
     files.check(options.out)
     with bar("bench") as tell:
         found = run(options.case, options.quick, tell, command="make bench")
-    for table in tables(found):
-        print(table.title, *("  ".join(row) for row in (table.heading, *table.rows)), "", sep="\n")  # noqa: T201
-    print(machine_line(found))  # noqa: T201  what was asked for
+    for limit in found.limits:
+        print(f"{limit.says}: {limit.found}, wanted {limit.wanted}: {limit.verdict}")  # noqa: T201  what was asked for
+    for each in found.runs:
+        print(f"{each.case} to {each.horizon:g} by {each.method}: {each.error:.2g}, {each.seconds:.2g} s")  # noqa: T201
+    print(measured(found, found.versions))  # noqa: T201
     write(found, options.out)
 
 

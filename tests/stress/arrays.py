@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from flint import arb, fmpq
+from ulps import BITS, ONE, absolute, error, own, rigidity
 
 from atlas import processes
 from atlas.core.inputs import FloatArray
@@ -23,7 +24,6 @@ from atlas.exact.inputs import Real
 from atlas.exact.motions import elementary as exact_elementary
 from atlas.exact.motions.general import GeneralMotion as Balls
 from atlas.formulas.numbers import workprec
-from atlas.study.ulps import BITS, ONE, absolute, error, own, rigidity
 from stress.nutating import narrow
 from stress.regimes import GENERAL
 from stress.run import Progress, Result, finished

@@ -10,10 +10,10 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
+from ulps import BITS, ONE, absolute, approximate, error, of_length, own, rigidity
 
 from atlas.exact.digits import enclosed
 from atlas.families import FAMILIES
-from atlas.study.ulps import BITS, ONE, absolute, approximate, error, of_length, own, rigidity
 from stress import extreme
 from stress.extreme import described
 from stress.worst import WorstErrors, with_more

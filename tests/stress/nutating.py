@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 from flint import arb
+from ulps import ONE
 
 from atlas.core.inputs import FloatArray
 from atlas.exact.digits import numbers
 from atlas.exact.inputs import Real
 from atlas.families import FAMILIES
 from atlas.formulas.numbers import workprec
-from atlas.study.ulps import ONE
 from stress.asymmetric import Asymmetric, size_of
 from stress.checks import Inputs, Where, check, on_grid
 from stress.elliptic import Elliptic, rates_of

@@ -5,9 +5,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
+from ulps import BITS
+
 from atlas.errors import AtlasError
 from atlas.formulas.numbers import workprec
-from atlas.study.ulps import BITS
 
 
 @dataclass(frozen=True)

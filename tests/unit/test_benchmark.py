@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 import numpy as np
 import pytest
+from benchmarks.results import write
 
 from atlas.errors import AtlasError
 from atlas.scene import recipes
@@ -105,7 +106,7 @@ def test_figures_follow_the_record(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     record = results.read()
     runs = [msgspec.structs.replace(run, error=run.error * 10.0) if run.error else run for run in record.runs]
     path = tmp_path / "record.json"
-    results.write(msgspec.structs.replace(record, runs=runs), path)
+    write(msgspec.structs.replace(record, runs=runs), path)
     before = np.concatenate([layer.points for layer in layers(recipes.load("work_precision").scene())])
     monkeypatch.setattr(results, "stored", lambda: path)
     after = np.concatenate([layer.points for layer in layers(recipes.load("work_precision").scene())])

@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 from oracles import closed_form
 from oracles.taylor import taylor
+from ulps import approximate
 
 from atlas.core.bodies.body import SymmetricBody
 from atlas.core.motions.elementary import ElementaryMotion, FreeMotion
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.motions import elementary as exact
-from atlas.study.ulps import approximate
 
 ULP1 = 2.0**-52
 

@@ -11,11 +11,11 @@ import pytest
 from flint import arb, ctx
 from stress.run import PROMISES
 from syrupy.assertion import SnapshotAssertion
+from ulps import absolute, of_length, own
 
 from atlas.exact.digits import enclosed
 from atlas.families import FAMILIES, Family, Quantity
 from atlas.paper import EQUATIONS
-from atlas.study.ulps import absolute, of_length, own
 
 EVERY = pytest.mark.parametrize("one", FAMILIES.values(), ids=list(FAMILIES))
 TIMES = np.array([0.0, 0.3, -2.5, 40.0])

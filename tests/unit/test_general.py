@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from stress.nutating import narrow
+from ulps import absolute
 
 import atlas
 from atlas.core.motions.ball import BallMotion
@@ -19,7 +20,6 @@ from atlas.core.nutation import grid as general_grid
 from atlas.core.surfaces.hyperbola import Hyperbola
 from atlas.errors import AtlasError, DomainError
 from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.study.ulps import absolute
 
 Inputs = tuple[float, tuple[float, float], tuple[float, float, float]]
 ULP1 = 2.0**-52

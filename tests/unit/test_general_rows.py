@@ -12,6 +12,7 @@ from stress.arrays import GENERAL_REGIME, check_general_rows, state
 from stress.nutating import narrow
 from stress.regimes import GENERAL
 from stress.run import PROMISES
+from ulps import ONE, absolute, error
 
 from atlas.core.arithmetic.double_double import DoubleDouble
 from atlas.core.motions import general
@@ -23,7 +24,6 @@ from atlas.core.nutation.rows import GeneralRows
 from atlas.core.nutation.scalars import Scalars
 from atlas.errors import DomainError
 from atlas.exact.motions.general import GeneralMotion as Balls
-from atlas.study.ulps import ONE, absolute, error
 
 SCALARS = ("period", "modulus", "complementary_modulus", "nome", "precession_per_period", "spin_per_period")
 PER_REGIME = 12

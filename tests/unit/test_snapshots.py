@@ -10,6 +10,7 @@ from pathlib import Path
 import lines
 import numpy as np
 import pytest
+from benchmarks.results import write
 from drawing import made
 from syrupy.assertion import SnapshotAssertion
 
@@ -74,7 +75,7 @@ def test_a_figure_of_measurements_is_what_it_was(
 ) -> None:
     """The same of figures drawn from a record."""
     (tmp_path / "data").mkdir()
-    results.write(benchmark(), tmp_path / "data" / "bench.json")
+    write(benchmark(), tmp_path / "data" / "bench.json")
     real = places.folder
     for module in (places, results):
         monkeypatch.setattr(module, "folder", lambda kind: tmp_path if kind == "reports" else real(kind))

@@ -24,12 +24,12 @@ from stress.elliptic import ELLIPTIC
 from stress.regimes import GENERAL, REGIMES
 from stress.run import PROMISES, SHORT, Result, stress
 from stress.worst import WorstErrors
+from ulps import UNDERFLOW, error, of_length, own, ulp
 
 from atlas.core.arithmetic import phase
 from atlas.core.motions.elementary import ElementaryMotion
 from atlas.errors import AtlasError
 from atlas.families import FAMILIES
-from atlas.study.ulps import UNDERFLOW, error, of_length, own, ulp
 
 TESTS = Path(__file__).parents[1]
 
