@@ -119,7 +119,7 @@ def _bench() -> dict[str, Data]:
     from atlas.study import benchmark
 
     stored = benchmark.read()
-    line = f"{benchmark.measured(stored, stored.versions)} `{stored.command}`."
+    line = f"{benchmark.measured(stored, stored.versions)} {stored.machine.system}, `{stored.command}`."
     rows: tuple[tuple[str | Number, ...], ...]
     rows = tuple((_words(x.says), _words(x.wanted), _three(x.found), x.verdict) for x in stored.limits)
     limits = Data(tuple(map(Column, ("What", "Wanted", "Found", "Verdict"))), rows, "Limits of speed.", (line,))

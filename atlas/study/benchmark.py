@@ -208,7 +208,7 @@ def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> 
     here = record.machine
     vector = "with" if here.avx512 else "without"
     versions = ", ".join(f"{name} {record.versions[name]}" for name in libraries if name in record.versions)
-    return f"Measured on {here.processor}, {here.cores} cores, {vector} AVX-512, {here.system}, {versions}, on {record.date}."
+    return f"Measured on {here.processor}, {here.cores} cores, {vector} AVX-512, {versions}, on {record.date}."
 
 
 def power(value: float) -> str:
