@@ -120,6 +120,20 @@ class Motion(Shown, Generic[Single]):
         """
         return self.column(3, t)
 
+    def sensitivity(self, t: Any, names: Any) -> FloatArray:
+        """Vector v in the laboratory by which R(t) turns for a unit of each input, dR/dp = [v]x R; (..., len(names), 3).
+
+        `names` are those of the inputs: "ratio", "B2", "omega1", ..., "t" for time; of a `GeneralMotion` also "B1", the
+        field's components standing in the laboratory, "omega1" to "omega3" in the body, and "a1" to "a3", which turn
+        R(0) about the axes of the laboratory. Errors stay below 1e-12 of 1 + |v| at any time: what grows is made of
+        derivatives of frequencies. A border between kinds, such as a ball or a steady precession, is no exception.
+        Raises DomainError on a separatrix, from which neighbours depart for good, AtlasError for another name and for
+        times as `rotation` does.
+        """
+        from atlas.core.motions.sensitivity import of
+
+        return of(self, t, names)
+
     def animate(self, times: Any = None, *, fps: float = 20.0, style: Any = None) -> Any:
         """Return the motion at these times, or over one period, as an animation of Matplotlib's.
 
