@@ -121,7 +121,7 @@ class Motion(Shown, Generic[Single]):
         return self.column(3, t)
 
     def sensitivity(self, t: Any, names: Any) -> FloatArray:
-        """Vector v in the laboratory by which R(t) turns for a unit of each input, dR/dp = [v]x R; (..., len(names), 3).
+        """Vector v in the laboratory by which R(t) turns for a unit of an input p, dR/dp = [v]x R; (..., names, 3).
 
         `names` are those of the inputs: "ratio", "B2", "omega1", ..., "t" for time; of a `GeneralMotion` also "B1", the
         field's components standing in the laboratory, "omega1" to "omega3" in the body, and "a1" to "a3", which turn

@@ -10,7 +10,7 @@ with all other constants; v_s and the bounded part are those of the pair (alpha,
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from flint import acb, arb, fmpq
@@ -38,7 +38,7 @@ NEGLIGIBLE = 2.0**-64
 SERIES, SMALL = 14, 0.1
 """Terms of the series in A u^2 of the derivative in A of the integral of nu, and up to where it is taken."""
 
-Array = np.ndarray[Any, Any]
+Array: TypeAlias = np.ndarray[Any, Any]
 
 
 class Pair:
@@ -68,10 +68,12 @@ class Pair:
         self.swing = Swing(value, slopes, self) if "swing" in value else None
 
     def _weigh(self, value: Tables, slopes: Sequence[Tables]) -> None:
-        """Keep the weights of S, C, s S, s C in alpha and beta, those of their slopes by s, and of their derivatives."""
+        """Keep the weights of S, C, s S, s C in alpha and beta, in their slopes by s, and in their derivatives."""
         rate, *twists = value["slopes"]
         self.rate, self.twist = float(rate.mid()), float((twists[0] + twists[1]).mid())
-        self.tables, self.frequencies, sign = [], [], 1 if self.hyperbolic else -1
+        self.tables: list[Array] = []
+        self.frequencies: list[FloatArray] = []
+        sign = 1 if self.hyperbolic else -1
         for i in range(2):
             row, changes, twist = value[f"sum {i}"], [x[f"sum {i}"] for x in slopes], twists[i] * acb(0, 1)
             k = [n - n % 2 + (not self.doubled[i]) for n in range(len(row))]
@@ -167,7 +169,7 @@ class Swing:
         parts, bys, changes = [], [], []
         for i, (both, change) in enumerate(zip(self.sums, self.changes, strict=True)):
             doubled, hyperbolic = self.pair.doubled[2 + i], self.pair.hyperbolic
-            k = 2.0 * np.arange(len(both)) + (not doubled)
+            k = np.arange(len(both), dtype=float) * 2 + (not doubled)
             f = _functions(self.pair.rate * s, k, hyperbolic)
             turned = np.stack([(1 if hyperbolic else -1) * k * both[:, 1], k * both[:, 0]], 1).ravel() @ f
             parts.append(both.ravel() @ f)
@@ -176,10 +178,9 @@ class Swing:
         (o, e), (o_s, e_s), (o_p, e_p), A = parts, bys, changes, self.A
         square = e * e - A * o * o
         size = np.sqrt(abs(A))
-        if A > 0:
-            bent = 2 * np.arctanh(o / e * size) / size
-        else:
-            bent = 2 * np.arctan2(o * size, e) / size if A else 2 * o / e
+        bent = 2 * o / e
+        if A:
+            bent = 2 * (np.arctanh(o / e * size) if A > 0 else np.arctan2(o * size, e)) / size
         by_A = (o * e / square - bent / 2) / A if A else 2 * (o / e) ** 3 / 3
         near = abs(A) * o * o < SMALL * e * e
         u = o[near] / e[near]
@@ -260,11 +261,12 @@ def _size(*rates: fmpq) -> fmpq:
 
 
 def _nutating(twin: Nutating) -> Constants:
+    """Return the constants of a motion in balls."""
     return constants(twin.tilt(), twin.solution, getattr(twin, "places", (0, 1, 2)))
 
 
 def general(exact: GeneralMotion) -> Inputs:
-    """Inputs of a general motion: the ratio, and field and angular velocity in the body at t = 0."""
+    """Return the inputs of a general motion: the ratio, and field and angular velocity in the body at t = 0."""
     size = _size(*exact.field, *exact.omega)
     return Inputs(
         ("ratio", "K1", "K2", "K3", "omega1", "omega2", "omega3"),
@@ -275,8 +277,8 @@ def general(exact: GeneralMotion) -> Inputs:
 
 
 def top(row: Sequence[float]) -> Inputs:
-    """Inputs of a top."""
-    values = tuple(map(rational, row))
+    """Return the inputs of a top."""
+    values = tuple(rational(float(x)) for x in row)
     I2, I3, k2, k3, n2, n3, w1, w2, w3, linear, quadratic = values
     rates = (k2 / I2, k3 / I3, w1, w2, w3)
     pull = rational(float(np.sqrt(abs(float(linear.p) / float(linear.q) / row[0])))) if linear != 0 else fmpq(0)
@@ -292,7 +294,7 @@ def top(row: Sequence[float]) -> Inputs:
 
 
 def elliptic(exact: EllipticMotion) -> Inputs:
-    """Inputs of an elliptic motion."""
+    """Return the inputs of an elliptic motion."""
     size, (I1, I2, I3) = _size(*exact.field), exact.inertia
     return Inputs(
         ("I1", "I2", "I3", "B1", "B2", "B3", "z"),
@@ -303,7 +305,7 @@ def elliptic(exact: EllipticMotion) -> Inputs:
 
 
 def two_turns(names: Sequence[str], values: Sequence[fmpq], scales: Sequence[fmpq], turning: Any) -> Inputs:
-    """Inputs of a motion R_n(k t) R_z(phi t), whose axis and frequencies `turning` has."""
+    """Return the inputs of a motion R_n(k t) R_z(phi t), whose axis and frequencies `turning` has."""
 
     def make(*x: fmpq) -> Constants:
         along, k, phi = turning(*x)
@@ -320,20 +322,21 @@ def two_turns(names: Sequence[str], values: Sequence[fmpq], scales: Sequence[fmp
 
 
 def _elementary(case: str, row: Sequence[float], given: bool) -> Inputs:
-    """Inputs of an elementary motion."""
-    I2, I3, B2, B3, w2, w3 = map(rational, row)
+    """Return the inputs of an elementary motion."""
+    I2, I3, B2, B3, w2, w3 = (rational(float(x)) for x in row)
     size = _size(B2, B3, w2, w3)
     case = "precession" if case == "at rest" else case
     count = 5 if given else 4
     names = ("ratio", "B2", "B3", "omega2", "omega3")[:count]
     return two_turns(
         names, (I3 / I2, B2, B3, w2, w3)[:count], (I3 / I2, *[size] * 4)[:count],
-        lambda ratio, B2, B3, w2, w3=fmpq(0): elementary.turning(case, fmpq(1), ratio, B2, B3, w2, w3),
+        lambda *x: elementary.turning(case, fmpq(1), *x, *[fmpq(0)] * (5 - count)),
     )  # fmt: skip
 
 
 def _free(row: Sequence[float]) -> Inputs:
-    I2, I3, *omega = map(rational, row)
+    """Return the inputs of a free body."""
+    I2, I3, *omega = (rational(float(x)) for x in row)
     return two_turns(
         ("ratio", "omega1", "omega2", "omega3"), (I3 / I2, *omega), (I3 / I2, *[_size(*omega)] * 3),
         lambda ratio, *w: elementary.free(fmpq(1), ratio, *w),
@@ -341,7 +344,8 @@ def _free(row: Sequence[float]) -> Inputs:
 
 
 def _ball(row: Sequence[float]) -> Inputs:
-    inertia, larmor, *m = map(rational, row)
+    """Return the inputs of a ball."""
+    inertia, larmor, *m = (rational(float(x)) for x in row)
     size = _size(larmor, *(x / inertia for x in m))
     return two_turns(
         ("inertia", "larmor", "m2", "m3"), (inertia, larmor, *m), (inertia, size, size * inertia, size * inertia),
@@ -365,7 +369,7 @@ def of(motion: Any, t: Any, names: Any) -> FloatArray:
 
 def _of_one(motion: Any, i: int, t: FloatArray, names: list[str]) -> FloatArray:
     """Return v of the i-th motion at times (m,)."""
-    one = motion._turnings[i]  # noqa: SLF001  of the same floor
+    one = motion._single(i)  # noqa: SLF001  of the same floor
     out = np.empty((t.size, len(names), 3))
     inputs, chain = _inputs(motion, i, one)
     allowed = [*chain, "t"]
@@ -374,20 +378,19 @@ def _of_one(motion: Any, i: int, t: FloatArray, names: list[str]) -> FloatArray:
             raise AtlasError(f"There is no input {name!r} of this motion: choose from {', '.join(allowed)}.")
     needed = [x for x in inputs.names if any(x in chain[name][0] for name in names if name != "t")]
     found = inputs.vectors(needed, t) if needed else np.empty((t.size, 0, 3))
-    R = one.rotation(t) if "t" in names or motion.family == "ball" else None
     if motion.family == "ball":  # the matrix is the transposed one
-        found = -np.einsum("mij,mpj->mpi", R, found)
+        found = -found @ one.rotation(t).swapaxes(1, 2)
     A = np.eye(3) if motion.family != "general" else one.rotation(np.zeros(1))[0]
     for j, name in enumerate(names):
         if name == "t":
-            out[:, j] = np.einsum("mij,mj->mi", R, motion_rate(one, motion, t))
+            out[:, j] = np.matvec(one.rotation(t), _omega(one, motion, t))
             continue
         factors, constant = chain[name]
         out[:, j] = constant + sum(w * (found[:, needed.index(x)] @ A.T) for x, w in factors.items())
     return out
 
 
-def motion_rate(one: Any, motion: Any, t: FloatArray) -> FloatArray:
+def _omega(one: Any, motion: Any, t: FloatArray) -> FloatArray:
     """Return Omega(t) of one motion, (m, 3)."""
     if hasattr(one, "angular_velocity"):
         return np.asarray(one.angular_velocity(t))
@@ -411,15 +414,15 @@ def _inputs(motion: Any, i: int, one: Any) -> tuple[Inputs, Chain]:
             turned = -A.T @ np.cross(np.eye(3)[j], A @ K)
             chain[f"a{j + 1}"] = {f"K{k + 1}": turned[k] for k in range(3)}, np.eye(3)[j]
         return inputs, chain
+    row = [np.broadcast_to(x, motion.shape).flat[i] for x in motion._inputs]  # noqa: SLF001  of the same floor
     if family == "top":
-        inputs = top(motion._row(i))  # noqa: SLF001  of the same floor
+        inputs = top(row)
     elif family == "elliptic":
         inputs = elliptic(one.exact)
     elif family == "elementary":
-        row = motion._row(i)  # noqa: SLF001
-        inputs = _elementary(one.case, [0.0 if x is None else x for x in row], row[5] is not None)
+        inputs = _elementary(one.case, [0.0 if x is None else float(x) for x in row], row[5] is not None)
     elif family in ("free", "ball"):
-        inputs = (_free if family == "free" else _ball)(motion._row(i))  # noqa: SLF001
+        inputs = (_free if family == "free" else _ball)(row)
     else:
         raise DomainError(f"The {family} motion has no sensitivity here.")
     return inputs, {x: ({x: 1.0}, none) for x in inputs.names}

@@ -119,12 +119,14 @@ def _differences(
         ((1, 2, 3), (3, -3, 1), (fmpq(-5, 2), 4, fmpq(-3, 2))),
         ((-1, -2, -3), (3, -3, 1), (fmpq(5, 2), -4, fmpq(3, 2))),
     ]
-    tried = False
     for nodes, weights, slopes in ways:
         three = [at(n) for n in nodes]
+        if nodes[0] == 0 and three[0] is None:
+            raise DomainError(
+                "On a separatrix neighbours leave the motion for good: it has no sensitivity for all times."
+            )
         if any(x is None or x.form != three[0].form for x in three):  # type: ignore[union-attr]
             continue
-        tried = True
         whole = [x for x in three if x is not None]
         tables = [_even_out(x.tables, whole) for x in whole]
         if not _smooth(tables, nodes[0] == 0):
@@ -132,8 +134,6 @@ def _differences(
         mean = _combined(tables, weights, arb(1))
         slope = _combined(tables, slopes, 1 / arb(h))
         return Variation(whole[0].form, mean, slope) if _known(mean, slope, arb(scale)) else None
-    if not tried:
-        raise DomainError("On a separatrix neighbours leave the motion for good: it has no sensitivity for all times.")
     return None
 
 
@@ -157,7 +157,7 @@ def _combined(tables: Sequence[Tables], weights: Sequence[Any], factor: arb) -> 
 def _smooth(tables: Sequence[Tables], central: bool) -> bool:
     """Return whether the slopes do not change over the steps, beside the sizes of the constants and of the slopes."""
     first, second, third = tables
-    for name, row in first.items():
+    for name in first:
         a, b = ((second, first), (first, third)) if central else ((second, first), (third, second))
         ups = [x - y for x, y in zip(a[0][name], a[1][name], strict=True)]
         downs = [x - y for x, y in zip(b[0][name], b[1][name], strict=True)]
